@@ -1,0 +1,69 @@
+//! Section 6: every pixel split into body reflection, surface reflection and noise.
+
+use crate::raster::Raster;
+
+/// What a pixel is to its region.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum PixelKind {
+    /// In no region.
+    #[default]
+    Unassigned,
+    /// Nearer to the matte line.
+    Matte,
+    /// Nearer to the highlight line.
+    Highlight,
+    /// Clipped or bloomed, its colour restored from the bands that can be believed.
+    Restored,
+    /// Clipped in every band: nothing to restore it from but its surroundings.
+    Lost,
+}
+
+/// The intrinsic images and what is known of each region.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Intrinsic {
+    /// Body reflection, counts (m_b·C_b); the input where a pixel is unassigned.
+    pub body: Raster<[f32; 3]>,
+    /// Surface reflection, counts (m_s·C_s); zero where a pixel is unassigned.
+    pub surface: Raster<[f32; 3]>,
+    /// Signed distance ε from the dichromatic plane, counts; zero where a pixel is unassigned.
+    pub noise: Raster<f32>,
+    /// What each pixel is to its region.
+    pub kinds: Raster<PixelKind>,
+    /// The regions; region `id` is at index `id − 1`.
+    pub regions: Vec<RegionReflection>,
+}
+
+/// One region's reflection vectors and how well they explain its pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RegionReflection {
+    /// Its label, from 1.
+    pub id: u16,
+    /// All its pixels.
+    pub pixels: usize,
+    /// Pixels nearer to the matte line.
+    pub matte_pixels: usize,
+    /// Pixels nearer to the highlight line, restored ones included.
+    pub highlight_pixels: usize,
+    /// Clipped pixels.
+    pub clipped_pixels: usize,
+    /// Body reflection vector C_b, unit.
+    pub body: [f64; 3],
+    /// Surface reflection vector C_s, unit; none where the region has no dichromatic plane.
+    pub surface: Option<[f64; 3]>,
+    /// Mean colour of the matte pixels, counts.
+    pub matte_mean: [f64; 3],
+    /// Where the highlight line leaves the matte line, counts.
+    pub highlight_start: Option<[f64; 3]>,
+    /// Unit normal of the dichromatic plane, C_b × C_s.
+    pub plane_normal: Option<[f64; 3]>,
+    /// Angle between body and surface vector, degrees.
+    pub angle_deg: Option<f64>,
+    /// Root mean square distance of its undistorted pixels from the plane (from the line without one), counts.
+    pub fit_rms_counts: f64,
+    /// Whether body and surface can be told apart.
+    pub separable: bool,
+    /// Regions that it touches, ascending.
+    pub neighbours: Vec<u16>,
+    /// What to beware of, in words.
+    pub warnings: Vec<String>,
+}

@@ -1,0 +1,148 @@
+//! The row-major rectangle itself and its 4-neighbourhoods.
+
+/// One value per pixel, row-major.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Raster<T> {
+    width: usize,
+    height: usize,
+    data: Vec<T>,
+}
+
+/// A yes or no per pixel.
+pub type Mask = Raster<bool>;
+
+/// A region number per pixel; [`UNASSIGNED`] belongs to none.
+pub type LabelMap = Raster<u16>;
+
+/// The label of a pixel that belongs to no region.
+pub const UNASSIGNED: u16 = 0;
+
+impl<T: Clone> Raster<T> {
+    /// A raster of `width × height` copies of `value`.
+    pub fn filled(width: usize, height: usize, value: T) -> Self {
+        Self { width, height, data: vec![value; width * height] }
+    }
+}
+
+impl<T> Raster<T> {
+    /// Takes `data` as rows of `width` values; `None` unless there are exactly `width × height` of them.
+    pub fn from_vec(width: usize, height: usize, data: Vec<T>) -> Option<Self> {
+        (width.checked_mul(height) == Some(data.len())).then_some(Self { width, height, data })
+    }
+
+    /// Number of columns.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Number of rows.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Number of pixels.
+    pub fn len(&self) -> usize {
+        self.data.len()
+    }
+
+    /// Whether there is no pixel at all.
+    pub fn is_empty(&self) -> bool {
+        self.data.is_empty()
+    }
+
+    /// All values, row after row.
+    pub fn as_slice(&self) -> &[T] {
+        &self.data
+    }
+
+    /// All values, row after row, to be changed in place.
+    pub fn as_mut_slice(&mut self) -> &mut [T] {
+        &mut self.data
+    }
+
+    /// The values themselves.
+    pub fn into_vec(self) -> Vec<T> {
+        self.data
+    }
+
+    /// Row `y`.
+    pub fn row(&self, y: usize) -> &[T] {
+        &self.data[y * self.width..(y + 1) * self.width]
+    }
+
+    /// The value at column `x`, row `y`, or `None` outside.
+    pub fn get(&self, x: usize, y: usize) -> Option<&T> {
+        (x < self.width && y < self.height).then(|| &self.data[y * self.width + x])
+    }
+
+    /// A raster of the same shape, each value made from this one's.
+    pub fn map<U>(&self, f: impl FnMut(&T) -> U) -> Raster<U> {
+        Raster { width: self.width, height: self.height, data: self.data.iter().map(f).collect() }
+    }
+
+    /// Calls `visit` with the indices of the 4-neighbours of pixel `index`, in the order up, left, right, down.
+    #[inline]
+    pub fn for_each_neighbour(&self, index: usize, visit: impl FnMut(usize)) {
+        for_each_neighbour(self.width, self.height, index, visit);
+    }
+}
+
+impl<T> std::ops::Index<usize> for Raster<T> {
+    type Output = T;
+
+    #[inline]
+    fn index(&self, index: usize) -> &T {
+        &self.data[index]
+    }
+}
+
+impl<T> std::ops::IndexMut<usize> for Raster<T> {
+    #[inline]
+    fn index_mut(&mut self, index: usize) -> &mut T {
+        &mut self.data[index]
+    }
+}
+
+#[inline]
+fn for_each_neighbour(width: usize, height: usize, index: usize, mut visit: impl FnMut(usize)) {
+    let x = index % width;
+    if index >= width {
+        visit(index - width);
+    }
+    if x > 0 {
+        visit(index - 1);
+    }
+    if x + 1 < width {
+        visit(index + 1);
+    }
+    if index + width < width * height {
+        visit(index + width);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_raster_needs_exactly_its_pixels() {
+        assert!(Raster::from_vec(2, 3, vec![0; 6]).is_some());
+        assert!(Raster::from_vec(2, 3, vec![0; 5]).is_none());
+        assert!(Raster::<u8>::from_vec(usize::MAX, 2, vec![]).is_none());
+    }
+
+    #[test]
+    fn neighbours_stay_inside() {
+        let raster = Raster::filled(3, 2, 0);
+        let of = |index| {
+            let mut found = Vec::new();
+            raster.for_each_neighbour(index, |n| found.push(n));
+            found
+        };
+        assert_eq!(of(0), [1, 3]);
+        assert_eq!(of(1), [0, 2, 4]);
+        assert_eq!(of(5), [2, 4]);
+        let lonely = Raster::filled(1, 1, 0);
+        lonely.for_each_neighbour(0, |_| panic!("a single pixel has no neighbour"));
+    }
+}

@@ -1,0 +1,493 @@
+//! The control parameters (section 7.3, table 6) and the switches of the refined method.
+//!
+//! A parameter has one name everywhere: here, as a flag, in TOML, on a slider. [`Parameter::spec`] holds what
+//! all of them need to know. Values are in counts, 255 = full scale, whatever the depth of the file.
+
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Which algorithm.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// The paper's algorithm with the refinements that [`Refine`] switches on.
+    #[default]
+    Refined,
+    /// The algorithm as written in 1990, its weaknesses included.
+    Paper,
+}
+
+/// A parameter's value, or the wish that it be estimated from the image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Setting {
+    /// Estimated from the image; the report says what was used.
+    Auto,
+    /// This number.
+    Value(f64),
+}
+
+impl Setting {
+    /// The number, if one was given.
+    pub fn value(self) -> Option<f64> {
+        match self {
+            Self::Auto => None,
+            Self::Value(value) => Some(value),
+        }
+    }
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => f.write_str("auto"),
+            Self::Value(value) => write!(f, "{value}"),
+        }
+    }
+}
+
+impl std::str::FromStr for Setting {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        if text == "auto" {
+            return Ok(Self::Auto);
+        }
+        text.parse().map(Self::Value).map_err(|_| format!("{text:?} is neither a number nor `auto`"))
+    }
+}
+
+impl Serialize for Setting {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match *self {
+            Self::Auto => serializer.serialize_str("auto"),
+            Self::Value(value) => serializer.serialize_f64(value),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Setting {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+        impl serde::de::Visitor<'_> for Visitor {
+            type Value = Setting;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a number or \"auto\"")
+            }
+
+            fn visit_f64<E>(self, value: f64) -> Result<Setting, E> {
+                Ok(Setting::Value(value))
+            }
+
+            fn visit_i64<E>(self, value: i64) -> Result<Setting, E> {
+                Ok(Setting::Value(value as f64))
+            }
+
+            fn visit_u64<E>(self, value: u64) -> Result<Setting, E> {
+                Ok(Setting::Value(value as f64))
+            }
+
+            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Setting, E> {
+                text.parse().map_err(E::custom)
+            }
+        }
+        deserializer.deserialize_any(Visitor)
+    }
+}
+
+/// The eight control parameters of table 6.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Parameter {
+    /// `clip_threshold`
+    ClipThreshold,
+    /// `bloom_density`
+    BloomDensity,
+    /// `camera_noise`
+    CameraNoise,
+    /// `min_intensity`
+    MinIntensity,
+    /// `cylinder_width`
+    CylinderWidth,
+    /// `slice_width`
+    SliceWidth,
+    /// `window_size`
+    WindowSize,
+    /// `min_area`
+    MinArea,
+}
+
+/// What flags, files and sliders need to know of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParameterSpec {
+    /// Its one name.
+    pub name: &'static str,
+    /// Unit of its values.
+    pub unit: &'static str,
+    /// Smallest and largest value accepted.
+    pub range: (f64, f64),
+    /// Whether only whole numbers make sense.
+    pub whole: bool,
+    /// Value in the first column of table 6.
+    pub paper: f64,
+    /// What it does, in one line.
+    pub meaning: &'static str,
+}
+
+impl Parameter {
+    /// All of them, in the order of table 6.
+    pub const ALL: [Self; 8] = [
+        Self::ClipThreshold,
+        Self::BloomDensity,
+        Self::CameraNoise,
+        Self::MinIntensity,
+        Self::CylinderWidth,
+        Self::SliceWidth,
+        Self::WindowSize,
+        Self::MinArea,
+    ];
+
+    /// Name, unit, range, the paper's value and meaning.
+    pub const fn spec(self) -> ParameterSpec {
+        let (name, unit, range, whole, paper, meaning) = match self {
+            Self::ClipThreshold => (
+                "clip_threshold",
+                "counts",
+                (1.0, 1e6),
+                false,
+                240.0,
+                "a pixel with a band at or above it is clipped: its colour is not believed",
+            ),
+            Self::BloomDensity => (
+                "bloom_density",
+                "pixels",
+                (1.0, 9.0),
+                true,
+                1.0,
+                "a pixel with this many clipped 8-neighbours is bloomed (9: blooming is ignored)",
+            ),
+            Self::CameraNoise => (
+                "camera_noise",
+                "counts",
+                (0.05, 64.0),
+                false,
+                2.5,
+                "\u{3c3}0, twice the standard deviation of a pixel value",
+            ),
+            Self::MinIntensity => (
+                "min_intensity",
+                "counts",
+                (0.0, 441.0),
+                false,
+                23.0,
+                "radius of the dark sphere: colours nearer to black are not analysed",
+            ),
+            Self::CylinderWidth => (
+                "cylinder_width",
+                "\u{d7}\u{3c3}0",
+                (0.5, 32.0),
+                false,
+                4.0,
+                "radius of the colour cylinder of a linear hypothesis",
+            ),
+            Self::SliceWidth => (
+                "slice_width",
+                "\u{d7}\u{3c3}0",
+                (0.5, 32.0),
+                false,
+                4.0,
+                "half width of the slice around a dichromatic plane",
+            ),
+            Self::WindowSize => (
+                "window_size",
+                "px",
+                (3.0, 64.0),
+                true,
+                10.0,
+                "side of the windows whose local colour variation is classified",
+            ),
+            Self::MinArea => (
+                "min_area",
+                "px",
+                (4.0, 1e8),
+                true,
+                500.0,
+                "smallest merged area that may start a linear hypothesis",
+            ),
+        };
+        ParameterSpec { name, unit, range, whole, paper, meaning }
+    }
+}
+
+/// The refinements beyond the paper, each a switch; `method = paper` ignores them all.
+///
+/// Worth and formulas: the header of the file that applies each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[allow(clippy::struct_excessive_bools, reason = "these are the switches themselves")]
+pub struct Refine {
+    /// Windows are classified by the tail statistic, without dark, clipped and bloomed pixels.
+    pub tail_test: bool,
+    /// Lines by iteratively reweighted least squares (Tukey); a hypothesis is refitted and grown once more.
+    pub robust_lines: bool,
+    /// Growth starts from every pixel of the area inside the cylinder, not from one.
+    pub all_seeds: bool,
+    /// A large linear area that is a broad highlight of its neighbour is absorbed by it.
+    pub absorb_highlights: bool,
+    /// The linear stage is repeated on unexplained pixels with smaller areas.
+    pub second_look: bool,
+    /// Contested pixels take the majority of their surroundings.
+    pub proximity_vote: bool,
+    /// Touching regions whose matte lines cannot be told apart become one.
+    pub merge_regions: bool,
+    /// The illuminant is a robust intersection of the dichromatic planes, not the mean of highlight directions.
+    pub robust_illuminant: bool,
+    /// A region without a highlight candidate still gets a slice once the illuminant is known.
+    pub extend_planes: bool,
+    /// Slices end where body and surface reflection would be negative or the matte line ends.
+    pub slice_bounds: bool,
+    /// The body vector is the matte line through black, seen from the outer edge of the cluster.
+    pub edge_body: bool,
+    /// The split uses the scene's illuminant instead of the region's own highlight direction.
+    pub scene_illuminant: bool,
+    /// Surface reflection below the noise is none.
+    pub no_negative_surface: bool,
+    /// Clipped pixels are restored from all bands that can be believed, with the body of their surroundings as prior.
+    pub restore_prior: bool,
+    /// Parts of a region that lie apart become regions of their own.
+    pub split_components: bool,
+}
+
+impl Refine {
+    /// Every refinement on or off.
+    pub const fn all(on: bool) -> Self {
+        Self {
+            tail_test: on,
+            robust_lines: on,
+            all_seeds: on,
+            absorb_highlights: on,
+            second_look: on,
+            proximity_vote: on,
+            merge_regions: on,
+            robust_illuminant: on,
+            extend_planes: on,
+            slice_bounds: on,
+            edge_body: on,
+            scene_illuminant: on,
+            no_negative_surface: on,
+            restore_prior: on,
+            split_components: on,
+        }
+    }
+
+    /// Names and switches, in the order in which they take effect.
+    pub fn switches(&mut self) -> [(&'static str, &mut bool); 15] {
+        [
+            ("tail_test", &mut self.tail_test),
+            ("robust_lines", &mut self.robust_lines),
+            ("all_seeds", &mut self.all_seeds),
+            ("absorb_highlights", &mut self.absorb_highlights),
+            ("second_look", &mut self.second_look),
+            ("proximity_vote", &mut self.proximity_vote),
+            ("merge_regions", &mut self.merge_regions),
+            ("robust_illuminant", &mut self.robust_illuminant),
+            ("extend_planes", &mut self.extend_planes),
+            ("slice_bounds", &mut self.slice_bounds),
+            ("edge_body", &mut self.edge_body),
+            ("scene_illuminant", &mut self.scene_illuminant),
+            ("no_negative_surface", &mut self.no_negative_surface),
+            ("restore_prior", &mut self.restore_prior),
+            ("split_components", &mut self.split_components),
+        ]
+    }
+}
+
+impl Default for Refine {
+    fn default() -> Self {
+        Self::all(true)
+    }
+}
+
+/// What was asked for. [`Params::default`] is the refined method, [`Params::paper`] that of 1990.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[allow(missing_docs, reason = "Parameter::spec describes each")]
+pub struct Params {
+    pub method: Method,
+    pub clip_threshold: Setting,
+    pub bloom_density: Setting,
+    pub camera_noise: Setting,
+    pub min_intensity: Setting,
+    pub cylinder_width: Setting,
+    pub slice_width: Setting,
+    pub window_size: Setting,
+    pub min_area: Setting,
+    pub refine: Refine,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self {
+            method: Method::Refined,
+            camera_noise: Setting::Auto,
+            cylinder_width: Setting::Auto,
+            ..Self::paper()
+        }
+    }
+}
+
+impl Params {
+    /// The paper's method with the first column of table 6.
+    pub fn paper() -> Self {
+        let paper = |parameter: Parameter| Setting::Value(parameter.spec().paper);
+        Self {
+            method: Method::Paper,
+            // 240 of 255 for integer files; a float file does not say where it saturates.
+            clip_threshold: Setting::Auto,
+            bloom_density: paper(Parameter::BloomDensity),
+            camera_noise: paper(Parameter::CameraNoise),
+            min_intensity: paper(Parameter::MinIntensity),
+            cylinder_width: paper(Parameter::CylinderWidth),
+            slice_width: paper(Parameter::SliceWidth),
+            window_size: paper(Parameter::WindowSize),
+            min_area: paper(Parameter::MinArea),
+            refine: Refine::default(),
+        }
+    }
+
+    /// The defaults of `method`.
+    pub fn of(method: Method) -> Self {
+        match method {
+            Method::Refined => Self::default(),
+            Method::Paper => Self::paper(),
+        }
+    }
+
+    /// The setting of one parameter.
+    pub fn get(&self, parameter: Parameter) -> Setting {
+        *self.clone().slot(parameter)
+    }
+
+    /// The setting of one parameter, to be changed.
+    pub fn slot(&mut self, parameter: Parameter) -> &mut Setting {
+        match parameter {
+            Parameter::ClipThreshold => &mut self.clip_threshold,
+            Parameter::BloomDensity => &mut self.bloom_density,
+            Parameter::CameraNoise => &mut self.camera_noise,
+            Parameter::MinIntensity => &mut self.min_intensity,
+            Parameter::CylinderWidth => &mut self.cylinder_width,
+            Parameter::SliceWidth => &mut self.slice_width,
+            Parameter::WindowSize => &mut self.window_size,
+            Parameter::MinArea => &mut self.min_area,
+        }
+    }
+
+    /// The refinements in force: none under `method = paper`.
+    pub fn refinements(&self) -> Refine {
+        match self.method {
+            Method::Refined => self.refine,
+            Method::Paper => Refine::all(false),
+        }
+    }
+
+    /// Every number finite, in range and whole where it must be.
+    ///
+    /// # Errors
+    /// The first parameter that is not, with its value and what was expected.
+    pub fn validate(&self) -> Result<(), InvalidParameter> {
+        for parameter in Parameter::ALL {
+            let spec = parameter.spec();
+            let Setting::Value(value) = self.get(parameter) else { continue };
+            let inside = (spec.range.0..=spec.range.1).contains(&value);
+            if !inside || (spec.whole && value.fract() != 0.0) {
+                return Err(InvalidParameter { spec, value });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The numbers that a run worked with: what was given, or what the image said.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs, reason = "Parameter::spec describes each")]
+pub struct UsedParams {
+    pub clip_threshold: f64,
+    pub bloom_density: f64,
+    pub camera_noise: f64,
+    pub min_intensity: f64,
+    pub cylinder_width: f64,
+    pub slice_width: f64,
+    pub window_size: f64,
+    pub min_area: f64,
+}
+
+impl UsedParams {
+    /// The number used for one parameter, in its unit.
+    pub fn get(&self, parameter: Parameter) -> f64 {
+        match parameter {
+            Parameter::ClipThreshold => self.clip_threshold,
+            Parameter::BloomDensity => self.bloom_density,
+            Parameter::CameraNoise => self.camera_noise,
+            Parameter::MinIntensity => self.min_intensity,
+            Parameter::CylinderWidth => self.cylinder_width,
+            Parameter::SliceWidth => self.slice_width,
+            Parameter::WindowSize => self.window_size,
+            Parameter::MinArea => self.min_area,
+        }
+    }
+
+    /// Radius of the colour cylinders, counts.
+    pub fn radius_counts(&self) -> f64 {
+        self.cylinder_width * self.camera_noise
+    }
+
+    /// Half width of the slices around dichromatic planes, counts.
+    pub fn slice_half_width_counts(&self) -> f64 {
+        self.slice_width * self.camera_noise
+    }
+}
+
+/// A parameter outside its range.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{} = {value}: expected `auto` or a {} from {} to {} {}", spec.name,
+    if spec.whole { "whole number" } else { "number" }, spec.range.0, spec.range.1, spec.unit)]
+pub struct InvalidParameter {
+    /// The parameter.
+    pub spec: ParameterSpec,
+    /// The value that it does not accept.
+    pub value: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defaults_are_table_6_and_what_the_image_says() {
+        assert!(Params::default().validate().is_ok());
+        assert!(Params::paper().validate().is_ok());
+        assert_eq!(Params::default().camera_noise, Setting::Auto);
+        assert_eq!(Params::paper().camera_noise, Setting::Value(2.5));
+        assert_eq!(Params::paper().refinements(), Refine::all(false));
+    }
+
+    #[test]
+    fn a_bad_value_is_named_with_its_range() {
+        let params = Params { window_size: Setting::Value(2.5), ..Params::default() };
+        let message = params.validate().unwrap_err().to_string();
+        assert_eq!(message, "window_size = 2.5: expected `auto` or a whole number from 3 to 64 px");
+        let params = Params { camera_noise: Setting::Value(f64::NAN), ..Params::default() };
+        assert!(params.validate().unwrap_err().to_string().starts_with("camera_noise = NaN"));
+    }
+
+    #[test]
+    fn toml_takes_numbers_and_auto_and_refuses_unknown_names() {
+        let params: Params =
+            toml::from_str("window_size = 12\ncamera_noise = \"auto\"\n[refine]\nsecond_look = false")
+                .unwrap();
+        assert_eq!(params.window_size, Setting::Value(12.0));
+        assert!(!params.refine.second_look && params.refine.all_seeds);
+        assert!(toml::from_str::<Params>("windowsize = 12").is_err());
+        let text = toml::to_string(&Params::default()).unwrap();
+        assert_eq!(toml::from_str::<Params>(&text).unwrap(), Params::default());
+    }
+}
