@@ -1,22 +1,13 @@
 //! Section 6: every pixel split into body reflection, surface reflection and noise.
 
-use crate::raster::Raster;
+mod restore;
+mod split;
+mod vectors;
 
-/// What a pixel is to its region.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum PixelKind {
-    /// In no region.
-    #[default]
-    Unassigned,
-    /// Nearer to the matte line.
-    Matte,
-    /// Nearer to the highlight line.
-    Highlight,
-    /// Clipped or bloomed, its colour restored from the bands that can be believed.
-    Restored,
-    /// Clipped in every band: nothing to restore it from but its surroundings.
-    Lost,
-}
+pub use split::split;
+
+use crate::raster::Raster;
+pub use crate::trace::PixelKind;
 
 /// The intrinsic images and what is known of each region.
 #[derive(Clone, Debug, PartialEq)]

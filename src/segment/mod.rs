@@ -1,5 +1,29 @@
 //! Section 5: from windows to regions, one file per stage of the paper.
 
+mod absorb;
+mod borders;
+mod candidates;
+mod classify;
+mod clipping;
+mod illuminant;
+mod in_plane;
+mod ledger;
+mod linear;
+mod matte;
+mod merge;
 mod params;
+mod planar;
+mod regions;
+mod scene;
+mod unite;
 
+pub use classify::{Classifier, Windows, classify};
+pub use clipping::{HighlightTest, clipping_regions};
+pub use ledger::Members;
+pub use linear::Hypothesis;
+pub use matte::{MatteRegions, matte_regions};
+pub use merge::{Areas, merge};
 pub use params::{InvalidParameter, Method, Parameter, ParameterSpec, Params, Refine, Setting, UsedParams};
+pub use planar::{Illuminant, PlanarHypothesis, PlanarRegions, planar_regions};
+pub use regions::{FinalRegions, final_regions, members, neighbours};
+pub use scene::Scene;

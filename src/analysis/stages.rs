@@ -1,0 +1,214 @@
+//! The stages in order, each with its last output and what that was made from.
+
+use super::resolve::{mask_limits, used_params};
+use super::{Analysis, Cancelled, Observer, Stage};
+use crate::intrinsic::{Intrinsic, split};
+use crate::photo::{LinearImage, MaskLimits, Masks, estimate_sigma};
+use crate::raster::{LabelMap, Raster};
+use crate::segment::{
+    Areas, Classifier, FinalRegions, MatteRegions, Params, PlanarRegions, Refine, Scene, UsedParams, Windows,
+    classify, clipping_regions, final_regions, matte_regions, merge, planar_regions,
+};
+use crate::trace::{Event, Recorder};
+use std::sync::Arc;
+
+/// The last output of each stage.
+#[derive(Default)]
+pub struct Stages {
+    masks: Slot<MaskKey, (Arc<Masks>, Option<f64>)>,
+    classify: Slot<(u64, Refine, [f64; 2]), Arc<Windows>>,
+    merge: Slot<u64, Arc<MergedAreas>>,
+    linear: Slot<(u64, Refine, UsedParams), Arc<MatteRegions>>,
+    planar: Slot<(u64, Refine, UsedParams), Arc<PlanarRegions>>,
+    clipping: Slot<(u64, Refine, UsedParams), Arc<FinalRegions>>,
+    split: Slot<(u64, Refine, UsedParams), Arc<Intrinsic>>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct MaskKey {
+    limits: MaskLimits,
+    /// Whether the noise, and the minimal intensity that follows it, are left to the image.
+    automatic: (bool, bool),
+}
+
+/// Merged areas, and as a map.
+struct MergedAreas {
+    areas: Areas,
+    map: Arc<Raster<u32>>,
+}
+
+/// An output, what it was made from, and a number that changes whenever it does.
+struct Slot<K, V> {
+    made: Option<(K, V)>,
+    generation: u64,
+}
+
+impl<K, V> Default for Slot<K, V> {
+    fn default() -> Self {
+        Self { made: None, generation: 0 }
+    }
+}
+
+impl<K: PartialEq, V: Clone> Slot<K, V> {
+    /// The output made from `key`: the last one, or a new one.
+    fn get(
+        &mut self,
+        stage: Stage,
+        key: K,
+        observer: &mut impl Observer,
+        make: impl FnOnce() -> V,
+    ) -> Result<V, Cancelled> {
+        if observer.cancelled() {
+            return Err(Cancelled);
+        }
+        observer.started(stage);
+        if let Some((made_from, value)) = &self.made
+            && *made_from == key
+        {
+            let value = value.clone();
+            observer.finished(stage, true);
+            return Ok(value);
+        }
+        let value = make();
+        self.made = Some((key, value.clone()));
+        self.generation += 1;
+        observer.finished(stage, false);
+        Ok(value)
+    }
+}
+
+impl Stages {
+    /// Runs what is stale.
+    pub fn run<R: Recorder>(
+        &mut self,
+        image: &LinearImage,
+        params: &Params,
+        observer: &mut impl Observer,
+        recorder: &mut R,
+    ) -> Result<Analysis, Cancelled> {
+        let refine = params.refinements();
+        let (masks, used) = self.masks(image, params, observer, recorder)?;
+        let scene = Scene::new(image, &masks, &used, refine);
+
+        let key = (self.masks.generation, refine, [used.window_size, used.camera_noise]);
+        let windows = self.classify.get(Stage::Classify, key, observer, || {
+            begin(recorder, Stage::Classify);
+            Arc::new(classify_windows(&scene, recorder))
+        })?;
+        let merged = self.merge.get(Stage::Merge, self.classify.generation, observer, || {
+            begin(recorder, Stage::Merge);
+            let mut classifier = Classifier::new(used.camera_noise, refine.tail_test);
+            let areas = merge(&windows, &mut classifier, recorder);
+            let map = Arc::new(area_map(&areas, &windows, image.width(), image.height()));
+            Arc::new(MergedAreas { areas, map })
+        })?;
+        let areas = &merged.areas;
+        let key = |generation: u64| (generation, refine, used);
+        let matte = self.linear.get(Stage::Linear, key(self.merge.generation), observer, || {
+            begin(recorder, Stage::Linear);
+            Arc::new(matte_regions(&scene, &windows, areas, recorder))
+        })?;
+        let planar = self.planar.get(Stage::Planar, key(self.linear.generation), observer, || {
+            begin(recorder, Stage::Planar);
+            Arc::new(planar_regions(&scene, &windows, areas, &matte, recorder))
+        })?;
+        let regions = self.clipping.get(Stage::Clipping, key(self.planar.generation), observer, || {
+            begin(recorder, Stage::Clipping);
+            let labels = clipping_regions(&scene, &planar, recorder);
+            Arc::new(final_regions(&scene, labels, &planar, recorder))
+        })?;
+        let intrinsic = self.split.get(Stage::Split, key(self.clipping.generation), observer, || {
+            begin(recorder, Stage::Split);
+            Arc::new(split(&scene, &regions, recorder))
+        })?;
+        let warnings = warnings(image, &regions.labels, &planar, &masks);
+        Ok(Analysis {
+            used,
+            masks,
+            classes: Arc::new(windows.classes.clone()),
+            areas: merged.map.clone(),
+            linear: Arc::new(matte.labels.clone()),
+            planar: Arc::new(planar.labels.clone()),
+            regions: Arc::new(regions.labels.clone()),
+            illuminant: planar.illuminant,
+            intrinsic,
+            warnings,
+        })
+    }
+
+    fn masks<R: Recorder>(
+        &mut self,
+        image: &LinearImage,
+        params: &Params,
+        observer: &mut impl Observer,
+        recorder: &mut R,
+    ) -> Result<(Arc<Masks>, UsedParams), Cancelled> {
+        let limits = mask_limits(params, image);
+        let automatic = (params.camera_noise.value().is_none(), params.min_intensity.value().is_none());
+        let key = MaskKey { limits, automatic };
+        let (masks, sigma) = self.masks.get(Stage::Masks, key, observer, || {
+            begin(recorder, Stage::Masks);
+            let masks = Masks::new(image, &limits);
+            let sigma = if automatic.0 { estimate_sigma(image, &masks) } else { None };
+            if !automatic.1 {
+                return (Arc::new(masks), sigma);
+            }
+            let min_intensity = used_params(params, image, sigma).min_intensity;
+            (Arc::new(Masks::new(image, &MaskLimits { min_intensity, ..limits })), sigma)
+        })?;
+        Ok((masks, used_params(params, image, sigma)))
+    }
+}
+
+fn begin<R: Recorder>(recorder: &mut R, stage: Stage) {
+    if R::KEEPS {
+        recorder.record(Event::StageBegan { stage });
+    }
+}
+
+/// The paper's windows hold every pixel, refined ones the believable ones, and at least half of them.
+fn classify_windows<R: Recorder>(scene: &Scene, recorder: &mut R) -> Windows {
+    let size_px = scene.used.window_size as usize;
+    let mut classifier = Classifier::new(scene.used.camera_noise, scene.refine.tail_test);
+    if scene.refine.tail_test {
+        let valid = |pixel| scene.masks.usable(pixel);
+        classify(scene.pixels, valid, size_px, size_px * size_px / 2, &mut classifier, recorder)
+    } else {
+        let valid = |pixel| !scene.masks.invalid(pixel);
+        classify(scene.pixels, valid, size_px, 2, &mut classifier, recorder)
+    }
+}
+
+/// The area of each pixel, from 1.
+fn area_map(areas: &Areas, windows: &Windows, width: usize, height: usize) -> Raster<u32> {
+    let mut map = Raster::filled(width, height, 0u32);
+    for pixel in 0..map.len() {
+        let area = areas.of_window[windows.window_of(pixel, width)];
+        if areas.classes[area as usize].is_some() {
+            map[pixel] = area + 1;
+        }
+    }
+    map
+}
+
+fn warnings(image: &LinearImage, labels: &LabelMap, planar: &PlanarRegions, masks: &Masks) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let invalid = image.invalid.as_slice().iter().filter(|&&invalid| invalid).count();
+    if invalid > 0 {
+        warnings.push(format!("{invalid} pixels hold no finite, non-negative value and were left out"));
+    }
+    let lit = (0..labels.len()).filter(|&pixel| !masks.dark(pixel)).count();
+    let assigned = labels.as_slice().iter().filter(|&&label| label != 0).count();
+    if labels.is_empty() || lit == 0 {
+        warnings.push("every pixel is darker than the minimal intensity: nothing was analysed".to_owned());
+    } else if assigned == 0 {
+        warnings.push(
+            "no linear area was found: no window varies along one direction beyond the noise".to_owned(),
+        );
+    } else if planar.illuminant.is_none() {
+        warnings.push(
+            "no highlight was found: the light's colour is unknown and all is body reflection".to_owned(),
+        );
+    }
+    warnings
+}

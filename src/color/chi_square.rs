@@ -1,0 +1,58 @@
+//! Is a variance larger than the camera's noise? (section 5.2.1)
+
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::collections::BTreeMap;
+
+/// Degrees of freedom above which the Wilson–Hilferty approximation is exact to 1e-5.
+const EXACT_BELOW: usize = 600;
+
+/// Upper quantiles of χ², each computed once.
+#[derive(Clone, Debug)]
+pub struct ChiSquareTest {
+    level: f64,
+    normal_quantile: f64,
+    exact: BTreeMap<usize, f64>,
+}
+
+impl ChiSquareTest {
+    /// A test that a true null hypothesis fails with probability `level` (0 < level < 1).
+    pub fn new(level: f64) -> Self {
+        let normal = statrs::distribution::Normal::standard();
+        Self { level, normal_quantile: normal.inverse_cdf(1.0 - level), exact: BTreeMap::new() }
+    }
+
+    /// The value that χ² with `freedom` degrees of freedom exceeds with probability `level`.
+    pub fn threshold(&mut self, freedom: usize) -> f64 {
+        let n = freedom.max(1) as f64;
+        if freedom > EXACT_BELOW {
+            let h = 2.0 / (9.0 * n);
+            return n * (1.0 - h + self.normal_quantile * h.sqrt()).powi(3);
+        }
+        let level = self.level;
+        *self.exact.entry(freedom.max(1)).or_insert_with(|| {
+            ChiSquared::new(n).map_or(f64::INFINITY, |distribution| distribution.inverse_cdf(1.0 - level))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thresholds_are_those_of_the_tables() {
+        let mut test = ChiSquareTest::new(0.05);
+        assert!((test.threshold(1) - 3.841).abs() < 1e-3);
+        assert!((test.threshold(99) - 123.225).abs() < 1e-3);
+        assert_eq!(test.threshold(0), test.threshold(1));
+    }
+
+    #[test]
+    fn the_approximation_meets_the_exact_value() {
+        let mut test = ChiSquareTest::new(0.05);
+        for freedom in [EXACT_BELOW + 1, 5000, 200_000] {
+            let exact = ChiSquared::new(freedom as f64).unwrap().inverse_cdf(0.95);
+            assert!((test.threshold(freedom) / exact - 1.0).abs() < 1e-5, "{freedom}");
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! Straight lines through the colour cube, their robust fit, and the cylinders around them (section 5.3.2).
+
+use super::{Moments, Vec3, principal_axes};
+
+/// A line of the colour space: a matte or a highlight line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// A point on it: the mean of the colours it was fitted to, counts.
+    pub mean: Vec3,
+    /// Unit direction, away from black.
+    pub direction: Vec3,
+}
+
+/// How a robust line is fitted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineFit {
+    /// Standard deviation of the noise of a band, counts: residuals below it are never held against a pixel.
+    pub sigma: f64,
+    /// Tukey's constant, in units of the residuals' scale.
+    pub tuning: f64,
+    /// Largest number of reweightings.
+    pub iterations: usize,
+}
+
+impl Line {
+    /// Mean and first eigenvector of a cluster; `None` when it has no extent.
+    pub fn principal(moments: &Moments) -> Option<Self> {
+        let ([first, ..], [axis, ..]) = principal_axes(&moments.covariance());
+        (moments.n >= 2.0 && first > 0.0).then(|| Self::new(moments.mean(), axis))
+    }
+
+    /// The line through `mean` along `direction`, which is turned away from black and made a unit vector.
+    pub fn new(mean: Vec3, direction: Vec3) -> Self {
+        // Without a component along the mean, brighter is still away from black.
+        let along = direction.dot(&mean) + 1e-9 * direction.sum();
+        Self { mean, direction: direction.normalize() * if along < 0.0 { -1.0 } else { 1.0 } }
+    }
+
+    /// Vector from black to the nearest point of the line.
+    pub fn foot(&self) -> Vec3 {
+        self.mean - self.direction * self.mean.dot(&self.direction)
+    }
+
+    /// Distance of a colour from the line, counts.
+    pub fn distance(&self, color: &Vec3) -> f64 {
+        (color - self.mean).cross(&self.direction).norm()
+    }
+
+    /// Direction that leads from the line into the cube, towards grey (section 5.4.1): highlights lie that way.
+    pub fn inward(&self) -> Vec3 {
+        let ones = Vec3::repeat(1.0);
+        ones - self.direction * self.direction.sum()
+    }
+
+    /// Iteratively reweighted least squares with Tukey's weights, from this line on.
+    ///
+    /// A residual is the distance from the line; its scale the larger of `fit.sigma` and the residuals' median.
+    #[must_use]
+    pub fn refit(self, colors: &[[f32; 3]], fit: &LineFit) -> Self {
+        let mut line = self;
+        if colors.len() < 3 {
+            return line;
+        }
+        for _ in 0..fit.iterations {
+            let cylinder = Cylinder::new(&line, 0.0);
+            let cut = fit.tuning * fit.sigma.max(cylinder.median_distance(colors));
+            let cut2 = (cut * cut) as f32;
+            let Some(next) = Self::principal(&tukey_moments(colors, &cylinder, cut2)) else { break };
+            let turned = next.direction.cross(&line.direction).norm();
+            line = next;
+            if turned < 1e-6 {
+                break;
+            }
+        }
+        line
+    }
+}
+
+fn tukey_moments(colors: &[[f32; 3]], cylinder: &Cylinder, cut2: f32) -> Moments {
+    let mut moments = Moments::default();
+    for &color in colors {
+        let u2 = cylinder.distance2(color) / cut2;
+        if u2 < 1.0 {
+            moments.add_weighted(color, f64::from((1.0 - u2) * (1.0 - u2)));
+        }
+    }
+    moments
+}
+
+/// The two points, one on each line, that are nearest to one another; `None` for parallel lines.
+pub fn closest_points(a: &Line, b: &Line) -> Option<(Vec3, Vec3)> {
+    let cosine = a.direction.dot(&b.direction);
+    let sine2 = 1.0 - cosine * cosine;
+    if sine2 < 1e-9 {
+        return None;
+    }
+    let between = b.mean - a.mean;
+    let (along_a, along_b) = (between.dot(&a.direction), between.dot(&b.direction));
+    let s = (along_a - cosine * along_b) / sine2;
+    let t = (cosine * along_a - along_b) / sine2;
+    Some((a.mean + a.direction * s, b.mean + b.direction * t))
+}
+
+/// All colours within a radius of a line, in the precision of pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cylinder {
+    mean: [f32; 3],
+    direction: [f32; 3],
+    radius2: f32,
+}
+
+impl Cylinder {
+    /// The cylinder of `radius_counts` around `line`.
+    pub fn new(line: &Line, radius_counts: f64) -> Self {
+        Self {
+            mean: super::rgb(&line.mean),
+            direction: super::rgb(&line.direction),
+            radius2: (radius_counts * radius_counts) as f32,
+        }
+    }
+
+    /// Squared distance of a colour from the axis, counts².
+    #[inline]
+    pub fn distance2(&self, color: [f32; 3]) -> f32 {
+        let v = [color[0] - self.mean[0], color[1] - self.mean[1], color[2] - self.mean[2]];
+        let d = self.direction;
+        let x = v[1] * d[2] - v[2] * d[1];
+        let y = v[2] * d[0] - v[0] * d[2];
+        let z = v[0] * d[1] - v[1] * d[0];
+        x * x + y * y + z * z
+    }
+
+    /// Whether a colour lies inside.
+    #[inline]
+    pub fn contains(&self, color: [f32; 3]) -> bool {
+        self.distance2(color) <= self.radius2
+    }
+
+    /// Median distance of colours from the axis, from at most a thousand of them, evenly chosen.
+    fn median_distance(&self, colors: &[[f32; 3]]) -> f64 {
+        let step = colors.len().div_ceil(1000).max(1);
+        let mut distances: Vec<f32> = colors.iter().step_by(step).map(|&c| self.distance2(c)).collect();
+        let middle = distances.len() / 2;
+        let (_, median, _) = distances.select_nth_unstable_by(middle, f32::total_cmp);
+        f64::from(*median).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn direction() -> impl Strategy<Value = Vec3> {
+        prop::array::uniform3(0.05f64..1.0).prop_map(|v| Vec3::from(v).normalize())
+    }
+
+    #[test]
+    fn closest_points_of_two_known_lines() {
+        let a = Line::new(Vec3::new(10.0, 0.0, 0.0), Vec3::x());
+        let b = Line::new(Vec3::new(3.0, 7.0, 2.0), Vec3::y());
+        let (p, q) = closest_points(&a, &b).unwrap();
+        assert!((p - Vec3::new(3.0, 0.0, 0.0)).norm() < 1e-9 && (q - Vec3::new(3.0, 0.0, 2.0)).norm() < 1e-9);
+        assert!(closest_points(&a, &a).is_none());
+    }
+
+    #[test]
+    fn a_line_points_away_from_black_and_its_inside_is_grey() {
+        let line = Line::new(Vec3::new(100.0, 10.0, 10.0), -Vec3::x());
+        assert_eq!(line.direction, Vec3::x());
+        assert!((line.foot() - Vec3::new(0.0, 10.0, 10.0)).norm() < 1e-12);
+        assert!(line.inward().dot(&Vec3::new(0.0, 1.0, 1.0)) > 0.0);
+    }
+
+    proptest! {
+        #[test]
+        fn a_robust_line_ignores_a_fifth_of_strangers(d in direction(), spread in 40f64..200.0) {
+            let aside = d.cross(&Vec3::new(0.3, -0.8, 0.5)).normalize() * 60.0;
+            let colors: Vec<[f32; 3]> = (0..200)
+                .map(|i| {
+                    let along = 30.0 + spread * f64::from(i) / 200.0;
+                    let stranger = if i % 5 == 0 { aside } else { Vec3::zeros() };
+                    super::super::rgb(&(d * along + stranger))
+                })
+                .collect();
+            let start = Line::principal(&colors.iter().copied().collect()).unwrap();
+            let fit = LineFit { sigma: 1.25, tuning: 4.0, iterations: 30 };
+            let line = start.refit(&colors, &fit);
+            prop_assert!(super::super::axis_angle_deg(&line.direction, &d) < 0.01);
+            prop_assert!(line.foot().norm() < 0.05);
+        }
+
+        #[test]
+        fn distance_is_the_same_in_both_precisions(
+            m in prop::array::uniform3(0f64..255.0), d in direction(), c in prop::array::uniform3(0f32..255.0),
+        ) {
+            let line = Line::new(Vec3::from(m), d);
+            let fast = f64::from(Cylinder::new(&line, 1.0).distance2(c)).sqrt();
+            prop_assert!((fast - line.distance(&super::super::vec3(c))).abs() < 1e-2);
+        }
+    }
+}

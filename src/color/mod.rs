@@ -1,0 +1,39 @@
+//! Points in the RGB cube: moments and eigenvectors of clusters, the χ² test, robust lines, cylinders.
+//!
+//! Colours are `[f32; 3]` in linear counts; what is fitted to them is computed and kept in `f64`.
+
+mod chi_square;
+mod eigen;
+mod line;
+mod moments;
+
+pub use chi_square::ChiSquareTest;
+pub use eigen::{eigenvalues, principal_axes};
+pub use line::{Cylinder, Line, LineFit, closest_points};
+pub use moments::Moments;
+
+/// A vector or point of the colour space, for everything that is not one of millions of pixels.
+pub type Vec3 = nalgebra::Vector3<f64>;
+
+/// A pixel's colour as a vector.
+#[inline]
+pub fn vec3(color: [f32; 3]) -> Vec3 {
+    Vec3::new(f64::from(color[0]), f64::from(color[1]), f64::from(color[2]))
+}
+
+/// A vector as a pixel's colour.
+#[inline]
+pub fn rgb(vector: &Vec3) -> [f32; 3] {
+    [vector.x as f32, vector.y as f32, vector.z as f32]
+}
+
+/// Scalar product of two colours.
+#[inline]
+pub fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Angle between two directions regardless of their signs, degrees in 0…90.
+pub fn axis_angle_deg(a: &Vec3, b: &Vec3) -> f64 {
+    a.cross(b).norm().atan2(a.dot(b).abs()).to_degrees()
+}

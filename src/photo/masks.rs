@@ -1,0 +1,155 @@
+//! Which pixels to believe (section 4): dark, clipped, bloomed and invalid ones are marked.
+
+use super::LinearImage;
+use crate::color::dot;
+use crate::raster::{Mask, Raster};
+use rayon::prelude::*;
+
+/// The limits of a believable pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MaskLimits {
+    /// Radius of the sphere around black whose colours are too dark, counts.
+    pub min_intensity: f64,
+    /// A band at or above it is clipped, counts; infinite: none is.
+    pub clip_threshold: f64,
+    /// This many clipped 8-neighbours make a pixel bloomed.
+    pub bloom_density: usize,
+}
+
+/// What is wrong with each pixel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Masks {
+    flags: Raster<u8>,
+}
+
+const DARK: u8 = 1;
+const CLIPPED: u8 = 2;
+const BLOOMED: u8 = 4;
+const INVALID: u8 = 8;
+
+impl Masks {
+    /// Marks the pixels of `image`.
+    pub fn new(image: &LinearImage, limits: &MaskLimits) -> Self {
+        let (width, height) = (image.width(), image.height());
+        let mut flags = Raster::filled(width, height, 0u8);
+        if flags.is_empty() {
+            return Self { flags };
+        }
+        let dark2 = (limits.min_intensity * limits.min_intensity) as f32;
+        let clip = limits.clip_threshold as f32;
+        flags.as_mut_slice().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+            let pixels = image.pixels.row(y).iter().zip(image.invalid.row(y));
+            for (flag, (&color, &invalid)) in row.iter_mut().zip(pixels) {
+                let clipped = color[0].max(color[1]).max(color[2]) >= clip;
+                *flag = u8::from(dot(color, color) < dark2) * DARK
+                    | u8::from(clipped) * CLIPPED
+                    | u8::from(invalid) * INVALID;
+            }
+        });
+        mark_bloomed(&mut flags, limits.bloom_density);
+        Self { flags }
+    }
+
+    /// Whether the colour can be believed: neither dark nor distorted.
+    #[inline]
+    pub fn usable(&self, pixel: usize) -> bool {
+        self.flags[pixel] == 0
+    }
+
+    /// Whether the pixel is too dark, or holds no value at all.
+    #[inline]
+    pub fn dark(&self, pixel: usize) -> bool {
+        self.flags[pixel] & (DARK | INVALID) != 0
+    }
+
+    /// Whether a band is clipped.
+    #[inline]
+    pub fn clipped(&self, pixel: usize) -> bool {
+        self.flags[pixel] & CLIPPED != 0
+    }
+
+    /// Whether the pixel is clipped or bloomed.
+    #[inline]
+    pub fn distorted(&self, pixel: usize) -> bool {
+        self.flags[pixel] & (CLIPPED | BLOOMED) != 0
+    }
+
+    /// Whether the file held no usable value.
+    #[inline]
+    pub fn invalid(&self, pixel: usize) -> bool {
+        self.flags[pixel] & INVALID != 0
+    }
+
+    /// The pixels for which `test` (one of the methods above) holds, as a mask.
+    pub fn mask(&self, test: impl Fn(&Self, usize) -> bool) -> Mask {
+        let data = (0..self.flags.len()).map(|pixel| test(self, pixel)).collect();
+        Raster::from_vec(self.flags.width(), self.flags.height(), data).unwrap_or_default()
+    }
+}
+
+/// Counts clipped 8-neighbours. Clipped pixels are few, so they are visited rather than every pixel's neighbours.
+fn mark_bloomed(flags: &mut Raster<u8>, density: usize) {
+    if density > 8 {
+        return;
+    }
+    let (width, height) = (flags.width(), flags.height());
+    let around = |x: usize, y: usize| {
+        let xs = x.saturating_sub(1)..(x + 2).min(width);
+        (y.saturating_sub(1)..(y + 2).min(height)).flat_map(move |v| xs.clone().map(move |u| v * width + u))
+    };
+    for pixel in 0..flags.len() {
+        if flags[pixel] & CLIPPED == 0 {
+            continue;
+        }
+        for near in around(pixel % width, pixel / width) {
+            if near != pixel && flags[near] & (CLIPPED | BLOOMED) == 0 {
+                let clipped = around(near % width, near / width).filter(|&i| flags[i] & CLIPPED != 0).count();
+                if clipped >= density {
+                    flags[near] |= BLOOMED;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn image(values: &[f32], width: usize) -> LinearImage {
+        let pixels = values.iter().map(|&v| [v; 3]).collect();
+        LinearImage::new(Raster::from_vec(width, values.len() / width, pixels).unwrap(), Some(255.0))
+    }
+
+    fn limits(bloom_density: usize) -> MaskLimits {
+        MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density }
+    }
+
+    #[test]
+    fn dark_is_a_sphere_around_black() {
+        let masks = Masks::new(&image(&[13.0, 14.0, f32::NAN], 3), &limits(1));
+        assert_eq!([0, 1, 2].map(|i| masks.dark(i)), [true, false, true]);
+        assert!(masks.invalid(2) && !masks.usable(2));
+    }
+
+    #[test]
+    fn bloomed_pixels_have_enough_clipped_neighbours() {
+        let picture = image(&[99.0, 255.0, 99.0, 99.0, 99.0, 255.0, 99.0, 99.0], 4);
+        let row = |masks: &Masks| -> Vec<bool> {
+            (0..8).map(|i| masks.distorted(i) && !masks.clipped(i)).collect()
+        };
+        let all = [true, false, true, false, true, false, true, false];
+        assert_eq!(row(&Masks::new(&picture, &limits(1))), all);
+        assert_eq!(row(&Masks::new(&picture, &limits(2))), all);
+        assert_eq!(row(&Masks::new(&picture, &limits(3))), [false; 8]);
+        assert_eq!(row(&Masks::new(&picture, &limits(9))), [false; 8]);
+    }
+
+    #[test]
+    fn an_infinite_threshold_clips_nothing_and_no_picture_is_no_problem() {
+        let open = MaskLimits { clip_threshold: f64::INFINITY, ..limits(1) };
+        assert!(!Masks::new(&image(&[9e9], 1), &open).clipped(0));
+        let nothing = LinearImage::new(Raster::filled(0, 0, [0.0; 3]), None);
+        assert_eq!(Masks::new(&nothing, &limits(1)).mask(Masks::dark).len(), 0);
+    }
+}

@@ -1,0 +1,41 @@
+//! The camera's noise, from the picture itself.
+//!
+//! The paper photographs a white board repeatedly (section 7.3). A single picture says as much: within a small window
+//! on one material the colours spread along at most two directions (shading, highlight), so what is left in the third is
+//! noise. The smallest eigenvalue of a window of n×n pixels is biased low, and textured windows are biased high; a low
+//! quantile over all windows and the factor 1 − 1.63/n (simulated with pure noise) undo both.
+
+use super::{LinearImage, Masks};
+use crate::color::{Moments, eigenvalues};
+use rayon::prelude::*;
+
+const WINDOW_PX: usize = 10;
+const QUANTILE: f64 = 0.4;
+const MIN_WINDOWS: usize = 8;
+
+/// Standard deviation σ of a band's noise, counts; `None` when there are too few windows to tell.
+pub fn estimate_sigma(image: &LinearImage, masks: &Masks) -> Option<f64> {
+    let (width, height) = (image.width(), image.height());
+    let mut smallest: Vec<f64> = (0..height / WINDOW_PX)
+        .into_par_iter()
+        .flat_map_iter(|row| {
+            (0..width / WINDOW_PX).filter_map(move |column| {
+                let mut moments = Moments::default();
+                for y in row * WINDOW_PX..(row + 1) * WINDOW_PX {
+                    let start = y * width + column * WINDOW_PX;
+                    for pixel in (start..start + WINDOW_PX).filter(|&pixel| masks.usable(pixel)) {
+                        moments.add(image.pixels[pixel]);
+                    }
+                }
+                let enough = moments.n >= (WINDOW_PX * WINDOW_PX) as f64 / 2.0;
+                enough.then(|| eigenvalues(&moments.covariance())[2])
+            })
+        })
+        .collect();
+    if smallest.len() < MIN_WINDOWS {
+        return None;
+    }
+    let rank = (smallest.len() as f64 * QUANTILE) as usize;
+    let (_, &mut variance, _) = smallest.select_nth_unstable_by(rank, f64::total_cmp);
+    Some((variance.max(0.0) / (1.0 - 1.63 / WINDOW_PX as f64)).sqrt())
+}

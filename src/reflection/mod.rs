@@ -1,0 +1,7 @@
+//! The Dichromatic Reflection Model itself (sections 2, 3 and 6).
+
+mod plane;
+mod transform;
+
+pub use plane::{DichromaticPlane, PlaneAxes, PlanePoint, Slice};
+pub use transform::{Components, ReflectionTransform};

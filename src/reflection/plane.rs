@@ -1,0 +1,184 @@
+//! The dichromatic plane of one object (sections 3.1 and 5.4.2): matte line and illuminant span it.
+//!
+//! A colour has three coordinates there: `along` the matte direction from black, the in-plane `offset` from the matte line
+//! towards the illuminant, and the signed `height` above the plane. Surface reflection is offset / sinθ, body reflection
+//! along − offset·cotθ, with θ the angle between both directions.
+
+use crate::color::{Line, Vec3, dot, rgb};
+
+/// A dichromatic plane with its matte line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DichromaticPlane {
+    /// The matte line.
+    pub matte: Line,
+    /// Unit direction of surface reflection, the illuminant's.
+    pub surface: Vec3,
+    /// Unit direction in the plane, across the matte line, on the illuminant's side.
+    pub inward: Vec3,
+    /// Unit normal, matte direction × inward.
+    pub normal: Vec3,
+    /// Angle between matte line and illuminant, radians in 0…π/2.
+    pub angle_rad: f64,
+}
+
+impl DichromaticPlane {
+    /// The plane of a matte line and an illuminant; `None` when they are collinear to 1e-6.
+    pub fn new(matte: &Line, illuminant: &Vec3) -> Option<Self> {
+        let surface = illuminant.normalize();
+        let across = surface - matte.direction * surface.dot(&matte.direction);
+        let sine = across.norm();
+        if sine < 1e-6 {
+            return None;
+        }
+        let inward = across / sine;
+        Some(Self {
+            matte: *matte,
+            surface,
+            inward,
+            normal: matte.direction.cross(&inward),
+            angle_rad: sine.atan2(surface.dot(&matte.direction)),
+        })
+    }
+
+    /// Angle between matte line and illuminant, degrees.
+    pub fn angle_deg(&self) -> f64 {
+        self.angle_rad.to_degrees()
+    }
+
+    /// The plane in the precision of pixels.
+    pub fn coordinates(&self) -> PlaneAxes {
+        PlaneAxes {
+            mean: rgb(&self.matte.mean),
+            direction: rgb(&self.matte.direction),
+            inward: rgb(&self.inward),
+            normal: rgb(&self.normal),
+        }
+    }
+}
+
+/// The coordinate axes of a dichromatic plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaneAxes {
+    mean: [f32; 3],
+    direction: [f32; 3],
+    inward: [f32; 3],
+    normal: [f32; 3],
+}
+
+/// Where a colour lies relative to a dichromatic plane, counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanePoint {
+    /// Along the matte direction, from black.
+    pub along: f32,
+    /// In the plane, away from the matte line, positive towards the illuminant.
+    pub offset: f32,
+    /// Above the plane.
+    pub height: f32,
+}
+
+impl PlaneAxes {
+    /// The coordinates of a colour.
+    #[inline]
+    pub fn of(&self, color: [f32; 3]) -> PlanePoint {
+        let v = [color[0] - self.mean[0], color[1] - self.mean[1], color[2] - self.mean[2]];
+        PlanePoint {
+            along: dot(color, self.direction),
+            offset: dot(v, self.inward),
+            height: dot(v, self.normal),
+        }
+    }
+}
+
+/// The part of space around a dichromatic plane that a planar hypothesis claims (figure 10).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slice {
+    axes: PlaneAxes,
+    half_width: f32,
+    bounds: Option<Bounds>,
+}
+
+/// Where body and surface reflection stay within reason.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Bounds {
+    least_offset: f32,
+    cotangent: f32,
+    most_body: f32,
+    slack: f32,
+}
+
+impl Slice {
+    /// All colours within `half_width_counts` of the plane.
+    pub fn unbounded(plane: &DichromaticPlane, half_width_counts: f64) -> Self {
+        Self { axes: plane.coordinates(), half_width: half_width_counts as f32, bounds: None }
+    }
+
+    /// The slice where surface reflection is at least −`radius_counts` across the matte line, and body reflection from
+    /// nothing to 15 % beyond a matte line of `matte_length_counts`.
+    pub fn bounded(
+        plane: &DichromaticPlane,
+        half_width_counts: f64,
+        radius_counts: f64,
+        matte_length_counts: f64,
+    ) -> Self {
+        let bounds = Bounds {
+            least_offset: -radius_counts as f32,
+            cotangent: (1.0 / plane.angle_rad.tan()) as f32,
+            most_body: (1.15 * matte_length_counts + radius_counts) as f32,
+            slack: (radius_counts / plane.angle_rad.sin()) as f32,
+        };
+        Self { bounds: Some(bounds), ..Self::unbounded(plane, half_width_counts) }
+    }
+
+    /// Whether a colour lies inside.
+    #[inline]
+    pub fn contains(&self, color: [f32; 3]) -> bool {
+        let point = self.axes.of(color);
+        point.height.abs() <= self.half_width
+            && self.bounds.is_none_or(|b| {
+                let body = point.along - b.cotangent * point.offset;
+                point.offset >= b.least_offset && body >= -b.slack && body <= b.most_body + b.slack
+            })
+    }
+
+    /// Distance of a colour from the plane, counts.
+    #[inline]
+    pub fn distance(&self, color: [f32; 3]) -> f32 {
+        self.axes.of(color).height.abs()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::vec3;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn coordinates_are_body_surface_and_noise(
+            d in prop::array::uniform3(0.05f64..1.0),
+            s in prop::array::uniform3(0.3f64..1.0),
+            (body, surface, height) in (20f64..200.0, 0f64..200.0, -5f64..5.0),
+        ) {
+            let (d, s) = (Vec3::from(d).normalize(), Vec3::from(s).normalize());
+            prop_assume!(d.cross(&s).norm() > 0.1);
+            let plane = DichromaticPlane::new(&Line::new(d * 90.0, d), &s).unwrap();
+            let color = rgb(&(d * body + s * surface + plane.normal * height));
+            let point = plane.coordinates().of(color);
+            let (sine, cosine) = plane.angle_rad.sin_cos();
+            prop_assert!((f64::from(point.offset) - surface * sine).abs() < 1e-3);
+            prop_assert!((f64::from(point.along) - body - surface * cosine).abs() < 1e-3);
+            prop_assert!((f64::from(point.height) - height).abs() < 1e-3);
+            prop_assert!((plane.normal.dot(&vec3(rgb(&s)))).abs() < 1e-6);
+            let slice = Slice::bounded(&plane, 6.0, 8.0, 200.0);
+            prop_assert!(slice.contains(color));
+            prop_assert!(!Slice::bounded(&plane, 6.0, 8.0, body / 2.0 - 40.0 / sine).contains(color));
+        }
+    }
+
+    #[test]
+    fn collinear_vectors_span_no_plane() {
+        let line = Line::new(Vec3::repeat(50.0), Vec3::repeat(1.0));
+        assert!(DichromaticPlane::new(&line, &Vec3::repeat(1.0)).is_none());
+    }
+}

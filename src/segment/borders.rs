@@ -1,0 +1,53 @@
+//! Which regions lie next to one another.
+
+use crate::raster::{LabelMap, UNASSIGNED};
+use std::collections::BTreeSet;
+
+/// Pairs of regions (smaller number first) of which two pixels lie at most `reach_px` apart along a row or a column.
+pub fn near_pairs(labels: &LabelMap, reach_px: usize) -> BTreeSet<(u16, u16)> {
+    let (width, height) = (labels.width(), labels.height());
+    let data = labels.as_slice();
+    let mut pairs = BTreeSet::new();
+    let mut last = (UNASSIGNED, UNASSIGNED);
+    let mut look = |pixel: usize, stride: usize, room: usize| {
+        let own = data[pixel];
+        if own == UNASSIGNED || room == 0 || data[pixel + stride] == own {
+            return;
+        }
+        for step in 1..=reach_px.min(room) {
+            let other = data[pixel + step * stride];
+            if other == own {
+                return;
+            }
+            if other != UNASSIGNED {
+                let pair = (own.min(other), own.max(other));
+                if pair != last {
+                    last = pair;
+                    pairs.insert(pair);
+                }
+                return;
+            }
+        }
+    };
+    for y in 0..height {
+        for x in 0..width {
+            let pixel = y * width + x;
+            look(pixel, 1, width - 1 - x);
+            look(pixel, width, height - 1 - y);
+        }
+    }
+    pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regions_are_near_across_a_gap_but_not_through_a_third() {
+        let labels = LabelMap::from_vec(7, 2, vec![1, 0, 0, 2, 3, 3, 1, 0, 0, 0, 0, 0, 0, 4]).unwrap();
+        let pairs = |reach| near_pairs(&labels, reach).into_iter().collect::<Vec<_>>();
+        assert_eq!(pairs(1), [(1, 3), (1, 4), (2, 3)]);
+        assert_eq!(pairs(3), [(1, 2), (1, 3), (1, 4), (2, 3)]);
+    }
+}

@@ -1,0 +1,196 @@
+//! Section 5.2.1: local colour variation in windows, in four classes.
+//!
+//! The paper tests each eigenvalue alone: (N−1)·λ/σ0² against χ²(N−1). The largest eigenvalue of pure noise exceeds σ²
+//! systematically, but as σ0 = 2σ there is a fourfold margin. Dark and clipped pixels count.
+//!
+//! Refined (`tail_test`): the statistic (N−1)·Σ_{i>k} λ_i / (0.7σ0)² ~ χ²((3−k)(N−1−k)) of *all* variances beyond the
+//! k-th says whether k directions are enough; only believable pixels count, and a window needs half of its pixels.
+//! With σ 3 and σ0 = 2.5 the paper's test loses half of the coverage.
+
+use crate::color::{ChiSquareTest, Moments, eigenvalues};
+use crate::raster::Raster;
+use crate::trace::{Class, Event, Recorder};
+use rayon::prelude::*;
+
+/// Share of the noise variance against which tails are tested: (0.7σ0)² = (1.4σ)².
+const TAIL_SCALE: f64 = 0.7;
+/// Significance level of every χ² test; the results hardly depend on it.
+const LEVEL: f64 = 0.05;
+
+/// How clusters are told apart from noise.
+#[derive(Clone, Debug)]
+pub struct Classifier {
+    chi_square: ChiSquareTest,
+    camera_noise: f64,
+    tail_test: bool,
+}
+
+impl Classifier {
+    /// A classifier for camera noise σ0 (counts), by the paper's test or the tail test.
+    pub fn new(camera_noise: f64, tail_test: bool) -> Self {
+        Self { chi_square: ChiSquareTest::new(LEVEL), camera_noise, tail_test }
+    }
+
+    /// Class of a cluster, and its eigenvalues.
+    pub fn classify(&mut self, cluster: &Moments) -> (Class, [f64; 3]) {
+        let lambda = eigenvalues(&cluster.covariance());
+        let significant = if self.tail_test {
+            self.directions_by_tail(cluster.n, lambda)
+        } else {
+            self.directions_one_by_one(cluster.n, lambda)
+        };
+        ([Class::Point, Class::Line, Class::Plane, Class::Volume][significant], lambda)
+    }
+
+    fn directions_one_by_one(&mut self, n: f64, lambda: [f64; 3]) -> usize {
+        let freedom = (n - 1.0).max(0.0);
+        let limit = self.chi_square.threshold(freedom as usize) * self.camera_noise.powi(2);
+        lambda.iter().filter(|&&l| freedom * l > limit).count()
+    }
+
+    fn directions_by_tail(&mut self, n: f64, lambda: [f64; 3]) -> usize {
+        let variance = (TAIL_SCALE * self.camera_noise).powi(2);
+        let freedom = (n - 1.0).max(0.0);
+        (0..3)
+            .find(|&k| {
+                let tail: f64 = lambda[k..].iter().sum();
+                let degrees = (3 - k) * (freedom as usize).saturating_sub(k);
+                freedom * tail <= variance * self.chi_square.threshold(degrees)
+            })
+            .unwrap_or(3)
+    }
+}
+
+/// The windows of an image: a grid of squares, the last column and row cut off by the border.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Windows {
+    /// Side of a window, pixels.
+    pub size_px: usize,
+    /// Moments of the valid pixels of each window.
+    pub moments: Raster<Moments>,
+    /// Class of each window; `None` where too few pixels are valid.
+    pub classes: Raster<Option<Class>>,
+}
+
+impl Windows {
+    /// Index of the window that holds a pixel of an image `width` pixels wide.
+    #[inline]
+    pub fn window_of(&self, pixel: usize, width: usize) -> usize {
+        (pixel / width) / self.size_px * self.classes.width() + (pixel % width) / self.size_px
+    }
+}
+
+/// Divides an image into windows of `size_px` and classifies each by its pixels for which `valid` holds.
+///
+/// `min_valid` pixels are needed for a class.
+pub fn classify<R: Recorder>(
+    image: &Raster<[f32; 3]>,
+    valid: impl Fn(usize) -> bool + Sync,
+    size_px: usize,
+    min_valid: usize,
+    classifier: &mut Classifier,
+    recorder: &mut R,
+) -> Windows {
+    let moments = window_moments(image, valid, size_px);
+    let mut classes = Raster::filled(moments.width(), moments.height(), None);
+    for (window, cluster) in moments.as_slice().iter().enumerate() {
+        let pixels = cluster.n as usize;
+        if !R::KEEPS && pixels < min_valid {
+            continue;
+        }
+        let (class, eigenvalues) = classifier.classify(cluster);
+        let class = (pixels >= min_valid.max(1)).then_some(class);
+        classes[window] = class;
+        if R::KEEPS {
+            let (window, pixels) = (window as u32, pixels as u32);
+            recorder.record(Event::WindowClassified { window, pixels, eigenvalues, class });
+        }
+    }
+    Windows { size_px, moments, classes }
+}
+
+/// Moments of the valid pixels of each window; rows of windows in parallel.
+fn window_moments(
+    image: &Raster<[f32; 3]>,
+    valid: impl Fn(usize) -> bool + Sync,
+    size_px: usize,
+) -> Raster<Moments> {
+    let (width, height) = (image.width(), image.height());
+    let (columns, rows) = (width.div_ceil(size_px), height.div_ceil(size_px));
+    let mut moments = Raster::filled(columns, rows, Moments::default());
+    if moments.is_empty() {
+        return moments;
+    }
+    moments.as_mut_slice().par_chunks_mut(columns).enumerate().for_each(|(row, windows)| {
+        for y in row * size_px..((row + 1) * size_px).min(height) {
+            for (column, window) in windows.iter_mut().enumerate() {
+                let (from, to) = (column * size_px, ((column + 1) * size_px).min(width));
+                for pixel in y * width + from..y * width + to {
+                    if valid(pixel) {
+                        window.add(image[pixel]);
+                    }
+                }
+            }
+        }
+    });
+    moments
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::Silent;
+
+    /// A 10×10 window whose pixels spread by `amplitude` counts along the first `directions` of three fixed axes.
+    fn window(directions: usize, amplitude: f32) -> Raster<[f32; 3]> {
+        let axes = [[0.9f32, 0.3, 0.3], [-0.3, 0.9, 0.0], [-0.3, -0.1, 0.95]];
+        let data = (0..100)
+            .map(|i| {
+                let wave = [i % 10, i / 10, (i * 7) % 10].map(|k| amplitude * (k as f32 - 4.5) / 4.5);
+                let mut color = [100.0; 3];
+                for (axis, w) in axes.iter().zip(wave).take(directions) {
+                    for band in 0..3 {
+                        color[band] += w * axis[band];
+                    }
+                }
+                color
+            })
+            .collect();
+        Raster::from_vec(10, 10, data).unwrap()
+    }
+
+    #[test]
+    fn a_window_has_as_many_directions_as_it_spreads_in() {
+        for tail_test in [false, true] {
+            for (directions, class) in
+                [Class::Point, Class::Line, Class::Plane, Class::Volume].into_iter().enumerate()
+            {
+                let mut classifier = Classifier::new(2.5, tail_test);
+                let found =
+                    classify(&window(directions, 20.0), |_| true, 10, 50, &mut classifier, &mut Silent);
+                assert_eq!(found.classes.as_slice(), [Some(class)], "tail test {tail_test}");
+            }
+        }
+    }
+
+    #[test]
+    fn variation_below_the_noise_is_a_point() {
+        let mut classifier = Classifier::new(2.5, false);
+        let found = classify(&window(3, 2.5), |_| true, 10, 50, &mut classifier, &mut Silent);
+        assert_eq!(found.classes[0], Some(Class::Point));
+    }
+
+    #[test]
+    fn windows_at_the_border_are_cut_and_sparse_ones_have_no_class() {
+        let image = Raster::filled(25, 13, [50.0; 3]);
+        let mut classifier = Classifier::new(2.5, true);
+        let found = classify(&image, |pixel| pixel % 25 < 14, 10, 50, &mut classifier, &mut Silent);
+        assert_eq!((found.classes.width(), found.classes.height()), (3, 2));
+        assert_eq!(
+            found.moments.as_slice().iter().map(|m| m.n as u32).collect::<Vec<_>>(),
+            [100, 40, 0, 30, 12, 0]
+        );
+        assert_eq!(found.classes.as_slice().iter().filter(|c| c.is_some()).count(), 1);
+        assert_eq!(found.window_of(12 * 25 + 24, 25), 5);
+    }
+}

@@ -1,0 +1,343 @@
+//! Section 5.3: linear hypotheses. Large merged areas of class *line* become colour cylinders, and each cylinder segments
+//! the image anew, pixel by pixel.
+//!
+//! Areas are taken by decreasing number of unclaimed pixels until the largest is below the minimal area. A cylinder ends
+//! at the dark sphere. A pixel that two cylinders hold goes to the nearer axis (the proximity heuristic).
+//!
+//! Refined: `robust_lines` fits by Tukey's weights, and fits and grows once more from what was grown; `all_seeds` starts
+//! from every pixel of the area that the cylinder holds, not from the one nearest to the mean.
+
+use super::classify::Windows;
+use super::ledger::Ledger;
+use super::merge::Areas;
+use super::scene::Scene;
+use crate::color::{Cylinder, Line, LineFit, Moments, Vec3};
+use crate::raster::UNASSIGNED;
+use crate::trace::{CandidateSource, Class, Event, PassedOver, Recorder};
+
+/// A linear hypothesis: an object's matte line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hypothesis {
+    /// The axis of its cylinder.
+    pub line: Line,
+    /// Whether it still stands: it may have been absorbed, merged into another or dropped.
+    pub alive: bool,
+    /// Clusters that turned out to be broad highlights on it.
+    pub highlights: Vec<(CandidateSource, Moments)>,
+}
+
+impl Hypothesis {
+    fn new(line: Line) -> Self {
+        Self { line, alive: true, highlights: Vec::new() }
+    }
+}
+
+/// Which areas may become hypotheses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Choice {
+    /// Fewest unclaimed pixels of an area.
+    pub min_area_px: usize,
+    /// Whether areas of class *point* count too, with the axis from black through their mean.
+    pub points: bool,
+    /// Whether the axis must pass black within the cylinder's radius, and growing must claim the minimal area.
+    pub through_black: bool,
+}
+
+/// Largest number of regions that a label map can hold.
+const MAX_REGIONS: usize = u16::MAX as usize;
+/// Pixels that a fit looks at, evenly chosen from more.
+const FIT_SAMPLES: usize = 12_000;
+
+/// Generates and exploits linear hypotheses from merged areas, appending to `hypotheses`.
+pub fn linear<R: Recorder>(
+    scene: &Scene,
+    windows: &Windows,
+    areas: &Areas,
+    choice: &Choice,
+    hypotheses: &mut Vec<Hypothesis>,
+    ledger: &mut Ledger<R>,
+) {
+    let mut stock = Stock::new(scene, windows, areas, choice, ledger);
+    while let Some(area) = stock.largest(choice.min_area_px) {
+        let (pixels, colors) = stock.unclaimed(scene, area, ledger);
+        stock.retire(area);
+        let pass_over = |ledger: &mut Ledger<R>, reason| {
+            if R::KEEPS {
+                let pixels = pixels.len() as u32;
+                ledger.recorder.record(Event::HypothesisPassedOver { area: area as u32, pixels, reason });
+            }
+        };
+        if pixels.len() < choice.min_area_px || hypotheses.len() >= MAX_REGIONS {
+            pass_over(ledger, PassedOver::TooSmall);
+            continue;
+        }
+        let Some(line) = hypothesis_line(scene, areas.classes[area], &colors) else {
+            pass_over(ledger, PassedOver::NoExtent);
+            continue;
+        };
+        if choice.through_black && line.foot().norm() > scene.used.radius_counts() {
+            pass_over(ledger, PassedOver::FarFromBlack);
+            continue;
+        }
+        let region = hypotheses.len() as u16 + 1;
+        if R::KEEPS {
+            ledger.recorder.record(Event::HypothesisChosen {
+                region,
+                area: area as u32,
+                pixels: pixels.len() as u32,
+                mean: line.mean.into(),
+                direction: line.direction.into(),
+                radius: scene.used.radius_counts(),
+            });
+        }
+        hypotheses.push(Hypothesis::new(line));
+        let claimed = exploit(scene, region, &pixels, hypotheses, ledger);
+        stock.take(&claimed, windows, ledger.labels.width());
+        if choice.through_black && claimed.len() < choice.min_area_px {
+            hypotheses[usize::from(region) - 1].alive = false;
+            for pixel in claimed {
+                ledger.assign(pixel as usize, UNASSIGNED);
+            }
+            pass_over(ledger, PassedOver::Barren);
+        }
+    }
+    if R::KEEPS {
+        for (area, pixels) in stock.remaining() {
+            let reason = PassedOver::TooSmall;
+            ledger.recorder.record(Event::HypothesisPassedOver { area, pixels, reason });
+        }
+    }
+}
+
+/// Mean and first eigenvector of an area's unclaimed pixels, robustly when refined.
+fn hypothesis_line(scene: &Scene, class: Option<Class>, colors: &[[f32; 3]]) -> Option<Line> {
+    let moments: Moments = colors.iter().copied().collect();
+    if class == Some(Class::Point) {
+        let mean = moments.mean();
+        return (mean.norm() > 0.0).then(|| Line::new(mean, mean));
+    }
+    let line = Line::principal(&moments)?;
+    Some(if scene.refine.robust_lines { line.refit(colors, &line_fit(scene, 10)) } else { line })
+}
+
+/// How this scene's lines are fitted.
+pub fn line_fit(scene: &Scene, iterations: usize) -> LineFit {
+    LineFit { sigma: scene.sigma(), tuning: 4.0, iterations }
+}
+
+/// Grows the newest hypothesis from an area's unclaimed pixels; refined: fits and grows once more. Returns its pixels.
+fn exploit<R: Recorder>(
+    scene: &Scene,
+    region: u16,
+    area_pixels: &[u32],
+    hypotheses: &mut [Hypothesis],
+    ledger: &mut Ledger<R>,
+) -> Vec<u32> {
+    let index = usize::from(region) - 1;
+    let mut cylinders = cylinders(scene, hypotheses);
+    let mut claimed = seeds(scene, &hypotheses[index].line, cylinders[index], area_pixels);
+    for &pixel in &claimed {
+        if R::KEEPS {
+            ledger.recorder.record(Event::Seeded { region, pixel });
+        }
+        ledger.assign(pixel as usize, region);
+    }
+    grow_cylinder(scene, region, &cylinders, &mut claimed, ledger);
+    if !scene.refine.robust_lines || claimed.is_empty() {
+        return claimed;
+    }
+    refit(scene, region, &claimed, hypotheses, ledger);
+    cylinders[index] = Cylinder::new(&hypotheses[index].line, scene.used.radius_counts());
+    claimed.retain(|&pixel| {
+        let inside = cylinders[index].contains(scene.pixels[pixel as usize]);
+        if !inside {
+            ledger.assign(pixel as usize, UNASSIGNED);
+        }
+        inside
+    });
+    grow_cylinder(scene, region, &cylinders, &mut claimed, ledger);
+    claimed
+}
+
+/// Fits a region's line to its pixels.
+fn refit<R: Recorder>(
+    scene: &Scene,
+    region: u16,
+    pixels: &[u32],
+    hypotheses: &mut [Hypothesis],
+    ledger: &mut Ledger<R>,
+) {
+    let colors = sample(scene, pixels);
+    let line = &mut hypotheses[usize::from(region) - 1].line;
+    *line = line.refit(&colors, &line_fit(scene, 6));
+    if R::KEEPS {
+        let (mean, direction) = (line.mean.into(), line.direction.into());
+        ledger.recorder.record(Event::LineRefitted { region, mean, direction });
+    }
+}
+
+/// Colours of at most [`FIT_SAMPLES`] of the pixels, evenly chosen.
+pub fn sample(scene: &Scene, pixels: &[u32]) -> Vec<[f32; 3]> {
+    let step = pixels.len().div_ceil(FIT_SAMPLES).max(1);
+    pixels.iter().step_by(step).map(|&pixel| scene.pixels[pixel as usize]).collect()
+}
+
+/// The cylinder of every hypothesis.
+pub fn cylinders(scene: &Scene, hypotheses: &[Hypothesis]) -> Vec<Cylinder> {
+    hypotheses.iter().map(|h| Cylinder::new(&h.line, scene.used.radius_counts())).collect()
+}
+
+/// Where growth starts: every pixel inside the cylinder, or the one of them that is nearest to the mean.
+fn seeds(scene: &Scene, line: &Line, cylinder: Cylinder, area_pixels: &[u32]) -> Vec<u32> {
+    let inside = area_pixels.iter().copied().filter(|&p| cylinder.contains(scene.pixels[p as usize]));
+    if scene.refine.all_seeds {
+        return inside.collect();
+    }
+    let from_mean = |pixel: &u32| (crate::color::vec3(scene.pixels[*pixel as usize]) - line.mean).norm();
+    inside.min_by(|a, b| from_mean(a).total_cmp(&from_mean(b))).into_iter().collect()
+}
+
+/// Grows a region into what its cylinder holds; pixels of others only where its own axis is nearer.
+fn grow_cylinder<R: Recorder>(
+    scene: &Scene,
+    region: u16,
+    cylinders: &[Cylinder],
+    claimed: &mut Vec<u32>,
+    ledger: &mut Ledger<R>,
+) {
+    let own = cylinders[usize::from(region) - 1];
+    ledger.grow(region, claimed, |recorder, pixel, holder| {
+        let color = scene.pixels[pixel];
+        if !scene.claimable(pixel) || !own.contains(color) {
+            return false;
+        }
+        if holder == UNASSIGNED {
+            return true;
+        }
+        let (mine, theirs) = (own.distance2(color), cylinders[usize::from(holder) - 1].distance2(color));
+        let taken = mine < theirs;
+        if R::KEEPS {
+            recorder.record(Event::Conflict {
+                pixel: pixel as u32,
+                holder,
+                challenger: region,
+                holder_distance: f64::from(theirs).sqrt(),
+                challenger_distance: f64::from(mine).sqrt(),
+                taken,
+            });
+        }
+        taken
+    });
+}
+
+/// The areas that may still become hypotheses, with the number of pixels that no region has claimed.
+struct Stock<'a> {
+    areas: &'a Areas,
+    windows: &'a Windows,
+    unclaimed: Vec<u32>,
+    members: Vec<Vec<u32>>,
+}
+
+impl<'a> Stock<'a> {
+    fn new<R: Recorder>(
+        scene: &Scene,
+        windows: &'a Windows,
+        areas: &'a Areas,
+        choice: &Choice,
+        ledger: &Ledger<R>,
+    ) -> Self {
+        let mut unclaimed = vec![0u32; areas.classes.len()];
+        let mut members = vec![Vec::new(); areas.classes.len()];
+        for (window, &area) in areas.of_window.as_slice().iter().enumerate() {
+            let class = areas.classes[area as usize];
+            if class == Some(Class::Line) || (choice.points && class == Some(Class::Point)) {
+                members[area as usize].push(window as u32);
+                unclaimed[area as usize] += windows.moments[window].n as u32;
+            }
+        }
+        let mut stock = Self { areas, windows, unclaimed, members };
+        // Window moments count valid pixels; what is claimable and free may be less.
+        for area in 0..stock.members.len() {
+            if stock.unclaimed[area] as usize >= choice.min_area_px {
+                stock.unclaimed[area] = stock.free_pixels(scene, area, ledger).count() as u32;
+            }
+        }
+        stock
+    }
+
+    /// The area with the most unclaimed pixels, the first of equals, unless it is too small.
+    fn largest(&self, min_area_px: usize) -> Option<usize> {
+        let best = (0..self.unclaimed.len()).rev().max_by_key(|&area| self.unclaimed[area])?;
+        (self.unclaimed[best] as usize >= min_area_px.max(1)).then_some(best)
+    }
+
+    /// Areas that were never chosen, with their unclaimed pixels.
+    fn remaining(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        self.unclaimed.iter().enumerate().filter(|&(_, &n)| n > 0).map(|(area, &n)| (area as u32, n))
+    }
+
+    fn free_pixels<'b, R: Recorder>(
+        &'b self,
+        scene: &'b Scene,
+        area: usize,
+        ledger: &'b Ledger<R>,
+    ) -> impl Iterator<Item = u32> + 'b {
+        let (width, height) = (scene.pixels.width(), scene.pixels.height());
+        let (size, columns) = (self.windows.size_px, self.windows.classes.width());
+        self.members[area].iter().flat_map(move |&window| {
+            let (left, top) = (window as usize % columns * size, window as usize / columns * size);
+            (top..(top + size).min(height))
+                .flat_map(move |y| y * width + left..y * width + (left + size).min(width))
+                .filter(|&pixel| ledger.labels[pixel] == UNASSIGNED && scene.claimable(pixel))
+                .map(|pixel| pixel as u32)
+        })
+    }
+
+    fn unclaimed<R: Recorder>(
+        &self,
+        scene: &Scene,
+        area: usize,
+        ledger: &Ledger<R>,
+    ) -> (Vec<u32>, Vec<[f32; 3]>) {
+        let pixels: Vec<u32> = self.free_pixels(scene, area, ledger).collect();
+        let colors = sample(scene, &pixels);
+        (pixels, colors)
+    }
+
+    fn retire(&mut self, area: usize) {
+        self.unclaimed[area] = 0;
+    }
+
+    /// Counts off the pixels that a region has claimed.
+    fn take(&mut self, claimed: &[u32], windows: &Windows, width: usize) {
+        for &pixel in claimed {
+            let area = self.areas.of_window[windows.window_of(pixel as usize, width)] as usize;
+            self.unclaimed[area] = self.unclaimed[area].saturating_sub(1);
+        }
+    }
+}
+
+/// Length of a region's matte line from black, counts: the 99.5 % quantile of C·d over its pixels on the outside of the
+/// line (5.4.1, figure 9: highlights grow inward, so the brightest matte point is sought outside).
+pub fn matte_length(scene: &Scene, line: &Line, pixels: &[u32]) -> f64 {
+    let inward = crate::color::rgb(&line.inward());
+    let direction = crate::color::rgb(&line.direction);
+    let mean = crate::color::rgb(&line.mean);
+    let at_mean = crate::color::dot(mean, inward);
+    let mut lengths: Vec<f32> = sample(scene, pixels)
+        .into_iter()
+        .filter(|&color| crate::color::dot(color, inward) <= at_mean)
+        .map(|color| crate::color::dot(color, direction))
+        .collect();
+    if lengths.is_empty() {
+        return line.mean.dot(&line.direction);
+    }
+    let rank = (lengths.len() - 1) * 995 / 1000;
+    let (_, &mut length, _) = lengths.select_nth_unstable_by(rank, f32::total_cmp);
+    f64::from(length)
+}
+
+/// Mean colour of pixels.
+pub fn mean_color(scene: &Scene, pixels: &[u32]) -> Vec3 {
+    pixels.iter().map(|&pixel| scene.pixels[pixel as usize]).collect::<Moments>().mean()
+}

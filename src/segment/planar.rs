@@ -1,0 +1,403 @@
+//! Section 5.4: planar hypotheses. Matte line and illuminant span each object's dichromatic plane; extended by the noise
+//! into a slice it segments the image anew, now with the highlights.
+//!
+//! Special provision for coplanar colours: pixels that were recognised as another region's matte pixels are only taken
+//! inside the own matte cylinder and nearer to the own axis. Where two slices hold a pixel, the nearer plane wins.
+//!
+//! Refined: the illuminant from `illuminant` and `in_plane`, then slices, then both again twice from the grown regions
+//! (`robust_illuminant`); regions without a highlight candidate get a slice too (`extend_planes`); slices end where body or
+//! surface reflection would be negative (`slice_bounds`).
+
+use super::candidates::{HighlightLine, highlight_lines};
+use super::classify::Windows;
+use super::illuminant::{Constraint, Prior, average_direction, intersect, weighted_direction};
+use super::in_plane;
+use super::ledger::{Ledger, Members};
+use super::linear::{Hypothesis, cylinders, matte_length};
+use super::matte::MatteRegions;
+use super::merge::Areas;
+use super::scene::Scene;
+use super::unite::merge_regions;
+use crate::color::{Line, Vec3};
+use crate::raster::{LabelMap, UNASSIGNED};
+use crate::reflection::{DichromaticPlane, Slice};
+use crate::trace::{Event, Recorder};
+use rayon::prelude::*;
+
+/// Smallest angle between body and surface vector at which a plane means anything, degrees.
+const MIN_ANGLE_DEG: f64 = 3.0;
+/// Without a candidate the highlight is taken to start here on the matte line.
+const DEFAULT_START: f64 = 0.75;
+/// How often illuminant and slices are found again from the grown regions.
+const ROUNDS: usize = 2;
+
+/// The colour of the scene's light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Illuminant {
+    /// Unit vector.
+    pub direction: [f64; 3],
+    /// Number of regions whose highlights it rests on.
+    pub objects: usize,
+}
+
+/// A region's skewed T.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanarHypothesis {
+    /// Matte line.
+    pub matte: Line,
+    /// Length of the matte line from black, counts.
+    pub matte_length: f64,
+    /// Plane of matte line and illuminant, where there is one.
+    pub plane: Option<DichromaticPlane>,
+    /// Where the highlight line leaves the matte line, counts.
+    pub start: Vec3,
+    /// The region's own highlight direction, from its chosen candidate.
+    pub highlight: Option<Vec3>,
+    /// Whether the region still stands.
+    pub alive: bool,
+}
+
+/// What the planar stage found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanarRegions {
+    /// Region of each pixel.
+    pub labels: LabelMap,
+    /// One per linear hypothesis.
+    pub hypotheses: Vec<PlanarHypothesis>,
+    /// The light, where a highlight gave evidence of it.
+    pub illuminant: Option<Illuminant>,
+}
+
+/// Grows matte regions into planar ones.
+pub fn planar_regions<R: Recorder>(
+    scene: &Scene,
+    windows: &Windows,
+    areas: &Areas,
+    matte: &MatteRegions,
+    recorder: &mut R,
+) -> PlanarRegions {
+    let lines = highlight_lines(scene, (windows, areas), &matte.labels, &matte.hypotheses, recorder);
+    let mut stage = Stage {
+        scene,
+        matte_labels: matte.labels.clone(),
+        matte: matte.hypotheses.clone(),
+        lines,
+        ledger: Ledger::new(matte.labels.clone(), recorder),
+    };
+    if !scene.refine.robust_illuminant {
+        let objects = stage.lines.iter().flatten().count();
+        let direction = average_direction(&stage.lines);
+        stage.announce(direction, &[]);
+        let hypotheses = stage.slices(direction);
+        return stage.finish(hypotheses, direction, objects);
+    }
+    let (first, mut objects) = stage.first_illuminant();
+    let mut direction = first;
+    let mut hypotheses = stage.slices(direction);
+    for _ in 0..ROUNDS {
+        let Some(before) = direction else { break };
+        let (next, count) = stage.illuminant_again(&hypotheses, &before);
+        direction = Some(next);
+        objects = count;
+        stage.unite_and_reset();
+        hypotheses = stage.slices(direction);
+    }
+    stage.finish(hypotheses, direction, objects)
+}
+
+struct Stage<'a, 's, R: Recorder> {
+    scene: &'a Scene<'s>,
+    matte_labels: LabelMap,
+    matte: Vec<Hypothesis>,
+    lines: Vec<Option<HighlightLine>>,
+    ledger: Ledger<'a, R>,
+}
+
+impl<R: Recorder> Stage<'_, '_, R> {
+    fn finish(
+        self,
+        hypotheses: Vec<PlanarHypothesis>,
+        direction: Option<Vec3>,
+        objects: usize,
+    ) -> PlanarRegions {
+        let illuminant =
+            direction.filter(|_| objects > 0).map(|d| Illuminant { direction: d.into(), objects });
+        PlanarRegions { labels: self.ledger.labels, hypotheses, illuminant }
+    }
+
+    fn announce(&mut self, direction: Option<Vec3>, contributions: &[(u16, f64, f64)]) {
+        if R::KEEPS
+            && let Some(direction) = direction
+        {
+            let contributions = contributions.to_vec();
+            self.ledger
+                .recorder
+                .record(Event::IlluminantEstimated { direction: direction.into(), contributions });
+        }
+    }
+
+    /// The illuminant from what lies just outside the matte regions.
+    fn first_illuminant(&mut self) -> (Option<Vec3>, usize) {
+        let candidates = weighted_direction(&self.lines);
+        let white = Vec3::repeat(1.0).normalize();
+        let start = candidates.unwrap_or(white);
+        let members = Members::of(&self.matte_labels, self.matte.len());
+        let constraints: Vec<Constraint> = (1..=self.matte.len() as u16)
+            .into_par_iter()
+            .filter(|&id| self.matte[usize::from(id) - 1].alive)
+            .filter_map(|id| {
+                let line = &self.matte[usize::from(id) - 1].line;
+                let plane = DichromaticPlane::new(line, &start)?;
+                let length = matte_length(self.scene, line, members.region(id));
+                let nearby =
+                    nearby_highlight(self.scene, &self.matte_labels, &plane, length, members.region(id));
+                plane_constraint(self.scene, id, &plane, length, &nearby)
+            })
+            .collect();
+        if constraints.is_empty() && candidates.is_none() {
+            return (None, 0);
+        }
+        let sd_deg = if candidates.is_some() { 8.0 } else { 12.0 };
+        let found = intersect(&constraints, &Prior { direction: start, sd_deg });
+        self.announce(Some(found.direction), &found.contributions);
+        (Some(found.direction), constraints.len().max(self.lines.iter().flatten().count()))
+    }
+
+    /// The illuminant from the grown regions.
+    fn illuminant_again(&mut self, hypotheses: &[PlanarHypothesis], before: &Vec3) -> (Vec3, usize) {
+        let members = Members::of(&self.ledger.labels, hypotheses.len());
+        let pairs: Vec<(Option<Constraint>, Option<Constraint>)> = (1..=hypotheses.len() as u16)
+            .into_par_iter()
+            .map(|id| {
+                let hypothesis = &hypotheses[usize::from(id) - 1];
+                let Some(plane) = hypothesis.plane.filter(|_| hypothesis.alive) else { return (None, None) };
+                let (pixels, length) = (members.region(id), hypothesis.matte_length);
+                let Some(lies_in) = plane_constraint(self.scene, id, &plane, length, pixels) else {
+                    return (None, None);
+                };
+                let branch = in_plane::estimate(self.scene, &self.ledger.labels, id, pixels, &plane, length);
+                (Some(lies_in), branch.map(|branch| branch_constraint(&lies_in, &plane, &branch)))
+            })
+            .collect();
+        let objects = pairs.iter().filter(|(lies_in, _)| lies_in.is_some()).count();
+        let branches = pairs.iter().filter(|(_, branch)| branch.is_some()).count();
+        let constraints: Vec<Constraint> = pairs.into_iter().flat_map(|(a, b)| [a, b]).flatten().collect();
+        let prior = match weighted_direction(&self.lines) {
+            Some(direction) if branches == 0 => Prior { direction, sd_deg: 8.0 },
+            _ => Prior { direction: *before, sd_deg: 30.0 },
+        };
+        let found = intersect(&constraints, &prior);
+        self.announce(Some(found.direction), &found.contributions);
+        (found.direction, objects)
+    }
+
+    /// Joins parts that have grown together, and takes the labels back to the matte regions.
+    fn unite_and_reset(&mut self) {
+        if self.scene.refine.merge_regions {
+            let into = merge_regions(self.scene, &mut self.matte, &mut self.ledger);
+            for label in self.matte_labels.as_mut_slice() {
+                *label = into[usize::from(*label)];
+            }
+        }
+        for pixel in 0..self.matte_labels.len() {
+            self.ledger.assign(pixel, self.matte_labels[pixel]);
+        }
+    }
+
+    /// Makes each region's skewed T and grows it, larger regions first.
+    fn slices(&mut self, illuminant: Option<Vec3>) -> Vec<PlanarHypothesis> {
+        let members = Members::of(&self.matte_labels, self.matte.len());
+        let hypotheses: Vec<PlanarHypothesis> =
+            (1..=self.matte.len() as u16).map(|id| self.hypothesis(id, &members, illuminant)).collect();
+        let slices: Vec<Option<Slice>> = hypotheses.iter().map(|h| self.slice(h)).collect();
+        let mut order: Vec<u16> = (1..=hypotheses.len() as u16).collect();
+        order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
+        for id in order {
+            if let (Some(slice), Some(plane)) =
+                (&slices[usize::from(id) - 1], &hypotheses[usize::from(id) - 1].plane)
+            {
+                if R::KEEPS {
+                    self.ledger.recorder.record(Event::SliceMade {
+                        region: id,
+                        normal: plane.normal.into(),
+                        start: hypotheses[usize::from(id) - 1].start.into(),
+                        half_width: self.scene.used.slice_half_width_counts(),
+                    });
+                }
+                self.grow_slice(id, slice, &slices, &members);
+            }
+        }
+        hypotheses
+    }
+
+    fn hypothesis(&self, id: u16, members: &Members, illuminant: Option<Vec3>) -> PlanarHypothesis {
+        let index = usize::from(id) - 1;
+        let Hypothesis { line, alive, .. } = self.matte[index];
+        let matte_length = matte_length(self.scene, &line, members.region(id));
+        let own = self.lines[index];
+        let plane = illuminant
+            .filter(|_| alive && (own.is_some() || self.scene.refine.extend_planes))
+            .and_then(|light| DichromaticPlane::new(&line, &light))
+            .filter(|plane| plane.angle_deg() >= MIN_ANGLE_DEG || !self.scene.refine.extend_planes);
+        let start = own.map_or(line.foot() + line.direction * (DEFAULT_START * matte_length), |o| o.start);
+        PlanarHypothesis {
+            matte: line,
+            matte_length,
+            plane,
+            start,
+            highlight: own.map(|o| o.direction),
+            alive,
+        }
+    }
+
+    fn slice(&self, hypothesis: &PlanarHypothesis) -> Option<Slice> {
+        let plane = hypothesis.plane?;
+        let half_width = self.scene.used.slice_half_width_counts();
+        Some(if self.scene.refine.slice_bounds {
+            Slice::bounded(&plane, half_width, self.scene.used.radius_counts(), hypothesis.matte_length)
+        } else {
+            Slice::unbounded(&plane, half_width)
+        })
+    }
+
+    fn grow_slice(&mut self, id: u16, slice: &Slice, slices: &[Option<Slice>], members: &Members) {
+        let scene = self.scene;
+        let cylinders = cylinders(scene, &self.matte);
+        let own = cylinders[usize::from(id) - 1];
+        let matte_labels = &self.matte_labels;
+        let mut front: Vec<u32> =
+            members.region(id).iter().copied().filter(|&p| self.ledger.labels[p as usize] == id).collect();
+        self.ledger.grow(id, &mut front, |recorder, pixel, holder| {
+            let color = scene.pixels[pixel];
+            if !scene.claimable(pixel) || !slice.contains(color) {
+                return false;
+            }
+            if holder == UNASSIGNED {
+                return true;
+            }
+            let matte = matte_labels[pixel];
+            let foreign = matte != UNASSIGNED && matte != id;
+            if foreign && !own.contains(color) {
+                return false;
+            }
+            let theirs = &slices[usize::from(holder) - 1];
+            let (mine, held) = match theirs {
+                Some(theirs) if !foreign => (slice.distance(color), theirs.distance(color)),
+                _ => {
+                    let axis = &cylinders[usize::from(holder) - 1];
+                    (own.distance2(color).sqrt(), axis.distance2(color).sqrt())
+                }
+            };
+            if R::KEEPS {
+                recorder.record(Event::Conflict {
+                    pixel: pixel as u32,
+                    holder,
+                    challenger: id,
+                    holder_distance: f64::from(held),
+                    challenger_distance: f64::from(mine),
+                    taken: mine < held,
+                });
+            }
+            mine < held
+        });
+    }
+}
+
+/// Unclaimed pixels on the inside of a plane, reached within 8 px of its matte region.
+fn nearby_highlight(
+    scene: &Scene,
+    labels: &LabelMap,
+    plane: &DichromaticPlane,
+    matte_length: f64,
+    pixels: &[u32],
+) -> Vec<u32> {
+    const REACH_PX: usize = 8;
+    let axes = plane.coordinates();
+    let least_offset = 0.75 * scene.used.radius_counts() as f32;
+    let least_along = 0.3 * matte_length as f32;
+    let mut seen = std::collections::BTreeSet::new();
+    let mut found = Vec::new();
+    let mut front: Vec<u32> = pixels.to_vec();
+    for _ in 0..REACH_PX {
+        let mut next = Vec::new();
+        for &pixel in &front {
+            labels.for_each_neighbour(pixel as usize, |near| {
+                if labels[near] != UNASSIGNED || !scene.masks.usable(near) || seen.contains(&(near as u32)) {
+                    return;
+                }
+                let point = axes.of(scene.pixels[near]);
+                let inside = point.offset > least_offset && point.height.abs() < point.offset / 2.0;
+                if inside && point.along > least_along {
+                    seen.insert(near as u32);
+                    next.push(near as u32);
+                }
+            });
+        }
+        found.extend_from_slice(&next);
+        front = next;
+    }
+    found
+}
+
+/// The plane that a region's highlight pixels lie in, as what the illuminant is perpendicular to.
+fn plane_constraint(
+    scene: &Scene,
+    region: u16,
+    plane: &DichromaticPlane,
+    matte_length: f64,
+    pixels: &[u32],
+) -> Option<Constraint> {
+    const MIN_PIXELS: f64 = 10.0;
+    const FLOOR_DEG: f64 = 0.4;
+    let axes = plane.coordinates();
+    let (radius, sigma) = (scene.used.radius_counts() as f32, scene.sigma());
+    let points: Vec<(f64, f64)> = pixels
+        .iter()
+        .filter(|&&pixel| scene.masks.usable(pixel as usize))
+        .map(|&pixel| axes.of(scene.pixels[pixel as usize]))
+        .filter(|p| p.offset > 0.75 * radius && p.height.abs() < p.offset / 2.0)
+        .filter(|p| f64::from(p.along) > 0.3 * matte_length)
+        .map(|p| (f64::from(p.offset), f64::from(p.height)))
+        .collect();
+    let mut slope = 0.0;
+    let mut squares = 0.0;
+    let mut weight_sum = 0.0;
+    let mut scale = 8.0 * sigma;
+    for _ in 0..10 {
+        let (mut product, mut square, mut sum) = (0.0, 0.0, 0.0);
+        for &(offset, height) in &points {
+            let u = (height - slope * offset) / (4.0 * scale);
+            if u.abs() < 1.0 {
+                let weight = (1.0 - u * u).powi(2);
+                product += weight * offset * height;
+                square += weight * offset * offset;
+                sum += weight;
+            }
+        }
+        if square <= 0.0 {
+            return None;
+        }
+        slope = product / square;
+        (squares, weight_sum) = (square, sum);
+        scale = (scale / 2.0).max(1.5 * sigma);
+    }
+    if weight_sum < MIN_PIXELS {
+        return None;
+    }
+    let normal = plane.matte.direction.cross(&(plane.inward + plane.normal * slope)).normalize();
+    let variance_deg2 = (sigma * sigma / squares) * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG;
+    Some(Constraint { region, normal, variance_deg2, doubt_deg: 1.0 })
+}
+
+/// An in-plane estimate as what the illuminant is perpendicular to, within the plane that the region found.
+fn branch_constraint(
+    lies_in: &Constraint,
+    plane: &DichromaticPlane,
+    branch: &in_plane::InPlane,
+) -> Constraint {
+    const FLOOR_DEG: f64 = 2.0;
+    let inward = lies_in.normal.cross(&plane.matte.direction);
+    let light = (plane.matte.direction * branch.cotangent + inward).normalize();
+    let variance_deg2 = branch.variance_rad2 * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG;
+    Constraint { region: lies_in.region, normal: lies_in.normal.cross(&light), variance_deg2, doubt_deg: 4.0 }
+}

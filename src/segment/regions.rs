@@ -1,0 +1,183 @@
+//! From labels to final regions: what is too small goes, what lies apart is separated, numbers are given by size.
+//!
+//! `split_components`: two parts of a region that lie apart are two objects of one colour when background lies between
+//! them, and one object behind another when the other's pixels do (a cup seen through a handle stays one).
+
+use super::ledger::{Ledger, Members};
+use super::planar::{PlanarHypothesis, PlanarRegions};
+use super::scene::Scene;
+use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED, dilate, label_components};
+use crate::trace::{Event, Recorder};
+use std::collections::BTreeMap;
+
+/// Regions and separated parts below this many pixels are dropped, or stay with their region.
+const MIN_REGION_PX: usize = 60;
+/// Parts of a region at most this far apart are one part, pixels.
+const APART_PX: usize = 4;
+/// Border pixels looked at when the gap between two parts is judged.
+const BORDER_SAMPLES: usize = 300;
+
+/// The final regions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FinalRegions {
+    /// Region of each pixel, numbered from 1 by decreasing size.
+    pub labels: LabelMap,
+    /// Region `id` at index `id − 1`.
+    pub hypotheses: Vec<PlanarHypothesis>,
+}
+
+/// Drops, separates and numbers the regions.
+pub fn final_regions<R: Recorder>(
+    scene: &Scene,
+    labels: LabelMap,
+    planar: &PlanarRegions,
+    recorder: &mut R,
+) -> FinalRegions {
+    let mut hypotheses = planar.hypotheses.clone();
+    let mut ledger = Ledger::new(labels, recorder);
+    if scene.refine.split_components {
+        let members = ledger.members(hypotheses.len());
+        for id in 1..=hypotheses.len() as u16 {
+            separate(id, members.region(id), &mut hypotheses, &mut ledger);
+        }
+    }
+    let members = ledger.members(hypotheses.len());
+    let mut order: Vec<u16> = (1..=hypotheses.len() as u16).collect();
+    order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
+    let mut finals = vec![UNASSIGNED; hypotheses.len()];
+    let mut kept = Vec::new();
+    for id in order {
+        let pixels = members.region(id);
+        if pixels.len() >= MIN_REGION_PX {
+            kept.push(hypotheses[usize::from(id) - 1]);
+            finals[usize::from(id) - 1] = kept.len() as u16;
+        } else if !pixels.is_empty() {
+            if R::KEEPS {
+                ledger.recorder.record(Event::Dropped { region: id, pixels: pixels.len() as u32 });
+            }
+            for &pixel in pixels {
+                ledger.assign(pixel as usize, UNASSIGNED);
+            }
+        }
+    }
+    let mut labels = ledger.labels;
+    for label in labels.as_mut_slice().iter_mut().filter(|label| **label != UNASSIGNED) {
+        *label = finals[usize::from(*label) - 1];
+    }
+    if R::KEEPS {
+        recorder.record(Event::Renumbered { finals });
+    }
+    FinalRegions { labels, hypotheses: kept }
+}
+
+/// Gives the parts of a region that are objects of their own new numbers.
+fn separate<R: Recorder>(
+    id: u16,
+    pixels: &[u32],
+    hypotheses: &mut Vec<PlanarHypothesis>,
+    ledger: &mut Ledger<R>,
+) {
+    let mut parts = parts(&ledger.labels, pixels);
+    if parts.len() < 2 {
+        return;
+    }
+    parts.sort_by_key(|part| std::cmp::Reverse(part.len()));
+    // Parts that belong together, the largest of each group first.
+    let mut groups: Vec<Vec<Vec<u32>>> = Vec::new();
+    for part in parts {
+        let home = groups.iter().position(|group| {
+            part.len() < MIN_REGION_PX
+                || group.iter().any(|other| same_object(&ledger.labels, other, &part, id))
+        });
+        match home {
+            Some(home) => groups[home].push(part),
+            None => groups.push(vec![part]),
+        }
+    }
+    for group in groups.into_iter().skip(1) {
+        if hypotheses.len() >= usize::from(u16::MAX) {
+            return;
+        }
+        hypotheses.push(hypotheses[usize::from(id) - 1]);
+        let part = hypotheses.len() as u16;
+        if R::KEEPS {
+            let pixels = group.iter().map(Vec::len).sum::<usize>() as u32;
+            ledger.recorder.record(Event::ComponentSplit { region: id, part, pixels });
+        }
+        for pixel in group.into_iter().flatten() {
+            ledger.assign(pixel as usize, part);
+        }
+    }
+}
+
+/// Groups of a region's pixels of which each is more than [`APART_PX`] from the next.
+fn parts(labels: &LabelMap, pixels: &[u32]) -> Vec<Vec<u32>> {
+    let width = labels.width();
+    let (Some(left), Some(right)) =
+        (pixels.iter().map(|&p| p as usize % width).min(), pixels.iter().map(|&p| p as usize % width).max())
+    else {
+        return Vec::new();
+    };
+    let (top, bottom) = (pixels[0] as usize / width, pixels[pixels.len() - 1] as usize / width);
+    let (columns, rows) = (right - left + 1, bottom - top + 1);
+    let local = |pixel: u32| (pixel as usize / width - top) * columns + pixel as usize % width - left;
+    let mut mask: Mask = Raster::filled(columns, rows, false);
+    for &pixel in pixels {
+        mask[local(pixel)] = true;
+    }
+    let components = label_components(&dilate(&mask, APART_PX / 2), |&inside| inside);
+    let mut parts: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for &pixel in pixels {
+        parts.entry(components.labels[local(pixel)]).or_default().push(pixel);
+    }
+    parts.into_values().collect()
+}
+
+/// Whether what lies between two parts, at their narrowest, is mostly other regions: an object in front.
+fn same_object(labels: &LabelMap, one: &[u32], other: &[u32], id: u16) -> bool {
+    let width = labels.width();
+    let border = |part: &[u32]| -> Vec<(i64, i64)> {
+        let mut found = Vec::new();
+        for &pixel in part {
+            let mut edge = false;
+            labels.for_each_neighbour(pixel as usize, |near| edge |= labels[near] != id);
+            if edge {
+                found.push(((pixel as usize % width) as i64, (pixel as usize / width) as i64));
+            }
+        }
+        let step = found.len().div_ceil(BORDER_SAMPLES).max(1);
+        found.into_iter().step_by(step).collect()
+    };
+    let far = border(other);
+    let closest = border(one)
+        .into_iter()
+        .flat_map(|a| far.iter().map(move |&b| (a, b)))
+        .min_by_key(|(a, b)| (a.0 - b.0).pow(2) + (a.1 - b.1).pow(2));
+    let Some((a, b)) = closest else { return false };
+    let steps = (a.0 - b.0).abs().max((a.1 - b.1).abs()).max(1);
+    let between = (1..steps).map(|i| {
+        let at = |from: i64, to: i64| (from + (to - from) * i / steps) as usize;
+        labels[at(a.1, b.1) * width + at(a.0, b.0)]
+    });
+    let (assigned, total) =
+        between.fold((0, 0), |(assigned, total), l| (assigned + i64::from(l != UNASSIGNED), total + 1));
+    assigned * 2 > total
+}
+
+/// Which regions touch each region: ascending lists, region `id` at index `id − 1`.
+pub fn neighbours(labels: &LabelMap, regions: usize) -> Vec<Vec<u16>> {
+    let mut lists = vec![Vec::new(); regions];
+    for (a, b) in super::borders::near_pairs(labels, 1) {
+        lists[usize::from(a) - 1].push(b);
+        lists[usize::from(b) - 1].push(a);
+    }
+    for list in &mut lists {
+        list.sort_unstable();
+    }
+    lists
+}
+
+/// The pixels of each final region.
+pub fn members(regions: &FinalRegions) -> Members {
+    Members::of(&regions.labels, regions.hypotheses.len())
+}

@@ -1,0 +1,37 @@
+//! What every stage of the segmentation looks at.
+
+use super::params::{Refine, UsedParams};
+use crate::photo::{LinearImage, Masks};
+use crate::raster::Raster;
+
+/// The image, its masks and the numbers to work with.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// Colours, linear counts.
+    pub pixels: &'a Raster<[f32; 3]>,
+    /// Which of them to believe.
+    pub masks: &'a Masks,
+    /// The control parameters.
+    pub used: &'a UsedParams,
+    /// The refinements in force.
+    pub refine: Refine,
+}
+
+impl<'a> Scene<'a> {
+    /// The image and its masks, with what to work with.
+    pub fn new(image: &'a LinearImage, masks: &'a Masks, used: &'a UsedParams, refine: Refine) -> Self {
+        Self { pixels: &image.pixels, masks, used, refine }
+    }
+
+    /// Standard deviation of a band's noise, counts: half of σ0.
+    pub fn sigma(&self) -> f64 {
+        self.used.camera_noise / 2.0
+    }
+
+    /// Whether a hypothesis may claim the pixel by its colour. The paper excludes only dark pixels; refined, distorted
+    /// ones wait for the clipping stage.
+    #[inline]
+    pub fn claimable(&self, pixel: usize) -> bool {
+        if self.refine.tail_test { self.masks.usable(pixel) } else { !self.masks.dark(pixel) }
+    }
+}

@@ -1,0 +1,141 @@
+//! Refinements of the proximity heuristic (5.3.2): regions that should be one, and pixels in the wrong one.
+//!
+//! `merge_regions`: parts of one object that grew apart, across a highlight or a crease, have the same matte line; where
+//! neither the pixels' distances nor the angle tells them apart they become one region.
+//! `proximity_vote`: where two cylinders overlap, the nearer axis is decided by noise; a contested pixel follows a clear
+//! majority of its 5×5 surroundings (no salt and pepper at σ ≥ 2.5).
+
+use super::borders::near_pairs;
+use super::ledger::{Ledger, Members};
+use super::linear::{Hypothesis, cylinders};
+use super::scene::Scene;
+use crate::color::{Line, Moments, axis_angle_deg};
+use crate::raster::UNASSIGNED;
+use crate::trace::{Event, Recorder};
+
+/// Farthest that parts of one object may lie apart, pixels.
+const REACH_PX: usize = 3;
+const MAX_ANGLE_DEG: f64 = 4.0;
+/// Distances from the other's axis may be this much larger than from one's own.
+const RMS_RATIO: f64 = 1.25;
+/// Own distances count at least as this share of σ0.
+const RMS_FLOOR: f64 = 0.6;
+/// Side of the vote, pixels, and the share that wins it.
+const VOTE_RADIUS: usize = 2;
+const MAJORITY_PERCENT: usize = 60;
+
+/// Unites neighbouring regions whose matte lines cannot be told apart, smaller into larger. Returns the new owner of each
+/// region's pixels, by number.
+pub fn merge_regions<R: Recorder>(
+    scene: &Scene,
+    hypotheses: &mut [Hypothesis],
+    ledger: &mut Ledger<R>,
+) -> Vec<u16> {
+    let members = ledger.members(hypotheses.len());
+    let mut moments: Vec<Moments> = (1..=hypotheses.len() as u16)
+        .map(|id| {
+            let usable = members.region(id).iter().filter(|&&pixel| scene.masks.usable(pixel as usize));
+            let inside = cylinder_filter(scene, &hypotheses[usize::from(id) - 1].line);
+            usable.map(|&pixel| scene.pixels[pixel as usize]).filter(|&c| inside(c)).collect()
+        })
+        .collect();
+    let mut into_of: Vec<u16> = (0..=hypotheses.len() as u16).collect();
+    for (a, b) in near_pairs(&ledger.labels, REACH_PX) {
+        let (a, b) = (into_of[usize::from(a)], into_of[usize::from(b)]);
+        if a == b {
+            continue;
+        }
+        let (ia, ib) = (usize::from(a) - 1, usize::from(b) - 1);
+        let (into, from) = if moments[ia].n >= moments[ib].n { (ia, ib) } else { (ib, ia) };
+        let angle_deg = axis_angle_deg(&hypotheses[into].line.direction, &hypotheses[from].line.direction);
+        let own = rms_from(&moments[from], &hypotheses[from].line);
+        let rms = rms_from(&moments[from], &hypotheses[into].line);
+        if angle_deg >= MAX_ANGLE_DEG || rms >= RMS_RATIO * own.max(RMS_FLOOR * scene.used.camera_noise) {
+            continue;
+        }
+        if R::KEEPS {
+            let (region, into) = (from as u16 + 1, into as u16 + 1);
+            ledger.recorder.record(Event::RegionsMerged { region, into, angle_deg, rms });
+        }
+        moments[into] = moments[into].merged(&moments[from]);
+        hypotheses[from].alive = false;
+        let mut highlights = std::mem::take(&mut hypotheses[from].highlights);
+        hypotheses[into].highlights.append(&mut highlights);
+        for owner in &mut into_of {
+            if *owner == from as u16 + 1 {
+                *owner = into as u16 + 1;
+            }
+        }
+    }
+    reassign(&members, &into_of, ledger);
+    into_of
+}
+
+fn cylinder_filter(scene: &Scene, line: &Line) -> impl Fn([f32; 3]) -> bool {
+    let cylinder = crate::color::Cylinder::new(line, scene.used.radius_counts());
+    move |color| cylinder.contains(color)
+}
+
+/// Root mean square distance of a cluster from a line.
+pub fn rms_from(cluster: &Moments, line: &Line) -> f64 {
+    if cluster.n <= 0.0 {
+        return f64::INFINITY;
+    }
+    let spread = cluster.covariance() * ((cluster.n - 1.0).max(0.0) / cluster.n);
+    let offset = (cluster.mean() - line.mean).cross(&line.direction).norm_squared();
+    let across = spread.trace() - line.direction.dot(&(spread * line.direction));
+    (across + offset).max(0.0).sqrt()
+}
+
+fn reassign<R: Recorder>(members: &Members, into_of: &[u16], ledger: &mut Ledger<R>) {
+    for (region, &into) in into_of.iter().enumerate().skip(1) {
+        if usize::from(into) != region {
+            for &pixel in members.region(region as u16) {
+                ledger.assign(pixel as usize, into);
+            }
+        }
+    }
+}
+
+/// Lets contested pixels follow the majority around them.
+pub fn vote<R: Recorder>(scene: &Scene, hypotheses: &[Hypothesis], ledger: &mut Ledger<R>) {
+    let before = ledger.labels.clone();
+    let (width, height) = (before.width(), before.height());
+    let cylinders = cylinders(scene, hypotheses);
+    for pixel in 0..before.len() {
+        let own = before[pixel];
+        if own == UNASSIGNED {
+            continue;
+        }
+        let mut contested = false;
+        before.for_each_neighbour(pixel, |near| {
+            contested |= before[near] != own && before[near] != UNASSIGNED;
+        });
+        if !contested {
+            continue;
+        }
+        let (x, y) = (pixel % width, pixel / width);
+        let mut counts: Vec<(u16, usize)> = Vec::new();
+        let mut total = 0;
+        for v in y.saturating_sub(VOTE_RADIUS)..(y + VOTE_RADIUS + 1).min(height) {
+            for u in x.saturating_sub(VOTE_RADIUS)..(x + VOTE_RADIUS + 1).min(width) {
+                let label = before[v * width + u];
+                if label != UNASSIGNED {
+                    total += 1;
+                    match counts.iter_mut().find(|(id, _)| *id == label) {
+                        Some((_, count)) => *count += 1,
+                        None => counts.push((label, 1)),
+                    }
+                }
+            }
+        }
+        let winner = counts.into_iter().max_by_key(|&(id, count)| (count, u16::MAX - id));
+        if let Some((winner, count)) = winner
+            && winner != own
+            && count * 100 >= total * MAJORITY_PERCENT
+            && cylinders[usize::from(winner) - 1].contains(scene.pixels[pixel])
+        {
+            ledger.assign(pixel, winner);
+        }
+    }
+}
