@@ -39,7 +39,29 @@ pub(super) fn hdr(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
 pub(super) fn pnm(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
     let decoder = PnmDecoder::new(Cursor::new(bytes))?;
     let max = pnm_max(decoder.header());
-    Ok(Decoded { max: Some(max), ..read(decoder, budget)? })
+    let decoded = read(decoder, budget)?;
+    let samples = match decoded.samples {
+        Samples::U8(samples) => {
+            let codes = codes_before_spreading(255, max);
+            Samples::U8(samples.into_iter().map(|v| codes[usize::from(v)] as u8).collect())
+        }
+        Samples::U16(samples) => {
+            let codes = codes_before_spreading(65535, max);
+            Samples::U16(samples.into_iter().map(|v| codes[usize::from(v)] as u16).collect())
+        }
+        floats_or_wider => floats_or_wider,
+    };
+    Ok(Decoded { max: Some(max), samples, ..decoded })
+}
+
+/// `image` spreads samples of `0..=max` over `0..=spread`, rounded; the original of each, by its very arithmetic.
+fn codes_before_spreading(spread: u32, max: u32) -> Vec<u32> {
+    let factor = spread as f32 / max as f32;
+    let mut codes = vec![max; spread as usize + 1];
+    for code in 0..=max.min(spread) {
+        codes[(code as f32 * factor).round() as usize] = code;
+    }
+    codes
 }
 
 fn pnm_max(header: &PnmHeader) -> u32 {
