@@ -165,6 +165,7 @@ impl Matte<'_> {
     }
 
     /// Pixel `index`, which the file holds as `stored`, as three bands and alpha, if there is one.
+    #[allow(clippy::float_cmp, reason = "only what is exactly the same is unchanged")]
     fn write_pixel<T: Sample>(
         &self,
         index: usize,

@@ -3,6 +3,9 @@
 use image::{ExtendedColorType, ImageEncoder};
 use std::io::Cursor;
 
+/// Where the first chunk of a PNG ends, which is the header.
+const AFTER_IHDR: usize = 8 + 25;
+
 /// What a PNG is made of; samples of 16 bits are big-endian.
 #[derive(Default)]
 pub struct Png<'a> {
@@ -31,7 +34,6 @@ impl Png<'_> {
         let mut writer = png::Encoder::with_info(&mut bytes, info).unwrap().write_header().unwrap();
         writer.write_image_data(self.data).unwrap();
         writer.finish().unwrap();
-        const AFTER_IHDR: usize = 8 + 25;
         let mut extra = Vec::new();
         for (name, data) in self.chunks {
             extra.extend_from_slice(&(data.len() as u32).to_be_bytes());

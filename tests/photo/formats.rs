@@ -50,7 +50,7 @@ fn palettes_are_looked_up() {
     assert_eq!(pixels(&photo), [[10.0, 20.0, 30.0], [8.0, 10.0, 12.0]]);
     assert_eq!(photo.source.layout, Layout::Rgba);
 
-    let map = [0, 257 * 7, 257 * 1, 257 * 8, 257 * 2, 257 * 9];
+    let map = [0, 257 * 7, 257, 257 * 8, 257 * 2, 257 * 9];
     let mut wide = [0u16; 48];
     wide[..2].copy_from_slice(&map[..2]);
     wide[16..18].copy_from_slice(&map[2..4]);

@@ -1,5 +1,8 @@
 //! Photographs of every format: written by the test itself, read back to exact linear counts, and written again.
 
+#![allow(clippy::float_cmp, reason = "exactness is what is tested")]
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
+
 mod broken;
 mod encodings;
 mod files;

@@ -10,12 +10,12 @@ use image::codecs::webp::WebPDecoder;
 use image::{ColorType, ImageDecoder};
 use std::io::Cursor;
 
-pub(super) fn bmp(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn bmp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     read(BmpDecoder::new(Cursor::new(bytes))?, budget)
 }
 
 /// Of an animation, the first frame.
-pub(super) fn webp(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn webp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let decoder = WebPDecoder::new(Cursor::new(bytes))?;
     let animated = decoder.has_animation();
     let mut decoded = read(decoder, budget)?;
@@ -25,7 +25,7 @@ pub(super) fn webp(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
     Ok(decoded)
 }
 
-pub(super) fn hdr(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn hdr(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     // `#?RGBE` is as common as the signature of the specification; only the lenient reader takes it.
     let decoder = if bytes.starts_with(b"#?RADIANCE") {
         HdrDecoder::new(Cursor::new(bytes))
@@ -36,7 +36,7 @@ pub(super) fn hdr(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
 }
 
 /// Samples keep the file's own maximum, whatever it is.
-pub(super) fn pnm(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn pnm(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let decoder = PnmDecoder::new(Cursor::new(bytes))?;
     let max = pnm_max(decoder.header());
     let decoded = read(decoder, budget)?;
@@ -79,7 +79,7 @@ fn pnm_max(header: &PnmHeader) -> u32 {
     }
 }
 
-fn read(mut decoder: impl ImageDecoder, budget: &Budget) -> Result<Decoded, Fault> {
+fn read(mut decoder: impl ImageDecoder, budget: Budget) -> Result<Decoded, Fault> {
     let (width, height) = decoder.dimensions();
     let size = budget.admit(width, height)?;
     let icc = decoder.icc_profile()?;
