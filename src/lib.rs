@@ -2,6 +2,7 @@
 
 pub mod analysis;
 pub mod color;
+pub mod export;
 pub mod intrinsic;
 pub mod photo;
 pub mod raster;

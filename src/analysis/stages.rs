@@ -121,7 +121,7 @@ impl Stages {
             begin(recorder, Stage::Split);
             Arc::new(split(&scene, &regions, recorder))
         })?;
-        let warnings = warnings(image, &regions.labels, &planar, &masks);
+        let warnings = warnings(&regions.labels, &planar, &masks);
         Ok(Analysis {
             used,
             masks,
@@ -191,12 +191,8 @@ fn area_map(areas: &Areas, windows: &Windows, width: usize, height: usize) -> Ra
     map
 }
 
-fn warnings(image: &LinearImage, labels: &LabelMap, planar: &PlanarRegions, masks: &Masks) -> Vec<String> {
+fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks) -> Vec<String> {
     let mut warnings = Vec::new();
-    let invalid = image.invalid.as_slice().iter().filter(|&&invalid| invalid).count();
-    if invalid > 0 {
-        warnings.push(format!("{invalid} pixels hold no finite, non-negative value and were left out"));
-    }
     let lit = (0..labels.len()).filter(|&pixel| !masks.dark(pixel)).count();
     let assigned = labels.as_slice().iter().filter(|&&label| label != 0).count();
     if labels.is_empty() || lit == 0 {

@@ -1,7 +1,8 @@
 //! From labels to final regions: what is too small goes, what lies apart is separated, numbers are given by size.
 //!
 //! `split_components`: two parts of a region that lie apart are two objects of one colour when background lies between
-//! them, and one object behind another when the other's pixels do (a cup seen through a handle stays one).
+//! them, and one object behind another when the other's pixels do (a cup seen through a handle stays one). Shadow is dark
+//! like background; a part that lies nearer than its own size is taken to lie behind a shadow.
 
 use super::ledger::{Ledger, Members};
 use super::planar::{PlanarHypothesis, PlanarRegions};
@@ -14,6 +15,8 @@ use std::collections::BTreeMap;
 const MIN_REGION_PX: usize = 60;
 /// Parts of a region at most this far apart are one part, pixels.
 const APART_PX: usize = 4;
+/// Widest shadow that may part an object, pixels.
+const MAX_SHADOW_PX: f64 = 30.0;
 /// Border pixels looked at when the gap between two parts is judged.
 const BORDER_SAMPLES: usize = 300;
 
@@ -133,7 +136,8 @@ fn parts(labels: &LabelMap, pixels: &[u32]) -> Vec<Vec<u32>> {
     parts.into_values().collect()
 }
 
-/// Whether what lies between two parts, at their narrowest, is mostly other regions: an object in front.
+/// Whether two parts are one object: near one another for their size, or parted mostly by other regions, by an object in
+/// front.
 fn same_object(labels: &LabelMap, one: &[u32], other: &[u32], id: u16) -> bool {
     let width = labels.width();
     let border = |part: &[u32]| -> Vec<(i64, i64)> {
@@ -154,6 +158,11 @@ fn same_object(labels: &LabelMap, one: &[u32], other: &[u32], id: u16) -> bool {
         .flat_map(|a| far.iter().map(move |&b| (a, b)))
         .min_by_key(|(a, b)| (a.0 - b.0).pow(2) + (a.1 - b.1).pow(2));
     let Some((a, b)) = closest else { return false };
+    let gap_px = ((a.0 - b.0).pow(2) + (a.1 - b.1).pow(2)) as f64;
+    let size_px = (one.len().min(other.len()) as f64).sqrt();
+    if gap_px.sqrt() < size_px.min(MAX_SHADOW_PX) {
+        return true;
+    }
     let steps = (a.0 - b.0).abs().max((a.1 - b.1).abs()).max(1);
     let between = (1..steps).map(|i| {
         let at = |from: i64, to: i64| (from + (to - from) * i / steps) as usize;
