@@ -4,5 +4,7 @@ pub mod analysis;
 pub mod intrinsic;
 pub mod photo;
 pub mod raster;
+pub mod report;
 pub mod segment;
 pub mod trace;
+pub mod truth;
