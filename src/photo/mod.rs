@@ -1,5 +1,154 @@
 //! From a file to linear light, and which of its pixels to believe.
+//!
+//! [`read`] takes any of eight formats (by content, not by name), undoes the tone curve that the file, the user
+//! or custom says it has, composites transparency on black, turns the picture upright and hands out a [`Photo`]:
+//! linear counts for the analysis, and the [`Source`] that is needed to write the photograph back as it came.
 
+mod curve;
+mod decode;
+mod encoding;
+mod error;
+mod format;
+mod icc;
 mod linear;
+mod linearise;
+mod orient;
+mod source;
 
+pub use curve::ToneCurve;
+pub(crate) use curve::nearest_code;
+pub use encoding::{Encoding, EncodingChoice, InvalidEncoding};
+pub use error::ReadError;
+pub use format::Format;
 pub use linear::LinearImage;
+pub use source::{AlphaKind, Layout, PngColour, Samples, Source};
+
+use crate::raster::Raster;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// Counts of full scale unless told otherwise.
+pub const FULL_SCALE_COUNTS: f64 = 255.0;
+
+/// How files are read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReadOptions {
+    /// What the file's values mean.
+    pub encoding: EncodingChoice,
+    /// Counts that an integer's maximum and a float's 1.0 stand for; [`FULL_SCALE_COUNTS`] if not given.
+    pub full_scale: Option<f64>,
+    /// Pictures with more pixels are refused before memory is taken for them, megapixels.
+    pub max_megapixels: f64,
+}
+
+impl Default for ReadOptions {
+    fn default() -> Self {
+        Self { encoding: EncodingChoice::Auto, full_scale: None, max_megapixels: 100.0 }
+    }
+}
+
+/// A photograph in linear light, and all that is known of its file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Photo {
+    /// The file's name as it was given.
+    pub name: String,
+    /// The picture for the analysis, upright.
+    pub image: LinearImage,
+    /// What the file held, upright too.
+    pub source: Source,
+    /// The tone curves that were undone, and why these.
+    pub encoding: Encoding,
+    /// Counts that an integer's maximum or a float's 1.0 stands for.
+    pub full_scale: f64,
+    /// What to beware of, a sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// Reads the photograph at `path`.
+///
+/// # Errors
+/// [`ReadError`], one line that names the file: not readable, no picture, damaged, too large, or nonsense in `options`.
+pub fn read(path: &Path, options: &ReadOptions) -> Result<Photo, ReadError> {
+    let name = path.display().to_string();
+    let io = |source| ReadError::Io { file: name.clone(), source };
+    let mut file = File::open(path).map_err(io)?;
+    // The first bytes alone tell most strangers, however large (or endless) the file is.
+    let mut bytes = Vec::new();
+    (&mut file).take(Format::MAGIC_BYTES as u64).read_to_end(&mut bytes).map_err(io)?;
+    identify(&bytes, &name)?;
+    file.read_to_end(&mut bytes).map_err(io)?;
+    decode(&bytes, &name, options)
+}
+
+/// Reads the photograph in `bytes`; `name_hint` is used in messages, and its extension is compared with the content.
+///
+/// # Errors
+/// As [`read`].
+pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Photo, ReadError> {
+    check(options)?;
+    let format = identify(bytes, name_hint)?;
+    let budget = decode::Budget { max_megapixels: options.max_megapixels };
+    let decoded = decode::decode(format, bytes, &budget).map_err(|fault| fault.of(name_hint, format))?;
+
+    let mut warnings: Vec<String> = format.extension_warning(name_hint).into_iter().collect();
+    warnings.extend(decoded.warnings);
+    let (samples, (width, height)) =
+        orient::upright(decoded.samples, decoded.size, decoded.layout.channels(), decoded.orientation);
+    let source = Source {
+        format,
+        layout: decoded.layout,
+        samples,
+        max: decoded.max,
+        alpha: decoded.alpha,
+        icc: decoded.icc,
+        png: decoded.png,
+    };
+    let encoding = Encoding::of(options.encoding, &source, &mut warnings);
+    let full_scale = options.full_scale.unwrap_or(FULL_SCALE_COUNTS);
+    let pixels = linearise::linear_pixels(&source, &encoding.curves, full_scale);
+    let pixels = Raster::from_vec(width, height, pixels)
+        .ok_or_else(|| error::Fault::damaged("its size does not fit its pixels").of(name_hint, format))?;
+    let saturation = source.max.map(|_| full_scale as f32);
+    let image = LinearImage::new(pixels, saturation);
+    warnings.extend(pixel_warnings(&source, &image));
+    Ok(Photo { name: name_hint.to_owned(), image, source, encoding, full_scale, warnings })
+}
+
+fn check(options: &ReadOptions) -> Result<(), ReadError> {
+    let positive = |value: f64| value.is_finite() && value > 0.0;
+    match options.full_scale {
+        Some(value) if !positive(value) => Err(ReadError::Option { name: "full scale", value, unit: " of counts" }),
+        _ if !positive(options.max_megapixels) => {
+            let value = options.max_megapixels;
+            Err(ReadError::Option { name: "max megapixels", value, unit: " of megapixels" })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn identify(bytes: &[u8], name: &str) -> Result<Format, ReadError> {
+    let file = name.to_owned();
+    if bytes.is_empty() {
+        return Err(ReadError::Empty { file });
+    }
+    Format::of_content(bytes).map_err(|found| ReadError::UnknownFormat { file, found })
+}
+
+fn pixel_warnings(source: &Source, image: &LinearImage) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let pixels = image.pixels.len();
+    let transparent = linearise::count_transparent(source);
+    if transparent > 0 {
+        warnings.push(format!(
+            "{transparent} of {pixels} pixels are not fully opaque: the picture was composited on black"
+        ));
+    }
+    let invalid = image.invalid.as_slice().iter().filter(|&&bad| bad).count();
+    if invalid > 0 {
+        warnings.push(format!(
+            "{invalid} of {pixels} pixels have values that are negative or not finite: they are left out"
+        ));
+    }
+    warnings
+}

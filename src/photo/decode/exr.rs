@@ -1,0 +1,109 @@
+//! `OpenEXR`: the first layer with R, G and B, or else with Y; half, float and integer channels become floats.
+
+use super::{Budget, Decoded};
+use crate::photo::error::Fault;
+use crate::photo::source::{AlphaKind, Layout, Samples};
+use exr::image::read::specific_channels::ReadSpecificChannel as _;
+use exr::math::Vec2;
+use exr::meta::header::Header;
+use exr::prelude::{ReadChannels as _, ReadLayers as _, read};
+use std::io::Cursor;
+
+type Chunks<'a> = exr::block::reader::Reader<Cursor<&'a [u8]>>;
+
+pub(super) fn decode(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+    let chunks = exr::block::read(Cursor::new(bytes), false)?;
+    for header in chunks.headers() {
+        budget.admit(header.layer_size.x(), header.layer_size.y())?;
+    }
+    let flat = |header: &&Header| !header.deep;
+    let layer = |wanted: &[&str]| {
+        chunks.headers().iter().filter(flat).find(|header| wanted.iter().all(|name| has(header, name)))
+    };
+    let (header, grey) = match (layer(&["R", "G", "B"]), layer(&["Y"])) {
+        (Some(header), _) => (header, false),
+        (None, Some(header)) if !has(header, "RY") => (header, true),
+        _ => {
+            let hint = "export its picture as one flat layer with channels R, G and B, or Y";
+            return Err(Fault::unsupported(channel_names(chunks.headers()), hint));
+        }
+    };
+    let size = (header.layer_size.x(), header.layer_size.y());
+    let with_alpha = has(header, "A");
+    let mut warnings = Vec::new();
+    if chunks.headers().len() > 1 {
+        let layers = chunks.headers().len();
+        warnings.push(format!("the OpenEXR file holds {layers} layers: only the first with a picture is read"));
+    }
+    if header.shared_attributes.display_window.size != header.layer_size {
+        warnings.push("the OpenEXR file's data window differs from its display window: the data are read".into());
+    }
+    let (layout, data) = match (grey, with_alpha) {
+        (false, false) => (Layout::Rgb, rgb(chunks)?),
+        (false, true) => (Layout::Rgba, rgba(chunks)?),
+        (true, false) => (Layout::Grey, luminance(chunks)?),
+        (true, true) => (Layout::GreyAlpha, luminance_alpha(chunks)?),
+    };
+    if data.len() != size.0 * size.1 * layout.channels() {
+        return Err(Fault::damaged("its pixels do not fill its size"));
+    }
+    // "Technical Introduction to OpenEXR", premultiplied vs. un-premultiplied: colour is multiplied by alpha.
+    let alpha = AlphaKind::Associated;
+    Ok(Decoded { alpha, warnings, ..Decoded::plain(size, layout, Samples::F32(data)) })
+}
+
+fn has(header: &Header, name: &str) -> bool {
+    header.channels.list.iter().any(|channel| channel.name.eq(name))
+}
+
+fn channel_names(headers: &[Header]) -> String {
+    let mut names: Vec<String> =
+        headers.iter().flat_map(|h| &h.channels.list).take(9).map(|c| c.name.to_string()).collect();
+    if names.len() == 9 {
+        names[8] = "\u{2026}".into();
+    }
+    format!("the channels {}", names.join(", "))
+}
+
+/// Samples of one layer as they arrive, in any order of their pixels.
+struct Pixels {
+    width: usize,
+    data: Vec<f32>,
+}
+
+impl Pixels {
+    fn new(size: Vec2<usize>, channels: usize) -> Self {
+        Self { width: size.x(), data: vec![0.0; size.area() * channels] }
+    }
+
+    fn set<const CHANNELS: usize>(&mut self, position: Vec2<usize>, pixel: [f32; CHANNELS]) {
+        let first = (position.y() * self.width + position.x()) * CHANNELS;
+        self.data[first..first + CHANNELS].copy_from_slice(&pixel);
+    }
+}
+
+/// One reader per set of channels: the crate knows their number at compile time.
+macro_rules! channel_reader {
+    ($name:ident, $count:literal, [$($channel:literal),+], $pixel:pat => $values:expr, $tuple:ty) => {
+        fn $name(chunks: Chunks) -> Result<Vec<f32>, Fault> {
+            let image = read()
+                .no_deep_data()
+                .largest_resolution_level()
+                .specific_channels()
+                $(.required($channel))+
+                .collect_pixels(
+                    |size, _channels| Pixels::new(size, $count),
+                    |pixels: &mut Pixels, position, $pixel: $tuple| pixels.set(position, $values),
+                )
+                .first_valid_layer()
+                .all_attributes()
+                .from_chunks(chunks)?;
+            Ok(image.layer_data.channel_data.pixels.data)
+        }
+    };
+}
+
+channel_reader!(rgb, 3, ["R", "G", "B"], (r, g, b) => [r, g, b], (f32, f32, f32));
+channel_reader!(rgba, 4, ["R", "G", "B", "A"], (r, g, b, a) => [r, g, b, a], (f32, f32, f32, f32));
+channel_reader!(luminance, 1, ["Y"], (y,) => [y], (f32,));
+channel_reader!(luminance_alpha, 2, ["Y", "A"], (y, a) => [y, a], (f32, f32));

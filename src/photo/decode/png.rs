@@ -1,0 +1,61 @@
+//! PNG (3rd edition), through the `png` crate, which hands out the colour chunks that `image` keeps to itself.
+
+use super::{Budget, Decoded};
+use crate::photo::error::Fault;
+use crate::photo::source::{Layout, PngColour, Samples};
+use image::metadata::Orientation;
+use png::{BitDepth, ColorType, Decoder, Info, Limits, Transformations};
+use std::io::Cursor;
+
+pub(super) fn decode(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+    let mut decoder =
+        Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: budget.working_bytes() });
+    decoder.set_ignore_text_chunk(true);
+    // Palettes are looked up, tRNS becomes alpha, and 1, 2 and 4 bits are spread over 8, which is exact.
+    decoder.set_transformations(Transformations::EXPAND);
+    let header = decoder.read_header_info()?;
+    let size = budget.admit(header.width, header.height)?;
+
+    let mut reader = decoder.read_info()?;
+    let length = reader.output_buffer_size().ok_or_else(|| Fault::damaged("its rows are too long"))?;
+    let mut data = vec![0; length];
+    reader.next_frame(&mut data)?;
+
+    let (color, depth) = reader.output_color_type();
+    let layout = match color {
+        ColorType::Grayscale => Layout::Grey,
+        ColorType::GrayscaleAlpha => Layout::GreyAlpha,
+        ColorType::Rgb => Layout::Rgb,
+        ColorType::Rgba => Layout::Rgba,
+        ColorType::Indexed => return Err(Fault::damaged("its palette is missing")),
+    };
+    let samples = if depth == BitDepth::Sixteen {
+        Samples::U16(data.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]])).collect())
+    } else {
+        Samples::U8(data)
+    };
+    let info = reader.info();
+    let mut decoded = Decoded::plain(size, layout, samples);
+    decoded.png = colour_chunks(info);
+    decoded.icc = info.icc_profile.as_ref().map(|profile| profile.to_vec());
+    decoded.orientation = info
+        .exif_metadata
+        .as_ref()
+        .and_then(|exif| Orientation::from_exif_chunk(exif))
+        .unwrap_or(Orientation::NoTransforms);
+    if info.animation_control.is_some() {
+        decoded.warnings.push("the PNG is animated: only its still picture is read".into());
+    }
+    Ok(decoded)
+}
+
+fn colour_chunks(info: &Info) -> PngColour {
+    PngColour {
+        cicp: info.coding_independent_code_points.map(|points| {
+            let range = u8::from(points.is_video_full_range_image);
+            [points.color_primaries, points.transfer_function, points.matrix_coefficients, range]
+        }),
+        srgb: info.srgb.map(|intent| intent as u8),
+        gama: info.gama_chunk.map(png::ScaledFloat::into_scaled),
+    }
+}

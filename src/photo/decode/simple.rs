@@ -1,0 +1,82 @@
+//! The formats that `image` reads as we need them: BMP, PNM, WebP and Radiance HDR.
+
+use super::{Budget, Decoded};
+use crate::photo::error::{CONVERT, Fault};
+use crate::photo::source::{Layout, Samples};
+use image::codecs::bmp::BmpDecoder;
+use image::codecs::hdr::HdrDecoder;
+use image::codecs::pnm::{ArbitraryHeader, GraymapHeader, PixmapHeader, PnmDecoder, PnmHeader};
+use image::codecs::webp::WebPDecoder;
+use image::{ColorType, ImageDecoder};
+use std::io::Cursor;
+
+pub(super) fn bmp(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+    read(BmpDecoder::new(Cursor::new(bytes))?, budget)
+}
+
+/// Of an animation, the first frame.
+pub(super) fn webp(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+    let decoder = WebPDecoder::new(Cursor::new(bytes))?;
+    let animated = decoder.has_animation();
+    let mut decoded = read(decoder, budget)?;
+    if animated {
+        decoded.warnings.push("the WebP is animated: only its first frame is read".into());
+    }
+    Ok(decoded)
+}
+
+pub(super) fn hdr(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+    // `#?RGBE` is as common as the signature of the specification; only the lenient reader takes it.
+    let decoder = if bytes.starts_with(b"#?RADIANCE") {
+        HdrDecoder::new(Cursor::new(bytes))
+    } else {
+        HdrDecoder::new_nonstrict(Cursor::new(bytes))
+    };
+    read(decoder?, budget)
+}
+
+/// Samples keep the file's own maximum, whatever it is.
+pub(super) fn pnm(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+    let decoder = PnmDecoder::new(Cursor::new(bytes))?;
+    let max = pnm_max(decoder.header());
+    Ok(Decoded { max: Some(max), ..read(decoder, budget)? })
+}
+
+fn pnm_max(header: &PnmHeader) -> u32 {
+    if let Some(GraymapHeader { maxwhite, .. }) = header.as_graymap() {
+        *maxwhite
+    } else if let Some(PixmapHeader { maxval, .. }) = header.as_pixmap() {
+        *maxval
+    } else if let Some(ArbitraryHeader { maxval, .. }) = header.as_arbitrary()
+        && *maxval > 1
+    {
+        *maxval
+    } else {
+        // `image` spreads black and white over 8 bits.
+        255
+    }
+}
+
+fn read(mut decoder: impl ImageDecoder, budget: &Budget) -> Result<Decoded, Fault> {
+    let (width, height) = decoder.dimensions();
+    let size = budget.admit(width, height)?;
+    let icc = decoder.icc_profile()?;
+    let orientation = decoder.orientation()?;
+    let color = decoder.color_type();
+    let layout = Layout::of_channels(usize::from(color.channel_count()));
+    let layout = layout.ok_or_else(|| Fault::unsupported(format!("{color:?} pixels"), CONVERT))?;
+    let mut data = vec![0; size.0 * size.1 * usize::from(color.bytes_per_pixel())];
+    decoder.read_image(&mut data)?;
+    let samples = match color {
+        ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => Samples::U8(data),
+        ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 => {
+            Samples::U16(data.chunks_exact(2).map(|b| u16::from_ne_bytes([b[0], b[1]])).collect())
+        }
+        ColorType::Rgb32F | ColorType::Rgba32F => {
+            let float = |b: &[u8]| f32::from_ne_bytes([b[0], b[1], b[2], b[3]]);
+            Samples::F32(data.chunks_exact(4).map(float).collect())
+        }
+        other => return Err(Fault::unsupported(format!("{other:?} pixels"), CONVERT)),
+    };
+    Ok(Decoded { icc, orientation, ..Decoded::plain(size, layout, samples) })
+}

@@ -1,0 +1,200 @@
+//! Which tone curve a file's values carry: what the user says, else what the file says, else what is usual.
+
+use super::curve::ToneCurve;
+use super::format::Format;
+use super::icc;
+use super::source::Source;
+use std::fmt;
+use std::str::FromStr;
+
+/// How the file's values are to be understood.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum EncodingChoice {
+    /// As the file says; sRGB for integers and linear for floats that say nothing.
+    #[default]
+    Auto,
+    /// Linear light, whatever the file says.
+    Linear,
+    /// sRGB, whatever the file says.
+    Srgb,
+    /// `linear = value ^ exponent`, whatever the file says.
+    Gamma(f64),
+}
+
+impl fmt::Display for EncodingChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => f.write_str("auto"),
+            Self::Linear => f.write_str("linear"),
+            Self::Srgb => f.write_str("srgb"),
+            Self::Gamma(exponent) => write!(f, "gamma:{exponent}"),
+        }
+    }
+}
+
+/// A text that is no encoding.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{0}` is no encoding: expected auto, linear, srgb or gamma:G with G from 0.1 to 10 (for example gamma:2.2)")]
+pub struct InvalidEncoding(String);
+
+impl FromStr for EncodingChoice {
+    type Err = InvalidEncoding;
+
+    fn from_str(text: &str) -> Result<Self, InvalidEncoding> {
+        let invalid = || InvalidEncoding(text.to_owned());
+        match text.trim().to_ascii_lowercase().as_str() {
+            "auto" => Ok(Self::Auto),
+            "linear" => Ok(Self::Linear),
+            "srgb" => Ok(Self::Srgb),
+            other => {
+                let exponent = other.strip_prefix("gamma:").ok_or_else(invalid)?;
+                let exponent = exponent.trim().parse().map_err(|_| invalid())?;
+                if ToneCurve::EXPONENTS.contains(&exponent) { Ok(Self::Gamma(exponent)) } else { Err(invalid()) }
+            }
+        }
+    }
+}
+
+/// The tone curves that were undone, and why these. Displayed as in `sRGB (assumed: the file does not say)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Encoding {
+    /// Of the red, green and blue band; of a grey picture three times the same.
+    pub curves: [ToneCurve; 3],
+    /// Where they come from, in words.
+    pub reason: String,
+}
+
+impl fmt::Display for Encoding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({})", self.curves[0].name(), self.reason)
+    }
+}
+
+impl Encoding {
+    /// Whether the file's values are linear light in all bands.
+    pub fn is_linear(&self) -> bool {
+        self.curves.iter().all(|curve| *curve == ToneCurve::Linear)
+    }
+
+    fn new(curve: ToneCurve, reason: impl Into<String>) -> Self {
+        Self { curves: [curve.clone(), curve.clone(), curve], reason: reason.into() }
+    }
+
+    /// The encoding of a file. What the file says in vain (and is therefore read as sRGB) is added to `warnings`.
+    pub(super) fn of(choice: EncodingChoice, source: &Source, warnings: &mut Vec<String>) -> Self {
+        let asked = "as asked";
+        match choice {
+            EncodingChoice::Linear => Self::new(ToneCurve::Linear, asked),
+            EncodingChoice::Srgb => Self::new(ToneCurve::Srgb, asked),
+            EncodingChoice::Gamma(exponent) => Self::new(ToneCurve::Gamma(exponent), asked),
+            EncodingChoice::Auto => match said(source) {
+                Some(Ok(encoding)) => encoding,
+                Some(Err(problem)) => {
+                    let encoding = Self::new(ToneCurve::Srgb, format!("assumed: {problem}"));
+                    warnings.push(format!("{problem}: read as sRGB; --encoding says otherwise"));
+                    encoding
+                }
+                None if source.max.is_none() => {
+                    Self::new(ToneCurve::Linear, "assumed: a float file that does not say")
+                }
+                None => Self::new(ToneCurve::Srgb, "assumed: the file does not say"),
+            },
+        }
+    }
+}
+
+/// What the file says: nothing, an encoding, or something that we cannot follow.
+///
+/// Of a PNG's chunks the first of cICP, iCCP, sRGB and gAMA counts (PNG 3rd edition, 12.1 and 13.13).
+fn said(source: &Source) -> Option<Result<Encoding, String>> {
+    match source.format {
+        Format::Exr => return Some(Ok(Encoding::new(ToneCurve::Linear, "OpenEXR is linear light"))),
+        Format::Hdr => return Some(Ok(Encoding::new(ToneCurve::Linear, "Radiance HDR is linear light"))),
+        _ => {}
+    }
+    if let Some(cicp) = source.png.cicp
+        && let Some(said) = of_cicp(cicp)
+    {
+        return Some(said);
+    }
+    if let Some(profile) = &source.icc {
+        let curves = icc::tone_curves(profile, source.layout.is_grey());
+        return Some(curves.map(|curves| Encoding { curves, reason: "ICC profile".into() }));
+    }
+    if source.png.srgb.is_some() {
+        return Some(Ok(Encoding::new(ToneCurve::Srgb, "PNG sRGB chunk")));
+    }
+    source.png.gama.map(of_gama)
+}
+
+/// The transfer characteristics of ITU-T H.273, table 3; `None` for "unspecified".
+fn of_cicp([_, transfer, _, full_range]: [u8; 4]) -> Option<Result<Encoding, String>> {
+    let curve = match transfer {
+        2 => return None,
+        1 | 6 | 14 | 15 => Ok(ToneCurve::Bt709),
+        4 => Ok(ToneCurve::Gamma(2.2)),
+        5 => Ok(ToneCurve::Gamma(2.8)),
+        8 => Ok(ToneCurve::Linear),
+        13 => Ok(ToneCurve::Srgb),
+        16 => Err("PNG cICP says PQ (SMPTE ST 2084), which is not supported".to_owned()),
+        18 => Err("PNG cICP says HLG (ARIB STD-B67), which is not supported".to_owned()),
+        other => Err(format!("PNG cICP says transfer characteristics {other}, which is not supported")),
+    };
+    Some(match curve {
+        Ok(_) if full_range == 0 => Err("PNG cICP says narrow range, which is not supported".into()),
+        Ok(curve) => Ok(Encoding::new(curve, format!("PNG cICP transfer {transfer}"))),
+        Err(problem) => Err(problem),
+    })
+}
+
+/// gAMA holds the exponent of the encoding × 100 000; decoding takes its inverse.
+fn of_gama(gama: u32) -> Result<Encoding, String> {
+    let exponent = 100_000.0 / f64::from(gama);
+    let told = f64::from(gama) / 100_000.0;
+    if !ToneCurve::EXPONENTS.contains(&exponent) {
+        return Err(format!("PNG gAMA {told} makes no sense"));
+    }
+    let curve = if gama == 100_000 { ToneCurve::Linear } else { ToneCurve::Gamma(exponent) };
+    Ok(Encoding::new(curve, format!("PNG gAMA {told:?}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn choices_are_read_as_they_are_written() {
+        for text in ["auto", "linear", "srgb", "gamma:2.2"] {
+            assert_eq!(text.parse::<EncodingChoice>().unwrap().to_string(), text);
+        }
+        assert_eq!(" sRGB".parse(), Ok(EncodingChoice::Srgb));
+        for text in ["", "gamma", "gamma:", "gamma:x", "gamma:0", "gamma:-1", "gamma:nan", "gamma:inf", "rec709"] {
+            let message = text.parse::<EncodingChoice>().unwrap_err().to_string();
+            assert!(message.contains(&format!("`{text}`")) && message.contains("gamma:2.2"), "{message}");
+        }
+    }
+
+    #[test]
+    fn cicp_names_its_curves() {
+        let curve = |transfer| of_cicp([1, transfer, 0, 1]).map(|said| said.map(|e| e.curves[0].clone()));
+        assert_eq!(curve(2), None);
+        assert_eq!(curve(1), Some(Ok(ToneCurve::Bt709)));
+        assert_eq!(curve(4), Some(Ok(ToneCurve::Gamma(2.2))));
+        assert_eq!(curve(5), Some(Ok(ToneCurve::Gamma(2.8))));
+        assert_eq!(curve(8), Some(Ok(ToneCurve::Linear)));
+        assert_eq!(curve(13), Some(Ok(ToneCurve::Srgb)));
+        for unsupported in [16, 18, 200] {
+            assert!(curve(unsupported).unwrap().unwrap_err().contains("not supported"));
+        }
+        assert!(of_cicp([1, 13, 0, 0]).unwrap().unwrap_err().contains("narrow range"));
+    }
+
+    #[test]
+    fn gama_is_taken_at_its_word() {
+        assert_eq!(of_gama(100_000).unwrap().to_string(), "linear (PNG gAMA 1.0)");
+        let encoding = of_gama(45455).unwrap();
+        assert_eq!(encoding.curves[0], ToneCurve::Gamma(100_000.0 / 45455.0));
+        assert_eq!(encoding.to_string(), "gamma 2.2 (PNG gAMA 0.45455)");
+        assert!(of_gama(1).is_err() && of_gama(u32::MAX).is_err());
+    }
+}

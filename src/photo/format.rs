@@ -1,0 +1,160 @@
+//! Which format a file is in, by its first bytes.
+
+use std::fmt;
+use std::path::Path;
+
+/// The formats that are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// Portable Network Graphics.
+    Png,
+    /// JPEG.
+    Jpeg,
+    /// TIFF and `BigTIFF`.
+    Tiff,
+    /// Windows bitmap.
+    Bmp,
+    /// PBM, PGM, PPM and PAM.
+    Pnm,
+    /// WebP.
+    WebP,
+    /// `OpenEXR`.
+    Exr,
+    /// Radiance HDR.
+    Hdr,
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Format {
+    /// All of them, in words.
+    pub const NAMES: &'static str = "PNG, JPEG, TIFF, BMP, PNM, WebP, OpenEXR or Radiance HDR";
+
+    /// How many bytes [`Format::of_content`] looks at.
+    pub(super) const MAGIC_BYTES: usize = 16;
+
+    /// Its usual name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Png => "PNG",
+            Self::Jpeg => "JPEG",
+            Self::Tiff => "TIFF",
+            Self::Bmp => "BMP",
+            Self::Pnm => "PNM",
+            Self::WebP => "WebP",
+            Self::Exr => "OpenEXR",
+            Self::Hdr => "Radiance HDR",
+        }
+    }
+
+    /// File name extensions in lower case.
+    pub const fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Self::Png => &["png", "apng"],
+            Self::Jpeg => &["jpg", "jpeg", "jpe", "jfif"],
+            Self::Tiff => &["tif", "tiff"],
+            Self::Bmp => &["bmp", "dib"],
+            Self::Pnm => &["pnm", "pbm", "pgm", "ppm", "pam"],
+            Self::WebP => &["webp"],
+            Self::Exr => &["exr"],
+            Self::Hdr => &["hdr", "pic", "rgbe"],
+        }
+    }
+
+    /// Whether a file of this name is likely to be in a format that we read.
+    pub fn known_extension(path: &Path) -> bool {
+        let extension = extension_of(path);
+        Self::ALL.iter().any(|format| format.extensions().contains(&extension.as_str()))
+    }
+
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::Png,
+        Self::Jpeg,
+        Self::Tiff,
+        Self::Bmp,
+        Self::Pnm,
+        Self::WebP,
+        Self::Exr,
+        Self::Hdr,
+    ];
+
+    /// The format that the first bytes of a file tell, whatever its name.
+    ///
+    /// # Errors
+    /// What it is instead, in words.
+    pub(super) fn of_content(bytes: &[u8]) -> Result<Self, String> {
+        let starts = |magic: &[u8]| bytes.starts_with(magic);
+        let riff = |kind: &[u8]| starts(b"RIFF") && bytes.get(8..12) == Some(kind);
+        let media = |brands: &[&[u8]]| {
+            bytes.get(4..8) == Some(b"ftyp") && bytes.get(8..12).is_some_and(|brand| brands.contains(&brand))
+        };
+        if starts(b"\x89PNG\r\n\x1a\n") {
+            Ok(Self::Png)
+        } else if starts(b"\xff\xd8\xff") {
+            Ok(Self::Jpeg)
+        } else if [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"].iter().any(|magic| starts(*magic)) {
+            Ok(Self::Tiff)
+        } else if starts(b"v/1\x01") {
+            Ok(Self::Exr)
+        } else if starts(b"#?RADIANCE") || starts(b"#?RGBE") {
+            Ok(Self::Hdr)
+        } else if riff(b"WEBP") {
+            Ok(Self::WebP)
+        } else if matches!(bytes, [b'P', b'1'..=b'7', space, ..] if space.is_ascii_whitespace() || *space == b'#') {
+            Ok(Self::Pnm)
+        } else if starts(b"BM") {
+            Ok(Self::Bmp)
+        } else if starts(b"GIF8") {
+            Err("a GIF".into())
+        } else if starts(b"8BPS") {
+            Err("a Photoshop document".into())
+        } else if media(&[b"avif", b"avis"]) {
+            Err("an AVIF".into())
+        } else if media(&[b"heic", b"heix", b"mif1", b"msf1", b"heim", b"heis"]) {
+            Err("a HEIF".into())
+        } else if media(&[b"crx "]) || starts(b"FUJIFILM") || starts(b"IIU\0") || starts(b"IIRO") {
+            Err("a camera raw file".into())
+        } else if starts(b"\xff\x0a") || starts(b"\0\0\0\x0cJXL ") {
+            Err("a JPEG XL".into())
+        } else {
+            let first = &bytes[..bytes.len().min(8)];
+            Err(format!("a file that starts with \u{201c}{}\u{201d}", first.escape_ascii()))
+        }
+    }
+
+    /// A sentence about a name whose extension says something else, if it does.
+    pub(super) fn extension_warning(self, name: &str) -> Option<String> {
+        let extension = extension_of(Path::new(name));
+        let belongs = extension.is_empty() || self.extensions().contains(&extension.as_str());
+        (!belongs).then(|| format!("the name ends in .{extension}, but the file is a {self}: read as {self}"))
+    }
+}
+
+fn extension_of(path: &Path) -> String {
+    path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn content_decides_and_a_wrong_name_is_mentioned() {
+        assert_eq!(Format::of_content(b"\x89PNG\r\n\x1a\n...."), Ok(Format::Png));
+        assert_eq!(Format::of_content(b"P6\n1 1 255\n"), Ok(Format::Pnm));
+        assert_eq!(Format::of_content(b"RIFF\0\0\0\0WEBPVP8 "), Ok(Format::WebP));
+        assert_eq!(Format::of_content(b"GIF89a"), Err("a GIF".to_owned()));
+        assert!(Format::of_content(b"Pardon?").unwrap_err().contains("Pardon?"));
+        assert!(Format::of_content(b"").is_err());
+        assert_eq!(Format::Png.extension_warning("a/b.PNG"), None);
+        assert_eq!(Format::Png.extension_warning("b"), None);
+        let warning = Format::Png.extension_warning("b.jpg").unwrap();
+        assert!(warning.contains(".jpg") && warning.contains("PNG"));
+        assert!(Format::known_extension(Path::new("x.TIFF")) && !Format::known_extension(Path::new("x.txt")));
+    }
+}

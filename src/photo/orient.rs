@@ -1,0 +1,103 @@
+//! Turning a picture upright, as its EXIF orientation asks.
+
+use super::source::Samples;
+use image::metadata::Orientation;
+
+/// The samples of the upright picture, and its width and height. `channels` samples per pixel, rows of `width` pixels.
+pub(super) fn upright(
+    samples: Samples,
+    (width, height): (usize, usize),
+    channels: usize,
+    orientation: Orientation,
+) -> (Samples, (usize, usize)) {
+    if orientation == Orientation::NoTransforms {
+        return (samples, (width, height));
+    }
+    let turn = Turn { width, height, channels, orientation };
+    let samples = match samples {
+        Samples::U8(v) => Samples::U8(turn.apply(&v)),
+        Samples::U16(v) => Samples::U16(turn.apply(&v)),
+        Samples::U32(v) => Samples::U32(turn.apply(&v)),
+        Samples::F32(v) => Samples::F32(turn.apply(&v)),
+    };
+    (samples, turn.size())
+}
+
+/// How a stored picture of `width × height` pixels is turned.
+struct Turn {
+    width: usize,
+    height: usize,
+    channels: usize,
+    orientation: Orientation,
+}
+
+impl Turn {
+    /// Width and height of the upright picture.
+    fn size(&self) -> (usize, usize) {
+        match self.orientation {
+            Orientation::NoTransforms
+            | Orientation::FlipHorizontal
+            | Orientation::FlipVertical
+            | Orientation::Rotate180 => (self.width, self.height),
+            Orientation::Rotate90
+            | Orientation::Rotate270
+            | Orientation::Rotate90FlipH
+            | Orientation::Rotate270FlipH => (self.height, self.width),
+        }
+    }
+
+    /// Column and row in the stored picture of column `x`, row `y` of the upright one.
+    fn stored_from_upright(&self, x: usize, y: usize) -> (usize, usize) {
+        let (right, bottom) = (self.width - 1, self.height - 1);
+        match self.orientation {
+            Orientation::NoTransforms => (x, y),
+            Orientation::FlipHorizontal => (right - x, y),
+            Orientation::Rotate180 => (right - x, bottom - y),
+            Orientation::FlipVertical => (x, bottom - y),
+            Orientation::Rotate90FlipH => (y, x),
+            Orientation::Rotate90 => (y, bottom - x),
+            Orientation::Rotate270FlipH => (right - y, bottom - x),
+            Orientation::Rotate270 => (right - y, x),
+        }
+    }
+
+    fn apply<T: Copy>(&self, samples: &[T]) -> Vec<T> {
+        let (upright_width, upright_height) = self.size();
+        let mut turned = Vec::with_capacity(samples.len());
+        for y in 0..upright_height {
+            for x in 0..upright_width {
+                let (stored_x, stored_y) = self.stored_from_upright(x, y);
+                let first = (stored_y * self.width + stored_x) * self.channels;
+                turned.extend_from_slice(&samples[first..first + self.channels]);
+            }
+        }
+        turned
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The picture `abc/def` as each EXIF orientation (1 to 8) stores it, and what must come out.
+    #[test]
+    fn all_eight_orientations_come_out_upright() {
+        let stored: [(&str, usize); 8] = [
+            ("abcdef", 3),
+            ("cbafed", 3),
+            ("fedcba", 3),
+            ("defabc", 3),
+            ("adbecf", 2),
+            ("cfbead", 2),
+            ("fcebda", 2),
+            ("daebfc", 2),
+        ];
+        for (exif, (text, width)) in (1..).zip(stored) {
+            let orientation = Orientation::from_exif(exif).unwrap();
+            let samples = Samples::U8(text.bytes().flat_map(|b| [b, b + 1]).collect());
+            let (turned, size) = upright(samples, (width, 6 / width), 2, orientation);
+            assert_eq!(size, (3, 2), "orientation {exif}");
+            assert_eq!(turned, Samples::U8(b"abbccddeeffg".to_vec()), "orientation {exif}");
+        }
+    }
+}
