@@ -1,6 +1,7 @@
 //! Physics-based colour vision with the Dichromatic Reflection Model (Klinker, Shafer & Kanade 1990).
 
 pub mod analysis;
+pub mod export;
 pub mod intrinsic;
 pub mod photo;
 pub mod raster;

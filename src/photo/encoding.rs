@@ -34,7 +34,9 @@ impl fmt::Display for EncodingChoice {
 
 /// A text that is no encoding.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is no encoding: expected auto, linear, srgb or gamma:G with G from 0.1 to 10 (for example gamma:2.2)")]
+#[error(
+    "`{0}` is no encoding: expected auto, linear, srgb or gamma:G with G from 0.1 to 10 (for example gamma:2.2)"
+)]
 pub struct InvalidEncoding(String);
 
 impl FromStr for EncodingChoice {
@@ -49,7 +51,11 @@ impl FromStr for EncodingChoice {
             other => {
                 let exponent = other.strip_prefix("gamma:").ok_or_else(invalid)?;
                 let exponent = exponent.trim().parse().map_err(|_| invalid())?;
-                if ToneCurve::EXPONENTS.contains(&exponent) { Ok(Self::Gamma(exponent)) } else { Err(invalid()) }
+                if ToneCurve::EXPONENTS.contains(&exponent) {
+                    Ok(Self::Gamma(exponent))
+                } else {
+                    Err(invalid())
+                }
             }
         }
     }
@@ -168,7 +174,9 @@ mod tests {
             assert_eq!(text.parse::<EncodingChoice>().unwrap().to_string(), text);
         }
         assert_eq!(" sRGB".parse(), Ok(EncodingChoice::Srgb));
-        for text in ["", "gamma", "gamma:", "gamma:x", "gamma:0", "gamma:-1", "gamma:nan", "gamma:inf", "rec709"] {
+        for text in
+            ["", "gamma", "gamma:", "gamma:x", "gamma:0", "gamma:-1", "gamma:nan", "gamma:inf", "rec709"]
+        {
             let message = text.parse::<EncodingChoice>().unwrap_err().to_string();
             assert!(message.contains(&format!("`{text}`")) && message.contains("gamma:2.2"), "{message}");
         }

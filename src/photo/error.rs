@@ -51,7 +51,9 @@ pub enum ReadError {
         found: String,
     },
     /// A width or a height of zero.
-    #[error("{file}: the {format} file declares {width} \u{d7} {height} pixels; expected at least one of each")]
+    #[error(
+        "{file}: the {format} file declares {width} \u{d7} {height} pixels; expected at least one of each"
+    )]
     NoPixels {
         /// Its name as it was given.
         file: String,

@@ -72,16 +72,8 @@ impl Format {
     }
 
     /// All of them.
-    pub const ALL: [Self; 8] = [
-        Self::Png,
-        Self::Jpeg,
-        Self::Tiff,
-        Self::Bmp,
-        Self::Pnm,
-        Self::WebP,
-        Self::Exr,
-        Self::Hdr,
-    ];
+    pub const ALL: [Self; 8] =
+        [Self::Png, Self::Jpeg, Self::Tiff, Self::Bmp, Self::Pnm, Self::WebP, Self::Exr, Self::Hdr];
 
     /// The format that the first bytes of a file tell, whatever its name.
     ///
@@ -105,7 +97,8 @@ impl Format {
             Ok(Self::Hdr)
         } else if riff(b"WEBP") {
             Ok(Self::WebP)
-        } else if matches!(bytes, [b'P', b'1'..=b'7', space, ..] if space.is_ascii_whitespace() || *space == b'#') {
+        } else if matches!(bytes, [b'P', b'1'..=b'7', space, ..] if space.is_ascii_whitespace() || *space == b'#')
+        {
             Ok(Self::Pnm)
         } else if starts(b"BM") {
             Ok(Self::Bmp)

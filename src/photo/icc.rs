@@ -8,8 +8,8 @@ use moxcms::{ColorProfile, ToneReprCurve};
 /// # Errors
 /// In words, why the profile's tone curves cannot be used.
 pub(super) fn tone_curves(profile: &[u8], grey: bool) -> Result<[ToneCurve; 3], String> {
-    let parsed =
-        ColorProfile::new_from_slice(profile).map_err(|error| format!("the ICC profile is broken ({error})"))?;
+    let parsed = ColorProfile::new_from_slice(profile)
+        .map_err(|error| format!("the ICC profile is broken ({error})"))?;
     let bands = if grey {
         // Some writers give grey pictures an RGB profile.
         let band = parsed.gray_trc.as_ref().or(parsed.green_trc.as_ref());
@@ -18,11 +18,8 @@ pub(super) fn tone_curves(profile: &[u8], grey: bool) -> Result<[ToneCurve; 3], 
         [parsed.red_trc.as_ref(), parsed.green_trc.as_ref(), parsed.blue_trc.as_ref()]
     };
     let [Some(red), Some(green), Some(blue)] = bands else {
-        let has_lookup_table = [
-            &parsed.lut_a_to_b_perceptual,
-            &parsed.lut_a_to_b_colorimetric,
-            &parsed.lut_a_to_b_saturation,
-        ];
+        let has_lookup_table =
+            [&parsed.lut_a_to_b_perceptual, &parsed.lut_a_to_b_colorimetric, &parsed.lut_a_to_b_saturation];
         return Err(if has_lookup_table.iter().any(|table| table.is_some()) {
             "the ICC profile is a colour lookup table, not tone curves".into()
         } else if grey {
@@ -44,7 +41,11 @@ fn curve(coded: &ToneReprCurve) -> Result<ToneCurve, String> {
         },
         ToneReprCurve::Parametric(parameters) => parametric(parameters)?,
     };
-    if curve.is_usable() { Ok(curve) } else { Err("the ICC profile has a tone curve that cannot be undone".into()) }
+    if curve.is_usable() {
+        Ok(curve)
+    } else {
+        Err("the ICC profile has a tone curve that cannot be undone".into())
+    }
 }
 
 /// The five function types of `parametricCurveType`, told apart by their number of parameters.

@@ -118,7 +118,9 @@ pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Ph
 fn check(options: &ReadOptions) -> Result<(), ReadError> {
     let positive = |value: f64| value.is_finite() && value > 0.0;
     match options.full_scale {
-        Some(value) if !positive(value) => Err(ReadError::Option { name: "full scale", value, unit: " of counts" }),
+        Some(value) if !positive(value) => {
+            Err(ReadError::Option { name: "full scale", value, unit: " of counts" })
+        }
         _ if !positive(options.max_megapixels) => {
             let value = options.max_megapixels;
             Err(ReadError::Option { name: "max megapixels", value, unit: " of megapixels" })

@@ -33,10 +33,12 @@ pub(super) fn decode(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
     let mut warnings = Vec::new();
     if chunks.headers().len() > 1 {
         let layers = chunks.headers().len();
-        warnings.push(format!("the OpenEXR file holds {layers} layers: only the first with a picture is read"));
+        warnings
+            .push(format!("the OpenEXR file holds {layers} layers: only the first with a picture is read"));
     }
     if header.shared_attributes.display_window.size != header.layer_size {
-        warnings.push("the OpenEXR file's data window differs from its display window: the data are read".into());
+        warnings
+            .push("the OpenEXR file's data window differs from its display window: the data are read".into());
     }
     let (layout, data) = match (grey, with_alpha) {
         (false, false) => (Layout::Rgb, rgb(chunks)?),

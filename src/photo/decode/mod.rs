@@ -56,8 +56,7 @@ impl Budget {
     /// The declared size as it is used in memory, if it may be taken.
     fn admit(&self, width: impl TryInto<u64>, height: impl TryInto<u64>) -> Result<(usize, usize), Fault> {
         // A size that does not even fit is too large in any case.
-        let (width, height) =
-            (width.try_into().unwrap_or(u64::MAX), height.try_into().unwrap_or(u64::MAX));
+        let (width, height) = (width.try_into().unwrap_or(u64::MAX), height.try_into().unwrap_or(u64::MAX));
         if width == 0 || height == 0 {
             return Err(Fault::NoPixels { width, height });
         }

@@ -41,9 +41,12 @@ impl Palette {
 /// A copy of the file whose first picture calls itself grey.
 pub(super) fn indices_as_grey(bytes: &[u8]) -> Result<Vec<u8>, Fault> {
     let directory = Directory::of(bytes);
-    let value_at = directory.and_then(|d| d.value_of(262)).ok_or_else(|| Fault::damaged("its directory is cut short"))?;
+    let value_at = directory
+        .and_then(|d| d.value_of(262))
+        .ok_or_else(|| Fault::damaged("its directory is cut short"))?;
     let mut copy = bytes.to_vec();
-    let value = if bytes.starts_with(b"II") { BLACK_IS_ZERO.to_le_bytes() } else { BLACK_IS_ZERO.to_be_bytes() };
+    let value =
+        if bytes.starts_with(b"II") { BLACK_IS_ZERO.to_le_bytes() } else { BLACK_IS_ZERO.to_be_bytes() };
     copy[value_at..value_at + 2].copy_from_slice(&value);
     Ok(copy)
 }
