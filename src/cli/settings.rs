@@ -16,14 +16,14 @@ pub(super) struct Settings {
     /// Parameters from a TOML file: `method`, one key per parameter, and the switches under `[refine]`
     #[arg(long, value_name = "FILE.toml")]
     params: Option<PathBuf>,
-    /// Estimate every parameter from the image that can be
+    /// Estimate from the image whatever can be, except what a flag of its own sets
     #[arg(long)]
     auto: bool,
     /// Switch a refinement on (repeatable)
     #[arg(long, value_name = "NAME", value_parser = switch_parser())]
     with: Vec<String>,
-    /// Switch a refinement off (repeatable)
-    #[arg(long, value_name = "NAME", value_parser = switch_parser())]
+    /// Switch a refinement off (repeatable; names as for --with)
+    #[arg(long, value_name = "NAME", value_parser = switch_parser(), hide_possible_values = true)]
     without: Vec<String>,
     #[command(flatten)]
     flags: ParameterFlags,
@@ -127,14 +127,11 @@ impl ParameterFlags {
 
 impl Args for ParameterFlags {
     fn augment_args(command: clap::Command) -> clap::Command {
-        let (defaults, paper) = (Params::default(), Params::paper());
         Parameter::ALL.into_iter().fold(command, |command, parameter| {
             let spec = parameter.spec();
-            let default = match (defaults.get(parameter), paper.get(parameter)) {
-                (refined, paper) if refined == paper => refined.to_string(),
-                (refined, paper) => format!("{refined}, with the paper's method {paper}"),
-            };
-            let help = format!("{} ({}) [default: {default}; 1990: {}]", spec.meaning, spec.unit, spec.paper);
+            let default = Params::default().get(parameter);
+            let help =
+                format!("{} ({}) [default: {default}; paper: {}]", spec.meaning, spec.unit, spec.paper);
             command.arg(
                 Arg::new(spec.name)
                     .long(spec.name.replace('_', "-"))
