@@ -63,3 +63,72 @@ fn viewable_noise(analysis: &Analysis) -> Raster<u8> {
     let half_width = analysis.used.slice_half_width_counts() as f32;
     analysis.intrinsic.noise.map(|epsilon| (128.0 + 127.0 * epsilon / half_width).round() as u8)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Session;
+    use crate::intrinsic::Intrinsic;
+    use crate::segment::Params;
+    use crate::trace::Class;
+    use crate::truth::ResultPictures;
+    use std::sync::Arc;
+
+    const SIZE: (usize, usize) = (20, 10);
+
+    /// One region with a highlight's worth of surface reflection, and noise that leaves the slice at one pixel.
+    fn made_up() -> (Arc<LinearImage>, Analysis) {
+        let image =
+            Arc::new(LinearImage::new(Raster::filled(SIZE.0, SIZE.1, [90.0, 60.5, 33.0]), Some(255.0)));
+        let mut analysis = Session::new(Arc::clone(&image)).run(&Params::paper(), &mut ()).unwrap();
+        let mut noise = Raster::filled(SIZE.0, SIZE.1, 0.0);
+        noise[1] = 10.0;
+        noise[2] = -5.0;
+        noise[3] = -99.0;
+        analysis.intrinsic = Arc::new(Intrinsic {
+            body: Raster::filled(SIZE.0, SIZE.1, [70.0, 40.0, 13.0]),
+            surface: Raster::filled(SIZE.0, SIZE.1, [20.0; 3]),
+            noise,
+            ..Intrinsic::clone(&analysis.intrinsic)
+        });
+        analysis.regions = Arc::new(Raster::filled(SIZE.0, SIZE.1, 300));
+        analysis.classes = Arc::new(Raster::from_vec(2, 1, vec![Some(Class::Line), None]).unwrap());
+        (image, analysis)
+    }
+
+    #[test]
+    fn numbers_survive_their_files() {
+        let (image, analysis) = made_up();
+        let folder = tempfile::tempdir().unwrap();
+        write_pictures(folder.path(), &image, &analysis).unwrap();
+        let read = ResultPictures::read(folder.path()).unwrap();
+        assert_eq!(read.regions, *analysis.regions, "labels above 255 need 16 bits");
+        for (written, read) in
+            [(&analysis.intrinsic.body, &read.body), (&analysis.intrinsic.surface, &read.surface)]
+        {
+            let pairs = written.as_slice().as_flattened().iter().zip(read.as_slice().as_flattened());
+            assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-4));
+        }
+    }
+
+    #[test]
+    fn the_residual_is_what_body_and_surface_leave() {
+        let (image, analysis) = made_up();
+        let rest = residual(&Subject { image: &image, analysis: &analysis });
+        assert_eq!(rest[7], [0.0, 0.5, 0.0]);
+    }
+
+    #[test]
+    fn noise_is_grey_within_the_slice() {
+        let (_, analysis) = made_up();
+        assert_eq!(analysis.used.slice_half_width_counts(), 10.0);
+        assert_eq!(viewable_noise(&analysis).row(0)[..4], [128, 255, 65, 0]);
+    }
+
+    #[test]
+    fn windows_have_the_papers_colours() {
+        let (_, analysis) = made_up();
+        let picture = stages::classification(&analysis);
+        assert_eq!((picture[9], picture[10]), ([255, 0, 0], [0, 0, 0]));
+    }
+}
