@@ -155,12 +155,12 @@ pub(super) fn in_short(finished: &Finished) -> String {
         .illuminant
         .direction
         .map_or("light unknown".to_owned(), |[r, g, b]| format!("light ({r:.2}, {g:.2}, {b:.2})"));
-    let mut text = format!("{}, {share}, {light}", count(report.regions.len(), "region"));
-    let warnings = report.warnings.len();
-    if warnings > 0 {
-        text += &format!(", {}", count(warnings, "warning"));
-    }
-    text + &format!(", {:.0} ms", report.timings_ms.analysis_ms())
+    let regions = count(report.regions.len(), "region");
+    let warnings = match report.warnings.len() {
+        0 => String::new(),
+        n => format!(", {}", count(n, "warning")),
+    };
+    format!("{regions}, {share}, {light}{warnings}, {:.0} ms", report.timings_ms.analysis_ms())
 }
 
 fn positive(text: &str) -> Result<f64, String> {

@@ -30,7 +30,7 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Analyze(analyze::Arguments),
+    Analyze(Box<analyze::Arguments>),
     Evaluate(evaluate::Arguments),
 }
 

@@ -102,7 +102,12 @@ pub(super) fn analyze(
     }
     let begin = Instant::now();
     let staging = Staging::begin(target, force)?;
-    export::write_pictures(staging.folder(), &image, &analysis)?;
+    let (pictures, matte) = rayon::join(
+        || export::write_pictures(staging.folder(), &image, &analysis),
+        || export::write_matte(&shot.photo, &analysis.intrinsic.body, staging.folder()),
+    );
+    pictures?;
+    matte.map_err(one_line)?;
     report.timings_ms.write = Some(ms_since(begin));
     staging.publish(&report)?;
     Ok(Finished { lit_share: lit_share(&image, &analysis), report })
@@ -143,10 +148,12 @@ fn ms_since(begin: Instant) -> f64 {
 }
 
 fn sha256_hex(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    let digit = |nibble: u8| char::from(b"0123456789abcdef"[usize::from(nibble)]);
+    Sha256::digest(bytes).iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
 }
 
-/// Read errors say all in one line, what the system said included: their sources would say it twice.
-fn one_line(error: photo::ReadError) -> Error {
+/// An error that says all in one line, what the system said included: its source would say that twice.
+#[allow(clippy::needless_pass_by_value, reason = "it stands in `map_err`")]
+fn one_line(error: impl std::error::Error) -> Error {
     anyhow!("{error}")
 }

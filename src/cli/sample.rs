@@ -42,10 +42,11 @@ fn analyze(target: &Path) -> Result<String> {
     let reference = Reference { truth, camera: shot.photo.image.pixels.clone() };
     let finished = one::analyze(&shot, &Params::default(), Some(&reference), target, false)?;
     let place = std::path::absolute(target)?;
-    let mut text = format!("The sample scene {NAME}: {}\n\n", in_short(&finished));
-    if let Some(scores) = finished.report.scores {
-        text += &table::aligned(&[(NAME.to_owned(), scores)]);
-    }
-    text += &format!("\nResult: {}\nYour own: dichroscope analyze PHOTO --out DIR\n", place.display());
-    Ok(text)
+    let scores = finished.report.scores.map(|scores| table::aligned(&[(NAME.to_owned(), scores)]));
+    Ok(format!(
+        "The sample scene {NAME}: {}\n\n{}\nResult: {}\nYour own: dichroscope analyze PHOTO --out DIR\n",
+        in_short(&finished),
+        scores.unwrap_or_default(),
+        place.display()
+    ))
 }

@@ -63,11 +63,9 @@ fn line(name: &str, figures: &[(&'static str, Option<f64>)]) -> Vec<String> {
 
 /// The first cell to the left, all others to the right.
 fn justified(cells: &[String], widths: &[usize]) -> String {
-    let mut line = format!("{:<width$}", cells[0], width = widths[0]);
-    for (cell, width) in cells.iter().zip(widths).skip(1) {
-        line += &format!("  {cell:>width$}");
-    }
-    line + "\n"
+    let first = format!("{:<width$}", cells[0], width = widths[0]);
+    let others = cells.iter().zip(widths).skip(1).map(|(cell, width)| format!("{cell:>width$}"));
+    std::iter::once(first).chain(others).collect::<Vec<_>>().join("  ") + "\n"
 }
 
 #[cfg(test)]

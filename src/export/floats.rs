@@ -1,4 +1,4 @@
-//! Numbers as OpenEXR: 32-bit floats, ZIP in blocks of 16 lines.
+//! Numbers as `OpenEXR`: 32-bit floats, ZIP in blocks of 16 lines.
 
 use super::ExportError;
 use crate::raster::Raster;

@@ -4,12 +4,14 @@
 //! and renames that into place. Floats are linear, 1.0 = 255 counts; `noise.exr` has the one channel `Y`.
 
 mod floats;
+mod matte;
 mod palette;
 mod pictures;
 mod png;
 mod stages;
 mod staging;
 
+pub use matte::{MatteError, write_matte};
 pub use pictures::write_pictures;
 pub use staging::{Staging, check_target};
 

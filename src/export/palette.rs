@@ -1,7 +1,7 @@
 //! Colours that tell regions apart, for readers with and without red and green cones alike.
 //!
 //! Hues are spread evenly in OKLCH (Ottosson 2020) on three levels of lightness: lightness is what remains where hue
-//! fails. How far two colours are apart is the smallest of their OKLab distances as seen with normal vision, with
+//! fails. How far two colours are apart is the smallest of their `OKLab` distances as seen with normal vision, with
 //! protanopia and with deuteranopia (Viénot, Brettel & Mollon 1999).
 
 use super::png::srgb_from_linear;
@@ -10,7 +10,7 @@ use super::png::srgb_from_linear;
 const LEVELS: [(f32, f32); 3] = [(0.74, 0.12), (0.50, 0.085), (0.88, 0.058)];
 const HUES: usize = 8;
 const COLOURS: usize = LEVELS.len() * HUES;
-/// OKLab distance from which on two neighbours are easily told apart; beyond it the rarer colour is preferred.
+/// `OKLab` distance from which on two neighbours are easily told apart; beyond it the rarer colour is preferred.
 const EASY: f32 = 0.16;
 
 /// Linear sRGB as a protanope and a deuteranope see it.

@@ -112,6 +112,7 @@ pub(crate) fn nearest_code(counts: f32, max: u32, counts_of: impl Fn(u32) -> f32
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exactness is what is tested")]
 mod tests {
     use super::*;
 

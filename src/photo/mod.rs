@@ -89,7 +89,7 @@ pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Ph
     check(options)?;
     let format = identify(bytes, name_hint)?;
     let budget = decode::Budget { max_megapixels: options.max_megapixels };
-    let decoded = decode::decode(format, bytes, &budget).map_err(|fault| fault.of(name_hint, format))?;
+    let decoded = decode::decode(format, bytes, budget).map_err(|fault| fault.of(name_hint, format))?;
 
     let mut warnings: Vec<String> = format.extension_warning(name_hint).into_iter().collect();
     warnings.extend(decoded.warnings);

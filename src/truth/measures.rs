@@ -104,7 +104,7 @@ mod tests {
         let pairs = [(1, 1), (1, 1), (1, 2), (2, 2), (2, 2), (2, 2)];
         let (both, first, second, all) = (1.0 + 3.0, 3.0 + 3.0, 1.0 + 6.0, 15.0);
         let expected = first * second / all;
-        close(adjusted_rand_index(pairs), (both - expected) / ((first + second) / 2.0 - expected));
+        close(adjusted_rand_index(pairs), (both - expected) / (f64::midpoint(first, second) - expected));
     }
 
     #[test]

@@ -11,7 +11,7 @@ use std::io::Cursor;
 
 type Chunks<'a> = exr::block::reader::Reader<Cursor<&'a [u8]>>;
 
-pub(super) fn decode(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let chunks = exr::block::read(Cursor::new(bytes), false)?;
     for header in chunks.headers() {
         budget.admit(header.layer_size.x(), header.layer_size.y())?;

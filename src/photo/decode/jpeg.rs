@@ -7,7 +7,7 @@ use image::ImageDecoder;
 use image::codecs::jpeg::JpegDecoder;
 use std::io::Cursor;
 
-pub(super) fn decode(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     if components(bytes)? == 4 {
         return Err(Fault::unsupported("CMYK, the colours of a printing press", "convert it to RGB"));
     }

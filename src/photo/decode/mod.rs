@@ -54,7 +54,7 @@ pub(super) struct Budget {
 
 impl Budget {
     /// The declared size as it is used in memory, if it may be taken.
-    fn admit(&self, width: impl TryInto<u64>, height: impl TryInto<u64>) -> Result<(usize, usize), Fault> {
+    fn admit(self, width: impl TryInto<u64>, height: impl TryInto<u64>) -> Result<(usize, usize), Fault> {
         // A size that does not even fit is too large in any case.
         let (width, height) = (width.try_into().unwrap_or(u64::MAX), height.try_into().unwrap_or(u64::MAX));
         if width == 0 || height == 0 {
@@ -70,7 +70,7 @@ impl Budget {
     }
 
     /// Bytes that a decoder may take for itself while it decodes an admitted picture.
-    fn working_bytes(&self) -> usize {
+    fn working_bytes(self) -> usize {
         const OVERHEAD: f64 = (64 << 20) as f64;
         (self.max_megapixels * 1e6).mul_add(BYTES_PER_PIXEL as f64, OVERHEAD) as usize
     }
@@ -80,7 +80,7 @@ impl Budget {
 const BYTES_PER_PIXEL: u64 = 32;
 
 /// The picture in `bytes`, which start as `format` does.
-pub(super) fn decode(format: Format, bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn decode(format: Format, bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     match format {
         Format::Png => png::decode(bytes, budget),
         Format::Jpeg => jpeg::decode(bytes, budget),

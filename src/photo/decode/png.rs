@@ -7,7 +7,7 @@ use image::metadata::Orientation;
 use png::{BitDepth, ColorType, Decoder, Info, Limits, Transformations};
 use std::io::Cursor;
 
-pub(super) fn decode(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: budget.working_bytes() });
     decoder.set_ignore_text_chunk(true);
     // Palettes are looked up, tRNS becomes alpha, and 1, 2 and 4 bits are spread over 8, which is exact.

@@ -10,12 +10,12 @@ use image::codecs::webp::WebPDecoder;
 use image::{ColorType, ImageDecoder};
 use std::io::Cursor;
 
-pub(super) fn bmp(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn bmp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     read(BmpDecoder::new(Cursor::new(bytes))?, budget)
 }
 
 /// Of an animation, the first frame.
-pub(super) fn webp(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn webp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let decoder = WebPDecoder::new(Cursor::new(bytes))?;
     let animated = decoder.has_animation();
     let mut decoded = read(decoder, budget)?;
@@ -25,7 +25,7 @@ pub(super) fn webp(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
     Ok(decoded)
 }
 
-pub(super) fn hdr(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn hdr(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     // `#?RGBE` is as common as the signature of the specification; only the lenient reader takes it.
     let decoder = if bytes.starts_with(b"#?RADIANCE") {
         HdrDecoder::new(Cursor::new(bytes))
@@ -36,10 +36,32 @@ pub(super) fn hdr(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
 }
 
 /// Samples keep the file's own maximum, whatever it is.
-pub(super) fn pnm(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn pnm(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let decoder = PnmDecoder::new(Cursor::new(bytes))?;
     let max = pnm_max(decoder.header());
-    Ok(Decoded { max: Some(max), ..read(decoder, budget)? })
+    let decoded = read(decoder, budget)?;
+    let samples = match decoded.samples {
+        Samples::U8(samples) => {
+            let codes = codes_before_spreading(255, max);
+            Samples::U8(samples.into_iter().map(|v| codes[usize::from(v)] as u8).collect())
+        }
+        Samples::U16(samples) => {
+            let codes = codes_before_spreading(65535, max);
+            Samples::U16(samples.into_iter().map(|v| codes[usize::from(v)] as u16).collect())
+        }
+        floats_or_wider => floats_or_wider,
+    };
+    Ok(Decoded { max: Some(max), samples, ..decoded })
+}
+
+/// `image` spreads samples of `0..=max` over `0..=spread`, rounded; the original of each, by its very arithmetic.
+fn codes_before_spreading(spread: u32, max: u32) -> Vec<u32> {
+    let factor = spread as f32 / max as f32;
+    let mut codes = vec![max; spread as usize + 1];
+    for code in 0..=max.min(spread) {
+        codes[(code as f32 * factor).round() as usize] = code;
+    }
+    codes
 }
 
 fn pnm_max(header: &PnmHeader) -> u32 {
@@ -57,7 +79,7 @@ fn pnm_max(header: &PnmHeader) -> u32 {
     }
 }
 
-fn read(mut decoder: impl ImageDecoder, budget: &Budget) -> Result<Decoded, Fault> {
+fn read(mut decoder: impl ImageDecoder, budget: Budget) -> Result<Decoded, Fault> {
     let (width, height) = decoder.dimensions();
     let size = budget.admit(width, height)?;
     let icc = decoder.icc_profile()?;

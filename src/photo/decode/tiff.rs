@@ -13,7 +13,7 @@ use tiff::tags::Tag;
 
 type Reader<'a> = Decoder<Cursor<&'a [u8]>>;
 
-pub(super) fn decode(bytes: &[u8], budget: &Budget) -> Result<Decoded, Fault> {
+pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let mut reader = Decoder::new(Cursor::new(bytes))?;
     let (width, height) = reader.dimensions()?;
     let size = budget.admit(width, height)?;

@@ -1,0 +1,196 @@
+//! The photograph without its highlights, written the way the photograph itself came.
+
+mod container;
+
+use crate::photo::{AlphaKind, Layout, Photo, Samples, nearest_code};
+use crate::raster::Raster;
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+
+/// The matte picture could not be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MatteError {
+    /// The body image is not the photograph's.
+    #[error("the body image has {} \u{d7} {} pixels, the photograph {} \u{d7} {}", body.0, body.1, photo.0, photo.1)]
+    Shape {
+        /// Width and height of the body image.
+        body: (usize, usize),
+        /// Width and height of the photograph.
+        photo: (usize, usize),
+    },
+    /// The picture does not fit its file format.
+    #[error("{}: cannot be encoded: {reason}", path.display())]
+    Encode {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// What the encoder said.
+        reason: String,
+    },
+    /// The system would not write the file.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Write {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+}
+
+/// Writes `body` (linear counts, upright, composited as in `photo.image`) to `folder` as `matte.jpg` if the photograph
+/// came as JPEG, `matte.tif` if as TIFF or floats, and `matte.png` otherwise; returns its path.
+///
+/// Tone curve, depth, profile and alpha are the photograph's own, with these exceptions: floats are written linear and
+/// 32 bits wide, samples of less than 8 bits and palettes as 8 bits, and a PNM whose maximum fits no PNG as 16 bits.
+/// A pixel whose body equals the photograph keeps its samples exactly. A grey photograph stays grey if the body is.
+///
+/// # Errors
+/// [`MatteError`]: sizes that differ, or a file that cannot be encoded or written.
+pub fn write_matte(photo: &Photo, body: &Raster<[f32; 3]>, folder: &Path) -> Result<PathBuf, MatteError> {
+    let size = (photo.image.width(), photo.image.height());
+    let body_size = (body.width(), body.height());
+    if body_size != size {
+        return Err(MatteError::Shape { body: body_size, photo: size });
+    }
+    let (extension, encoded) = container::encode(photo, coded(photo, body));
+    let path = folder.join(format!("matte.{extension}"));
+    let bytes = encoded.map_err(|reason| MatteError::Encode { path: path.clone(), reason })?;
+    std::fs::write(&path, bytes).map_err(|source| MatteError::Write { path: path.clone(), source })?;
+    Ok(path)
+}
+
+/// Samples for a file, with their bands.
+struct Picture {
+    layout: Layout,
+    samples: Samples,
+}
+
+/// `body` as the photograph's own samples.
+fn coded(photo: &Photo, body: &Raster<[f32; 3]>) -> Picture {
+    let (source, curves, full_scale) = (&photo.source, &photo.encoding.curves, photo.full_scale);
+    let max = source.max.unwrap_or(1);
+    let matte = Matte { photo, body, keep_unchanged: true };
+    match &source.samples {
+        Samples::U8(samples) => {
+            let tables = curves.each_ref().map(|curve| curve.table(1 << 8, max, full_scale));
+            let code = |band: usize, counts| nearest_code(counts, max, |c| tables[band][c as usize]) as u8;
+            matte.picture(samples, code, |alpha| f32::from(alpha) / max as f32, Samples::U8)
+        }
+        Samples::U16(samples) => {
+            let tables = curves.each_ref().map(|curve| curve.table(1 << 16, max, full_scale));
+            let code = |band: usize, counts| nearest_code(counts, max, |c| tables[band][c as usize]) as u16;
+            matte.picture(samples, code, |alpha| f32::from(alpha) / max as f32, Samples::U16)
+        }
+        Samples::U32(samples) => {
+            let code =
+                |band: usize, counts| nearest_code(counts, max, |c| curves[band].counts(c, max, full_scale));
+            matte.picture(samples, code, |alpha| alpha as f32 / max as f32, Samples::U32)
+        }
+        Samples::F32(samples) => {
+            let code = |_band, counts: f32| (f64::from(counts) / full_scale) as f32;
+            // Floats leave linear, whatever curve they came with.
+            let matte = Matte { keep_unchanged: photo.encoding.is_linear(), ..matte };
+            matte.picture(samples, code, |alpha| alpha, Samples::F32)
+        }
+    }
+}
+
+/// A sample type, and when two samples are the same colour.
+trait Sample: Copy + Send + Sync {
+    fn same(self, other: Self) -> bool;
+}
+
+macro_rules! integer_sample {
+    ($($integer:ty),+) => {
+        $(impl Sample for $integer {
+            fn same(self, other: Self) -> bool {
+                self == other
+            }
+        })+
+    };
+}
+
+integer_sample!(u8, u16, u32);
+
+impl Sample for f32 {
+    /// Up to what arithmetic leaves behind; a masked pixel's NaN is like any other.
+    fn same(self, other: Self) -> bool {
+        let apart = (self - other).abs() > 1e-5 * self.abs().max(other.abs());
+        !apart
+    }
+}
+
+/// Pixels to a task: enough that handing them out costs nothing.
+const CHUNK: usize = 1 << 13;
+
+/// A body image and the photograph that it belongs to.
+struct Matte<'a> {
+    photo: &'a Photo,
+    body: &'a Raster<[f32; 3]>,
+    /// Whether pixels that did not change keep their samples as they are.
+    keep_unchanged: bool,
+}
+
+impl Matte<'_> {
+    fn picture<T: Sample + Default>(
+        &self,
+        samples: &[T],
+        code: impl Fn(usize, f32) -> T + Sync,
+        opacity: impl Fn(T) -> f32 + Sync,
+        wrap: impl Fn(Vec<T>) -> Samples,
+    ) -> Picture {
+        let layout = self.photo.source.layout;
+        let (stored, written) = (layout.channels(), layout.coloured().channels());
+        let mut coloured = vec![T::default(); self.body.len() * written];
+        coloured.par_chunks_mut(CHUNK * written).enumerate().for_each(|(chunk, out)| {
+            for (offset, pixel) in out.chunks_exact_mut(written).enumerate() {
+                let index = chunk * CHUNK + offset;
+                self.write_pixel(
+                    index,
+                    &samples[index * stored..(index + 1) * stored],
+                    pixel,
+                    &code,
+                    &opacity,
+                );
+            }
+        });
+        let grey =
+            layout.is_grey() && coloured.chunks_exact(written).all(|p| p[0].same(p[1]) && p[1].same(p[2]));
+        if grey {
+            let samples = coloured.chunks_exact(written).flat_map(|pixel| &pixel[2..]).copied().collect();
+            // The last band and alpha are what a grey pixel holds.
+            return Picture { layout, samples: wrap(samples) };
+        }
+        Picture { layout: layout.coloured(), samples: wrap(coloured) }
+    }
+
+    /// Pixel `index`, which the file holds as `stored`, as three bands and alpha, if there is one.
+    #[allow(clippy::float_cmp, reason = "only what is exactly the same is unchanged")]
+    fn write_pixel<T: Sample>(
+        &self,
+        index: usize,
+        stored: &[T],
+        pixel: &mut [T],
+        code: impl Fn(usize, f32) -> T,
+        opacity: impl Fn(T) -> f32,
+    ) {
+        let source = &self.photo.source;
+        let alpha = source.layout.has_alpha().then(|| stored[stored.len() - 1]);
+        // What shows nothing cannot have changed.
+        let weight = match alpha {
+            Some(alpha) if source.alpha == AlphaKind::Straight => opacity(alpha),
+            _ => 1.0,
+        };
+        let unchanged = self.keep_unchanged && self.body[index] == self.photo.image.pixels[index];
+        for band in 0..3 {
+            pixel[band] = if unchanged || weight == 0.0 {
+                if source.layout.is_grey() { stored[0] } else { stored[band] }
+            } else {
+                code(band, self.body[index][band] / weight)
+            };
+        }
+        if let Some(alpha) = alpha {
+            pixel[3] = alpha;
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! The photograph written again: what did not change is what it was.
+
+use crate::files::{self, Png, curv, rgb_icc};
+use crate::{pixels, read_with};
+use dichroscope::export::write_matte;
+use dichroscope::photo::{Layout, Photo, ReadOptions, decode, read};
+use dichroscope::raster::Raster;
+use exr::image::FlatSamples;
+use image::ExtendedColorType::{L8, Rgb8, Rgba8};
+use png::ColorType::{Grayscale, GrayscaleAlpha, Rgba};
+use tiff::encoder::colortype;
+use tiff::tags::ExtraSamples;
+
+/// Writes `body` as the matte picture of `photo` and reads it again; also its file name.
+fn written(photo: &Photo, body: &Raster<[f32; 3]>, options: &ReadOptions) -> (Photo, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = write_matte(photo, body, folder.path()).unwrap();
+    let name = path.file_name().unwrap().to_string_lossy().into_owned();
+    (read(&path, options).unwrap(), name)
+}
+
+fn shorts(n: u32) -> Vec<u16> {
+    (0..n).map(|i| (i.wrapping_mul(2_654_435_761) >> 16) as u16).collect()
+}
+
+fn bytes(n: u32) -> Vec<u8> {
+    shorts(n).iter().map(|v| (v >> 8) as u8).collect()
+}
+
+/// Files without loss, and the name that their matte picture gets.
+fn lossless() -> Vec<(&'static str, Vec<u8>, &'static str)> {
+    let profile = rgb_icc(&curv(&[0, 100, 20000, 65535]));
+    let exif = files::exif(5);
+    let (size, tiny) = ((5, 3), (5, 3));
+    let deep: Vec<u8> = shorts(60).iter().flat_map(|v| v.to_be_bytes()).collect();
+    let png = |color, bits, data: &[u8], chunks: &[([u8; 4], &[u8])], icc: Option<&[u8]>| {
+        Png { size, color: Some(color), bits, data, chunks, icc, exif: Some(&exif), ..Png::default() }.bytes()
+    };
+    let cicp: [u8; 4] = [1, 13, 0, 1];
+    let floats: Vec<f32> = shorts(60).iter().map(|&v| f32::from(v) / 30000.0).collect();
+    let channel =
+        |name, scale: f32| (name, FlatSamples::F32(floats[..15].iter().map(|v| v * scale).collect()));
+    let mut nan = floats.clone();
+    nan[4] = f32::NAN;
+    let alpha = [ExtraSamples::UnassociatedAlpha];
+    let mut ppm = b"P6\n5 3\n51\n".to_vec();
+    ppm.extend(bytes(45).iter().map(|v| v % 52));
+    vec![
+        ("png rgb8", files::rgb8_png(size, &bytes(45)), "matte.png"),
+        ("png grey 2", png(Grayscale, 2, &bytes(6), &[], None), "matte.png"),
+        (
+            "png grey 16",
+            png(Grayscale, 16, &deep[..30], &[(*b"gAMA", &100_000u32.to_be_bytes())], None),
+            "matte.png",
+        ),
+        ("png grey alpha", png(GrayscaleAlpha, 8, &bytes(30), &[(*b"cICP", &cicp)], None), "matte.png"),
+        ("png rgba16", png(Rgba, 16, &deep, &[(*b"sRGB", &[1])], Some(&profile)), "matte.png"),
+        ("bmp", files::bmp(tiny, Rgb8, &bytes(45)), "matte.png"),
+        ("webp", files::webp(tiny, Rgba8, &bytes(60)), "matte.png"),
+        ("ppm", ppm, "matte.png"),
+        (
+            "tiff 8",
+            files::tiff::<colortype::RGB8>(size, &bytes(45), &[], &[(274, 8)], Some(&profile)),
+            "matte.tif",
+        ),
+        ("tiff 16a", files::tiff::<colortype::Gray16>(size, &shorts(30), &alpha, &[], None), "matte.tif"),
+        ("tiff f", files::tiff::<colortype::RGB32Float>(size, &nan[..45], &[], &[], None), "matte.tif"),
+        (
+            "tiff 32",
+            files::tiff::<colortype::Gray32>(
+                size,
+                &shorts(15).iter().map(|&v| u32::from(v) << 15 | 1).collect::<Vec<_>>(),
+                &[],
+                &[],
+                None,
+            ),
+            "matte.tif",
+        ),
+        (
+            "exr",
+            files::exr((5, 3), &[channel("R", 1.0), channel("G", 0.5), channel("B", 0.1), channel("A", 0.3)]),
+            "matte.tif",
+        ),
+        (
+            "hdr",
+            files::hdr((5, 3), &floats[..45].chunks(3).map(|c| [c[0], c[1], c[2]]).collect::<Vec<_>>()),
+            "matte.tif",
+        ),
+    ]
+}
+
+#[test]
+fn an_unchanged_photograph_comes_back_exactly() {
+    for full_scale in [None, Some(2040.0)] {
+        let options = ReadOptions { full_scale, ..ReadOptions::default() };
+        for (name, bytes, expected) in lossless() {
+            let photo = read_with(&bytes, &options);
+            let (again, file) = written(&photo, &photo.image.pixels, &options);
+            assert_eq!(file, expected, "{name}");
+            assert_eq!(again.image, photo.image, "{name}");
+            assert_eq!(again.source.layout, photo.source.layout, "{name}");
+            assert_eq!(
+                (&again.source.icc, again.source.png),
+                (&photo.source.icc, photo.source.png),
+                "{name}"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_changes_comes_back_within_half_a_code() {
+    // The codes of the PNM lie five counts apart.
+    for (name, bytes, _) in lossless().into_iter().filter(|(name, ..)| *name != "ppm") {
+        let options = ReadOptions::default();
+        let photo = read_with(&bytes, &options);
+        let body = photo.image.pixels.map(|pixel| pixel.map(|counts| counts * 0.7));
+        let (again, _) = written(&photo, &body, &options);
+        for (found, wanted) in pixels(&again).iter().flatten().zip(body.as_slice().iter().flatten()) {
+            // The steepest curve here rises by less than three codes in one.
+            assert!((found - wanted).abs() < 1.5, "{name}: {found} instead of {wanted}");
+        }
+    }
+}
+
+#[test]
+fn jpegs_stay_jpegs() {
+    let profile = rgb_icc(&curv(&[]));
+    for (color, data, layout) in [(L8, bytes(64), Layout::Grey), (Rgb8, bytes(192), Layout::Rgb)] {
+        let smooth: Vec<u8> = data.iter().map(|v| 100 + v / 32).collect();
+        let icc = (layout == Layout::Rgb).then_some(&profile[..]);
+        let photo = read_with(&files::jpeg((8, 8), color, &smooth, icc), &ReadOptions::default());
+        let (again, file) = written(&photo, &photo.image.pixels, &ReadOptions::default());
+        assert_eq!((file.as_str(), again.source.layout), ("matte.jpg", layout));
+        assert_eq!(again.source.icc, photo.source.icc);
+        for (a, b) in pixels(&again).iter().flatten().zip(pixels(&photo).iter().flatten()) {
+            assert!((a - b).abs() < 6.0, "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn a_grey_photograph_becomes_coloured_only_with_its_body() {
+    let bytes =
+        Png { size: (2, 1), color: Some(Grayscale), bits: 8, data: &[40, 80], ..Png::default() }.bytes();
+    let photo = decode(&bytes, "x.png", &crate::linear()).unwrap();
+    let body = Raster::from_vec(2, 1, vec![[40.0; 3], [79.9, 80.1, 80.0]]).unwrap();
+    assert_eq!(written(&photo, &body, &crate::linear()).0.source.layout, Layout::Grey);
+    let body = Raster::from_vec(2, 1, vec![[40.0; 3], [10.0, 20.0, 30.0]]).unwrap();
+    let (again, _) = written(&photo, &body, &crate::linear());
+    assert_eq!(again.source.layout, Layout::Rgb);
+    assert_eq!(pixels(&again), body.as_slice());
+}
+
+#[test]
+fn transparent_pixels_keep_what_they_hide() {
+    let bytes = Png {
+        size: (2, 1),
+        color: Some(Rgba),
+        bits: 8,
+        data: &[9, 8, 7, 0, 200, 100, 50, 51],
+        ..Png::default()
+    }
+    .bytes();
+    let photo = decode(&bytes, "x.png", &crate::linear()).unwrap();
+    let body = Raster::from_vec(2, 1, vec![[0.0; 3], [20.0, 10.0, 5.0]]).unwrap();
+    let (again, _) = written(&photo, &body, &crate::linear());
+    assert_eq!(again.source.samples, dichroscope::photo::Samples::U8(vec![9, 8, 7, 0, 100, 50, 25, 51]));
+}
+
+#[test]
+fn a_body_of_another_size_is_refused() {
+    let photo = read_with(&files::rgb8_png((1, 1), &[1, 2, 3]), &ReadOptions::default());
+    let error =
+        write_matte(&photo, &Raster::filled(2, 1, [0.0; 3]), std::path::Path::new("/nowhere")).unwrap_err();
+    assert_eq!(error.to_string(), "the body image has 2 \u{d7} 1 pixels, the photograph 1 \u{d7} 1");
+    let error = write_matte(&photo, &photo.image.pixels, std::path::Path::new("/nowhere")).unwrap_err();
+    assert!(error.to_string().starts_with("/nowhere/matte.png: cannot be written"));
+}
