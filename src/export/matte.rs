@@ -28,12 +28,12 @@ pub enum MatteError {
         reason: String,
     },
     /// The system would not write the file.
-    #[error("{}: cannot be written: {source}", path.display())]
+    #[error("{}: cannot be written: {cause}", path.display())]
     Write {
         /// The file that was to be written.
         path: PathBuf,
         /// What the system said.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
 }
 
@@ -55,7 +55,7 @@ pub fn write_matte(photo: &Photo, body: &Raster<[f32; 3]>, folder: &Path) -> Res
     let (extension, encoded) = container::encode(photo, coded(photo, body));
     let path = folder.join(format!("matte.{extension}"));
     let bytes = encoded.map_err(|reason| MatteError::Encode { path: path.clone(), reason })?;
-    std::fs::write(&path, bytes).map_err(|source| MatteError::Write { path: path.clone(), source })?;
+    std::fs::write(&path, bytes).map_err(|cause| MatteError::Write { path: path.clone(), cause })?;
     Ok(path)
 }
 

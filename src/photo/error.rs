@@ -7,12 +7,12 @@ use super::format::Format;
 #[non_exhaustive]
 pub enum ReadError {
     /// The operating system would not give us its bytes.
-    #[error("{file}: cannot be read: {source}")]
+    #[error("{file}: cannot be read: {cause}")]
     Io {
         /// Its name as it was given.
         file: String,
         /// What the system said.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// No bytes at all.
     #[error("{file}: the file is empty; expected a picture ({})", Format::NAMES)]

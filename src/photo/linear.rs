@@ -1,6 +1,10 @@
 //! The picture that every later stage works on.
 
 use crate::raster::{Mask, Raster};
+use rayon::prelude::*;
+
+/// Enough that handing out a task costs nothing.
+const PIXELS_PER_TASK: usize = 1 << 14;
 
 /// A photograph in linear light: three bands in counts, 255 = full scale, whatever the depth of the file.
 ///
@@ -18,12 +22,13 @@ pub struct LinearImage {
 impl LinearImage {
     /// Takes linear counts as they come from a decoder; non-finite and negative pixels become invalid.
     pub fn new(mut pixels: Raster<[f32; 3]>, saturation: Option<f32>) -> Self {
-        let invalid = pixels.map(|c| c.iter().any(|v| !v.is_finite() || *v < 0.0));
-        for (pixel, &bad) in pixels.as_mut_slice().iter_mut().zip(invalid.as_slice()) {
-            if bad {
-                *pixel = [0.0; 3];
+        let mut invalid = Mask::filled(pixels.width(), pixels.height(), false);
+        let both = pixels.as_mut_slice().par_iter_mut().zip(invalid.as_mut_slice());
+        both.with_min_len(PIXELS_PER_TASK).for_each(|(pixel, invalid)| {
+            if pixel.iter().any(|v| !v.is_finite() || *v < 0.0) {
+                (*pixel, *invalid) = ([0.0; 3], true);
             }
-        }
+        });
         Self { pixels, invalid, saturation }
     }
 
@@ -35,5 +40,22 @@ impl LinearImage {
     /// Number of rows.
     pub fn height(&self) -> usize {
         self.pixels.height()
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exactness is what is tested")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_that_are_no_light_are_masked() {
+        let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1e-9];
+        let mut counts: Vec<[f32; 3]> = bad.iter().map(|&v| [1.0, v, 2.0]).collect();
+        counts.extend([[0.0, 1.0, 1e30], [-0.0; 3]]);
+        let image = LinearImage::new(Raster::from_vec(3, 2, counts).unwrap(), None);
+        assert_eq!(image.invalid.as_slice(), [true, true, true, true, false, false]);
+        assert_eq!(image.pixels[0], [0.0; 3]);
+        assert_eq!(image.pixels[4], [0.0, 1.0, 1e30]);
     }
 }

@@ -71,7 +71,7 @@ pub struct Photo {
 /// [`ReadError`], one line that names the file: not readable, no picture, damaged, too large, or nonsense in `options`.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Photo, ReadError> {
     let name = path.display().to_string();
-    let io = |source| ReadError::Io { file: name.clone(), source };
+    let io = |cause| ReadError::Io { file: name.clone(), cause };
     let mut file = File::open(path).map_err(io)?;
     // The first bytes alone tell most strangers, however large (or endless) the file is.
     let mut bytes = Vec::new();

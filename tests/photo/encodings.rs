@@ -76,10 +76,12 @@ fn what_is_not_supported_is_read_as_srgb_with_a_warning() {
         "{:?}",
         photo.warnings
     );
-    let table = icc(*b"RGB ", &[]);
+    let empty = icc(*b"RGB ", &[]);
+    let table = icc(*b"RGB ", &[(*b"A2B0", files::mft1())]);
     for (profile, word) in [
         (&b"no profile"[..], "broken"),
-        (&table, "no tone curves"),
+        (&empty, "no tone curves"),
+        (&table, "lookup table"),
         (&rgb_icc(&curv(&[65535, 0])), "cannot be undone"),
         (&rgb_icc(b"oops\0\0\0\0\0\0\0\0"), "broken"),
     ] {

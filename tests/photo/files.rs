@@ -213,3 +213,14 @@ pub fn para(kind: u16, parameters: &[f64]) -> Vec<u8> {
     bytes.extend(parameters.iter().flat_map(|p| ((p * 65536.0).round() as i32).to_be_bytes()));
     bytes
 }
+
+/// A `lut8Type` that makes everything black.
+pub fn mft1() -> Vec<u8> {
+    let mut bytes = b"mft1\0\0\0\0\x03\x03\x02\0".to_vec();
+    let one = [0, 1, 0, 0];
+    let zero = [0; 4];
+    bytes.extend([one, zero, zero, zero, one, zero, zero, zero, one].concat());
+    let (input, cube, output) = (3 * 256, 2 * 2 * 2 * 3, 3 * 256);
+    bytes.resize(bytes.len() + input + cube + output, 0);
+    bytes
+}
