@@ -9,6 +9,8 @@ use super::png::srgb_from_linear;
 /// Levels of lightness with the largest chroma at which every hue still lies inside sRGB, as the tests check.
 const LEVELS: [(f32, f32); 3] = [(0.74, 0.12), (0.50, 0.085), (0.88, 0.058)];
 const HUES: usize = 8;
+/// Far apart first, so that a picture of few regions uses the whole circle.
+const HUE_ORDER: [u8; HUES] = [0, 4, 2, 6, 1, 5, 3, 7];
 const COLOURS: usize = LEVELS.len() * HUES;
 /// `OKLab` distance from which on two neighbours are easily told apart; beyond it the rarer colour is preferred.
 const EASY: f32 = 0.16;
@@ -28,9 +30,11 @@ pub(super) struct Palette {
 impl Palette {
     pub(super) fn new() -> Self {
         let linear: [[f32; 3]; COLOURS] = std::array::from_fn(|i| {
-            let (lightness, chroma) = LEVELS[i % LEVELS.len()];
+            // Eight and three have no common divisor: every hue meets every level.
+            let level = i % LEVELS.len();
+            let (lightness, chroma) = LEVELS[level];
             // Each level's hues lie between those of the others.
-            let hue = (i / LEVELS.len()) as f32 + (i % LEVELS.len()) as f32 / LEVELS.len() as f32;
+            let hue = HUE_ORDER[i % HUES] as f32 + level as f32 / LEVELS.len() as f32;
             linear_srgb_from_oklch(lightness, chroma, std::f32::consts::TAU * hue / HUES as f32)
         });
         let seen = linear.map(as_seen);
