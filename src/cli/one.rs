@@ -1,6 +1,6 @@
 //! One photograph, from its file to its result.
 
-use anyhow::{Context, Error, Result, anyhow};
+use anyhow::{Context, Result};
 use dichroscope::analysis::{Analysis, Observer, Session, Stage};
 use dichroscope::export::{self, Staging};
 use dichroscope::photo::{self, LinearImage, Photo, ReadOptions};
@@ -27,7 +27,7 @@ impl Shot {
     /// Reads a file. Errors name it.
     pub(super) fn read(path: &Path, options: &ReadOptions) -> Result<Self> {
         let begin = Instant::now();
-        let photo = photo::read(path, options).map_err(one_line)?;
+        let photo = photo::read(path, options)?;
         let read_ms = ms_since(begin);
         let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
         Ok(Self { photo, sha256: sha256_hex(&bytes), read_ms })
@@ -36,7 +36,7 @@ impl Shot {
     /// Decodes a file that is already in memory.
     pub(super) fn decode(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Self> {
         let begin = Instant::now();
-        let photo = photo::decode(bytes, name, options).map_err(one_line)?;
+        let photo = photo::decode(bytes, name, options)?;
         Ok(Self { photo, sha256: sha256_hex(bytes), read_ms: ms_since(begin) })
     }
 
@@ -66,7 +66,7 @@ impl Reference {
         let named = folder.join(image);
         let path = if named.is_file() { named } else { folder.join(USUAL_CAMERA) };
         let truth = GroundTruth::read(folder)?;
-        Ok(Self { truth, camera: photo::read(&path, options).map_err(one_line)?.image.pixels })
+        Ok(Self { truth, camera: photo::read(&path, options)?.image.pixels })
     }
 }
 
@@ -107,7 +107,7 @@ pub(super) fn analyze(
         || export::write_matte(&shot.photo, &analysis.intrinsic.body, staging.folder()),
     );
     pictures?;
-    matte.map_err(one_line)?;
+    matte?;
     report.timings_ms.write = Some(ms_since(begin));
     staging.publish(&report)?;
     Ok(Finished { lit_share: lit_share(&image, &analysis), report })
@@ -150,10 +150,4 @@ fn ms_since(begin: Instant) -> f64 {
 fn sha256_hex(bytes: &[u8]) -> String {
     let digit = |nibble: u8| char::from(b"0123456789abcdef"[usize::from(nibble)]);
     Sha256::digest(bytes).iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
-}
-
-/// An error that says all in one line, what the system said included: its source would say that twice.
-#[allow(clippy::needless_pass_by_value, reason = "it stands in `map_err`")]
-fn one_line(error: impl std::error::Error) -> Error {
-    anyhow!("{error}")
 }
