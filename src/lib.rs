@@ -7,5 +7,7 @@ pub mod intrinsic;
 pub mod photo;
 pub mod raster;
 pub mod reflection;
+pub mod report;
 pub mod segment;
 pub mod trace;
+pub mod truth;

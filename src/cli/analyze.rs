@@ -1,0 +1,171 @@
+//! `dichroscope analyze`: photographs to result folders.
+
+use super::inputs::{self, Job, parent_name};
+use super::one::{self, Finished, Reference, Shot};
+use super::settings::Settings;
+use super::{Outcome, note};
+use anyhow::{Context, Result, anyhow, bail};
+use clap::Args;
+use dichroscope::export::check_target;
+use dichroscope::photo::{EncodingChoice, ReadOptions};
+use dichroscope::segment::Params;
+use dichroscope::truth::find_truth;
+use globset::GlobMatcher;
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+use std::io::IsTerminal;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+/// Analyse photographs: regions, illuminant, body, surface and noise images, and a report of each
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Photographs, or folders that are searched for them
+    #[arg(required = true, value_name = "IMAGE|DIR")]
+    inputs: Vec<PathBuf>,
+    /// Folder for the results, one folder per photograph
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Of searched folders, only files whose name or relative path matches
+    #[arg(long = "match", value_name = "GLOB", value_parser = inputs::parse_pattern)]
+    pattern: Option<GlobMatcher>,
+    /// Compare with a ground truth folder, or with those found under it by the results' names
+    #[arg(long, value_name = "DIR")]
+    truth: Option<PathBuf>,
+    /// Replace existing folders even if they are no earlier results
+    #[arg(long)]
+    force: bool,
+    /// Number of threads [default: one per core]
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Say nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+    #[command(flatten)]
+    settings: Settings,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+/// How to read files.
+#[derive(Clone, Copy, Debug, Args)]
+#[command(next_help_heading = "Reading")]
+struct Reading {
+    /// What the file's values mean: auto (believe the file), linear, srgb or gamma:G
+    #[arg(long, value_name = "ENCODING", default_value_t)]
+    encoding: EncodingChoice,
+    /// Counts that the file's full scale stands for [default: 255]
+    #[arg(long, value_name = "COUNTS", value_parser = positive)]
+    full_scale: Option<f64>,
+    /// Refuse larger pictures before memory is taken for them
+    #[arg(long, value_name = "N", value_parser = positive,
+          default_value_t = ReadOptions::default().max_megapixels)]
+    max_megapixels: f64,
+}
+
+/// What all photographs of one call have in common.
+struct Work<'a> {
+    arguments: &'a Arguments,
+    params: Params,
+    reading: ReadOptions,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
+    let Reading { encoding, full_scale, max_megapixels } = arguments.reading;
+    let reading = ReadOptions { encoding, full_scale, max_megapixels };
+    let work = Work { arguments, params: arguments.settings.params()?, reading };
+    let jobs = inputs::plan(&arguments.inputs, arguments.pattern.as_ref(), &arguments.out)?;
+    for job in &jobs {
+        check_target(&work.target(job), arguments.force)?;
+    }
+    if let Some(root) = arguments.truth.as_deref().filter(|root| !root.is_dir()) {
+        bail!("--truth {}: no such folder", root.display());
+    }
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, NonZeroUsize::get));
+    let pool = threads.build().context("cannot start the threads")?;
+    Ok(pool.install(|| work.run(&jobs)))
+}
+
+impl Work<'_> {
+    fn run(&self, jobs: &[Job]) -> Outcome {
+        let bar = self.progress_bar(jobs.len());
+        // One by one and not in halves: the last photographs shall not wait in line behind each other.
+        let done = jobs.par_iter().with_max_len(1).map(|job| {
+            let result = self.analyze(job);
+            match &result {
+                Ok(finished) if !self.arguments.quiet => bar.suspend(|| note(&self.summary(job, finished))),
+                Ok(_) => {}
+                Err(error) => bar.suspend(|| note(&format!("{error:#}"))),
+            }
+            bar.inc(1);
+            result.is_ok()
+        });
+        let all_done = done.reduce(|| true, |a, b| a && b);
+        bar.finish_and_clear();
+        if all_done { Outcome::Done } else { Outcome::SomeFailed }
+    }
+
+    fn progress_bar(&self, jobs: usize) -> ProgressBar {
+        if self.arguments.quiet || jobs < 2 || !std::io::stderr().is_terminal() {
+            return ProgressBar::hidden();
+        }
+        let style = ProgressStyle::with_template("{bar:40} {pos}/{len}  {eta} left");
+        ProgressBar::new(jobs as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    }
+
+    fn target(&self, job: &Job) -> PathBuf {
+        self.arguments.out.join(&job.name)
+    }
+
+    /// Errors begin with the name of the photograph.
+    fn analyze(&self, job: &Job) -> Result<Finished> {
+        // Reading names the file itself.
+        let shot = Shot::read(&job.input, &self.reading)?;
+        self.compare_and_write(job, &shot).with_context(|| job.input.display().to_string())
+    }
+
+    fn compare_and_write(&self, job: &Job, shot: &Shot) -> Result<Finished> {
+        let reference = self.arguments.truth.as_deref().map(|root| self.reference(root, job)).transpose()?;
+        one::analyze(shot, &self.params, reference.as_ref(), &self.target(job), self.arguments.force)
+    }
+
+    fn reference(&self, root: &Path, job: &Job) -> Result<Reference> {
+        let parent = parent_name(&job.input);
+        let names = [Some(job.name.as_path()), job.name.file_name().map(Path::new), parent.as_deref()];
+        let folder = find_truth(root, names.into_iter().flatten())
+            .ok_or_else(|| anyhow!("no ground truth for {} in {}", job.name.display(), root.display()))?;
+        let file = job.input.file_name().unwrap_or_default().to_string_lossy();
+        Reference::read(&folder, &file, &self.reading)
+    }
+
+    /// `plastic8_white: 8 regions, 99.8 % of the lit pixels, light (0.58, 0.57, 0.58), 11 ms → out/plastic8_white`
+    fn summary(&self, job: &Job, finished: &Finished) -> String {
+        let target = self.target(job);
+        format!("{}: {} \u{2192} {}", job.name.display(), in_short(finished), target.display())
+    }
+}
+
+/// What was found, in half a line.
+pub(super) fn in_short(finished: &Finished) -> String {
+    let Finished { report, lit_share } = finished;
+    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let share = lit_share
+        .map_or("no lit pixels".to_owned(), |share| format!("{:.1} % of the lit pixels", 100.0 * share));
+    let light = report
+        .illuminant
+        .direction
+        .map_or("light unknown".to_owned(), |[r, g, b]| format!("light ({r:.2}, {g:.2}, {b:.2})"));
+    let regions = count(report.regions.len(), "region");
+    let warnings = match report.warnings.len() {
+        0 => String::new(),
+        n => format!(", {}", count(n, "warning")),
+    };
+    format!("{regions}, {share}, {light}{warnings}, {:.0} ms", report.timings_ms.analysis_ms())
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("expected a number above 0".to_owned()),
+    }
+}

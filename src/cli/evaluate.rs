@@ -1,0 +1,95 @@
+//! `dichroscope evaluate`: results against ground truth.
+
+use super::one::{Reference, USUAL_CAMERA};
+use super::{Outcome, note, print, table};
+use anyhow::{Context, Result, anyhow, bail};
+use clap::Args;
+use dichroscope::photo::ReadOptions;
+use dichroscope::report::{Report, Scores, is_result_folder};
+use dichroscope::truth::{self, ResultPictures, find_truth, score};
+use std::path::{Path, PathBuf};
+use walkdir::WalkDir;
+
+/// Score results against ground truth, with what doing nothing scores beside each figure in decibels
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// A result folder, or a folder that holds some
+    result_dir: PathBuf,
+    /// A ground truth folder, or a folder that holds one by each result's name
+    #[arg(long, value_name = "DIR")]
+    truth: PathBuf,
+    /// Print JSON: `{"results": {NAME: scores}, "mean": scores}`
+    #[arg(long)]
+    json: bool,
+    /// The photograph inside the truth folder [default: the one that the report names, else camera8.png]
+    #[arg(long, value_name = "FILE")]
+    image: Option<String>,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
+    let results = find_results(&arguments.result_dir)?;
+    let mut scored = Vec::new();
+    let count = results.len();
+    for Found { name, folder } in results {
+        match evaluate(arguments, &name, &folder) {
+            Ok(scores) => scored.push((name.display().to_string(), scores)),
+            Err(error) => note(&format!("{}: {error:#}", folder.display())),
+        }
+    }
+    let outcome = if scored.len() == count { Outcome::Done } else { Outcome::SomeFailed };
+    if arguments.json {
+        print(&table::json(&scored)?);
+    } else if !scored.is_empty() {
+        print(&table::aligned(&scored));
+    }
+    Ok(outcome)
+}
+
+struct Found {
+    name: PathBuf,
+    folder: PathBuf,
+}
+
+/// The folder itself when it is a result, else all results below it in the order of their names.
+fn find_results(root: &Path) -> Result<Vec<Found>> {
+    if is_result_folder(root) {
+        let name = root.canonicalize().ok().and_then(|path| path.file_name().map(PathBuf::from));
+        return Ok(vec![Found { name: name.unwrap_or_else(|| root.to_owned()), folder: root.to_owned() }]);
+    }
+    let mut found = Vec::new();
+    let visible = |entry: &walkdir::DirEntry| {
+        entry.depth() == 0 || !entry.file_name().as_encoded_bytes().starts_with(b".")
+    };
+    for entry in WalkDir::new(root).sort_by_file_name().into_iter().filter_entry(visible) {
+        let entry = entry.with_context(|| format!("cannot walk {}", root.display()))?;
+        if entry.file_type().is_dir() && is_result_folder(entry.path()) {
+            let name = entry.path().strip_prefix(root).unwrap_or(entry.path()).to_owned();
+            found.push(Found { name, folder: entry.into_path() });
+        }
+    }
+    if found.is_empty() {
+        bail!("{} holds no result: `dichroscope analyze` writes one", root.display());
+    }
+    Ok(found)
+}
+
+fn evaluate(arguments: &Arguments, name: &Path, folder: &Path) -> Result<Scores> {
+    // Both the name itself and each of its folders: `scenes/cup/camera8` belongs to the truth `cup`.
+    let components: Vec<&Path> = name.iter().rev().map(Path::new).collect();
+    let names = std::iter::once(name).chain(components);
+    let truth_folder = find_truth(&arguments.truth, names)
+        .ok_or_else(|| anyhow!("no ground truth for {} in {}", name.display(), arguments.truth.display()))?;
+    let report = Report::read(folder)?;
+    let image = match &arguments.image {
+        Some(image) if !truth_folder.join(image).is_file() => {
+            bail!("--image {image}: not in {}", truth_folder.display())
+        }
+        Some(image) => image,
+        None if report.image.file.is_empty() => USUAL_CAMERA,
+        None => &report.image.file,
+    };
+    let Reference { truth, camera } = Reference::read(&truth_folder, image, &ReadOptions::default())?;
+    let ResultPictures { regions, body, surface } = ResultPictures::read(folder)?;
+    let outcome = truth::Outcome { regions: &regions, body: &body, surface: &surface, report: &report };
+    Ok(score(&truth, &camera, &outcome)?)
+}

@@ -1,0 +1,77 @@
+//! The command line, one file per command.
+//!
+//! A command returns an error where it was called wrongly, before any work (exit 2); what fails during the work
+//! is said in one line each and turns the [`Outcome`] (exit 1).
+
+mod analyze;
+mod evaluate;
+mod inputs;
+mod one;
+mod sample;
+mod settings;
+mod table;
+
+use anyhow::{Result, bail};
+use clap::{Parser, Subcommand};
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Explain every pixel of a photograph with the Dichromatic Reflection Model, and split it into body and surface
+/// reflection.
+#[derive(Debug, Parser)]
+#[command(name = "dichroscope", version, args_conflicts_with_subcommands = true)]
+pub struct Arguments {
+    /// Photograph to open in the window; none: the embedded sample is analysed
+    image: Option<PathBuf>,
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Analyze(Box<analyze::Arguments>),
+    Evaluate(evaluate::Arguments),
+}
+
+/// How the work went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    Done,
+    SomeFailed,
+}
+
+/// Runs what the arguments ask for.
+pub fn run(arguments: Arguments) -> ExitCode {
+    let result = match (arguments.command, arguments.image) {
+        (Some(Command::Analyze(arguments)), _) => analyze::run(&arguments),
+        (Some(Command::Evaluate(arguments)), _) => evaluate::run(&arguments),
+        (None, None) => sample::run(),
+        (None, Some(image)) => no_window(&image),
+    };
+    match result {
+        Ok(Outcome::Done) => ExitCode::SUCCESS,
+        Ok(Outcome::SomeFailed) => ExitCode::from(1),
+        Err(error) => {
+            note(&format!("error: {error:#}"));
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn no_window(image: &std::path::Path) -> Result<Outcome> {
+    let image = image.display();
+    bail!(
+        "this program has no window built in: `dichroscope analyze {image} --out DIR` analyses the photograph"
+    )
+}
+
+/// A line on stderr. A reader that has gone away is no reason to stop working.
+fn note(line: &str) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+/// Text on stdout, with the same indulgence.
+fn print(text: &str) {
+    let _ = io::stdout().lock().write_all(text.as_bytes());
+}

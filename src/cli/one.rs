@@ -1,0 +1,153 @@
+//! One photograph, from its file to its result.
+
+use anyhow::{Context, Result};
+use dichroscope::analysis::{Analysis, Observer, Session, Stage};
+use dichroscope::export::{self, Staging};
+use dichroscope::photo::{self, LinearImage, Photo, ReadOptions};
+use dichroscope::raster::{Raster, UNASSIGNED};
+use dichroscope::report::{ImageFacts, Report, Timings};
+use dichroscope::segment::Params;
+use dichroscope::truth::{GroundTruth, Outcome, score};
+use sha2::{Digest, Sha256};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// The photograph that truth folders hold, where a report does not name one of theirs.
+pub(super) const USUAL_CAMERA: &str = "camera8.png";
+
+/// A photograph that has been read.
+pub(super) struct Shot {
+    pub(super) photo: Photo,
+    sha256: String,
+    read_ms: f64,
+}
+
+impl Shot {
+    /// Reads a file. Errors name it.
+    pub(super) fn read(path: &Path, options: &ReadOptions) -> Result<Self> {
+        let begin = Instant::now();
+        let photo = photo::read(path, options)?;
+        let read_ms = ms_since(begin);
+        let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
+        Ok(Self { photo, sha256: sha256_hex(&bytes), read_ms })
+    }
+
+    /// Decodes a file that is already in memory.
+    pub(super) fn decode(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Self> {
+        let begin = Instant::now();
+        let photo = photo::decode(bytes, name, options)?;
+        Ok(Self { photo, sha256: sha256_hex(bytes), read_ms: ms_since(begin) })
+    }
+
+    fn facts(&self) -> ImageFacts {
+        let file = Path::new(&self.photo.name).file_name().unwrap_or_default();
+        ImageFacts {
+            file: file.to_string_lossy().into_owned(),
+            sha256: self.sha256.clone(),
+            width: self.photo.image.width(),
+            height: self.photo.image.height(),
+            encoding: self.photo.encoding.to_string(),
+            full_scale: self.photo.full_scale,
+        }
+    }
+}
+
+/// What a result is compared with.
+pub(super) struct Reference {
+    pub(super) truth: GroundTruth,
+    /// The photograph that the truth belongs to, linear counts.
+    pub(super) camera: Raster<[f32; 3]>,
+}
+
+impl Reference {
+    /// Reads a truth folder and, in it, the photograph called `image` or else the usual one.
+    pub(super) fn read(folder: &Path, image: &str, options: &ReadOptions) -> Result<Self> {
+        let named = folder.join(image);
+        let path = if named.is_file() { named } else { folder.join(USUAL_CAMERA) };
+        let truth = GroundTruth::read(folder)?;
+        Ok(Self { truth, camera: photo::read(&path, options)?.image.pixels })
+    }
+}
+
+/// What became of a photograph.
+pub(super) struct Finished {
+    pub(super) report: Report,
+    /// Share of the pixels that are not dark which are in a region; none where all are dark.
+    pub(super) lit_share: Option<f64>,
+}
+
+/// Analyses a photograph and writes its result to `target`.
+pub(super) fn analyze(
+    shot: &Shot,
+    params: &Params,
+    reference: Option<&Reference>,
+    target: &Path,
+    force: bool,
+) -> Result<Finished> {
+    let mut clock = StageClock::default();
+    let image = Arc::new(shot.photo.image.clone());
+    let analysis = Session::new(Arc::clone(&image)).run(params, &mut clock)?;
+    let mut report = Report::new(shot.facts(), params, &analysis, &shot.photo.warnings);
+    report.timings_ms = Timings { read: Some(shot.read_ms), ..clock.timings };
+    if let Some(Reference { truth, camera }) = reference {
+        let intrinsic = &analysis.intrinsic;
+        let outcome = Outcome {
+            regions: &analysis.regions,
+            body: &intrinsic.body,
+            surface: &intrinsic.surface,
+            report: &report,
+        };
+        report.scores = Some(score(truth, camera, &outcome)?);
+    }
+    let begin = Instant::now();
+    let staging = Staging::begin(target, force)?;
+    let (pictures, matte) = rayon::join(
+        || export::write_pictures(staging.folder(), &image, &analysis),
+        || export::write_matte(&shot.photo, &analysis.intrinsic.body, staging.folder()),
+    );
+    pictures?;
+    matte?;
+    report.timings_ms.write = Some(ms_since(begin));
+    staging.publish(&report)?;
+    Ok(Finished { lit_share: lit_share(&image, &analysis), report })
+}
+
+fn lit_share(image: &LinearImage, analysis: &Analysis) -> Option<f64> {
+    let threshold = analysis.used.min_intensity.powi(2);
+    let (mut lit, mut assigned) = (0usize, 0usize);
+    for (colour, &region) in image.pixels.as_slice().iter().zip(analysis.regions.as_slice()) {
+        if colour.iter().map(|&v| f64::from(v).powi(2)).sum::<f64>() >= threshold {
+            lit += 1;
+            assigned += usize::from(region != UNASSIGNED);
+        }
+    }
+    (lit > 0).then(|| assigned as f64 / lit as f64)
+}
+
+/// Takes the time of each stage; the core itself has no clock.
+#[derive(Default)]
+struct StageClock {
+    begin: Option<Instant>,
+    timings: Timings,
+}
+
+impl Observer for StageClock {
+    fn started(&mut self, _stage: Stage) {
+        self.begin = Some(Instant::now());
+    }
+
+    fn finished(&mut self, stage: Stage, _reused: bool) {
+        *self.timings.slot(stage) = self.begin.take().map(ms_since);
+    }
+}
+
+/// Milliseconds, to the microsecond.
+fn ms_since(begin: Instant) -> f64 {
+    begin.elapsed().as_micros() as f64 / 1e3
+}
+
+fn sha256_hex(bytes: &[u8]) -> String {
+    let digit = |nibble: u8| char::from(b"0123456789abcdef"[usize::from(nibble)]);
+    Sha256::digest(bytes).iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
+}

@@ -1,0 +1,52 @@
+//! `dichroscope` alone: the embedded sample scene, analysed and compared with its ground truth.
+
+use super::analyze::in_short;
+use super::one::{self, Reference, Shot};
+use super::{Outcome, note, print, table};
+use anyhow::{Context, Result};
+use dichroscope::export::check_target;
+use dichroscope::photo::ReadOptions;
+use dichroscope::segment::Params;
+use dichroscope::truth::{GroundTruth, TruthFiles};
+use std::path::Path;
+
+const NAME: &str = "plastic8_white";
+const CAMERA: &[u8] = include_bytes!("../../assets/plastic8_white/camera8.png");
+const TRUTH: TruthFiles = TruthFiles {
+    body: include_bytes!("../../assets/plastic8_white/body.exr"),
+    surface: include_bytes!("../../assets/plastic8_white/surface.exr"),
+    labels: include_bytes!("../../assets/plastic8_white/labels.png"),
+    json: include_bytes!("../../assets/plastic8_white/truth.json"),
+};
+const TARGET: &str = "dichroscope-sample";
+
+pub(super) fn run() -> Result<Outcome> {
+    let target = Path::new(TARGET);
+    // There is no --force to give here.
+    check_target(target, false).context("the sample's result needs a place: run this in another folder")?;
+    match analyze(target) {
+        Ok(text) => {
+            print(&text);
+            Ok(Outcome::Done)
+        }
+        Err(error) => {
+            note(&format!("{NAME}: {error:#}"));
+            Ok(Outcome::SomeFailed)
+        }
+    }
+}
+
+fn analyze(target: &Path) -> Result<String> {
+    let shot = Shot::decode(CAMERA, "camera8.png", &ReadOptions::default())?;
+    let truth = GroundTruth::decode(&TRUTH, Path::new(NAME))?;
+    let reference = Reference { truth, camera: shot.photo.image.pixels.clone() };
+    let finished = one::analyze(&shot, &Params::default(), Some(&reference), target, false)?;
+    let place = std::path::absolute(target)?;
+    let scores = finished.report.scores.map(|scores| table::aligned(&[(NAME.to_owned(), scores)]));
+    Ok(format!(
+        "The sample scene {NAME}: {}\n\n{}\nResult: {}\nYour own: dichroscope analyze PHOTO --out DIR\n",
+        in_short(&finished),
+        scores.unwrap_or_default(),
+        place.display()
+    ))
+}

@@ -1,0 +1,160 @@
+//! Parameters from flags and a TOML file: defaults of the method < file < `--auto` < single flags.
+
+use anyhow::{Context, Result, anyhow, bail};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Arg, ArgMatches, Args, FromArgMatches};
+use dichroscope::segment::{Method, Parameter, Params, Refine, Setting};
+use std::path::{Path, PathBuf};
+
+/// How to analyse.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Method and parameters")]
+pub(super) struct Settings {
+    /// The 1990 algorithm with refinements, or as it was written
+    #[arg(long, value_parser = method_parser())]
+    method: Option<Method>,
+    /// Parameters from a TOML file: `method`, one key per parameter, and the switches under `[refine]`
+    #[arg(long, value_name = "FILE.toml")]
+    params: Option<PathBuf>,
+    /// Estimate from the image whatever can be, except what a flag of its own sets
+    #[arg(long)]
+    auto: bool,
+    /// Switch a refinement on (repeatable)
+    #[arg(long, value_name = "NAME", value_parser = switch_parser())]
+    with: Vec<String>,
+    /// Switch a refinement off (repeatable; names as for --with)
+    #[arg(long, value_name = "NAME", value_parser = switch_parser(), hide_possible_values = true)]
+    without: Vec<String>,
+    #[command(flatten)]
+    flags: ParameterFlags,
+}
+
+impl Settings {
+    /// The parameters that all of this amounts to.
+    ///
+    /// Fails on an unreadable file, an unknown name, a value out of range, and switches that contradict each other.
+    pub(super) fn params(&self) -> Result<Params> {
+        let file = self.params.as_deref().map(read_toml).transpose()?.unwrap_or_default();
+        let mut params = Params::of(self.method.or(file.method).unwrap_or_default());
+        params = overlay(params, file.table)?;
+        params.method = self.method.unwrap_or(params.method);
+        for parameter in Parameter::ALL {
+            let asked = self.flags.get(parameter).or(self.auto.then_some(Setting::Auto));
+            if let Some(setting) = asked {
+                *params.slot(parameter) = setting;
+            }
+        }
+        self.switch(&mut params)?;
+        params.validate()?;
+        Ok(params)
+    }
+
+    fn switch(&self, params: &mut Params) -> Result<()> {
+        if let Some(name) = self.with.iter().find(|name| self.without.contains(name)) {
+            bail!("{name} is both --with and --without");
+        }
+        if params.method == Method::Paper && !(self.with.is_empty() && self.without.is_empty()) {
+            bail!("--with and --without belong to `--method refined`: the paper's method refines nothing");
+        }
+        for (name, switch) in params.refine.switches() {
+            if self.with.iter().any(|asked| asked == name) {
+                *switch = true;
+            } else if self.without.iter().any(|asked| asked == name) {
+                *switch = false;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What a TOML file asks for; keys that it does not have are left to the method.
+#[derive(Debug, Default)]
+struct File {
+    method: Option<Method>,
+    table: toml::Table,
+}
+
+fn read_toml(path: &Path) -> Result<File> {
+    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
+    // As `Params` first, because that knows the names and the places of mistakes.
+    let params: Params = toml::from_str(&text).map_err(|error| located(path, &text, &error))?;
+    let table: toml::Table = toml::from_str(&text).map_err(|error| located(path, &text, &error))?;
+    params.validate().with_context(|| path.display().to_string())?;
+    Ok(File { method: table.contains_key("method").then_some(params.method), table })
+}
+
+/// A mistake in one line, after the file's name and the line's number.
+fn located(path: &Path, text: &str, error: &toml::de::Error) -> anyhow::Error {
+    let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
+    let line = before.matches('\n').count() + 1;
+    anyhow!("{}:{line}: {}", path.display(), error.message().replace('\n', " "))
+}
+
+/// `base` with the keys of `table` in their places.
+fn overlay(base: Params, table: toml::Table) -> Result<Params> {
+    let mut all = toml::Table::try_from(base)?;
+    for (key, value) in table {
+        match (all.get_mut(&key), value) {
+            (Some(toml::Value::Table(base)), toml::Value::Table(over)) => base.extend(over),
+            (_, value) => {
+                all.insert(key, value);
+            }
+        }
+    }
+    Ok(all.try_into()?)
+}
+
+fn method_parser() -> impl TypedValueParser<Value = Method> {
+    PossibleValuesParser::new(["refined", "paper"]).map(|name| match name.as_str() {
+        "paper" => Method::Paper,
+        _ => Method::Refined,
+    })
+}
+
+fn switch_parser() -> PossibleValuesParser {
+    PossibleValuesParser::new(Refine::default().switches().map(|(name, _)| name))
+}
+
+/// One flag per parameter, made from [`Parameter::spec`].
+#[derive(Debug)]
+struct ParameterFlags([Option<Setting>; Parameter::ALL.len()]);
+
+impl ParameterFlags {
+    fn get(&self, parameter: Parameter) -> Option<Setting> {
+        self.0[Parameter::ALL.iter().position(|&other| other == parameter)?]
+    }
+}
+
+impl Args for ParameterFlags {
+    fn augment_args(command: clap::Command) -> clap::Command {
+        Parameter::ALL.into_iter().fold(command, |command, parameter| {
+            let spec = parameter.spec();
+            let default = Params::default().get(parameter);
+            let help =
+                format!("{} ({}) [default: {default}; paper: {}]", spec.meaning, spec.unit, spec.paper);
+            command.arg(
+                Arg::new(spec.name)
+                    .long(spec.name.replace('_', "-"))
+                    .value_name("V|auto")
+                    .value_parser(str::parse::<Setting>)
+                    .allow_hyphen_values(true)
+                    .help(help),
+            )
+        })
+    }
+
+    fn augment_args_for_update(command: clap::Command) -> clap::Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for ParameterFlags {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        Ok(Self(Parameter::ALL.map(|parameter| matches.get_one(parameter.spec().name).copied())))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}

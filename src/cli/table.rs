@@ -1,0 +1,106 @@
+//! Scores of several results, for people and for programs.
+
+use anyhow::Result;
+use dichroscope::report::Scores;
+use serde_json::{Map, Value, json};
+
+/// The means over the results that have a figure at all, by the figure's name.
+fn means(scored: &[(String, Scores)]) -> Vec<(&'static str, Option<f64>)> {
+    Scores::default()
+        .figures()
+        .iter()
+        .enumerate()
+        .map(|(index, &(name, _))| {
+            let values: Vec<f64> = scored.iter().filter_map(|(_, s)| s.figures()[index].1).collect();
+            (name, (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64))
+        })
+        .collect()
+}
+
+/// `{"results": {NAME: scores}, "mean": scores}`, pretty, with a final newline.
+pub(super) fn json(scored: &[(String, Scores)]) -> Result<String> {
+    let mut results = Map::new();
+    for (name, scores) in scored {
+        results.insert(name.clone(), serde_json::to_value(scores)?);
+    }
+    let mean: Map<String, Value> =
+        means(scored).into_iter().map(|(name, mean)| (name.to_owned(), json!(mean))).collect();
+    Ok(serde_json::to_string_pretty(&json!({ "results": results, "mean": mean }))? + "\n")
+}
+
+/// One line per result and, of several, one with the means.
+pub(super) fn aligned(scored: &[(String, Scores)]) -> String {
+    let means = means(scored);
+    let mut lines = vec![heading(&means)];
+    lines.extend(scored.iter().map(|(name, scores)| line(name, &scores.figures())));
+    if scored.len() > 1 {
+        lines.push(line("MEAN", &means));
+    }
+    let columns = lines[0].len();
+    let widths: Vec<usize> = (0..columns)
+        .map(|column| lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0))
+        .collect();
+    lines.iter().map(|line| justified(line, &widths)).collect()
+}
+
+fn heading(figures: &[(&'static str, Option<f64>)]) -> Vec<String> {
+    let names = figures.iter().map(|&(name, _)| {
+        // Each stands behind the figure that it belongs to.
+        if name.ends_with("_nothing") { "(nothing)" } else { name }.to_owned()
+    });
+    std::iter::once("result".to_owned()).chain(names).collect()
+}
+
+fn line(name: &str, figures: &[(&'static str, Option<f64>)]) -> Vec<String> {
+    let cells = figures.iter().map(|&(name, figure)| match (name, figure) {
+        (_, None) => "-".to_owned(),
+        ("regions" | "objects", Some(count)) if count.fract() == 0.0 => format!("{count:.0}"),
+        (name, Some(value)) if name.ends_with("_nothing") => format!("({value:.3})"),
+        (_, Some(value)) => format!("{value:.3}"),
+    });
+    std::iter::once(name.to_owned()).chain(cells).collect()
+}
+
+/// The first cell to the left, all others to the right.
+fn justified(cells: &[String], widths: &[usize]) -> String {
+    let first = format!("{:<width$}", cells[0], width = widths[0]);
+    let others = cells.iter().zip(widths).skip(1).map(|(cell, width)| format!("{cell:>width$}"));
+    std::iter::once(first).chain(others).collect::<Vec<_>>().join("  ") + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn two() -> [(String, Scores); 2] {
+        let a = Scores {
+            ari: 1.0,
+            regions: 2,
+            psnr_body: Some(46.0),
+            psnr_nothing: Some(30.0),
+            ..Scores::default()
+        };
+        let b = Scores { ari: 0.5, regions: 3, body_deg: Some(0.25), ..Scores::default() };
+        [("cups".to_owned(), a), ("a longer name".to_owned(), b)]
+    }
+
+    #[test]
+    fn columns_line_up_and_nothing_stands_beside_its_figure() {
+        let text = aligned(&two());
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines.len(), 4);
+        assert!(lines.iter().all(|line| line.len() == lines[0].len()), "{text}");
+        assert!(lines[0].contains("psnr_body  (nothing)"), "{text}");
+        assert!(lines[1].contains("   46.000   (30.000)"), "{text}");
+        assert!(lines[3].starts_with("MEAN") && lines[3].contains("0.750"), "{text}");
+        assert!(lines[3].contains("2.500"), "mean of a count: {text}");
+    }
+
+    #[test]
+    fn means_pass_over_what_is_missing() {
+        let value: Value = serde_json::from_str(&json(&two()).unwrap()).unwrap();
+        assert_eq!(value["mean"]["body_deg"], 0.25);
+        assert_eq!(value["mean"]["psnr_restored"], Value::Null);
+        assert_eq!(value["results"]["cups"]["psnr_body"], 46.0);
+    }
+}

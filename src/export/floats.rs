@@ -1,0 +1,39 @@
+//! Numbers as `OpenEXR`: 32-bit floats, ZIP in blocks of 16 lines.
+
+use super::ExportError;
+use crate::raster::Raster;
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, WritableImage,
+};
+use std::path::Path;
+
+/// Counts that 1.0 stands for.
+const COUNTS_PER_UNIT: f32 = 255.0;
+
+/// Channels R, G and B from counts.
+pub(super) fn write_rgb(path: &Path, counts: &Raster<[f32; 3]>) -> Result<(), ExportError> {
+    let band = |band: usize| counts.as_slice().iter().map(|c| c[band] / COUNTS_PER_UNIT).collect();
+    write(path, (counts.width(), counts.height()), [("R", band(0)), ("G", band(1)), ("B", band(2))])
+}
+
+/// The single channel Y from counts.
+pub(super) fn write_single(path: &Path, counts: &Raster<f32>) -> Result<(), ExportError> {
+    let values = counts.as_slice().iter().map(|v| v / COUNTS_PER_UNIT).collect();
+    write(path, (counts.width(), counts.height()), [("Y", values)])
+}
+
+fn write<const N: usize>(
+    path: &Path,
+    size: (usize, usize),
+    channels: [(&str, Vec<f32>); N],
+) -> Result<(), ExportError> {
+    let channels = channels.map(|(name, values)| AnyChannel::new(name, FlatSamples::F32(values)));
+    let channels = AnyChannels::sort(channels.into_iter().collect());
+    let layer = Layer::new(size, LayerAttributes::default(), Encoding::SMALL_LOSSLESS, channels);
+    // The files of a result are written side by side: threads within each would only fight with that.
+    Image::from_layer(layer)
+        .write()
+        .non_parallel()
+        .to_file(path)
+        .map_err(|source| ExportError::Exr { path: path.to_owned(), source })
+}

@@ -1,0 +1,181 @@
+//! Colours that tell regions apart, for readers with and without red and green cones alike.
+//!
+//! Hues are spread evenly in OKLCH (Ottosson 2020) on three levels of lightness: lightness is what remains where hue
+//! fails. How far two colours are apart is the smallest of their `OKLab` distances as seen with normal vision, with
+//! protanopia and with deuteranopia (Viénot, Brettel & Mollon 1999).
+
+use super::png::srgb_from_linear;
+
+/// Levels of lightness with the largest chroma at which every hue still lies inside sRGB, as the tests check.
+const LEVELS: [(f32, f32); 3] = [(0.74, 0.12), (0.50, 0.085), (0.88, 0.058)];
+const HUES: usize = 8;
+/// Far apart first, so that a picture of few regions uses the whole circle.
+const HUE_ORDER: [u8; HUES] = [0, 4, 2, 6, 1, 5, 3, 7];
+const COLOURS: usize = LEVELS.len() * HUES;
+/// `OKLab` distance from which on two neighbours are easily told apart; beyond it the rarer colour is preferred.
+const EASY: f32 = 0.16;
+
+/// Linear sRGB as a protanope and a deuteranope see it.
+const CONE_DEFICITS: [[[f32; 3]; 3]; 2] = [
+    [[0.112_38, 0.887_62, 0.0], [0.112_38, 0.887_62, 0.0], [0.004_01, -0.004_01, 1.0]],
+    [[0.292_75, 0.707_25, 0.0], [0.292_75, 0.707_25, 0.0], [-0.022_34, 0.022_34, 1.0]],
+];
+
+/// The colours and the distances between them.
+pub(super) struct Palette {
+    colours: [[u8; 3]; COLOURS],
+    distances: [[f32; COLOURS]; COLOURS],
+}
+
+impl Palette {
+    pub(super) fn new() -> Self {
+        let linear: [[f32; 3]; COLOURS] = std::array::from_fn(|i| {
+            // Eight and three have no common divisor: every hue meets every level.
+            let level = i % LEVELS.len();
+            let (lightness, chroma) = LEVELS[level];
+            // Each level's hues lie between those of the others.
+            let hue = HUE_ORDER[i % HUES] as f32 + level as f32 / LEVELS.len() as f32;
+            linear_srgb_from_oklch(lightness, chroma, std::f32::consts::TAU * hue / HUES as f32)
+        });
+        let seen = linear.map(as_seen);
+        let distance = |a: usize, b: usize| {
+            (0..3).map(|eye| euclidean(seen[a][eye], seen[b][eye])).fold(f32::INFINITY, f32::min)
+        };
+        Self {
+            colours: linear.map(|colour| colour.map(srgb_from_linear)),
+            distances: std::array::from_fn(|a| std::array::from_fn(|b| distance(a, b))),
+        }
+    }
+
+    /// One of the colours as 8-bit sRGB.
+    pub(super) fn colour(&self, index: u8) -> [u8; 3] {
+        self.colours[usize::from(index)]
+    }
+
+    /// A colour for each label, in ascending order: far from those of its neighbours, and the rarest of these.
+    pub(super) fn assign(&self, neighbours: &[Vec<u32>]) -> Vec<u8> {
+        let mut chosen = vec![0u8; neighbours.len()];
+        let mut uses = [0usize; COLOURS];
+        for label in 1..neighbours.len() {
+            let earlier = neighbours[label].iter().filter(|&&other| (other as usize) < label);
+            let mut clearance = [EASY; COLOURS];
+            for &other in earlier {
+                let taken = &self.distances[usize::from(chosen[other as usize])];
+                for (clearance, distance) in clearance.iter_mut().zip(taken) {
+                    *clearance = clearance.min(*distance);
+                }
+            }
+            let better = |a: &usize, b: &usize| {
+                clearance[*a].total_cmp(&clearance[*b]).then(uses[*b].cmp(&uses[*a])).then(b.cmp(a))
+            };
+            let best = (0..COLOURS).max_by(better).unwrap_or(0);
+            uses[best] += 1;
+            chosen[label] = best as u8;
+        }
+        chosen
+    }
+}
+
+/// `OKLab` coordinates with normal vision, protanopia and deuteranopia.
+fn as_seen(linear: [f32; 3]) -> [[f32; 3]; 3] {
+    let [protan, deutan] = CONE_DEFICITS.map(|m| oklab_from_linear_srgb(apply(&m, linear)));
+    [oklab_from_linear_srgb(linear), protan, deutan]
+}
+
+fn linear_srgb_from_oklch(lightness: f32, chroma: f32, hue_rad: f32) -> [f32; 3] {
+    let lab = [lightness, chroma * hue_rad.cos(), chroma * hue_rad.sin()];
+    let roots = apply(
+        &[
+            [1.0, 0.396_337_78, 0.215_803_76],
+            [1.0, -0.105_561_346, -0.063_854_17],
+            [1.0, -0.089_484_18, -1.291_485_5],
+        ],
+        lab,
+    );
+    apply(
+        &[
+            [4.076_741_7, -3.307_711_6, 0.230_969_94],
+            [-1.268_438, 2.609_757_4, -0.341_319_38],
+            [-0.004_196_086_3, -0.703_418_6, 1.707_614_7],
+        ],
+        roots.map(|root| root.powi(3)),
+    )
+}
+
+fn oklab_from_linear_srgb(linear: [f32; 3]) -> [f32; 3] {
+    let cones = apply(
+        &[
+            [0.412_221_46, 0.536_332_55, 0.051_445_995],
+            [0.211_903_5, 0.680_699_5, 0.107_396_96],
+            [0.088_302_46, 0.281_718_85, 0.629_978_7],
+        ],
+        linear,
+    );
+    apply(
+        &[
+            [0.210_454_26, 0.793_617_8, -0.004_072_047],
+            [1.977_998_5, -2.428_592_2, 0.450_593_7],
+            [0.025_904_037, 0.782_771_77, -0.808_675_77],
+        ],
+        cones.map(f32::cbrt),
+    )
+}
+
+fn apply(matrix: &[[f32; 3]; 3], v: [f32; 3]) -> [f32; 3] {
+    matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+}
+
+fn euclidean(a: [f32; 3], b: [f32; 3]) -> f32 {
+    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f32>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn oklab_there_and_back() {
+        let linear = linear_srgb_from_oklch(0.7, 0.08, 1.1);
+        let lab = oklab_from_linear_srgb(linear);
+        assert!(euclidean(lab, [0.7, 0.08 * 1.1f32.cos(), 0.08 * 1.1f32.sin()]) < 1e-4);
+        assert!(euclidean(oklab_from_linear_srgb([1.0; 3]), [1.0, 0.0, 0.0]) < 1e-3, "white has no hue");
+    }
+
+    #[test]
+    fn every_colour_lies_inside_srgb() {
+        for (lightness, chroma) in LEVELS {
+            for step in 0..360 {
+                let colour = linear_srgb_from_oklch(lightness, chroma, (step as f32).to_radians());
+                assert!(
+                    colour.iter().all(|v| (-0.002..=1.002).contains(v)),
+                    "L {lightness} C {chroma} h {step}\u{b0}: {colour:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn neighbours_are_easily_told_apart_by_all_eyes() {
+        // Four labels that all touch each other, as far as a plane allows, and a ring around them.
+        let mut neighbours = vec![Vec::new(); 6];
+        for a in 1..=4u32 {
+            neighbours[a as usize] = (1..=4).filter(|&b| b != a).collect();
+        }
+        neighbours[5] = vec![1, 2, 3];
+        let palette = Palette::new();
+        let colours = palette.assign(&neighbours);
+        for (label, list) in neighbours.iter().enumerate() {
+            for &other in list {
+                let (a, b) = (usize::from(colours[label]), usize::from(colours[other as usize]));
+                assert!(palette.distances[a][b] >= 0.1, "{label} and {other}: {}", palette.distances[a][b]);
+            }
+        }
+    }
+
+    #[test]
+    fn labels_that_touch_nothing_use_the_whole_palette() {
+        let mut colours = Palette::new().assign(&vec![Vec::new(); COLOURS + 1]).split_off(1);
+        colours.sort_unstable();
+        assert_eq!(colours, (0..COLOURS as u8).collect::<Vec<_>>());
+    }
+}

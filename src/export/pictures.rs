@@ -1,0 +1,134 @@
+//! The pictures of a result folder.
+
+use super::png::srgb_from_linear;
+use super::{ExportError, floats, png, stages};
+use crate::analysis::Analysis;
+use crate::photo::LinearImage;
+use crate::raster::Raster;
+use rayon::prelude::*;
+use std::path::Path;
+
+/// What the pictures are made from.
+struct Subject<'a> {
+    image: &'a LinearImage,
+    analysis: &'a Analysis,
+}
+
+type Writer = fn(&Subject, &Path) -> Result<(), ExportError>;
+
+/// Every picture by its name; the largest first, so that none is still at work when all others are done.
+const PICTURES: [(&str, Writer); 13] = [
+    ("body.exr", |s, path| floats::write_rgb(path, &s.analysis.intrinsic.body)),
+    ("residual.exr", |s, path| floats::write_rgb(path, &residual(s))),
+    ("surface.exr", |s, path| floats::write_rgb(path, &s.analysis.intrinsic.surface)),
+    ("noise.exr", |s, path| floats::write_single(path, &s.analysis.intrinsic.noise)),
+    ("body.png", |s, path| png::write_rgb(path, &viewable(&s.analysis.intrinsic.body))),
+    ("surface.png", |s, path| png::write_rgb(path, &viewable(&s.analysis.intrinsic.surface))),
+    ("noise.png", |s, path| png::write_grey(path, &viewable_noise(s.analysis))),
+    ("regions.png", |s, path| png::write_labels(path, &s.analysis.regions)),
+    ("stage-1-classification.png", |s, path| png::write_rgb(path, &stages::classification(s.analysis))),
+    ("stage-2-merged.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.areas))),
+    ("stage-3-linear.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.linear))),
+    ("stage-4-planar.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.planar))),
+    ("stage-5-clipping.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.regions))),
+];
+
+/// Writes everything of a result but the report and the matte photograph into `folder`, in parallel.
+///
+/// # Errors
+/// The first file that could not be written.
+pub fn write_pictures(folder: &Path, image: &LinearImage, analysis: &Analysis) -> Result<(), ExportError> {
+    let subject = Subject { image, analysis };
+    PICTURES.par_iter().with_max_len(1).try_for_each(|(name, write)| write(&subject, &folder.join(name)))
+}
+
+/// Input − body − surface, counts.
+fn residual(subject: &Subject) -> Raster<[f32; 3]> {
+    let intrinsic = &subject.analysis.intrinsic;
+    let mut rest = subject.image.pixels.clone();
+    let explained = intrinsic.body.as_slice().iter().zip(intrinsic.surface.as_slice());
+    for (rest, (body, surface)) in rest.as_mut_slice().iter_mut().zip(explained) {
+        *rest = std::array::from_fn(|band| rest[band] - body[band] - surface[band]);
+    }
+    rest
+}
+
+/// Linear counts as sRGB values; what is brighter than 255 counts is white.
+fn viewable(counts: &Raster<[f32; 3]>) -> Raster<[u8; 3]> {
+    counts.map(|colour| colour.map(|value| srgb_from_linear(value / 255.0)))
+}
+
+/// ε as grey values: 128 where it is zero, 1 and 255 at the faces of the slice.
+fn viewable_noise(analysis: &Analysis) -> Raster<u8> {
+    let half_width = analysis.used.slice_half_width_counts() as f32;
+    analysis.intrinsic.noise.map(|epsilon| (128.0 + 127.0 * epsilon / half_width).round() as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Session;
+    use crate::intrinsic::Intrinsic;
+    use crate::segment::Params;
+    use crate::trace::Class;
+    use crate::truth::ResultPictures;
+    use std::sync::Arc;
+
+    const SIZE: (usize, usize) = (20, 10);
+
+    /// One region with a highlight's worth of surface reflection, and noise that leaves the slice at one pixel.
+    fn made_up() -> (Arc<LinearImage>, Analysis) {
+        let image =
+            Arc::new(LinearImage::new(Raster::filled(SIZE.0, SIZE.1, [90.0, 60.5, 33.0]), Some(255.0)));
+        let mut analysis = Session::new(Arc::clone(&image)).run(&Params::paper(), &mut ()).unwrap();
+        let mut noise = Raster::filled(SIZE.0, SIZE.1, 0.0);
+        noise[1] = 10.0;
+        noise[2] = -5.0;
+        noise[3] = -99.0;
+        analysis.intrinsic = Arc::new(Intrinsic {
+            body: Raster::filled(SIZE.0, SIZE.1, [70.0, 40.0, 13.0]),
+            surface: Raster::filled(SIZE.0, SIZE.1, [20.0; 3]),
+            noise,
+            ..Intrinsic::clone(&analysis.intrinsic)
+        });
+        analysis.regions = Arc::new(Raster::filled(SIZE.0, SIZE.1, 300));
+        analysis.classes = Arc::new(Raster::from_vec(2, 1, vec![Some(Class::Line), None]).unwrap());
+        (image, analysis)
+    }
+
+    #[test]
+    fn numbers_survive_their_files() {
+        let (image, analysis) = made_up();
+        let folder = tempfile::tempdir().unwrap();
+        write_pictures(folder.path(), &image, &analysis).unwrap();
+        let read = ResultPictures::read(folder.path()).unwrap();
+        assert_eq!(read.regions, *analysis.regions, "labels above 255 need 16 bits");
+        for (written, read) in
+            [(&analysis.intrinsic.body, &read.body), (&analysis.intrinsic.surface, &read.surface)]
+        {
+            let pairs = written.as_slice().as_flattened().iter().zip(read.as_slice().as_flattened());
+            assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-4));
+        }
+    }
+
+    #[test]
+    fn the_residual_is_what_body_and_surface_leave() {
+        let (image, analysis) = made_up();
+        let rest = residual(&Subject { image: &image, analysis: &analysis });
+        assert_eq!(rest[7].map(|counts| counts.to_string()), ["0", "0.5", "0"]);
+    }
+
+    /// The paper's slices are 4 × 2.5 = 10 counts to either side.
+    #[test]
+    fn noise_is_grey_within_the_slice() {
+        let (_, analysis) = made_up();
+        assert_eq!(viewable_noise(&analysis).row(0)[..4], [128, 255, 65, 0]);
+    }
+
+    #[test]
+    fn windows_have_the_papers_colours() {
+        let (_, analysis) = made_up();
+        let picture = stages::classification(&analysis);
+        assert_eq!((picture[9], picture[10]), ([255, 0, 0], [0, 0, 0]));
+    }
+}

@@ -1,0 +1,75 @@
+//! Pictures as PNG.
+
+use super::ExportError;
+use crate::raster::{LabelMap, Raster};
+use png::{BitDepth, ColorType, Compression, EncodingError, SrgbRenderingIntent};
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+/// Labels as 16-bit grey values: numbers, not colours, and therefore untagged.
+pub(super) fn write_labels(path: &Path, labels: &LabelMap) -> Result<(), ExportError> {
+    let bytes: Vec<u8> = labels.as_slice().iter().flat_map(|label| label.to_be_bytes()).collect();
+    let kind = Kind { colour: ColorType::Grayscale, depth: BitDepth::Sixteen, srgb: false };
+    write(path, (labels.width(), labels.height()), &kind, &bytes)
+}
+
+/// 8-bit sRGB values, tagged as such.
+pub(super) fn write_rgb(path: &Path, values: &Raster<[u8; 3]>) -> Result<(), ExportError> {
+    let kind = Kind { colour: ColorType::Rgb, depth: BitDepth::Eight, srgb: true };
+    write(path, (values.width(), values.height()), &kind, values.as_slice().as_flattened())
+}
+
+/// 8-bit grey sRGB values, tagged as such.
+pub(super) fn write_grey(path: &Path, values: &Raster<u8>) -> Result<(), ExportError> {
+    let kind = Kind { colour: ColorType::Grayscale, depth: BitDepth::Eight, srgb: true };
+    write(path, (values.width(), values.height()), &kind, values.as_slice())
+}
+
+/// Tone curve of IEC 61966-2-1, from linear light where 1 is white; what is brighter is white too.
+pub(super) fn srgb_from_linear(linear: f32) -> u8 {
+    let linear = linear.clamp(0.0, 1.0);
+    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
+    (encoded * 255.0).round() as u8
+}
+
+struct Kind {
+    colour: ColorType,
+    depth: BitDepth,
+    srgb: bool,
+}
+
+fn write(path: &Path, size: (usize, usize), kind: &Kind, bytes: &[u8]) -> Result<(), ExportError> {
+    let file = File::create(path).map_err(|source| ExportError::Io { path: path.to_owned(), source })?;
+    encode(BufWriter::new(file), size, kind, bytes)
+        .map_err(|source| ExportError::Png { path: path.to_owned(), source })
+}
+
+fn encode(
+    mut file: impl Write,
+    size: (usize, usize),
+    kind: &Kind,
+    bytes: &[u8],
+) -> Result<(), EncodingError> {
+    let mut encoder = png::Encoder::new(&mut file, size.0 as u32, size.1 as u32);
+    encoder.set_color(kind.colour);
+    encoder.set_depth(kind.depth);
+    encoder.set_compression(Compression::Fast);
+    if kind.srgb {
+        encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(bytes)?;
+    writer.finish()?;
+    file.flush().map_err(EncodingError::IoError)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tone_curve_meets_its_known_points() {
+        assert_eq!([-3.0, 0.0, 0.002, 0.215_861, 1.0, 9.0].map(srgb_from_linear), [0, 0, 7, 128, 255, 255]);
+    }
+}

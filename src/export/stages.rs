@@ -1,0 +1,83 @@
+//! What each stage found, as pictures to look at.
+
+use super::palette::Palette;
+use crate::analysis::Analysis;
+use crate::raster::Raster;
+use crate::trace::Class;
+
+const BLACK: [u8; 3] = [0; 3];
+
+/// The windows' classes in the paper's colours: point yellow, line red, plane green, volume blue, none black.
+pub(super) fn classification(analysis: &Analysis) -> Raster<[u8; 3]> {
+    let (width, height) = (analysis.regions.width(), analysis.regions.height());
+    let side = (analysis.used.window_size as usize).max(1);
+    let mut picture = Raster::filled(width, height, BLACK);
+    for (index, pixel) in picture.as_mut_slice().iter_mut().enumerate() {
+        let window = analysis.classes.get(index % width / side, index / width / side);
+        *pixel = match window.copied().flatten() {
+            Some(Class::Point) => [255, 255, 0],
+            Some(Class::Line) => [255, 0, 0],
+            Some(Class::Plane) => [0, 255, 0],
+            Some(Class::Volume) => [0, 0, 255],
+            None => BLACK,
+        };
+    }
+    picture
+}
+
+/// Labels in colours that keep neighbours apart; 0 is black.
+pub(super) fn coloured<T: Copy + Into<u32>>(labels: &Raster<T>) -> Raster<[u8; 3]> {
+    let palette = Palette::new();
+    let colours = palette.assign(&neighbours(labels));
+    labels.map(|&label| match label.into() {
+        0 => BLACK,
+        label => palette.colour(colours[label as usize]),
+    })
+}
+
+/// The labels that each label touches (4-neighbourhood), ascending; 0 touches none.
+fn neighbours<T: Copy + Into<u32>>(labels: &Raster<T>) -> Vec<Vec<u32>> {
+    let at = |index: usize| -> u32 { labels[index].into() };
+    let mut pairs = Vec::new();
+    let mut largest = 0;
+    for index in 0..labels.len() {
+        let here = at(index);
+        largest = largest.max(here);
+        let right = ((index + 1) % labels.width() != 0).then_some(index + 1);
+        let below = (index + labels.width() < labels.len()).then_some(index + labels.width());
+        for there in [right, below].into_iter().flatten().map(at) {
+            if here != there && here != 0 && there != 0 && pairs.last() != Some(&(here, there)) {
+                pairs.push((here, there));
+            }
+        }
+    }
+    let mut touching = vec![Vec::new(); largest as usize + 1];
+    for (a, b) in pairs {
+        touching[a as usize].push(b);
+        touching[b as usize].push(a);
+    }
+    for list in &mut touching {
+        list.sort_unstable();
+        list.dedup();
+    }
+    touching
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_touch_across_edges_but_not_across_the_border_of_the_picture() {
+        let labels = Raster::from_vec(3, 3, vec![1u16, 1, 2, 0, 3, 2, 4, 0, 2]).unwrap();
+        assert_eq!(neighbours(&labels), [vec![], vec![2, 3], vec![1, 3], vec![1, 2], vec![]]);
+    }
+
+    #[test]
+    fn unassigned_is_black_and_nothing_else_is() {
+        let labels = Raster::from_vec(3, 1, vec![0u16, 1, 2]).unwrap();
+        let picture = coloured(&labels);
+        assert_eq!(picture[0], BLACK);
+        assert!(picture[1] != BLACK && picture[2] != BLACK && picture[1] != picture[2]);
+    }
+}

@@ -1,0 +1,140 @@
+//! A folder that appears whole or not at all.
+
+use super::ExportError;
+use crate::report::{self, Report};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// Tells apart the hidden folders of one process.
+static SERIAL: AtomicU32 = AtomicU32::new(0);
+
+/// A result in the making, in a hidden sibling of the folder that it will become.
+///
+/// Dropped without [`Staging::publish`], it leaves nothing behind.
+#[derive(Debug)]
+pub struct Staging {
+    folder: PathBuf,
+    target: PathBuf,
+    force: bool,
+}
+
+/// Whether a result may be written to `target`: it does not exist, is an empty folder or holds an earlier result.
+///
+/// With `force` any folder may be replaced.
+///
+/// # Errors
+/// [`ExportError::Occupied`] or [`ExportError::NotAFolder`].
+pub fn check_target(target: &Path, force: bool) -> Result<(), ExportError> {
+    // A dangling link exists too, but is no folder.
+    if fs::symlink_metadata(target).is_err() {
+        return Ok(());
+    }
+    let Ok(mut entries) = fs::read_dir(target) else {
+        return Err(ExportError::NotAFolder(target.to_owned()));
+    };
+    if force || entries.next().is_none() || report::is_result_folder(target) {
+        Ok(())
+    } else {
+        Err(ExportError::Occupied(target.to_owned()))
+    }
+}
+
+impl Staging {
+    /// Opens a hidden folder beside `target`, whose parents are made.
+    ///
+    /// # Errors
+    /// When `target` is taken (see [`check_target`]) or the folder cannot be made.
+    pub fn begin(target: &Path, force: bool) -> Result<Self, ExportError> {
+        check_target(target, force)?;
+        // Links to a folder are followed, so that the folder itself is replaced and not the link.
+        let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
+        let folder = hidden_sibling(&target, "new");
+        fs::create_dir_all(&folder).map_err(|source| ExportError::Io { path: folder.clone(), source })?;
+        Ok(Self { folder, target, force })
+    }
+
+    /// Where the files of the result go.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Adds the report and moves the result into place; an earlier one disappears as a whole.
+    ///
+    /// # Errors
+    /// When the report cannot be written or the folder cannot be renamed; the earlier result then still stands.
+    pub fn publish(self, report: &Report) -> Result<(), ExportError> {
+        let path = self.folder.join(report::FILE_NAME);
+        match report.to_json() {
+            Ok(text) => fs::write(&path, text).map_err(|source| ExportError::Io { path, source })?,
+            Err(source) => return Err(ExportError::Json { path, source }),
+        }
+        // Somebody may have put something there since the beginning.
+        check_target(&self.target, self.force)?;
+        let failed = |source| ExportError::Io { path: self.target.clone(), source };
+        let old = hidden_sibling(&self.target, "old");
+        let replaced = match fs::rename(&self.target, &old) {
+            Ok(()) => true,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => false,
+            Err(error) => return Err(failed(error)),
+        };
+        if let Err(error) = fs::rename(&self.folder, &self.target) {
+            if replaced {
+                fs::rename(&old, &self.target).map_err(failed)?;
+            }
+            return Err(failed(error));
+        }
+        if replaced {
+            fs::remove_dir_all(&old).map_err(|source| ExportError::Io { path: old.clone(), source })?;
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Staging {
+    fn drop(&mut self) {
+        // Already renamed, or a failure whose own message is the one that counts.
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+/// `.NAME.PURPOSE-PROCESS-SERIAL` beside `target`, on the same file system.
+fn hidden_sibling(target: &Path, purpose: &str) -> PathBuf {
+    let name = target.file_name().unwrap_or_default().to_string_lossy();
+    let serial = SERIAL.fetch_add(1, Ordering::Relaxed);
+    target.with_file_name(format!(".{name}.{purpose}-{}-{serial}", std::process::id()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const REPORT: &str = r#"{"schema": 1, "program": "0.0.1", "image": {}}"#;
+
+    #[test]
+    fn only_nothing_emptiness_and_our_own_results_may_be_replaced() {
+        let root = tempfile::tempdir().unwrap();
+        let target = root.path().join("result");
+        assert!(check_target(&target, false).is_ok());
+        fs::create_dir(&target).unwrap();
+        assert!(check_target(&target, false).is_ok());
+        fs::write(target.join("thesis.tex"), "years of work").unwrap();
+        assert!(matches!(check_target(&target, false), Err(ExportError::Occupied(_))));
+        assert!(check_target(&target, true).is_ok());
+        fs::write(target.join("report.json"), REPORT).unwrap();
+        assert!(check_target(&target, false).is_ok());
+        let file = target.join("thesis.tex");
+        assert!(matches!(check_target(&file, true), Err(ExportError::NotAFolder(_))));
+    }
+
+    #[test]
+    fn what_is_not_published_leaves_nothing() {
+        let root = tempfile::tempdir().unwrap();
+        let staging = Staging::begin(&root.path().join("a/result"), false).unwrap();
+        fs::write(staging.folder().join("half"), "").unwrap();
+        assert!(!root.path().join("a/result").exists());
+        drop(staging);
+        assert_eq!(fs::read_dir(root.path().join("a")).unwrap().count(), 0);
+    }
+}

@@ -1,0 +1,167 @@
+//! `report.json`: what was analysed, with which numbers, and what was found.
+//!
+//! The types are the schema: their fields, in their order, are what the file holds, and a written report reads
+//! back as the same value. Colours and distances are in counts (255 = full scale), directions are unit vectors.
+
+mod facts;
+mod scores;
+
+pub use facts::{
+    IlluminantFacts, ImageFacts, ParameterFacts, ParamsFacts, RegionFacts, Report, SCHEMA, Timings,
+};
+pub use scores::Scores;
+
+use std::path::{Path, PathBuf};
+
+/// Name of the report in a result folder.
+pub const FILE_NAME: &str = "report.json";
+
+/// Why a report could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The file could not be opened or read.
+    #[error("cannot read {}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file is not a report.
+    #[error("{} is not a report", path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// What it lacks.
+        source: serde_json::Error,
+    },
+    /// The report was written by a program that speaks another schema.
+    #[error("{} has schema {found}, this program reads {SCHEMA}", path.display())]
+    Schema {
+        /// The file.
+        path: PathBuf,
+        /// Its schema.
+        found: u32,
+    },
+}
+
+impl Report {
+    /// Reads the report of a result folder.
+    ///
+    /// # Errors
+    /// When the file is missing, is not a report or has another schema.
+    pub fn read(folder: &Path) -> Result<Self, ReportError> {
+        let path = folder.join(FILE_NAME);
+        let text = match std::fs::read(&path) {
+            Ok(text) => text,
+            Err(source) => return Err(ReportError::Io { path, source }),
+        };
+        match serde_json::from_slice::<Stamp>(&text) {
+            Ok(stamp) if stamp.schema != SCHEMA => Err(ReportError::Schema { path, found: stamp.schema }),
+            Ok(_) => serde_json::from_slice(&text).map_err(|source| ReportError::Json { path, source }),
+            Err(source) => Err(ReportError::Json { path, source }),
+        }
+    }
+
+    /// The report as pretty JSON with a final newline.
+    ///
+    /// # Errors
+    /// Never for a report that [`Report::new`] made; serialisation itself is fallible.
+    pub fn to_json(&self) -> serde_json::Result<String> {
+        serde_json::to_string_pretty(self).map(|text| text + "\n")
+    }
+}
+
+/// Whether `folder` holds a report of ours, of whatever schema: only such a folder may be replaced unasked.
+pub fn is_result_folder(folder: &Path) -> bool {
+    std::fs::read(folder.join(FILE_NAME)).is_ok_and(|text| serde_json::from_slice::<Stamp>(&text).is_ok())
+}
+
+/// The fields by which a report is known, whatever else its schema holds.
+#[derive(serde::Deserialize)]
+struct Stamp {
+    schema: u32,
+    #[serde(rename = "program")]
+    _program: String,
+    #[serde(rename = "image")]
+    _image: serde::de::IgnoredAny,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Session;
+    use crate::photo::LinearImage;
+    use crate::raster::Raster;
+    use crate::segment::{Method, Params, Setting};
+    use std::sync::Arc;
+
+    fn report() -> Report {
+        let image = Arc::new(LinearImage::new(Raster::filled(4, 3, [9.0, 10.5, 11.0]), None));
+        let params = Params { clip_threshold: Setting::Auto, ..Params::of(Method::Paper) };
+        let mut analysis = Session::new(image).run(&params, &mut ()).unwrap();
+        analysis.used.clip_threshold = f64::INFINITY;
+        let facts = ImageFacts {
+            file: "a.png".into(),
+            sha256: "00".into(),
+            width: 4,
+            height: 3,
+            encoding: "linear".into(),
+            full_scale: 255.0,
+        };
+        Report::new(facts, &params, &analysis, &["alpha was composited on black".into()])
+    }
+
+    #[test]
+    fn a_report_reads_back_as_it_was_written() {
+        let mut report = report();
+        report.timings_ms.read = Some(0.25);
+        report.scores = Some(Scores { regions: 3, ari: 0.5, ..Scores::default() });
+        report.regions.push(RegionFacts { id: 1, body: [0.6, 0.0, 0.8], ..RegionFacts::default() });
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join(FILE_NAME), report.to_json().unwrap()).unwrap();
+        assert_eq!(Report::read(folder.path()).unwrap(), report);
+        assert!(is_result_folder(folder.path()));
+    }
+
+    #[test]
+    fn a_switched_off_threshold_is_null_and_fields_keep_their_order() {
+        let json: serde_json::Value = serde_json::from_str(&report().to_json().unwrap()).unwrap();
+        let keys: Vec<_> = json.as_object().unwrap().keys().map(String::as_str).collect();
+        assert_eq!(
+            keys,
+            [
+                "schema",
+                "program",
+                "image",
+                "params",
+                "illuminant",
+                "regions",
+                "unassigned_pixels",
+                "warnings",
+                "timings_ms"
+            ]
+        );
+        assert_eq!(json["params"]["clip_threshold"]["asked"], "auto");
+        assert!(json["params"]["clip_threshold"]["used"].is_null());
+        assert_eq!(json["params"]["window_size"]["used"], 10.0);
+        assert_eq!(json["params"]["method"], "paper");
+        assert_eq!(json["params"]["refine"]["all_seeds"], false, "the paper's method refines nothing");
+        assert_eq!(json["unassigned_pixels"], 12);
+        assert_eq!(json["illuminant"], serde_json::json!({"direction": null, "objects": 0}));
+    }
+
+    #[test]
+    fn what_is_no_report_is_said_in_one_line() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(matches!(Report::read(folder.path()), Err(ReportError::Io { .. })));
+        let path = folder.path().join(FILE_NAME);
+        std::fs::write(&path, "{\"schema\": 1, \"coverage\": {}}").unwrap();
+        assert!(matches!(Report::read(folder.path()), Err(ReportError::Json { .. })));
+        assert!(!is_result_folder(folder.path()), "another program's report is not ours");
+        std::fs::write(&path, "{\"schema\": 7, \"program\": \"9.0\", \"image\": {}}").unwrap();
+        let message = Report::read(folder.path()).unwrap_err().to_string();
+        assert!(message.ends_with("has schema 7, this program reads 1"), "{message}");
+        assert!(is_result_folder(folder.path()));
+    }
+}

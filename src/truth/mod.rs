@@ -1,0 +1,72 @@
+//! Ground truth, and how far a result is from it.
+//!
+//! A truth folder holds `body.exr` and `surface.exr` (linear RGB, 1.0 = 255 counts), `labels.png` (object at each
+//! pixel, 0 = background) and `truth.json` (true vectors). [`score`] computes what the project's independent
+//! `tools/score.py` computes, to the last digit that is printed.
+
+mod folder;
+mod measures;
+mod pictures;
+mod score;
+
+pub use folder::{GroundTruth, TruthFiles, TruthObject, find_truth};
+pub use measures::{adjusted_rand_index, angle_deg, erode_labels, psnr_db};
+pub use pictures::ResultPictures;
+pub use score::{Outcome, ScoreError, score};
+
+use std::path::PathBuf;
+
+/// Why a ground truth or a result could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum TruthError {
+    /// A file could not be opened or read.
+    #[error("cannot read {}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A picture could not be decoded.
+    #[error("cannot decode {}", path.display())]
+    Exr {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder said.
+        source: exr::error::Error,
+    },
+    /// A label picture could not be decoded.
+    #[error("cannot decode {}", path.display())]
+    Labels {
+        /// The file.
+        path: PathBuf,
+        /// What the decoder said.
+        source: image::ImageError,
+    },
+    /// A label picture holds something else than 8- or 16-bit integers.
+    #[error("{} holds {found}: expected labels as 8- or 16-bit integers", path.display())]
+    LabelType {
+        /// The file.
+        path: PathBuf,
+        /// What it holds.
+        found: String,
+    },
+    /// `truth.json` lacks something or is no JSON.
+    #[error("{} does not describe a ground truth", path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// What it lacks.
+        source: serde_json::Error,
+    },
+    /// The pictures of one folder differ in size.
+    #[error("{} is {}\u{d7}{}, the labels are {}\u{d7}{}", path.display(), found.0, found.1, labels.0, labels.1)]
+    Size {
+        /// The file.
+        path: PathBuf,
+        /// Its columns and rows.
+        found: (usize, usize),
+        /// Columns and rows of the labels.
+        labels: (usize, usize),
+    },
+}

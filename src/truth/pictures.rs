@@ -1,0 +1,94 @@
+//! Label maps and linear pictures from files.
+
+use super::TruthError;
+use crate::raster::{LabelMap, Raster};
+use exr::prelude::{ReadChannels, ReadLayers, read};
+use image::DynamicImage;
+use std::io::Cursor;
+use std::path::Path;
+
+/// Counts that 1.0 stands for in an EXR file.
+const COUNTS_PER_UNIT: f32 = 255.0;
+
+/// The pictures of a result folder that scores are made from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResultPictures {
+    /// Region of each pixel, 0 = unassigned.
+    pub regions: LabelMap,
+    /// Body reflection, counts.
+    pub body: Raster<[f32; 3]>,
+    /// Surface reflection, counts.
+    pub surface: Raster<[f32; 3]>,
+}
+
+impl ResultPictures {
+    /// Reads `regions.png`, `body.exr` and `surface.exr` of a result folder.
+    ///
+    /// # Errors
+    /// When a file is missing, cannot be decoded, or differs in size from the regions.
+    pub fn read(folder: &Path) -> Result<Self, TruthError> {
+        let path = folder.join("regions.png");
+        let regions = decode_labels(&read_file(&path)?, &path)?;
+        let picture = |name| {
+            let path = folder.join(name);
+            let picture = decode_rgb_exr(&read_file(&path)?, &path)?;
+            expect_size(&picture, &regions, &path)?;
+            Ok(picture)
+        };
+        Ok(Self { body: picture("body.exr")?, surface: picture("surface.exr")?, regions })
+    }
+}
+
+pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, TruthError> {
+    std::fs::read(path).map_err(|source| TruthError::Io { path: path.to_owned(), source })
+}
+
+/// An RGB picture in counts, whatever the depth of the file's samples.
+pub(super) fn decode_rgb_exr(bytes: &[u8], path: &Path) -> Result<Raster<[f32; 3]>, TruthError> {
+    let picture = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .rgb_channels(
+            |size, _| Raster::filled(size.width(), size.height(), [0.0f32; 3]),
+            |picture, at, (r, g, b): (f32, f32, f32)| {
+                let index = at.y() * picture.width() + at.x();
+                picture[index] = [r, g, b].map(|unit| unit * COUNTS_PER_UNIT);
+            },
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(Cursor::new(bytes))
+        .map_err(|source| TruthError::Exr { path: path.to_owned(), source })?;
+    Ok(picture.layer_data.channel_data.pixels)
+}
+
+/// Integer labels of a grey picture; of a colour picture the red band counts.
+pub(super) fn decode_labels(bytes: &[u8], path: &Path) -> Result<LabelMap, TruthError> {
+    let picture = image::load_from_memory(bytes)
+        .map_err(|source| TruthError::Labels { path: path.to_owned(), source })?;
+    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    let bytes = |samples: Vec<u8>, bands| samples.into_iter().step_by(bands).map(u16::from).collect();
+    let words = |samples: Vec<u16>, bands| samples.into_iter().step_by(bands).collect();
+    let labels = match picture {
+        DynamicImage::ImageLuma8(p) => bytes(p.into_raw(), 1),
+        DynamicImage::ImageLumaA8(p) => bytes(p.into_raw(), 2),
+        DynamicImage::ImageRgb8(p) => bytes(p.into_raw(), 3),
+        DynamicImage::ImageRgba8(p) => bytes(p.into_raw(), 4),
+        DynamicImage::ImageLuma16(p) => words(p.into_raw(), 1),
+        DynamicImage::ImageLumaA16(p) => words(p.into_raw(), 2),
+        DynamicImage::ImageRgb16(p) => words(p.into_raw(), 3),
+        DynamicImage::ImageRgba16(p) => words(p.into_raw(), 4),
+        other => {
+            return Err(TruthError::LabelType {
+                path: path.to_owned(),
+                found: format!("{:?}", other.color()),
+            });
+        }
+    };
+    Ok(Raster::from_vec(width, height, labels).expect("invariant: a decoded picture holds all its pixels"))
+}
+
+pub(super) fn expect_size<T>(picture: &Raster<T>, labels: &LabelMap, path: &Path) -> Result<(), TruthError> {
+    let (found, labels) = ((picture.width(), picture.height()), (labels.width(), labels.height()));
+    if found == labels { Ok(()) } else { Err(TruthError::Size { path: path.to_owned(), found, labels }) }
+}
