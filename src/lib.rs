@@ -4,5 +4,6 @@ pub mod analysis;
 pub mod intrinsic;
 pub mod photo;
 pub mod raster;
+pub mod reflection;
 pub mod segment;
 pub mod trace;
