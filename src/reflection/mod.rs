@@ -1,5 +1,6 @@
 //! The Dichromatic Reflection Model itself (sections 2, 3 and 6).
 
+pub mod photometry;
 mod plane;
 mod transform;
 

@@ -1,0 +1,107 @@
+//! How fast the analysis is, measured against what memory allows: `cargo bench`.
+//!
+//! For each image size it prints the best of several runs of
+//! (a) a copy of the image, f32 RGB;
+//! (b) the floor: one fused pass over it on one thread, mean and covariance of every 10×10 window, which is the least
+//!     that any analysis of colour clusters has to do. With the vector instructions that every x86-64 has it takes
+//!     five to ten copies: (a) stands beside it to show how far away memory itself is;
+//! (c) the whole analysis, masks to split, with default parameters and all threads;
+//! and (c) as a multiple of (b). A ratio travels between machines better than a time; nothing here passes or fails.
+
+#[path = "../tests/synthetic/mod.rs"]
+mod synthetic;
+
+use dichroscope::analysis::Session;
+use dichroscope::raster::Raster;
+use dichroscope::segment::Params;
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+const WINDOW_PX: usize = 10;
+/// Values of one row of a window.
+const LANES: usize = 3 * WINDOW_PX;
+
+fn main() {
+    // Cargo passes `--bench`; without it (`cargo test --benches`) one run shows that everything still works.
+    let runs = if std::env::args().any(|argument| argument == "--bench") { 15 } else { 1 };
+    println!("{:>10}  {:>9}  {:>9}  {:>9}  {:>7}", "size", "copy", "floor", "analysis", "ratio");
+    for size_px in [[580, 432], [1160, 864]] {
+        let image = Arc::new(synthetic::Scene::grid_of_balls(size_px, 4, 3, 1).render().image);
+        let copy = best_of(runs, || image.pixels.clone());
+        let floor = best_of(runs, || window_moments(&image.pixels));
+        let analysis = best_of(runs, || Session::new(image.clone()).run(&Params::default(), &mut ()));
+        println!(
+            "{:>7.2} MP  {}  {}  {}  {:>6.1}×",
+            image.pixels.len() as f64 / 1e6,
+            milliseconds(copy),
+            milliseconds(floor),
+            milliseconds(analysis),
+            analysis.as_secs_f64() / floor.as_secs_f64()
+        );
+    }
+}
+
+fn milliseconds(time: Duration) -> String {
+    format!("{:>6.2} ms", time.as_secs_f64() * 1e3)
+}
+
+/// The shortest of `runs` runs: whatever else the machine does can only make one longer.
+fn best_of<T>(runs: usize, mut work: impl FnMut() -> T) -> Duration {
+    let timed = (0..runs).map(|_| {
+        let started = Instant::now();
+        black_box(work());
+        started.elapsed()
+    });
+    timed.min().unwrap_or_default()
+}
+
+/// Mean and covariance (rr, gg, bb, rg, gb, rb) of a window, in counts.
+type Moments = ([f32; 3], [f32; 6]);
+
+/// The moments of every whole window, row-major.
+fn window_moments(pixels: &Raster<[f32; 3]>) -> Vec<Moments> {
+    let (columns, rows) = (pixels.width() / WINDOW_PX, pixels.height() / WINDOW_PX);
+    let mut moments = Vec::with_capacity(columns * rows);
+    for row in 0..rows {
+        for column in 0..columns {
+            moments.push(moments_of(std::array::from_fn(|line| {
+                let whole_row = pixels.row(row * WINDOW_PX + line).as_flattened();
+                whole_row[column * LANES..].first_chunk().expect("invariant: the window is whole")
+            })));
+        }
+    }
+    moments
+}
+
+/// Sums lane by lane, whatever band a lane holds, so that the compiler can use vector instructions; the bands are told
+/// apart once at the end. Products of a lane with its neighbours are of use in one or two lanes of three only.
+#[expect(clippy::needless_range_loop, reason = "each lane is read together with its neighbours")]
+fn moments_of(lines: [&[f32; LANES]; WINDOW_PX]) -> Moments {
+    // Relative to the window's first pixel, or single precision would not do for the covariance.
+    let origin: [f32; LANES] = std::array::from_fn(|lane| lines[0][lane % 3]);
+    let mut sums = [[0.0_f32; LANES]; 4];
+    let [plain, squares, next, after_next] = &mut sums;
+    for line in lines {
+        let value = |lane: usize| line[lane] - origin[lane];
+        for lane in 0..LANES {
+            plain[lane] += value(lane);
+            squares[lane] += value(lane) * value(lane);
+        }
+        for lane in 0..LANES - 1 {
+            next[lane] += value(lane) * value(lane + 1);
+        }
+        for lane in 0..LANES - 2 {
+            after_next[lane] += value(lane) * value(lane + 2);
+        }
+    }
+    let n = (WINDOW_PX * WINDOW_PX) as f32;
+    let over_window = |kind: usize, band: usize| {
+        let (pixels, _) = sums[kind].as_chunks::<3>();
+        pixels.iter().map(|bands| bands[band]).sum::<f32>() / n
+    };
+    let offset = [0, 1, 2].map(|band| over_window(0, band));
+    let products = [(1, 0, 0), (1, 1, 1), (1, 2, 2), (2, 0, 1), (2, 1, 2), (3, 0, 2)];
+    let covariance = products.map(|(kind, a, b)| over_window(kind, a) - offset[a] * offset[b]);
+    ([0, 1, 2].map(|band| origin[band] + offset[band]), covariance)
+}
