@@ -181,14 +181,20 @@ fn classify_windows<R: Recorder>(scene: &Scene, recorder: &mut R) -> Windows {
 
 /// The area of each pixel, from 1.
 fn area_map(areas: &Areas, windows: &Windows, width: usize, height: usize) -> Raster<u32> {
-    let mut map = Raster::filled(width, height, 0u32);
-    for pixel in 0..map.len() {
-        let area = areas.of_window[windows.window_of(pixel, width)];
-        if areas.classes[area as usize].is_some() {
-            map[pixel] = area + 1;
+    let size_px = windows.size_px;
+    let number = |&area: &u32| if areas.classes[area as usize].is_some() { area + 1 } else { 0 };
+    let mut map = Vec::with_capacity(width * height);
+    for y in 0..height {
+        if y % size_px > 0 {
+            map.extend_from_within((y - 1) * width..y * width);
+            continue;
+        }
+        for (column, area) in areas.of_window.row(y / size_px).iter().enumerate() {
+            let end = y * width + ((column + 1) * size_px).min(width);
+            map.resize(end, number(area));
         }
     }
-    map
+    Raster::from_vec(width, height, map).unwrap_or_default()
 }
 
 fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks) -> Vec<String> {

@@ -3,8 +3,9 @@
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::collections::BTreeMap;
 
-/// Degrees of freedom above which the Wilson–Hilferty approximation is exact to 1e-5.
-const EXACT_BELOW: usize = 600;
+/// Degrees of freedom above which the Wilson–Hilferty approximation is exact to 2e-4: far below what a 5 % test can see,
+/// and a thousand times faster.
+const EXACT_BELOW: usize = 30;
 
 /// Upper quantiles of χ², each computed once.
 #[derive(Clone, Debug)]
@@ -43,16 +44,17 @@ mod tests {
     fn thresholds_are_those_of_the_tables() {
         let mut test = ChiSquareTest::new(0.05);
         assert!((test.threshold(1) - 3.841).abs() < 1e-3);
-        assert!((test.threshold(99) - 123.225).abs() < 1e-3);
+        assert!((test.threshold(30) - 43.773).abs() < 1e-3);
+        assert!((test.threshold(99) - 123.225).abs() < 1e-2);
         assert_eq!(test.threshold(0), test.threshold(1));
     }
 
     #[test]
     fn the_approximation_meets_the_exact_value() {
         let mut test = ChiSquareTest::new(0.05);
-        for freedom in [EXACT_BELOW + 1, 5000, 200_000] {
+        for freedom in [EXACT_BELOW + 1, 99, 5000, 200_000] {
             let exact = ChiSquared::new(freedom as f64).unwrap().inverse_cdf(0.95);
-            assert!((test.threshold(freedom) / exact - 1.0).abs() < 1e-5, "{freedom}");
+            assert!((test.threshold(freedom) / exact - 1.0).abs() < 2e-4, "{freedom}");
         }
     }
 }

@@ -68,7 +68,7 @@ impl Line {
             let Some(next) = Self::principal(&tukey_moments(colors, &cylinder, cut2)) else { break };
             let turned = next.direction.cross(&line.direction).norm();
             line = next;
-            if turned < 1e-6 {
+            if turned < 1e-5 {
                 break;
             }
         }

@@ -112,16 +112,15 @@ impl Distorted<'_> {
         good
     }
 
-    /// Body reflection to expect at each distorted pixel of a region: that of its undistorted surroundings, carried inward
-    /// ring by ring. Pixels that no undistorted one reaches are left out.
-    pub fn priors(&self, members: &[u32], body: &Raster<f32>) -> BTreeMap<u32, f32> {
+    /// Body reflection to expect at each distorted pixel of a region: that of its undistorted surroundings (by `body`, from
+    /// their colours), carried inward ring by ring. Pixels that no undistorted one reaches are left out.
+    pub fn priors(&self, distorted: &[u32], body: impl Fn([f32; 3]) -> f32) -> BTreeMap<u32, f32> {
         let mut priors: BTreeMap<u32, f32> = BTreeMap::new();
-        let mut waiting: Vec<u32> =
-            members.iter().copied().filter(|&pixel| self.masks.distorted(pixel as usize)).collect();
+        let mut waiting = distorted.to_vec();
         while !waiting.is_empty() {
             let ring: Vec<(u32, f32)> = waiting
                 .iter()
-                .filter_map(|&pixel| self.mean_around(pixel, &priors, body).map(|mean| (pixel, mean)))
+                .filter_map(|&pixel| self.mean_around(pixel, &priors, &body).map(|mean| (pixel, mean)))
                 .collect();
             if ring.is_empty() {
                 break;
@@ -132,7 +131,12 @@ impl Distorted<'_> {
         priors
     }
 
-    fn mean_around(&self, pixel: u32, priors: &BTreeMap<u32, f32>, body: &Raster<f32>) -> Option<f32> {
+    fn mean_around(
+        &self,
+        pixel: u32,
+        priors: &BTreeMap<u32, f32>,
+        body: impl Fn([f32; 3]) -> f32,
+    ) -> Option<f32> {
         let (width, height) = (self.pixels.width(), self.pixels.height());
         let (x, y) = (pixel as usize % width, pixel as usize / width);
         let region = self.labels[pixel as usize];
@@ -145,7 +149,7 @@ impl Distorted<'_> {
                 } else if self.masks.distorted(near) {
                     priors.get(&(near as u32)).copied()
                 } else {
-                    Some(body[near])
+                    Some(body(self.pixels[near]))
                 };
                 if let Some(value) = known {
                     sum += value;

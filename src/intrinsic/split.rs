@@ -6,7 +6,9 @@ use super::{Intrinsic, RegionReflection};
 use crate::color::{dot, rgb};
 use crate::raster::{Raster, UNASSIGNED};
 use crate::reflection::{Components, ReflectionTransform};
-use crate::segment::{FinalRegions, HighlightTest, Members, PlanarHypothesis, Scene, members, neighbours};
+use crate::segment::{
+    FinalRegions, HighlightTest, Members, Pixels, PlanarHypothesis, Scene, members, neighbours,
+};
 use crate::trace::{PixelKind, Recorder};
 use rayon::prelude::*;
 
@@ -68,7 +70,7 @@ struct Splitter {
 }
 
 impl Splitter {
-    fn new(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: &[u32]) -> Self {
+    fn new(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: Pixels) -> Self {
         let vectors = fit_vectors(scene, hypothesis, pixels);
         let transform = vectors
             .surface
@@ -106,11 +108,11 @@ impl Splitter {
         &self,
         scene: &Scene,
         id: u16,
-        pixels: &[u32],
+        pixels: Pixels,
         kinds: &Raster<PixelKind>,
         neighbours: Vec<u16>,
     ) -> RegionReflection {
-        let count = |test: &dyn Fn(usize) -> bool| pixels.iter().filter(|&&p| test(p as usize)).count();
+        let count = |test: &dyn Fn(usize) -> bool| pixels.iter().filter(|&p| test(p as usize)).count();
         let matte_pixels = count(&|pixel| kinds[pixel] == PixelKind::Matte);
         let highlight_pixels = pixels.len() - matte_pixels;
         let surface = self.vectors.surface;
@@ -140,7 +142,7 @@ impl Splitter {
         scene: &Scene,
         angle_deg: Option<f64>,
         fit_rms_counts: f64,
-        pixels: &[u32],
+        pixels: Pixels,
         kinds: &Raster<PixelKind>,
     ) -> Vec<String> {
         let mut warnings = Vec::new();
@@ -167,7 +169,7 @@ impl Splitter {
                 "the matte line misses black by {foot:.1} counts: ambient light, or not matte"
             ));
         }
-        let lost = pixels.iter().filter(|&&pixel| kinds[pixel as usize] == PixelKind::Lost).count();
+        let lost = pixels.iter().filter(|&pixel| kinds[pixel as usize] == PixelKind::Lost).count();
         if lost > 0 {
             warnings.push(format!("{lost} pixels are clipped in every band: their split is a guess"));
         }
@@ -181,7 +183,6 @@ struct Images {
     surface: Raster<[f32; 3]>,
     noise: Raster<f32>,
     kinds: Raster<PixelKind>,
-    amounts: Raster<f32>,
 }
 
 impl Images {
@@ -193,16 +194,14 @@ impl Images {
             surface: Raster::filled(width, height, [0.0; 3]),
             noise: Raster::filled(width, height, 0.0),
             kinds: Raster::filled(width, height, PixelKind::Unassigned),
-            amounts: Raster::filled(width, height, 0.0),
         };
         let rows = (
             images.body.as_mut_slice().par_chunks_mut(width.max(1)),
             images.surface.as_mut_slice().par_chunks_mut(width.max(1)),
             images.noise.as_mut_slice().par_chunks_mut(width.max(1)),
             images.kinds.as_mut_slice().par_chunks_mut(width.max(1)),
-            images.amounts.as_mut_slice().par_chunks_mut(width.max(1)),
         );
-        rows.into_par_iter().enumerate().for_each(|(y, (body, surface, noise, kinds, amounts))| {
+        rows.into_par_iter().enumerate().for_each(|(y, (body, surface, noise, kinds))| {
             for (x, &label) in regions.labels.row(y).iter().enumerate() {
                 if label == UNASSIGNED || scene.masks.distorted(y * width + x) {
                     continue;
@@ -211,7 +210,6 @@ impl Images {
                 let color = body[x];
                 let components = splitter.split(color);
                 kinds[x] = splitter.kind(color);
-                amounts[x] = components.body;
                 (body[x], surface[x]) = splitter.colors(components);
                 noise[x] = components.noise;
             }
@@ -233,7 +231,7 @@ impl Images {
             .enumerate()
             .map(|(index, splitter)| {
                 let pixels = members.region(index as u16 + 1);
-                splitter.restore(scene, &distorted, pixels, &self.amounts)
+                splitter.restore(scene, &distorted, pixels)
             })
             .collect();
         for (pixel, [body, surface], kind) in restored.into_iter().flatten() {
@@ -259,12 +257,13 @@ impl Splitter {
         &self,
         scene: &Scene,
         distorted: &Distorted,
-        pixels: &[u32],
-        amounts: &Raster<f32>,
+        pixels: Pixels,
     ) -> Vec<(u32, [[f32; 3]; 2], PixelKind)> {
-        let priors = distorted.priors(pixels, amounts);
-        let waiting = pixels.iter().copied().filter(|&pixel| scene.masks.distorted(pixel as usize));
+        let waiting: Vec<u32> =
+            pixels.iter().filter(|&pixel| scene.masks.distorted(pixel as usize)).collect();
+        let priors = distorted.priors(&waiting, |color| self.split(color).body);
         waiting
+            .into_iter()
             .map(|pixel| {
                 let Some(transform) = &self.transform else {
                     let color = scene.pixels[pixel as usize];

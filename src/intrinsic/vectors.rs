@@ -10,7 +10,7 @@
 use crate::color::{Line, Moments, Vec3, dot, rgb, vec3};
 use crate::photo::Masks;
 use crate::reflection::DichromaticPlane;
-use crate::segment::{HighlightTest, PlanarHypothesis, Scene};
+use crate::segment::{HighlightTest, Pixels, PlanarHypothesis, Scene};
 
 /// Reflection vectors of one region.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,10 +26,10 @@ pub struct Vectors {
 /// Half width of the band around the matte line that the mean shift looks at, in σ.
 const BANDWIDTH: f64 = 2.5;
 /// Pixels that a fit looks at, evenly chosen.
-const FIT_SAMPLES: usize = 40_000;
+const FIT_SAMPLES: usize = 10_000;
 
 /// Fits body and surface vector to the region's undistorted pixels.
-pub fn fit_vectors(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: &[u32]) -> Vectors {
+pub fn fit_vectors(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: Pixels) -> Vectors {
     let colors = undistorted(scene.pixels.as_slice(), scene.masks, pixels);
     let test = HighlightTest::new(hypothesis);
     let is_highlight = |&color: &[f32; 3]| test.is_some_and(|test| test.is_highlight(color));
@@ -51,10 +51,9 @@ pub fn fit_vectors(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: &[u32])
     Vectors { body, surface, matte_mean }
 }
 
-fn undistorted(image: &[[f32; 3]], masks: &Masks, pixels: &[u32]) -> Vec<[f32; 3]> {
-    let step = pixels.len().div_ceil(FIT_SAMPLES).max(1);
-    let usable = pixels.iter().step_by(step).filter(|&&pixel| masks.usable(pixel as usize));
-    usable.map(|&pixel| image[pixel as usize]).collect()
+fn undistorted(image: &[[f32; 3]], masks: &Masks, pixels: Pixels) -> Vec<[f32; 3]> {
+    let usable = pixels.sample(FIT_SAMPLES).filter(|&pixel| masks.usable(pixel as usize));
+    usable.map(|pixel| image[pixel as usize]).collect()
 }
 
 /// The direction from black along which the matte pixels lie.
@@ -95,23 +94,22 @@ fn body_through_black(hypothesis: &PlanarHypothesis, colors: &[[f32; 3]], sigma:
         let next = (sums[1] / sums[0], sums[2] / sums[0]);
         let moved = (next.0 - slope).abs() + (next.1 - across).abs();
         (slope, across) = next;
-        if moved < 1e-7 {
+        if moved < 1e-6 {
             break;
         }
     }
     (along_axis + inward * slope + normal * across).normalize()
 }
 
-/// Slope of the outer edge of a cluster: the 5 % quantile of inside / along, weighted by brightness.
+/// Slope of the outer edge of a cluster: the 5 % quantile of inside / along over the brighter half.
 fn outer_edge(points: &[[f64; 3]]) -> Option<f64> {
-    let mut slopes: Vec<(f64, f64)> = points.iter().map(|p| (p[1] / p[0], p[0] * p[0])).collect();
-    slopes.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let total: f64 = slopes.iter().map(|s| s.1).sum();
-    let mut below = 0.0;
-    slopes.into_iter().find_map(|(slope, weight)| {
-        below += weight;
-        (below >= 0.05 * total).then_some(slope)
-    })
+    let mut lengths: Vec<f64> = points.iter().map(|p| p[0]).collect();
+    let middle = lengths.len() / 2;
+    let median =
+        if lengths.is_empty() { 0.0 } else { *lengths.select_nth_unstable_by(middle, f64::total_cmp).1 };
+    let mut slopes: Vec<f64> = points.iter().filter(|p| p[0] >= median).map(|p| p[1] / p[0]).collect();
+    let rank = slopes.len() / 20;
+    (!slopes.is_empty()).then(|| *slopes.select_nth_unstable_by(rank, f64::total_cmp).1)
 }
 
 fn any_across(direction: &Vec3) -> Vec3 {
@@ -120,7 +118,7 @@ fn any_across(direction: &Vec3) -> Vec3 {
 }
 
 /// Root mean square distance of the region's undistorted pixels from its plane, or from its line without one.
-pub fn fit_rms(scene: &Scene, vectors: &Vectors, pixels: &[u32]) -> f64 {
+pub fn fit_rms(scene: &Scene, vectors: &Vectors, pixels: Pixels) -> f64 {
     let colors = undistorted(scene.pixels.as_slice(), scene.masks, pixels);
     let normal = vectors.surface.and_then(|s| vectors.body.cross(&s).try_normalize(1e-6));
     let squares: f64 = colors

@@ -23,14 +23,17 @@ const NEGATIVE: f64 = -0.05;
 
 /// Absorbs broad highlights, the one farthest from black first.
 pub fn absorb<R: Recorder>(scene: &Scene, hypotheses: &mut [Hypothesis], ledger: &mut Ledger<R>) {
-    let pairs = near_pairs(&ledger.labels, REACH_PX);
-    let members = ledger.members(hypotheses.len());
     let mut order: Vec<u16> = (1..=hypotheses.len() as u16)
         .filter(|&id| {
             let hypothesis = &hypotheses[usize::from(id) - 1];
             hypothesis.alive && hypothesis.line.foot().norm() > scene.used.radius_counts()
         })
         .collect();
+    if order.is_empty() {
+        return;
+    }
+    let pairs = near_pairs(&ledger.labels, REACH_PX);
+    let members = ledger.members(hypotheses.len());
     let foot = |hypotheses: &[Hypothesis], id: u16| hypotheses[usize::from(id) - 1].line.foot().norm();
     order.sort_by(|&a, &b| foot(hypotheses, b).total_cmp(&foot(hypotheses, a)));
     for id in order {
@@ -85,7 +88,7 @@ fn give_up<R: Recorder>(
         ledger.recorder.record(Event::Absorbed { region: id, by, feet, gap });
     }
     let mut cluster = Moments::default();
-    for &pixel in members.region(id) {
+    for pixel in members.region(id).iter() {
         cluster.add(scene.pixels[pixel as usize]);
         ledger.assign(pixel as usize, UNASSIGNED);
     }

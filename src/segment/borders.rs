@@ -11,9 +11,6 @@ pub fn near_pairs(labels: &LabelMap, reach_px: usize) -> BTreeSet<(u16, u16)> {
     let mut last = (UNASSIGNED, UNASSIGNED);
     let mut look = |pixel: usize, stride: usize, room: usize| {
         let own = data[pixel];
-        if own == UNASSIGNED || room == 0 || data[pixel + stride] == own {
-            return;
-        }
         for step in 1..=reach_px.min(room) {
             let other = data[pixel + step * stride];
             if other == own {
@@ -30,10 +27,18 @@ pub fn near_pairs(labels: &LabelMap, reach_px: usize) -> BTreeSet<(u16, u16)> {
         }
     };
     for y in 0..height {
-        for x in 0..width {
-            let pixel = y * width + x;
-            look(pixel, 1, width - 1 - x);
-            look(pixel, width, height - 1 - y);
+        let row = labels.row(y);
+        for (x, pair) in row.windows(2).enumerate() {
+            if pair[0] != pair[1] && pair[0] != UNASSIGNED {
+                look(y * width + x, 1, width - 1 - x);
+            }
+        }
+        if y + 1 < height {
+            for (x, (&own, &below)) in row.iter().zip(labels.row(y + 1)).enumerate() {
+                if own != below && own != UNASSIGNED {
+                    look(y * width + x, width, height - 1 - y);
+                }
+            }
         }
     }
     pairs

@@ -21,6 +21,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Fewest pixels of a candidate.
 const MIN_PIXELS: f64 = 10.0;
+/// Pixels of a neighbouring region that its line is taken from, evenly chosen.
+const CLUSTER_SAMPLES: usize = 4000;
 /// The 50 % heuristic of section 3.2, and how far beyond the end of the matte line a meeting point may lie.
 const UPPER: [f64; 2] = [0.5, 1.1];
 
@@ -45,13 +47,17 @@ pub fn highlight_lines<R: Recorder>(
 ) -> Vec<Option<HighlightLine>> {
     let members = Members::of(labels, hypotheses.len());
     let mut neighbours = leftover_neighbours(scene, windows, areas, labels);
-    let region_clusters: Vec<Moments> = (1..=hypotheses.len() as u16)
-        .map(|id| members.region(id).iter().map(|&pixel| scene.pixels[pixel as usize]).collect())
-        .collect();
+    let mut clusters: BTreeMap<u16, Moments> = BTreeMap::new();
     for (a, b) in near_pairs(labels, 1) {
         for (own, other) in [(a, b), (b, a)] {
-            let cluster = region_clusters[usize::from(other) - 1];
-            neighbours.entry(own).or_default().push((CandidateSource::Region(other), cluster));
+            let cluster = clusters.entry(other).or_insert_with(|| {
+                members
+                    .region(other)
+                    .sample(CLUSTER_SAMPLES)
+                    .map(|pixel| scene.pixels[pixel as usize])
+                    .collect()
+            });
+            neighbours.entry(own).or_default().push((CandidateSource::Region(other), *cluster));
         }
     }
     let mut classifier = Classifier::new(scene.used.camera_noise, scene.refine.tail_test);

@@ -8,7 +8,7 @@ use super::ledger::Ledger;
 use super::planar::{PlanarHypothesis, PlanarRegions};
 use super::scene::Scene;
 use crate::color::{Line, Vec3, dot, rgb};
-use crate::raster::{LabelMap, Raster, UNASSIGNED, label_components};
+use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 use crate::trace::{Event, Recorder};
 use std::collections::BTreeMap;
 
@@ -22,8 +22,8 @@ pub fn clipping_regions<R: Recorder>(scene: &Scene, planar: &PlanarRegions, reco
     for (index, hypothesis) in planar.hypotheses.iter().enumerate() {
         let Some(highlight) = HighlightTest::new(hypothesis) else { continue };
         let id = index as u16 + 1;
-        let is_highlight = |&&pixel: &&u32| highlight.is_highlight(scene.pixels[pixel as usize]);
-        let mut front: Vec<u32> = members.region(id).iter().filter(is_highlight).copied().collect();
+        let is_highlight = |&pixel: &u32| highlight.is_highlight(scene.pixels[pixel as usize]);
+        let mut front: Vec<u32> = members.region(id).iter().filter(is_highlight).collect();
         let start2 = hypothesis.start.norm_squared() as f32;
         ledger.grow(id, &mut front, |_, pixel, holder| {
             let color = scene.pixels[pixel];
@@ -31,10 +31,10 @@ pub fn clipping_regions<R: Recorder>(scene: &Scene, planar: &PlanarRegions, reco
         });
     }
     let clipped = |pixel: usize| scene.masks.distorted(pixel) && !scene.masks.dark(pixel);
-    fill(&mut ledger, clipped, |hole| hole.share >= SURROUNDED);
+    fill(&mut ledger, clipped, |_, share| share >= SURROUNDED);
     let largest_px = scene.used.min_area as usize;
     let lit = |pixel: usize| !scene.masks.dark(pixel);
-    fill(&mut ledger, lit, |hole| hole.closed && hole.share >= 1.0 && hole.pixels <= largest_px);
+    fill(&mut ledger, lit, |hole, share| !hole.open && share >= 1.0 && hole.pixels.len() <= largest_px);
     ledger.labels
 }
 
@@ -77,63 +77,70 @@ impl HighlightTest {
 }
 
 /// A component of unassigned pixels, and who holds its border.
+#[derive(Default)]
 struct Hole {
-    pixels: usize,
-    /// Share of the assigned border that the main holder has.
-    share: f64,
-    /// Whether nothing but regions borders it.
-    closed: bool,
+    pixels: Vec<u32>,
+    /// Border pixels that each region holds, counted once per side.
+    border: BTreeMap<u16, usize>,
+    /// Whether something that is no region borders it.
+    open: bool,
 }
 
-/// Gives components of unassigned pixels for which `member` holds to the region with most of their border, where `fits`.
-fn fill<R: Recorder>(ledger: &mut Ledger<R>, member: impl Fn(usize) -> bool, fits: impl Fn(&Hole) -> bool) {
-    let (width, height) = (ledger.labels.width(), ledger.labels.height());
-    let inside = (0..ledger.labels.len()).map(|p| ledger.labels[p] == UNASSIGNED && member(p)).collect();
-    let inside = Raster::from_vec(width, height, inside).unwrap_or_default();
-    let components = label_components(&inside, |&hole| hole);
-    let count = components.sizes.len();
-    let mut borders: Vec<BTreeMap<u16, usize>> = vec![BTreeMap::new(); count];
-    let mut closed = vec![true; count];
-    for pixel in 0..inside.len() {
-        let component = components.labels[pixel] as usize;
-        if component == 0 {
+impl Hole {
+    /// The region that holds most of the border, and its share of the assigned border.
+    fn holder(&self) -> Option<(u16, f64)> {
+        let total: usize = self.border.values().sum();
+        let (&region, &most) = self.border.iter().max_by_key(|&(&id, &n)| (n, u16::MAX - id))?;
+        Some((region, most as f64 / total as f64))
+    }
+}
+
+/// Gives components of unassigned pixels for which `member` holds to the region with most of their border, where `fits`
+/// accepts the hole and that share.
+fn fill<R: Recorder>(
+    ledger: &mut Ledger<R>,
+    member: impl Fn(usize) -> bool,
+    fits: impl Fn(&Hole, f64) -> bool,
+) {
+    let mut seen: Mask = Raster::filled(ledger.labels.width(), ledger.labels.height(), false);
+    for start in 0..seen.len() {
+        if ledger.labels[start] != UNASSIGNED || seen[start] || !member(start) {
             continue;
         }
-        let (x, y) = (pixel % width, pixel / width);
-        closed[component] &= x > 0 && y > 0 && x + 1 < width && y + 1 < height;
-        inside.for_each_neighbour(pixel, |near| {
-            if !inside[near] {
-                let label = ledger.labels[near];
-                closed[component] &= label != UNASSIGNED;
-                if label != UNASSIGNED {
-                    *borders[component].entry(label).or_default() += 1;
-                }
+        let hole = hole_at(start, &ledger.labels, &member, &mut seen);
+        let Some((region, border_share)) = hole.holder().filter(|&(_, share)| fits(&hole, share)) else {
+            continue;
+        };
+        if R::KEEPS {
+            let pixels = hole.pixels.len() as u32;
+            ledger.recorder.record(Event::HoleFilled { region, pixels, border_share });
+        }
+        for pixel in hole.pixels {
+            ledger.assign(pixel as usize, region);
+        }
+    }
+}
+
+/// The component of unassigned members around `start`.
+fn hole_at(start: usize, labels: &LabelMap, member: impl Fn(usize) -> bool, seen: &mut Mask) -> Hole {
+    let (width, height) = (labels.width(), labels.height());
+    let mut hole = Hole { pixels: vec![start as u32], ..Hole::default() };
+    seen[start] = true;
+    let mut next = 0;
+    while let Some(&pixel) = hole.pixels.get(next) {
+        next += 1;
+        let (x, y) = (pixel as usize % width, pixel as usize / width);
+        hole.open |= x == 0 || y == 0 || x + 1 == width || y + 1 == height;
+        labels.for_each_neighbour(pixel as usize, |near| {
+            if labels[near] != UNASSIGNED {
+                *hole.border.entry(labels[near]).or_default() += 1;
+            } else if !member(near) {
+                hole.open = true;
+            } else if !seen[near] {
+                seen[near] = true;
+                hole.pixels.push(near as u32);
             }
         });
     }
-    let holders: Vec<u16> = (0..count)
-        .map(|component| {
-            let border = &borders[component];
-            let total: usize = border.values().sum();
-            let Some((&region, &most)) = border.iter().max_by_key(|&(&id, &n)| (n, u16::MAX - id)) else {
-                return UNASSIGNED;
-            };
-            let share = most as f64 / total as f64;
-            let pixels = components.sizes[component];
-            if component == 0 || !fits(&Hole { pixels, share, closed: closed[component] }) {
-                return UNASSIGNED;
-            }
-            if R::KEEPS {
-                let pixels = pixels as u32;
-                ledger.recorder.record(Event::HoleFilled { region, pixels, border_share: share });
-            }
-            region
-        })
-        .collect();
-    for pixel in 0..inside.len() {
-        let region = holders[components.labels[pixel] as usize];
-        if region != UNASSIGNED {
-            ledger.assign(pixel, region);
-        }
-    }
+    hole
 }

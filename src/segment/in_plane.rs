@@ -9,15 +9,20 @@
 //! Two fits, a cubic over a near ring and a quadratic over a wide one, err differently: their mean is used, and their
 //! difference counts as error.
 
+use super::ledger::Pixels;
 use super::scene::Scene;
-use crate::raster::{LabelMap, Mask, Raster, dilate, label_components};
+use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED, dilate};
 use crate::reflection::DichromaticPlane;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{SMatrix, SVector};
+use std::ops::Range;
 
 /// Fewest pixels of a highlight.
 const MIN_BLOB_PX: usize = 12;
-/// Pixels that one fit looks at, evenly chosen.
-const MAX_SAMPLES: usize = 4000;
+/// Most highlights of one region that are looked at, the largest.
+const MAX_BLOBS: usize = 6;
+/// Terms of a polynomial of two variables of degree 3 and 2, and the offset.
+const CUBIC: usize = 11;
+const QUADRATIC: usize = 7;
 const TUKEY: f64 = 4.7;
 /// A highlight whose offsets are noise to more than this share says nothing.
 const MAX_NOISE_SHARE: f64 = 0.3;
@@ -40,221 +45,256 @@ struct Sample {
     offset: f64,
 }
 
-/// Estimates cotθ from the highlights of one region; `None` without a highlight that says anything.
-pub fn estimate(
-    scene: &Scene,
-    labels: &LabelMap,
-    region: u16,
-    pixels: &[u32],
-    plane: &DichromaticPlane,
-    matte_length: f64,
-) -> Option<InPlane> {
-    let crop = Crop::around(labels, pixels)?;
-    let blobs = highlight_blobs(scene, labels, region, pixels, plane, &crop);
-    let mut sum = (0.0, 0.0);
-    for blob in &blobs {
-        let surroundings = |radius| samples(scene, labels, region, plane, matte_length, blob, &crop, radius);
-        let half = ((blob.count as f64 / std::f64::consts::PI).sqrt()).clamp(3.0, 12.0) as usize;
-        let near = regress(&surroundings(half), 3, scene.sigma());
-        let wide = regress(&surroundings(2 * half), 2, scene.sigma());
-        if let (Some(near), Some(wide)) = (near, wide) {
-            let cotangent = f64::midpoint(near.0, wide.0);
-            let variance = near.1 + (near.0 - wide.0).powi(2);
-            sum.0 += cotangent / variance;
-            sum.1 += 1.0 / variance;
-        }
-    }
-    if sum.1 <= 0.0 {
-        return None;
-    }
-    let cotangent = sum.0 / sum.1;
-    let sine2 = 1.0 / (1.0 + cotangent * cotangent);
-    Some(InPlane { cotangent, variance_rad2: sine2 * sine2 / sum.1 })
+/// A region and the plane in which its highlights are sought.
+#[derive(Clone, Copy)]
+pub struct Branches<'a> {
+    /// The picture.
+    pub scene: &'a Scene<'a>,
+    /// Region of each pixel.
+    pub labels: &'a LabelMap,
+    /// The region.
+    pub region: u16,
+    /// Its dichromatic plane.
+    pub plane: &'a DichromaticPlane,
+    /// Length of its matte line from black, counts.
+    pub matte_length: f64,
+    /// Pixels that the region's fits may look at together.
+    pub budget: usize,
 }
 
-/// A rectangle of the image.
-struct Crop {
-    left: usize,
-    top: usize,
-    width: usize,
-    height: usize,
-    image_width: usize,
-}
-
-impl Crop {
-    /// The bounding box of pixels, 24 pixels wider on each side.
-    fn around(labels: &LabelMap, pixels: &[u32]) -> Option<Self> {
-        let (width, height) = (labels.width(), labels.height());
-        let xs = pixels.iter().map(|&p| p as usize % width);
-        let ys = pixels.iter().map(|&p| p as usize / width);
-        let (left, right) = (xs.clone().min()?.saturating_sub(24), (xs.max()? + 25).min(width));
-        let (top, bottom) = (ys.clone().min()?.saturating_sub(24), (ys.max()? + 25).min(height));
-        Some(Self { left, top, width: right - left, height: bottom - top, image_width: width })
-    }
-
-    fn pixel(&self, index: usize) -> usize {
-        (index / self.width + self.top) * self.image_width + index % self.width + self.left
-    }
-}
-
-/// One highlight of a region, as a mask over a crop.
-struct Blob {
-    mask: Mask,
-    count: usize,
-}
-
-/// Connected pixels of the region that lie more than a radius inside the plane, clipped pixels joined in.
-fn highlight_blobs(
-    scene: &Scene,
-    labels: &LabelMap,
-    region: u16,
-    _pixels: &[u32],
-    plane: &DichromaticPlane,
-    crop: &Crop,
-) -> Vec<Blob> {
-    let axes = plane.coordinates();
-    let least = scene.used.radius_counts() as f32;
-    let bright = (0..crop.width * crop.height)
-        .map(|index| {
-            let pixel = crop.pixel(index);
-            let own = labels[pixel] == region;
-            let distorted = scene.masks.distorted(pixel) && (own || labels[pixel] == 0);
-            distorted || (own && axes.of(scene.pixels[pixel]).offset > least)
-        })
-        .collect();
-    let bright: Mask = Raster::from_vec(crop.width, crop.height, bright).unwrap_or_default();
-    let components = label_components(&bright, |&inside| inside);
-    (1..components.sizes.len())
-        .filter(|&i| components.sizes[i] >= MIN_BLOB_PX)
-        .map(|i| Blob {
-            mask: components.labels.map(|&label| label as usize == i),
-            count: components.sizes[i],
-        })
-        .collect()
-}
-
-/// The believable pixels of the region on and around a highlight.
-#[allow(clippy::too_many_arguments, reason = "a region, its plane, a highlight on it, and how far to look")]
-fn samples(
-    scene: &Scene,
-    labels: &LabelMap,
-    region: u16,
-    plane: &DichromaticPlane,
-    matte_length: f64,
-    blob: &Blob,
-    crop: &Crop,
-    radius: usize,
-) -> Vec<Sample> {
-    let axes = plane.coordinates();
-    let near = dilate(&blob.mask, radius);
-    let thickness = scene.used.radius_counts() as f32;
-    let least_along = (0.3 * matte_length) as f32;
-    let inside = near.as_slice().iter().enumerate().filter(|&(_, &near)| near);
-    let found: Vec<Sample> = inside
-        .filter_map(|(index, _)| {
-            let pixel = crop.pixel(index);
-            if labels[pixel] != region || scene.masks.distorted(pixel) {
-                return None;
+impl Branches<'_> {
+    /// Estimates cotθ from the region's highlights; `None` without a highlight that says anything.
+    pub fn estimate(&self, pixels: Pixels) -> Option<InPlane> {
+        let mut sum = (0.0, 0.0);
+        let blobs = self.highlights(pixels);
+        let most = self.budget / (2 * blobs.len().max(1));
+        for blob in blobs {
+            let half = (blob.len() as f64 / std::f64::consts::PI).sqrt().clamp(3.0, 12.0) as usize;
+            let blob = Blob::new(&blob, 2 * half, self.labels.width(), self.labels.height());
+            let sigma = self.scene.sigma();
+            let near = regress::<CUBIC>(&self.samples(&blob, half, most), sigma);
+            let wide = regress::<QUADRATIC>(&self.samples(&blob, 2 * half, most), sigma);
+            if let (Some(near), Some(wide)) = (near, wide) {
+                let cotangent = f64::midpoint(near.0, wide.0);
+                let variance = near.1 + (near.0 - wide.0).powi(2);
+                sum.0 += cotangent / variance;
+                sum.1 += 1.0 / variance;
             }
-            let point = axes.of(scene.pixels[pixel]);
-            (point.height.abs() < thickness && point.along > least_along).then(|| Sample {
-                x: (index % crop.width) as f64,
-                y: (index / crop.width) as f64,
-                along: f64::from(point.along),
-                offset: f64::from(point.offset),
-            })
-        })
-        .collect();
-    let step = found.len().div_ceil(MAX_SAMPLES).max(1);
-    found.into_iter().step_by(step).collect()
-}
-
-/// cotθ and its variance from one highlight's surroundings.
-fn regress(samples: &[Sample], degree: usize, sigma: f64) -> Option<(f64, f64)> {
-    let terms = (degree + 1) * (degree + 2) / 2;
-    if samples.len() < 4 * (terms + 1) {
-        return None;
+        }
+        if sum.1 <= 0.0 {
+            return None;
+        }
+        let cotangent = sum.0 / sum.1;
+        let sine2 = 1.0 / (1.0 + cotangent * cotangent);
+        Some(InPlane { cotangent, variance_rad2: sine2 * sine2 / sum.1 })
     }
-    let n = samples.len() as f64;
-    let centre = samples.iter().fold((0.0, 0.0), |c, s| (c.0 + s.x / n, c.1 + s.y / n));
-    let spread =
-        samples.iter().map(|s| (s.x - centre.0).abs().max((s.y - centre.1).abs())).fold(1.0, f64::max);
-    let rows: Vec<Vec<f64>> = samples
-        .iter()
-        .map(|s| {
-            let (x, y) = ((s.x - centre.0) / spread, (s.y - centre.1) / spread);
-            let mut row = Vec::with_capacity(terms + 1);
-            for total in 0..=degree {
-                for power in 0..=total {
-                    row.push(x.powi((total - power) as i32) * y.powi(power as i32));
+
+    /// Connected pixels of the region that lie more than a radius inside the plane, distorted pixels joined in; the
+    /// largest first.
+    fn highlights(&self, pixels: Pixels) -> Vec<Vec<u32>> {
+        let Some(bounds) = pixels.rows(self.labels.width()) else { return Vec::new() };
+        let mut bright = self.bright_rows(bounds.clone());
+        let first = bounds.start * self.labels.width();
+        let mut blobs = Vec::new();
+        for start in 0..bright.len() {
+            if !std::mem::take(&mut bright[start]) {
+                continue;
+            }
+            let mut blob = vec![(start + first) as u32];
+            let mut next = 0;
+            while let Some(&pixel) = blob.get(next) {
+                next += 1;
+                let local = pixel as usize - first;
+                let mut found = [usize::MAX; 4];
+                let mut count = 0;
+                bright.for_each_neighbour(local, |near| {
+                    if bright[near] {
+                        found[count] = near;
+                        count += 1;
+                    }
+                });
+                for &near in &found[..count] {
+                    bright[near] = false;
+                    blob.push((near + first) as u32);
                 }
             }
-            row.push(s.offset);
-            row
-        })
-        .collect();
+            if blob.len() >= MIN_BLOB_PX {
+                blobs.push(blob);
+            }
+        }
+        blobs.sort_by_key(|blob| std::cmp::Reverse(blob.len()));
+        blobs.truncate(MAX_BLOBS);
+        blobs
+    }
+
+    /// Which pixels of some rows are highlights of the region, or distorted and not another's.
+    fn bright_rows(&self, rows: Range<usize>) -> Mask {
+        let Self { scene, labels, region, .. } = *self;
+        let axes = self.plane.coordinates();
+        let least = scene.used.radius_counts() as f32;
+        let width = labels.width();
+        let bright = |pixel: usize| {
+            let label = labels[pixel];
+            if label != region && label != UNASSIGNED {
+                return false;
+            }
+            scene.masks.distorted(pixel) || (label == region && axes.of(scene.pixels[pixel]).offset > least)
+        };
+        let data = (rows.start * width..rows.end * width).map(bright).collect();
+        Raster::from_vec(width, rows.len(), data).unwrap_or_default()
+    }
+
+    /// The believable pixels of the region within `radius_px` of a highlight, at most about `most` of them, evenly chosen.
+    fn samples(&self, blob: &Blob, radius_px: usize, most: usize) -> Vec<Sample> {
+        let Self { scene, labels, region, .. } = *self;
+        let axes = self.plane.coordinates();
+        let thickness = scene.used.radius_counts() as f32;
+        let least_along = (0.3 * self.matte_length) as f32;
+        let found: Vec<Sample> = blob
+            .within(radius_px)
+            .into_iter()
+            .filter(|&(pixel, ..)| labels[pixel] == region && !scene.masks.distorted(pixel))
+            .filter_map(|(pixel, x, y)| {
+                let point = axes.of(scene.pixels[pixel]);
+                (point.height.abs() < thickness && point.along > least_along).then(|| Sample {
+                    x: x as f64,
+                    y: y as f64,
+                    along: f64::from(point.along),
+                    offset: f64::from(point.offset),
+                })
+            })
+            .collect();
+        let step = found.len().div_ceil(most.max(1)).max(1);
+        found.into_iter().step_by(step).collect()
+    }
+}
+
+/// A highlight as a mask over a rectangle around it.
+struct Blob {
+    left: usize,
+    top: usize,
+    image_width: usize,
+    mask: Mask,
+}
+
+impl Blob {
+    /// The mask of `pixels` in their bounding box, `margin_px` wider on each side.
+    fn new(pixels: &[u32], margin_px: usize, width: usize, height: usize) -> Self {
+        let (mut left, mut right, mut top, mut bottom) = (width, 0, height, 0);
+        for &pixel in pixels {
+            let (x, y) = (pixel as usize % width, pixel as usize / width);
+            (left, right) = (left.min(x), right.max(x));
+            (top, bottom) = (top.min(y), bottom.max(y));
+        }
+        let (left, right) = (left.saturating_sub(margin_px), (right + margin_px + 1).min(width));
+        let (top, bottom) = (top.saturating_sub(margin_px), (bottom + margin_px + 1).min(height));
+        let mut mask = Raster::filled(right - left, bottom - top, false);
+        for &pixel in pixels {
+            let (x, y) = (pixel as usize % width - left, pixel as usize / width - top);
+            mask[y * (right - left) + x] = true;
+        }
+        Self { left, top, image_width: width, mask }
+    }
+
+    /// Pixels at most `radius_px` away along rows and columns: index in the image, column, row.
+    fn within(&self, radius_px: usize) -> Vec<(usize, usize, usize)> {
+        let width = self.mask.width();
+        let near = dilate(&self.mask, radius_px);
+        let inside = near.as_slice().iter().enumerate().filter(|&(_, &near)| near);
+        inside
+            .map(|(index, _)| {
+                let (x, y) = (index % width + self.left, index / width + self.top);
+                (y * self.image_width + x, x, y)
+            })
+            .collect()
+    }
+}
+
+/// cotθ and its variance from one highlight's surroundings, with `N` − 1 polynomial terms.
+fn regress<const N: usize>(samples: &[Sample], sigma: f64) -> Option<(f64, f64)> {
+    if samples.len() < 4 * N {
+        return None;
+    }
+    let rows = design::<N>(samples);
     let mut weights = vec![1.0; samples.len()];
-    let mut answer = None;
+    let mut residuals = vec![0.0; samples.len()];
+    let mut sizes = residuals.clone();
+    let mut answer: Option<(f64, f64)> = None;
     for _ in 0..6 {
         let solution = solve(samples, &rows, &weights, sigma)?;
-        let mut residuals: Vec<f64> = samples
-            .iter()
-            .zip(&rows)
-            .map(|(s, row)| s.along - row.iter().zip(&solution.coefficients).map(|(r, c)| r * c).sum::<f64>())
-            .collect();
-        let mut sizes: Vec<f64> = residuals.iter().map(|r| r.abs()).collect();
+        for (i, (sample, row)) in samples.iter().zip(&rows).enumerate() {
+            let fitted: f64 = row.iter().zip(solution.coefficients.iter()).map(|(r, c)| r * c).sum();
+            residuals[i] = sample.along - fitted;
+            sizes[i] = residuals[i].abs();
+        }
         let middle = sizes.len() / 2;
         let (_, &mut median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
-        let scale = (1.4826 * median).max(sigma * (1.0 + solution.cotangent.powi(2)).sqrt());
-        for (weight, residual) in weights.iter_mut().zip(&mut residuals) {
-            let u = *residual / (TUKEY * scale);
+        let cotangent = solution.coefficients[N - 1];
+        let scale = (1.4826 * median).max(sigma * (1.0 + cotangent.powi(2)).sqrt());
+        for (weight, residual) in weights.iter_mut().zip(&residuals) {
+            let u = residual / (TUKEY * scale);
             *weight = if u.abs() < 1.0 { (1.0 - u * u).powi(2) } else { 0.0 };
         }
-        answer = Some((solution.cotangent, scale * scale / solution.information));
+        let settled = answer.is_some_and(|(before, _)| (before - cotangent).abs() < 1e-4);
+        answer = Some((cotangent, scale * scale / solution.information));
+        if settled {
+            break;
+        }
     }
     answer
 }
 
-struct Solution {
-    coefficients: Vec<f64>,
-    cotangent: f64,
+/// The regressors of every sample: a polynomial of its position, centred and scaled, then its offset.
+fn design<const N: usize>(samples: &[Sample]) -> Vec<[f64; N]> {
+    let n = samples.len() as f64;
+    let centre = samples.iter().fold((0.0, 0.0), |c, s| (c.0 + s.x / n, c.1 + s.y / n));
+    let from_centre = |s: &Sample| (s.x - centre.0, s.y - centre.1);
+    let spread = samples.iter().map(from_centre).map(|(x, y)| x.abs().max(y.abs())).fold(1.0, f64::max);
+    let row = |sample: &Sample| {
+        let (x, y) = from_centre(sample);
+        let (x, y) = (x / spread, y / spread);
+        let terms = [1.0, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y];
+        std::array::from_fn(|i| if i + 1 == N { sample.offset } else { terms[i] })
+    };
+    samples.iter().map(row).collect()
+}
+
+struct Solution<const N: usize> {
+    coefficients: SVector<f64, N>,
     information: f64,
 }
 
-/// Weighted least squares, the offset's coefficient corrected for the offset's own noise.
-fn solve(samples: &[Sample], rows: &[Vec<f64>], weights: &[f64], sigma: f64) -> Option<Solution> {
-    let terms = rows.first()?.len() - 1;
-    let mut normal = DMatrix::<f64>::zeros(terms + 1, terms + 1);
-    let mut right = DVector::<f64>::zeros(terms + 1);
+/// Weighted least squares, corrected for the noise of the offset, the last regressor: σ²Σw is taken from its square.
+///
+/// What that leaves of the offset beyond the polynomial is the information in it, the Schur complement of the corrected
+/// normal matrix.
+fn solve<const N: usize>(
+    samples: &[Sample],
+    rows: &[[f64; N]],
+    weights: &[f64],
+    sigma: f64,
+) -> Option<Solution<N>> {
+    let mut normal = SMatrix::<f64, N, N>::zeros();
+    let mut right = SVector::<f64, N>::zeros();
     let mut total = 0.0;
     for ((sample, row), &weight) in samples.iter().zip(rows).zip(weights) {
         if weight > 0.0 {
             total += weight;
-            for i in 0..=terms {
-                let w = weight * row[i];
-                right[i] += w * sample.along;
-                for j in i..=terms {
-                    normal[(j, i)] += w * row[j];
-                }
-            }
+            let row = SVector::<f64, N>::from(*row);
+            right.axpy(weight * sample.along, &row, 1.0);
+            normal.ger(weight, &row, &row, 1.0);
         }
     }
-    normal.fill_upper_triangle_with_lower_triangle();
-    let polynomial = normal.view((0, 0), (terms, terms)).into_owned().cholesky()?;
-    let coupling = normal.view((0, terms), (terms, 1)).into_owned();
-    let body = right.rows(0, terms).into_owned();
-    let explained = polynomial.solve(&coupling);
-    let squares = normal[(terms, terms)] - coupling.dot(&explained);
     let noise = sigma * sigma * total;
-    if squares <= 0.0 || noise > MAX_NOISE_SHARE * squares {
+    normal[(N - 1, N - 1)] -= noise;
+    let factor = normal.cholesky()?;
+    let mut last = SVector::<f64, N>::zeros();
+    last[N - 1] = 1.0;
+    let information = 1.0 / factor.solve(&last)[N - 1];
+    if noise > MAX_NOISE_SHARE * (information + noise) {
         return None;
     }
-    let information = squares - noise;
-    let cotangent = (right[terms] - explained.column(0).dot(&body)) / information;
-    let mut coefficients: Vec<f64> =
-        polynomial.solve(&(body - coupling.column(0) * cotangent)).iter().copied().collect();
-    coefficients.push(cotangent);
-    Some(Solution { coefficients, cotangent, information })
+    Some(Solution { coefficients: factor.solve(&right), information })
 }
 
 #[cfg(test)]
@@ -271,7 +311,7 @@ mod tests {
                 Sample { x, y, along: body + 1.7 * offset, offset }
             })
             .collect();
-        let (cotangent, variance) = regress(&samples, 3, 0.01).unwrap();
+        let (cotangent, variance) = regress::<CUBIC>(&samples, 0.01).unwrap();
         assert!((cotangent - 1.7).abs() < 1e-3 && variance < 1e-4, "{cotangent} {variance}");
     }
 
@@ -283,6 +323,6 @@ mod tests {
                 Sample { x, y, along: 100.0 + x, offset: f64::from(i * 7919 % 11) / 11.0 }
             })
             .collect();
-        assert!(regress(&samples, 3, 1.25).is_none());
+        assert!(regress::<CUBIC>(&samples, 1.25).is_none());
     }
 }

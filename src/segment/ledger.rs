@@ -72,39 +72,101 @@ impl<'a, R: Recorder> Ledger<'a, R> {
     }
 }
 
-/// Pixels by region.
+/// Pixels by region, as runs of consecutive pixels: one pass over the labels, and little memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Members {
+    /// First run of each region, and the end.
     starts: Vec<usize>,
-    pixels: Vec<u32>,
+    /// First pixel and length of each run, by region and row-major within it.
+    runs: Vec<(u32, u32)>,
+    /// Pixels of each region.
+    sizes: Vec<usize>,
+}
+
+/// The pixels of one region, row-major.
+#[derive(Clone, Copy, Debug)]
+pub struct Pixels<'a> {
+    runs: &'a [(u32, u32)],
+    size: usize,
 }
 
 impl Members {
     /// Sorts the pixels of `labels` by region, for `regions` regions.
     pub fn of(labels: &LabelMap, regions: usize) -> Self {
-        let mut starts = vec![0usize; regions + 2];
-        for &label in labels.as_slice() {
-            starts[usize::from(label) + 1] += 1;
+        let mut found: Vec<(u16, u32, u32)> = Vec::new();
+        let mut start = 0;
+        for y in 0..labels.height() {
+            for run in labels.row(y).chunk_by(|a, b| a == b) {
+                if run[0] != UNASSIGNED {
+                    found.push((run[0], start, run.len() as u32));
+                }
+                start += run.len() as u32;
+            }
         }
-        starts[1] = 0;
+        let mut starts = vec![0usize; regions + 2];
+        let mut sizes = vec![0usize; regions + 1];
+        for &(label, _, length) in &found {
+            starts[usize::from(label) + 1] += 1;
+            sizes[usize::from(label)] += length as usize;
+        }
         for i in 1..starts.len() {
             starts[i] += starts[i - 1];
         }
         let mut next = starts.clone();
-        let mut pixels = vec![0u32; starts[regions + 1]];
-        for (pixel, &label) in labels.as_slice().iter().enumerate() {
-            if label != UNASSIGNED {
-                let at = &mut next[usize::from(label)];
-                pixels[*at] = pixel as u32;
-                *at += 1;
-            }
+        let mut runs = vec![(0u32, 0u32); found.len()];
+        for (label, first, length) in found {
+            let at = &mut next[usize::from(label)];
+            runs[*at] = (first, length);
+            *at += 1;
         }
-        Self { starts, pixels }
+        Self { starts, runs, sizes }
     }
 
     /// Pixels of region `id` (from 1).
-    pub fn region(&self, id: u16) -> &[u32] {
-        &self.pixels[self.starts[usize::from(id)]..self.starts[usize::from(id) + 1]]
+    pub fn region(&self, id: u16) -> Pixels<'_> {
+        let id = usize::from(id);
+        Pixels { runs: &self.runs[self.starts[id]..self.starts[id + 1]], size: self.sizes[id] }
+    }
+}
+
+impl<'a> Pixels<'a> {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.size
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.size == 0
+    }
+
+    /// First pixel and length of each run.
+    pub fn runs(&self) -> &'a [(u32, u32)] {
+        self.runs
+    }
+
+    /// The rows of an image `width` pixels wide that hold them; `None` without any.
+    pub fn rows(&self, width: usize) -> Option<std::ops::Range<usize>> {
+        let (first, last) = (self.runs.first()?, self.runs.last()?);
+        Some(first.0 as usize / width..last.0 as usize / width + 1)
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = u32> + use<'a> {
+        self.runs.iter().flat_map(|&(first, length)| first..first + length)
+    }
+
+    /// At most `most` of them, evenly chosen.
+    pub fn sample(&self, most: usize) -> impl Iterator<Item = u32> + use<'a> {
+        let step = self.size.div_ceil(most).max(1) as u32;
+        // Pixels still to be passed over before the next one.
+        let mut skip = 0;
+        self.runs.iter().flat_map(move |&(first, length)| {
+            let start = skip;
+            let taken = length.saturating_sub(start).div_ceil(step);
+            skip = start + taken * step - length;
+            (0..taken).map(move |i| first + start + i * step)
+        })
     }
 }
 
@@ -117,9 +179,12 @@ mod tests {
     fn members_are_sorted_by_region() {
         let labels = LabelMap::from_vec(3, 2, vec![2, 0, 1, 1, 2, 2]).unwrap();
         let members = Members::of(&labels, 3);
-        assert_eq!(members.region(1), [2, 3]);
-        assert_eq!(members.region(2), [0, 4, 5]);
+        let pixels = |id| members.region(id).iter().collect::<Vec<_>>();
+        assert_eq!(pixels(1), [2, 3]);
+        assert_eq!(pixels(2), [0, 4, 5]);
+        assert_eq!(members.region(2).len(), 3);
         assert!(members.region(3).is_empty());
+        assert_eq!(members.region(2).sample(2).collect::<Vec<_>>(), [0, 5]);
     }
 
     #[test]

@@ -8,10 +8,10 @@
 //! from every pixel of the area that the cylinder holds, not from the one nearest to the mean.
 
 use super::classify::Windows;
-use super::ledger::Ledger;
+use super::ledger::{Ledger, Pixels};
 use super::merge::Areas;
 use super::scene::Scene;
-use crate::color::{Cylinder, Line, LineFit, Moments, Vec3};
+use crate::color::{Cylinder, Line, LineFit, Moments};
 use crate::raster::UNASSIGNED;
 use crate::trace::{CandidateSource, Class, Event, PassedOver, Recorder};
 
@@ -46,7 +46,7 @@ pub struct Choice {
 /// Largest number of regions that a label map can hold.
 const MAX_REGIONS: usize = u16::MAX as usize;
 /// Pixels that a fit looks at, evenly chosen from more.
-const FIT_SAMPLES: usize = 12_000;
+const FIT_SAMPLES: usize = 4000;
 
 /// Generates and exploits linear hypotheses from merged areas, appending to `hypotheses`.
 pub fn linear<R: Recorder>(
@@ -176,8 +176,11 @@ fn refit<R: Recorder>(
     }
 }
 
+/// Pixels that the length of a matte line is read from, evenly chosen from more.
+const LENGTH_SAMPLES: usize = 6000;
+
 /// Colours of at most [`FIT_SAMPLES`] of the pixels, evenly chosen.
-pub fn sample(scene: &Scene, pixels: &[u32]) -> Vec<[f32; 3]> {
+fn sample(scene: &Scene, pixels: &[u32]) -> Vec<[f32; 3]> {
     let step = pixels.len().div_ceil(FIT_SAMPLES).max(1);
     pixels.iter().step_by(step).map(|&pixel| scene.pixels[pixel as usize]).collect()
 }
@@ -319,13 +322,14 @@ impl<'a> Stock<'a> {
 
 /// Length of a region's matte line from black, counts: the 99.5 % quantile of C·d over its pixels on the outside of the
 /// line (5.4.1, figure 9: highlights grow inward, so the brightest matte point is sought outside).
-pub fn matte_length(scene: &Scene, line: &Line, pixels: &[u32]) -> f64 {
+pub fn matte_length(scene: &Scene, line: &Line, pixels: Pixels) -> f64 {
     let inward = crate::color::rgb(&line.inward());
     let direction = crate::color::rgb(&line.direction);
     let mean = crate::color::rgb(&line.mean);
     let at_mean = crate::color::dot(mean, inward);
-    let mut lengths: Vec<f32> = sample(scene, pixels)
-        .into_iter()
+    let mut lengths: Vec<f32> = pixels
+        .sample(LENGTH_SAMPLES)
+        .map(|pixel| scene.pixels[pixel as usize])
         .filter(|&color| crate::color::dot(color, inward) <= at_mean)
         .map(|color| crate::color::dot(color, direction))
         .collect();
@@ -335,9 +339,4 @@ pub fn matte_length(scene: &Scene, line: &Line, pixels: &[u32]) -> f64 {
     let rank = (lengths.len() - 1) * 995 / 1000;
     let (_, &mut length, _) = lengths.select_nth_unstable_by(rank, f32::total_cmp);
     f64::from(length)
-}
-
-/// Mean colour of pixels.
-pub fn mean_color(scene: &Scene, pixels: &[u32]) -> Vec3 {
-    pixels.iter().map(|&pixel| scene.pixels[pixel as usize]).collect::<Moments>().mean()
 }

@@ -19,7 +19,7 @@ mod unite;
 
 pub use classify::{Classifier, Windows, classify};
 pub use clipping::{HighlightTest, clipping_regions};
-pub use ledger::Members;
+pub use ledger::{Members, Pixels};
 pub use linear::Hypothesis;
 pub use matte::{MatteRegions, matte_regions};
 pub use merge::{Areas, merge};

@@ -11,8 +11,8 @@
 use super::candidates::{HighlightLine, highlight_lines};
 use super::classify::Windows;
 use super::illuminant::{Constraint, Prior, average_direction, intersect, weighted_direction};
-use super::in_plane;
-use super::ledger::{Ledger, Members};
+use super::in_plane::{Branches, InPlane};
+use super::ledger::{Ledger, Members, Pixels};
 use super::linear::{Hypothesis, cylinders, matte_length};
 use super::matte::MatteRegions;
 use super::merge::Areas;
@@ -23,6 +23,7 @@ use crate::raster::{LabelMap, UNASSIGNED};
 use crate::reflection::{DichromaticPlane, Slice};
 use crate::trace::{Event, Recorder};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// Smallest angle between body and surface vector at which a plane means anything, degrees.
 const MIN_ANGLE_DEG: f64 = 3.0;
@@ -30,6 +31,8 @@ const MIN_ANGLE_DEG: f64 = 3.0;
 const DEFAULT_START: f64 = 0.75;
 /// How often illuminant and slices are found again from the grown regions.
 const ROUNDS: usize = 2;
+/// Pixels that all in-plane fits look at together: what they cost does not grow with the picture.
+const BRANCH_SAMPLES: usize = 24_000;
 
 /// The colour of the scene's light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,9 +97,9 @@ pub fn planar_regions<R: Recorder>(
     let (first, mut objects) = stage.first_illuminant();
     let mut direction = first;
     let mut hypotheses = stage.slices(direction);
-    for _ in 0..ROUNDS {
+    for round in 1..=ROUNDS {
         let Some(before) = direction else { break };
-        let (next, count) = stage.illuminant_again(&hypotheses, &before);
+        let (next, count) = stage.illuminant_again(&hypotheses, &before, round == ROUNDS);
         direction = Some(next);
         objects = count;
         stage.unite_and_reset();
@@ -151,7 +154,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
                 let length = matte_length(self.scene, line, members.region(id));
                 let nearby =
                     nearby_highlight(self.scene, &self.matte_labels, &plane, length, members.region(id));
-                plane_constraint(self.scene, id, &plane, length, &nearby)
+                plane_constraint(self.scene, id, &plane, length, nearby.into_iter())
             })
             .collect();
         if constraints.is_empty() && candidates.is_none() {
@@ -164,18 +167,32 @@ impl<R: Recorder> Stage<'_, '_, R> {
     }
 
     /// The illuminant from the grown regions.
-    fn illuminant_again(&mut self, hypotheses: &[PlanarHypothesis], before: &Vec3) -> (Vec3, usize) {
+    fn illuminant_again(
+        &mut self,
+        hypotheses: &[PlanarHypothesis],
+        before: &Vec3,
+        in_plane: bool,
+    ) -> (Vec3, usize) {
         let members = Members::of(&self.ledger.labels, hypotheses.len());
+        let budget = BRANCH_SAMPLES / hypotheses.iter().filter(|h| h.plane.is_some()).count().max(1);
         let pairs: Vec<(Option<Constraint>, Option<Constraint>)> = (1..=hypotheses.len() as u16)
             .into_par_iter()
             .map(|id| {
                 let hypothesis = &hypotheses[usize::from(id) - 1];
                 let Some(plane) = hypothesis.plane.filter(|_| hypothesis.alive) else { return (None, None) };
                 let (pixels, length) = (members.region(id), hypothesis.matte_length);
-                let Some(lies_in) = plane_constraint(self.scene, id, &plane, length, pixels) else {
+                let Some(lies_in) = plane_constraint(self.scene, id, &plane, length, pixels.iter()) else {
                     return (None, None);
                 };
-                let branch = in_plane::estimate(self.scene, &self.ledger.labels, id, pixels, &plane, length);
+                let branches = Branches {
+                    scene: self.scene,
+                    labels: &self.ledger.labels,
+                    region: id,
+                    plane: &plane,
+                    matte_length: length,
+                    budget,
+                };
+                let branch = if in_plane { branches.estimate(pixels) } else { None };
                 (Some(lies_in), branch.map(|branch| branch_constraint(&lies_in, &plane, &branch)))
             })
             .collect();
@@ -266,7 +283,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let own = cylinders[usize::from(id) - 1];
         let matte_labels = &self.matte_labels;
         let mut front: Vec<u32> =
-            members.region(id).iter().copied().filter(|&p| self.ledger.labels[p as usize] == id).collect();
+            members.region(id).iter().filter(|&p| self.ledger.labels[p as usize] == id).collect();
         self.ledger.grow(id, &mut front, |recorder, pixel, holder| {
             let color = scene.pixels[pixel];
             if !scene.claimable(pixel) || !slice.contains(color) {
@@ -309,18 +326,17 @@ fn nearby_highlight(
     labels: &LabelMap,
     plane: &DichromaticPlane,
     matte_length: f64,
-    pixels: &[u32],
+    pixels: Pixels,
 ) -> Vec<u32> {
     const REACH_PX: usize = 8;
     let axes = plane.coordinates();
     let least_offset = 0.75 * scene.used.radius_counts() as f32;
     let least_along = 0.3 * matte_length as f32;
-    let mut seen = std::collections::BTreeSet::new();
-    let mut found = Vec::new();
-    let mut front: Vec<u32> = pixels.to_vec();
-    for _ in 0..REACH_PX {
+    let mut seen = BTreeSet::new();
+    let mut ring = Vec::new();
+    let mut step = |from: &mut dyn Iterator<Item = u32>| -> Vec<u32> {
         let mut next = Vec::new();
-        for &pixel in &front {
+        for pixel in from {
             labels.for_each_neighbour(pixel as usize, |near| {
                 if labels[near] != UNASSIGNED || !scene.masks.usable(near) || seen.contains(&(near as u32)) {
                     return;
@@ -333,8 +349,13 @@ fn nearby_highlight(
                 }
             });
         }
-        found.extend_from_slice(&next);
-        front = next;
+        next
+    };
+    let mut found = step(&mut pixels.iter());
+    ring.extend_from_slice(&found);
+    for _ in 1..REACH_PX {
+        ring = step(&mut ring.iter().copied());
+        found.extend_from_slice(&ring);
     }
     found
 }
@@ -345,16 +366,15 @@ fn plane_constraint(
     region: u16,
     plane: &DichromaticPlane,
     matte_length: f64,
-    pixels: &[u32],
+    pixels: impl Iterator<Item = u32>,
 ) -> Option<Constraint> {
     const MIN_PIXELS: f64 = 10.0;
     const FLOOR_DEG: f64 = 0.4;
     let axes = plane.coordinates();
     let (radius, sigma) = (scene.used.radius_counts() as f32, scene.sigma());
     let points: Vec<(f64, f64)> = pixels
-        .iter()
-        .filter(|&&pixel| scene.masks.usable(pixel as usize))
-        .map(|&pixel| axes.of(scene.pixels[pixel as usize]))
+        .filter(|&pixel| scene.masks.usable(pixel as usize))
+        .map(|pixel| axes.of(scene.pixels[pixel as usize]))
         .filter(|p| p.offset > 0.75 * radius && p.height.abs() < p.offset / 2.0)
         .filter(|p| f64::from(p.along) > 0.3 * matte_length)
         .map(|p| (f64::from(p.offset), f64::from(p.height)))
@@ -390,11 +410,7 @@ fn plane_constraint(
 }
 
 /// An in-plane estimate as what the illuminant is perpendicular to, within the plane that the region found.
-fn branch_constraint(
-    lies_in: &Constraint,
-    plane: &DichromaticPlane,
-    branch: &in_plane::InPlane,
-) -> Constraint {
+fn branch_constraint(lies_in: &Constraint, plane: &DichromaticPlane, branch: &InPlane) -> Constraint {
     const FLOOR_DEG: f64 = 2.0;
     let inward = lies_in.normal.cross(&plane.matte.direction);
     let light = (plane.matte.direction * branch.cotangent + inward).normalize();

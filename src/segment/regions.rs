@@ -4,10 +4,10 @@
 //! them, and one object behind another when the other's pixels do (a cup seen through a handle stays one). Shadow is dark
 //! like background; a part that lies nearer than its own size is taken to lie behind a shadow.
 
-use super::ledger::{Ledger, Members};
+use super::ledger::{Ledger, Members, Pixels};
 use super::planar::{PlanarHypothesis, PlanarRegions};
 use super::scene::Scene;
-use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED, dilate, label_components};
+use crate::raster::{LabelMap, UNASSIGNED};
 use crate::trace::{Event, Recorder};
 use std::collections::BTreeMap;
 
@@ -58,7 +58,7 @@ pub fn final_regions<R: Recorder>(
             if R::KEEPS {
                 ledger.recorder.record(Event::Dropped { region: id, pixels: pixels.len() as u32 });
             }
-            for &pixel in pixels {
+            for pixel in pixels.iter() {
                 ledger.assign(pixel as usize, UNASSIGNED);
             }
         }
@@ -76,11 +76,11 @@ pub fn final_regions<R: Recorder>(
 /// Gives the parts of a region that are objects of their own new numbers.
 fn separate<R: Recorder>(
     id: u16,
-    pixels: &[u32],
+    pixels: Pixels,
     hypotheses: &mut Vec<PlanarHypothesis>,
     ledger: &mut Ledger<R>,
 ) {
-    let mut parts = parts(&ledger.labels, pixels);
+    let mut parts = parts(ledger.labels.width(), pixels);
     if parts.len() < 2 {
         return;
     }
@@ -113,27 +113,41 @@ fn separate<R: Recorder>(
     }
 }
 
-/// Groups of a region's pixels of which each is more than [`APART_PX`] from the next.
-fn parts(labels: &LabelMap, pixels: &[u32]) -> Vec<Vec<u32>> {
-    let width = labels.width();
-    let (Some(left), Some(right)) =
-        (pixels.iter().map(|&p| p as usize % width).min(), pixels.iter().map(|&p| p as usize % width).max())
-    else {
-        return Vec::new();
-    };
-    let (top, bottom) = (pixels[0] as usize / width, pixels[pixels.len() - 1] as usize / width);
-    let (columns, rows) = (right - left + 1, bottom - top + 1);
-    let local = |pixel: u32| (pixel as usize / width - top) * columns + pixel as usize % width - left;
-    let mut mask: Mask = Raster::filled(columns, rows, false);
-    for &pixel in pixels {
-        mask[local(pixel)] = true;
+/// Groups of a region's pixels of which each is more than [`APART_PX`] from the next along rows or columns.
+fn parts(width: usize, pixels: Pixels) -> Vec<Vec<u32>> {
+    let runs = pixels.runs();
+    let reach = APART_PX as u32;
+    let row = |run: (u32, u32)| run.0 / width as u32;
+    let column = |run: (u32, u32)| run.0 % width as u32;
+    let mut parent: Vec<usize> = (0..runs.len()).collect();
+    // Runs are row-major, so everything within reach above a run lies from `above` on.
+    let mut above = 0;
+    for i in 0..runs.len() {
+        while row(runs[above]) + reach < row(runs[i]) {
+            above += 1;
+        }
+        let (left, right) = (column(runs[i]), column(runs[i]) + runs[i].1);
+        for j in above..i {
+            let other = (column(runs[j]), column(runs[j]) + runs[j].1);
+            if other.0 <= right + reach && left <= other.1 + reach {
+                let (a, b) = (root(&mut parent, i), root(&mut parent, j));
+                parent[a.max(b)] = a.min(b);
+            }
+        }
     }
-    let components = label_components(&dilate(&mask, APART_PX / 2), |&inside| inside);
-    let mut parts: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-    for &pixel in pixels {
-        parts.entry(components.labels[local(pixel)]).or_default().push(pixel);
+    let mut parts: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    for (i, &(first, length)) in runs.iter().enumerate() {
+        parts.entry(root(&mut parent, i)).or_default().extend(first..first + length);
     }
     parts.into_values().collect()
+}
+
+fn root(parent: &mut [usize], mut at: usize) -> usize {
+    while parent[at] != at {
+        parent[at] = parent[parent[at]];
+        at = parent[at];
+    }
+    at
 }
 
 /// Whether two parts are one object: near one another for their size, or parted mostly by other regions, by an object in

@@ -6,12 +6,13 @@
 //! majority of its 5×5 surroundings (no salt and pepper at σ ≥ 2.5).
 
 use super::borders::near_pairs;
-use super::ledger::{Ledger, Members};
+use super::ledger::{Ledger, Members, Pixels};
 use super::linear::{Hypothesis, cylinders};
 use super::scene::Scene;
-use crate::color::{Line, Moments, axis_angle_deg};
+use crate::color::{Cylinder, Line, Moments, axis_angle_deg};
 use crate::raster::UNASSIGNED;
 use crate::trace::{Event, Recorder};
+use std::collections::BTreeMap;
 
 /// Farthest that parts of one object may lie apart, pixels.
 const REACH_PX: usize = 3;
@@ -32,48 +33,49 @@ pub fn merge_regions<R: Recorder>(
     ledger: &mut Ledger<R>,
 ) -> Vec<u16> {
     let members = ledger.members(hypotheses.len());
-    let mut moments: Vec<Moments> = (1..=hypotheses.len() as u16)
-        .map(|id| {
-            let usable = members.region(id).iter().filter(|&&pixel| scene.masks.usable(pixel as usize));
-            let inside = cylinder_filter(scene, &hypotheses[usize::from(id) - 1].line);
-            usable.map(|&pixel| scene.pixels[pixel as usize]).filter(|&c| inside(c)).collect()
-        })
-        .collect();
+    let mut clusters: BTreeMap<u16, Moments> = BTreeMap::new();
     let mut into_of: Vec<u16> = (0..=hypotheses.len() as u16).collect();
     for (a, b) in near_pairs(&ledger.labels, REACH_PX) {
         let (a, b) = (into_of[usize::from(a)], into_of[usize::from(b)]);
         if a == b {
             continue;
         }
-        let (ia, ib) = (usize::from(a) - 1, usize::from(b) - 1);
-        let (into, from) = if moments[ia].n >= moments[ib].n { (ia, ib) } else { (ib, ia) };
-        let angle_deg = axis_angle_deg(&hypotheses[into].line.direction, &hypotheses[from].line.direction);
-        let own = rms_from(&moments[from], &hypotheses[from].line);
-        let rms = rms_from(&moments[from], &hypotheses[into].line);
-        if angle_deg >= MAX_ANGLE_DEG || rms >= RMS_RATIO * own.max(RMS_FLOOR * scene.used.camera_noise) {
+        let line = |id: u16| hypotheses[usize::from(id) - 1].line;
+        let angle_deg = axis_angle_deg(&line(a).direction, &line(b).direction);
+        if angle_deg >= MAX_ANGLE_DEG {
+            continue;
+        }
+        let mut cluster =
+            |id| *clusters.entry(id).or_insert_with(|| matte_cluster(scene, &line(id), members.region(id)));
+        let (of_a, of_b) = (cluster(a), cluster(b));
+        let (into, from) = if of_a.n >= of_b.n { (a, b) } else { (b, a) };
+        let from_cluster = if from == a { of_a } else { of_b };
+        let own = rms_from(&from_cluster, &line(from));
+        let rms = rms_from(&from_cluster, &line(into));
+        if rms >= RMS_RATIO * own.max(RMS_FLOOR * scene.used.camera_noise) {
             continue;
         }
         if R::KEEPS {
-            let (region, into) = (from as u16 + 1, into as u16 + 1);
-            ledger.recorder.record(Event::RegionsMerged { region, into, angle_deg, rms });
+            ledger.recorder.record(Event::RegionsMerged { region: from, into, angle_deg, rms });
         }
-        moments[into] = moments[into].merged(&moments[from]);
-        hypotheses[from].alive = false;
-        let mut highlights = std::mem::take(&mut hypotheses[from].highlights);
-        hypotheses[into].highlights.append(&mut highlights);
-        for owner in &mut into_of {
-            if *owner == from as u16 + 1 {
-                *owner = into as u16 + 1;
-            }
+        clusters.insert(into, of_a.merged(&of_b));
+        let vanished = &mut hypotheses[usize::from(from) - 1];
+        vanished.alive = false;
+        let mut highlights = std::mem::take(&mut vanished.highlights);
+        hypotheses[usize::from(into) - 1].highlights.append(&mut highlights);
+        for owner in into_of.iter_mut().filter(|owner| **owner == from) {
+            *owner = into;
         }
     }
     reassign(&members, &into_of, ledger);
     into_of
 }
 
-fn cylinder_filter(scene: &Scene, line: &Line) -> impl Fn([f32; 3]) -> bool {
-    let cylinder = crate::color::Cylinder::new(line, scene.used.radius_counts());
-    move |color| cylinder.contains(color)
+/// The believable colours of a region inside its cylinder.
+fn matte_cluster(scene: &Scene, line: &Line, pixels: Pixels) -> Moments {
+    let cylinder = Cylinder::new(line, scene.used.radius_counts());
+    let usable = pixels.iter().map(|pixel| pixel as usize).filter(|&pixel| scene.masks.usable(pixel));
+    usable.map(|pixel| scene.pixels[pixel]).filter(|&color| cylinder.contains(color)).collect()
 }
 
 /// Root mean square distance of a cluster from a line.
@@ -90,7 +92,7 @@ pub fn rms_from(cluster: &Moments, line: &Line) -> f64 {
 fn reassign<R: Recorder>(members: &Members, into_of: &[u16], ledger: &mut Ledger<R>) {
     for (region, &into) in into_of.iter().enumerate().skip(1) {
         if usize::from(into) != region {
-            for &pixel in members.region(region as u16) {
+            for pixel in members.region(region as u16).iter() {
                 ledger.assign(pixel as usize, into);
             }
         }
