@@ -8,9 +8,14 @@
 //! in that plane (a second normal q_k, see `in_plane`). The illuminant is the unit vector that minimises
 //! Σ ρ(n_k·s)²/(var_k + 0.4°²) + Σ ρ(q_k·s)²/(var_k + floor²), Cauchy's ρ, by reweighted smallest eigenvectors.
 //! 0.1° is typical, a single sphere stays below 1°; two coplanar objects: 20° → 0.2°.
+//!
+//! Printed patterns and metals put forward planes that hold no light. The minimum is therefore sought from several starts:
+//! the highlight lines' direction, white, and where any two planes meet. A start is judged by how many constraints it
+//! satisfies, each counting at most once, and by how usual such a light is: lamps and skies lie within about 14° of white
+//! between yellow and blue, and within 6° between green and magenta.
 
 use super::candidates::HighlightLine;
-use crate::color::Vec3;
+use crate::color::{Vec3, axis_angle_deg};
 use nalgebra::Matrix3;
 
 /// Something that the illuminant is perpendicular to.
@@ -24,6 +29,8 @@ pub struct Constraint {
     pub variance_deg2: f64,
     /// Residual beyond which it is doubted (Cauchy's scale), degrees.
     pub doubt_deg: f64,
+    /// How well the region's pixels bear it out, in 0…1.
+    pub reliability: f64,
 }
 
 /// Where the search starts, and how strongly it is held there.
@@ -58,48 +65,88 @@ pub fn weighted_direction(lines: &[Option<HighlightLine>]) -> Option<Vec3> {
 
 /// Intersects the constraints, robustly.
 pub fn intersect(constraints: &[Constraint], prior: &Prior) -> Intersection {
+    let white = Vec3::repeat(1.0).normalize();
+    let mut strongest: Vec<&Constraint> = constraints.iter().collect();
+    strongest.sort_by(|a, b| (b.reliability / b.variance_deg2).total_cmp(&(a.reliability / a.variance_deg2)));
+    strongest.truncate(MAX_PAIRED);
+    let pairs = strongest.iter().enumerate().flat_map(|(i, a)| {
+        strongest[i + 1..].iter().filter_map(|b| a.normal.cross(&b.normal).try_normalize(0.1))
+    });
+    let into_cube = |direction: Vec3| direction * if direction.sum() < 0.0 { -1.0 } else { 1.0 };
+    let starts = [prior.direction, white].into_iter().chain(pairs.map(into_cube));
+    let direction = starts
+        .filter(|start| start.min() > LEAST_BAND)
+        .map(|start| settle(constraints, prior, start))
+        .max_by(|a, b| merit(constraints, prior, a).total_cmp(&merit(constraints, prior, b)))
+        .unwrap_or(prior.direction);
+    let contributions =
+        constraints.iter().map(|c| (c.region, residual_deg(c, &direction), weight(c, &direction))).collect();
+    Intersection { direction, contributions }
+}
+
+/// Strongest constraints whose pairs are tried as starts.
+const MAX_PAIRED: usize = 8;
+/// A light has at least this much of every band.
+const LEAST_BAND: f64 = 0.02;
+/// How far from white lights lie: yellow to blue, green to magenta, degrees.
+const WHITE_SD_DEG: [f64; 2] = [14.0, 6.0];
+
+/// The nearest minimum, by reweighted smallest eigenvectors.
+fn settle(constraints: &[Constraint], prior: &Prior, start: Vec3) -> Vec3 {
     let held = Matrix3::identity() - prior.direction * prior.direction.transpose();
-    let mut direction = prior.direction;
-    // A wide start keeps a far prior from deciding who is doubted.
-    for widening in [8.0, 4.0, 2.0].into_iter().chain(std::iter::repeat_n(1.0, 12)) {
+    let mut direction = start;
+    for _ in 0..12 {
         let mut sum = held / prior.sd_deg.powi(2);
         for constraint in constraints {
-            let weight = weight(constraint, &direction, widening);
-            sum += constraint.normal * constraint.normal.transpose() * weight;
+            sum += constraint.normal * constraint.normal.transpose() * weight(constraint, &direction);
         }
         let (_, axes) = crate::color::principal_axes(&sum);
         let next = axes[2] * if axes[2].sum() < 0.0 { -1.0 } else { 1.0 };
         let turned = next.cross(&direction).norm();
         direction = next;
-        if widening <= 1.0 && turned < 1e-7 {
+        if turned < 1e-6 {
             break;
         }
     }
-    let contributions = constraints
+    direction
+}
+
+/// Constraints that a direction satisfies, less what it costs to be unusual and far from the prior.
+fn merit(constraints: &[Constraint], prior: &Prior, direction: &Vec3) -> f64 {
+    let satisfied: f64 = constraints
         .iter()
-        .map(|c| (c.region, residual_deg(c, &direction), weight(c, &direction, 1.0)))
-        .collect();
-    Intersection { direction, contributions }
+        .map(|c| {
+            let u = residual_deg(c, direction) / (c.doubt_deg + c.variance_deg2.sqrt());
+            c.reliability / (1.0 + u * u)
+        })
+        .sum();
+    let white = Vec3::repeat(1.0).normalize();
+    let yellow_blue = Vec3::new(1.0, 0.0, -1.0).normalize();
+    let green_magenta = white.cross(&yellow_blue);
+    let off =
+        |axis: &Vec3, sd: f64| (direction.dot(axis).atan2(direction.dot(&white)).to_degrees() / sd).powi(2);
+    let unusual = off(&yellow_blue, WHITE_SD_DEG[0]) + off(&green_magenta, WHITE_SD_DEG[1]);
+    let far = (axis_angle_deg(direction, &prior.direction) / prior.sd_deg).powi(2);
+    satisfied - (unusual + far) / 2.0
 }
 
 fn residual_deg(constraint: &Constraint, direction: &Vec3) -> f64 {
     constraint.normal.dot(direction).clamp(-1.0, 1.0).asin().to_degrees()
 }
 
-fn weight(constraint: &Constraint, direction: &Vec3, widening: f64) -> f64 {
-    let doubt = residual_deg(constraint, direction) / (constraint.doubt_deg * widening);
-    1.0 / (constraint.variance_deg2 * (1.0 + doubt * doubt))
+fn weight(constraint: &Constraint, direction: &Vec3) -> f64 {
+    let doubt = residual_deg(constraint, direction) / constraint.doubt_deg;
+    constraint.reliability / (constraint.variance_deg2 * (1.0 + doubt * doubt))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::axis_angle_deg;
     use proptest::prelude::*;
 
     fn plane_of(region: u16, body: Vec3, light: &Vec3) -> Constraint {
         let normal = body.cross(light).normalize();
-        Constraint { region, normal, variance_deg2: 0.2, doubt_deg: 1.0 }
+        Constraint { region, normal, variance_deg2: 0.2, doubt_deg: 1.0, reliability: 1.0 }
     }
 
     proptest! {
@@ -112,7 +159,7 @@ mod tests {
             let mut planes: Vec<Constraint> =
                 bodies.iter().map(|&b| plane_of(1, Vec3::from(b), &light)).collect();
             let stranger = Vec3::new(0.5, -0.4, 0.1).normalize();
-            planes.push(Constraint { region: 9, normal: stranger, variance_deg2: 0.2, doubt_deg: 1.0 });
+            planes.push(Constraint { region: 9, normal: stranger, variance_deg2: 0.2, doubt_deg: 1.0, reliability: 1.0 });
             let prior = Prior { direction: Vec3::repeat(1.0).normalize(), sd_deg: 30.0 };
             let found = intersect(&planes, &prior);
             prop_assert!(axis_angle_deg(&found.direction, &light) < 0.5);

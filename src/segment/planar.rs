@@ -370,6 +370,7 @@ fn plane_constraint(
 ) -> Option<Constraint> {
     const MIN_PIXELS: f64 = 10.0;
     const FLOOR_DEG: f64 = 0.4;
+    const POOR_FIT: f64 = 2.0;
     let axes = plane.coordinates();
     let (radius, sigma) = (scene.used.radius_counts() as f32, scene.sigma());
     let points: Vec<(f64, f64)> = pixels
@@ -379,34 +380,58 @@ fn plane_constraint(
         .filter(|p| f64::from(p.along) > 0.3 * matte_length)
         .map(|p| (f64::from(p.offset), f64::from(p.height)))
         .collect();
-    let mut slope = 0.0;
-    let mut squares = 0.0;
-    let mut weight_sum = 0.0;
+    let fit = robust_slope(&points, sigma)?;
+    if fit.weight < MIN_PIXELS {
+        return None;
+    }
+    let normal = plane.matte.direction.cross(&(plane.inward + plane.normal * fit.slope)).normalize();
+    let per_pixel = fit.residual.max(sigma).powi(2);
+    Some(Constraint {
+        region,
+        normal,
+        variance_deg2: per_pixel / fit.squares * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG,
+        doubt_deg: 1.0,
+        // Pixels that scatter about the plane by more than noise are no highlight on one material.
+        reliability: (POOR_FIT * sigma / fit.residual).powi(2).min(1.0),
+    })
+}
+
+/// A line through the origin of (offset, height) points.
+struct Slope {
+    slope: f64,
+    /// Σ w·offset².
+    squares: f64,
+    /// Σ w.
+    weight: f64,
+    /// Root mean square of the weighted residuals, counts.
+    residual: f64,
+}
+
+/// Fits height = slope · offset with Tukey's weights, from a wide scale to one of the noise.
+fn robust_slope(points: &[(f64, f64)], sigma: f64) -> Option<Slope> {
+    let mut fit = Slope { slope: 0.0, squares: 0.0, weight: 0.0, residual: 0.0 };
     let mut scale = 8.0 * sigma;
     for _ in 0..10 {
-        let (mut product, mut square, mut sum) = (0.0, 0.0, 0.0);
-        for &(offset, height) in &points {
-            let u = (height - slope * offset) / (4.0 * scale);
+        let (mut product, mut squares, mut weight_sum, mut residuals) = (0.0, 0.0, 0.0, 0.0);
+        for &(offset, height) in points {
+            let residual = height - fit.slope * offset;
+            let u = residual / (4.0 * scale);
             if u.abs() < 1.0 {
                 let weight = (1.0 - u * u).powi(2);
                 product += weight * offset * height;
-                square += weight * offset * offset;
-                sum += weight;
+                squares += weight * offset * offset;
+                weight_sum += weight;
+                residuals += weight * residual * residual;
             }
         }
-        if square <= 0.0 {
+        if squares <= 0.0 {
             return None;
         }
-        slope = product / square;
-        (squares, weight_sum) = (square, sum);
-        scale = (scale / 2.0).max(1.5 * sigma);
+        let residual = (residuals / weight_sum).sqrt();
+        fit = Slope { slope: product / squares, squares, weight: weight_sum, residual };
+        scale = (scale / 2.0).max(1.5 * sigma).max(residual);
     }
-    if weight_sum < MIN_PIXELS {
-        return None;
-    }
-    let normal = plane.matte.direction.cross(&(plane.inward + plane.normal * slope)).normalize();
-    let variance_deg2 = (sigma * sigma / squares) * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG;
-    Some(Constraint { region, normal, variance_deg2, doubt_deg: 1.0 })
+    Some(fit)
 }
 
 /// An in-plane estimate as what the illuminant is perpendicular to, within the plane that the region found.
@@ -415,5 +440,11 @@ fn branch_constraint(lies_in: &Constraint, plane: &DichromaticPlane, branch: &In
     let inward = lies_in.normal.cross(&plane.matte.direction);
     let light = (plane.matte.direction * branch.cotangent + inward).normalize();
     let variance_deg2 = branch.variance_rad2 * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG;
-    Constraint { region: lies_in.region, normal: lies_in.normal.cross(&light), variance_deg2, doubt_deg: 4.0 }
+    Constraint {
+        region: lies_in.region,
+        normal: lies_in.normal.cross(&light),
+        variance_deg2,
+        doubt_deg: 4.0,
+        reliability: lies_in.reliability,
+    }
 }

@@ -2,11 +2,14 @@
 //!
 //! `split_components`: two parts of a region that lie apart are two objects of one colour when background lies between
 //! them, and one object behind another when the other's pixels do (a cup seen through a handle stays one). Shadow is dark
-//! like background; a part that lies nearer than its own size is taken to lie behind a shadow.
+//! like background; a part that lies nearer than its own size is taken to lie behind a shadow, one that lies farther than
+//! twice its size to be another object. Regions of one matte line that were found apart are joined by the same rule.
 
 use super::ledger::{Ledger, Members, Pixels};
 use super::planar::{PlanarHypothesis, PlanarRegions};
 use super::scene::Scene;
+use super::unite::{MAX_ANGLE_DEG, matte_cluster, one_line};
+use crate::color::axis_angle_deg;
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::trace::{Event, Recorder};
 use std::collections::BTreeMap;
@@ -15,8 +18,9 @@ use std::collections::BTreeMap;
 const MIN_REGION_PX: usize = 60;
 /// Parts of a region at most this far apart are one part, pixels.
 const APART_PX: usize = 4;
-/// Widest shadow that may part an object, pixels.
-const MAX_SHADOW_PX: f64 = 30.0;
+/// Widest shadow and widest occluder that may part an object, as shares of the picture's diagonal.
+const MAX_SHADOW: f64 = 0.045;
+const MAX_OCCLUDER: f64 = 0.12;
 /// Border pixels looked at when the gap between two parts is judged.
 const BORDER_SAMPLES: usize = 300;
 
@@ -38,6 +42,9 @@ pub fn final_regions<R: Recorder>(
 ) -> FinalRegions {
     let mut hypotheses = planar.hypotheses.clone();
     let mut ledger = Ledger::new(labels, recorder);
+    if scene.refine.merge_regions {
+        join_across(scene, &hypotheses, &mut ledger);
+    }
     if scene.refine.split_components {
         let members = ledger.members(hypotheses.len());
         for id in 1..=hypotheses.len() as u16 {
@@ -73,6 +80,40 @@ pub fn final_regions<R: Recorder>(
     FinalRegions { labels, hypotheses: kept }
 }
 
+/// Joins regions on one matte line that an occluder or a shadow parts.
+fn join_across<R: Recorder>(scene: &Scene, hypotheses: &[PlanarHypothesis], ledger: &mut Ledger<R>) {
+    let members = ledger.members(hypotheses.len());
+    let mut order: Vec<u16> =
+        (1..=hypotheses.len() as u16).filter(|&id| members.region(id).len() >= MIN_REGION_PX).collect();
+    order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
+    let line = |id: u16| &hypotheses[usize::from(id) - 1].matte;
+    let mut into_of: Vec<u16> = (0..=hypotheses.len() as u16).collect();
+    for (i, &into) in order.iter().enumerate() {
+        for &from in &order[i + 1..] {
+            let free = into_of[usize::from(from)] == from && into_of[usize::from(into)] == into;
+            let angle_deg = axis_angle_deg(&line(from).direction, &line(into).direction);
+            if !free || angle_deg >= MAX_ANGLE_DEG {
+                continue;
+            }
+            let cluster = matte_cluster(scene, line(from), members.region(from));
+            let Some(rms) = one_line(scene, &cluster, line(from), line(into)) else { continue };
+            let (one, other): (Vec<u32>, Vec<u32>) =
+                (members.region(into).iter().collect(), members.region(from).iter().collect());
+            if same_object(&ledger.labels, &one, &other) {
+                into_of[usize::from(from)] = into;
+                if R::KEEPS {
+                    ledger.recorder.record(Event::RegionsMerged { region: from, into, angle_deg, rms });
+                }
+            }
+        }
+    }
+    for &from in &order {
+        for pixel in members.region(from).iter() {
+            ledger.assign(pixel as usize, into_of[usize::from(from)]);
+        }
+    }
+}
+
 /// Gives the parts of a region that are objects of their own new numbers.
 fn separate<R: Recorder>(
     id: u16,
@@ -89,8 +130,7 @@ fn separate<R: Recorder>(
     let mut groups: Vec<Vec<Vec<u32>>> = Vec::new();
     for part in parts {
         let home = groups.iter().position(|group| {
-            part.len() < MIN_REGION_PX
-                || group.iter().any(|other| same_object(&ledger.labels, other, &part, id))
+            part.len() < MIN_REGION_PX || group.iter().any(|other| same_object(&ledger.labels, other, &part))
         });
         match home {
             Some(home) => groups[home].push(part),
@@ -152,13 +192,14 @@ fn root(parent: &mut [usize], mut at: usize) -> usize {
 
 /// Whether two parts are one object: near one another for their size, or parted mostly by other regions, by an object in
 /// front.
-fn same_object(labels: &LabelMap, one: &[u32], other: &[u32], id: u16) -> bool {
+fn same_object(labels: &LabelMap, one: &[u32], other: &[u32]) -> bool {
     let width = labels.width();
     let border = |part: &[u32]| -> Vec<(i64, i64)> {
         let mut found = Vec::new();
         for &pixel in part {
             let mut edge = false;
-            labels.for_each_neighbour(pixel as usize, |near| edge |= labels[near] != id);
+            let own = labels[pixel as usize];
+            labels.for_each_neighbour(pixel as usize, |near| edge |= labels[near] != own);
             if edge {
                 found.push(((pixel as usize % width) as i64, (pixel as usize / width) as i64));
             }
@@ -172,10 +213,14 @@ fn same_object(labels: &LabelMap, one: &[u32], other: &[u32], id: u16) -> bool {
         .flat_map(|a| far.iter().map(move |&b| (a, b)))
         .min_by_key(|(a, b)| (a.0 - b.0).pow(2) + (a.1 - b.1).pow(2));
     let Some((a, b)) = closest else { return false };
-    let gap_px = ((a.0 - b.0).pow(2) + (a.1 - b.1).pow(2)) as f64;
+    let gap_px = (((a.0 - b.0).pow(2) + (a.1 - b.1).pow(2)) as f64).sqrt();
     let size_px = (one.len().min(other.len()) as f64).sqrt();
-    if gap_px.sqrt() < size_px.min(MAX_SHADOW_PX) {
+    let diagonal_px = (labels.width() as f64).hypot(labels.height() as f64);
+    if gap_px < size_px.min(MAX_SHADOW * diagonal_px) {
         return true;
+    }
+    if gap_px > (2.0 * size_px).min(MAX_OCCLUDER * diagonal_px) {
+        return false;
     }
     let steps = (a.0 - b.0).abs().max((a.1 - b.1).abs()).max(1);
     let between = (1..steps).map(|i| {

@@ -16,7 +16,8 @@ use std::collections::BTreeMap;
 
 /// Farthest that parts of one object may lie apart, pixels.
 const REACH_PX: usize = 3;
-const MAX_ANGLE_DEG: f64 = 4.0;
+/// Largest angle between the matte lines of one object, degrees.
+pub const MAX_ANGLE_DEG: f64 = 4.0;
 /// Distances from the other's axis may be this much larger than from one's own.
 const RMS_RATIO: f64 = 1.25;
 /// Own distances count at least as this share of σ0.
@@ -41,20 +42,16 @@ pub fn merge_regions<R: Recorder>(
             continue;
         }
         let line = |id: u16| hypotheses[usize::from(id) - 1].line;
+        let mut cluster =
+            |id| *clusters.entry(id).or_insert_with(|| matte_cluster(scene, &line(id), members.region(id)));
         let angle_deg = axis_angle_deg(&line(a).direction, &line(b).direction);
         if angle_deg >= MAX_ANGLE_DEG {
             continue;
         }
-        let mut cluster =
-            |id| *clusters.entry(id).or_insert_with(|| matte_cluster(scene, &line(id), members.region(id)));
         let (of_a, of_b) = (cluster(a), cluster(b));
         let (into, from) = if of_a.n >= of_b.n { (a, b) } else { (b, a) };
         let from_cluster = if from == a { of_a } else { of_b };
-        let own = rms_from(&from_cluster, &line(from));
-        let rms = rms_from(&from_cluster, &line(into));
-        if rms >= RMS_RATIO * own.max(RMS_FLOOR * scene.used.camera_noise) {
-            continue;
-        }
+        let Some(rms) = one_line(scene, &from_cluster, &line(from), &line(into)) else { continue };
         if R::KEEPS {
             ledger.recorder.record(Event::RegionsMerged { region: from, into, angle_deg, rms });
         }
@@ -71,15 +68,23 @@ pub fn merge_regions<R: Recorder>(
     into_of
 }
 
+/// Whether a cluster lies on another's line as well as on its own: its root mean square distance from the other's.
+pub fn one_line(scene: &Scene, cluster: &Moments, own: &Line, other: &Line) -> Option<f64> {
+    let angle_deg = axis_angle_deg(&own.direction, &other.direction);
+    let rms = rms_from(cluster, other);
+    let limit = RMS_RATIO * rms_from(cluster, own).max(RMS_FLOOR * scene.used.camera_noise);
+    (angle_deg < MAX_ANGLE_DEG && rms < limit).then_some(rms)
+}
+
 /// The believable colours of a region inside its cylinder.
-fn matte_cluster(scene: &Scene, line: &Line, pixels: Pixels) -> Moments {
+pub fn matte_cluster(scene: &Scene, line: &Line, pixels: Pixels) -> Moments {
     let cylinder = Cylinder::new(line, scene.used.radius_counts());
     let usable = pixels.iter().map(|pixel| pixel as usize).filter(|&pixel| scene.masks.usable(pixel));
     usable.map(|pixel| scene.pixels[pixel]).filter(|&color| cylinder.contains(color)).collect()
 }
 
 /// Root mean square distance of a cluster from a line.
-pub fn rms_from(cluster: &Moments, line: &Line) -> f64 {
+fn rms_from(cluster: &Moments, line: &Line) -> f64 {
     if cluster.n <= 0.0 {
         return f64::INFINITY;
     }
