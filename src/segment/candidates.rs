@@ -11,7 +11,7 @@ use super::absorb::is_positive;
 use super::borders::near_pairs;
 use super::classify::{Classifier, Windows};
 use super::ledger::Members;
-use super::linear::{Hypothesis, matte_length};
+use super::linear::Hypothesis;
 use super::merge::Areas;
 use super::scene::Scene;
 use crate::color::{Line, Moments, Vec3, closest_points};
@@ -37,16 +37,29 @@ pub struct HighlightLine {
     pub pixels: f64,
 }
 
-/// Tests the neighbours of every region; `None` where no candidate passed.
+/// What the stages before have found.
+pub struct Found<'a> {
+    /// Windows of section 5.2.1.
+    pub windows: &'a Windows,
+    /// Areas of section 5.2.2.
+    pub areas: &'a Areas,
+    /// Linear region of each pixel.
+    pub labels: &'a LabelMap,
+    /// The linear hypotheses.
+    pub hypotheses: &'a [Hypothesis],
+}
+
+/// Tests the neighbours of every region, whose pixels are `members` and whose matte lines are `lengths` long; `None` where no
+/// candidate passed.
 pub fn highlight_lines<R: Recorder>(
     scene: &Scene,
-    (windows, areas): (&Windows, &Areas),
-    labels: &LabelMap,
-    hypotheses: &[Hypothesis],
+    found: &Found,
+    members: &Members,
+    lengths: &[f64],
     recorder: &mut R,
 ) -> Vec<Option<HighlightLine>> {
-    let members = Members::of(labels, hypotheses.len());
-    let mut neighbours = leftover_neighbours(scene, windows, areas, labels);
+    let Found { labels, hypotheses, .. } = *found;
+    let mut neighbours = leftover_neighbours(scene, found.windows, found.areas, labels);
     let mut clusters: BTreeMap<u16, Moments> = BTreeMap::new();
     for (a, b) in near_pairs(labels, 1) {
         for (own, other) in [(a, b), (b, a)] {
@@ -69,7 +82,7 @@ pub fn highlight_lines<R: Recorder>(
             }
             let mut clusters = neighbours.remove(&id).unwrap_or_default();
             clusters.extend_from_slice(&hypothesis.highlights);
-            let length = matte_length(scene, &hypothesis.line, members.region(id));
+            let length = lengths[usize::from(id) - 1];
             let mut tests = Tests { scene, region: id, matte: hypothesis.line, length, recorder };
             let accepted: Vec<Accepted> = clusters
                 .iter()

@@ -72,8 +72,9 @@ impl Branches<'_> {
             let half = (blob.len() as f64 / std::f64::consts::PI).sqrt().clamp(3.0, 12.0) as usize;
             let blob = Blob::new(&blob, 2 * half, self.labels.width(), self.labels.height());
             let sigma = self.scene.sigma();
-            let near = regress::<CUBIC>(&self.samples(&blob, half, most), sigma);
-            let wide = regress::<QUADRATIC>(&self.samples(&blob, 2 * half, most), sigma);
+            let (near, wide) = self.samples(&blob, half);
+            let near = regress::<CUBIC>(&thinned(near, most), sigma);
+            let wide = regress::<QUADRATIC>(&thinned(wide, most), sigma);
             if let (Some(near), Some(wide)) = (near, wide) {
                 let cotangent = f64::midpoint(near.0, wide.0);
                 let variance = near.1 + (near.0 - wide.0).powi(2);
@@ -144,36 +145,47 @@ impl Branches<'_> {
         Raster::from_vec(width, rows.len(), data).unwrap_or_default()
     }
 
-    /// The believable pixels of the region within `radius_px` of a highlight, at most about `most` of them, evenly chosen.
-    fn samples(&self, blob: &Blob, radius_px: usize, most: usize) -> Vec<Sample> {
+    /// The believable pixels of the region within `radius_px` of a highlight, and within twice that.
+    fn samples(&self, blob: &Blob, radius_px: usize) -> (Vec<Sample>, Vec<Sample>) {
         let Self { scene, labels, region, .. } = *self;
         let axes = self.plane.coordinates();
         let thickness = scene.used.radius_counts() as f32;
         let least_along = (0.3 * self.matte_length) as f32;
-        let found: Vec<Sample> = blob
-            .within(radius_px)
-            .into_iter()
-            .filter(|&(pixel, ..)| labels[pixel] == region && !scene.masks.distorted(pixel))
-            .filter_map(|(pixel, x, y)| {
-                let point = axes.of(scene.pixels[pixel]);
-                (point.height.abs() < thickness && point.along > least_along).then(|| Sample {
-                    x: x as f64,
-                    y: y as f64,
-                    along: f64::from(point.along),
-                    offset: f64::from(point.offset),
-                })
-            })
-            .collect();
-        let step = found.len().div_ceil(most.max(1)).max(1);
-        found.into_iter().step_by(step).collect()
+        let near = dilate(&blob.mask, radius_px);
+        let wide = dilate(&near, radius_px);
+        let width = wide.width();
+        let mut samples = (Vec::new(), Vec::new());
+        for (index, _) in wide.as_slice().iter().enumerate().filter(|&(_, &inside)| inside) {
+            let (x, y) = (index % width + blob.left, index / width + blob.top);
+            let pixel = y * labels.width() + x;
+            if labels[pixel] != region || scene.masks.distorted(pixel) {
+                continue;
+            }
+            let point = axes.of(scene.pixels[pixel]);
+            if point.height.abs() >= thickness || point.along <= least_along {
+                continue;
+            }
+            let (along, offset) = (f64::from(point.along), f64::from(point.offset));
+            let sample = Sample { x: x as f64, y: y as f64, along, offset };
+            samples.1.push(sample);
+            if near[index] {
+                samples.0.push(sample);
+            }
+        }
+        samples
     }
+}
+
+/// At most about `most` of the samples, evenly chosen.
+fn thinned(samples: Vec<Sample>, most: usize) -> Vec<Sample> {
+    let step = samples.len().div_ceil(most.max(1)).max(1);
+    samples.into_iter().step_by(step).collect()
 }
 
 /// A highlight as a mask over a rectangle around it.
 struct Blob {
     left: usize,
     top: usize,
-    image_width: usize,
     mask: Mask,
 }
 
@@ -193,20 +205,7 @@ impl Blob {
             let (x, y) = (pixel as usize % width - left, pixel as usize / width - top);
             mask[y * (right - left) + x] = true;
         }
-        Self { left, top, image_width: width, mask }
-    }
-
-    /// Pixels at most `radius_px` away along rows and columns: index in the image, column, row.
-    fn within(&self, radius_px: usize) -> Vec<(usize, usize, usize)> {
-        let width = self.mask.width();
-        let near = dilate(&self.mask, radius_px);
-        let inside = near.as_slice().iter().enumerate().filter(|&(_, &near)| near);
-        inside
-            .map(|(index, _)| {
-                let (x, y) = (index % width + self.left, index / width + self.top);
-                (y * self.image_width + x, x, y)
-            })
-            .collect()
+        Self { left, top, mask }
     }
 }
 

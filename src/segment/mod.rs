@@ -5,6 +5,7 @@ mod borders;
 mod candidates;
 mod classify;
 mod clipping;
+mod evidence;
 mod illuminant;
 mod in_plane;
 mod ledger;

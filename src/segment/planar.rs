@@ -4,33 +4,35 @@
 //! Special provision for coplanar colours: pixels that were recognised as another region's matte pixels are only taken
 //! inside the own matte cylinder and nearer to the own axis. Where two slices hold a pixel, the nearer plane wins.
 //!
-//! Refined: the illuminant from `illuminant` and `in_plane`, then slices, then both again twice from the grown regions
+//! Refined: the illuminant from `illuminant` and `in_plane`, then slices, then both again from the grown regions until it rests
 //! (`robust_illuminant`); regions without a highlight candidate get a slice too (`extend_planes`); slices end where body or
 //! surface reflection would be negative (`slice_bounds`).
 
-use super::candidates::{HighlightLine, highlight_lines};
+use super::candidates::{Found, HighlightLine, highlight_lines};
 use super::classify::Windows;
+use super::evidence::{branch_constraint, nearby_highlight, plane_constraint};
 use super::illuminant::{Constraint, Prior, average_direction, intersect, weighted_direction};
-use super::in_plane::{Branches, InPlane};
-use super::ledger::{Ledger, Members, Pixels};
+use super::in_plane::Branches;
+use super::ledger::{Ledger, Members};
 use super::linear::{Hypothesis, cylinders, matte_length};
 use super::matte::MatteRegions;
 use super::merge::Areas;
 use super::scene::Scene;
 use super::unite::merge_regions;
-use crate::color::{Line, Vec3};
+use crate::color::{Line, Vec3, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::reflection::{DichromaticPlane, Slice};
 use crate::trace::{Event, Recorder};
 use rayon::prelude::*;
-use std::collections::BTreeSet;
 
 /// Smallest angle between body and surface vector at which a plane means anything, degrees.
 const MIN_ANGLE_DEG: f64 = 3.0;
 /// Without a candidate the highlight is taken to start here on the matte line.
 const DEFAULT_START: f64 = 0.75;
-/// How often illuminant and slices are found again from the grown regions.
-const ROUNDS: usize = 2;
+/// How often illuminant and slices are found again from the grown regions, at most.
+const ROUNDS: usize = 3;
+/// A light that has turned by less changes no slice by more than a fraction of a count, degrees.
+const SETTLED_DEG: f64 = 0.2;
 /// Pixels that all in-plane fits look at together: what they cost does not grow with the picture.
 const BRANCH_SAMPLES: usize = 24_000;
 
@@ -79,11 +81,18 @@ pub fn planar_regions<R: Recorder>(
     matte: &MatteRegions,
     recorder: &mut R,
 ) -> PlanarRegions {
-    let lines = highlight_lines(scene, (windows, areas), &matte.labels, &matte.hypotheses, recorder);
+    let members = Members::of(&matte.labels, matte.hypotheses.len());
+    let lengths: Vec<f64> = (1..=matte.hypotheses.len() as u16)
+        .into_par_iter()
+        .map(|id| matte_length(scene, &matte.hypotheses[usize::from(id) - 1].line, members.region(id)))
+        .collect();
+    let found = Found { windows, areas, labels: &matte.labels, hypotheses: &matte.hypotheses };
+    let lines = highlight_lines(scene, &found, &members, &lengths, recorder);
     let mut stage = Stage {
         scene,
         matte_labels: matte.labels.clone(),
         matte: matte.hypotheses.clone(),
+        lengths,
         lines,
         ledger: Ledger::new(matte.labels.clone(), recorder),
     };
@@ -94,15 +103,18 @@ pub fn planar_regions<R: Recorder>(
         let hypotheses = stage.slices(direction);
         return stage.finish(hypotheses, direction, objects);
     }
-    let (first, mut objects) = stage.first_illuminant();
-    let mut direction = first;
+    let (mut direction, mut objects) = stage.first_illuminant(&members);
     let mut hypotheses = stage.slices(direction);
-    for round in 1..=ROUNDS {
+    for _ in 0..ROUNDS {
         let Some(before) = direction else { break };
-        let (next, count) = stage.illuminant_again(&hypotheses, &before, round == ROUNDS);
-        direction = Some(next);
-        objects = count;
-        stage.unite_and_reset();
+        let (next, count) = stage.illuminant_again(&hypotheses, &before);
+        (direction, objects) = (Some(next), count);
+        stage.unite();
+        if axis_angle_deg(&next, &before) < SETTLED_DEG {
+            hypotheses = stage.hypotheses(direction);
+            break;
+        }
+        stage.reset();
         hypotheses = stage.slices(direction);
     }
     stage.finish(hypotheses, direction, objects)
@@ -112,6 +124,8 @@ struct Stage<'a, 's, R: Recorder> {
     scene: &'a Scene<'s>,
     matte_labels: LabelMap,
     matte: Vec<Hypothesis>,
+    /// Lengths of the matte lines from black, counts.
+    lengths: Vec<f64>,
     lines: Vec<Option<HighlightLine>>,
     ledger: Ledger<'a, R>,
 }
@@ -140,18 +154,17 @@ impl<R: Recorder> Stage<'_, '_, R> {
     }
 
     /// The illuminant from what lies just outside the matte regions.
-    fn first_illuminant(&mut self) -> (Option<Vec3>, usize) {
+    fn first_illuminant(&mut self, members: &Members) -> (Option<Vec3>, usize) {
         let candidates = weighted_direction(&self.lines);
         let white = Vec3::repeat(1.0).normalize();
         let start = candidates.unwrap_or(white);
-        let members = Members::of(&self.matte_labels, self.matte.len());
         let constraints: Vec<Constraint> = (1..=self.matte.len() as u16)
             .into_par_iter()
             .filter(|&id| self.matte[usize::from(id) - 1].alive)
             .filter_map(|id| {
                 let line = &self.matte[usize::from(id) - 1].line;
                 let plane = DichromaticPlane::new(line, &start)?;
-                let length = matte_length(self.scene, line, members.region(id));
+                let length = self.lengths[usize::from(id) - 1];
                 let nearby =
                     nearby_highlight(self.scene, &self.matte_labels, &plane, length, members.region(id));
                 plane_constraint(self.scene, id, &plane, length, nearby.into_iter())
@@ -167,12 +180,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
     }
 
     /// The illuminant from the grown regions.
-    fn illuminant_again(
-        &mut self,
-        hypotheses: &[PlanarHypothesis],
-        before: &Vec3,
-        in_plane: bool,
-    ) -> (Vec3, usize) {
+    fn illuminant_again(&mut self, hypotheses: &[PlanarHypothesis], before: &Vec3) -> (Vec3, usize) {
         let members = Members::of(&self.ledger.labels, hypotheses.len());
         let budget = BRANCH_SAMPLES / hypotheses.iter().filter(|h| h.plane.is_some()).count().max(1);
         let pairs: Vec<(Option<Constraint>, Option<Constraint>)> = (1..=hypotheses.len() as u16)
@@ -192,7 +200,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
                     matte_length: length,
                     budget,
                 };
-                let branch = if in_plane { branches.estimate(pixels) } else { None };
+                let branch = branches.estimate(pixels);
                 (Some(lies_in), branch.map(|branch| branch_constraint(&lies_in, &plane, &branch)))
             })
             .collect();
@@ -208,24 +216,41 @@ impl<R: Recorder> Stage<'_, '_, R> {
         (found.direction, objects)
     }
 
-    /// Joins parts that have grown together, and takes the labels back to the matte regions.
-    fn unite_and_reset(&mut self) {
-        if self.scene.refine.merge_regions {
-            let into = merge_regions(self.scene, &mut self.matte, &mut self.ledger);
-            for label in self.matte_labels.as_mut_slice() {
-                *label = into[usize::from(*label)];
-            }
+    /// Joins parts that have grown together.
+    fn unite(&mut self) {
+        if !self.scene.refine.merge_regions {
+            return;
         }
+        let into = merge_regions(self.scene, &mut self.matte, &mut self.ledger);
+        if into.iter().enumerate().all(|(id, &into)| id == usize::from(into)) {
+            return;
+        }
+        for label in self.matte_labels.as_mut_slice() {
+            *label = into[usize::from(*label)];
+        }
+        let members = Members::of(&self.matte_labels, self.matte.len());
+        for (id, hypothesis) in (1..).zip(&self.matte) {
+            self.lengths[usize::from(id) - 1] =
+                matte_length(self.scene, &hypothesis.line, members.region(id));
+        }
+    }
+
+    /// Takes the labels back to the matte regions.
+    fn reset(&mut self) {
         for pixel in 0..self.matte_labels.len() {
             self.ledger.assign(pixel, self.matte_labels[pixel]);
         }
     }
 
+    /// Each region's skewed T under a light.
+    fn hypotheses(&self, illuminant: Option<Vec3>) -> Vec<PlanarHypothesis> {
+        (0..self.matte.len()).map(|index| self.hypothesis(index, illuminant)).collect()
+    }
+
     /// Makes each region's skewed T and grows it, larger regions first.
     fn slices(&mut self, illuminant: Option<Vec3>) -> Vec<PlanarHypothesis> {
         let members = Members::of(&self.matte_labels, self.matte.len());
-        let hypotheses: Vec<PlanarHypothesis> =
-            (1..=self.matte.len() as u16).map(|id| self.hypothesis(id, &members, illuminant)).collect();
+        let hypotheses = self.hypotheses(illuminant);
         let slices: Vec<Option<Slice>> = hypotheses.iter().map(|h| self.slice(h)).collect();
         let mut order: Vec<u16> = (1..=hypotheses.len() as u16).collect();
         order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
@@ -247,10 +272,9 @@ impl<R: Recorder> Stage<'_, '_, R> {
         hypotheses
     }
 
-    fn hypothesis(&self, id: u16, members: &Members, illuminant: Option<Vec3>) -> PlanarHypothesis {
-        let index = usize::from(id) - 1;
+    fn hypothesis(&self, index: usize, illuminant: Option<Vec3>) -> PlanarHypothesis {
         let Hypothesis { line, alive, .. } = self.matte[index];
-        let matte_length = matte_length(self.scene, &line, members.region(id));
+        let matte_length = self.lengths[index];
         let own = self.lines[index];
         let plane = illuminant
             .filter(|_| alive && (own.is_some() || self.scene.refine.extend_planes))
@@ -317,134 +341,5 @@ impl<R: Recorder> Stage<'_, '_, R> {
             }
             mine < held
         });
-    }
-}
-
-/// Unclaimed pixels on the inside of a plane, reached within 8 px of its matte region.
-fn nearby_highlight(
-    scene: &Scene,
-    labels: &LabelMap,
-    plane: &DichromaticPlane,
-    matte_length: f64,
-    pixels: Pixels,
-) -> Vec<u32> {
-    const REACH_PX: usize = 8;
-    let axes = plane.coordinates();
-    let least_offset = 0.75 * scene.used.radius_counts() as f32;
-    let least_along = 0.3 * matte_length as f32;
-    let mut seen = BTreeSet::new();
-    let mut ring = Vec::new();
-    let mut step = |from: &mut dyn Iterator<Item = u32>| -> Vec<u32> {
-        let mut next = Vec::new();
-        for pixel in from {
-            labels.for_each_neighbour(pixel as usize, |near| {
-                if labels[near] != UNASSIGNED || !scene.masks.usable(near) || seen.contains(&(near as u32)) {
-                    return;
-                }
-                let point = axes.of(scene.pixels[near]);
-                let inside = point.offset > least_offset && point.height.abs() < point.offset / 2.0;
-                if inside && point.along > least_along {
-                    seen.insert(near as u32);
-                    next.push(near as u32);
-                }
-            });
-        }
-        next
-    };
-    let mut found = step(&mut pixels.iter());
-    ring.extend_from_slice(&found);
-    for _ in 1..REACH_PX {
-        ring = step(&mut ring.iter().copied());
-        found.extend_from_slice(&ring);
-    }
-    found
-}
-
-/// The plane that a region's highlight pixels lie in, as what the illuminant is perpendicular to.
-fn plane_constraint(
-    scene: &Scene,
-    region: u16,
-    plane: &DichromaticPlane,
-    matte_length: f64,
-    pixels: impl Iterator<Item = u32>,
-) -> Option<Constraint> {
-    const MIN_PIXELS: f64 = 10.0;
-    const FLOOR_DEG: f64 = 0.4;
-    const POOR_FIT: f64 = 2.0;
-    let axes = plane.coordinates();
-    let (radius, sigma) = (scene.used.radius_counts() as f32, scene.sigma());
-    let points: Vec<(f64, f64)> = pixels
-        .filter(|&pixel| scene.masks.usable(pixel as usize))
-        .map(|pixel| axes.of(scene.pixels[pixel as usize]))
-        .filter(|p| p.offset > 0.75 * radius && p.height.abs() < p.offset / 2.0)
-        .filter(|p| f64::from(p.along) > 0.3 * matte_length)
-        .map(|p| (f64::from(p.offset), f64::from(p.height)))
-        .collect();
-    let fit = robust_slope(&points, sigma)?;
-    if fit.weight < MIN_PIXELS {
-        return None;
-    }
-    let normal = plane.matte.direction.cross(&(plane.inward + plane.normal * fit.slope)).normalize();
-    let per_pixel = fit.residual.max(sigma).powi(2);
-    Some(Constraint {
-        region,
-        normal,
-        variance_deg2: per_pixel / fit.squares * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG,
-        doubt_deg: 1.0,
-        // Pixels that scatter about the plane by more than noise are no highlight on one material.
-        reliability: (POOR_FIT * sigma / fit.residual).powi(2).min(1.0),
-    })
-}
-
-/// A line through the origin of (offset, height) points.
-struct Slope {
-    slope: f64,
-    /// Σ w·offset².
-    squares: f64,
-    /// Σ w.
-    weight: f64,
-    /// Root mean square of the weighted residuals, counts.
-    residual: f64,
-}
-
-/// Fits height = slope · offset with Tukey's weights, from a wide scale to one of the noise.
-fn robust_slope(points: &[(f64, f64)], sigma: f64) -> Option<Slope> {
-    let mut fit = Slope { slope: 0.0, squares: 0.0, weight: 0.0, residual: 0.0 };
-    let mut scale = 8.0 * sigma;
-    for _ in 0..10 {
-        let (mut product, mut squares, mut weight_sum, mut residuals) = (0.0, 0.0, 0.0, 0.0);
-        for &(offset, height) in points {
-            let residual = height - fit.slope * offset;
-            let u = residual / (4.0 * scale);
-            if u.abs() < 1.0 {
-                let weight = (1.0 - u * u).powi(2);
-                product += weight * offset * height;
-                squares += weight * offset * offset;
-                weight_sum += weight;
-                residuals += weight * residual * residual;
-            }
-        }
-        if squares <= 0.0 {
-            return None;
-        }
-        let residual = (residuals / weight_sum).sqrt();
-        fit = Slope { slope: product / squares, squares, weight: weight_sum, residual };
-        scale = (scale / 2.0).max(1.5 * sigma).max(residual);
-    }
-    Some(fit)
-}
-
-/// An in-plane estimate as what the illuminant is perpendicular to, within the plane that the region found.
-fn branch_constraint(lies_in: &Constraint, plane: &DichromaticPlane, branch: &InPlane) -> Constraint {
-    const FLOOR_DEG: f64 = 2.0;
-    let inward = lies_in.normal.cross(&plane.matte.direction);
-    let light = (plane.matte.direction * branch.cotangent + inward).normalize();
-    let variance_deg2 = branch.variance_rad2 * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG;
-    Constraint {
-        region: lies_in.region,
-        normal: lies_in.normal.cross(&light),
-        variance_deg2,
-        doubt_deg: 4.0,
-        reliability: lies_in.reliability,
     }
 }

@@ -1,0 +1,140 @@
+//! Section 5.4.1, refined (`robust_illuminant`): what a region's highlight says of the illuminant.
+//!
+//! Its pixels lie in a plane with the matte line, and the illuminant does too; where in that plane it lies, `in_plane` tells.
+
+use super::illuminant::Constraint;
+use super::in_plane::InPlane;
+use super::ledger::Pixels;
+use super::scene::Scene;
+use crate::raster::{LabelMap, UNASSIGNED};
+use crate::reflection::DichromaticPlane;
+use std::collections::BTreeSet;
+
+/// Unclaimed pixels on the inside of a plane, reached within 8 px of its matte region.
+pub fn nearby_highlight(
+    scene: &Scene,
+    labels: &LabelMap,
+    plane: &DichromaticPlane,
+    matte_length: f64,
+    pixels: Pixels,
+) -> Vec<u32> {
+    const REACH_PX: usize = 8;
+    let axes = plane.coordinates();
+    let least_offset = 0.75 * scene.used.radius_counts() as f32;
+    let least_along = 0.3 * matte_length as f32;
+    let mut seen = BTreeSet::new();
+    let mut ring = Vec::new();
+    let mut step = |from: &mut dyn Iterator<Item = u32>| -> Vec<u32> {
+        let mut next = Vec::new();
+        for pixel in from {
+            labels.for_each_neighbour(pixel as usize, |near| {
+                if labels[near] != UNASSIGNED || !scene.masks.usable(near) || seen.contains(&(near as u32)) {
+                    return;
+                }
+                let point = axes.of(scene.pixels[near]);
+                let inside = point.offset > least_offset && point.height.abs() < point.offset / 2.0;
+                if inside && point.along > least_along {
+                    seen.insert(near as u32);
+                    next.push(near as u32);
+                }
+            });
+        }
+        next
+    };
+    let mut found = step(&mut pixels.iter());
+    ring.extend_from_slice(&found);
+    for _ in 1..REACH_PX {
+        ring = step(&mut ring.iter().copied());
+        found.extend_from_slice(&ring);
+    }
+    found
+}
+
+/// The plane that a region's highlight pixels lie in, as what the illuminant is perpendicular to.
+pub fn plane_constraint(
+    scene: &Scene,
+    region: u16,
+    plane: &DichromaticPlane,
+    matte_length: f64,
+    pixels: impl Iterator<Item = u32>,
+) -> Option<Constraint> {
+    const MIN_PIXELS: f64 = 10.0;
+    const FLOOR_DEG: f64 = 0.4;
+    const POOR_FIT: f64 = 2.0;
+    let axes = plane.coordinates();
+    let (radius, sigma) = (scene.used.radius_counts() as f32, scene.sigma());
+    let points: Vec<(f64, f64)> = pixels
+        .filter(|&pixel| scene.masks.usable(pixel as usize))
+        .map(|pixel| axes.of(scene.pixels[pixel as usize]))
+        .filter(|p| p.offset > 0.75 * radius && p.height.abs() < p.offset / 2.0)
+        .filter(|p| f64::from(p.along) > 0.3 * matte_length)
+        .map(|p| (f64::from(p.offset), f64::from(p.height)))
+        .collect();
+    let fit = robust_slope(&points, sigma)?;
+    if fit.weight < MIN_PIXELS {
+        return None;
+    }
+    let normal = plane.matte.direction.cross(&(plane.inward + plane.normal * fit.slope)).normalize();
+    let per_pixel = fit.residual.max(sigma).powi(2);
+    Some(Constraint {
+        region,
+        normal,
+        variance_deg2: per_pixel / fit.squares * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG,
+        doubt_deg: 1.0,
+        // Pixels that scatter about the plane by more than noise are no highlight on one material.
+        reliability: (POOR_FIT * sigma / fit.residual).powi(2).min(1.0),
+    })
+}
+
+/// A line through the origin of (offset, height) points.
+struct Slope {
+    slope: f64,
+    /// Σ w·offset².
+    squares: f64,
+    /// Σ w.
+    weight: f64,
+    /// Root mean square of the weighted residuals, counts.
+    residual: f64,
+}
+
+/// Fits height = slope · offset with Tukey's weights, from a wide scale to one of the noise.
+fn robust_slope(points: &[(f64, f64)], sigma: f64) -> Option<Slope> {
+    let mut fit = Slope { slope: 0.0, squares: 0.0, weight: 0.0, residual: 0.0 };
+    let mut scale = 8.0 * sigma;
+    for _ in 0..10 {
+        let (mut product, mut squares, mut weight_sum, mut residuals) = (0.0, 0.0, 0.0, 0.0);
+        for &(offset, height) in points {
+            let residual = height - fit.slope * offset;
+            let u = residual / (4.0 * scale);
+            if u.abs() < 1.0 {
+                let weight = (1.0 - u * u).powi(2);
+                product += weight * offset * height;
+                squares += weight * offset * offset;
+                weight_sum += weight;
+                residuals += weight * residual * residual;
+            }
+        }
+        if squares <= 0.0 {
+            return None;
+        }
+        let residual = (residuals / weight_sum).sqrt();
+        fit = Slope { slope: product / squares, squares, weight: weight_sum, residual };
+        scale = (scale / 2.0).max(1.5 * sigma).max(residual);
+    }
+    Some(fit)
+}
+
+/// An in-plane estimate as what the illuminant is perpendicular to, within the plane that the region found.
+pub fn branch_constraint(lies_in: &Constraint, plane: &DichromaticPlane, branch: &InPlane) -> Constraint {
+    const FLOOR_DEG: f64 = 2.0;
+    let inward = lies_in.normal.cross(&plane.matte.direction);
+    let light = (plane.matte.direction * branch.cotangent + inward).normalize();
+    let variance_deg2 = branch.variance_rad2 * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG;
+    Constraint {
+        region: lies_in.region,
+        normal: lies_in.normal.cross(&light),
+        variance_deg2,
+        doubt_deg: 4.0,
+        reliability: lies_in.reliability,
+    }
+}
