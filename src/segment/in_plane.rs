@@ -6,8 +6,9 @@
 //! highlight. cotθ is where the illuminant lies. The offset is noisy itself, which would pull cotθ towards zero: its share
 //! σ²Σw is subtracted from the offset's sum of squares after partialling out the polynomial.
 //!
-//! Two fits, a cubic over a near ring and a quadratic over a wide one, err differently: their mean is used, and their
-//! difference counts as error.
+//! The polynomial is a quartic over the highlight and a ring as wide as its radius. Pixels count fully or not at all: weights
+//! that fall with the residual, like Tukey's, prefer pixels whose two noises happen to agree, which alone is worth up to
+//! 1.6° (median error over 42 highlights .32° → .18°). How far a cubic differs is taken as the error of the model.
 
 use super::ledger::Pixels;
 use super::scene::Scene;
@@ -20,10 +21,11 @@ use std::ops::Range;
 const MIN_BLOB_PX: usize = 12;
 /// Most highlights of one region that are looked at, the largest.
 const MAX_BLOBS: usize = 6;
-/// Terms of a polynomial of two variables of degree 3 and 2, and the offset.
+/// Regressors: the terms of a polynomial of two variables of degree 4, and the offset; without those of degree 4.
+const QUARTIC: usize = 16;
 const CUBIC: usize = 11;
-const QUADRATIC: usize = 7;
-const TUKEY: f64 = 4.7;
+/// Residuals beyond this many times their scale are left out.
+const CUT: f64 = 3.5;
 /// A highlight whose offsets are noise to more than this share says nothing.
 const MAX_NOISE_SHARE: f64 = 0.3;
 
@@ -67,17 +69,12 @@ impl Branches<'_> {
     pub fn estimate(&self, pixels: Pixels) -> Option<InPlane> {
         let mut sum = (0.0, 0.0);
         let blobs = self.highlights(pixels);
-        let most = self.budget / (2 * blobs.len().max(1));
+        let most = self.budget / blobs.len().max(1);
         for blob in blobs {
-            let half = (blob.len() as f64 / std::f64::consts::PI).sqrt().clamp(3.0, 12.0) as usize;
-            let blob = Blob::new(&blob, 2 * half, self.labels.width(), self.labels.height());
-            let sigma = self.scene.sigma();
-            let (near, wide) = self.samples(&blob, half);
-            let near = regress::<CUBIC>(&thinned(near, most), sigma);
-            let wide = regress::<QUADRATIC>(&thinned(wide, most), sigma);
-            if let (Some(near), Some(wide)) = (near, wide) {
-                let cotangent = f64::midpoint(near.0, wide.0);
-                let variance = near.1 + (near.0 - wide.0).powi(2);
+            let radius_px = (blob.len() as f64 / std::f64::consts::PI).sqrt().clamp(3.0, 24.0) as usize;
+            let blob = Blob::new(&blob, radius_px, self.labels.width(), self.labels.height());
+            let samples = self.samples(&blob, radius_px, most);
+            if let Some((cotangent, variance)) = regress(&samples, self.scene.sigma()) {
                 sum.0 += cotangent / variance;
                 sum.1 += 1.0 / variance;
             }
@@ -145,41 +142,30 @@ impl Branches<'_> {
         Raster::from_vec(width, rows.len(), data).unwrap_or_default()
     }
 
-    /// The believable pixels of the region within `radius_px` of a highlight, and within twice that.
-    fn samples(&self, blob: &Blob, radius_px: usize) -> (Vec<Sample>, Vec<Sample>) {
+    /// The believable pixels of the region within `radius_px` of a highlight, at most about `most`, evenly chosen.
+    fn samples(&self, blob: &Blob, radius_px: usize, most: usize) -> Vec<Sample> {
         let Self { scene, labels, region, .. } = *self;
         let axes = self.plane.coordinates();
         let thickness = scene.used.radius_counts() as f32;
         let least_along = (0.3 * self.matte_length) as f32;
         let near = dilate(&blob.mask, radius_px);
-        let wide = dilate(&near, radius_px);
-        let width = wide.width();
-        let mut samples = (Vec::new(), Vec::new());
-        for (index, _) in wide.as_slice().iter().enumerate().filter(|&(_, &inside)| inside) {
+        let width = near.width();
+        let mut samples = Vec::new();
+        for (index, _) in near.as_slice().iter().enumerate().filter(|&(_, &inside)| inside) {
             let (x, y) = (index % width + blob.left, index / width + blob.top);
             let pixel = y * labels.width() + x;
             if labels[pixel] != region || scene.masks.distorted(pixel) {
                 continue;
             }
             let point = axes.of(scene.pixels[pixel]);
-            if point.height.abs() >= thickness || point.along <= least_along {
-                continue;
-            }
-            let (along, offset) = (f64::from(point.along), f64::from(point.offset));
-            let sample = Sample { x: x as f64, y: y as f64, along, offset };
-            samples.1.push(sample);
-            if near[index] {
-                samples.0.push(sample);
+            if point.height.abs() < thickness && point.along > least_along {
+                let (along, offset) = (f64::from(point.along), f64::from(point.offset));
+                samples.push(Sample { x: x as f64, y: y as f64, along, offset });
             }
         }
-        samples
+        let step = samples.len().div_ceil(most.max(1)).max(1);
+        samples.into_iter().step_by(step).collect()
     }
-}
-
-/// At most about `most` of the samples, evenly chosen.
-fn thinned(samples: Vec<Sample>, most: usize) -> Vec<Sample> {
-    let step = samples.len().div_ceil(most.max(1)).max(1);
-    samples.into_iter().step_by(step).collect()
 }
 
 /// A highlight as a mask over a rectangle around it.
@@ -209,33 +195,35 @@ impl Blob {
     }
 }
 
-/// cotθ and its variance from one highlight's surroundings, with `N` − 1 polynomial terms.
-fn regress<const N: usize>(samples: &[Sample], sigma: f64) -> Option<(f64, f64)> {
-    if samples.len() < 4 * N {
+/// cotθ and its variance from one highlight's surroundings.
+fn regress(samples: &[Sample], sigma: f64) -> Option<(f64, f64)> {
+    if samples.len() < 4 * QUARTIC {
         return None;
     }
-    let rows = design::<N>(samples);
-    let mut weights = vec![1.0; samples.len()];
+    let rows = design(samples);
+    let mut taken = vec![true; samples.len()];
     let mut residuals = vec![0.0; samples.len()];
     let mut sizes = residuals.clone();
     let mut answer: Option<(f64, f64)> = None;
-    for _ in 0..6 {
-        let solution = solve(samples, &rows, &weights, sigma)?;
+    for _ in 0..5 {
+        let sums = Sums::new(samples, &rows, &taken);
+        let quartic = sums.solve::<QUARTIC>(sigma)?;
+        let cubic = sums.solve::<CUBIC>(sigma)?;
         for (i, (sample, row)) in samples.iter().zip(&rows).enumerate() {
-            let fitted: f64 = row.iter().zip(solution.coefficients.iter()).map(|(r, c)| r * c).sum();
+            let fitted: f64 = row.iter().zip(quartic.coefficients.iter()).map(|(r, c)| r * c).sum();
             residuals[i] = sample.along - fitted;
             sizes[i] = residuals[i].abs();
         }
         let middle = sizes.len() / 2;
         let (_, &mut median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
-        let cotangent = solution.coefficients[N - 1];
+        let cotangent = quartic.cotangent();
         let scale = (1.4826 * median).max(sigma * (1.0 + cotangent.powi(2)).sqrt());
-        for (weight, residual) in weights.iter_mut().zip(&residuals) {
-            let u = residual / (TUKEY * scale);
-            *weight = if u.abs() < 1.0 { (1.0 - u * u).powi(2) } else { 0.0 };
+        for (taken, residual) in taken.iter_mut().zip(&residuals) {
+            *taken = residual.abs() < CUT * scale;
         }
         let settled = answer.is_some_and(|(before, _)| (before - cotangent).abs() < 1e-4);
-        answer = Some((cotangent, scale * scale / solution.information));
+        let of_model = (cotangent - cubic.cotangent()).powi(2);
+        answer = Some((cotangent, scale * scale / quartic.information + of_model));
         if settled {
             break;
         }
@@ -244,7 +232,7 @@ fn regress<const N: usize>(samples: &[Sample], sigma: f64) -> Option<(f64, f64)>
 }
 
 /// The regressors of every sample: a polynomial of its position, centred and scaled, then its offset.
-fn design<const N: usize>(samples: &[Sample]) -> Vec<[f64; N]> {
+fn design(samples: &[Sample]) -> Vec<[f64; QUARTIC]> {
     let n = samples.len() as f64;
     let centre = samples.iter().fold((0.0, 0.0), |c, s| (c.0 + s.x / n, c.1 + s.y / n));
     let from_centre = |s: &Sample| (s.x - centre.0, s.y - centre.1);
@@ -252,48 +240,67 @@ fn design<const N: usize>(samples: &[Sample]) -> Vec<[f64; N]> {
     let row = |sample: &Sample| {
         let (x, y) = from_centre(sample);
         let (x, y) = (x / spread, y / spread);
-        let terms = [1.0, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y];
-        std::array::from_fn(|i| if i + 1 == N { sample.offset } else { terms[i] })
+        let (xx, xy, yy) = (x * x, x * y, y * y);
+        let quartic = [xx * xx, xx * xy, xx * yy, xy * yy, yy * yy];
+        let cubic = [1.0, x, y, xx, xy, yy, xx * x, xx * y, x * yy, yy * y];
+        let mut row = [sample.offset; QUARTIC];
+        row[..CUBIC - 1].copy_from_slice(&cubic);
+        row[CUBIC - 1..QUARTIC - 1].copy_from_slice(&quartic);
+        row
     };
     samples.iter().map(row).collect()
 }
 
+/// The normal equations of the samples taken.
+struct Sums {
+    normal: SMatrix<f64, QUARTIC, QUARTIC>,
+    right: SVector<f64, QUARTIC>,
+    count: f64,
+}
+
+/// Coefficients of the first `N` − 1 polynomial terms and of the offset.
 struct Solution<const N: usize> {
     coefficients: SVector<f64, N>,
     information: f64,
 }
 
-/// Weighted least squares, corrected for the noise of the offset, the last regressor: σ²Σw is taken from its square.
-///
-/// What that leaves of the offset beyond the polynomial is the information in it, the Schur complement of the corrected
-/// normal matrix.
-fn solve<const N: usize>(
-    samples: &[Sample],
-    rows: &[[f64; N]],
-    weights: &[f64],
-    sigma: f64,
-) -> Option<Solution<N>> {
-    let mut normal = SMatrix::<f64, N, N>::zeros();
-    let mut right = SVector::<f64, N>::zeros();
-    let mut total = 0.0;
-    for ((sample, row), &weight) in samples.iter().zip(rows).zip(weights) {
-        if weight > 0.0 {
-            total += weight;
-            let row = SVector::<f64, N>::from(*row);
-            right.axpy(weight * sample.along, &row, 1.0);
-            normal.ger(weight, &row, &row, 1.0);
+impl<const N: usize> Solution<N> {
+    fn cotangent(&self) -> f64 {
+        self.coefficients[N - 1]
+    }
+}
+
+impl Sums {
+    fn new(samples: &[Sample], rows: &[[f64; QUARTIC]], taken: &[bool]) -> Self {
+        let mut sums = Self { normal: SMatrix::zeros(), right: SVector::zeros(), count: 0.0 };
+        for ((sample, row), _) in samples.iter().zip(rows).zip(taken).filter(|&(_, &taken)| taken) {
+            let row = SVector::from(*row);
+            sums.count += 1.0;
+            sums.right.axpy(sample.along, &row, 1.0);
+            sums.normal.ger(1.0, &row, &row, 1.0);
         }
+        sums
     }
-    let noise = sigma * sigma * total;
-    normal[(N - 1, N - 1)] -= noise;
-    let factor = normal.cholesky()?;
-    let mut last = SVector::<f64, N>::zeros();
-    last[N - 1] = 1.0;
-    let information = 1.0 / factor.solve(&last)[N - 1];
-    if noise > MAX_NOISE_SHARE * (information + noise) {
-        return None;
+
+    /// Least squares with the first `N` − 1 terms, corrected for the noise of the offset: nσ² is taken from its square.
+    ///
+    /// What that leaves of the offset beyond the polynomial is the information in it, the Schur complement of the corrected
+    /// normal matrix.
+    fn solve<const N: usize>(&self, sigma: f64) -> Option<Solution<N>> {
+        let at = |i: usize| if i + 1 == N { QUARTIC - 1 } else { i };
+        let mut normal = SMatrix::<f64, N, N>::from_fn(|i, j| self.normal[(at(i), at(j))]);
+        let right = SVector::<f64, N>::from_fn(|i, _| self.right[at(i)]);
+        let noise = sigma * sigma * self.count;
+        normal[(N - 1, N - 1)] -= noise;
+        let factor = normal.cholesky()?;
+        let mut last = SVector::<f64, N>::zeros();
+        last[N - 1] = 1.0;
+        let information = 1.0 / factor.solve(&last)[N - 1];
+        if noise > MAX_NOISE_SHARE * (information + noise) {
+            return None;
+        }
+        Some(Solution { coefficients: factor.solve(&right), information })
     }
-    Some(Solution { coefficients: factor.solve(&right), information })
 }
 
 #[cfg(test)]
@@ -310,7 +317,7 @@ mod tests {
                 Sample { x, y, along: body + 1.7 * offset, offset }
             })
             .collect();
-        let (cotangent, variance) = regress::<CUBIC>(&samples, 0.01).unwrap();
+        let (cotangent, variance) = regress(&samples, 0.01).unwrap();
         assert!((cotangent - 1.7).abs() < 1e-3 && variance < 1e-4, "{cotangent} {variance}");
     }
 
@@ -322,6 +329,6 @@ mod tests {
                 Sample { x, y, along: 100.0 + x, offset: f64::from(i * 7919 % 11) / 11.0 }
             })
             .collect();
-        assert!(regress::<CUBIC>(&samples, 1.25).is_none());
+        assert!(regress(&samples, 1.25).is_none());
     }
 }

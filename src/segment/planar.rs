@@ -34,7 +34,7 @@ const ROUNDS: usize = 3;
 /// A light that has turned by less changes no slice by more than a fraction of a count, degrees.
 const SETTLED_DEG: f64 = 0.2;
 /// Pixels that all in-plane fits look at together: what they cost does not grow with the picture.
-const BRANCH_SAMPLES: usize = 24_000;
+const BRANCH_SAMPLES: usize = 16_000;
 
 /// The colour of the scene's light.
 #[derive(Clone, Copy, Debug, PartialEq)]
