@@ -1,8 +1,8 @@
 //! Ground truth, and how far a result is from it.
 //!
 //! A truth folder holds `body.exr` and `surface.exr` (linear RGB, 1.0 = 255 counts), `labels.png` (object at each
-//! pixel, 0 = background) and `truth.json` (true vectors). [`score`] computes what the project's independent
-//! `tools/score.py` computes, to the last digit that is printed.
+//! pixel, 0 = background) and `truth.json` (true vectors). [`score()`] computes the scores, which were
+//! checked against an independent implementation to the last digit that is printed.
 
 mod folder;
 mod measures;

@@ -1,0 +1,34 @@
+//! Write the photograph without its highlights, in the photograph's own encoding and depth.
+//!
+//! `cargo run --release --example remove_highlights [IMAGE [FOLDER]]` writes `matte.png`, `.jpg` or `.tif` to FOLDER (the
+//! system's temporary folder if not given).
+
+use dichroscope::analysis::Session;
+use dichroscope::export::write_matte;
+use dichroscope::photo::{self, ReadOptions};
+use dichroscope::segment::Params;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+const SAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
+
+fn main() -> anyhow::Result<()> {
+    let mut arguments = std::env::args().skip(1);
+    let path = arguments.next().unwrap_or_else(|| SAMPLE.to_owned());
+    let folder = arguments.next().map_or_else(std::env::temp_dir, PathBuf::from);
+
+    let photo = photo::read(Path::new(&path), &ReadOptions::default())?;
+    let analysis = Session::new(Arc::new(photo.image.clone())).run(&Params::default(), &mut ())?;
+
+    // Body reflection alone is the scene as if every surface were matte. Where a pixel is in no region it is the input.
+    let written = write_matte(&photo, &analysis.intrinsic.body, &folder)?;
+    let removed = analysis
+        .intrinsic
+        .surface
+        .as_slice()
+        .iter()
+        .filter(|colour| colour.iter().any(|&band| band > 0.0))
+        .count();
+    println!("{removed} pixels had surface reflection; without it: {}", written.display());
+    Ok(())
+}
