@@ -3,7 +3,7 @@
 //! The paper assumes that the smallest band does, and takes the pixel on the matte or highlight line with that value.
 //!
 //! Refined (`restore_prior`, 22 → 31 dB on clipped pixels): a band is good when none of the 8 neighbours and not the pixel
-//! itself clips there. All good bands count, with the body reflection of the surroundings as prior (standard deviation
+//! itself clips there; where no band is, an unclipped one has to do. All good bands count, with the body reflection of the surroundings as prior (standard deviation
 //! 10 %): the most probable m_b and m_s. One good band is the paper's rule. Without any, m_b is the prior and m_s the least
 //! that clips as seen; such pixels are flagged as lost.
 
@@ -96,7 +96,7 @@ impl Distorted<'_> {
         Restored { components: Components { body: components.body.max(0.0), ..components }, lost: false }
     }
 
-    /// Bands in which neither the pixel nor any of its 8 neighbours clips.
+    /// Bands in which neither the pixel nor any of its 8 neighbours clips; without one, those in which the pixel does not.
     fn good_bands(&self, pixel: usize) -> [bool; 3] {
         let (width, height) = (self.pixels.width(), self.pixels.height());
         let (x, y) = (pixel % width, pixel / width);
@@ -109,7 +109,7 @@ impl Distorted<'_> {
                 }
             }
         }
-        good
+        if good == [false; 3] { self.pixels[pixel].map(|band| band < self.clip_threshold) } else { good }
     }
 
     /// Body reflection to expect at each distorted pixel of a region: that of its undistorted surroundings (by `body`, from
