@@ -3,15 +3,14 @@
 //! The paper assumes that the smallest band does, and takes the pixel on the matte or highlight line with that value.
 //!
 //! Refined (`restore_prior`, 22 → 31 dB on clipped pixels): a band is good when none of the 8 neighbours and not the pixel
-//! itself clips there; where no band is, an unclipped one has to do. All good bands count, with the body reflection of the surroundings as prior (standard deviation
-//! 10 %): the most probable m_b and m_s. One good band is the paper's rule. Without any, m_b is the prior and m_s the least
-//! that clips as seen; such pixels are flagged as lost.
+//! itself clips there; where no band is, an unclipped one has to do. All good bands count, with the body reflection of the
+//! surroundings as prior (standard deviation 10 %): the most probable m_b and m_s. One good band is the paper's rule.
+//! Where every band clips, m_b is the prior and m_s the least that clips as seen; such pixels are flagged as lost.
 
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Raster};
 use crate::reflection::{Components, ReflectionTransform};
 use crate::segment::HighlightTest;
-use std::collections::BTreeMap;
 
 /// Relative standard deviation of the prior for body reflection.
 const PRIOR_SD: f32 = 0.1;
@@ -98,65 +97,77 @@ impl Distorted<'_> {
 
     /// Bands in which neither the pixel nor any of its 8 neighbours clips; without one, those in which the pixel does not.
     fn good_bands(&self, pixel: usize) -> [bool; 3] {
-        let (width, height) = (self.pixels.width(), self.pixels.height());
-        let (x, y) = (pixel % width, pixel / width);
         let mut good = [true; 3];
-        for v in y.saturating_sub(1)..(y + 2).min(height) {
-            for u in x.saturating_sub(1)..(x + 2).min(width) {
-                let near = self.pixels[v * width + u];
-                for band in 0..3 {
-                    good[band] &= near[band] < self.clip_threshold;
-                }
+        for near in self.around(pixel) {
+            for (good, band) in good.iter_mut().zip(self.pixels[near]) {
+                *good &= band < self.clip_threshold;
             }
         }
         if good == [false; 3] { self.pixels[pixel].map(|band| band < self.clip_threshold) } else { good }
     }
 
     /// Body reflection to expect at each distorted pixel of a region: that of its undistorted surroundings (by `body`, from
-    /// their colours), carried inward ring by ring. Pixels that no undistorted one reaches are left out.
-    pub fn priors(&self, distorted: &[u32], body: impl Fn([f32; 3]) -> f32) -> BTreeMap<u32, f32> {
-        let mut priors: BTreeMap<u32, f32> = BTreeMap::new();
-        let mut waiting = distorted.to_vec();
+    /// their colours), carried inward ring by ring. NaN where no undistorted pixel reaches. `distorted` is row-major.
+    pub fn priors(&self, distorted: &[u32], body: impl Fn([f32; 3]) -> f32) -> Vec<f32> {
+        let mut priors = vec![f32::NAN; distorted.len()];
+        let (Some(&first), Some(&last)) = (distorted.first(), distorted.last()) else { return priors };
+        let width = self.pixels.width();
+        // Place in `distorted` of each pixel in their rows; 0 for none, so places count from 1.
+        let top = first as usize / width * width;
+        let mut place = vec![0u32; last as usize + 1 - top];
+        for (index, &pixel) in distorted.iter().enumerate() {
+            place[pixel as usize - top] = index as u32 + 1;
+        }
+        let mut waiting: Vec<u32> = (0..distorted.len() as u32).collect();
+        let mut queued = vec![true; distorted.len()];
         while !waiting.is_empty() {
+            let known = |pixel: usize| {
+                if self.masks.distorted(pixel) {
+                    let place = pixel.checked_sub(top).and_then(|i| place.get(i)).copied().unwrap_or(0);
+                    return if place == 0 { f32::NAN } else { priors[place as usize - 1] };
+                }
+                body(self.pixels[pixel])
+            };
             let ring: Vec<(u32, f32)> = waiting
                 .iter()
-                .filter_map(|&pixel| self.mean_around(pixel, &priors, &body).map(|mean| (pixel, mean)))
+                .map(|&index| (index, self.mean_around(distorted[index as usize] as usize, &known)))
                 .collect();
-            if ring.is_empty() {
-                break;
+            for &(index, mean) in &ring {
+                queued[index as usize] = false;
+                priors[index as usize] = mean;
             }
-            priors.extend(ring);
-            waiting.retain(|pixel| !priors.contains_key(pixel));
+            waiting.clear();
+            for &(index, _) in ring.iter().filter(|(_, mean)| !mean.is_nan()) {
+                for near in self.around(distorted[index as usize] as usize) {
+                    let place = near.checked_sub(top).and_then(|i| place.get(i)).copied().unwrap_or(0);
+                    if place > 0 && priors[place as usize - 1].is_nan() && !queued[place as usize - 1] {
+                        queued[place as usize - 1] = true;
+                        waiting.push(place - 1);
+                    }
+                }
+            }
         }
         priors
     }
 
-    fn mean_around(
-        &self,
-        pixel: u32,
-        priors: &BTreeMap<u32, f32>,
-        body: impl Fn([f32; 3]) -> f32,
-    ) -> Option<f32> {
+    /// Mean of what is known of the pixels around one, in its region; NaN where nothing is.
+    fn mean_around(&self, pixel: usize, known: impl Fn(usize) -> f32) -> f32 {
+        let region = self.labels[pixel];
+        let inside = self.around(pixel).filter(|&near| near != pixel && self.labels[near] == region);
+        let (sum, count) = inside
+            .map(known)
+            .filter(|value| !value.is_nan())
+            .fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+        // 0 / 0 is NaN, as promised.
+        sum / count
+    }
+
+    /// A pixel and its 8 neighbours.
+    fn around(&self, pixel: usize) -> impl Iterator<Item = usize> + use<> {
         let (width, height) = (self.pixels.width(), self.pixels.height());
-        let (x, y) = (pixel as usize % width, pixel as usize / width);
-        let region = self.labels[pixel as usize];
-        let (mut sum, mut count) = (0.0, 0.0);
-        for v in y.saturating_sub(1)..(y + 2).min(height) {
-            for u in x.saturating_sub(1)..(x + 2).min(width) {
-                let near = v * width + u;
-                let known = if self.labels[near] != region {
-                    None
-                } else if self.masks.distorted(near) {
-                    priors.get(&(near as u32)).copied()
-                } else {
-                    Some(body(self.pixels[near]))
-                };
-                if let Some(value) = known {
-                    sum += value;
-                    count += 1.0;
-                }
-            }
-        }
-        (count > 0.0).then(|| sum / count)
+        let (x, y) = (pixel % width, pixel / width);
+        let columns = x.saturating_sub(1)..(x + 2).min(width);
+        (y.saturating_sub(1)..(y + 2).min(height))
+            .flat_map(move |v| columns.clone().map(move |u| v * width + u))
     }
 }

@@ -264,13 +264,14 @@ impl Splitter {
         let priors = distorted.priors(&waiting, |color| self.split(color).body);
         waiting
             .into_iter()
-            .map(|pixel| {
+            .zip(priors)
+            .map(|(pixel, prior)| {
                 let Some(transform) = &self.transform else {
                     let color = scene.pixels[pixel as usize];
                     return (pixel, [color, [0.0; 3]], PixelKind::Lost);
                 };
                 let restored = if scene.refine.restore_prior {
-                    let prior = priors.get(&pixel).copied().unwrap_or(self.start_body);
+                    let prior = if prior.is_nan() { self.start_body } else { prior };
                     distorted.most_probable(pixel as usize, transform, prior)
                 } else {
                     distorted.smallest_band(pixel as usize, transform, self.test.as_ref(), self.start_body)

@@ -201,31 +201,39 @@ fn regress(samples: &[Sample], sigma: f64) -> Option<(f64, f64)> {
         return None;
     }
     let rows = design(samples);
+    let mut sums = Sums { normal: SMatrix::zeros(), right: SVector::zeros(), count: 0.0 };
+    for (sample, row) in samples.iter().zip(&rows) {
+        sums.add(sample, row, 1.0);
+    }
     let mut taken = vec![true; samples.len()];
     let mut residuals = vec![0.0; samples.len()];
     let mut sizes = residuals.clone();
     let mut answer: Option<(f64, f64)> = None;
     for _ in 0..5 {
-        let sums = Sums::new(samples, &rows, &taken);
         let quartic = sums.solve::<QUARTIC>(sigma)?;
         let cubic = sums.solve::<CUBIC>(sigma)?;
         for (i, (sample, row)) in samples.iter().zip(&rows).enumerate() {
             let fitted: f64 = row.iter().zip(quartic.coefficients.iter()).map(|(r, c)| r * c).sum();
-            residuals[i] = sample.along - fitted;
-            sizes[i] = residuals[i].abs();
+            residuals[i] = (sample.along - fitted).abs();
         }
+        sizes.copy_from_slice(&residuals);
         let middle = sizes.len() / 2;
         let (_, &mut median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
         let cotangent = quartic.cotangent();
         let scale = (1.4826 * median).max(sigma * (1.0 + cotangent.powi(2)).sqrt());
-        for (taken, residual) in taken.iter_mut().zip(&residuals) {
-            *taken = residual.abs() < CUT * scale;
-        }
         let settled = answer.is_some_and(|(before, _)| (before - cotangent).abs() < 1e-4);
         let of_model = (cotangent - cubic.cotangent()).powi(2);
         answer = Some((cotangent, scale * scale / quartic.information + of_model));
         if settled {
             break;
+        }
+        // Few pixels come or go, so the sums are kept and corrected.
+        for (i, (sample, row)) in samples.iter().zip(&rows).enumerate() {
+            let take = residuals[i] < CUT * scale;
+            if take != taken[i] {
+                taken[i] = take;
+                sums.add(sample, row, if take { 1.0 } else { -1.0 });
+            }
         }
     }
     answer
@@ -271,15 +279,12 @@ impl<const N: usize> Solution<N> {
 }
 
 impl Sums {
-    fn new(samples: &[Sample], rows: &[[f64; QUARTIC]], taken: &[bool]) -> Self {
-        let mut sums = Self { normal: SMatrix::zeros(), right: SVector::zeros(), count: 0.0 };
-        for ((sample, row), _) in samples.iter().zip(rows).zip(taken).filter(|&(_, &taken)| taken) {
-            let row = SVector::from(*row);
-            sums.count += 1.0;
-            sums.right.axpy(sample.along, &row, 1.0);
-            sums.normal.ger(1.0, &row, &row, 1.0);
-        }
-        sums
+    /// Adds a sample `count` times.
+    fn add(&mut self, sample: &Sample, row: &[f64; QUARTIC], count: f64) {
+        let row = SVector::from(*row);
+        self.count += count;
+        self.right.axpy(count * sample.along, &row, 1.0);
+        self.normal.ger(count, &row, &row, 1.0);
     }
 
     /// Least squares with the first `N` − 1 terms, corrected for the noise of the offset: nσ² is taken from its square.

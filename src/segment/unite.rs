@@ -33,10 +33,20 @@ pub fn merge_regions<R: Recorder>(
     hypotheses: &mut [Hypothesis],
     ledger: &mut Ledger<R>,
 ) -> Vec<u16> {
+    let mut into_of: Vec<u16> = (0..=hypotheses.len() as u16).collect();
+    let pairs: Vec<(u16, u16)> = near_pairs(&ledger.labels, REACH_PX)
+        .into_iter()
+        .filter(|&(a, b)| {
+            let direction = |id: u16| &hypotheses[usize::from(id) - 1].line.direction;
+            axis_angle_deg(direction(a), direction(b)) < MAX_ANGLE_DEG
+        })
+        .collect();
+    if pairs.is_empty() {
+        return into_of;
+    }
     let members = ledger.members(hypotheses.len());
     let mut clusters: BTreeMap<u16, Moments> = BTreeMap::new();
-    let mut into_of: Vec<u16> = (0..=hypotheses.len() as u16).collect();
-    for (a, b) in near_pairs(&ledger.labels, REACH_PX) {
+    for (a, b) in pairs {
         let (a, b) = (into_of[usize::from(a)], into_of[usize::from(b)]);
         if a == b {
             continue;
