@@ -107,7 +107,7 @@ fn leftover_neighbours(
     let mut leftovers: BTreeMap<u32, Moments> = BTreeMap::new();
     let mut touching: BTreeSet<(u16, u32)> = BTreeSet::new();
     for pixel in 0..labels.len() {
-        if labels[pixel] != UNASSIGNED || !scene.claimable(pixel) {
+        if labels[pixel] != UNASSIGNED || !scene.masks.usable(pixel) {
             continue;
         }
         let area = areas.of_window[windows.window_of(pixel, width)];
