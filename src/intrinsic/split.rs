@@ -164,9 +164,9 @@ impl Splitter {
             ));
         }
         let foot = self.hypothesis.matte.foot().norm();
-        if foot > scene.used.radius_counts() {
+        if foot > scene.sigma() {
             warnings.push(format!(
-                "the matte line misses black by {foot:.1} counts: ambient light, or not matte"
+                "the matte line misses black by {foot:.1} counts: ambient light, inter-reflection or no single material"
             ));
         }
         let lost = pixels.iter().filter(|&pixel| kinds[pixel as usize] == PixelKind::Lost).count();

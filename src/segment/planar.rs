@@ -19,7 +19,7 @@ use super::matte::MatteRegions;
 use super::merge::Areas;
 use super::scene::Scene;
 use super::unite::merge_regions;
-use crate::color::{Line, Vec3, axis_angle_deg};
+use crate::color::{Cylinder, Line, Vec3, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::reflection::{DichromaticPlane, Slice};
 use crate::trace::{Event, Recorder};
@@ -252,6 +252,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let members = Members::of(&self.matte_labels, self.matte.len());
         let hypotheses = self.hypotheses(illuminant);
         let slices: Vec<Option<Slice>> = hypotheses.iter().map(|h| self.slice(h)).collect();
+        let cylinders = cylinders(self.scene, &self.matte);
         let mut order: Vec<u16> = (1..=hypotheses.len() as u16).collect();
         order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
         for id in order {
@@ -266,7 +267,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
                         half_width: self.scene.used.slice_half_width_counts(),
                     });
                 }
-                self.grow_slice(id, slice, &slices, &members);
+                self.grow_slice(id, slice, (&slices, &cylinders), &members);
             }
         }
         hypotheses
@@ -301,9 +302,14 @@ impl<R: Recorder> Stage<'_, '_, R> {
         })
     }
 
-    fn grow_slice(&mut self, id: u16, slice: &Slice, slices: &[Option<Slice>], members: &Members) {
+    fn grow_slice(
+        &mut self,
+        id: u16,
+        slice: &Slice,
+        (slices, cylinders): (&[Option<Slice>], &[Cylinder]),
+        members: &Members,
+    ) {
         let scene = self.scene;
-        let cylinders = cylinders(scene, &self.matte);
         let own = cylinders[usize::from(id) - 1];
         let matte_labels = &self.matte_labels;
         let mut front: Vec<u32> =

@@ -9,7 +9,7 @@ use super::ledger::{Ledger, Members, Pixels};
 use super::planar::{PlanarHypothesis, PlanarRegions};
 use super::scene::Scene;
 use super::unite::{MAX_ANGLE_DEG, matte_cluster, one_line};
-use crate::color::axis_angle_deg;
+use crate::color::{Moments, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::trace::{Event, Recorder};
 use std::collections::BTreeMap;
@@ -87,6 +87,8 @@ fn join_across<R: Recorder>(scene: &Scene, hypotheses: &[PlanarHypothesis], ledg
         (1..=hypotheses.len() as u16).filter(|&id| members.region(id).len() >= MIN_REGION_PX).collect();
     order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
     let line = |id: u16| &hypotheses[usize::from(id) - 1].matte;
+    let mut outlines: BTreeMap<u16, Outline> = BTreeMap::new();
+    let mut clusters: BTreeMap<u16, Moments> = BTreeMap::new();
     let mut into_of: Vec<u16> = (0..=hypotheses.len() as u16).collect();
     for (i, &into) in order.iter().enumerate() {
         for &from in &order[i + 1..] {
@@ -95,11 +97,16 @@ fn join_across<R: Recorder>(scene: &Scene, hypotheses: &[PlanarHypothesis], ledg
             if !free || angle_deg >= MAX_ANGLE_DEG {
                 continue;
             }
-            let cluster = matte_cluster(scene, line(from), members.region(from));
-            let Some(rms) = one_line(scene, &cluster, line(from), line(into)) else { continue };
-            let (one, other): (Vec<u32>, Vec<u32>) =
-                (members.region(into).iter().collect(), members.region(from).iter().collect());
-            if same_object(&ledger.labels, &one, &other) {
+            for id in [from, into] {
+                outlines.entry(id).or_insert_with(|| Outline::new(&ledger.labels, members.region(id).iter()));
+            }
+            if !same_object(&ledger.labels, &outlines[&into], &outlines[&from]) {
+                continue;
+            }
+            let cluster = clusters
+                .entry(from)
+                .or_insert_with(|| matte_cluster(scene, line(from), members.region(from)));
+            if let Some(rms) = one_line(scene, cluster, line(from), line(into)) {
                 into_of[usize::from(from)] = into;
                 if R::KEEPS {
                     ledger.recorder.record(Event::RegionsMerged { region: from, into, angle_deg, rms });
@@ -107,7 +114,7 @@ fn join_across<R: Recorder>(scene: &Scene, hypotheses: &[PlanarHypothesis], ledg
             }
         }
     }
-    for &from in &order {
+    for &from in order.iter().filter(|&&from| into_of[usize::from(from)] != from) {
         for pixel in members.region(from).iter() {
             ledger.assign(pixel as usize, into_of[usize::from(from)]);
         }
@@ -126,11 +133,13 @@ fn separate<R: Recorder>(
         return;
     }
     parts.sort_by_key(|part| std::cmp::Reverse(part.len()));
+    let outline = |part: &[u32]| Outline::new(&ledger.labels, part.iter().copied());
     // Parts that belong together, the largest of each group first.
     let mut groups: Vec<Vec<Vec<u32>>> = Vec::new();
     for part in parts {
         let home = groups.iter().position(|group| {
-            part.len() < MIN_REGION_PX || group.iter().any(|other| same_object(&ledger.labels, other, &part))
+            part.len() < MIN_REGION_PX
+                || group.iter().any(|other| same_object(&ledger.labels, &outline(other), &outline(&part)))
         });
         match home {
             Some(home) => groups[home].push(part),
@@ -190,36 +199,67 @@ fn root(parent: &mut [usize], mut at: usize) -> usize {
     at
 }
 
-/// Whether two parts are one object: near one another for their size, or parted mostly by other regions, by an object in
-/// front.
-fn same_object(labels: &LabelMap, one: &[u32], other: &[u32]) -> bool {
-    let width = labels.width();
-    let border = |part: &[u32]| -> Vec<(i64, i64)> {
-        let mut found = Vec::new();
-        for &pixel in part {
-            let mut edge = false;
+/// Where a part of a region ends.
+struct Outline {
+    /// Pixels of the part.
+    size: usize,
+    /// Columns and rows that it spans, first to last.
+    columns: [i64; 2],
+    rows: [i64; 2],
+    /// Some of its border pixels, evenly chosen: column, row.
+    border: Vec<(i64, i64)>,
+}
+
+impl Outline {
+    fn new(labels: &LabelMap, pixels: impl Iterator<Item = u32>) -> Self {
+        let width = labels.width();
+        let mut outline =
+            Self { size: 0, columns: [i64::MAX, i64::MIN], rows: [i64::MAX, i64::MIN], border: Vec::new() };
+        for pixel in pixels {
             let own = labels[pixel as usize];
+            let (x, y) = ((pixel as usize % width) as i64, (pixel as usize / width) as i64);
+            outline.size += 1;
+            outline.columns = [outline.columns[0].min(x), outline.columns[1].max(x)];
+            outline.rows = [outline.rows[0].min(y), outline.rows[1].max(y)];
+            let mut edge = false;
             labels.for_each_neighbour(pixel as usize, |near| edge |= labels[near] != own);
             if edge {
-                found.push(((pixel as usize % width) as i64, (pixel as usize / width) as i64));
+                outline.border.push((x, y));
             }
         }
-        let step = found.len().div_ceil(BORDER_SAMPLES).max(1);
-        found.into_iter().step_by(step).collect()
-    };
-    let far = border(other);
-    let closest = border(one)
-        .into_iter()
-        .flat_map(|a| far.iter().map(move |&b| (a, b)))
+        let step = outline.border.len().div_ceil(BORDER_SAMPLES).max(1);
+        outline.border = outline.border.into_iter().step_by(step).collect();
+        outline
+    }
+
+    /// A distance that two parts certainly have, pixels.
+    fn least_gap_px(&self, other: &Self) -> f64 {
+        let apart = |a: [i64; 2], b: [i64; 2]| (a[0] - b[1]).max(b[0] - a[1]).max(0);
+        (apart(self.columns, other.columns) as f64).hypot(apart(self.rows, other.rows) as f64)
+    }
+}
+
+/// Whether two parts are one object: near one another for their size, or parted mostly by other regions, by an object in
+/// front.
+fn same_object(labels: &LabelMap, one: &Outline, other: &Outline) -> bool {
+    let width = labels.width();
+    let size_px = (one.size.min(other.size) as f64).sqrt();
+    let diagonal_px = (width as f64).hypot(labels.height() as f64);
+    let largest_gap_px = (2.0 * size_px).min(MAX_OCCLUDER * diagonal_px);
+    if one.least_gap_px(other) > largest_gap_px {
+        return false;
+    }
+    let closest = one
+        .border
+        .iter()
+        .flat_map(|&a| other.border.iter().map(move |&b| (a, b)))
         .min_by_key(|(a, b)| (a.0 - b.0).pow(2) + (a.1 - b.1).pow(2));
     let Some((a, b)) = closest else { return false };
-    let gap_px = (((a.0 - b.0).pow(2) + (a.1 - b.1).pow(2)) as f64).sqrt();
-    let size_px = (one.len().min(other.len()) as f64).sqrt();
-    let diagonal_px = (labels.width() as f64).hypot(labels.height() as f64);
+    let gap_px = ((a.0 - b.0) as f64).hypot((a.1 - b.1) as f64);
     if gap_px < size_px.min(MAX_SHADOW * diagonal_px) {
         return true;
     }
-    if gap_px > (2.0 * size_px).min(MAX_OCCLUDER * diagonal_px) {
+    if gap_px > largest_gap_px {
         return false;
     }
     let steps = (a.0 - b.0).abs().max((a.1 - b.1).abs()).max(1);
