@@ -6,6 +6,7 @@
 
 mod resolve;
 mod stages;
+mod stale;
 
 pub use crate::segment::Illuminant;
 pub use crate::trace::Stage;
