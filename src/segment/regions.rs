@@ -204,3 +204,60 @@ pub fn neighbours(labels: &LabelMap, regions: usize) -> Vec<Vec<u16>> {
 pub fn members(regions: &FinalRegions) -> Members {
     Members::of(&regions.labels, regions.hypotheses.len())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::{Line, Vec3};
+    use crate::raster::Raster;
+    use crate::segment::testing::Drawing;
+    use crate::trace::Silent;
+
+    /// Numbers and drops the regions of a picture 90 pixels wide and 20 high, given as rectangles: left, top, width, height,
+    /// region. Returns the final region of each rectangle.
+    fn finals(rectangles: &[[usize; 5]]) -> Vec<u16> {
+        let mut labels: LabelMap = Raster::filled(90, 20, UNASSIGNED);
+        for &[left, top, width, height, region] in rectangles {
+            for pixel in (top..top + height).flat_map(|y| y * 90 + left..y * 90 + left + width) {
+                labels[pixel] = region as u16;
+            }
+        }
+        let line = Line::new(Vec3::repeat(50.0), Vec3::repeat(1.0));
+        let hypothesis = PlanarHypothesis {
+            matte: line,
+            matte_length: 90.0,
+            plane: None,
+            start: line.mean,
+            highlight: None,
+            alive: true,
+        };
+        let regions = rectangles.iter().map(|r| r[4]).max().unwrap_or(0);
+        let planar =
+            PlanarRegions { labels: labels.clone(), hypotheses: vec![hypothesis; regions], illuminant: None };
+        let drawing = Drawing::new(&["."], |_| Vec3::zeros());
+        let found = final_regions(&drawing.scene(), labels, &planar, &mut Silent);
+        rectangles.iter().map(|&[left, top, ..]| found.labels[top * 90 + left]).collect()
+    }
+
+    #[test]
+    fn numbers_go_by_size_and_what_is_too_small_goes() {
+        assert_eq!(finals(&[[0, 0, 10, 9, 1], [20, 0, 20, 10, 2], [50, 0, 7, 8, 3]]), [2, 1, 0]);
+    }
+
+    #[test]
+    fn parts_with_background_between_them_are_objects_of_their_own() {
+        assert_eq!(finals(&[[0, 0, 12, 12, 1], [40, 0, 10, 10, 1]]), [1, 2]);
+    }
+
+    #[test]
+    fn parts_behind_another_object_are_one() {
+        let in_front = [13, 0, 26, 20, 2];
+        assert_eq!(finals(&[[0, 0, 12, 12, 1], [40, 0, 10, 10, 1], in_front]), [2, 2, 1]);
+    }
+
+    #[test]
+    fn parts_across_a_shadow_are_one_and_crumbs_stay() {
+        assert_eq!(finals(&[[0, 0, 12, 12, 1], [19, 0, 10, 10, 1]]), [1, 1], "7 px apart, 10 px in size");
+        assert_eq!(finals(&[[0, 0, 12, 12, 1], [60, 0, 5, 5, 1]]), [1, 1], "25 px are no object");
+    }
+}

@@ -1,10 +1,10 @@
 //! What the pipeline must reach where the truth is known.
 
 use crate::common::{analyze, assert_valid, scores_of, truth_of};
-use crate::synthetic::Scene;
+use crate::synthetic::{Ball, Scene, unit};
 use dichroscope::photo::{ReadOptions, read};
 use dichroscope::report::Scores;
-use dichroscope::segment::Params;
+use dichroscope::segment::{Params, Refine};
 use dichroscope::truth::GroundTruth;
 use proptest::prelude::*;
 use std::path::Path;
@@ -69,13 +69,29 @@ fn one_noisy_ball() {
 
 #[test]
 fn six_balls_in_yellow_light() {
-    let scene = Scene {
-        illuminant: crate::synthetic::unit([0.7, 0.6, 0.4]),
-        ..Scene::grid_of_balls([240, 160], 3, 2, 7)
-    };
+    let scene = Scene { illuminant: unit([0.7, 0.6, 0.4]), ..Scene::grid_of_balls([240, 160], 3, 2, 7) };
     let found = scores(&scene);
     println!("{found:#?}");
     assert_reaches(&found, &Scores::default());
+}
+
+/// Figure 11: under white light a red and a cyan object share one dichromatic plane, so that each one's slice holds the
+/// other's colours.
+#[test]
+fn coplanar_neighbours_keep_their_pixels() {
+    let mut scene = Scene::one_ball([150, 100], [0.9, 0.25, 0.25]);
+    let red = Ball { centre_px: [50.0, 50.0], body: unit([0.9, 0.25, 0.25]), ..scene.balls[0] };
+    let cyan = Ball { centre_px: [102.0, 50.0], radius_px: 36.0, body: unit([0.2, 0.8, 0.8]), ..red };
+    scene = Scene { balls: vec![red, cyan], noise_sigma: 1.25, eight_bit: true, ..scene };
+    let rendered = scene.render();
+    // Nothing but the provision keeps them apart when slices have no ends.
+    let refine = Refine { slice_bounds: false, ..Refine::default() };
+    for params in [Params::default(), Params { refine, ..Params::default() }] {
+        let analysis = analyze(&rendered.image, &params);
+        let found = scores_of(&truth_of(&scene, &rendered), &rendered.image, &analysis, &params);
+        assert!(found.iou_min > Some(0.98) && found.ari > 0.98, "{found:#?}");
+        assert_eq!(found.regions, 2);
+    }
 }
 
 proptest! {
