@@ -159,8 +159,10 @@ impl Splitter {
         }
         let limit = POOR_FIT * scene.sigma();
         if fit_rms_counts > limit {
+            // Only a region with a surface vector has a plane to lie off.
+            let what = if angle_deg.is_some() { "plane" } else { "matte line" };
             warnings.push(format!(
-                "poor fit: pixels lie {fit_rms_counts:.1} counts from the plane (rms), {limit:.1} is noise"
+                "poor fit: pixels lie {fit_rms_counts:.1} counts from the {what} (rms), {limit:.1} is noise"
             ));
         }
         let foot = self.hypothesis.matte.foot().norm();
