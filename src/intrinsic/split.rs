@@ -179,6 +179,9 @@ impl Splitter {
     }
 }
 
+/// A pixel, its body and surface colour, and whether they are restored or lost.
+type RestoredPixel = (u32, [[f32; 3]; 2], PixelKind);
+
 /// The intrinsic images while they are made.
 struct Images {
     body: Raster<[f32; 3]>,
@@ -228,7 +231,7 @@ impl Images {
             clip_threshold: scene.used.clip_threshold as f32,
             sigma: scene.sigma() as f32,
         };
-        let restored: Vec<Vec<(u32, [[f32; 3]; 2], PixelKind)>> = splitters
+        let restored: Vec<Vec<RestoredPixel>> = splitters
             .par_iter()
             .enumerate()
             .map(|(index, splitter)| {
@@ -255,12 +258,7 @@ impl Splitter {
     }
 
     /// Colours and kinds of the region's distorted pixels.
-    fn restore(
-        &self,
-        scene: &Scene,
-        distorted: &Distorted,
-        pixels: Pixels,
-    ) -> Vec<(u32, [[f32; 3]; 2], PixelKind)> {
+    fn restore(&self, scene: &Scene, distorted: &Distorted, pixels: Pixels) -> Vec<RestoredPixel> {
         let waiting: Vec<u32> =
             pixels.iter().filter(|&pixel| scene.masks.distorted(pixel as usize)).collect();
         let priors = distorted.priors(&waiting, |color| self.split(color).body);

@@ -127,8 +127,8 @@ fn parts(width: usize, pixels: Pixels) -> Vec<Vec<u32>> {
             above += 1;
         }
         let (left, right) = (column(runs[i]), column(runs[i]) + runs[i].1);
-        for j in above..i {
-            let other = (column(runs[j]), column(runs[j]) + runs[j].1);
+        for (j, &run) in runs.iter().enumerate().take(i).skip(above) {
+            let other = (column(run), column(run) + run.1);
             if other.0 <= right + reach && left <= other.1 + reach {
                 let (a, b) = (root(&mut parent, i), root(&mut parent, j));
                 parent[a.max(b)] = a.min(b);

@@ -21,8 +21,8 @@ fn largest_gap(image: &LinearImage, analysis: &Analysis, unclamped: bool) -> (f3
         let region = &intrinsic.regions[usize::from(label) - 1];
         let Some(normal) = region.plane_normal else { continue };
         looked_at += 1;
-        for band in 0..3 {
-            let noise = intrinsic.noise[pixel] * normal[band] as f32;
+        for (band, along) in normal.into_iter().enumerate() {
+            let noise = intrinsic.noise[pixel] * along as f32;
             let sum = intrinsic.body[pixel][band] + intrinsic.surface[pixel][band] + noise;
             gap = gap.max((sum - image.pixels[pixel][band]).abs());
         }
