@@ -1,7 +1,7 @@
 //! Ground truth, and how far a result is from it.
 //!
 //! A truth folder holds `body.exr` and `surface.exr` (linear RGB, 1.0 = 255 counts), `labels.png` (object at each
-//! pixel, 0 = background) and `truth.json` (true vectors). [`score`] computes what the project's independent
+//! pixel, 0 = background) and `truth.json` (true vectors). [`score()`] computes what the project's independent
 //! `tools/score.py` computes, to the last digit that is printed.
 
 mod folder;

@@ -30,6 +30,7 @@ fn pictures_read_back_as_they_were_and_body_and_surface_and_residual_are_the_inp
     let read = ResultPictures::read(folder.path()).unwrap();
     assert_eq!(read.regions, *analysis.regions);
     let residual = exr_counts(&folder.path().join("residual.exr"));
+    assert_eq!(residual.len(), image.pixels.len());
     let close = |a: [f32; 3], b: [f32; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-3);
     for (pixel, rest) in residual.into_iter().enumerate() {
         let (body, surface) = (read.body[pixel], read.surface[pixel]);
