@@ -115,10 +115,22 @@ fn a_picture_without_anything_says_why() {
 
 /// A small picture of a few flat or shaded patches with noise.
 fn small_picture() -> impl Strategy<Value = LinearImage> {
-    let patch =
-        (0usize..24, 0usize..24, 1usize..24, 1usize..24, prop::array::uniform3(0f32..300.0), any::<bool>());
-    (1usize..=24, 1usize..=24, prop::collection::vec(patch, 0..5), 0f64..8.0, any::<u64>()).prop_map(
-        |(width, height, patches, sigma, seed)| {
+    let patch = (
+        0usize..24,
+        0usize..24,
+        8usize..40,
+        8usize..40,
+        prop::array::uniform3(0f32..300.0),
+        prop::bool::weighted(0.8),
+    );
+    (
+        prop_oneof![1 => 1usize..=8, 3 => 16usize..=48],
+        prop_oneof![1 => 1usize..=8, 3 => 16usize..=48],
+        prop::collection::vec(patch, 0..5),
+        0f64..3.0,
+        any::<u64>(),
+    )
+        .prop_map(|(width, height, patches, sigma, seed)| {
             let mut random = Random::new(seed);
             let mut image = picture(width, height, |x, y| {
                 let inside = patches.iter().rev().find(|(left, top, w, h, ..)| {
@@ -133,33 +145,37 @@ fn small_picture() -> impl Strategy<Value = LinearImage> {
                 *value = (*value + (sigma * random.normal()) as f32).clamp(0.0, 255.0);
             }
             image
-        },
-    )
+        })
 }
 
+/// Mostly the method's own numbers, so that pictures are explained; the others anything between the ends of their ranges.
 fn any_params() -> impl Strategy<Value = Params> {
-    let shares = prop::array::uniform8(prop::option::of(0f64..=1.0));
-    (any::<bool>(), shares, prop::collection::vec(any::<bool>(), 15)).prop_map(|(paper, shares, switches)| {
+    let choice = prop_oneof![6 => Just(None), 1 => Just(Some(None)), 1 => (0f64..=1.0).prop_map(|share| Some(Some(share)))];
+    let choices = prop::collection::vec(choice, Parameter::ALL.len());
+    (any::<bool>(), choices, any::<[bool; 15]>()).prop_map(|(paper, choices, switches)| {
         let mut params = Params::of(if paper { Method::Paper } else { Method::Refined });
-        for (parameter, share) in Parameter::ALL.into_iter().zip(shares) {
+        params.min_area = Setting::Value(60.0);
+        for (parameter, choice) in Parameter::ALL.into_iter().zip(choices) {
             let spec = parameter.spec();
             let (low, high) = spec.range;
             // Most of what matters lies near the lower end of wide ranges.
-            let value = share.map(|share| low + (high.min(300.0) - low) * share * share);
-            *params.slot(parameter) =
-                value.map_or(Setting::Auto, |v| Setting::Value(if spec.whole { v.round() } else { v }));
+            let between = |share: f64| low + (high.min(300.0) - low) * share * share;
+            let whole = |value: f64| if spec.whole { value.round() } else { value };
+            match choice {
+                None => {}
+                Some(None) => *params.slot(parameter) = Setting::Auto,
+                Some(Some(share)) => *params.slot(parameter) = Setting::Value(whole(between(share))),
+            }
         }
-        let mut refine = Refine::default();
-        for ((_, switch), on) in refine.switches().into_iter().zip(switches) {
+        for ((_, switch), on) in params.refine.switches().into_iter().zip(switches) {
             *switch = on;
         }
-        params.refine = refine;
         params
     })
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(96))]
+    #![proptest_config(ProptestConfig::with_cases(512))]
 
     #[test]
     fn any_small_picture_with_any_parameters_gives_a_valid_result(image in small_picture(), params in any_params()) {
