@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 
 use assert_cmd::cargo::cargo_bin_cmd;
+use dichroscope::export::read_report;
 use dichroscope::report::Report;
 use dichroscope::segment::{Method, Setting};
 use dichroscope::truth::ResultPictures;
@@ -85,7 +86,7 @@ impl Desk {
     }
 
     fn report(&self, result: &str) -> Report {
-        Report::read(&self.path(result)).unwrap()
+        read_report(&self.path(result)).unwrap()
     }
 
     /// What lies in a folder, hidden files included.

@@ -6,6 +6,7 @@
 
 mod resolve;
 mod stages;
+mod stale;
 
 pub use crate::segment::Illuminant;
 pub use crate::trace::Stage;
@@ -19,12 +20,12 @@ use stages::Stages;
 use std::sync::Arc;
 
 /// Watches a run, and may stop it.
-pub trait Observer {
+pub trait Observer: Sync {
     /// A stage begins.
     fn started(&mut self, _stage: Stage) {}
     /// A stage has ended; `reused` when its earlier output still stood.
     fn finished(&mut self, _stage: Stage, _reused: bool) {}
-    /// Asked now and then; a run stops soon after it turns true.
+    /// Asked before each stage and once a hypothesis; a run stops soon after it turns true.
     fn cancelled(&self) -> bool {
         false
     }

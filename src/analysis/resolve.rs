@@ -56,6 +56,7 @@ fn number(params: &Params, parameter: Parameter) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exactness is what is tested")]
 mod tests {
     use super::*;
     use crate::raster::Raster;

@@ -1,13 +1,14 @@
 //! The stages in order, each with its last output and what that was made from.
 
 use super::resolve::{mask_limits, used_params};
+use super::stale::seen_up_to;
 use super::{Analysis, Cancelled, Observer, Stage};
 use crate::intrinsic::{Intrinsic, split};
 use crate::photo::{LinearImage, MaskLimits, Masks, estimate_sigma};
 use crate::raster::{LabelMap, Raster};
 use crate::segment::{
-    Areas, Classifier, FinalRegions, MatteRegions, Params, PlanarRegions, Refine, Scene, UsedParams, Windows,
-    classify, clipping_regions, final_regions, matte_regions, merge, planar_regions,
+    Areas, Classifier, FinalRegions, MatteRegions, Params, PlanarRegions, Refine, Scene, Setting, UsedParams,
+    Windows, classify, clipping_regions, final_regions, matte_regions, merge, planar_regions,
 };
 use crate::trace::{Event, Recorder};
 use std::sync::Arc;
@@ -16,19 +17,24 @@ use std::sync::Arc;
 #[derive(Default)]
 pub struct Stages {
     masks: Slot<MaskKey, (Arc<Masks>, Option<f64>)>,
-    classify: Slot<(u64, Refine, [f64; 2]), Arc<Windows>>,
-    merge: Slot<u64, Arc<MergedAreas>>,
-    linear: Slot<(u64, Refine, UsedParams), Arc<MatteRegions>>,
-    planar: Slot<(u64, Refine, UsedParams), Arc<PlanarRegions>>,
-    clipping: Slot<(u64, Refine, UsedParams), Arc<FinalRegions>>,
-    split: Slot<(u64, Refine, UsedParams), Arc<Intrinsic>>,
+    classify: Slot<Key, Arc<Windows>>,
+    merge: Slot<Key, Arc<MergedAreas>>,
+    linear: Slot<Key, Arc<MatteRegions>>,
+    planar: Slot<Key, Arc<PlanarRegions>>,
+    clipping: Slot<Key, Arc<FinalRegions>>,
+    split: Slot<Key, Arc<Intrinsic>>,
 }
+
+/// Generation of the stage before, and what the stages up to this one look at.
+type Key = (u64, (UsedParams, Refine));
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct MaskKey {
     limits: MaskLimits,
-    /// Whether the noise, and the minimal intensity that follows it, are left to the image.
-    automatic: (bool, bool),
+    /// The noise, where the masks depend on it: where it is to be estimated, and where the minimal intensity follows it.
+    camera_noise: Option<Setting>,
+    /// Whether the minimal intensity follows the noise.
+    automatic_intensity: bool,
 }
 
 /// Merged areas, and as a map.
@@ -50,13 +56,13 @@ impl<K, V> Default for Slot<K, V> {
 }
 
 impl<K: PartialEq, V: Clone> Slot<K, V> {
-    /// The output made from `key`: the last one, or a new one.
-    fn get(
+    /// The output made from `key`: the last one, or a new one. What a cancelled `make` hands out is thrown away.
+    fn get<O: Observer>(
         &mut self,
         stage: Stage,
         key: K,
-        observer: &mut impl Observer,
-        make: impl FnOnce() -> V,
+        observer: &mut O,
+        make: impl FnOnce(&O) -> V,
     ) -> Result<V, Cancelled> {
         if observer.cancelled() {
             return Err(Cancelled);
@@ -69,7 +75,10 @@ impl<K: PartialEq, V: Clone> Slot<K, V> {
             observer.finished(stage, true);
             return Ok(value);
         }
-        let value = make();
+        let value = make(observer);
+        if observer.cancelled() {
+            return Err(Cancelled);
+        }
         self.made = Some((key, value.clone()));
         self.generation += 1;
         observer.finished(stage, false);
@@ -90,12 +99,15 @@ impl Stages {
         let (masks, used) = self.masks(image, params, observer, recorder)?;
         let scene = Scene::new(image, &masks, &used, refine);
 
-        let key = (self.masks.generation, refine, [used.window_size, used.camera_noise]);
-        let windows = self.classify.get(Stage::Classify, key, observer, || {
+        let key = |stage, before| (before, seen_up_to(stage, &used, refine));
+
+        let after_masks = key(Stage::Classify, self.masks.generation);
+        let windows = self.classify.get(Stage::Classify, after_masks, observer, |_| {
             begin(recorder, Stage::Classify);
             Arc::new(classify_windows(&scene, recorder))
         })?;
-        let merged = self.merge.get(Stage::Merge, self.classify.generation, observer, || {
+        let after_classify = key(Stage::Merge, self.classify.generation);
+        let merged = self.merge.get(Stage::Merge, after_classify, observer, |_| {
             begin(recorder, Stage::Merge);
             let mut classifier = Classifier::new(used.camera_noise, refine.tail_test);
             let areas = merge(&windows, &mut classifier, recorder);
@@ -103,21 +115,26 @@ impl Stages {
             Arc::new(MergedAreas { areas, map })
         })?;
         let areas = &merged.areas;
-        let key = |generation: u64| (generation, refine, used);
-        let matte = self.linear.get(Stage::Linear, key(self.merge.generation), observer, || {
+        let after_merge = key(Stage::Linear, self.merge.generation);
+        let matte = self.linear.get(Stage::Linear, after_merge, observer, |observer| {
             begin(recorder, Stage::Linear);
-            Arc::new(matte_regions(&scene, &windows, areas, recorder))
+            let stop = || observer.cancelled();
+            Arc::new(matte_regions(&scene.stopped_by(&stop), &windows, areas, recorder))
         })?;
-        let planar = self.planar.get(Stage::Planar, key(self.linear.generation), observer, || {
+        let after_linear = key(Stage::Planar, self.linear.generation);
+        let planar = self.planar.get(Stage::Planar, after_linear, observer, |observer| {
             begin(recorder, Stage::Planar);
-            Arc::new(planar_regions(&scene, &windows, areas, &matte, recorder))
+            let stop = || observer.cancelled();
+            Arc::new(planar_regions(&scene.stopped_by(&stop), &windows, areas, &matte, recorder))
         })?;
-        let regions = self.clipping.get(Stage::Clipping, key(self.planar.generation), observer, || {
+        let after_planar = key(Stage::Clipping, self.planar.generation);
+        let regions = self.clipping.get(Stage::Clipping, after_planar, observer, |_| {
             begin(recorder, Stage::Clipping);
             let labels = clipping_regions(&scene, &planar, recorder);
             Arc::new(final_regions(&scene, labels, &planar, recorder))
         })?;
-        let intrinsic = self.split.get(Stage::Split, key(self.clipping.generation), observer, || {
+        let after_clipping = key(Stage::Split, self.clipping.generation);
+        let intrinsic = self.split.get(Stage::Split, after_clipping, observer, |_| {
             begin(recorder, Stage::Split);
             Arc::new(split(&scene, &regions, recorder))
         })?;
@@ -144,13 +161,16 @@ impl Stages {
         recorder: &mut R,
     ) -> Result<(Arc<Masks>, UsedParams), Cancelled> {
         let limits = mask_limits(params, image);
-        let automatic = (params.camera_noise.value().is_none(), params.min_intensity.value().is_none());
-        let key = MaskKey { limits, automatic };
-        let (masks, sigma) = self.masks.get(Stage::Masks, key, observer, || {
+        let automatic_noise = params.camera_noise == Setting::Auto;
+        let automatic_intensity = params.min_intensity == Setting::Auto;
+        let depends = automatic_noise || automatic_intensity;
+        let key =
+            MaskKey { limits, camera_noise: depends.then_some(params.camera_noise), automatic_intensity };
+        let (masks, sigma) = self.masks.get(Stage::Masks, key, observer, |_| {
             begin(recorder, Stage::Masks);
             let masks = Masks::new(image, &limits);
-            let sigma = if automatic.0 { estimate_sigma(image, &masks) } else { None };
-            if !automatic.1 {
+            let sigma = if automatic_noise { estimate_sigma(image, &masks) } else { None };
+            if !automatic_intensity {
                 return (Arc::new(masks), sigma);
             }
             let min_intensity = used_params(params, image, sigma).min_intensity;

@@ -4,8 +4,9 @@ use super::one::{Reference, USUAL_CAMERA};
 use super::{Outcome, note, print, table};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
+use dichroscope::export::{is_result_folder, read_report};
 use dichroscope::photo::ReadOptions;
-use dichroscope::report::{Report, Scores, is_result_folder};
+use dichroscope::report::Scores;
 use dichroscope::truth::{self, ResultPictures, find_truth, score};
 use std::path::{Path, PathBuf};
 use walkdir::WalkDir;
@@ -79,7 +80,7 @@ fn evaluate(arguments: &Arguments, name: &Path, folder: &Path) -> Result<Scores>
     let names = std::iter::once(name).chain(components);
     let truth_folder = find_truth(&arguments.truth, names)
         .ok_or_else(|| anyhow!("no ground truth for {} in {}", name.display(), arguments.truth.display()))?;
-    let report = Report::read(folder)?;
+    let report = read_report(folder)?;
     let image = match &arguments.image {
         Some(image) if !truth_folder.join(image).is_file() => {
             bail!("--image {image}: not in {}", truth_folder.display())

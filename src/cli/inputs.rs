@@ -1,8 +1,8 @@
 //! Which photographs to analyse, and what their results are called.
 
 use anyhow::{Context, Result, bail};
+use dichroscope::export::is_result_folder;
 use dichroscope::photo::Format;
-use dichroscope::report;
 use globset::{GlobBuilder, GlobMatcher};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -65,7 +65,7 @@ fn walk(folder: &Path, pattern: Option<&GlobMatcher>, out: &Path) -> Result<Vec<
 fn is_passed_over(entry: &DirEntry, out: Option<&Path>) -> bool {
     let hidden = entry.file_name().as_encoded_bytes().starts_with(b".");
     let is_out = || out.is_some() && entry.path().canonicalize().ok().as_deref() == out;
-    hidden || (entry.file_type().is_dir() && (report::is_result_folder(entry.path()) || is_out()))
+    hidden || (entry.file_type().is_dir() && (is_result_folder(entry.path()) || is_out()))
 }
 
 /// Names that collide give way to the names of the photographs' folders.

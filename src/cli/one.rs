@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use dichroscope::analysis::{Analysis, Observer, Session, Stage};
 use dichroscope::export::{self, Staging};
-use dichroscope::photo::{self, LinearImage, Photo, ReadOptions};
+use dichroscope::photo::{self, Photo, ReadOptions};
 use dichroscope::raster::{Raster, UNASSIGNED};
 use dichroscope::report::{ImageFacts, Report, Timings};
 use dichroscope::segment::Params;
@@ -110,14 +110,13 @@ pub(super) fn analyze(
     matte?;
     report.timings_ms.write = Some(ms_since(begin));
     staging.publish(&report)?;
-    Ok(Finished { lit_share: lit_share(&image, &analysis), report })
+    Ok(Finished { lit_share: lit_share(&analysis), report })
 }
 
-fn lit_share(image: &LinearImage, analysis: &Analysis) -> Option<f64> {
-    let threshold = analysis.used.min_intensity.powi(2);
+fn lit_share(analysis: &Analysis) -> Option<f64> {
     let (mut lit, mut assigned) = (0usize, 0usize);
-    for (colour, &region) in image.pixels.as_slice().iter().zip(analysis.regions.as_slice()) {
-        if colour.iter().map(|&v| f64::from(v).powi(2)).sum::<f64>() >= threshold {
+    for (pixel, &region) in analysis.regions.as_slice().iter().enumerate() {
+        if !analysis.masks.dark(pixel) {
             lit += 1;
             assigned += usize::from(region != UNASSIGNED);
         }

@@ -37,6 +37,7 @@ impl ChiSquareTest {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exactness is what is tested")]
 mod tests {
     use super::*;
 

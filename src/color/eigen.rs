@@ -32,6 +32,7 @@ pub fn principal_axes(matrix: &Matrix3<f64>) -> ([f64; 3], [Vec3; 3]) {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exactness is what is tested")]
 mod tests {
     use super::*;
     use proptest::prelude::*;

@@ -77,6 +77,7 @@ impl FromIterator<[f32; 3]> for Moments {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exactness is what is tested")]
 mod tests {
     use super::*;
     use proptest::prelude::*;

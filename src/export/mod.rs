@@ -8,11 +8,13 @@ mod matte;
 mod palette;
 mod pictures;
 mod png;
+mod result;
 mod stages;
 mod staging;
 
 pub use matte::{MatteError, write_matte};
 pub use pictures::write_pictures;
+pub use result::{ResultError, is_result_folder, read_report};
 pub use staging::{Staging, check_target};
 
 use std::path::PathBuf;

@@ -1,6 +1,6 @@
 //! A folder that appears whole or not at all.
 
-use super::ExportError;
+use super::{ExportError, is_result_folder};
 use crate::report::{self, Report};
 use std::fs;
 use std::io;
@@ -34,7 +34,7 @@ pub fn check_target(target: &Path, force: bool) -> Result<(), ExportError> {
     let Ok(mut entries) = fs::read_dir(target) else {
         return Err(ExportError::NotAFolder(target.to_owned()));
     };
-    if force || entries.next().is_none() || report::is_result_folder(target) {
+    if force || entries.next().is_none() || is_result_folder(target) {
         Ok(())
     } else {
         Err(ExportError::Occupied(target.to_owned()))

@@ -171,3 +171,107 @@ impl Distorted<'_> {
             .flat_map(move |v| columns.clone().map(move |u| v * width + u))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Vec3;
+    use crate::photo::{LinearImage, MaskLimits};
+
+    const CLIP: f32 = 240.0;
+
+    /// Restores the middle of nine pixels of one colour, with a body reflection of 100 counts around it.
+    fn restore(color: [f32; 3], transform: &ReflectionTransform) -> Restored {
+        let image = LinearImage::new(Raster::filled(3, 3, color), Some(255.0));
+        let limits = MaskLimits { min_intensity: 23.0, clip_threshold: f64::from(CLIP), bloom_density: 1 };
+        let masks = Masks::new(&image, &limits);
+        let labels = LabelMap::filled(3, 3, 1);
+        let distorted = Distorted {
+            pixels: &image.pixels,
+            masks: &masks,
+            labels: &labels,
+            clip_threshold: CLIP,
+            sigma: 1.25,
+        };
+        distorted.most_probable(4, transform, 100.0)
+    }
+
+    fn transform() -> ReflectionTransform {
+        let body = Vec3::new(0.9, 0.3, 0.2).normalize();
+        ReflectionTransform::new(&body, &Vec3::repeat(1.0).normalize()).unwrap()
+    }
+
+    #[test]
+    fn one_good_band_gives_the_papers_rule_with_the_body_around() {
+        let t = transform();
+        let Restored { components, lost } = restore([255.0, 255.0, 140.0], &t);
+        let expected = (140.0 - 100.0 * t.body()[2]) / t.surface()[2];
+        assert!(!lost);
+        assert!((components.body - 100.0).abs() < 0.1, "{components:?}");
+        assert!((components.surface - expected).abs() < 0.1, "{components:?}, expected {expected}");
+    }
+
+    #[test]
+    fn good_bands_outvote_the_surroundings() {
+        let body = Vec3::new(0.4, 0.9, 0.1).normalize();
+        let t = ReflectionTransform::new(&body, &Vec3::repeat(1.0).normalize()).unwrap();
+        let made = t.join(Components { body: 130.0, surface: 180.0, noise: 0.0 });
+        let Restored { components, lost } = restore([255.0, made[1], made[2]], &t);
+        assert!(made[1] < CLIP && made[2] < CLIP && !lost, "{made:?}");
+        // Two bands know the body to 2 counts, the surroundings to 10.
+        assert!((components.body - 130.0).abs() < 3.0, "{components:?}");
+        assert!((components.surface - 180.0).abs() < 3.0, "{components:?}");
+    }
+
+    #[test]
+    fn without_a_good_band_it_is_lost_and_clips_as_seen() {
+        let t = transform();
+        let Restored { components, lost } = restore([255.0; 3], &t);
+        assert!(lost);
+        assert!((components.body - 100.0).abs() < 1e-3);
+        let seen = t.join(components);
+        let darkest = seen.into_iter().fold(f32::MAX, f32::min);
+        assert!((darkest - 255.0).abs() < 0.1, "the least surface reflection that clips as seen: {seen:?}");
+    }
+
+    #[test]
+    fn the_papers_rule_takes_the_point_of_the_line_with_the_smallest_bands_value() {
+        let t = transform();
+        let image = LinearImage::new(Raster::filled(1, 1, [255.0, 80.0, 50.0]), Some(255.0));
+        let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 9 };
+        let masks = Masks::new(&image, &limits);
+        let labels = LabelMap::filled(1, 1, 1);
+        let distorted = Distorted {
+            pixels: &image.pixels,
+            masks: &masks,
+            labels: &labels,
+            clip_threshold: CLIP,
+            sigma: 1.25,
+        };
+        let Restored { components, lost } = distorted.smallest_band(0, &t, None, 0.0);
+        assert!(!lost && components.surface.abs() < f32::EPSILON);
+        assert!((t.join(components)[2] - 50.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn priors_go_inward_ring_by_ring_and_stop_at_other_regions() {
+        let row: Vec<[f32; 3]> = [50.0, 255.0, 255.0, 255.0, 90.0].map(|v: f32| [v, 30.0, 30.0]).to_vec();
+        let image = LinearImage::new(Raster::from_vec(5, 1, row).unwrap(), Some(255.0));
+        let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 9 };
+        let masks = Masks::new(&image, &limits);
+        let labels = LabelMap::from_vec(5, 1, vec![1, 1, 1, 1, 2]).unwrap();
+        let distorted = Distorted {
+            pixels: &image.pixels,
+            masks: &masks,
+            labels: &labels,
+            clip_threshold: CLIP,
+            sigma: 1.25,
+        };
+        let priors = distorted.priors(&[1, 2, 3], |color| color[0]);
+        assert_eq!(priors, [50.0; 3]);
+        assert!(
+            distorted.priors(&[4], |_| 50.0)[0].is_nan(),
+            "no undistorted pixel of its region reaches it"
+        );
+    }
+}

@@ -159,8 +159,10 @@ impl Splitter {
         }
         let limit = POOR_FIT * scene.sigma();
         if fit_rms_counts > limit {
+            // Only a region with a surface vector has a plane to lie off.
+            let what = if angle_deg.is_some() { "plane" } else { "matte line" };
             warnings.push(format!(
-                "poor fit: pixels lie {fit_rms_counts:.1} counts from the plane (rms), {limit:.1} is noise"
+                "poor fit: pixels lie {fit_rms_counts:.1} counts from the {what} (rms), {limit:.1} is noise"
             ));
         }
         let foot = self.hypothesis.matte.foot().norm();
@@ -176,6 +178,9 @@ impl Splitter {
         warnings
     }
 }
+
+/// A pixel, its body and surface colour, and whether they are restored or lost.
+type RestoredPixel = (u32, [[f32; 3]; 2], PixelKind);
 
 /// The intrinsic images while they are made.
 struct Images {
@@ -226,7 +231,7 @@ impl Images {
             clip_threshold: scene.used.clip_threshold as f32,
             sigma: scene.sigma() as f32,
         };
-        let restored: Vec<Vec<(u32, [[f32; 3]; 2], PixelKind)>> = splitters
+        let restored: Vec<Vec<RestoredPixel>> = splitters
             .par_iter()
             .enumerate()
             .map(|(index, splitter)| {
@@ -253,12 +258,7 @@ impl Splitter {
     }
 
     /// Colours and kinds of the region's distorted pixels.
-    fn restore(
-        &self,
-        scene: &Scene,
-        distorted: &Distorted,
-        pixels: Pixels,
-    ) -> Vec<(u32, [[f32; 3]; 2], PixelKind)> {
+    fn restore(&self, scene: &Scene, distorted: &Distorted, pixels: Pixels) -> Vec<RestoredPixel> {
         let waiting: Vec<u32> =
             pixels.iter().filter(|&pixel| scene.masks.distorted(pixel as usize)).collect();
         let priors = distorted.priors(&waiting, |color| self.split(color).body);

@@ -41,9 +41,9 @@ impl Masks {
             let pixels = image.pixels.row(y).iter().zip(image.invalid.row(y));
             for (flag, (&color, &invalid)) in row.iter_mut().zip(pixels) {
                 let clipped = color[0].max(color[1]).max(color[2]) >= clip;
-                *flag = u8::from(dot(color, color) < dark2) * DARK
-                    | u8::from(clipped) * CLIPPED
-                    | u8::from(invalid) * INVALID;
+                let dark = dot(color, color) < dark2;
+                *flag =
+                    (u8::from(dark) * DARK) | (u8::from(clipped) * CLIPPED) | (u8::from(invalid) * INVALID);
             }
         });
         mark_bloomed(&mut flags, limits.bloom_density);

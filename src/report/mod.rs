@@ -11,56 +11,31 @@ pub use facts::{
 };
 pub use scores::Scores;
 
-use std::path::{Path, PathBuf};
-
 /// Name of the report in a result folder.
 pub const FILE_NAME: &str = "report.json";
 
-/// Why a report could not be read.
+/// Why a text is not taken for a report.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// The file could not be opened or read.
-    #[error("cannot read {}", path.display())]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// The file is not a report.
-    #[error("{} is not a report", path.display())]
-    Json {
-        /// The file.
-        path: PathBuf,
-        /// What it lacks.
-        source: serde_json::Error,
-    },
-    /// The report was written by a program that speaks another schema.
-    #[error("{} has schema {found}, this program reads {SCHEMA}", path.display())]
-    Schema {
-        /// The file.
-        path: PathBuf,
-        /// Its schema.
-        found: u32,
-    },
+    /// It lacks something, or is no JSON.
+    #[error("it is not a report")]
+    Json(#[from] serde_json::Error),
+    /// It was written by a program that speaks another schema.
+    #[error("it has schema {0}, this program reads {SCHEMA}")]
+    Schema(u32),
 }
 
 impl Report {
-    /// Reads the report of a result folder.
+    /// Reads a report from the bytes of its file.
     ///
     /// # Errors
-    /// When the file is missing, is not a report or has another schema.
-    pub fn read(folder: &Path) -> Result<Self, ReportError> {
-        let path = folder.join(FILE_NAME);
-        let text = match std::fs::read(&path) {
-            Ok(text) => text,
-            Err(source) => return Err(ReportError::Io { path, source }),
-        };
-        match serde_json::from_slice::<Stamp>(&text) {
-            Ok(stamp) if stamp.schema != SCHEMA => Err(ReportError::Schema { path, found: stamp.schema }),
-            Ok(_) => serde_json::from_slice(&text).map_err(|source| ReportError::Json { path, source }),
-            Err(source) => Err(ReportError::Json { path, source }),
+    /// When they are not a report, or one of another schema.
+    pub fn from_json(text: &[u8]) -> Result<Self, ReportError> {
+        let stamp: Stamp = serde_json::from_slice(text)?;
+        if stamp.schema != SCHEMA {
+            return Err(ReportError::Schema(stamp.schema));
         }
+        Ok(serde_json::from_slice(text)?)
     }
 
     /// The report as pretty JSON with a final newline.
@@ -72,9 +47,9 @@ impl Report {
     }
 }
 
-/// Whether `folder` holds a report of ours, of whatever schema: only such a folder may be replaced unasked.
-pub fn is_result_folder(folder: &Path) -> bool {
-    std::fs::read(folder.join(FILE_NAME)).is_ok_and(|text| serde_json::from_slice::<Stamp>(&text).is_ok())
+/// Whether a file holds a report of ours, of whatever schema.
+pub fn is_report(text: &[u8]) -> bool {
+    serde_json::from_slice::<Stamp>(text).is_ok()
 }
 
 /// The fields by which a report is known, whatever else its schema holds.
@@ -118,10 +93,9 @@ mod tests {
         report.timings_ms.read = Some(0.25);
         report.scores = Some(Scores { regions: 3, ari: 0.5, ..Scores::default() });
         report.regions.push(RegionFacts { id: 1, body: [0.6, 0.0, 0.8], ..RegionFacts::default() });
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join(FILE_NAME), report.to_json().unwrap()).unwrap();
-        assert_eq!(Report::read(folder.path()).unwrap(), report);
-        assert!(is_result_folder(folder.path()));
+        let text = report.to_json().unwrap();
+        assert_eq!(Report::from_json(text.as_bytes()).unwrap(), report);
+        assert!(is_report(text.as_bytes()));
     }
 
     #[test]
@@ -152,16 +126,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_report_is_said_in_one_line() {
-        let folder = tempfile::tempdir().unwrap();
-        assert!(matches!(Report::read(folder.path()), Err(ReportError::Io { .. })));
-        let path = folder.path().join(FILE_NAME);
-        std::fs::write(&path, "{\"schema\": 1, \"coverage\": {}}").unwrap();
-        assert!(matches!(Report::read(folder.path()), Err(ReportError::Json { .. })));
-        assert!(!is_result_folder(folder.path()), "another program's report is not ours");
-        std::fs::write(&path, "{\"schema\": 7, \"program\": \"9.0\", \"image\": {}}").unwrap();
-        let message = Report::read(folder.path()).unwrap_err().to_string();
-        assert!(message.ends_with("has schema 7, this program reads 1"), "{message}");
-        assert!(is_result_folder(folder.path()));
+    fn what_is_no_report_is_said() {
+        let foreign = br#"{"schema": 1, "coverage": {}}"#;
+        assert!(matches!(Report::from_json(foreign), Err(ReportError::Json(_))));
+        assert!(!is_report(foreign), "another program's report is not ours");
+        let later = br#"{"schema": 7, "program": "9.0", "image": {}}"#;
+        let message = Report::from_json(later).unwrap_err().to_string();
+        assert_eq!(message, "it has schema 7, this program reads 1");
+        assert!(is_report(later));
     }
 }

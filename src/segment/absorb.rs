@@ -103,3 +103,46 @@ fn give_up<R: Recorder>(
 pub fn is_positive(direction: &Vec3) -> bool {
     direction.min() >= NEGATIVE
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Line;
+    use crate::segment::testing::{Drawing, check, labels};
+    use crate::trace::Silent;
+
+    /// A matte line (digits) and a highlight (letters) that leaves it at `start` counts, on one object.
+    fn absorb_at(start: f64, after: &str) -> Vec<Hypothesis> {
+        let body = Vec3::new(0.9, 0.3, 0.2).normalize();
+        let surface = Vec3::repeat(1.0).normalize();
+        let drawing = Drawing::new(&["12345678abcdef"], |c| match c.to_digit(10) {
+            Some(digit) => body * f64::from(20 * digit),
+            None => body * start + surface * f64::from(12 * (c as u32 - 'a' as u32 + 1)),
+        });
+        let line = |mean: Vec3, direction: Vec3| Hypothesis {
+            line: Line::new(mean, direction),
+            alive: true,
+            highlights: Vec::new(),
+        };
+        let mut hypotheses = vec![line(body * 90.0, body), line(body * start + surface * 42.0, surface)];
+        let mut silent = Silent;
+        let mut ledger = Ledger::new(labels(&["11111111222222"]), &mut silent);
+        absorb(&drawing.scene(), &mut hypotheses, &mut ledger);
+        check(&ledger.labels, &[after]);
+        hypotheses
+    }
+
+    #[test]
+    fn a_broad_highlight_goes_back_to_nobody_and_is_remembered() {
+        let found = absorb_at(120.0, "11111111......");
+        assert!(found[0].alive && !found[1].alive);
+        let (source, cluster) = &found[0].highlights[0];
+        assert_eq!((*source, cluster.n as usize), (CandidateSource::Absorbed(2), 6));
+    }
+
+    #[test]
+    fn a_line_that_meets_the_matte_line_low_is_another_object() {
+        let found = absorb_at(45.0, "11111111222222");
+        assert!(found[1].alive && found[0].highlights.is_empty());
+    }
+}

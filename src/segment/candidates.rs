@@ -193,3 +193,72 @@ impl<R: Recorder> Tests<'_, '_, R> {
         Some(HighlightLine { start, direction: chosen.direction, pixels })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::rgb;
+    use crate::segment::testing::Drawing;
+    use crate::trace::{Entry, Log};
+
+    const LENGTH: f64 = 160.0;
+
+    fn body() -> Vec3 {
+        Vec3::new(0.9, 0.3, 0.2).normalize()
+    }
+
+    fn white() -> Vec3 {
+        Vec3::repeat(1.0).normalize()
+    }
+
+    /// The verdict on twenty colours from `start` on along `direction`: lines meet, upper half, positive, beyond.
+    fn verdict(start: Vec3, direction: Vec3) -> [bool; 4] {
+        let drawing = Drawing::new(&["."], |_| Vec3::zeros());
+        let cluster: Moments =
+            (1..=20).map(|step| rgb(&(start + direction * (f64::from(step) * 4.0)))).collect();
+        let matte = Line::new(body() * LENGTH / 2.0, body());
+        let mut log = Log::default();
+        let mut tests =
+            Tests { scene: &drawing.scene(), region: 1, matte, length: LENGTH, recorder: &mut log };
+        let accepted = tests.run(CandidateSource::Region(2), &cluster);
+        let [Entry::Event(Event::CandidateTested { verdict, .. })] = log.entries.as_slice() else {
+            panic!("one test, one event: {:?}", log.entries)
+        };
+        assert_eq!(accepted.is_some(), verdict.accepted());
+        [verdict.lines_meet, verdict.upper_half, verdict.positive, verdict.beyond]
+    }
+
+    #[test]
+    fn a_skewed_t_passes_and_each_test_can_fail_alone() {
+        let start = body() * (0.75 * LENGTH);
+        let across = body().cross(&white()).normalize();
+        assert_eq!(verdict(start, white()), [true; 4]);
+        assert_eq!(verdict(start + across * 30.0, white()), [false, true, true, true]);
+        assert_eq!(verdict(body() * (0.3 * LENGTH), white()), [true, false, true, true]);
+        let negative = Vec3::new(0.8, 0.5, -0.3).normalize();
+        assert_eq!(verdict(start, negative), [true, true, false, true]);
+        let below = start - white() * 90.0;
+        assert_eq!(verdict(below, white()), [true, true, true, false]);
+    }
+
+    #[test]
+    fn the_chosen_candidate_meets_the_matte_line_nearest_to_the_mean_of_all() {
+        let drawing = Drawing::new(&["."], |_| Vec3::zeros());
+        let accepted = |share: f64, direction: Vec3, pixels: f64| Accepted {
+            source: CandidateSource::Leftover(0),
+            meeting_point: body() * (share * LENGTH),
+            direction,
+            pixels,
+        };
+        let mut silent = crate::trace::Silent;
+        let matte = Line::new(body(), body());
+        let mut tests =
+            Tests { scene: &drawing.scene(), region: 1, matte, length: LENGTH, recorder: &mut silent };
+        let few = accepted(0.5, Vec3::x(), 10.0);
+        let many = accepted(0.9, Vec3::y(), 90.0);
+        let chosen = tests.choose(&[few, many]).unwrap();
+        assert_eq!((chosen.direction, chosen.pixels), (Vec3::y(), 100.0));
+        assert!((chosen.start - body() * (0.86 * LENGTH)).norm() < 1e-9);
+        assert_eq!(tests.choose(&[]), None);
+    }
+}

@@ -144,3 +144,65 @@ fn hole_at(start: usize, labels: &LabelMap, member: impl Fn(usize) -> bool, seen
     }
     hole
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reflection::DichromaticPlane;
+    use crate::segment::testing::{Drawing, check, labels};
+    use crate::trace::Silent;
+
+    fn body() -> Vec3 {
+        Vec3::new(0.9, 0.3, 0.2).normalize()
+    }
+
+    /// `m`atte, `h`ighlight, `w`hite and clipped, `d`im and of another colour.
+    fn drawing(rows: &[&str]) -> Drawing {
+        Drawing::new(rows, |c| match c {
+            'm' => body() * 120.0,
+            'h' => body() * 130.0 + Vec3::repeat(60.0),
+            'w' => Vec3::repeat(255.0),
+            _ => Vec3::new(20.0, 60.0, 40.0),
+        })
+    }
+
+    /// Regions whose highlight line leaves the matte line at 120 counts, or that have no plane.
+    fn fill_in(drawing: &Drawing, before: &[&str], with_plane: bool, after: &[&str]) {
+        let matte = Line::new(body() * 80.0, body());
+        let hypothesis = PlanarHypothesis {
+            matte,
+            matte_length: 150.0,
+            plane: DichromaticPlane::new(&matte, &Vec3::repeat(1.0)).filter(|_| with_plane),
+            start: body() * 120.0,
+            highlight: None,
+            alive: true,
+        };
+        let planar =
+            PlanarRegions { labels: labels(before), hypotheses: vec![hypothesis; 2], illuminant: None };
+        check(&clipping_regions(&drawing.scene(), &planar, &mut Silent), after);
+    }
+
+    #[test]
+    fn highlights_grow_into_what_is_brighter_than_the_meeting_point() {
+        let picture = drawing(&["mmmmmm", "mhwwdd", "mmwwdm", "mmmmd."]);
+        let before = ["111111", "11....", "11...1", "1111.."];
+        fill_in(&picture, &before, true, &["111111", "1111..", "1111.1", "1111.."]);
+    }
+
+    #[test]
+    fn a_clipped_hole_joins_whoever_holds_most_of_its_border() {
+        let picture = drawing(&["mmmmmmmm", "mwwmmwwm", "mmmmmmmm"]);
+        // The second hole has two equal neighbours.
+        let most = ["11111122", "1..11..2", "11111122"];
+        fill_in(&picture, &most, false, &["11111122", "11111..2", "11111122"]);
+    }
+
+    #[test]
+    fn an_unexplained_hole_is_filled_when_it_is_small_and_wholly_inside() {
+        let picture = drawing(&["mmmmmmmm", "mddmm.dm", "mmmmmmmm", "mmddddmm", "mmdddmmm", "mmmmmmmd"]);
+        let before = ["11111111", "1..11..1", "11111111", "11....11", "11...111", "1111111."];
+        // The second touches darkness, the third exceeds the minimal area of 4, the fourth the picture's border.
+        let after = ["11111111", "11111..1", "11111111", "11....11", "11...111", "1111111."];
+        fill_in(&picture, &before, false, &after);
+    }
+}

@@ -91,6 +91,9 @@ const LEAST_BAND: f64 = 0.02;
 /// How far from white lights lie: yellow to blue, green to magenta, degrees.
 const WHITE_SD_DEG: [f64; 2] = [14.0, 6.0];
 
+/// What the most unusual light costs, in satisfied constraints: enough of them outweigh it.
+const MOST_UNUSUAL: f64 = 3.0;
+
 /// The nearest minimum, by reweighted smallest eigenvectors.
 fn settle(constraints: &[Constraint], prior: &Prior, start: Vec3) -> Vec3 {
     let held = Matrix3::identity() - prior.direction * prior.direction.transpose();
@@ -125,9 +128,9 @@ fn merit(constraints: &[Constraint], prior: &Prior, direction: &Vec3) -> f64 {
     let green_magenta = white.cross(&yellow_blue);
     let off =
         |axis: &Vec3, sd: f64| (direction.dot(axis).atan2(direction.dot(&white)).to_degrees() / sd).powi(2);
-    let unusual = off(&yellow_blue, WHITE_SD_DEG[0]) + off(&green_magenta, WHITE_SD_DEG[1]);
-    let far = (axis_angle_deg(direction, &prior.direction) / prior.sd_deg).powi(2);
-    satisfied - (unusual + far) / 2.0
+    let unusual = (off(&yellow_blue, WHITE_SD_DEG[0]) + off(&green_magenta, WHITE_SD_DEG[1])) / 2.0;
+    let far = (axis_angle_deg(direction, &prior.direction) / prior.sd_deg).powi(2) / 2.0;
+    satisfied - unusual / (1.0 + unusual / MOST_UNUSUAL) - far
 }
 
 fn residual_deg(constraint: &Constraint, direction: &Vec3) -> f64 {

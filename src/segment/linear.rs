@@ -61,6 +61,9 @@ pub fn linear<R: Recorder>(
     while let Some(area) = stock.largest(choice.min_area_px) {
         let (pixels, colors) = stock.unclaimed(scene, area, ledger);
         stock.retire(area);
+        if scene.stopped() {
+            return;
+        }
         let pass_over = |ledger: &mut Ledger<R>, reason| {
             if R::KEEPS {
                 let pixels = pixels.len() as u32;
@@ -339,4 +342,75 @@ pub fn matte_length(scene: &Scene, line: &Line, pixels: Pixels) -> f64 {
     let rank = (lengths.len() - 1) * 995 / 1000;
     let (_, &mut length, _) = lengths.select_nth_unstable_by(rank, f32::total_cmp);
     f64::from(length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Vec3;
+    use crate::raster::LabelMap;
+    use crate::segment::testing::{Drawing, check, labels};
+    use crate::trace::{Entry, Log};
+
+    /// Grows region 1 from its pixels in `before`, with a cylinder around each axis, and returns the record.
+    fn grow(drawing: &Drawing, before: &LabelMap, axes: &[Vec3], after: &[&str]) -> Log {
+        let hypotheses: Vec<Hypothesis> =
+            axes.iter().map(|axis| Hypothesis::new(Line::new(axis * 100.0, *axis))).collect();
+        let mut log = Log::default();
+        let mut ledger = Ledger::new(before.clone(), &mut log);
+        let mut claimed: Vec<u32> = (0..before.len() as u32).filter(|&p| before[p as usize] == 1).collect();
+        let scene = drawing.scene();
+        grow_cylinder(&scene, 1, &cylinders(&scene, &hypotheses), &mut claimed, &mut ledger);
+        check(&ledger.labels, after);
+        log
+    }
+
+    #[test]
+    fn a_cylinder_grows_along_edges_into_what_it_holds_and_stops_at_the_dark_sphere() {
+        let red = Vec3::new(0.9, 0.3, 0.3).normalize();
+        let drawing = Drawing::new(&["rrRRg", "r.rgg", "dgrrR", "rggrr"], |c| match c {
+            'r' => red * 60.0,
+            'R' => red * 150.0,
+            'd' => red * 20.0,
+            _ => Vec3::new(20.0, 90.0, 30.0),
+        });
+        let seed = labels(&["1....", ".....", ".....", "....."]);
+        grow(&drawing, &seed, &[red], &["1111.", "1.1..", "..111", "...11"]);
+    }
+
+    #[test]
+    fn a_pixel_that_two_cylinders_hold_goes_to_the_nearer_axis() {
+        let one = Vec3::x();
+        let other = Vec3::new(1.0, 0.09, 0.0).normalize();
+        let drawing = Drawing::new(&["axyb"], |c| match c {
+            'a' => one * 100.0,
+            'x' => Vec3::new(100.0, 3.0, 0.0),
+            'y' => Vec3::new(100.0, 6.0, 0.0),
+            _ => other * 100.0,
+        });
+        let log = grow(&drawing, &labels(&["1222"]), &[one, other], &["1122"]);
+        let verdicts: Vec<(u32, bool)> = log
+            .entries
+            .iter()
+            .filter_map(|entry| match entry {
+                Entry::Event(Event::Conflict { pixel, taken, .. }) => Some((*pixel, *taken)),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(verdicts, [(1, true), (2, false)]);
+    }
+
+    #[test]
+    fn the_paper_starts_from_the_pixel_nearest_to_the_mean_and_refined_from_all_inside() {
+        let red = Vec3::new(0.9, 0.3, 0.3).normalize();
+        let mut drawing = Drawing::new(&["1284g"], |c| match c.to_digit(10) {
+            Some(digit) => red * f64::from(20 * digit),
+            None => Vec3::new(20.0, 90.0, 30.0),
+        });
+        let line = Line::new(red * 75.0, red);
+        let cylinder = Cylinder::new(&line, 10.0);
+        assert_eq!(seeds(&drawing.scene(), &line, cylinder, &[0, 1, 2, 3, 4]), [0, 1, 2, 3]);
+        drawing.refine.all_seeds = false;
+        assert_eq!(seeds(&drawing.scene(), &line, cylinder, &[0, 1, 2, 3, 4]), [3]);
+    }
 }

@@ -16,6 +16,8 @@ mod params;
 mod planar;
 mod regions;
 mod scene;
+#[cfg(test)]
+mod testing;
 mod unite;
 
 pub use classify::{Classifier, Windows, classify};

@@ -256,6 +256,9 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let mut order: Vec<u16> = (1..=hypotheses.len() as u16).collect();
         order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
         for id in order {
+            if self.scene.stopped() {
+                break;
+            }
             if let (Some(slice), Some(plane)) =
                 (&slices[usize::from(id) - 1], &hypotheses[usize::from(id) - 1].plane)
             {

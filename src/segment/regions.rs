@@ -176,8 +176,8 @@ fn parts(width: usize, pixels: Pixels) -> Vec<Vec<u32>> {
             above += 1;
         }
         let (left, right) = (column(runs[i]), column(runs[i]) + runs[i].1);
-        for j in above..i {
-            let other = (column(runs[j]), column(runs[j]) + runs[j].1);
+        for (j, &run) in runs.iter().enumerate().take(i).skip(above) {
+            let other = (column(run), column(run) + run.1);
             if other.0 <= right + reach && left <= other.1 + reach {
                 let (a, b) = (root(&mut parent, i), root(&mut parent, j));
                 parent[a.max(b)] = a.min(b);
@@ -288,4 +288,65 @@ pub fn neighbours(labels: &LabelMap, regions: usize) -> Vec<Vec<u16>> {
 /// The pixels of each final region.
 pub fn members(regions: &FinalRegions) -> Members {
     Members::of(&regions.labels, regions.hypotheses.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::{Line, Vec3};
+    use crate::raster::Raster;
+    use crate::segment::testing::Drawing;
+    use crate::trace::Silent;
+
+    const SIZE_PX: [usize; 2] = [360, 60];
+
+    /// Numbers and drops the regions of a picture of [`SIZE_PX`], given as rectangles: left, top, width, height, region.
+    /// Each region is on a matte line of its own. Returns the final region of each rectangle.
+    fn finals(rectangles: &[[usize; 5]]) -> Vec<u16> {
+        let mut labels: LabelMap = Raster::filled(SIZE_PX[0], SIZE_PX[1], UNASSIGNED);
+        for &[left, top, width, height, region] in rectangles {
+            for y in top..top + height {
+                labels.as_mut_slice()[y * SIZE_PX[0]..][left..left + width].fill(region as u16);
+            }
+        }
+        let lines = [Vec3::new(1.0, 0.2, 0.2), Vec3::new(0.2, 1.0, 0.2), Vec3::new(0.2, 0.2, 1.0)];
+        let hypothesis = |direction: &Vec3| {
+            let line = Line::new(direction * 50.0, *direction);
+            let (start, matte_length) = (line.mean, 90.0);
+            PlanarHypothesis { matte: line, matte_length, plane: None, start, highlight: None, alive: true }
+        };
+        let planar = PlanarRegions {
+            labels: labels.clone(),
+            hypotheses: lines.iter().map(hypothesis).collect(),
+            illuminant: None,
+        };
+        let row = ".".repeat(SIZE_PX[0]);
+        let drawing = Drawing::new(&[row.as_str(); SIZE_PX[1]], |_| Vec3::zeros());
+        let found = final_regions(&drawing.scene(), labels, &planar, &mut Silent);
+        rectangles.iter().map(|&[left, top, ..]| found.labels[top * SIZE_PX[0] + left]).collect()
+    }
+
+    #[test]
+    fn numbers_go_by_size_and_what_is_too_small_goes() {
+        assert_eq!(finals(&[[0, 0, 10, 9, 1], [20, 0, 20, 10, 2], [50, 0, 7, 8, 3]]), [2, 1, 0]);
+    }
+
+    #[test]
+    fn parts_with_background_between_them_are_objects_of_their_own() {
+        assert_eq!(finals(&[[0, 0, 12, 12, 1], [40, 0, 10, 10, 1]]), [1, 2]);
+    }
+
+    #[test]
+    fn parts_behind_another_object_are_one_unless_far_for_their_size() {
+        let in_front = [13, 0, 14, 20, 2];
+        assert_eq!(finals(&[[0, 0, 12, 12, 1], [28, 0, 10, 10, 1], in_front]), [2, 2, 1]);
+        let wide = [13, 0, 26, 20, 2];
+        assert_eq!(finals(&[[0, 0, 12, 12, 1], [40, 0, 10, 10, 1], wide]), [2, 3, 1]);
+    }
+
+    #[test]
+    fn parts_across_a_shadow_are_one_and_crumbs_stay() {
+        assert_eq!(finals(&[[0, 0, 12, 12, 1], [19, 0, 10, 10, 1]]), [1, 1], "7 px apart, 10 px in size");
+        assert_eq!(finals(&[[0, 0, 12, 12, 1], [60, 0, 5, 5, 1]]), [1, 1], "25 px are no object");
+    }
 }

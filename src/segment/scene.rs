@@ -5,7 +5,7 @@ use crate::photo::{LinearImage, Masks};
 use crate::raster::Raster;
 
 /// The image, its masks and the numbers to work with.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Scene<'a> {
     /// Colours, linear counts.
     pub pixels: &'a Raster<[f32; 3]>,
@@ -15,12 +15,24 @@ pub struct Scene<'a> {
     pub used: &'a UsedParams,
     /// The refinements in force.
     pub refine: Refine,
+    stop: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl<'a> Scene<'a> {
     /// The image and its masks, with what to work with.
     pub fn new(image: &'a LinearImage, masks: &'a Masks, used: &'a UsedParams, refine: Refine) -> Self {
-        Self { pixels: &image.pixels, masks, used, refine }
+        Self { pixels: &image.pixels, masks, used, refine, stop: &|| false }
+    }
+
+    /// The same scene, whose stages give up with half a result soon after `stop` turns true.
+    #[must_use]
+    pub fn stopped_by(self, stop: &'a (dyn Fn() -> bool + Sync)) -> Self {
+        Self { stop, ..self }
+    }
+
+    /// Whether to give up. Asked once a hypothesis.
+    pub fn stopped(&self) -> bool {
+        (self.stop)()
     }
 
     /// Standard deviation of a band's noise, counts: half of σ0.

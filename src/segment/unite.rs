@@ -156,3 +156,72 @@ pub fn vote<R: Recorder>(scene: &Scene, hypotheses: &[Hypothesis], ledger: &mut 
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Vec3;
+    use crate::segment::testing::{Drawing, check, labels};
+    use crate::trace::Silent;
+
+    const RED: [f64; 3] = [0.9, 0.3, 0.2];
+    const GREEN: [f64; 3] = [0.2, 0.9, 0.3];
+
+    /// Red and green at 100 counts, and `o`range between them.
+    fn drawing(rows: &[&str]) -> Drawing {
+        Drawing::new(rows, |c| {
+            let axis = match c {
+                'r' => Vec3::from(RED),
+                'g' => Vec3::from(GREEN),
+                _ => Vec3::from(RED) + Vec3::from(GREEN),
+            };
+            axis.normalize() * 100.0
+        })
+    }
+
+    fn hypotheses(axes: &[[f64; 3]]) -> Vec<Hypothesis> {
+        let line = |axis: &[f64; 3]| Line::new(Vec3::from(*axis) * 100.0, Vec3::from(*axis));
+        axes.iter().map(|axis| Hypothesis { line: line(axis), alive: true, highlights: Vec::new() }).collect()
+    }
+
+    #[test]
+    fn a_contested_pixel_follows_a_clear_majority_that_holds_its_colour() {
+        let silent = &mut Silent;
+        let lonely = ["11111", "11211", "11111"];
+        let mut ledger = Ledger::new(labels(&lonely), silent);
+        vote(&drawing(&["rrrrr"; 3]).scene(), &hypotheses(&[RED, RED]), &mut ledger);
+        check(&ledger.labels, &["11111"; 3]);
+        let mut ledger = Ledger::new(labels(&lonely), silent);
+        vote(&drawing(&["rrrrr", "rrgrr", "rrrrr"]).scene(), &hypotheses(&[RED, GREEN]), &mut ledger);
+        check(&ledger.labels, &lonely);
+    }
+
+    #[test]
+    fn half_of_the_surroundings_are_no_majority() {
+        let halves = ["111222"; 5];
+        let silent = &mut Silent;
+        let mut ledger = Ledger::new(labels(&halves), silent);
+        vote(&drawing(&["rrrrrr"; 5]).scene(), &hypotheses(&[RED, RED]), &mut ledger);
+        check(&ledger.labels, &halves);
+    }
+
+    #[test]
+    fn near_parts_with_one_line_unite_into_the_larger() {
+        let silent = &mut Silent;
+        let mut ledger = Ledger::new(labels(&["11..2222....3", "11..2222....3"]), silent);
+        let mut found = hypotheses(&[RED, RED, RED]);
+        let into = merge_regions(&drawing(&["rr..rrrr....r"; 2]).scene(), &mut found, &mut ledger);
+        check(&ledger.labels, &["22..2222....3", "22..2222....3"]);
+        assert_eq!(into, [0, 2, 2, 3]);
+        assert_eq!(found.iter().map(|h| h.alive).collect::<Vec<_>>(), [false, true, true]);
+    }
+
+    #[test]
+    fn other_directions_stay_apart() {
+        let silent = &mut Silent;
+        let mut ledger = Ledger::new(labels(&["1122"; 2]), silent);
+        let mut found = hypotheses(&[RED, GREEN]);
+        merge_regions(&drawing(&["rrgg"; 2]).scene(), &mut found, &mut ledger);
+        check(&ledger.labels, &["1122"; 2]);
+    }
+}

@@ -1,0 +1,68 @@
+//! Finding and reading back what was written.
+
+use crate::report::{FILE_NAME, Report, ReportError, is_report};
+use std::path::{Path, PathBuf};
+
+/// Why the report of a result folder could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ResultError {
+    /// The file could not be opened or read.
+    #[error("cannot read {}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file is not a report that this program reads.
+    #[error("cannot read {}", path.display())]
+    Report {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: ReportError,
+    },
+}
+
+/// Reads the report of a result folder.
+///
+/// # Errors
+/// When the file is missing, is not a report or has another schema.
+pub fn read_report(folder: &Path) -> Result<Report, ResultError> {
+    let path = folder.join(FILE_NAME);
+    match std::fs::read(&path) {
+        Ok(text) => Report::from_json(&text).map_err(|source| ResultError::Report { path, source }),
+        Err(source) => Err(ResultError::Io { path, source }),
+    }
+}
+
+/// Whether `folder` holds a report of ours, of whatever schema: only such a folder may be replaced unasked.
+pub fn is_result_folder(folder: &Path) -> bool {
+    std::fs::read(folder.join(FILE_NAME)).is_ok_and(|text| is_report(&text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_known_by_its_report_and_a_bad_one_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let says = |expected: &str| {
+            let message = read_report(folder.path()).unwrap_err().to_string();
+            assert!(message.starts_with("cannot read") && message.ends_with(expected), "{message}");
+        };
+        says(FILE_NAME);
+        assert!(!is_result_folder(folder.path()));
+        let path = folder.path().join(FILE_NAME);
+        std::fs::write(&path, r#"{"schema": 1, "coverage": {}}"#).unwrap();
+        says(FILE_NAME);
+        assert!(!is_result_folder(folder.path()), "another program's report is not ours");
+        std::fs::write(&path, r#"{"schema": 7, "program": "9.0", "image": {}}"#).unwrap();
+        assert!(matches!(
+            read_report(folder.path()),
+            Err(ResultError::Report { source: ReportError::Schema(7), .. })
+        ));
+        assert!(is_result_folder(folder.path()));
+    }
+}

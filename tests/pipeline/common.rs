@@ -1,0 +1,136 @@
+//! Running scenes, and what holds for every result whatever the picture.
+
+use crate::synthetic::{Rendered, Scene};
+use dichroscope::analysis::{Analysis, Session};
+use dichroscope::photo::LinearImage;
+use dichroscope::raster::{Raster, UNASSIGNED};
+use dichroscope::report::{ImageFacts, Report, Scores};
+use dichroscope::segment::{Method, Params};
+use dichroscope::trace::PixelKind;
+use dichroscope::truth::{GroundTruth, Outcome, TruthObject, score};
+use std::sync::Arc;
+
+pub const METHODS: [Method; 2] = [Method::Refined, Method::Paper];
+
+pub fn picture(width: usize, height: usize, color: impl Fn(usize, usize) -> [f32; 3]) -> LinearImage {
+    let data = (0..width * height).map(|pixel| color(pixel % width, pixel / width)).collect();
+    LinearImage::new(Raster::from_vec(width, height, data).unwrap(), Some(255.0))
+}
+
+/// What a new session finds.
+pub fn analyze(image: &LinearImage, params: &Params) -> Analysis {
+    Session::new(Arc::new(image.clone())).run(params, &mut ()).unwrap()
+}
+
+/// Every number of a result. Printed, a float keeps all its bits, −0 differs from 0, and NaN equals itself.
+pub fn fingerprint(analysis: &Analysis) -> String {
+    format!("{analysis:?}")
+}
+
+pub fn report(analysis: &Analysis, params: &Params) -> Report {
+    let facts = ImageFacts {
+        file: String::new(),
+        sha256: String::new(),
+        width: analysis.regions.width(),
+        height: analysis.regions.height(),
+        encoding: "linear".to_owned(),
+        full_scale: 255.0,
+    };
+    Report::new(facts, params, analysis, &[])
+}
+
+/// What the scene's pixels are made of, as a truth folder says it.
+pub fn truth_of(scene: &Scene, rendered: &Rendered) -> GroundTruth {
+    let object = |(index, ball): (usize, &crate::synthetic::Ball)| TruthObject {
+        id: index as u16 + 1,
+        body_vector: Some(ball.body),
+    };
+    GroundTruth {
+        labels: rendered.labels.clone(),
+        body: rendered.body.clone(),
+        surface: rendered.surface.clone(),
+        illuminant: scene.illuminant,
+        objects: scene.balls.iter().enumerate().map(object).collect(),
+    }
+}
+
+pub fn scores_of(truth: &GroundTruth, image: &LinearImage, analysis: &Analysis, params: &Params) -> Scores {
+    let outcome = Outcome {
+        regions: &analysis.regions,
+        body: &analysis.intrinsic.body,
+        surface: &analysis.intrinsic.surface,
+        report: &report(analysis, params),
+    };
+    score(truth, &image.pixels, &outcome).unwrap()
+}
+
+/// What holds for every result: labels, report and pictures agree, and every number is a number.
+///
+/// Says what does not hold, so that property tests can shrink to it.
+pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
+    let (intrinsic, regions) = (&analysis.intrinsic, &analysis.intrinsic.regions);
+    let mut faults = Vec::new();
+    let mut expect = |holds: bool, what: &str| {
+        if !holds {
+            faults.push(what.to_owned());
+        }
+    };
+    let size = (image.width(), image.height());
+    expect((analysis.regions.width(), analysis.regions.height()) == size, "the region map has another size");
+    expect((intrinsic.body.width(), intrinsic.body.height()) == size, "the body image has another size");
+    expect((analysis.areas.width(), analysis.areas.height()) == size, "the area map has another size");
+    let colors = intrinsic.body.as_slice().iter().chain(intrinsic.surface.as_slice());
+    expect(colors.flatten().all(|v| v.is_finite()), "body or surface is not finite");
+    expect(intrinsic.noise.as_slice().iter().all(|v| v.is_finite()), "noise is not finite");
+
+    let mut counts = vec![[0usize; 3]; regions.len() + 1];
+    for (pixel, &label) in analysis.regions.as_slice().iter().enumerate() {
+        let kind = intrinsic.kinds[pixel];
+        expect((label == UNASSIGNED) == (kind == PixelKind::Unassigned), "labels and kinds disagree");
+        let Some(count) = counts.get_mut(usize::from(label)) else {
+            expect(false, "a label without a region");
+            continue;
+        };
+        count[0] += 1;
+        count[1] += usize::from(kind == PixelKind::Matte);
+        count[2] += usize::from(analysis.masks.clipped(pixel));
+        if label == UNASSIGNED {
+            expect(intrinsic.body[pixel] == image.pixels[pixel], "an unassigned pixel lost its colour");
+            expect(intrinsic.surface[pixel] == [0.0; 3], "an unassigned pixel reflects at its surface");
+            expect(intrinsic.noise[pixel] == 0.0, "an unassigned pixel is noisy");
+        }
+    }
+    for (index, region) in regions.iter().enumerate() {
+        let reported = [region.pixels, region.matte_pixels, region.clipped_pixels];
+        expect(usize::from(region.id) == index + 1, "region numbers have gaps");
+        expect(reported == counts[index + 1], "the report counts other pixels than the map holds");
+        expect(region.matte_pixels + region.highlight_pixels == region.pixels, "matte + highlight ≠ pixels");
+        expect(index == 0 || regions[index - 1].pixels >= region.pixels, "regions are not sorted by size");
+        expect(is_unit(region.body), "a body vector is not of unit length");
+        expect(region.surface.is_none_or(is_unit), "a surface vector is not of unit length");
+        expect(region.plane_normal.is_none_or(is_unit), "a plane's normal is not of unit length");
+        expect(region.fit_rms_counts.is_finite(), "a fit is not finite");
+        expect(region.neighbours.is_sorted(), "neighbours are not sorted");
+        let mutual = |&other: &u16| {
+            regions.get(usize::from(other) - 1).is_some_and(|other| other.neighbours.contains(&region.id))
+        };
+        expect(region.neighbours.iter().all(mutual), "a neighbour does not know its neighbour");
+    }
+    expect(
+        analysis.illuminant.is_none_or(|light| is_unit(light.direction)),
+        "the light is not of unit length",
+    );
+    expect(!regions.is_empty() || !analysis.warnings.is_empty(), "nothing was found, and nothing is said");
+    faults.dedup();
+    faults
+}
+
+#[track_caller]
+pub fn assert_valid(image: &LinearImage, analysis: &Analysis, about: &str) {
+    let faults = faults(image, analysis);
+    assert!(faults.is_empty(), "{about}: {faults:?}");
+}
+
+fn is_unit(vector: [f64; 3]) -> bool {
+    (vector.iter().map(|v| v * v).sum::<f64>() - 1.0).abs() < 1e-5
+}

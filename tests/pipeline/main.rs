@@ -1,0 +1,17 @@
+//! The whole pipeline, from linear light to the split, on scenes whose truth is known and on pictures that are none.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
+#![allow(clippy::float_cmp, reason = "what is exact by construction is tested for exactness")]
+
+mod cache;
+mod common;
+mod degenerate;
+mod files;
+mod identities;
+mod methods;
+mod replay;
+mod scenes;
+mod threads;
+
+#[path = "../synthetic/mod.rs"]
+mod synthetic;
