@@ -130,7 +130,7 @@ impl Distorted<'_> {
             };
             let ring: Vec<(u32, f32)> = waiting
                 .iter()
-                .map(|&index| (index, self.mean_around(distorted[index as usize] as usize, &known)))
+                .map(|&index| (index, self.mean_around(distorted[index as usize] as usize, known)))
                 .collect();
             for &(index, mean) in &ring {
                 queued[index as usize] = false;

@@ -74,7 +74,7 @@ pub fn plane_constraint(
     if fit.weight < MIN_PIXELS {
         return None;
     }
-    let normal = plane.matte.direction.cross(&(plane.inward + plane.normal * fit.slope)).normalize();
+    let normal = plane.matte.direction.cross(&(plane.inward + plane.normal * fit.tangent)).normalize();
     let per_pixel = fit.residual.max(sigma).powi(2);
     Some(Constraint {
         region,
@@ -88,7 +88,7 @@ pub fn plane_constraint(
 
 /// A line through the origin of (offset, height) points.
 struct Slope {
-    slope: f64,
+    tangent: f64,
     /// Σ w·offset².
     squares: f64,
     /// Σ w.
@@ -99,12 +99,12 @@ struct Slope {
 
 /// Fits height = slope · offset with Tukey's weights, from a wide scale to one of the noise.
 fn robust_slope(points: &[(f64, f64)], sigma: f64) -> Option<Slope> {
-    let mut fit = Slope { slope: 0.0, squares: 0.0, weight: 0.0, residual: 0.0 };
+    let mut fit = Slope { tangent: 0.0, squares: 0.0, weight: 0.0, residual: 0.0 };
     let mut scale = 8.0 * sigma;
     for _ in 0..10 {
         let (mut product, mut squares, mut weight_sum, mut residuals) = (0.0, 0.0, 0.0, 0.0);
         for &(offset, height) in points {
-            let residual = height - fit.slope * offset;
+            let residual = height - fit.tangent * offset;
             let u = residual / (4.0 * scale);
             if u.abs() < 1.0 {
                 let weight = (1.0 - u * u).powi(2);
@@ -118,7 +118,7 @@ fn robust_slope(points: &[(f64, f64)], sigma: f64) -> Option<Slope> {
             return None;
         }
         let residual = (residuals / weight_sum).sqrt();
-        fit = Slope { slope: product / squares, squares, weight: weight_sum, residual };
+        fit = Slope { tangent: product / squares, squares, weight: weight_sum, residual };
         scale = (scale / 2.0).max(1.5 * sigma).max(residual);
     }
     Some(fit)

@@ -128,7 +128,7 @@ fn merit(constraints: &[Constraint], prior: &Prior, direction: &Vec3) -> f64 {
     let green_magenta = white.cross(&yellow_blue);
     let off =
         |axis: &Vec3, sd: f64| (direction.dot(axis).atan2(direction.dot(&white)).to_degrees() / sd).powi(2);
-    let unusual = (off(&yellow_blue, WHITE_SD_DEG[0]) + off(&green_magenta, WHITE_SD_DEG[1])) / 2.0;
+    let unusual = f64::midpoint(off(&yellow_blue, WHITE_SD_DEG[0]), off(&green_magenta, WHITE_SD_DEG[1]));
     let far = (axis_angle_deg(direction, &prior.direction) / prior.sd_deg).powi(2) / 2.0;
     satisfied - unusual / (1.0 + unusual / MOST_UNUSUAL) - far
 }

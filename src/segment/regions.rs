@@ -129,9 +129,6 @@ fn separate<R: Recorder>(
     ledger: &mut Ledger<R>,
 ) {
     let mut parts = parts(ledger.labels.width(), pixels);
-    if parts.len() < 2 {
-        return;
-    }
     parts.sort_by_key(|part| std::cmp::Reverse(part.len()));
     let outline = |part: &[u32]| Outline::new(&ledger.labels, part.iter().copied());
     // Parts that belong together, the largest of each group first.
@@ -162,7 +159,8 @@ fn separate<R: Recorder>(
     }
 }
 
-/// Groups of a region's pixels of which each is more than [`APART_PX`] from the next along rows or columns.
+/// Groups of a region's pixels of which each is more than [`APART_PX`] from the next along rows or columns; none where there
+/// is but one.
 fn parts(width: usize, pixels: Pixels) -> Vec<Vec<u32>> {
     let runs = pixels.runs();
     let reach = APART_PX as u32;
@@ -183,6 +181,9 @@ fn parts(width: usize, pixels: Pixels) -> Vec<Vec<u32>> {
                 parent[a.max(b)] = a.min(b);
             }
         }
+    }
+    if (0..runs.len()).all(|i| root(&mut parent, i) == 0) {
+        return Vec::new();
     }
     let mut parts: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
     for (i, &(first, length)) in runs.iter().enumerate() {

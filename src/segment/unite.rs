@@ -10,7 +10,7 @@ use super::ledger::{Ledger, Members, Pixels};
 use super::linear::{Hypothesis, cylinders};
 use super::scene::Scene;
 use crate::color::{Cylinder, Line, Moments, axis_angle_deg};
-use crate::raster::UNASSIGNED;
+use crate::raster::{LabelMap, UNASSIGNED};
 use crate::trace::{Event, Recorder};
 use std::collections::BTreeMap;
 
@@ -117,44 +117,63 @@ fn reassign<R: Recorder>(members: &Members, into_of: &[u16], ledger: &mut Ledger
 /// Lets contested pixels follow the majority around them.
 pub fn vote<R: Recorder>(scene: &Scene, hypotheses: &[Hypothesis], ledger: &mut Ledger<R>) {
     let before = ledger.labels.clone();
-    let (width, height) = (before.width(), before.height());
     let cylinders = cylinders(scene, hypotheses);
-    for pixel in 0..before.len() {
-        let own = before[pixel];
-        if own == UNASSIGNED {
-            continue;
-        }
-        let mut contested = false;
-        before.for_each_neighbour(pixel, |near| {
-            contested |= before[near] != own && before[near] != UNASSIGNED;
-        });
-        if !contested {
-            continue;
-        }
-        let (x, y) = (pixel % width, pixel / width);
-        let mut counts: Vec<(u16, usize)> = Vec::new();
-        let mut total = 0;
-        for v in y.saturating_sub(VOTE_RADIUS)..(y + VOTE_RADIUS + 1).min(height) {
-            for u in x.saturating_sub(VOTE_RADIUS)..(x + VOTE_RADIUS + 1).min(width) {
-                let label = before[v * width + u];
-                if label != UNASSIGNED {
-                    total += 1;
-                    match counts.iter_mut().find(|(id, _)| *id == label) {
-                        Some((_, count)) => *count += 1,
-                        None => counts.push((label, 1)),
-                    }
-                }
-            }
-        }
-        let winner = counts.into_iter().max_by_key(|&(id, count)| (count, u16::MAX - id));
-        if let Some((winner, count)) = winner
-            && winner != own
+    for pixel in contested(&before) {
+        let (winner, count, total) = majority(&before, pixel);
+        if winner != before[pixel]
             && count * 100 >= total * MAJORITY_PERCENT
             && cylinders[usize::from(winner) - 1].contains(scene.pixels[pixel])
         {
             ledger.assign(pixel, winner);
         }
     }
+}
+
+/// Pixels of which a 4-neighbour belongs to another region, ascending.
+fn contested(labels: &LabelMap) -> Vec<usize> {
+    let width = labels.width();
+    let differ = |a: u16, b: u16| a != b && a != UNASSIGNED && b != UNASSIGNED;
+    let mut found = Vec::new();
+    for y in 0..labels.height() {
+        let row = labels.row(y);
+        for (x, pair) in row.windows(2).enumerate() {
+            if differ(pair[0], pair[1]) {
+                found.extend([y * width + x, y * width + x + 1]);
+            }
+        }
+        if y + 1 < labels.height() {
+            for (x, (&own, &below)) in row.iter().zip(labels.row(y + 1)).enumerate() {
+                if differ(own, below) {
+                    found.extend([y * width + x, (y + 1) * width + x]);
+                }
+            }
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// The region with most pixels around one, the smaller number of equals; its pixels and those of all regions.
+fn majority(labels: &LabelMap, pixel: usize) -> (u16, usize, usize) {
+    let (width, height) = (labels.width(), labels.height());
+    let (x, y) = (pixel % width, pixel / width);
+    let mut counts: Vec<(u16, usize)> = Vec::with_capacity(4);
+    let mut total = 0;
+    for v in y.saturating_sub(VOTE_RADIUS)..(y + VOTE_RADIUS + 1).min(height) {
+        for &label in &labels.row(v)[x.saturating_sub(VOTE_RADIUS)..(x + VOTE_RADIUS + 1).min(width)] {
+            if label == UNASSIGNED {
+                continue;
+            }
+            total += 1;
+            match counts.iter_mut().find(|(id, _)| *id == label) {
+                Some((_, count)) => *count += 1,
+                None => counts.push((label, 1)),
+            }
+        }
+    }
+    let most = counts.into_iter().max_by_key(|&(id, count)| (count, u16::MAX - id));
+    most.map_or((labels[pixel], 0, total), |(id, count)| (id, count, total))
 }
 
 #[cfg(test)]
