@@ -145,6 +145,10 @@ impl Work<'_> {
     }
 }
 
+/// Regions whose pixels lie farther from their planes than this many standard deviations of the noise fit poorly; their
+/// warnings say so.
+const POOR_FIT: f64 = 1.5;
+
 /// What was found, in half a line.
 pub(super) fn in_short(finished: &Finished) -> String {
     let Finished { report, lit_share } = finished;
@@ -156,11 +160,14 @@ pub(super) fn in_short(finished: &Finished) -> String {
         .direction
         .map_or("light unknown".to_owned(), |[r, g, b]| format!("light ({r:.2}, {g:.2}, {b:.2})"));
     let regions = count(report.regions.len(), "region");
+    let noise = report.params.camera_noise.used.unwrap_or_default() / 2.0;
+    let poor = report.regions.iter().filter(|region| region.fit_rms_counts > POOR_FIT * noise).count();
+    let poor = if poor == 0 { String::new() } else { format!(" ({poor} of poor fit)") };
     let warnings = match report.warnings.len() {
         0 => String::new(),
         n => format!(", {}", count(n, "warning")),
     };
-    format!("{regions}, {share}, {light}{warnings}, {:.0} ms", report.timings_ms.analysis_ms())
+    format!("{regions}{poor}, {share}, {light}{warnings}, {:.0} ms", report.timings_ms.analysis_ms())
 }
 
 fn positive(text: &str) -> Result<f64, String> {

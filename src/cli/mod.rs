@@ -16,9 +16,12 @@ use clap::{Parser, Subcommand};
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use tracing_subscriber::EnvFilter;
 
 /// Explain every pixel of a photograph with the Dichromatic Reflection Model, and split it into body and surface
 /// reflection.
+///
+/// `DICHROSCOPE_LOG=debug` in the environment tells of each stage on stderr.
 #[derive(Debug, Parser)]
 #[command(name = "dichroscope", version, args_conflicts_with_subcommands = true)]
 pub struct Arguments {
@@ -43,6 +46,8 @@ enum Outcome {
 
 /// Runs what the arguments ask for.
 pub fn run(arguments: Arguments) -> ExitCode {
+    let filter = EnvFilter::try_from_env("DICHROSCOPE_LOG").unwrap_or_else(|_| EnvFilter::new("off"));
+    tracing_subscriber::fmt().with_env_filter(filter).with_writer(io::stderr).init();
     let result = match (arguments.command, arguments.image) {
         (Some(Command::Analyze(arguments)), _) => analyze::run(&arguments),
         (Some(Command::Evaluate(arguments)), _) => evaluate::run(&arguments),

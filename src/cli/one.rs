@@ -137,7 +137,9 @@ impl Observer for StageClock {
     }
 
     fn finished(&mut self, stage: Stage, _reused: bool) {
-        *self.timings.slot(stage) = self.begin.take().map(ms_since);
+        let took_ms = self.begin.take().map(ms_since);
+        tracing::debug!(stage = stage.name(), took_ms, "finished");
+        *self.timings.slot(stage) = took_ms;
     }
 }
 

@@ -4,7 +4,7 @@ use super::png::srgb_from_linear;
 use super::{ExportError, floats, png, stages};
 use crate::analysis::Analysis;
 use crate::photo::LinearImage;
-use crate::raster::Raster;
+use crate::raster::{LabelMap, Raster};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -28,8 +28,8 @@ const PICTURES: [(&str, Writer); 13] = [
     ("regions.png", |s, path| png::write_labels(path, &s.analysis.regions)),
     ("stage-1-classification.png", |s, path| png::write_rgb(path, &stages::classification(s.analysis))),
     ("stage-2-merged.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.areas))),
-    ("stage-3-linear.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.linear))),
-    ("stage-4-planar.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.planar))),
+    ("stage-3-linear.png", |s, path| png::write_rgb(path, &like_the_last(s, &s.analysis.linear))),
+    ("stage-4-planar.png", |s, path| png::write_rgb(path, &like_the_last(s, &s.analysis.planar))),
     ("stage-5-clipping.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.regions))),
 ];
 
@@ -40,6 +40,11 @@ const PICTURES: [(&str, Writer); 13] = [
 pub fn write_pictures(folder: &Path, image: &LinearImage, analysis: &Analysis) -> Result<(), ExportError> {
     let subject = Subject { image, analysis };
     PICTURES.par_iter().with_max_len(1).try_for_each(|(name, write)| write(&subject, &folder.join(name)))
+}
+
+/// A stage's regions in the colours of the final ones.
+fn like_the_last(subject: &Subject, labels: &LabelMap) -> Raster<[u8; 3]> {
+    stages::coloured_like(labels, &subject.analysis.regions)
 }
 
 /// Input − body − surface, counts.

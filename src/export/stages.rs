@@ -2,8 +2,9 @@
 
 use super::palette::Palette;
 use crate::analysis::Analysis;
-use crate::raster::Raster;
+use crate::raster::{LabelMap, Raster, UNASSIGNED};
 use crate::trace::Class;
+use std::collections::BTreeMap;
 
 const BLACK: [u8; 3] = [0; 3];
 
@@ -33,6 +34,41 @@ pub(super) fn coloured<T: Copy + Into<u32>>(labels: &Raster<T>) -> Raster<[u8; 3
         0 => BLACK,
         label => palette.colour(colours[label as usize]),
     })
+}
+
+/// `labels` renumbered to look like `finals`: each label becomes the final one that covers most of it, so that a region has
+/// one colour through all stages; labels that nothing final covers get numbers of their own.
+pub(super) fn aligned(labels: &LabelMap, finals: &LabelMap) -> Raster<u32> {
+    let mut shared: BTreeMap<(u16, u16), usize> = BTreeMap::new();
+    for (&label, &last) in labels.as_slice().iter().zip(finals.as_slice()) {
+        if label != UNASSIGNED {
+            *shared.entry((label, last)).or_default() += 1;
+        }
+    }
+    let mut next = finals.as_slice().iter().copied().max().map_or(1, |last| u32::from(last) + 1);
+    let mut numbers: BTreeMap<u16, u32> = BTreeMap::new();
+    for &(label, _) in shared.keys() {
+        if numbers.contains_key(&label) {
+            continue;
+        }
+        let covers = shared.range((label, 1)..=(label, u16::MAX));
+        let most = covers.max_by_key(|&(&(_, last), &pixels)| (pixels, std::cmp::Reverse(last)));
+        let number = most.map_or(next, |(&(_, last), _)| u32::from(last));
+        next += u32::from(most.is_none());
+        numbers.insert(label, number);
+    }
+    labels.map(|label| numbers.get(label).copied().unwrap_or(0))
+}
+
+/// Labels in the colours that `finals` has, see [`aligned`].
+pub(super) fn coloured_like(labels: &LabelMap, finals: &LabelMap) -> Raster<[u8; 3]> {
+    let palette = Palette::new();
+    let aligned = aligned(labels, finals);
+    let mut touching = neighbours(finals);
+    let largest = aligned.as_slice().iter().copied().max().unwrap_or(0) as usize;
+    touching.resize(touching.len().max(largest + 1), Vec::new());
+    let colours = palette.assign(&touching);
+    aligned.map(|&label| if label == 0 { BLACK } else { palette.colour(colours[label as usize]) })
 }
 
 /// The labels that each label touches (4-neighbourhood), ascending; 0 touches none.
@@ -71,6 +107,14 @@ mod tests {
     fn labels_touch_across_edges_but_not_across_the_border_of_the_picture() {
         let labels = Raster::from_vec(3, 3, vec![1u16, 1, 2, 0, 3, 2, 4, 0, 2]).unwrap();
         assert_eq!(neighbours(&labels), [vec![], vec![2, 3], vec![1, 3], vec![1, 2], vec![]]);
+    }
+
+    #[test]
+    fn a_region_keeps_its_final_number_through_all_stages() {
+        let finals = LabelMap::from_vec(6, 1, vec![2, 2, 1, 1, 0, 0]).unwrap();
+        let labels = LabelMap::from_vec(6, 1, vec![7, 7, 7, 3, 5, 0]).unwrap();
+        assert_eq!(aligned(&labels, &finals).as_slice(), [2, 2, 2, 1, 3, 0]);
+        assert_eq!(coloured_like(&labels, &finals)[0], coloured(&finals)[0]);
     }
 
     #[test]
