@@ -40,7 +40,7 @@
 //!
 //! | module | what is in it |
 //! |---|---|
-//! | [`raster`] | rectangles of values: pixels, masks, label maps, connected components, morphology |
+//! | [`raster`] | rectangles of values: pixels, masks, label maps, morphology |
 //! | [`color`] | points in the colour cube: moments, eigenvectors, the χ² test, robust lines, cylinders |
 //! | [`reflection`] | the model: dichromatic planes, the transform T and its inverse, photometry (equations 3–11) |
 //! | [`photo`] | from a file to linear light; which pixels to believe; the camera's noise |

@@ -130,3 +130,87 @@ pub fn fit_rms(scene: &Scene, vectors: &Vectors, pixels: Pixels) -> f64 {
         .sum();
     (squares / (colors.len().max(1)) as f64).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::axis_angle_deg;
+    use crate::intrinsic::split;
+    use crate::photo::{LinearImage, MaskLimits};
+    use crate::raster::{LabelMap, Raster};
+    use crate::segment::{FinalRegions, Parameter, Params, UsedParams};
+    use crate::trace::Silent;
+    use proptest::prelude::*;
+
+    const MATTE_PX: usize = 600;
+    const HIGHLIGHT_PX: usize = 200;
+
+    /// A row of pixels of a skewed T: a matte ramp, then a highlight that starts at 0.8 of it. Noise is a fixed zigzag of
+    /// `noise` counts across the plane.
+    fn skewed_t(body: &Vec3, surface: &Vec3, noise: f64) -> (Vec<[f64; 2]>, LinearImage) {
+        let matte = (0..MATTE_PX).map(|i| [30.0 + 120.0 * i as f64 / MATTE_PX as f64, 0.0]);
+        let highlight = (1..=HIGHLIGHT_PX).map(|i| [120.0, 90.0 * i as f64 / HIGHLIGHT_PX as f64]);
+        let amounts: Vec<[f64; 2]> = matte.chain(highlight).collect();
+        let normal = body.cross(surface).normalize();
+        let colour = |(i, [b, s]): (usize, &[f64; 2])| {
+            rgb(&(body * *b + surface * *s + normal * if i % 2 == 0 { noise } else { -noise }))
+        };
+        let pixels = amounts.iter().enumerate().map(colour).collect();
+        let image = LinearImage::new(Raster::from_vec(amounts.len(), 1, pixels).unwrap(), None);
+        (amounts, image)
+    }
+
+    fn numbers() -> UsedParams {
+        let paper = |parameter: Parameter| parameter.spec().paper;
+        UsedParams {
+            clip_threshold: f64::INFINITY,
+            bloom_density: paper(Parameter::BloomDensity),
+            camera_noise: paper(Parameter::CameraNoise),
+            min_intensity: paper(Parameter::MinIntensity),
+            cylinder_width: paper(Parameter::CylinderWidth),
+            slice_width: paper(Parameter::SliceWidth),
+            window_size: paper(Parameter::WindowSize),
+            min_area: paper(Parameter::MinArea),
+        }
+    }
+
+    fn colour_direction() -> impl Strategy<Value = Vec3> {
+        prop::array::uniform3(0.05f64..1.0).prop_map(|v| Vec3::from(v).normalize())
+    }
+
+    proptest! {
+        #[test]
+        fn line_plane_and_split_recover_what_made_them(
+            body in colour_direction(), surface in colour_direction(), off in -0.01f64..0.01,
+        ) {
+            prop_assume!(axis_angle_deg(&body, &surface) > 15.0);
+            let (amounts, image) = skewed_t(&body, &surface, 0.8);
+            let used = numbers();
+            let limits = MaskLimits { min_intensity: 23.0, clip_threshold: f64::INFINITY, bloom_density: 9 };
+            let masks = Masks::new(&image, &limits);
+            let scene = Scene::new(&image, &masks, &used, Params::default().refinements());
+            // The segmentation's line is a little off, as a fit to noise would be.
+            let matte = Line::new(body * 90.0, body + Vec3::new(off, -off, off / 2.0));
+            let plane = DichromaticPlane::new(&matte, &surface);
+            let start = body * 120.0;
+            let hypothesis =
+                PlanarHypothesis { matte, matte_length: 150.0, plane, start, highlight: None, alive: true };
+            let labels = LabelMap::filled(amounts.len(), 1, 1);
+            let regions = FinalRegions { labels, hypotheses: vec![hypothesis] };
+            let result = split(&scene, &regions, &mut Silent);
+            let found = &result.regions[0];
+            prop_assert!(axis_angle_deg(&found.body.into(), &body) < 0.1);
+            let normal = body.cross(&surface).normalize();
+            prop_assert!(axis_angle_deg(&found.plane_normal.unwrap().into(), &normal) < 0.5);
+            for (pixel, [b, s]) in amounts.iter().enumerate() {
+                let sine = body.cross(&surface).norm();
+                // Surface reflection below the noise counts as none.
+                if s * sine > 2.0 * used.camera_noise || *s == 0.0 {
+                    let (mb, ms) = (vec3(result.body[pixel]).norm(), vec3(result.surface[pixel]).norm());
+                    prop_assert!((mb - b).abs() < 1.0 + 0.8 / sine, "{mb} {b}");
+                    prop_assert!((ms - s).abs() < 1.0 + 0.8 / sine, "{ms} {s}");
+                }
+            }
+        }
+    }
+}

@@ -2,10 +2,8 @@
 //!
 //! Everything is row-major: the value of column `x`, row `y` is at index `y * width + x`.
 
-mod components;
 mod grid;
 mod morphology;
 
-pub use components::{Components, label_components};
 pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};
-pub use morphology::{dilate, erode};
+pub use morphology::dilate;

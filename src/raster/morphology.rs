@@ -1,49 +1,32 @@
-//! Growing and shrinking masks by squares, as two passes of running counts.
+//! Growing masks by squares.
 
 use super::grid::{Mask, Raster};
 
-/// Every pixel within `radius` columns and rows of a set pixel (a square of side `2·radius + 1`).
-pub fn dilate(mask: &Mask, radius: usize) -> Mask {
-    window_any(mask, radius, true)
-}
-
-/// Every pixel whose whole square of side `2·radius + 1` is set; beyond the border counts as set.
-pub fn erode(mask: &Mask, radius: usize) -> Mask {
-    window_any(mask, radius, false)
-}
-
-/// `sought` wherever the square holds at least one `sought`, `!sought` elsewhere.
-fn window_any(mask: &Mask, radius: usize, sought: bool) -> Mask {
+/// Every pixel within `radius_px` columns and rows of a set pixel: a square of side `2·radius_px + 1`, as a pass along
+/// the rows and one along the columns.
+pub fn dilate(mask: &Mask, radius_px: usize) -> Mask {
     let (width, height) = (mask.width(), mask.height());
-    let mut across = Raster::filled(width, height, !sought);
+    let mut across = Raster::filled(width, height, false);
     let mut result = across.clone();
-    spread(mask.as_slice(), across.as_mut_slice(), width, height, (1, width), radius, sought);
-    spread(across.as_slice(), result.as_mut_slice(), height, width, (width, 1), radius, sought);
+    for y in 0..height {
+        spread(mask.as_slice(), across.as_mut_slice(), (y * width, 1, width), radius_px);
+    }
+    for x in 0..width {
+        spread(across.as_slice(), result.as_mut_slice(), (x, width, height), radius_px);
+    }
     result
 }
 
-/// Along `lines` lines of `length` values, `strides` = (within a line, between lines).
-fn spread(
-    from: &[bool],
-    to: &mut [bool],
-    length: usize,
-    lines: usize,
-    strides: (usize, usize),
-    radius: usize,
-    sought: bool,
-) {
-    for line in 0..lines {
-        let at = |i: usize| line * strides.1 + i * strides.0;
-        // First index that no sought value has reached yet.
-        let mut reached = 0;
-        for i in 0..length {
-            if from[at(i)] == sought {
-                for j in reached.max(i.saturating_sub(radius))..length.min(i + radius + 1) {
-                    to[at(j)] = sought;
-                }
-                reached = reached.max(length.min(i + radius + 1));
-            }
+/// Along one line of values, given as its first index, the stride and the length.
+fn spread(from: &[bool], to: &mut [bool], (first, stride, length): (usize, usize, usize), radius_px: usize) {
+    // All before this place on the line have been set as far as they will be.
+    let mut reached = 0;
+    for place in (0..length).filter(|place| from[first + place * stride]) {
+        let end = length.min(place + radius_px + 1);
+        for near in reached.max(place.saturating_sub(radius_px))..end {
+            to[first + near * stride] = true;
         }
+        reached = reached.max(end);
     }
 }
 
@@ -57,18 +40,17 @@ mod tests {
     }
 
     #[test]
-    fn dilation_paints_a_square_and_erosion_takes_it_back() {
+    fn a_point_becomes_a_square() {
         let point = mask(&[".....", ".....", "..#..", ".....", "....."]);
-        let square = mask(&[".....", ".###.", ".###.", ".###.", "....."]);
-        assert_eq!(dilate(&point, 1), square);
-        assert_eq!(erode(&square, 1), point);
+        assert_eq!(dilate(&point, 1), mask(&[".....", ".###.", ".###.", ".###.", "....."]));
+        assert_eq!(dilate(&point, 0), point);
         assert_eq!(dilate(&point, 9), Raster::filled(5, 5, true));
     }
 
     #[test]
-    fn the_border_does_not_erode() {
-        let full = Raster::filled(4, 3, true);
-        assert_eq!(erode(&full, 2), full);
+    fn squares_end_at_the_border_and_join_one_another() {
         assert_eq!(dilate(&mask(&["#...", "...#"]), 1), mask(&["####", "####"]));
+        assert_eq!(dilate(&mask(&["#....#"]), 2), mask(&["######"]));
+        assert_eq!(dilate(&Raster::filled(0, 0, true), 3).len(), 0);
     }
 }

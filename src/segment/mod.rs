@@ -14,6 +14,7 @@ mod matte;
 mod merge;
 mod params;
 mod planar;
+mod refine;
 mod regions;
 mod scene;
 #[cfg(test)]
@@ -26,7 +27,8 @@ pub use ledger::{Members, Pixels};
 pub use linear::Hypothesis;
 pub use matte::{MatteRegions, matte_regions};
 pub use merge::{Areas, merge};
-pub use params::{InvalidParameter, Method, Parameter, ParameterSpec, Params, Refine, Setting, UsedParams};
+pub use params::{InvalidParameter, Method, Parameter, ParameterSpec, Params, Setting, UsedParams};
 pub use planar::{Illuminant, PlanarHypothesis, PlanarRegions, planar_regions};
+pub use refine::Refine;
 pub use regions::{FinalRegions, final_regions, members, neighbours};
 pub use scene::Scene;

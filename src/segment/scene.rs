@@ -1,6 +1,7 @@
 //! What every stage of the segmentation looks at.
 
-use super::params::{Refine, UsedParams};
+use super::params::UsedParams;
+use super::refine::Refine;
 use crate::photo::{LinearImage, Masks};
 use crate::raster::Raster;
 

@@ -1,6 +1,7 @@
 //! Pictures and label maps drawn as text, for the tests of single stages.
 
-use super::params::{Params, Refine, UsedParams};
+use super::params::{Params, UsedParams};
+use super::refine::Refine;
 use super::scene::Scene;
 use crate::color::{Vec3, rgb};
 use crate::photo::{LinearImage, MaskLimits, Masks};
