@@ -8,7 +8,8 @@
 //!
 //! The polynomial is a quartic over the highlight and a ring as wide as its radius. Pixels count fully or not at all: weights
 //! that fall with the residual, like Tukey's, prefer pixels whose two noises happen to agree, which alone is worth up to
-//! 1.6° (median error over 42 highlights .32° → .18°). How far a cubic differs is taken as the error of the model.
+//! 1.6° (median error over 42 highlights .32° → .18°). How far a cubic differs is taken as the error of the model. Where the
+//! quartic leaves of the offset little but noise, a cubic over a ring twice as wide is tried.
 
 use super::ledger::Pixels;
 use super::scene::Scene;
@@ -21,13 +22,16 @@ use std::ops::Range;
 const MIN_BLOB_PX: usize = 12;
 /// Most highlights of one region that are looked at, the largest.
 const MAX_BLOBS: usize = 6;
-/// Regressors: the terms of a polynomial of two variables of degree 4, and the offset; without those of degree 4.
+/// Regressors: the terms of a polynomial of two variables of degree 4, 3 or 2, and the offset.
 const QUARTIC: usize = 16;
 const CUBIC: usize = 11;
+const QUADRATIC: usize = 7;
 /// Residuals beyond this many times their scale are left out.
 const CUT: f64 = 3.5;
 /// A highlight whose offsets are noise to more than this share says nothing.
-const MAX_NOISE_SHARE: f64 = 0.3;
+const MAX_NOISE_SHARE: f64 = 0.5;
+/// How far off the noise variance that is subtracted may be, as a share of it.
+const NOISE_ERROR: f64 = 0.04;
 
 /// One object's estimate of the angle between body and surface vector.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,9 +76,11 @@ impl Branches<'_> {
         let most = self.budget / blobs.len().max(1);
         for blob in blobs {
             let radius_px = (blob.len() as f64 / std::f64::consts::PI).sqrt().clamp(3.0, 24.0) as usize;
-            let blob = Blob::new(&blob, radius_px, self.labels.width(), self.labels.height());
-            let samples = self.samples(&blob, radius_px, most);
-            if let Some((cotangent, variance)) = regress(&samples, self.scene.sigma()) {
+            let blob = Blob::new(&blob, 2 * radius_px, self.labels.width(), self.labels.height());
+            let sigma = self.scene.sigma();
+            let near = || regress::<QUARTIC, CUBIC>(&self.samples(&blob, radius_px, most), sigma);
+            let wide = || regress::<CUBIC, QUADRATIC>(&self.samples(&blob, 2 * radius_px, most), sigma);
+            if let Some((cotangent, variance)) = near().or_else(wide) {
                 sum.0 += cotangent / variance;
                 sum.1 += 1.0 / variance;
             }
@@ -195,9 +201,9 @@ impl Blob {
     }
 }
 
-/// cotθ and its variance from one highlight's surroundings.
-fn regress(samples: &[Sample], sigma: f64) -> Option<(f64, f64)> {
-    if samples.len() < 4 * QUARTIC {
+/// cotθ and its variance from one highlight's surroundings, with `N` regressors; how far `M` differ counts as error.
+fn regress<const N: usize, const M: usize>(samples: &[Sample], sigma: f64) -> Option<(f64, f64)> {
+    if samples.len() < 4 * N {
         return None;
     }
     let rows = design(samples);
@@ -210,20 +216,22 @@ fn regress(samples: &[Sample], sigma: f64) -> Option<(f64, f64)> {
     let mut sizes = residuals.clone();
     let mut answer: Option<(f64, f64)> = None;
     for _ in 0..5 {
-        let quartic = sums.solve::<QUARTIC>(sigma)?;
-        let cubic = sums.solve::<CUBIC>(sigma)?;
+        let fit = sums.solve::<N>(sigma)?;
+        let check = sums.solve::<M>(sigma)?;
         for (i, (sample, row)) in samples.iter().zip(&rows).enumerate() {
-            let fitted: f64 = row.iter().zip(quartic.coefficients.iter()).map(|(r, c)| r * c).sum();
+            let fitted: f64 =
+                (0..N).map(|regressor| row[place::<N>(regressor)] * fit.coefficients[regressor]).sum();
             residuals[i] = (sample.along - fitted).abs();
         }
         sizes.copy_from_slice(&residuals);
         let middle = sizes.len() / 2;
         let (_, &mut median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
-        let cotangent = quartic.cotangent();
+        let cotangent = fit.cotangent();
         let scale = (1.4826 * median).max(sigma * (1.0 + cotangent.powi(2)).sqrt());
         let settled = answer.is_some_and(|(before, _)| (before - cotangent).abs() < 1e-4);
-        let of_model = (cotangent - cubic.cotangent()).powi(2);
-        answer = Some((cotangent, scale * scale / quartic.information + of_model));
+        let of_model = (cotangent - check.cotangent()).powi(2);
+        let of_noise = (NOISE_ERROR * fit.noise / fit.information * cotangent).powi(2);
+        answer = Some((cotangent, scale * scale / fit.information + of_model + of_noise));
         if settled {
             break;
         }
@@ -259,6 +267,11 @@ fn design(samples: &[Sample]) -> Vec<[f64; QUARTIC]> {
     samples.iter().map(row).collect()
 }
 
+/// Where regressor `i` of `N` stands among all: the offset is the last of each.
+fn place<const N: usize>(i: usize) -> usize {
+    if i + 1 == N { QUARTIC - 1 } else { i }
+}
+
 /// The normal equations of the samples taken.
 struct Sums {
     normal: SMatrix<f64, QUARTIC, QUARTIC>,
@@ -266,10 +279,12 @@ struct Sums {
     count: f64,
 }
 
-/// Coefficients of the first `N` − 1 polynomial terms and of the offset.
+/// Coefficients of the first `N` − 1 polynomial terms and of the offset; the offset's sum of squares beyond the polynomial,
+/// without its noise, and that of its noise.
 struct Solution<const N: usize> {
     coefficients: SVector<f64, N>,
     information: f64,
+    noise: f64,
 }
 
 impl<const N: usize> Solution<N> {
@@ -292,9 +307,8 @@ impl Sums {
     /// What that leaves of the offset beyond the polynomial is the information in it, the Schur complement of the corrected
     /// normal matrix.
     fn solve<const N: usize>(&self, sigma: f64) -> Option<Solution<N>> {
-        let at = |i: usize| if i + 1 == N { QUARTIC - 1 } else { i };
-        let mut normal = SMatrix::<f64, N, N>::from_fn(|i, j| self.normal[(at(i), at(j))]);
-        let right = SVector::<f64, N>::from_fn(|i, _| self.right[at(i)]);
+        let mut normal = SMatrix::<f64, N, N>::from_fn(|i, j| self.normal[(place::<N>(i), place::<N>(j))]);
+        let right = SVector::<f64, N>::from_fn(|i, _| self.right[place::<N>(i)]);
         let noise = sigma * sigma * self.count;
         normal[(N - 1, N - 1)] -= noise;
         let factor = normal.cholesky()?;
@@ -304,7 +318,7 @@ impl Sums {
         if noise > MAX_NOISE_SHARE * (information + noise) {
             return None;
         }
-        Some(Solution { coefficients: factor.solve(&right), information })
+        Some(Solution { coefficients: factor.solve(&right), information, noise })
     }
 }
 
@@ -322,7 +336,7 @@ mod tests {
                 Sample { x, y, along: body + 1.7 * offset, offset }
             })
             .collect();
-        let (cotangent, variance) = regress(&samples, 0.01).unwrap();
+        let (cotangent, variance) = regress::<QUARTIC, CUBIC>(&samples, 0.01).unwrap();
         assert!((cotangent - 1.7).abs() < 1e-3 && variance < 1e-4, "{cotangent} {variance}");
     }
 
@@ -334,6 +348,6 @@ mod tests {
                 Sample { x, y, along: 100.0 + x, offset: f64::from(i * 7919 % 11) / 11.0 }
             })
             .collect();
-        assert!(regress(&samples, 1.25).is_none());
+        assert!(regress::<QUARTIC, CUBIC>(&samples, 1.25).is_none());
     }
 }
