@@ -31,8 +31,8 @@ const MIN_ANGLE_DEG: f64 = 3.0;
 const DEFAULT_START: f64 = 0.75;
 /// How often illuminant and slices are found again from the grown regions, at most.
 const ROUNDS: usize = 3;
-/// A light that has turned by less changes no slice by more than a fraction of a count, degrees.
-const SETTLED_DEG: f64 = 0.2;
+/// A light that has turned by less moves no highlight by more than a count across its slice, degrees.
+const SETTLED_DEG: f64 = 0.5;
 /// Pixels that all in-plane fits look at together: what they cost does not grow with the picture.
 const BRANCH_SAMPLES: usize = 16_000;
 
