@@ -26,7 +26,7 @@ pub struct Vectors {
 /// Half width of the band around the matte line that the mean shift looks at, in σ.
 const BANDWIDTH: f64 = 2.5;
 /// Pixels that a fit looks at, evenly chosen.
-const FIT_SAMPLES: usize = 10_000;
+const FIT_SAMPLES: usize = 6000;
 
 /// Fits body and surface vector to the region's undistorted pixels.
 pub fn fit_vectors(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: Pixels) -> Vectors {

@@ -22,8 +22,8 @@ const LOWEST_MEETING: f64 = 0.4;
 /// How far below zero a band of a highlight direction may be: the error of a fitted direction.
 const NEGATIVE: f64 = -0.05;
 
-/// Absorbs broad highlights, the one farthest from black first.
-pub fn absorb<R: Recorder>(scene: &Scene, hypotheses: &mut [Hypothesis], ledger: &mut Ledger<R>) {
+/// Absorbs broad highlights, the one farthest from black first. Returns whether there was one.
+pub fn absorb<R: Recorder>(scene: &Scene, hypotheses: &mut [Hypothesis], ledger: &mut Ledger<R>) -> bool {
     let mut order: Vec<u16> = (1..=hypotheses.len() as u16)
         .filter(|&id| {
             let hypothesis = &hypotheses[usize::from(id) - 1];
@@ -31,8 +31,9 @@ pub fn absorb<R: Recorder>(scene: &Scene, hypotheses: &mut [Hypothesis], ledger:
         })
         .collect();
     if order.is_empty() {
-        return;
+        return false;
     }
+    let mut any = false;
     let pairs = near_pairs(&ledger.labels, REACH_PX);
     let members = ledger.members(hypotheses.len());
     let foot = |hypotheses: &[Hypothesis], id: u16| hypotheses[usize::from(id) - 1].line.foot().norm();
@@ -46,8 +47,10 @@ pub fn absorb<R: Recorder>(scene: &Scene, hypotheses: &mut [Hypothesis], ledger:
             .min_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((by, gap)) = absorber {
             give_up(scene, hypotheses, &members, (id, by, gap), ledger);
+            any = true;
         }
     }
+    any
 }
 
 /// Distance between the two lines if region `id` looks like a highlight on region `on`.

@@ -6,9 +6,8 @@ use super::illuminant::Constraint;
 use super::in_plane::InPlane;
 use super::ledger::Pixels;
 use super::scene::Scene;
-use crate::raster::{LabelMap, UNASSIGNED};
+use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 use crate::reflection::DichromaticPlane;
-use std::collections::BTreeSet;
 
 /// Unclaimed pixels on the inside of a plane, reached within 8 px of its matte region.
 pub fn nearby_highlight(
@@ -22,19 +21,19 @@ pub fn nearby_highlight(
     let axes = plane.coordinates();
     let least_offset = 0.75 * scene.used.radius_counts() as f32;
     let least_along = 0.3 * matte_length as f32;
-    let mut seen = BTreeSet::new();
+    let mut seen: Mask = Raster::filled(labels.width(), labels.height(), false);
     let mut ring = Vec::new();
     let mut step = |from: &mut dyn Iterator<Item = u32>| -> Vec<u32> {
         let mut next = Vec::new();
         for pixel in from {
             labels.for_each_neighbour(pixel as usize, |near| {
-                if labels[near] != UNASSIGNED || !scene.masks.usable(near) || seen.contains(&(near as u32)) {
+                if labels[near] != UNASSIGNED || !scene.masks.usable(near) || seen[near] {
                     return;
                 }
                 let point = axes.of(scene.pixels[near]);
                 let inside = point.offset > least_offset && point.height.abs() < point.offset / 2.0;
                 if inside && point.along > least_along {
-                    seen.insert(near as u32);
+                    seen[near] = true;
                     next.push(near as u32);
                 }
             });

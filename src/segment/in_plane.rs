@@ -206,10 +206,10 @@ fn regress<const N: usize, const M: usize>(samples: &[Sample], sigma: f64) -> Op
     if samples.len() < 4 * N {
         return None;
     }
-    let rows = design(samples);
-    let mut sums = Sums { normal: SMatrix::zeros(), right: SVector::zeros(), count: 0.0 };
-    for (sample, row) in samples.iter().zip(&rows) {
-        sums.add(sample, row, 1.0);
+    let samples = centred(samples);
+    let mut sums = Sums::default();
+    for sample in &samples {
+        sums.add(sample, 1.0);
     }
     let mut taken = vec![true; samples.len()];
     let mut residuals = vec![0.0; samples.len()];
@@ -218,10 +218,8 @@ fn regress<const N: usize, const M: usize>(samples: &[Sample], sigma: f64) -> Op
     for _ in 0..5 {
         let fit = sums.solve::<N>(sigma)?;
         let check = sums.solve::<M>(sigma)?;
-        for (i, (sample, row)) in samples.iter().zip(&rows).enumerate() {
-            let fitted: f64 =
-                (0..N).map(|regressor| row[place::<N>(regressor)] * fit.coefficients[regressor]).sum();
-            residuals[i] = (sample.along - fitted).abs();
+        for (residual, sample) in residuals.iter_mut().zip(&samples) {
+            *residual = fit.residual(sample).abs();
         }
         sizes.copy_from_slice(&residuals);
         let middle = sizes.len() / 2;
@@ -236,47 +234,83 @@ fn regress<const N: usize, const M: usize>(samples: &[Sample], sigma: f64) -> Op
             break;
         }
         // Few pixels come or go, so the sums are kept and corrected.
-        for (i, (sample, row)) in samples.iter().zip(&rows).enumerate() {
-            let take = residuals[i] < CUT * scale;
-            if take != taken[i] {
-                taken[i] = take;
-                sums.add(sample, row, if take { 1.0 } else { -1.0 });
+        for ((sample, &residual), taken) in samples.iter().zip(&residuals).zip(&mut taken) {
+            let take = residual < CUT * scale;
+            if take != *taken {
+                *taken = take;
+                sums.add(sample, if take { 1.0 } else { -1.0 });
             }
         }
     }
     answer
 }
 
-/// The regressors of every sample: a polynomial of its position, centred and scaled, then its offset.
-fn design(samples: &[Sample]) -> Vec<[f64; QUARTIC]> {
+/// The samples with positions from −1 to 1 about their mean, which keeps the normal equations well conditioned.
+fn centred(samples: &[Sample]) -> Vec<Sample> {
     let n = samples.len() as f64;
     let centre = samples.iter().fold((0.0, 0.0), |c, s| (c.0 + s.x / n, c.1 + s.y / n));
     let from_centre = |s: &Sample| (s.x - centre.0, s.y - centre.1);
     let spread = samples.iter().map(from_centre).map(|(x, y)| x.abs().max(y.abs())).fold(1.0, f64::max);
-    let row = |sample: &Sample| {
-        let (x, y) = from_centre(sample);
-        let (x, y) = (x / spread, y / spread);
-        let (xx, xy, yy) = (x * x, x * y, y * y);
-        let quartic = [xx * xx, xx * xy, xx * yy, xy * yy, yy * yy];
-        let cubic = [1.0, x, y, xx, xy, yy, xx * x, xx * y, x * yy, yy * y];
-        let mut row = [sample.offset; QUARTIC];
-        row[..CUBIC - 1].copy_from_slice(&cubic);
-        row[CUBIC - 1..QUARTIC - 1].copy_from_slice(&quartic);
-        row
-    };
-    samples.iter().map(row).collect()
+    let scaled = |s: &Sample| Sample { x: (s.x - centre.0) / spread, y: (s.y - centre.1) / spread, ..*s };
+    samples.iter().map(scaled).collect()
 }
 
-/// Where regressor `i` of `N` stands among all: the offset is the last of each.
-fn place<const N: usize>(i: usize) -> usize {
-    if i + 1 == N { QUARTIC - 1 } else { i }
+/// Terms of a polynomial of degree 4 in x and y, and of degree 8: of the products of two of those.
+const TERMS: usize = QUARTIC - 1;
+const PRODUCTS: usize = 45;
+
+/// Exponent of y and degree of each term, degree after degree.
+const fn exponents() -> [(usize, usize); TERMS] {
+    let mut list = [(0, 0); TERMS];
+    let (mut at, mut degree) = (0, 0);
+    while degree <= 4 {
+        let mut of_y = 0;
+        while of_y <= degree {
+            list[at] = (of_y, degree);
+            at += 1;
+            of_y += 1;
+        }
+        degree += 1;
+    }
+    list
 }
 
-/// The normal equations of the samples taken.
+const EXPONENTS: [(usize, usize); TERMS] = exponents();
+
+/// The first `K` terms of a polynomial in x and y, degree after degree: 1, x, y, x², xy, y², …
+fn monomials<const K: usize>(x: f64, y: f64) -> [f64; K] {
+    let mut terms = [1.0; K];
+    let (mut at, mut degree) = (1, 1);
+    while at < K {
+        let before = at - degree;
+        for of_y in 0..=degree {
+            terms[at + of_y] = if of_y == 0 { terms[before] * x } else { terms[before + of_y - 1] * y };
+        }
+        at += degree + 1;
+        degree += 1;
+    }
+    terms
+}
+
+/// What the normal equations of the samples taken are made of. Products of two terms of a polynomial are terms themselves, so
+/// that 45 sums do for 120 entries.
 struct Sums {
-    normal: SMatrix<f64, QUARTIC, QUARTIC>,
-    right: SVector<f64, QUARTIC>,
-    count: f64,
+    /// Σ of the terms up to degree 8.
+    terms: [f64; PRODUCTS],
+    /// Σ offset · term, and Σ offset².
+    offset: [f64; TERMS],
+    offset_square: f64,
+    /// Σ along · term, and Σ along · offset.
+    along: [f64; TERMS],
+    along_offset: f64,
+}
+
+impl Default for Sums {
+    fn default() -> Self {
+        let terms = [0.0; PRODUCTS];
+        let none = [0.0; TERMS];
+        Self { terms, offset: none, offset_square: 0.0, along: none, along_offset: 0.0 }
+    }
 }
 
 /// Coefficients of the first `N` − 1 polynomial terms and of the offset; the offset's sum of squares beyond the polynomial,
@@ -291,15 +325,43 @@ impl<const N: usize> Solution<N> {
     fn cotangent(&self) -> f64 {
         self.coefficients[N - 1]
     }
+
+    fn residual(&self, sample: &Sample) -> f64 {
+        let terms = monomials::<TERMS>(sample.x, sample.y);
+        let smooth: f64 = terms[..N - 1].iter().zip(self.coefficients.iter()).map(|(t, c)| t * c).sum();
+        sample.along - smooth - self.cotangent() * sample.offset
+    }
 }
 
 impl Sums {
     /// Adds a sample `count` times.
-    fn add(&mut self, sample: &Sample, row: &[f64; QUARTIC], count: f64) {
-        let row = SVector::from(*row);
-        self.count += count;
-        self.right.axpy(count * sample.along, &row, 1.0);
-        self.normal.ger(count, &row, &row, 1.0);
+    fn add(&mut self, sample: &Sample, count: f64) {
+        let terms = monomials::<PRODUCTS>(sample.x, sample.y);
+        let (offset, along) = (count * sample.offset, count * sample.along);
+        for (sum, term) in self.terms.iter_mut().zip(&terms) {
+            *sum += count * term;
+        }
+        for (sum, term) in self.offset.iter_mut().zip(&terms) {
+            *sum += offset * term;
+        }
+        for (sum, term) in self.along.iter_mut().zip(&terms) {
+            *sum += along * term;
+        }
+        self.offset_square += offset * sample.offset;
+        self.along_offset += along * sample.offset;
+    }
+
+    /// An entry of the normal matrix with `n` regressors, the offset last.
+    fn entry(&self, n: usize, i: usize, j: usize) -> f64 {
+        match (i + 1 == n, j + 1 == n) {
+            (true, true) => self.offset_square,
+            (true, false) => self.offset[j],
+            (false, true) => self.offset[i],
+            (false, false) => {
+                let degree = EXPONENTS[i].1 + EXPONENTS[j].1;
+                self.terms[degree * (degree + 1) / 2 + EXPONENTS[i].0 + EXPONENTS[j].0]
+            }
+        }
     }
 
     /// Least squares with the first `N` − 1 terms, corrected for the noise of the offset: nσ² is taken from its square.
@@ -307,9 +369,10 @@ impl Sums {
     /// What that leaves of the offset beyond the polynomial is the information in it, the Schur complement of the corrected
     /// normal matrix.
     fn solve<const N: usize>(&self, sigma: f64) -> Option<Solution<N>> {
-        let mut normal = SMatrix::<f64, N, N>::from_fn(|i, j| self.normal[(place::<N>(i), place::<N>(j))]);
-        let right = SVector::<f64, N>::from_fn(|i, _| self.right[place::<N>(i)]);
-        let noise = sigma * sigma * self.count;
+        let mut normal = SMatrix::<f64, N, N>::from_fn(|i, j| self.entry(N, i, j));
+        let right =
+            SVector::<f64, N>::from_fn(|i, _| if i + 1 == N { self.along_offset } else { self.along[i] });
+        let noise = sigma * sigma * self.terms[0];
         normal[(N - 1, N - 1)] -= noise;
         let factor = normal.cholesky()?;
         let mut last = SVector::<f64, N>::zeros();

@@ -35,16 +35,15 @@ pub fn matte_regions<R: Recorder>(
     let min_area_px = scene.used.min_area as usize;
     let first = Choice { min_area_px, points: false, through_black: false };
     linear(scene, windows, areas, &first, &mut hypotheses, &mut ledger);
-    for _ in 0..2 {
-        if scene.refine.absorb_highlights {
-            absorb(scene, &mut hypotheses, &mut ledger);
+    for round in 0..3 {
+        let released = scene.refine.absorb_highlights && absorb(scene, &mut hypotheses, &mut ledger);
+        // Without newly released pixels another look would see what the last one saw.
+        if round == 2 || (round == 1 && !released) {
+            break;
         }
         if scene.refine.second_look {
             second_look(scene, &mut hypotheses, &mut ledger);
         }
-    }
-    if scene.refine.absorb_highlights {
-        absorb(scene, &mut hypotheses, &mut ledger);
     }
     if scene.refine.proximity_vote {
         vote(scene, &hypotheses, &mut ledger);
