@@ -76,7 +76,10 @@ impl Windows {
     /// Index of the window that holds a pixel of an image `width` pixels wide.
     #[inline]
     pub fn window_of(&self, pixel: usize, width: usize) -> usize {
-        (pixel / width) / self.size_px * self.classes.width() + (pixel % width) / self.size_px
+        // Divisions of 32 bits take a fraction of those of 64, and this is asked for every pixel that a region claims.
+        let (pixel, width, size) = (pixel as u32, width as u32, self.size_px as u32);
+        let (column, row) = (pixel % width / size, pixel / width / size);
+        row as usize * self.classes.width() + column as usize
     }
 }
 

@@ -41,9 +41,8 @@ impl<'a, R: Recorder> Ledger<'a, R> {
         let (width, len) = (self.labels.width(), self.labels.len());
         let mut next = 0;
         while next < front.len() {
-            let pixel = front[next] as usize;
+            let (pixel, x) = (front[next] as usize, (front[next] % width as u32) as usize);
             next += 1;
-            let x = pixel % width;
             let mut visit = |near: usize| {
                 let holder = self.labels[near];
                 if holder != region && accept(self.recorder, near, holder) {
