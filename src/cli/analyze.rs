@@ -7,6 +7,7 @@ use super::{Outcome, note};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use dichroscope::export::check_target;
+use dichroscope::intrinsic::POOR_FIT;
 use dichroscope::photo::{EncodingChoice, ReadOptions};
 use dichroscope::segment::Params;
 use dichroscope::truth::find_truth;
@@ -144,10 +145,6 @@ impl Work<'_> {
         format!("{}: {} \u{2192} {}", job.name.display(), in_short(finished), target.display())
     }
 }
-
-/// Regions whose pixels lie farther from their planes than this many standard deviations of the noise fit poorly; their
-/// warnings say so.
-const POOR_FIT: f64 = 1.5;
 
 /// What was found, in half a line.
 pub(super) fn in_short(finished: &Finished) -> String {

@@ -4,7 +4,7 @@ mod restore;
 mod split;
 mod vectors;
 
-pub use split::split;
+pub use split::{POOR_FIT, split};
 
 use crate::raster::Raster;
 pub use crate::trace::PixelKind;

@@ -16,8 +16,8 @@ use rayon::prelude::*;
 const MIN_ANGLE_DEG: f64 = 3.0;
 /// Below this angle they can, with noise amplified more than four times.
 const SMALL_ANGLE_DEG: f64 = 14.0;
-/// A fit worse than this many σ is worth a warning.
-const POOR_FIT: f64 = 1.5;
+/// A fit worse than this many σ of a band's noise is worth a warning.
+pub const POOR_FIT: f64 = 1.5;
 
 /// Splits the picture.
 pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut R) -> Intrinsic {
