@@ -16,6 +16,7 @@ pub use matte::{MatteError, write_matte};
 pub use palette::Palette;
 pub use pictures::write_pictures;
 pub use result::{ResultError, is_result_folder, read_report};
+pub use stages::coloured;
 pub use staging::{Staging, check_target};
 
 use std::path::PathBuf;

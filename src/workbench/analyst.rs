@@ -125,6 +125,7 @@ fn show(request: &Request, analysis: Analysis, took_ms: [Option<f64>; 7], last: 
         generation: request.generation,
         picture: Arc::clone(&request.picture),
         params: request.params,
+        area: request.area.clone(),
         analysis,
         stale_from: None,
         region_colours,

@@ -12,11 +12,14 @@ mod document;
 mod histogram;
 mod item;
 mod jobs;
+mod layers;
 mod picture;
 mod read;
 mod reduce;
 mod shown;
 mod state;
+#[cfg(test)]
+mod testing;
 mod view;
 
 pub use analyst::Request;
@@ -26,6 +29,7 @@ pub use document::{Document, History};
 pub use histogram::{BINS_PER_BAND, ColourBin, Histogram};
 pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
+pub use layers::{ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, legend, marks, paint, pyramid};
 pub use picture::{Origin, Picture};
 pub use reduce::{Effect, reduce};
 pub use shown::Shown;
