@@ -51,11 +51,12 @@
 //! | [`report`] | the schema of `report.json` |
 //! | [`truth`] | ground truth and scores |
 //! | [`export`] | results as files |
+//! | [`workbench`] | the application without a screen |
 //!
 //! Who may use whom, left by right; rooms between the same arrows do not know each other:
 //!
 //! ```text
-//! raster, color ← reflection ← photo ← trace ← segment ← intrinsic ← analysis ← report ← truth, export
+//! raster, color ← reflection ← photo ← trace ← segment ← intrinsic ← analysis ← report ← truth, export ← workbench ← gui
 //! ```
 //!
 //! The program's command line (`src/cli`, not part of the library) uses all of them. `tests/layering` fails when an arrow
@@ -73,3 +74,4 @@ pub mod report;
 pub mod segment;
 pub mod trace;
 pub mod truth;
+pub mod workbench;

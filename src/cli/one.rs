@@ -8,7 +8,6 @@ use dichroscope::raster::{Raster, UNASSIGNED};
 use dichroscope::report::{ImageFacts, Report, Timings};
 use dichroscope::segment::Params;
 use dichroscope::truth::{GroundTruth, Outcome, score};
-use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -30,14 +29,14 @@ impl Shot {
         let photo = photo::read(path, options)?;
         let read_ms = ms_since(begin);
         let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
-        Ok(Self { photo, sha256: sha256_hex(&bytes), read_ms })
+        Ok(Self { photo, sha256: photo::sha256_hex(&bytes), read_ms })
     }
 
     /// Decodes a file that is already in memory.
     pub(super) fn decode(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Self> {
         let begin = Instant::now();
         let photo = photo::decode(bytes, name, options)?;
-        Ok(Self { photo, sha256: sha256_hex(bytes), read_ms: ms_since(begin) })
+        Ok(Self { photo, sha256: photo::sha256_hex(bytes), read_ms: ms_since(begin) })
     }
 
     fn facts(&self) -> ImageFacts {
@@ -146,9 +145,4 @@ impl Observer for StageClock {
 /// Milliseconds, to the microsecond.
 fn ms_since(begin: Instant) -> f64 {
     begin.elapsed().as_micros() as f64 / 1e3
-}
-
-fn sha256_hex(bytes: &[u8]) -> String {
-    let digit = |nibble: u8| char::from(b"0123456789abcdef"[usize::from(nibble)]);
-    Sha256::digest(bytes).iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
 }

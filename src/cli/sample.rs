@@ -7,17 +7,9 @@ use anyhow::{Context, Result};
 use dichroscope::export::check_target;
 use dichroscope::photo::ReadOptions;
 use dichroscope::segment::Params;
-use dichroscope::truth::{GroundTruth, TruthFiles};
+use dichroscope::truth::sample::{self, CAMERA, NAME};
 use std::path::Path;
 
-const NAME: &str = "plastic8_white";
-const CAMERA: &[u8] = include_bytes!("../../assets/plastic8_white/camera8.png");
-const TRUTH: TruthFiles = TruthFiles {
-    body: include_bytes!("../../assets/plastic8_white/body.exr"),
-    surface: include_bytes!("../../assets/plastic8_white/surface.exr"),
-    labels: include_bytes!("../../assets/plastic8_white/labels.png"),
-    json: include_bytes!("../../assets/plastic8_white/truth.json"),
-};
 const TARGET: &str = "dichroscope-sample";
 
 pub(super) fn run() -> Result<Outcome> {
@@ -38,7 +30,7 @@ pub(super) fn run() -> Result<Outcome> {
 
 fn analyze(target: &Path) -> Result<String> {
     let shot = Shot::decode(CAMERA, "camera8.png", &ReadOptions::default())?;
-    let truth = GroundTruth::decode(&TRUTH, Path::new(NAME))?;
+    let truth = sample::truth()?;
     let reference = Reference { truth, camera: shot.photo.image.pixels.clone() };
     let finished = one::analyze(&shot, &Params::default(), Some(&reference), target, false)?;
     let place = std::path::absolute(target)?;

@@ -22,13 +22,14 @@ const CONE_DEFICITS: [[[f32; 3]; 3]; 2] = [
 ];
 
 /// The colours and the distances between them.
-pub(super) struct Palette {
+pub struct Palette {
     colours: [[u8; 3]; COLOURS],
     distances: [[f32; COLOURS]; COLOURS],
 }
 
 impl Palette {
-    pub(super) fn new() -> Self {
+    /// Computes the colours and how far they are apart.
+    pub fn new() -> Self {
         let linear: [[f32; 3]; COLOURS] = std::array::from_fn(|i| {
             // Eight and three have no common divisor: every hue meets every level.
             let level = i % LEVELS.len();
@@ -48,12 +49,12 @@ impl Palette {
     }
 
     /// One of the colours as 8-bit sRGB.
-    pub(super) fn colour(&self, index: u8) -> [u8; 3] {
+    pub fn colour(&self, index: u8) -> [u8; 3] {
         self.colours[usize::from(index)]
     }
 
     /// A colour for each label, in ascending order: far from those of its neighbours, and the rarest of these.
-    pub(super) fn assign(&self, neighbours: &[Vec<u32>]) -> Vec<u8> {
+    pub fn assign(&self, neighbours: &[Vec<u32>]) -> Vec<u8> {
         let mut chosen = vec![0u8; neighbours.len()];
         let mut uses = [0usize; COLOURS];
         for label in 1..neighbours.len() {

@@ -6,6 +6,7 @@
 
 mod curve;
 mod decode;
+mod digest;
 mod encoding;
 mod error;
 mod format;
@@ -19,6 +20,7 @@ mod source;
 
 pub use curve::ToneCurve;
 pub(crate) use curve::nearest_code;
+pub use digest::sha256_hex;
 pub use encoding::{Encoding, EncodingChoice, InvalidEncoding};
 pub use error::ReadError;
 pub use format::Format;

@@ -7,6 +7,7 @@
 mod folder;
 mod measures;
 mod pictures;
+pub mod sample;
 mod score;
 
 pub use folder::{GroundTruth, TruthFiles, TruthObject, find_truth};

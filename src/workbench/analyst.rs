@@ -1,0 +1,158 @@
+//! The worker that analyses. The newest request wins.
+
+use super::{Command, Picture, Shown};
+use crate::analysis::{Analysis, Observer, Session, Stage};
+use crate::raster::Mask;
+use crate::segment::Params;
+use std::sync::mpsc::Sender;
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::time::Instant;
+
+/// What is to be analysed, and how.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Its number; larger is newer.
+    pub generation: u64,
+    /// The photograph.
+    pub picture: Arc<Picture>,
+    /// The parameters.
+    pub params: Params,
+    /// The pixels that it is restricted to.
+    pub area: Option<Arc<Mask>>,
+}
+
+/// Where one request waits for the worker; a newer one takes its place.
+#[derive(Default)]
+pub(super) struct Desk {
+    waiting: Mutex<Waiting>,
+    arrived: Condvar,
+}
+
+#[derive(Default)]
+struct Waiting {
+    request: Option<Request>,
+    closed: bool,
+}
+
+impl Desk {
+    /// Leaves a request; one that still waits is dropped.
+    pub(super) fn leave(&self, request: Request) {
+        self.lock().request = Some(request);
+        self.arrived.notify_one();
+    }
+
+    /// Sends the worker home.
+    pub(super) fn close(&self) {
+        self.lock().closed = true;
+        self.arrived.notify_one();
+    }
+
+    /// Waits for a request; none when the desk closes.
+    fn take(&self) -> Option<Request> {
+        let mut waiting = self.lock();
+        loop {
+            if waiting.closed {
+                return None;
+            }
+            if let Some(request) = waiting.request.take() {
+                return Some(request);
+            }
+            waiting = self.arrived.wait(waiting).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Whether the request at work has been overtaken.
+    fn is_overtaken(&self) -> bool {
+        let waiting = self.lock();
+        waiting.closed || waiting.request.is_some()
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Waiting> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Works at the desk until it closes.
+pub(super) fn work(desk: &Desk, report: &Sender<Command>, wake: &(dyn Fn() + Send + Sync)) {
+    let mut analyst = Analyst::default();
+    while let Some(request) = desk.take() {
+        let tell = |command| {
+            // Nobody listens any more when the window closes: then there is nothing to say.
+            let _ = report.send(command);
+            wake();
+        };
+        if let Some(shown) = analyst.analyse(&request, &tell, &|| desk.is_overtaken()) {
+            tell(Command::Analysed(shown));
+        }
+    }
+}
+
+/// Keeps the session of one photograph, and its last result.
+#[derive(Default)]
+pub(super) struct Analyst {
+    session: Option<(Arc<Picture>, Session)>,
+    last: Option<Arc<Shown>>,
+}
+
+impl Analyst {
+    /// The whole result; none when it was overtaken.
+    pub(super) fn analyse(
+        &mut self,
+        request: &Request,
+        tell: &(dyn Fn(Command) + Sync),
+        overtaken: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Arc<Shown>> {
+        let same = |session: &(Arc<Picture>, Session)| Arc::ptr_eq(&session.0, &request.picture);
+        if !self.session.as_ref().is_some_and(same) {
+            let image = Arc::new(request.picture.photo.image.clone());
+            self.session = Some((Arc::clone(&request.picture), Session::new(image)));
+            self.last = None;
+        }
+        let (_, session) = self.session.as_mut()?;
+        let mut clock =
+            Clock { generation: request.generation, begun: None, took_ms: [None; 7], tell, overtaken };
+        let analysis = session.run(&request.params, &mut clock).ok()?;
+        let shown = Arc::new(show(request, analysis, clock.took_ms, self.last.as_deref()));
+        self.last = Some(Arc::clone(&shown));
+        Some(shown)
+    }
+}
+
+fn show(request: &Request, analysis: Analysis, took_ms: [Option<f64>; 7], last: Option<&Shown>) -> Shown {
+    let before = last.map(|last| (last.labels(), last.region_colours.as_slice()));
+    let region_colours = super::colours::region_colours(&analysis, before);
+    Shown {
+        generation: request.generation,
+        picture: Arc::clone(&request.picture),
+        params: request.params,
+        analysis,
+        stale_from: None,
+        region_colours,
+        took_ms,
+    }
+}
+
+/// Takes the time of each stage, tells of it, and stops for a newer request.
+struct Clock<'a> {
+    generation: u64,
+    begun: Option<Instant>,
+    took_ms: [Option<f64>; Stage::ALL.len()],
+    tell: &'a (dyn Fn(Command) + Sync),
+    overtaken: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Observer for Clock<'_> {
+    fn started(&mut self, stage: Stage) {
+        self.begun = Some(Instant::now());
+        (self.tell)(Command::Progress { generation: self.generation, stage });
+    }
+
+    fn finished(&mut self, stage: Stage, reused: bool) {
+        let took = self.begun.take().map(|begun| begun.elapsed().as_secs_f64() * 1e3);
+        self.took_ms[stage as usize] = took.filter(|_| !reused);
+    }
+
+    fn cancelled(&self) -> bool {
+        (self.overtaken)()
+    }
+}

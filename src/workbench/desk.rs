@@ -1,0 +1,159 @@
+//! Carries the effects of commands out, on threads or inline.
+
+use super::analyst::{self, Analyst, Desk};
+use super::{Command, Effect, Job, Request, State, jobs, read, reduce};
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::Instant;
+
+/// Where work is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Executor {
+    /// On named threads; the caller never waits.
+    Threads,
+    /// In the call itself, for tests and pictures: [`Workbench::apply`] returns when all is done.
+    Inline,
+}
+
+/// A state, and what carries out its effects.
+pub struct Workbench {
+    state: State,
+    outbox: Sender<Command>,
+    inbox: Receiver<Command>,
+    wake: Arc<dyn Fn() + Send + Sync>,
+    hands: Hands,
+    writing: Arc<jobs::Stop>,
+}
+
+enum Hands {
+    Inline(Box<Analyst>),
+    Threads { desk: Arc<Desk>, worker: Option<JoinHandle<()>> },
+}
+
+impl Workbench {
+    /// An empty workbench. `wake` is called, on any thread, when [`Workbench::poll`] will find something.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn new(executor: Executor, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
+        let (outbox, inbox) = mpsc::channel();
+        let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
+        let hands = match executor {
+            Executor::Inline => Hands::Inline(Box::default()),
+            Executor::Threads => {
+                let desk = Arc::new(Desk::default());
+                let (at, report, ring) = (Arc::clone(&desk), outbox.clone(), Arc::clone(&wake));
+                let worker = thread::Builder::new()
+                    .name("analyst".to_owned())
+                    .spawn(move || analyst::work(&at, &report, &*ring))?;
+                Hands::Threads { desk, worker: Some(worker) }
+            }
+        };
+        Ok(Self { state: State::default(), outbox, inbox, wake, hands, writing: Arc::default() })
+    }
+
+    /// All there is to show.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Applies a command and sets its effects going.
+    pub fn apply(&mut self, command: Command) {
+        for effect in reduce(&mut self.state, command) {
+            self.carry_out(effect);
+        }
+        if matches!(self.hands, Hands::Inline(_)) {
+            self.poll();
+        }
+    }
+
+    /// Takes in what the workers have finished.
+    pub fn poll(&mut self) {
+        while let Ok(command) = self.inbox.try_recv() {
+            for effect in reduce(&mut self.state, command) {
+                self.carry_out(effect);
+            }
+        }
+    }
+
+    /// Puts back what was remembered from another session.
+    pub fn remember(&mut self, view: super::View, recent: Vec<std::path::PathBuf>) {
+        (self.state.view, self.state.recent) = (view, recent);
+    }
+
+    fn carry_out(&mut self, effect: Effect) {
+        match effect {
+            Effect::Analyse => self.analyse(),
+            Effect::Read(origin) => {
+                self.state.jobs.reading = Some(Job { since: Instant::now(), stage: None });
+                self.run("reader", move || match read::picture(origin) {
+                    Ok(picture) => Command::Opened(Arc::new(picture)),
+                    Err(reason) => Command::OpenFailed(reason),
+                });
+            }
+            Effect::ReadParams(path) => self.run("reader", move || read::params(&path)),
+            Effect::ReadWorkspace(path) => self.run("reader", move || read::workspace(&path)),
+            Effect::Write(export) => {
+                self.state.jobs.export = Some(Job { since: Instant::now(), stage: None });
+                let bench = jobs::Bench::of(&self.state);
+                self.writing = Arc::default();
+                let stop = Arc::clone(&self.writing);
+                self.run("writer", move || Command::Exported(jobs::write(&export, &bench, &stop)));
+            }
+            Effect::StopWriting => self.writing.stop(),
+        }
+    }
+
+    fn analyse(&mut self) {
+        let Some(picture) = &self.state.picture else { return };
+        let request = Request {
+            generation: self.state.generation,
+            picture: Arc::clone(picture),
+            params: self.state.document.params,
+            area: self.state.document.area.clone(),
+        };
+        // A queue of slider positions is one piece of work: the spinner tells of the wait, not of each position.
+        let since = self.state.jobs.analysis.map_or_else(Instant::now, |job| job.since);
+        self.state.jobs.analysis = Some(Job { since, stage: None });
+        match &mut self.hands {
+            Hands::Threads { desk, .. } => desk.leave(request),
+            Hands::Inline(analyst) => {
+                let outbox = Mutex::new(self.outbox.clone());
+                let tell = |command| {
+                    let _ = outbox.lock().unwrap_or_else(PoisonError::into_inner).send(command);
+                };
+                if let Some(shown) = analyst.analyse(&request, &tell, &|| false) {
+                    tell(Command::Analysed(shown));
+                }
+            }
+        }
+    }
+
+    /// Runs `job` where work is done; its command arrives by the inbox.
+    fn run(&self, name: &str, job: impl FnOnce() -> Command + Send + 'static) {
+        let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
+        let work = move || {
+            let _ = outbox.send(job());
+            wake();
+        };
+        if matches!(self.hands, Hands::Inline(_)) {
+            work();
+        } else if let Err(error) = thread::Builder::new().name(name.to_owned()).spawn(work) {
+            let reason = format!("the system gives no thread to work on: {error}; close other programs");
+            let _ = self.outbox.send(Command::Notify(super::Severity::Error, reason));
+        }
+    }
+}
+
+impl Drop for Workbench {
+    fn drop(&mut self) {
+        self.writing.stop();
+        if let Hands::Threads { desk, worker } = &mut self.hands {
+            desk.close();
+            if let Some(worker) = worker.take() {
+                let _ = worker.join();
+            }
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! The application without a screen.
+//!
+//! A [`State`] is all there is to show. A [`Command`] is the only way to change it, and [`reduce`] the only function that
+//! does; it is pure but for the [`Effect`]s it asks for, and is tested without a window. A [`Workbench`] carries the effects
+//! out: on a named worker where the newest request wins, or inline in tests. Panels read the state and return commands.
+
+mod analyst;
+mod colours;
+mod command;
+mod desk;
+mod document;
+mod histogram;
+mod item;
+mod jobs;
+mod picture;
+mod read;
+mod reduce;
+mod shown;
+mod state;
+mod view;
+
+pub use analyst::Request;
+pub use command::{Combine, Command, Gesture};
+pub use desk::{Executor, Workbench};
+pub use document::{Document, History};
+pub use histogram::{BINS_PER_BAND, ColourBin, Histogram};
+pub use item::{Item, Selection};
+pub use jobs::{Export, Job, JobState};
+pub use picture::{Origin, Picture};
+pub use reduce::{Effect, reduce};
+pub use shown::Shown;
+pub use state::{Notice, Severity, State};
+pub use view::{
+    Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
+    Theme, Tool, View,
+};

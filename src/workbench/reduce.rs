@@ -1,0 +1,278 @@
+//! The one function that changes the state.
+
+use super::{
+    Combine, Command, Document, Export, Gesture, Notice, Origin, Picture, Selection, Severity, Shown, State,
+};
+use crate::raster::{Mask, Raster};
+use crate::segment::{Method, Parameter, Params};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What a command asks for beyond the state.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Effect {
+    /// Analyse the picture with the document as it is now.
+    Analyse,
+    /// Read a photograph.
+    Read(Origin),
+    /// Read parameters.
+    ReadParams(PathBuf),
+    /// Read a workspace.
+    ReadWorkspace(PathBuf),
+    /// Write something.
+    Write(Export),
+    /// Stop writing.
+    StopWriting,
+}
+
+/// Photographs remembered.
+const MOST_RECENT: usize = 12;
+
+/// Applies `command` to `state` and says what else is to be done.
+pub fn reduce(state: &mut State, command: Command) -> Vec<Effect> {
+    match command {
+        Command::Open(origin) => vec![Effect::Read(origin)],
+        Command::Opened(picture) => opened(state, picture),
+        Command::OpenFailed(reason) => {
+            state.jobs.reading = None;
+            notify(state, Severity::Error, reason)
+        }
+        Command::Progress { generation, stage } => {
+            if let Some(job) = state.jobs.analysis.as_mut().filter(|_| generation == state.generation) {
+                job.stage = Some(stage);
+            }
+            Vec::new()
+        }
+        Command::Analysed(shown) => analysed(state, shown),
+        Command::Exported(outcome) => {
+            state.jobs.export = None;
+            match outcome {
+                Ok(said) => notify(state, Severity::Done, said),
+                Err(reason) => notify(state, Severity::Error, reason),
+            }
+        }
+        Command::Undo => {
+            let earlier = state.history.undo(&state.document);
+            restore(state, earlier)
+        }
+        Command::Redo => {
+            let later = state.history.redo(&state.document);
+            restore(state, later)
+        }
+        Command::EndGesture => {
+            state.history.end_gesture();
+            Vec::new()
+        }
+        Command::Export(export) => vec![Effect::Write(export)],
+        Command::CancelExport => vec![Effect::StopWriting],
+        Command::OpenWorkspace(path) => vec![Effect::ReadWorkspace(path)],
+        Command::LoadParams(path) => vec![Effect::ReadParams(path)],
+        Command::Notify(severity, text) => notify(state, severity, text),
+        Command::Dismiss(id) => {
+            state.notices.retain(|notice| notice.id != id);
+            Vec::new()
+        }
+        Command::ForgetRecent => {
+            state.recent.clear();
+            Vec::new()
+        }
+        other => edit_or_look(state, other),
+    }
+}
+
+/// The commands that change the document or the view.
+fn edit_or_look(state: &mut State, command: Command) -> Vec<Effect> {
+    match command {
+        Command::SetParameter(parameter, setting, gesture) => {
+            edit_params(state, gesture, |params| *params.slot(parameter) = setting)
+        }
+        Command::SetMethod(method) => {
+            edit_params(state, None, |params| *params = with_method(params, method))
+        }
+        Command::SetSwitch(name, on) => edit_params(state, None, |params| {
+            if let Some((_, switch)) = params.refine.switches().into_iter().find(|(known, _)| *known == name)
+            {
+                *switch = on;
+            }
+        }),
+        Command::SetParams(params) => edit_params(state, None, |old| *old = *params),
+        Command::PinIlluminant(direction, gesture) => pin_illuminant(state, direction, gesture),
+        Command::RestrictTo(area) => edit(state, None, |document| document.area = area),
+        Command::Select(item) => edit(state, None, |document| document.selection.item = item),
+        Command::Mark(mask, combine, gesture) => edit(state, gesture, |document| {
+            document.selection.marked = combined(document.selection.marked.take(), mask, combine);
+        }),
+        Command::InvertMarked => {
+            let Some(size) = state.picture.as_ref().map(|picture| picture.size()) else { return Vec::new() };
+            edit(state, None, |document| {
+                let marked = &mut document.selection.marked;
+                *marked = match marked.take() {
+                    Some(mask) => some_if_any(mask.map(|&on| !on)),
+                    None => Some(Arc::new(Mask::filled(size.0, size.1, true))),
+                };
+            })
+        }
+        Command::ClearSelection => edit(state, None, |document| document.selection = Selection::default()),
+        other => {
+            look(state, other);
+            Vec::new()
+        }
+    }
+}
+
+/// The commands that change how things are shown.
+fn look(state: &mut State, command: Command) {
+    match command {
+        Command::Hover(item) => state.hover = item,
+        Command::Pin(keep) => {
+            state.pinned = if keep { state.newest.clone() } else { None };
+            state.view.show_pinned = false;
+        }
+        Command::ShowPinned(pinned) => state.view.show_pinned = pinned && state.pinned.is_some(),
+        Command::Image(settings) => state.view.image = settings,
+        Command::Cube(settings) => state.view.cube = settings,
+        Command::Plane(settings) => state.view.plane = settings,
+        Command::Profile(line) => state.view.profile = line,
+        Command::Theme(theme) => state.view.theme = theme,
+        other => unreachable!("handled before: {other:?}"),
+    }
+}
+
+fn opened(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
+    state.jobs.reading = None;
+    if let Some(path) = picture.origin.path() {
+        state.recent.retain(|known| known != path);
+        state.recent.insert(0, path.to_path_buf());
+        state.recent.truncate(MOST_RECENT);
+    }
+    let warnings =
+        picture.photo.warnings.iter().map(|warning| format!("{}: {warning}", picture.origin.name()));
+    let warnings: Vec<String> = warnings.collect();
+    state.picture = Some(picture);
+    // Masks of another picture mean nothing here; parameters stay.
+    state.document = Document { params: state.document.params, ..Document::default() };
+    state.history.forget();
+    (state.newest, state.pinned, state.hover) = (None, None, None);
+    state.view.show_pinned = false;
+    (state.view.image.centre_px, state.view.image.zoom) = (None, None);
+    state.view.profile = super::ProfileLine::Row;
+    for warning in warnings {
+        notify(state, Severity::Warning, warning);
+    }
+    analyse(state)
+}
+
+fn analysed(state: &mut State, shown: Arc<Shown>) -> Vec<Effect> {
+    let same_picture = state.picture.as_ref().is_some_and(|picture| Arc::ptr_eq(picture, &shown.picture));
+    let newer = state.newest.as_ref().is_none_or(|newest| {
+        (shown.generation, shown.stale_from.is_none()) >= (newest.generation, newest.stale_from.is_none())
+    });
+    if !same_picture || !newer {
+        return Vec::new();
+    }
+    if shown.generation == state.generation && shown.stale_from.is_none() {
+        state.jobs.analysis = None;
+    }
+    follow_region(state, &shown);
+    state.newest = Some(shown);
+    Vec::new()
+}
+
+/// A selected region stays selected: it becomes the one that overlaps it most.
+fn follow_region(state: &mut State, shown: &Shown) {
+    let Some(super::Item::Region(region)) = state.document.selection.item else { return };
+    let Some(before) = &state.newest else { return };
+    let followed = super::shown::heir(before.labels(), shown.labels(), region);
+    state.document.selection.item = followed.map(super::Item::Region);
+    if let Some(super::Item::Region(_)) = state.hover {
+        state.hover = None;
+    }
+}
+
+fn edit_params(state: &mut State, gesture: Option<Gesture>, change: impl FnOnce(&mut Params)) -> Vec<Effect> {
+    let mut params = state.document.params;
+    change(&mut params);
+    if let Err(invalid) = params.validate() {
+        return notify(state, Severity::Error, invalid.to_string());
+    }
+    edit(state, gesture, |document| document.params = params)
+}
+
+/// Changes the document as a step of the history; analyses anew where that needs it.
+fn edit(state: &mut State, gesture: Option<Gesture>, change: impl FnOnce(&mut Document)) -> Vec<Effect> {
+    let before = state.document.clone();
+    change(&mut state.document);
+    if state.document == before {
+        return Vec::new();
+    }
+    state.history.step(&before, gesture);
+    analyse_if_needed(state, &before)
+}
+
+fn restore(state: &mut State, document: Option<Document>) -> Vec<Effect> {
+    let Some(document) = document else { return Vec::new() };
+    let before = std::mem::replace(&mut state.document, document);
+    analyse_if_needed(state, &before)
+}
+
+fn analyse_if_needed(state: &mut State, before: &Document) -> Vec<Effect> {
+    let same_area = match (&before.area, &state.document.area) {
+        (None, None) => true,
+        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        _ => false,
+    };
+    if before.params == state.document.params && same_area { Vec::new() } else { analyse(state) }
+}
+
+fn analyse(state: &mut State) -> Vec<Effect> {
+    if state.picture.is_none() {
+        return Vec::new();
+    }
+    state.generation += 1;
+    vec![Effect::Analyse]
+}
+
+fn pin_illuminant(state: &mut State, direction: Option<[f64; 3]>, gesture: Option<Gesture>) -> Vec<Effect> {
+    let _ = (direction, gesture);
+    analyse(state)
+}
+
+/// The other method, with what stood at the first one's default at the second one's.
+fn with_method(params: &Params, method: Method) -> Params {
+    let (from, to) = (Params::of(params.method), Params::of(method));
+    let mut changed = Params { method, ..*params };
+    for parameter in Parameter::ALL {
+        if params.get(parameter) == from.get(parameter) {
+            *changed.slot(parameter) = to.get(parameter);
+        }
+    }
+    changed
+}
+
+fn combined(before: Option<Arc<Mask>>, new: Arc<Mask>, combine: Combine) -> Option<Arc<Mask>> {
+    match (before, combine) {
+        (None, Combine::Subtract) => None,
+        (None, _) | (Some(_), Combine::Replace) => new.as_slice().contains(&true).then_some(new),
+        (Some(before), combine) => {
+            let join = |(&old, &new): (&bool, &bool)| {
+                if combine == Combine::Union { old || new } else { old && !new }
+            };
+            let data = before.as_slice().iter().zip(new.as_slice()).map(join).collect();
+            Raster::from_vec(before.width(), before.height(), data).and_then(some_if_any)
+        }
+    }
+}
+
+fn some_if_any(mask: Mask) -> Option<Arc<Mask>> {
+    mask.as_slice().contains(&true).then(|| Arc::new(mask))
+}
+
+/// Adds a notice, unless the same one is up already.
+fn notify(state: &mut State, severity: Severity, text: String) -> Vec<Effect> {
+    if state.notices.iter().any(|notice| notice.text == text) {
+        return Vec::new();
+    }
+    state.notices_so_far += 1;
+    state.notices.push(Notice { id: state.notices_so_far, severity, text });
+    Vec::new()
+}

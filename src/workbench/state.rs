@@ -1,0 +1,89 @@
+//! All there is to show.
+
+use super::{Document, History, Item, JobState, Picture, Shown, View};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// All there is to show. Panels read it; only [`super::reduce`] changes it.
+#[derive(Debug, Default)]
+pub struct State {
+    /// The open photograph.
+    pub picture: Option<Arc<Picture>>,
+    /// Parameters, pins and selection.
+    pub document: Document,
+    /// What can be undone.
+    pub history: History,
+    /// The newest result.
+    pub newest: Option<Arc<Shown>>,
+    /// The result that was pinned to be compared with.
+    pub pinned: Option<Arc<Shown>>,
+    /// What the pointer is over, in any panel.
+    pub hover: Option<Item>,
+    /// How things are shown.
+    pub view: View,
+    /// What goes on in the background.
+    pub jobs: JobState,
+    /// What a person should know, oldest first.
+    pub notices: Vec<Notice>,
+    /// Photographs opened before, newest first.
+    pub recent: Vec<PathBuf>,
+    /// Number of the newest request.
+    pub generation: u64,
+    pub(super) notices_so_far: u64,
+}
+
+impl State {
+    /// The result that the panels show: the newest, or the pinned one where that is asked for.
+    pub fn shown(&self) -> Option<&Arc<Shown>> {
+        match &self.pinned {
+            Some(pinned) if self.view.show_pinned => Some(pinned),
+            _ => self.newest.as_ref(),
+        }
+    }
+
+    /// Whether what is shown was made from the parameters as they are.
+    pub fn is_current(&self) -> bool {
+        self.newest
+            .as_ref()
+            .is_some_and(|shown| shown.generation == self.generation && shown.stale_from.is_none())
+    }
+
+    /// The region that an item is or lies in, in the result shown.
+    pub fn region_of(&self, item: Item) -> Option<u16> {
+        let shown = self.shown()?;
+        let labels = &shown.labels();
+        let region = match item {
+            Item::Region(region) => region,
+            Item::Pixel(pixel) => *labels.as_slice().get(pixel as usize)?,
+            Item::Window(_) | Item::Bin(_) => return None,
+        };
+        (region != 0 && usize::from(region) <= shown.analysis.intrinsic.regions.len()).then_some(region)
+    }
+
+    /// The region that panels about one region show: the selected item's.
+    pub fn selected_region(&self) -> Option<u16> {
+        self.document.selection.item.and_then(|item| self.region_of(item))
+    }
+}
+
+/// How grave a notice is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// Something was done.
+    Done,
+    /// Something to beware of.
+    Warning,
+    /// Something failed.
+    Error,
+}
+
+/// A sentence that stays until it is dismissed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// To dismiss it by.
+    pub id: u64,
+    /// How grave it is.
+    pub severity: Severity,
+    /// What happened, to what, and what to do.
+    pub text: String,
+}
