@@ -30,7 +30,7 @@ pub struct Shown {
 impl Shown {
     /// The final regions.
     pub fn labels(&self) -> &LabelMap {
-        &self.analysis.regions
+        &self.analysis.finals.labels
     }
 
     /// Time of the stages that ran, milliseconds.
