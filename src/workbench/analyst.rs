@@ -135,7 +135,7 @@ fn show(request: &Request, analysis: Analysis, took_ms: [Option<f64>; 7], last: 
 }
 
 fn coverage(analysis: &Analysis) -> f64 {
-    let labels = analysis.regions.as_slice().iter().enumerate();
+    let labels = analysis.finals.labels.as_slice().iter().enumerate();
     let (lit, assigned) = labels
         .filter(|&(pixel, _)| !analysis.masks.dark(pixel))
         .fold((0u64, 0u64), |sums, (_, &label)| (sums.0 + 1, sums.1 + u64::from(label != 0)));
