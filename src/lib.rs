@@ -51,6 +51,7 @@
 //! | [`report`] | the schema of `report.json` |
 //! | [`truth`] | ground truth and scores |
 //! | [`export`] | results as files |
+//! | `gpu` | the colour space in three dimensions (feature `gui`): camera, points, lines and solids, picking |
 //!
 //! Who may use whom, left by right; rooms between the same arrows do not know each other:
 //!
@@ -65,6 +66,8 @@
 pub mod analysis;
 pub mod color;
 pub mod export;
+#[cfg(feature = "gui")]
+pub mod gpu;
 pub mod intrinsic;
 pub mod photo;
 pub mod raster;
