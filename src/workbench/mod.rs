@@ -17,6 +17,7 @@ mod read;
 mod reduce;
 mod shown;
 mod state;
+mod table;
 mod view;
 
 pub use analyst::Request;
@@ -30,6 +31,7 @@ pub use picture::{Origin, Picture};
 pub use reduce::{Effect, reduce};
 pub use shown::Shown;
 pub use state::{Notice, Severity, State};
+pub use table::regions_text;
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
     Theme, Tool, View,
