@@ -20,6 +20,7 @@ mod shown;
 mod state;
 #[cfg(test)]
 mod testing;
+mod table;
 mod view;
 
 pub use analyst::Request;
@@ -34,6 +35,7 @@ pub use picture::{Origin, Picture};
 pub use reduce::{Effect, reduce};
 pub use shown::Shown;
 pub use state::{Notice, Severity, State};
+pub use table::regions_text;
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
     Theme, Tool, View,
