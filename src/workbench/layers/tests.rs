@@ -131,7 +131,7 @@ fn noise_and_difference_are_grey_at_zero() {
     let mut body = now.analysis.intrinsic.body.clone();
     body.as_mut_slice()[1..3].copy_from_slice(&[[164.0, 36.0, 132.0], [900.0, 0.0, 100.0]]);
     let before = shown(&picture);
-    now.analysis.intrinsic = Arc::new(Intrinsic { noise, body, ..Intrinsic::clone(&now.analysis.intrinsic) });
+    now.analysis.intrinsic = Arc::new(Intrinsic { body, noise, ..Intrinsic::clone(&now.analysis.intrinsic) });
     let greys = |layer, pinned: Option<&Shown>| -> Vec<[u8; 4]> {
         paint(layer, &picture, Some(&now), pinned, &Look::default()).into_vec()
     };
