@@ -4,8 +4,8 @@ use anyhow::{Context, Result};
 use dichroscope::analysis::{Analysis, Observer, Session, Stage};
 use dichroscope::export::{self, Staging};
 use dichroscope::photo::{self, Photo, ReadOptions};
-use dichroscope::raster::{Raster, UNASSIGNED};
-use dichroscope::report::{ImageFacts, Report, Timings};
+use dichroscope::raster::{Mask, Raster, UNASSIGNED};
+use dichroscope::report::{AreaFacts, ImageFacts, Report, Timings};
 use dichroscope::segment::Params;
 use dichroscope::truth::{GroundTruth, Outcome, score};
 use std::path::Path;
@@ -69,6 +69,36 @@ impl Reference {
     }
 }
 
+/// The pixels to analyse.
+pub(super) struct Area {
+    name: String,
+    mask: Arc<Mask>,
+}
+
+impl Area {
+    /// Reads a mask: what is not black is inside. Errors name the file.
+    pub(super) fn read(path: &Path, options: &ReadOptions) -> Result<Self> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { name, mask: Arc::new(photo::read_mask(path, options)?) })
+    }
+
+    fn facts(&self) -> AreaFacts {
+        let pixels = self.mask.as_slice().iter().filter(|&&inside| inside).count();
+        AreaFacts { file: self.name.clone(), pixels }
+    }
+}
+
+/// How a photograph is analysed and written.
+pub(super) struct Plan<'a> {
+    pub(super) params: &'a Params,
+    pub(super) area: Option<&'a Area>,
+    pub(super) reference: Option<&'a Reference>,
+    /// Share of the surface reflection that the matte picture keeps, 0…1.
+    pub(super) keep_surface: f64,
+    /// Whether a folder that is no earlier result may be replaced.
+    pub(super) force: bool,
+}
+
 /// What became of a photograph.
 pub(super) struct Finished {
     pub(super) report: Report,
@@ -77,19 +107,18 @@ pub(super) struct Finished {
 }
 
 /// Analyses a photograph and writes its result to `target`.
-pub(super) fn analyze(
-    shot: &Shot,
-    params: &Params,
-    reference: Option<&Reference>,
-    target: &Path,
-    force: bool,
-) -> Result<Finished> {
+pub(super) fn analyze(shot: &Shot, plan: &Plan, target: &Path) -> Result<Finished> {
     let mut clock = StageClock::default();
     let image = Arc::new(shot.photo.image.clone());
-    let analysis = Session::new(Arc::clone(&image)).run(params, &mut clock)?;
-    let mut report = Report::new(shot.facts(), params, &analysis, &shot.photo.warnings);
+    let mut session = Session::new(Arc::clone(&image));
+    if let Some(area) = plan.area {
+        session.restrict(Some(Arc::clone(&area.mask))).with_context(|| format!("--area {}", area.name))?;
+    }
+    let analysis = session.run(plan.params, &mut clock)?;
+    let mut report = Report::new(shot.facts(), plan.params, &analysis, &shot.photo.warnings);
+    report.area = plan.area.map(Area::facts);
     report.timings_ms = Timings { read: Some(shot.read_ms), ..clock.timings };
-    if let Some(Reference { truth, camera }) = reference {
+    if let Some(Reference { truth, camera }) = plan.reference {
         let intrinsic = &analysis.intrinsic;
         let outcome = Outcome {
             regions: &analysis.finals.labels,
@@ -100,10 +129,10 @@ pub(super) fn analyze(
         report.scores = Some(score(truth, camera, &outcome)?);
     }
     let begin = Instant::now();
-    let staging = Staging::begin(target, force)?;
+    let staging = Staging::begin(target, plan.force)?;
     let (pictures, matte) = rayon::join(
         || export::write_pictures(staging.folder(), &image, &analysis),
-        || export::write_matte(&shot.photo, &analysis.intrinsic.body, staging.folder()),
+        || export::write_matte(&shot.photo, &analysis.intrinsic, plan.keep_surface, staging.folder()),
     );
     pictures?;
     matte?;

@@ -39,17 +39,17 @@ impl Shown {
 
     /// Regions after the linear stage, numbered in the order of their hypotheses.
     pub fn linear_labels(&self) -> &LabelMap {
-        &self.analysis.linear
+        &self.analysis.matte.labels
     }
 
     /// Regions after the planar stage, numbered likewise.
     pub fn planar_labels(&self) -> &LabelMap {
-        &self.analysis.planar
+        &self.analysis.planar.labels
     }
 
     /// Class of each window, row-major; none where too few pixels are valid.
     pub fn classes(&self) -> &Raster<Option<Class>> {
-        &self.analysis.classes
+        &self.analysis.windows.classes
     }
 
     /// Merged area of each pixel, from 1; 0 where its window has no class.
@@ -59,7 +59,7 @@ impl Shown {
 
     /// Side of a window, pixels.
     pub fn window_px(&self) -> usize {
-        (self.analysis.used.window_size as usize).max(1)
+        self.analysis.windows.size_px.max(1)
     }
 
     /// Time of the stages that ran, milliseconds.

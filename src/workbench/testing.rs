@@ -5,7 +5,7 @@ use crate::analysis::Session;
 use crate::intrinsic::{Intrinsic, RegionReflection};
 use crate::photo::{self, EncodingChoice, ReadOptions};
 use crate::raster::{LabelMap, Raster};
-use crate::segment::Params;
+use crate::segment::{FinalRegions, Params};
 use std::sync::Arc;
 
 /// A picture `width` pixels wide, of linear 8-bit colours.
@@ -51,6 +51,7 @@ pub(super) fn shown(picture: &Arc<Picture>) -> Shown {
         area: None,
         analysis,
         stale_from: None,
+        coverage: 0.0,
         region_colours: (0..count).map(|id| [id as u8; 3]).collect(),
         took_ms: [None; 7],
     }
@@ -65,7 +66,8 @@ pub(super) fn divided(picture: &Arc<Picture>, rows: &[&str]) -> Shown {
     let regions = (1..=last).map(|id| region(id, pixels(id))).collect();
     shown.region_colours = (1..=last).map(|id| [10 * id as u8; 3]).collect();
     shown.analysis.intrinsic = Arc::new(Intrinsic { regions, ..Intrinsic::clone(&shown.analysis.intrinsic) });
-    shown.analysis.regions = Arc::new(labels);
+    let finals = FinalRegions { labels, ..FinalRegions::clone(&shown.analysis.finals) };
+    shown.analysis.finals = Arc::new(finals);
     shown
 }
 

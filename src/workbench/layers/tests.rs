@@ -1,5 +1,6 @@
 use super::*;
 use crate::intrinsic::Intrinsic;
+use crate::segment::{MatteRegions, Windows};
 use crate::workbench::testing::{divided, grey, labels, picture, shown};
 use crate::workbench::{Item, Selection};
 use std::sync::Arc;
@@ -49,7 +50,7 @@ fn fills_cover_and_outlines_stay_inside() {
     let named = [('1', [10, 10, 10, 255]), ('2', [20, 20, 20, 255])];
     check(&paint(Layer::Regions, &picture, Some(&shown), None, &opaque), &named, &ROWS);
     let outlines = Look { fill: Fill::Outline, opacity: 0.1, ..opaque };
-    let expected = ["...11", "1.122", ".1122", "....2"];
+    let expected = ["...11", "1.122", ".112.", "....2"];
     check(&paint(Layer::Regions, &picture, Some(&shown), None, &outlines), &named, &expected);
 }
 
@@ -68,7 +69,8 @@ fn earlier_regions_have_the_colours_of_their_heirs() {
     let picture = grey(&ROWS, 255);
     let mut shown = divided(&picture, &ROWS);
     let earlier = labels(&["33355", "33355", "4...7", "....7"]);
-    shown.analysis.linear = Arc::new(earlier);
+    let matte = MatteRegions { labels: earlier, ..MatteRegions::clone(&shown.analysis.matte) };
+    shown.analysis.matte = Arc::new(matte);
     let look = Look { opacity: 1.0, ..Look::default() };
     let named = [('1', [10, 10, 10, 255]), ('2', [20, 20, 20, 255]), ('x', [150, 150, 150, 255])];
     let expected = ["11111", "11111", "x...2", "....2"];
@@ -82,7 +84,9 @@ fn windows_have_the_papers_colours_and_areas_those_of_the_stage_pictures() {
     let mut shown = shown(&picture);
     let classes = [Some(Class::Point), Some(Class::Line), None];
     let classes = classes.into_iter().chain([Some(Class::Plane), Some(Class::Volume), None]).chain([None; 3]);
-    shown.analysis.classes = Arc::new(Raster::from_vec(3, 3, classes.collect()).unwrap());
+    let classes = Raster::from_vec(3, 3, classes.collect()).unwrap();
+    let windows = Windows { classes, ..Windows::clone(&shown.analysis.windows) };
+    shown.analysis.windows = Arc::new(windows);
     let areas = (0..26 * 22).map(|i| [7, 0, 9][i % 26 / 10]).collect();
     shown.analysis.areas = Arc::new(Raster::from_vec(26, 22, areas).unwrap());
     let look = Look { opacity: 1.0, ..Look::default() };
@@ -127,7 +131,7 @@ fn noise_and_difference_are_grey_at_zero() {
     let mut body = now.analysis.intrinsic.body.clone();
     body.as_mut_slice()[1..3].copy_from_slice(&[[164.0, 36.0, 132.0], [900.0, 0.0, 100.0]]);
     let before = shown(&picture);
-    now.analysis.intrinsic = Arc::new(Intrinsic { noise, body, ..Intrinsic::clone(&now.analysis.intrinsic) });
+    now.analysis.intrinsic = Arc::new(Intrinsic { body, noise, ..Intrinsic::clone(&now.analysis.intrinsic) });
     let greys = |layer, pinned: Option<&Shown>| -> Vec<[u8; 4]> {
         paint(layer, &picture, Some(&now), pinned, &Look::default()).into_vec()
     };
