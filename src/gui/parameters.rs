@@ -7,11 +7,17 @@ use crate::workbench::{Command, Gesture};
 use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Slider, Ui, vec2};
 
 /// Width of the labels' column, points.
-const LABEL_PT: f32 = 104.0;
-/// Width of value and unit.
-const VALUE_PT: f32 = 74.0;
+const LABEL_PT: f32 = 100.0;
+/// Width of a typed value.
+const VALUE_PT: f32 = 46.0;
+/// Width of its unit.
+const UNIT_PT: f32 = 38.0;
 /// Width of the `auto` button.
 const AUTO_PT: f32 = 38.0;
+/// Height of a row.
+const ROW_PT: f32 = 20.0;
+/// Between the columns.
+const GAP_PT: f32 = 4.0;
 
 /// Shows the panel.
 pub fn show(ui: &mut Ui, cx: &mut Cx) {
@@ -67,6 +73,45 @@ fn label(ui: &mut Ui, cx: &Cx, text: &str, tip: &str) -> egui::Response {
     .on_hover_text(tip)
 }
 
+/// The cells of a row, the same in every row.
+struct Columns {
+    label: Cell,
+    rail: Cell,
+    value: Cell,
+    unit: Cell,
+    auto: Cell,
+}
+
+struct Cell(egui::Rect);
+
+impl Cell {
+    fn show(&self, ui: &mut Ui, widget: impl egui::Widget) -> egui::Response {
+        let layout = Layout::left_to_right(Align::Center);
+        let builder = egui::UiBuilder::new().max_rect(self.0).layout(layout);
+        ui.scope_builder(builder, |ui| ui.add(widget)).inner
+    }
+}
+
+impl Columns {
+    fn of(ui: &mut Ui) -> Self {
+        let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_PT), egui::Sense::hover());
+        let mut left = row.left();
+        let rail = (row.width() - LABEL_PT - VALUE_PT - UNIT_PT - AUTO_PT - 4.0 * GAP_PT).max(40.0);
+        let mut cell = |width: f32| {
+            let rect = egui::Rect::from_min_size(egui::pos2(left, row.top()), vec2(width, row.height()));
+            left += width + GAP_PT;
+            Cell(rect)
+        };
+        Self {
+            label: cell(LABEL_PT),
+            rail: cell(rail),
+            value: cell(VALUE_PT),
+            unit: cell(UNIT_PT),
+            auto: cell(AUTO_PT),
+        }
+    }
+}
+
 /// What a slider needs beyond the parameter's own specification: the range of the hand, and the paper's section.
 struct Feel {
     title: &'static str,
@@ -102,33 +147,37 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
         "{}: {}.\nPaper, table 6: {} {}. Double-click: back to the default. ({})",
         spec.name, spec.meaning, spec.paper, spec.unit, feel.section
     );
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
-        let name = label(ui, cx, feel.title, &tip);
-        let rail = (ui.available_width() - VALUE_PT - AUTO_PT - 12.0).max(40.0);
-        ui.spacing_mut().slider_width = rail;
+    let columns = Columns::of(ui);
+    ui.scope(|ui| {
+        let name = columns.label.show(ui, egui::Label::new(feel.title).truncate()).on_hover_text(&tip);
+        ui.spacing_mut().slider_width = columns.rail.0.width();
         let slider = Slider::new(&mut value, feel.range.clone())
             .show_value(false)
             .step_by(feel.step)
             .logarithmic(feel.logarithmic)
-            .clamping(egui::SliderClamping::Never)
-            .text("");
-        let slider = ui.add(slider).on_hover_text(&tip);
-        slider.widget_info(|| egui::WidgetInfo::slider(ui.is_enabled(), value, feel.title));
+            .clamping(egui::SliderClamping::Never);
+        let slider = columns.rail.show(ui, slider).on_hover_text(&tip);
+        slider.widget_info(|| egui::WidgetInfo::slider(true, value, feel.title));
         let decimals = usize::from(feel.step < 1.0) * 2;
         let typed = DragValue::new(&mut value)
             .speed(feel.step)
             .range(spec.range.0..=spec.range.1)
-            .max_decimals(decimals)
-            .min_decimals(decimals.min(1));
-        let typed = ui.add_sized(vec2(44.0, 18.0), typed).on_hover_text(&tip);
+            .fixed_decimals(decimals);
+        let typed = columns.value.show(ui, typed).on_hover_text(&tip);
+        typed.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, spec.name));
         let unit = RichText::new(spec.unit).size(SMALL_PT).color(cx.tones.quiet);
-        ui.add_sized(vec2(VALUE_PT - 44.0, 18.0), egui::Label::new(unit).truncate());
+        columns.unit.show(ui, egui::Label::new(unit).truncate());
         let automatic = setting == Setting::Auto;
-        let auto = ui.add_sized(
-            vec2(AUTO_PT, 18.0),
-            Button::selectable(automatic, RichText::new("auto").size(SMALL_PT)),
-        );
+        let auto = Button::selectable(automatic, RichText::new("auto").size(SMALL_PT));
+        let auto = columns.auto.show(ui, auto);
+        auto.widget_info(|| {
+            egui::WidgetInfo::selected(
+                egui::accesskit::Role::CheckBox,
+                true,
+                automatic,
+                format!("{} auto", feel.title),
+            )
+        });
         let auto = auto.on_hover_text("Estimated from the image; the slider shows what was used.");
         if name.double_clicked() || slider.double_clicked() {
             let default = Params::of(cx.state.document.params.method).get(parameter);

@@ -18,6 +18,7 @@ mod read;
 mod reduce;
 mod shown;
 mod state;
+mod table;
 #[cfg(test)]
 mod testing;
 mod view;
@@ -34,6 +35,7 @@ pub use picture::{Origin, Picture};
 pub use reduce::{Effect, reduce};
 pub use shown::Shown;
 pub use state::{Notice, Severity, State};
+pub use table::regions_text;
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
     Theme, Tool, View,
