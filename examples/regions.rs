@@ -40,7 +40,7 @@ fn main() -> anyhow::Result<()> {
         }
     }
     // The label map holds the same numbers: 0 for no region, else `id`.
-    let unassigned = analysis.regions.as_slice().iter().filter(|&&id| id == 0).count();
+    let unassigned = analysis.finals.labels.as_slice().iter().filter(|&&id| id == 0).count();
     println!("\n{unassigned} pixels in no region");
     Ok(())
 }

@@ -4,18 +4,20 @@
 //! it makes stale. The command line and the window both stand on it. An [`Observer`] hears of progress, keeps the clock and
 //! may cancel; a [`Recorder`] hears of every decision.
 
+mod output;
 mod resolve;
 mod stages;
 mod stale;
 
 pub use crate::segment::Illuminant;
 pub use crate::trace::Stage;
+pub use output::StageOutput;
 
 use crate::intrinsic::Intrinsic;
 use crate::photo::{LinearImage, Masks};
-use crate::raster::{LabelMap, Raster};
-use crate::segment::{Params, UsedParams};
-use crate::trace::{Class, Recorder, Silent};
+use crate::raster::Raster;
+use crate::segment::{FinalRegions, MatteRegions, Params, PlanarRegions, UsedParams, Windows};
+use crate::trace::{Recorder, Silent};
 use stages::Stages;
 use std::sync::Arc;
 
@@ -25,6 +27,8 @@ pub trait Observer: Sync {
     fn started(&mut self, _stage: Stage) {}
     /// A stage has ended; `reused` when its earlier output still stood.
     fn finished(&mut self, _stage: Stage, _reused: bool) {}
+    /// What a stage has found, right after it ended and while later ones are still to come; reused outputs too.
+    fn made(&mut self, _output: StageOutput) {}
     /// Asked before each stage and once a hypothesis; a run stops soon after it turns true.
     fn cancelled(&self) -> bool {
         false
@@ -34,23 +38,23 @@ pub trait Observer: Sync {
 /// Watches nothing.
 impl Observer for () {}
 
-/// Everything that a run found.
+/// Everything that a run found. The stages' outputs are shared with the session, not copied.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// The numbers that were worked with.
     pub used: UsedParams,
     /// Which pixels were believed.
     pub masks: Arc<Masks>,
-    /// Class of each window of `used.window_size` pixels, row-major; `None` where too few pixels are valid.
-    pub classes: Arc<Raster<Option<Class>>>,
+    /// The windows with their moments and classes.
+    pub windows: Arc<Windows>,
     /// Merged area of each pixel, from 1; 0 where its window has no class.
     pub areas: Arc<Raster<u32>>,
-    /// Regions after the linear stage, numbered in the order of their hypotheses.
-    pub linear: Arc<LabelMap>,
-    /// Regions after the planar stage, numbered likewise.
-    pub planar: Arc<LabelMap>,
-    /// The final regions, numbered by decreasing size.
-    pub regions: Arc<LabelMap>,
+    /// Regions after the linear stage, numbered in the order of their hypotheses, and these with their lines.
+    pub matte: Arc<MatteRegions>,
+    /// Regions after the planar stage, numbered likewise, and their skewed Ts.
+    pub planar: Arc<PlanarRegions>,
+    /// The final regions, numbered by decreasing size, and their skewed Ts.
+    pub finals: Arc<FinalRegions>,
     /// The colour of the light, where there was evidence of it.
     pub illuminant: Option<Illuminant>,
     /// The intrinsic images and the regions' reflection vectors.

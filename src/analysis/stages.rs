@@ -2,7 +2,7 @@
 
 use super::resolve::{mask_limits, used_params};
 use super::stale::seen_up_to;
-use super::{Analysis, Cancelled, Observer, Stage};
+use super::{Analysis, Cancelled, Observer, Stage, StageOutput};
 use crate::intrinsic::{Intrinsic, split};
 use crate::photo::{LinearImage, MaskLimits, Masks, estimate_sigma};
 use crate::raster::{LabelMap, Raster};
@@ -106,6 +106,7 @@ impl Stages {
             begin(recorder, Stage::Classify);
             Arc::new(classify_windows(&scene, recorder))
         })?;
+        observer.made(StageOutput::Windows(windows.clone()));
         let after_classify = key(Stage::Merge, self.classify.generation);
         let merged = self.merge.get(Stage::Merge, after_classify, observer, |_| {
             begin(recorder, Stage::Merge);
@@ -114,6 +115,7 @@ impl Stages {
             let map = Arc::new(area_map(&areas, &windows, image.width(), image.height()));
             Arc::new(MergedAreas { areas, map })
         })?;
+        observer.made(StageOutput::Areas(merged.map.clone()));
         let areas = &merged.areas;
         let after_merge = key(Stage::Linear, self.merge.generation);
         let matte = self.linear.get(Stage::Linear, after_merge, observer, |observer| {
@@ -121,36 +123,31 @@ impl Stages {
             let stop = || observer.cancelled();
             Arc::new(matte_regions(&scene.stopped_by(&stop), &windows, areas, recorder))
         })?;
+        observer.made(StageOutput::Matte(matte.clone()));
         let after_linear = key(Stage::Planar, self.linear.generation);
         let planar = self.planar.get(Stage::Planar, after_linear, observer, |observer| {
             begin(recorder, Stage::Planar);
             let stop = || observer.cancelled();
             Arc::new(planar_regions(&scene.stopped_by(&stop), &windows, areas, &matte, recorder))
         })?;
+        observer.made(StageOutput::Planar(planar.clone()));
         let after_planar = key(Stage::Clipping, self.planar.generation);
-        let regions = self.clipping.get(Stage::Clipping, after_planar, observer, |_| {
+        let finals = self.clipping.get(Stage::Clipping, after_planar, observer, |_| {
             begin(recorder, Stage::Clipping);
             let labels = clipping_regions(&scene, &planar, recorder);
             Arc::new(final_regions(&scene, labels, &planar, recorder))
         })?;
+        observer.made(StageOutput::Finals(finals.clone()));
         let after_clipping = key(Stage::Split, self.clipping.generation);
         let intrinsic = self.split.get(Stage::Split, after_clipping, observer, |_| {
             begin(recorder, Stage::Split);
-            Arc::new(split(&scene, &regions, recorder))
+            Arc::new(split(&scene, &finals, recorder))
         })?;
-        let warnings = warnings(&regions.labels, &planar, &masks);
-        Ok(Analysis {
-            used,
-            masks,
-            classes: Arc::new(windows.classes.clone()),
-            areas: merged.map.clone(),
-            linear: Arc::new(matte.labels.clone()),
-            planar: Arc::new(planar.labels.clone()),
-            regions: Arc::new(regions.labels.clone()),
-            illuminant: planar.illuminant,
-            intrinsic,
-            warnings,
-        })
+        observer.made(StageOutput::Intrinsic(intrinsic.clone()));
+        let warnings = warnings(&finals.labels, &planar, &masks);
+        let areas = merged.map.clone();
+        let illuminant = planar.illuminant;
+        Ok(Analysis { used, masks, windows, areas, matte, planar, finals, illuminant, intrinsic, warnings })
     }
 
     fn masks<R: Recorder>(
@@ -176,7 +173,9 @@ impl Stages {
             let min_intensity = used_params(params, image, sigma).min_intensity;
             (Arc::new(Masks::new(image, &MaskLimits { min_intensity, ..limits })), sigma)
         })?;
-        Ok((masks, used_params(params, image, sigma)))
+        let used = used_params(params, image, sigma);
+        observer.made(StageOutput::Masks { masks: masks.clone(), used });
+        Ok((masks, used))
     }
 }
 

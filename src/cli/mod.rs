@@ -25,14 +25,16 @@ use tracing_subscriber::EnvFilter;
 #[derive(Debug, Parser)]
 #[command(name = "dichroscope", version, args_conflicts_with_subcommands = true)]
 pub struct Arguments {
-    /// Photograph to open in the window; none: the embedded sample is analysed
-    image: Option<PathBuf>,
+    /// Photograph to open in the window; none: a sample scene
+    pub image: Option<PathBuf>,
+    /// What to do instead
     #[command(subcommand)]
-    command: Option<Command>,
+    pub command: Option<Command>,
 }
 
+/// What can be done without the window.
 #[derive(Debug, Subcommand)]
-enum Command {
+pub enum Command {
     Analyze(Box<analyze::Arguments>),
     Evaluate(evaluate::Arguments),
 }
@@ -72,7 +74,7 @@ fn no_window(image: &std::path::Path) -> Result<Outcome> {
 }
 
 /// A line on stderr. A reader that has gone away is no reason to stop working.
-fn note(line: &str) {
+pub fn note(line: &str) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 

@@ -92,7 +92,7 @@ pub(super) fn analyze(
     if let Some(Reference { truth, camera }) = reference {
         let intrinsic = &analysis.intrinsic;
         let outcome = Outcome {
-            regions: &analysis.regions,
+            regions: &analysis.finals.labels,
             body: &intrinsic.body,
             surface: &intrinsic.surface,
             report: &report,
@@ -114,7 +114,7 @@ pub(super) fn analyze(
 
 fn lit_share(analysis: &Analysis) -> Option<f64> {
     let (mut lit, mut assigned) = (0usize, 0usize);
-    for (pixel, &region) in analysis.regions.as_slice().iter().enumerate() {
+    for (pixel, &region) in analysis.finals.labels.as_slice().iter().enumerate() {
         if !analysis.masks.dark(pixel) {
             lit += 1;
             assigned += usize::from(region != UNASSIGNED);

@@ -15,6 +15,7 @@ mod staging;
 pub use matte::{MatteError, write_matte};
 pub use palette::Palette;
 pub use pictures::write_pictures;
+pub use png::png_of_rgba;
 pub use result::{ResultError, is_result_folder, read_report};
 pub use staging::{Staging, check_target};
 

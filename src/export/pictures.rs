@@ -25,12 +25,12 @@ const PICTURES: [(&str, Writer); 13] = [
     ("body.png", |s, path| png::write_rgb(path, &viewable(&s.analysis.intrinsic.body))),
     ("surface.png", |s, path| png::write_rgb(path, &viewable(&s.analysis.intrinsic.surface))),
     ("noise.png", |s, path| png::write_grey(path, &viewable_noise(s.analysis))),
-    ("regions.png", |s, path| png::write_labels(path, &s.analysis.regions)),
+    ("regions.png", |s, path| png::write_labels(path, &s.analysis.finals.labels)),
     ("stage-1-classification.png", |s, path| png::write_rgb(path, &stages::classification(s.analysis))),
     ("stage-2-merged.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.areas))),
-    ("stage-3-linear.png", |s, path| png::write_rgb(path, &like_the_last(s, &s.analysis.linear))),
-    ("stage-4-planar.png", |s, path| png::write_rgb(path, &like_the_last(s, &s.analysis.planar))),
-    ("stage-5-clipping.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.regions))),
+    ("stage-3-linear.png", |s, path| png::write_rgb(path, &like_the_last(s, &s.analysis.matte.labels))),
+    ("stage-4-planar.png", |s, path| png::write_rgb(path, &like_the_last(s, &s.analysis.planar.labels))),
+    ("stage-5-clipping.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.finals.labels))),
 ];
 
 /// Writes everything of a result but the report and the matte photograph into `folder`, in parallel.
@@ -44,7 +44,7 @@ pub fn write_pictures(folder: &Path, image: &LinearImage, analysis: &Analysis) -
 
 /// A stage's regions in the colours of the final ones.
 fn like_the_last(subject: &Subject, labels: &LabelMap) -> Raster<[u8; 3]> {
-    stages::coloured_like(labels, &subject.analysis.regions)
+    stages::coloured_like(labels, &subject.analysis.finals.labels)
 }
 
 /// Input − body − surface, counts.
@@ -95,8 +95,9 @@ mod tests {
             noise,
             ..Intrinsic::clone(&analysis.intrinsic)
         });
-        analysis.regions = Arc::new(Raster::filled(SIZE.0, SIZE.1, 300));
-        analysis.classes = Arc::new(Raster::from_vec(2, 1, vec![Some(Class::Line), None]).unwrap());
+        Arc::make_mut(&mut analysis.finals).labels = Raster::filled(SIZE.0, SIZE.1, 300);
+        Arc::make_mut(&mut analysis.windows).classes =
+            Raster::from_vec(2, 1, vec![Some(Class::Line), None]).unwrap();
         (image, analysis)
     }
 

@@ -10,11 +10,11 @@ const BLACK: [u8; 3] = [0; 3];
 
 /// The windows' classes in the paper's colours: point yellow, line red, plane green, volume blue, none black.
 pub(super) fn classification(analysis: &Analysis) -> Raster<[u8; 3]> {
-    let (width, height) = (analysis.regions.width(), analysis.regions.height());
-    let side = (analysis.used.window_size as usize).max(1);
+    let (width, height) = (analysis.areas.width(), analysis.areas.height());
+    let windows = &analysis.windows;
     let mut picture = Raster::filled(width, height, BLACK);
     for (index, pixel) in picture.as_mut_slice().iter_mut().enumerate() {
-        let window = analysis.classes.get(index % width / side, index / width / side);
+        let window = windows.classes.get(index % width / windows.size_px, index / width / windows.size_px);
         *pixel = match window.copied().flatten() {
             Some(Class::Point) => [255, 255, 0],
             Some(Class::Line) => [255, 0, 0],

@@ -39,6 +39,8 @@ pub struct Report {
 impl Report {
     /// The report of one run. `file_warnings` come from reading the image; scores and timings are still empty.
     pub fn new(image: ImageFacts, params: &Params, analysis: &Analysis, file_warnings: &[String]) -> Self {
+        let labels = analysis.finals.labels.as_slice();
+        let unassigned = labels.iter().filter(|&&id| id == UNASSIGNED).count();
         Self {
             schema: SCHEMA,
             program: env!("CARGO_PKG_VERSION").to_owned(),
@@ -49,7 +51,7 @@ impl Report {
                 objects: analysis.illuminant.map_or(0, |light| light.objects),
             },
             regions: analysis.intrinsic.regions.iter().map(RegionFacts::from).collect(),
-            unassigned_pixels: analysis.regions.as_slice().iter().filter(|&&id| id == UNASSIGNED).count(),
+            unassigned_pixels: unassigned,
             warnings: file_warnings.iter().chain(&analysis.warnings).cloned().collect(),
             scores: None,
             timings_ms: Timings::default(),

@@ -170,6 +170,7 @@ mod tests {
     fn fill_in(drawing: &Drawing, before: &[&str], with_plane: bool, after: &[&str]) {
         let matte = Line::new(body() * 80.0, body());
         let hypothesis = PlanarHypothesis {
+            origin: 1,
             matte,
             matte_length: 150.0,
             plane: DichromaticPlane::new(&matte, &Vec3::repeat(1.0)).filter(|_| with_plane),

@@ -48,7 +48,9 @@ pub struct Illuminant {
 /// A region's skewed T.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanarHypothesis {
-    /// Matte line.
+    /// The linear hypothesis that it came from, from 1: its label in [`MatteRegions`].
+    pub origin: u16,
+    /// Matte line, the axis of that hypothesis's cylinder.
     pub matte: Line,
     /// Length of the matte line from black, counts.
     pub matte_length: f64,
@@ -286,6 +288,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
             .filter(|plane| plane.angle_deg() >= MIN_ANGLE_DEG || !self.scene.refine.extend_planes);
         let start = own.map_or(line.foot() + line.direction * (DEFAULT_START * matte_length), |o| o.start);
         PlanarHypothesis {
+            origin: index as u16 + 1,
             matte: line,
             matte_length,
             plane,

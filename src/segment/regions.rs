@@ -29,7 +29,8 @@ const BORDER_SAMPLES: usize = 300;
 pub struct FinalRegions {
     /// Region of each pixel, numbered from 1 by decreasing size.
     pub labels: LabelMap,
-    /// Region `id` at index `id − 1`.
+    /// Region `id` at index `id − 1`. Parts of one linear hypothesis that lie apart have the same
+    /// [`origin`](PlanarHypothesis::origin).
     pub hypotheses: Vec<PlanarHypothesis>,
 }
 
@@ -311,14 +312,18 @@ mod tests {
             }
         }
         let lines = [Vec3::new(1.0, 0.2, 0.2), Vec3::new(0.2, 1.0, 0.2), Vec3::new(0.2, 0.2, 1.0)];
-        let hypothesis = |direction: &Vec3| {
-            let line = Line::new(direction * 50.0, *direction);
-            let (start, matte_length) = (line.mean, 90.0);
-            PlanarHypothesis { matte: line, matte_length, plane: None, start, highlight: None, alive: true }
+        let hypothesis = |(origin, direction): (u16, &Vec3)| PlanarHypothesis {
+            origin,
+            matte: Line::new(direction * 50.0, *direction),
+            matte_length: 90.0,
+            plane: None,
+            start: direction * 50.0,
+            highlight: None,
+            alive: true,
         };
         let planar = PlanarRegions {
             labels: labels.clone(),
-            hypotheses: lines.iter().map(hypothesis).collect(),
+            hypotheses: (1..).zip(&lines).map(hypothesis).collect(),
             illuminant: None,
         };
         let row = ".".repeat(SIZE_PX[0]);

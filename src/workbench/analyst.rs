@@ -121,15 +121,25 @@ impl Analyst {
 fn show(request: &Request, analysis: Analysis, took_ms: [Option<f64>; 7], last: Option<&Shown>) -> Shown {
     let before = last.map(|last| (last.labels(), last.region_colours.as_slice()));
     let region_colours = super::colours::region_colours(&analysis, before);
+    let coverage = coverage(&analysis);
     Shown {
         generation: request.generation,
         picture: Arc::clone(&request.picture),
         params: request.params,
         analysis,
         stale_from: None,
+        coverage,
         region_colours,
         took_ms,
     }
+}
+
+fn coverage(analysis: &Analysis) -> f64 {
+    let labels = analysis.finals.labels.as_slice().iter().enumerate();
+    let (lit, assigned) = labels
+        .filter(|&(pixel, _)| !analysis.masks.dark(pixel))
+        .fold((0u64, 0u64), |sums, (_, &label)| (sums.0 + 1, sums.1 + u64::from(label != 0)));
+    assigned as f64 / lit.max(1) as f64
 }
 
 /// Takes the time of each stage, tells of it, and stops for a newer request.

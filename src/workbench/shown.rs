@@ -21,6 +21,8 @@ pub struct Shown {
     pub stale_from: Option<Stage>,
     /// Colours of the final regions, sRGB; region `id` at index `id − 1`. They stay with the objects while parameters move.
     pub region_colours: Vec<[u8; 3]>,
+    /// Share of the pixels that are not dark which are in a region; 0 where all are dark.
+    pub coverage: f64,
     /// Time of each stage that ran, in the order of [`Stage::ALL`], milliseconds; none: its earlier output still stood.
     pub took_ms: [Option<f64>; Stage::ALL.len()],
 }
@@ -28,7 +30,7 @@ pub struct Shown {
 impl Shown {
     /// The final regions.
     pub fn labels(&self) -> &LabelMap {
-        &self.analysis.regions
+        &self.analysis.finals.labels
     }
 
     /// Time of the stages that ran, milliseconds.

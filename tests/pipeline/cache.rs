@@ -2,7 +2,7 @@
 
 use crate::common::{analyze, fingerprint};
 use crate::synthetic::Scene;
-use dichroscope::analysis::{Cancelled, Observer, Session, Stage};
+use dichroscope::analysis::{Cancelled, Observer, Session, Stage, StageOutput};
 use dichroscope::photo::LinearImage;
 use dichroscope::segment::{Params, Refine, Setting};
 use std::sync::Arc;
@@ -78,6 +78,41 @@ fn a_changed_parameter_reruns_from_the_first_stage_that_looks_at_it() {
             fingerprint(&analysis) == fingerprint(&analyze(&image, &params)),
             "{name}: not a fresh result"
         );
+    }
+}
+
+/// Keeps what each stage hands out.
+#[derive(Default)]
+struct Collector(Vec<StageOutput>);
+
+impl Observer for Collector {
+    fn made(&mut self, output: StageOutput) {
+        self.0.push(output);
+    }
+}
+
+#[test]
+fn every_stage_hands_out_what_the_result_holds_new_or_reused() {
+    let mut session = Session::new(Arc::new(balls()));
+    for _ in 0..2 {
+        let mut collector = Collector::default();
+        let analysis = session.run(&Params::default(), &mut collector).unwrap();
+        let stages: Vec<Stage> = collector.0.iter().map(StageOutput::stage).collect();
+        assert_eq!(stages, Stage::ALL);
+        for output in &collector.0 {
+            let shared = match output {
+                StageOutput::Masks { masks, used } => {
+                    *used == analysis.used && Arc::ptr_eq(masks, &analysis.masks)
+                }
+                StageOutput::Windows(windows) => Arc::ptr_eq(windows, &analysis.windows),
+                StageOutput::Areas(areas) => Arc::ptr_eq(areas, &analysis.areas),
+                StageOutput::Matte(matte) => Arc::ptr_eq(matte, &analysis.matte),
+                StageOutput::Planar(planar) => Arc::ptr_eq(planar, &analysis.planar),
+                StageOutput::Finals(finals) => Arc::ptr_eq(finals, &analysis.finals),
+                StageOutput::Intrinsic(intrinsic) => Arc::ptr_eq(intrinsic, &analysis.intrinsic),
+            };
+            assert!(shared, "{:?} is not the result's own", output.stage());
+        }
     }
 }
 

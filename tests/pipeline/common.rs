@@ -31,8 +31,8 @@ pub fn report(analysis: &Analysis, params: &Params) -> Report {
     let facts = ImageFacts {
         file: String::new(),
         sha256: String::new(),
-        width: analysis.regions.width(),
-        height: analysis.regions.height(),
+        width: analysis.areas.width(),
+        height: analysis.areas.height(),
         encoding: "linear".to_owned(),
         full_scale: 255.0,
     };
@@ -56,7 +56,7 @@ pub fn truth_of(scene: &Scene, rendered: &Rendered) -> GroundTruth {
 
 pub fn scores_of(truth: &GroundTruth, image: &LinearImage, analysis: &Analysis, params: &Params) -> Scores {
     let outcome = Outcome {
-        regions: &analysis.regions,
+        regions: &analysis.finals.labels,
         body: &analysis.intrinsic.body,
         surface: &analysis.intrinsic.surface,
         report: &report(analysis, params),
@@ -69,6 +69,7 @@ pub fn scores_of(truth: &GroundTruth, image: &LinearImage, analysis: &Analysis, 
 /// Says what does not hold, so that property tests can shrink to it.
 pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
     let (intrinsic, regions) = (&analysis.intrinsic, &analysis.intrinsic.regions);
+    let labels = &analysis.finals.labels;
     let mut faults = Vec::new();
     let mut expect = |holds: bool, what: &str| {
         if !holds {
@@ -76,7 +77,7 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
         }
     };
     let size = (image.width(), image.height());
-    expect((analysis.regions.width(), analysis.regions.height()) == size, "the region map has another size");
+    expect((labels.width(), labels.height()) == size, "the region map has another size");
     expect((intrinsic.body.width(), intrinsic.body.height()) == size, "the body image has another size");
     expect((analysis.areas.width(), analysis.areas.height()) == size, "the area map has another size");
     let colors = intrinsic.body.as_slice().iter().chain(intrinsic.surface.as_slice());
@@ -84,7 +85,7 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
     expect(intrinsic.noise.as_slice().iter().all(|v| v.is_finite()), "noise is not finite");
 
     let mut counts = vec![[0usize; 3]; regions.len() + 1];
-    for (pixel, &label) in analysis.regions.as_slice().iter().enumerate() {
+    for (pixel, &label) in labels.as_slice().iter().enumerate() {
         let kind = intrinsic.kinds[pixel];
         expect((label == UNASSIGNED) == (kind == PixelKind::Unassigned), "labels and kinds disagree");
         let Some(count) = counts.get_mut(usize::from(label)) else {
@@ -99,6 +100,11 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
             expect(intrinsic.surface[pixel] == [0.0; 3], "an unassigned pixel reflects at its surface");
             expect(intrinsic.noise[pixel] == 0.0, "an unassigned pixel is noisy");
         }
+    }
+    expect(analysis.finals.hypotheses.len() == regions.len(), "a region without a skewed T");
+    for hypothesis in &analysis.finals.hypotheses {
+        let origin = analysis.matte.hypotheses.get(usize::from(hypothesis.origin) - 1);
+        expect(origin.is_some(), "a region that comes from no linear hypothesis");
     }
     for (index, region) in regions.iter().enumerate() {
         let reported = [region.pixels, region.matte_pixels, region.clipped_pixels];

@@ -13,7 +13,7 @@ use dichroscope::trace::PixelKind;
 fn largest_gap(image: &LinearImage, analysis: &Analysis, unclamped: bool) -> (f32, usize) {
     let intrinsic = &analysis.intrinsic;
     let (mut gap, mut looked_at) = (0f32, 0);
-    for (pixel, &label) in analysis.regions.as_slice().iter().enumerate() {
+    for (pixel, &label) in analysis.finals.labels.as_slice().iter().enumerate() {
         let undistorted = matches!(intrinsic.kinds[pixel], PixelKind::Matte | PixelKind::Highlight);
         if label == UNASSIGNED || !undistorted || (unclamped && intrinsic.surface[pixel] == [0.0; 3]) {
             continue;

@@ -1,0 +1,47 @@
+//! What each stage hands out, for observers that show it before the run has ended.
+
+use super::Stage;
+use crate::intrinsic::Intrinsic;
+use crate::photo::Masks;
+use crate::raster::Raster;
+use crate::segment::{FinalRegions, MatteRegions, PlanarRegions, UsedParams, Windows};
+use std::sync::Arc;
+
+/// The output of one stage, shared with the session; [`super::Analysis`] holds the same ones at the end.
+#[derive(Clone, Debug)]
+pub enum StageOutput {
+    /// Which pixels are believed, and the numbers that the image told.
+    Masks {
+        /// Dark, clipped, bloomed and invalid pixels.
+        masks: Arc<Masks>,
+        /// The numbers that the run works with.
+        used: UsedParams,
+    },
+    /// The windows with their moments and classes.
+    Windows(Arc<Windows>),
+    /// Merged area of each pixel, from 1; 0 where its window has no class.
+    Areas(Arc<Raster<u32>>),
+    /// Regions and hypotheses after the linear stage.
+    Matte(Arc<MatteRegions>),
+    /// Regions and skewed Ts after the planar stage, and the light.
+    Planar(Arc<PlanarRegions>),
+    /// The final regions.
+    Finals(Arc<FinalRegions>),
+    /// The intrinsic images and the regions' reflection vectors.
+    Intrinsic(Arc<Intrinsic>),
+}
+
+impl StageOutput {
+    /// The stage that it is the output of.
+    pub fn stage(&self) -> Stage {
+        match self {
+            Self::Masks { .. } => Stage::Masks,
+            Self::Windows(_) => Stage::Classify,
+            Self::Areas(_) => Stage::Merge,
+            Self::Matte(_) => Stage::Linear,
+            Self::Planar(_) => Stage::Planar,
+            Self::Finals(_) => Stage::Clipping,
+            Self::Intrinsic(_) => Stage::Split,
+        }
+    }
+}
