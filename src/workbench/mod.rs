@@ -14,13 +14,16 @@ mod document;
 mod histogram;
 mod item;
 mod jobs;
+pub mod marking;
 mod picture;
 mod read;
 mod reduce;
+mod shapes;
 mod shown;
 mod solid;
 mod space;
 mod state;
+mod vector;
 mod view;
 
 pub use analyst::Request;
@@ -33,9 +36,14 @@ pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
 pub use picture::{Origin, Picture};
 pub use reduce::{Effect, reduce};
+pub use shapes::{
+    PlaneDirections, RegionShapes, dark_sphere, illuminant_line, plane_directions, region_shapes,
+    window_ellipsoid,
+};
 pub use shown::Shown;
-pub use solid::{Mesh, Point, Solid};
+pub use solid::{Mesh, Solid};
 pub use state::{Notice, Severity, State};
+pub use vector::Point;
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
     Theme, Tool, View,
