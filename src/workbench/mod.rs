@@ -23,6 +23,7 @@ mod shown;
 mod solid;
 mod space;
 mod state;
+mod statistics;
 mod vector;
 mod view;
 
@@ -43,6 +44,7 @@ pub use shapes::{
 pub use shown::Shown;
 pub use solid::{Mesh, Solid};
 pub use state::{Notice, Severity, State};
+pub use statistics::{Band, Bounds, STATISTICS_BINS, Statistics, statistics, statistics_of};
 pub use vector::Point;
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
