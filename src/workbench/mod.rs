@@ -16,6 +16,7 @@ mod item;
 mod jobs;
 pub mod marking;
 mod picture;
+mod plane_points;
 mod read;
 mod reduce;
 mod shapes;
@@ -36,6 +37,7 @@ pub use histogram::{BINS_PER_BAND, ColourBin, Histogram};
 pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
 pub use picture::{Origin, Picture};
+pub use plane_points::{MOST_PLANE_POINTS, PlanePixel, RegionPlane, region_plane};
 pub use reduce::{Effect, reduce};
 pub use shapes::{
     PlaneDirections, RegionShapes, dark_sphere, illuminant_line, plane_directions, region_shapes,
