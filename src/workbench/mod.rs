@@ -33,7 +33,7 @@ pub use axes::{Axis, Tick};
 pub use command::{Combine, Command, Gesture};
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};
-pub use histogram::{BINS_PER_BAND, ColourBin, Histogram};
+pub use histogram::{BINS_PER_BAND, ColourBin, Histogram, UniqueColour};
 pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
 pub use picture::{Origin, Picture};
