@@ -5,8 +5,10 @@
 //! out: on a named worker where the newest request wins, or inline in tests. Panels read the state and return commands.
 
 mod analyst;
+mod axes;
 mod colours;
 mod command;
+mod curves;
 mod desk;
 mod document;
 mod histogram;
@@ -16,10 +18,13 @@ mod picture;
 mod read;
 mod reduce;
 mod shown;
+mod solid;
+mod space;
 mod state;
 mod view;
 
 pub use analyst::Request;
+pub use axes::{Axis, Tick};
 pub use command::{Combine, Command, Gesture};
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};
@@ -29,6 +34,7 @@ pub use jobs::{Export, Job, JobState};
 pub use picture::{Origin, Picture};
 pub use reduce::{Effect, reduce};
 pub use shown::Shown;
+pub use solid::{Mesh, Point, Solid};
 pub use state::{Notice, Severity, State};
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
