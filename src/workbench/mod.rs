@@ -15,6 +15,7 @@ mod histogram;
 mod item;
 mod jobs;
 pub mod marking;
+mod layers;
 mod picture;
 mod plane_points;
 mod read;
@@ -26,6 +27,9 @@ mod space;
 mod state;
 mod statistics;
 mod vector;
+mod table;
+#[cfg(test)]
+mod testing;
 mod view;
 
 pub use analyst::Request;
@@ -36,6 +40,7 @@ pub use document::{Document, History};
 pub use histogram::{BINS_PER_BAND, ColourBin, Histogram, UniqueColour};
 pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
+pub use layers::{ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, legend, marks, paint, pyramid};
 pub use picture::{Origin, Picture};
 pub use plane_points::{MOST_PLANE_POINTS, PlanePixel, RegionPlane, region_plane};
 pub use reduce::{Effect, reduce};
@@ -48,6 +53,7 @@ pub use solid::{Mesh, Solid};
 pub use state::{Notice, Severity, State};
 pub use statistics::{Band, Bounds, STATISTICS_BINS, Statistics, statistics, statistics_of};
 pub use vector::Point;
+pub use table::regions_text;
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
     Theme, Tool, View,
