@@ -5,8 +5,10 @@
 //! out: on a named worker where the newest request wins, or inline in tests. Panels read the state and return commands.
 
 mod analyst;
+mod axes;
 mod colours;
 mod command;
+mod curves;
 mod desk;
 mod document;
 mod histogram;
@@ -17,6 +19,8 @@ mod picture;
 mod read;
 mod reduce;
 mod shown;
+mod solid;
+mod space;
 mod state;
 mod table;
 #[cfg(test)]
@@ -24,6 +28,7 @@ mod testing;
 mod view;
 
 pub use analyst::Request;
+pub use axes::{Axis, Tick};
 pub use command::{Combine, Command, Gesture};
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};
@@ -34,6 +39,7 @@ pub use layers::{ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, legend, marks, pa
 pub use picture::{Origin, Picture};
 pub use reduce::{Effect, reduce};
 pub use shown::Shown;
+pub use solid::{Mesh, Point, Solid};
 pub use state::{Notice, Severity, State};
 pub use table::regions_text;
 pub use view::{
