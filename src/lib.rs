@@ -52,6 +52,8 @@
 //! | [`truth`] | ground truth and scores |
 //! | [`export`] | results as files |
 //! | [`workbench`] | the application without a screen |
+//! | `gpu` | the colour space in three dimensions (feature `gui`): camera, points, lines and solids, picking |
+//! | `gui` | the window: one file per panel |
 //!
 //! Who may use whom, left by right; rooms between the same arrows do not know each other:
 //!
@@ -66,6 +68,10 @@
 pub mod analysis;
 pub mod color;
 pub mod export;
+#[cfg(feature = "gui")]
+pub mod gpu;
+#[cfg(feature = "gui")]
+pub mod gui;
 pub mod intrinsic;
 pub mod photo;
 pub mod raster;

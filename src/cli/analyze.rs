@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 
 /// Analyse photographs: regions, illuminant, body, surface and noise images, and a report of each
 #[derive(Debug, Args)]
-pub(super) struct Arguments {
+pub struct Arguments {
     /// Photographs, or folders that are searched for them
     #[arg(required = true, value_name = "IMAGE|DIR")]
     inputs: Vec<PathBuf>,

@@ -13,7 +13,7 @@ use walkdir::WalkDir;
 
 /// Score results against ground truth, with what doing nothing scores beside each figure in decibels
 #[derive(Debug, Args)]
-pub(super) struct Arguments {
+pub struct Arguments {
     /// A result folder, or a folder that holds some
     result_dir: PathBuf,
     /// A ground truth folder, or a folder that holds one by each result's name

@@ -26,6 +26,28 @@ pub(super) fn write_grey(path: &Path, values: &Raster<u8>) -> Result<(), ExportE
     write(path, (values.width(), values.height()), &kind, values.as_slice())
 }
 
+/// 8-bit grey values as the bytes of a PNG without a colour space: a mask, not light.
+pub fn png_of_grey(values: &Raster<u8>) -> Vec<u8> {
+    let kind = Kind { colour: ColorType::Grayscale, depth: BitDepth::Eight, srgb: false };
+    let mut bytes = Vec::new();
+    match encode(&mut bytes, (values.width(), values.height()), &kind, values.as_slice()) {
+        Ok(()) => bytes,
+        // A PNG has at least one pixel.
+        Err(_) => Vec::new(),
+    }
+}
+
+/// 8-bit sRGB values with alpha, as the bytes of a PNG; `size` is columns and rows.
+pub fn png_of_rgba(size: [u32; 2], rgba: &[u8]) -> Vec<u8> {
+    let kind = Kind { colour: ColorType::Rgba, depth: BitDepth::Eight, srgb: true };
+    let mut bytes = Vec::new();
+    // Writing to memory fails only where the size does not fit the values: then there is no picture.
+    match encode(&mut bytes, (size[0] as usize, size[1] as usize), &kind, rgba) {
+        Ok(()) => bytes,
+        Err(_) => Vec::new(),
+    }
+}
+
 /// Tone curve of IEC 61966-2-1, from linear light where 1 is white; what is brighter is white too.
 pub(super) fn srgb_from_linear(linear: f32) -> u8 {
     let linear = linear.clamp(0.0, 1.0);

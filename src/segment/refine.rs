@@ -77,6 +77,48 @@ impl Refine {
         }
     }
 
+    /// What a switch does, in one sentence that names the paper's section; empty for a name that is none.
+    pub fn meaning(name: &str) -> &'static str {
+        match name {
+            "tail_test" => {
+                "Windows are classified by the sum of their small eigenvalues, without dark and clipped pixels (5.2.1)."
+            }
+            "robust_lines" => {
+                "Matte lines are fitted robustly, and each hypothesis is fitted and grown once more (5.3)."
+            }
+            "all_seeds" => {
+                "Growth starts from every pixel of the area that lies in the cylinder, not from one (5.3)."
+            }
+            "absorb_highlights" => {
+                "A linear area that is a broad highlight of its neighbour is absorbed by it (5.3, 5.4)."
+            }
+            "second_look" => "The linear stage is repeated on unexplained pixels with smaller areas (5.3).",
+            "proximity_vote" => "Pixels that two cylinders hold go the way of their surroundings (5.3).",
+            "merge_regions" => {
+                "Regions on one matte line become one where they touch or a shadow or occluder parts them (5.3, 5.5)."
+            }
+            "robust_illuminant" => {
+                "The light is where the dichromatic planes intersect, not the mean of highlight directions (5.4)."
+            }
+            "extend_planes" => {
+                "A region without a highlight candidate gets a plane once the light is known (5.4)."
+            }
+            "slice_bounds" => "A slice ends where body or surface reflection would be negative (5.4).",
+            "edge_body" => {
+                "The body vector is the matte line through black, seen from the cluster's outer edge (6)."
+            }
+            "scene_illuminant" => {
+                "All regions are split with the scene's light, not each with its own highlight's direction (6)."
+            }
+            "no_negative_surface" => "Surface reflection below the noise is taken to be none (6).",
+            "restore_prior" => {
+                "Clipped pixels are restored from the bands that can be believed and from their surroundings (5.5, 6)."
+            }
+            "split_components" => "Parts of a region that lie apart become regions of their own (5.5).",
+            _ => "",
+        }
+    }
+
     /// Names and switches, in the order in which they take effect.
     pub fn switches(&mut self) -> [(&'static str, &mut bool); 15] {
         [

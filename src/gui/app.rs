@@ -1,0 +1,180 @@
+//! The application: the workbench, the panels over it, and what comes in from the keyboard and the desktop.
+
+use super::dock::{Dock, Pane, Panels};
+use super::files::{Dialogs, is_workspace};
+use super::theme::{self, Tones};
+use super::{Cx, menu, notices, shortcuts};
+use crate::workbench::{Command, Executor, Origin, State, Theme, Workbench};
+use egui::{Event, Ui};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The window's content. It needs no window: tests show it in a harness.
+pub struct App {
+    bench: Workbench,
+    front: Front,
+    gpu: Option<egui_wgpu::RenderState>,
+    dressed: Option<Theme>,
+}
+
+/// What stands before the workbench: panels and what opens over them.
+#[derive(Default)]
+struct Front {
+    dock: Dock,
+    panels: Panels,
+    dialogs: Dialogs,
+    help: bool,
+    /// The one panel that is shown, if not all.
+    alone: Option<Pane>,
+}
+
+impl App {
+    /// An application in which nothing is open. `gpu` draws the colour space; without it that panel says why it is empty.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn new(
+        ctx: &egui::Context,
+        gpu: Option<egui_wgpu::RenderState>,
+        executor: Executor,
+    ) -> std::io::Result<Self> {
+        theme::load_fonts(ctx);
+        let repaint = ctx.clone();
+        let bench = Workbench::new(executor, move || repaint.request_repaint())?;
+        Ok(Self { bench, front: Front::default(), gpu, dressed: None })
+    }
+
+    /// Applies a command, as a panel would.
+    pub fn apply(&mut self, command: Command) {
+        self.bench.apply(command);
+    }
+
+    /// Shows one panel alone, without menu and docking, or all of them again.
+    pub fn show_alone(&mut self, pane: Option<Pane>) {
+        self.front.alone = pane;
+    }
+
+    /// All that is shown.
+    pub fn state(&self) -> &State {
+        self.bench.state()
+    }
+
+    /// Shows everything, and obeys.
+    pub fn show(&mut self, ui: &mut Ui) {
+        self.bench.poll();
+        let theme = self.bench.state().view.theme;
+        if self.dressed != Some(theme) {
+            theme::apply(ui.ctx(), theme);
+            self.dressed = Some(theme);
+        }
+        let tones = Tones::of(theme);
+        let mut out = Vec::new();
+        let mut cx = Cx { state: self.bench.state(), tones: &tones, gpu: self.gpu.as_ref(), out: &mut out };
+        self.front.show(ui, &mut cx);
+        if !out.is_empty() {
+            // What a command changes is seen at once, not when the pointer next moves.
+            ui.ctx().request_repaint();
+        }
+        for command in out {
+            self.bench.apply(command);
+        }
+        title(ui, self.bench.state());
+    }
+}
+
+impl Front {
+    fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+        come_in(ui, cx);
+        for deed in shortcuts::pressed(ui.ctx()) {
+            shortcuts::carry_out(deed, cx, &mut self.dialogs, &mut self.help);
+        }
+        if let Some(pane) = self.alone {
+            let frame = egui::Frame::new().fill(cx.tones.panel);
+            egui::CentralPanel::default().frame(frame).show(ui, |ui| self.panels.show(pane, ui, cx));
+            return;
+        }
+        let bar = egui::Frame::new().fill(cx.tones.panel).inner_margin(egui::Margin::symmetric(8, 3));
+        egui::Panel::top("menu").frame(bar).show(ui, |ui| {
+            menu::show(ui, cx, &mut self.dock, &mut self.dialogs, &mut self.help);
+        });
+        let frame = egui::Frame::new().fill(cx.tones.line);
+        egui::CentralPanel::default().frame(frame).show(ui, |ui| self.dock.show(ui, &mut self.panels, cx));
+        self.dialogs.show(ui, cx);
+        notices::show(ui, cx);
+        shortcuts::show_help(ui, cx, &mut self.help);
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.show(ui);
+    }
+}
+
+/// Files dropped on the window, and what is pasted.
+fn come_in(ui: &Ui, cx: &mut Cx) {
+    let typing = ui.ctx().text_edit_focused();
+    let (dropped, pasted) = ui.input(|input| {
+        let pastes = |event: &&Event| matches!(event, Event::Paste(_) | Event::PasteImage(_));
+        let pasted: Vec<Event> =
+            if typing { Vec::new() } else { input.events.iter().filter(pastes).cloned().collect() };
+        (input.raw.dropped_files.clone(), pasted)
+    });
+    // The last of several files wins: one photograph is open at a time.
+    if let Some(file) = dropped.last() {
+        let path = file.path().to_path_buf();
+        if path.is_file() || path.parent().is_some_and(|parent| !parent.as_os_str().is_empty()) {
+            open_path(cx, path);
+        } else {
+            match file.bytes() {
+                Ok(bytes) => {
+                    let name = path.display().to_string();
+                    cx.send(Command::Open(Origin::Bytes { name, bytes: bytes.into() }));
+                }
+                Err(reason) => {
+                    let text = format!("{}: what was dropped cannot be read: {reason}", path.display());
+                    cx.send(Command::Notify(crate::workbench::Severity::Error, text));
+                }
+            }
+        }
+    }
+    for event in pasted {
+        match event {
+            Event::Paste(text) => {
+                let text = text.trim().trim_start_matches("file://").to_owned();
+                if !text.is_empty() && !text.contains('\n') {
+                    open_path(cx, PathBuf::from(text));
+                }
+            }
+            Event::PasteImage(image) => {
+                let size = [image.size[0] as u32, image.size[1] as u32];
+                let rgba: Vec<u8> =
+                    image.pixels.iter().flat_map(egui::Color32::to_srgba_unmultiplied).collect();
+                let bytes: Arc<[u8]> = crate::export::png_of_rgba(size, &rgba).into();
+                cx.send(Command::Open(Origin::Bytes { name: "clipboard".to_owned(), bytes }));
+            }
+            _ => {}
+        }
+    }
+}
+
+fn open_path(cx: &mut Cx, path: PathBuf) {
+    cx.send(if is_workspace(&path) {
+        Command::OpenWorkspace(path)
+    } else {
+        Command::Open(Origin::File(path))
+    });
+}
+
+fn title(ui: &Ui, state: &State) {
+    let title = state.picture.as_ref().map_or_else(
+        || "Dichroscope".to_owned(),
+        |picture| format!("{} \u{2013} Dichroscope", picture.origin.name()),
+    );
+    let id = egui::Id::unique("window title");
+    let before: Option<String> = ui.data(|data| data.get_temp(id));
+    if before.as_deref() != Some(title.as_str()) {
+        ui.ctx().send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+        ui.data_mut(|data| data.insert_temp(id, title));
+    }
+}

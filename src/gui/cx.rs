@@ -1,0 +1,23 @@
+//! What a panel may see, and where it leaves its commands.
+
+use super::theme::Tones;
+use crate::workbench::{Command, State};
+
+/// Handed to every panel, every frame.
+pub struct Cx<'a> {
+    /// All there is to show.
+    pub state: &'a State,
+    /// The colours of the theme.
+    pub tones: &'a Tones,
+    /// The graphics device, where there is one.
+    pub gpu: Option<&'a egui_wgpu::RenderState>,
+    /// What the panel asks for.
+    pub out: &'a mut Vec<Command>,
+}
+
+impl Cx<'_> {
+    /// Leaves a command.
+    pub fn send(&mut self, command: Command) {
+        self.out.push(command);
+    }
+}

@@ -1,0 +1,331 @@
+//! Asking for files: a field for the path, always, and the system's own dialog beside it where there is one.
+//!
+//! The dialog runs on a thread of its own: a portal that hangs, hangs alone.
+
+use super::Cx;
+use crate::truth::sample;
+use crate::workbench::{Command, Export, Origin};
+use egui::{Key, RichText, Ui};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// A photograph.
+    Open,
+    /// A parameter file to read.
+    LoadParameters,
+    /// Where to write parameters.
+    SaveParameters,
+    /// A workspace to read.
+    OpenWorkspace,
+    /// Where to write the workspace.
+    SaveWorkspace,
+    /// What to export, and where.
+    Export,
+}
+
+/// What the export window offers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ware {
+    Result,
+    Matte,
+    Layer,
+    Selection,
+    Regions,
+    Profile,
+}
+
+impl Ware {
+    const ALL: [Self; 6] =
+        [Self::Matte, Self::Result, Self::Layer, Self::Selection, Self::Regions, Self::Profile];
+
+    const fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Matte => (
+                "Photograph without highlights",
+                "The photograph in its own format, its surface reflection taken away (section 6).",
+            ),
+            Self::Result => (
+                "Everything, as a folder",
+                "The files of `dichroscope analyze`: body, surface and noise as floats, regions, stage pictures, report.",
+            ),
+            Self::Layer => ("Image view as PNG", "The layer that the image view shows, a pixel a pixel."),
+            Self::Selection => (
+                "Marked pixels",
+                "The marked pixels as a mask (.png), as a table (.csv) or as points in the colour cube (.ply).",
+            ),
+            Self::Regions => ("Regions table", "The regions and their vectors, separated by tabs."),
+            Self::Profile => ("Profile", "Input, body, surface and noise along the profile's line, as CSV."),
+        }
+    }
+
+    const fn file(self) -> &'static str {
+        match self {
+            Self::Matte => "matte",
+            Self::Result => "result",
+            Self::Layer => "layer.png",
+            Self::Selection => "selection.png",
+            Self::Regions => "regions.tsv",
+            Self::Profile => "profile.csv",
+        }
+    }
+}
+
+/// The windows that ask, and a system dialog that may be open.
+pub struct Dialogs {
+    question: Option<Question>,
+    path: String,
+    ware: Ware,
+    keep_surface: f64,
+    force: bool,
+    browsing: Option<Receiver<Option<PathBuf>>>,
+    focus: bool,
+}
+
+impl Default for Dialogs {
+    fn default() -> Self {
+        Self {
+            question: None,
+            path: String::new(),
+            ware: Ware::Matte,
+            keep_surface: 0.0,
+            force: false,
+            browsing: None,
+            focus: false,
+        }
+    }
+}
+
+impl Dialogs {
+    /// Opens the window for a question.
+    pub fn ask(&mut self, question: Question) {
+        (self.question, self.focus, self.force) = (Some(question), true, false);
+        match question {
+            Question::Export => self.path.clear(),
+            Question::SaveParameters => "parameters.toml".clone_into(&mut self.path),
+            Question::SaveWorkspace => "workspace.dichroscope".clone_into(&mut self.path),
+            _ => {}
+        }
+    }
+
+    /// Shows what is open.
+    pub fn show(&mut self, ui: &Ui, cx: &mut Cx) {
+        self.take_answer(ui);
+        let Some(question) = self.question else { return };
+        let title = match question {
+            Question::Open => "Open",
+            Question::LoadParameters => "Load parameters",
+            Question::SaveParameters => "Save parameters",
+            Question::OpenWorkspace => "Open workspace",
+            Question::SaveWorkspace => "Save workspace",
+            Question::Export => "Export",
+        };
+        let mut open = true;
+        let window = egui::Window::new(title).open(&mut open).collapsible(false).resizable(false);
+        let answered = window
+            .default_width(480.0)
+            .anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 64.0))
+            .show(ui.ctx(), |ui| {
+                if question == Question::Export {
+                    self.wares(ui, cx);
+                }
+                let answered = self.path_row(ui, question, cx);
+                if question == Question::Open { self.shelf(ui, cx) || answered } else { answered }
+            })
+            .and_then(|shown| shown.inner)
+            .unwrap_or(false);
+        if answered || !open || ui.input(|input| input.key_pressed(Key::Escape)) {
+            self.question = None;
+        }
+    }
+
+    /// What can be exported, with the options of what is chosen.
+    fn wares(&mut self, ui: &mut Ui, cx: &Cx) {
+        if self.path.is_empty() {
+            self.path = proposed(self.ware, cx).display().to_string();
+        }
+        for ware in Ware::ALL {
+            let (name, tip) = ware.words();
+            if ui.radio(self.ware == ware, name).on_hover_text(tip).clicked() {
+                self.ware = ware;
+                self.path = proposed(ware, cx).display().to_string();
+            }
+        }
+        ui.add_space(4.0);
+        match self.ware {
+            Ware::Matte => {
+                ui.spacing_mut().slider_width = 200.0;
+                let slider =
+                    egui::Slider::new(&mut self.keep_surface, 0.0..=1.0).text("surface reflection kept");
+                ui.add(slider.custom_formatter(|v, _| format!("{:.0} %", v * 100.0)).custom_parser(|text| {
+                    text.trim_end_matches(['%', ' ']).parse::<f64>().ok().map(|percent| percent / 100.0)
+                }))
+                .on_hover_text(
+                    "0 %: no highlights. 100 %: the photograph as it was, but for restored pixels.",
+                );
+            }
+            Ware::Result => {
+                ui.checkbox(&mut self.force, "replace the folder whatever it holds").on_hover_text(
+                    "An earlier result is replaced anyway; this replaces any other folder too.",
+                );
+            }
+            _ => {}
+        }
+        ui.add_space(4.0);
+    }
+
+    /// The field, the system's dialog and the verb. Whether the question is answered.
+    fn path_row(&mut self, ui: &mut Ui, question: Question, cx: &mut Cx) -> bool {
+        let verb = match question {
+            Question::Open | Question::OpenWorkspace => "Open",
+            Question::LoadParameters => "Load",
+            Question::SaveParameters | Question::SaveWorkspace => "Save",
+            Question::Export => "Export",
+        };
+        let mut go = false;
+        ui.horizontal(|ui| {
+            let label = ui.label("Path");
+            let field = egui::TextEdit::singleline(&mut self.path).desired_width(300.0);
+            let response = ui.add(field.hint_text("path of a file")).labelled_by(label.id);
+            if std::mem::take(&mut self.focus) {
+                response.request_focus();
+            }
+            go |= response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            let browse = ui.add_enabled(self.browsing.is_none(), egui::Button::new("Browse\u{2026}"));
+            if browse.on_hover_text("The system's own dialog, where it has one.").clicked() {
+                self.browse(ui.ctx(), question);
+            }
+            let ready = !self.path.trim().is_empty();
+            go |= ui
+                .add_enabled(ready, egui::Button::new(RichText::new(verb).color(cx.tones.accent)))
+                .clicked();
+            go &= ready;
+        });
+        if go {
+            let path = expanded(self.path.trim());
+            cx.send(match question {
+                Question::Open if is_workspace(&path) => Command::OpenWorkspace(path),
+                Question::Open => Command::Open(Origin::File(path)),
+                Question::LoadParameters => Command::LoadParams(path),
+                Question::OpenWorkspace => Command::OpenWorkspace(path),
+                Question::SaveParameters => Command::Export(Export::Parameters { path }),
+                Question::SaveWorkspace => Command::Export(Export::Workspace { path }),
+                Question::Export => Command::Export(self.export(path, cx)),
+            });
+        }
+        go
+    }
+
+    fn export(&self, path: PathBuf, cx: &Cx) -> Export {
+        match self.ware {
+            Ware::Result => Export::Result { folder: path, force: self.force },
+            Ware::Matte => Export::Matte { path, keep_surface: self.keep_surface },
+            Ware::Layer => Export::Layer { path, settings: cx.state.view.image.clone() },
+            Ware::Selection => Export::Selection { path },
+            Ware::Regions => Export::Regions { path },
+            Ware::Profile => Export::Profile { path },
+        }
+    }
+
+    /// The sample scene and the photographs opened before. Whether one was chosen.
+    fn shelf(&mut self, ui: &mut Ui, cx: &mut Cx) -> bool {
+        let mut chosen = None;
+        ui.add_space(4.0);
+        super::widgets::heading(ui, cx.tones, "Sample");
+        if ui.link(sample::NAME).on_hover_text("Rendered plastic objects, with ground truth.").clicked() {
+            chosen = Some(Origin::Sample(sample::NAME.to_owned()));
+        }
+        if !cx.state.recent.is_empty() {
+            super::widgets::heading(ui, cx.tones, "Recent");
+            for path in &cx.state.recent {
+                let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+                if ui.link(name).on_hover_text(path.display().to_string()).clicked() {
+                    chosen = Some(Origin::File(path.clone()));
+                }
+            }
+        }
+        let any = chosen.is_some();
+        if let Some(origin) = chosen {
+            cx.send(Command::Open(origin));
+        }
+        any
+    }
+
+    fn browse(&mut self, ctx: &egui::Context, question: Question) {
+        let (send, receive) = channel();
+        let (ctx, folder) = (ctx.clone(), question == Question::Export && self.ware == Ware::Result);
+        let writes =
+            matches!(question, Question::SaveParameters | Question::SaveWorkspace | Question::Export);
+        let start = expanded(&self.path);
+        let ask = move || {
+            let mut dialog = rfd::AsyncFileDialog::new();
+            if let Some(parent) = start.parent().filter(|parent| parent.is_dir()) {
+                dialog = dialog.set_directory(parent);
+            }
+            if let Some(name) = start.file_name().filter(|_| writes) {
+                dialog = dialog.set_file_name(name.to_string_lossy());
+            }
+            let answer = pollster::block_on(async {
+                if folder {
+                    dialog.pick_folder().await
+                } else if writes {
+                    dialog.save_file().await
+                } else {
+                    dialog.pick_file().await
+                }
+            });
+            // The window may be gone by now.
+            let _ = send.send(answer.map(|file| file.path().to_path_buf()));
+            ctx.request_repaint();
+        };
+        if std::thread::Builder::new().name("file dialog".to_owned()).spawn(ask).is_ok() {
+            self.browsing = Some(receive);
+        }
+    }
+
+    fn take_answer(&mut self, ui: &Ui) {
+        let Some(browsing) = &self.browsing else { return };
+        match browsing.try_recv() {
+            Ok(answer) => {
+                if let Some(path) = answer {
+                    self.path = path.display().to_string();
+                    self.focus = true;
+                }
+                self.browsing = None;
+                ui.ctx().request_repaint();
+            }
+            Err(TryRecvError::Disconnected) => self.browsing = None,
+            Err(TryRecvError::Empty) => {}
+        }
+    }
+}
+
+/// Beside the photograph, or in the folder that the program runs in.
+fn proposed(ware: Ware, cx: &Cx) -> PathBuf {
+    let picture = cx.state.picture.as_ref();
+    let photo = picture.and_then(|picture| picture.origin.path());
+    let folder = photo.and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();
+    let stem = picture.map_or_else(String::new, |picture| {
+        Path::new(&picture.origin.name()).file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    });
+    let extension = match ware {
+        Ware::Matte => {
+            photo.and_then(Path::extension).map_or("png".to_owned(), |e| e.to_string_lossy().into_owned())
+        }
+        _ => return folder.join(format!("{stem}-{}", ware.file())),
+    };
+    folder.join(format!("{stem}-{}.{extension}", ware.file()))
+}
+
+/// Whether a path names one of our workspaces.
+pub fn is_workspace(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "dichroscope")
+}
+
+/// A path as typed, `~/` understood.
+fn expanded(text: &str) -> PathBuf {
+    let home = || directories::BaseDirs::new().map(|dirs| dirs.home_dir().to_path_buf());
+    text.strip_prefix("~/").and_then(|rest| Some(home()?.join(rest))).unwrap_or_else(|| PathBuf::from(text))
+}

@@ -1,0 +1,154 @@
+//! The menu bar: every deed by name, and the status line.
+
+use super::dock::{Dock, Pane};
+use super::files::{Dialogs, Question};
+use super::shortcuts::{Deed, keys_of};
+use super::{Cx, status};
+use crate::segment::{Method, Preset};
+use crate::truth::sample;
+use crate::workbench::{Command, Origin, Theme};
+use egui::{Button, Ui};
+
+/// Shows the bar.
+pub fn show(ui: &mut Ui, cx: &mut Cx, dock: &mut Dock, dialogs: &mut Dialogs, help: &mut bool) {
+    egui::MenuBar::new().ui(ui, |ui| {
+        ui.menu_button("File", |ui| file(ui, cx, dialogs));
+        ui.menu_button("Edit", |ui| edit(ui, cx));
+        ui.menu_button("View", |ui| view(ui, cx, dock));
+        ui.menu_button("Analyse", |ui| analyse(ui, cx, dialogs));
+        ui.menu_button("Help", |ui| {
+            if item(ui, "Keyboard and pointer", Deed::Help, true) {
+                *help = true;
+            }
+            ui.separator();
+            ui.label(format!("Dichroscope {}", env!("CARGO_PKG_VERSION")));
+            ui.hyperlink_to("Klinker, Shafer & Kanade 1990", "https://doi.org/10.1007/BF00126399");
+        });
+        status::show(ui, cx);
+    });
+}
+
+/// A row with its keys. Whether it was chosen.
+fn item(ui: &mut Ui, text: &str, deed: Deed, enabled: bool) -> bool {
+    let keys = keys_of(ui.ctx(), deed);
+    ui.add_enabled(enabled, Button::new(text).shortcut_text(keys)).clicked()
+}
+
+fn file(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
+    if item(ui, "Open\u{2026}", Deed::Open, true) {
+        dialogs.ask(Question::Open);
+    }
+    ui.menu_button("Open recent", |ui| {
+        for path in &cx.state.recent {
+            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+            if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+                cx.out.push(Command::Open(Origin::File(path.clone())));
+            }
+        }
+        ui.separator();
+        if ui.add_enabled(!cx.state.recent.is_empty(), Button::new("Forget these")).clicked() {
+            cx.send(Command::ForgetRecent);
+        }
+    });
+    if ui.button(format!("Sample scene {}", sample::NAME)).clicked() {
+        cx.send(Command::Open(Origin::Sample(sample::NAME.to_owned())));
+    }
+    ui.separator();
+    if ui.button("Open workspace\u{2026}").clicked() {
+        dialogs.ask(Question::OpenWorkspace);
+    }
+    let open = cx.state.picture.is_some();
+    if item(ui, "Save workspace\u{2026}", Deed::Save, open) {
+        dialogs.ask(Question::SaveWorkspace);
+    }
+    if item(ui, "Export\u{2026}", Deed::Export, cx.state.shown().is_some()) {
+        dialogs.ask(Question::Export);
+    }
+    ui.separator();
+    if ui.button("Quit").clicked() {
+        ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+    }
+}
+
+fn edit(ui: &mut Ui, cx: &mut Cx) {
+    let state = cx.state;
+    let marked = state.document.selection.marked.as_ref();
+    if item(ui, "Undo", Deed::Undo, state.history.can_undo()) {
+        cx.send(Command::Undo);
+    }
+    if item(ui, "Redo", Deed::Redo, state.history.can_redo()) {
+        cx.send(Command::Redo);
+    }
+    ui.separator();
+    if item(ui, "Invert marked", Deed::Invert, state.picture.is_some()) {
+        cx.send(Command::InvertMarked);
+    }
+    if item(ui, "Select nothing", Deed::Escape, !state.document.selection.is_empty()) {
+        cx.send(Command::ClearSelection);
+    }
+    ui.separator();
+    let restrict = ui.add_enabled(marked.is_some(), Button::new("Analyse only the marked pixels"));
+    if restrict.on_hover_text("Pixels outside are left out of every stage and stay as they are.").clicked() {
+        cx.send(Command::RestrictTo(marked.cloned()));
+    }
+    if ui.add_enabled(state.document.area.is_some(), Button::new("Analyse the whole picture")).clicked() {
+        cx.send(Command::RestrictTo(None));
+    }
+}
+
+fn view(ui: &mut Ui, cx: &mut Cx, dock: &mut Dock) {
+    for pane in Pane::ALL {
+        let mut visible = dock.has(pane);
+        if ui.checkbox(&mut visible, pane.title()).changed() {
+            dock.set(pane, visible);
+        }
+    }
+    if ui.button("Arrange as at first").clicked() {
+        dock.reset();
+    }
+    ui.separator();
+    for (theme, name) in [(Theme::Dark, "Dark"), (Theme::Light, "Light")] {
+        if ui.radio(cx.state.view.theme == theme, name).clicked() {
+            cx.send(Command::Theme(theme));
+        }
+    }
+}
+
+fn analyse(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
+    let method = cx.state.document.params.method;
+    for (choice, name, tip) in [
+        (Method::Refined, "Refined method", "The paper's algorithm with refinements, each a switch."),
+        (
+            Method::Paper,
+            "Paper's method",
+            "The algorithm as it was written in 1990, its weaknesses included.",
+        ),
+    ] {
+        if ui.radio(method == choice, name).on_hover_text(tip).clicked() {
+            cx.send(Command::SetMethod(choice));
+        }
+    }
+    ui.menu_button("Presets of table 6", |ui| {
+        for preset in Preset::ALL {
+            let tip = "The paper's method with the numbers of this column of table 6 (section 7.3).";
+            if ui.button(preset.title()).on_hover_text(tip).clicked() {
+                cx.send(Command::SetParams(Box::new(preset.params())));
+            }
+        }
+    });
+    if ui.button("Load parameters\u{2026}").clicked() {
+        dialogs.ask(Question::LoadParameters);
+    }
+    if ui.button("Save parameters\u{2026}").clicked() {
+        dialogs.ask(Question::SaveParameters);
+    }
+    ui.separator();
+    let pinned = cx.state.pinned.is_some();
+    let words = if pinned { "Let the pinned result go" } else { "Pin this result to compare with" };
+    if item(ui, words, Deed::Pin, cx.state.newest.is_some()) {
+        cx.send(Command::Pin(!pinned));
+    }
+    if item(ui, "Show the other of the two", Deed::Swap, pinned) {
+        cx.send(Command::ShowPinned(!cx.state.view.show_pinned));
+    }
+}

@@ -1,0 +1,43 @@
+//! What happened, to what, and what to do: in the corner until dismissed, never in the way.
+
+use super::Cx;
+use crate::workbench::{Command, Severity};
+use egui::{Align2, Frame, RichText, Ui, vec2};
+
+/// Notices shown at once; older ones wait.
+const MOST: usize = 4;
+
+/// Shows the notices over the bottom left corner.
+pub fn show(ui: &Ui, cx: &mut Cx) {
+    if cx.state.notices.is_empty() {
+        return;
+    }
+    let area = egui::Area::new(egui::Id::unique("notices")).anchor(Align2::LEFT_BOTTOM, vec2(12.0, -36.0));
+    area.order(egui::Order::Foreground).show(ui.ctx(), |ui| {
+        let waiting = cx.state.notices.len().saturating_sub(MOST);
+        let mut dismissed = Vec::new();
+        for notice in cx.state.notices.iter().skip(waiting) {
+            let (mark, tone) = match notice.severity {
+                Severity::Done => ("Done", cx.tones.quiet),
+                Severity::Warning => ("Note", cx.tones.accent),
+                Severity::Error => ("Error", cx.tones.error),
+            };
+            Frame::popup(ui.style()).stroke((1.0, tone)).show(ui, |ui| {
+                ui.horizontal(|ui| {
+                    ui.set_max_width(460.0);
+                    ui.label(RichText::new(mark).color(tone));
+                    ui.add(egui::Label::new(&notice.text).wrap().selectable(true));
+                    if ui.button("Dismiss").clicked() {
+                        dismissed.push(notice.id);
+                    }
+                });
+            });
+        }
+        if waiting > 0 {
+            ui.label(RichText::new(format!("{waiting} earlier")).color(cx.tones.quiet));
+        }
+        for id in dismissed {
+            cx.send(Command::Dismiss(id));
+        }
+    });
+}

@@ -1,0 +1,290 @@
+//! Sliders and switches: what is asked of the analysis (section 7.3, table 6).
+
+use super::theme::SMALL_PT;
+use super::{Cx, widgets};
+use crate::segment::{Method, Parameter, Params, Setting};
+use crate::workbench::{Command, Gesture};
+use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Slider, Ui, vec2};
+
+/// Width of the labels' column, points.
+const LABEL_PT: f32 = 100.0;
+/// Width of a typed value.
+const VALUE_PT: f32 = 46.0;
+/// Width of its unit.
+const UNIT_PT: f32 = 38.0;
+/// Width of the `auto` button.
+const AUTO_PT: f32 = 38.0;
+/// Height of a row.
+const ROW_PT: f32 = 20.0;
+/// Between the columns.
+const GAP_PT: f32 = 4.0;
+
+/// Shows the panel.
+pub fn show(ui: &mut Ui, cx: &mut Cx) {
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        egui::Frame::new().inner_margin(8).show(ui, |ui| {
+            method(ui, cx);
+            for parameter in Parameter::ALL {
+                row(ui, cx, parameter);
+            }
+            by_hand(ui, cx);
+            switches(ui, cx);
+        });
+    });
+}
+
+fn method(ui: &mut Ui, cx: &mut Cx) {
+    let now = cx.state.document.params.method;
+    ui.horizontal(|ui| {
+        label(
+            ui,
+            "method",
+            "Refined: the paper's algorithm with switches below. Paper: as written in 1990 (section 5).",
+        );
+        for (choice, name) in [(Method::Refined, "refined"), (Method::Paper, "paper")] {
+            if ui.selectable_label(now == choice, name).clicked() {
+                cx.send(Command::SetMethod(choice));
+            }
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let defaults = Params::of(now);
+            let changed = cx.state.document.params != defaults;
+            if ui
+                .add_enabled(changed, Button::new("Reset").small())
+                .on_hover_text("Every parameter and switch to this method's default.")
+                .clicked()
+            {
+                cx.send(Command::SetParams(Box::new(defaults)));
+            }
+        });
+    });
+    ui.add_space(4.0);
+}
+
+fn label(ui: &mut Ui, text: &str, tip: &str) -> egui::Response {
+    let size = vec2(LABEL_PT, ui.spacing().interact_size.y);
+    let layout = Layout::left_to_right(Align::Center);
+    ui.allocate_ui_with_layout(size, layout, |ui| {
+        ui.set_min_width(LABEL_PT);
+        ui.add(egui::Label::new(text).truncate())
+    })
+    .inner
+    .on_hover_text(tip)
+}
+
+/// The cells of a row, the same in every row.
+struct Columns {
+    label: Cell,
+    rail: Cell,
+    value: Cell,
+    unit: Cell,
+    auto: Cell,
+}
+
+struct Cell(egui::Rect);
+
+impl Cell {
+    fn show(&self, ui: &mut Ui, widget: impl egui::Widget) -> egui::Response {
+        let layout = Layout::left_to_right(Align::Center);
+        let builder = egui::UiBuilder::new().max_rect(self.0).layout(layout);
+        ui.scope_builder(builder, |ui| ui.add(widget)).inner
+    }
+}
+
+impl Columns {
+    fn of(ui: &mut Ui) -> Self {
+        let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_PT), egui::Sense::hover());
+        let mut left = row.left();
+        let rail = (row.width() - LABEL_PT - VALUE_PT - UNIT_PT - AUTO_PT - 4.0 * GAP_PT).max(40.0);
+        let mut cell = |width: f32| {
+            let rect = egui::Rect::from_min_size(egui::pos2(left, row.top()), vec2(width, row.height()));
+            left += width + GAP_PT;
+            Cell(rect)
+        };
+        Self {
+            label: cell(LABEL_PT),
+            rail: cell(rail),
+            value: cell(VALUE_PT),
+            unit: cell(UNIT_PT),
+            auto: cell(AUTO_PT),
+        }
+    }
+}
+
+/// What a slider needs beyond the parameter's own specification: the range of the hand, and the paper's section.
+struct Feel {
+    title: &'static str,
+    range: std::ops::RangeInclusive<f64>,
+    step: f64,
+    logarithmic: bool,
+    section: &'static str,
+}
+
+/// Typed values may leave the slider's range, as far as the parameter's own.
+fn feel(parameter: Parameter) -> Feel {
+    let of = |title, range, step, logarithmic, section| Feel { title, range, step, logarithmic, section };
+    match parameter {
+        Parameter::ClipThreshold => of("clip threshold", 100.0..=255.0, 1.0, false, "section 4"),
+        Parameter::BloomDensity => of("noise density", 1.0..=9.0, 1.0, false, "section 4"),
+        Parameter::CameraNoise => of("camera noise \u{3c3}0", 0.5..=12.0, 0.05, true, "section 5.2.1"),
+        Parameter::MinIntensity => of("min. intensity", 0.0..=80.0, 1.0, false, "section 5.3"),
+        Parameter::CylinderWidth => of("cylinder width", 1.0..=12.0, 0.1, false, "section 5.3"),
+        Parameter::SliceWidth => of("slice width", 1.0..=12.0, 0.1, false, "section 5.4"),
+        Parameter::WindowSize => of("window size", 4.0..=32.0, 1.0, false, "section 5.2.1"),
+        Parameter::MinArea => of("min. area", 50.0..=10_000.0, 10.0, true, "section 5.3"),
+    }
+}
+
+fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
+    let (spec, feel) = (parameter.spec(), feel(parameter));
+    let setting = cx.state.document.params.get(parameter);
+    let used = cx.state.newest.as_ref().map(|shown| shown.analysis.used.get(parameter));
+    let gesture = Gesture::Parameter(parameter);
+    // What is typed or dragged starts from what is in force.
+    let mut value = setting.value().or(used).filter(|value| value.is_finite()).unwrap_or(spec.paper);
+    let tip = format!(
+        "{}: {}.\nPaper, table 6: {} {}. Double-click: back to the default. ({})",
+        spec.name, spec.meaning, spec.paper, spec.unit, feel.section
+    );
+    let columns = Columns::of(ui);
+    ui.scope(|ui| {
+        let name = columns.label.show(ui, egui::Label::new(feel.title).truncate()).on_hover_text(&tip);
+        ui.spacing_mut().slider_width = columns.rail.0.width();
+        let slider = Slider::new(&mut value, feel.range.clone())
+            .show_value(false)
+            .step_by(feel.step)
+            .logarithmic(feel.logarithmic)
+            .clamping(egui::SliderClamping::Never);
+        let slider = columns.rail.show(ui, slider).on_hover_text(&tip);
+        slider.widget_info(|| egui::WidgetInfo::slider(true, value, feel.title));
+        let decimals = usize::from(feel.step < 1.0) * 2;
+        let typed = DragValue::new(&mut value)
+            .speed(feel.step)
+            .range(spec.range.0..=spec.range.1)
+            .fixed_decimals(decimals);
+        let typed = ui.put(columns.value.0, typed).on_hover_text(&tip);
+        typed.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, spec.name));
+        let unit = RichText::new(spec.unit).size(SMALL_PT).color(cx.tones.quiet);
+        columns.unit.show(ui, egui::Label::new(unit).truncate());
+        let automatic = setting == Setting::Auto;
+        let auto = Button::selectable(automatic, RichText::new("auto").size(SMALL_PT));
+        let auto = ui.put(columns.auto.0, auto);
+        auto.widget_info(|| {
+            egui::WidgetInfo::selected(
+                egui::accesskit::Role::CheckBox,
+                true,
+                automatic,
+                format!("{} auto", feel.title),
+            )
+        });
+        let auto = auto.on_hover_text("Estimated from the image; the slider shows what was used.");
+        if name.double_clicked() || slider.double_clicked() {
+            let default = Params::of(cx.state.document.params.method).get(parameter);
+            cx.send(Command::SetParameter(parameter, default, None));
+        } else if slider.changed() || typed.changed() {
+            let value = if spec.whole { value.round() } else { value };
+            let value = value.clamp(spec.range.0, spec.range.1);
+            cx.send(Command::SetParameter(parameter, Setting::Value(value), Some(gesture)));
+        } else if auto.clicked() {
+            let setting = if automatic { Setting::Value(value) } else { Setting::Auto };
+            cx.send(Command::SetParameter(parameter, setting, None));
+        }
+        if slider.drag_stopped() || typed.drag_stopped() || typed.lost_focus() || slider.lost_focus() {
+            cx.send(Command::EndGesture);
+        }
+    });
+}
+
+/// The pinned illuminant and the outlined area.
+fn by_hand(ui: &mut Ui, cx: &mut Cx) {
+    widgets::heading(ui, cx.tones, "By hand");
+    illuminant(ui, cx);
+    let (area, marked) = (&cx.state.document.area, &cx.state.document.selection.marked);
+    ui.horizontal(|ui| {
+        label(ui, "area", "Only these pixels are analysed; the others stay as they are.");
+        match area {
+            Some(area) => {
+                let pixels = area.as_slice().iter().filter(|&&inside| inside).count();
+                ui.label(format!("{} px", widgets::grouped(pixels)));
+            }
+            None => {
+                ui.label(RichText::new("whole picture").color(cx.tones.quiet));
+            }
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if area.is_some() {
+                if ui.small_button("Lift").on_hover_text("Analyse the whole picture again.").clicked() {
+                    cx.out.push(Command::RestrictTo(None));
+                }
+            } else {
+                let take = ui.add_enabled(marked.is_some(), Button::new("To marked").small());
+                let tip = "Analyse only the marked pixels. Mark some with a tool of the image view.";
+                if take.on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
+                    cx.out.push(Command::RestrictTo(marked.clone()));
+                }
+            }
+        });
+    });
+}
+
+/// The light: the one found, or one that is given and turns every plane to it.
+fn illuminant(ui: &mut Ui, cx: &mut Cx) {
+    let given = cx.state.document.params.illuminant.direction();
+    let found =
+        cx.state.newest.as_ref().and_then(|shown| shown.analysis.illuminant).map(|light| light.direction);
+    let tip =
+        "The colour of the light. Found, or given: then every dichromatic plane turns to it (section 5.4).";
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP_PT;
+        label(ui, "illuminant", tip);
+        let mut direction = given.or(found).unwrap_or([1.0, 1.0, 1.0].map(|v: f64| v / 3f64.sqrt()));
+        let mut changed = false;
+        let mut rested = false;
+        for (value, band) in direction.iter_mut().zip(["red", "green", "blue"]) {
+            let field = DragValue::new(value).range(0.0..=1.0).speed(0.002).fixed_decimals(3);
+            let field = ui.add_sized(vec2(VALUE_PT, 18.0), field);
+            field.widget_info(|| {
+                let name = format!("illuminant {band}");
+                egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, name)
+            });
+            let field = field.on_hover_text(tip);
+            changed |= field.changed();
+            rested |= field.drag_stopped() || field.lost_focus();
+        }
+        if changed {
+            cx.send(Command::PinIlluminant(Some(direction), Some(Gesture::Illuminant)));
+        }
+        if rested {
+            cx.send(Command::EndGesture);
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let pin = Button::selectable(given.is_some(), RichText::new("pin").size(SMALL_PT));
+            let pin = ui.add_enabled(given.is_some() || found.is_some(), pin);
+            pin.widget_info(|| {
+                let role = egui::accesskit::Role::CheckBox;
+                egui::WidgetInfo::selected(role, true, given.is_some(), "pin illuminant")
+            });
+            if pin.on_hover_text("Keep this light, or let it be found again.").clicked() {
+                cx.send(Command::PinIlluminant(if given.is_some() { None } else { found }, None));
+            }
+        });
+    });
+}
+
+fn switches(ui: &mut Ui, cx: &mut Cx) {
+    let mut params = cx.state.document.params;
+    let refined = params.method == Method::Refined;
+    let open = egui::CollapsingHeader::new(RichText::new("Refinements").size(SMALL_PT).color(cx.tones.quiet));
+    open.default_open(true).show(ui, |ui| {
+        ui.add_enabled_ui(refined, |ui| {
+            for (name, switch) in params.refine.switches() {
+                let mut on = *switch && refined;
+                let words = name.replace('_', " ");
+                if ui.checkbox(&mut on, words).on_hover_text(crate::segment::Refine::meaning(name)).changed()
+                {
+                    cx.send(Command::SetSwitch(name, on));
+                }
+            }
+        });
+    });
+}

@@ -1,0 +1,14 @@
+//! To be filled.
+
+use super::{Cx, widgets};
+
+/// The panel.
+#[derive(Default)]
+pub struct PlanePanel;
+
+impl PlanePanel {
+    /// Shows it.
+    pub fn show(&mut self, ui: &mut egui::Ui, cx: &mut Cx) {
+        widgets::nothing(ui, cx.tones, "PlanePanel");
+    }
+}

@@ -1,0 +1,250 @@
+//! The keyboard: one list that is obeyed and shown.
+
+use super::theme::SMALL_PT;
+use super::{Cx, files};
+use crate::workbench::{Combine, Command, Item, Layer, Tool};
+use egui::{Key, KeyboardShortcut, Modifiers, RichText, Ui};
+
+/// What a key does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Deed {
+    /// Ask for a photograph.
+    Open,
+    /// Ask where to export to.
+    Export,
+    /// Ask where to save the workspace.
+    Save,
+    /// Take back.
+    Undo,
+    /// Take back what was taken back.
+    Redo,
+    /// Mark everything that is not marked.
+    Invert,
+    /// Mark the pixels of the selected region.
+    MarkRegion,
+    /// Select nothing.
+    Escape,
+    /// The region after (`true`) or before the selected one.
+    Region(bool),
+    /// Another layer of the image view.
+    Layer(Layer),
+    /// What a drag in the image does.
+    Tool(Tool),
+    /// Keep the result to compare with.
+    Pin,
+    /// Between the pinned result and the newest.
+    Swap,
+    /// The whole picture.
+    Fit,
+    /// A screen point a pixel.
+    OneToOne,
+    /// Outlines instead of fills.
+    Outline,
+    /// Light or dark.
+    Theme,
+    /// This list.
+    Help,
+}
+
+/// A key, what it does, and the words for it.
+pub struct Shortcut {
+    /// The group that it is listed in.
+    pub group: &'static str,
+    /// Modifiers and key.
+    pub keys: KeyboardShortcut,
+    /// What it does.
+    pub deed: Deed,
+    /// What it does, in words.
+    pub words: &'static str,
+}
+
+const fn plain(group: &'static str, key: Key, deed: Deed, words: &'static str) -> Shortcut {
+    Shortcut { group, keys: KeyboardShortcut::new(Modifiers::NONE, key), deed, words }
+}
+
+const fn command(group: &'static str, key: Key, deed: Deed, words: &'static str) -> Shortcut {
+    Shortcut { group, keys: KeyboardShortcut::new(Modifiers::COMMAND, key), deed, words }
+}
+
+const SHIFT_COMMAND: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+
+/// All of them. Those with more modifiers come first: egui lets `Ctrl+Shift+Z` pass for `Ctrl+Z`.
+pub const ALL: &[Shortcut] = &[
+    Shortcut {
+        group: "Edit",
+        keys: KeyboardShortcut::new(SHIFT_COMMAND, Key::Z),
+        deed: Deed::Redo,
+        words: "Redo",
+    },
+    command("File", Key::O, Deed::Open, "Open a photograph"),
+    command("File", Key::E, Deed::Export, "Export"),
+    command("File", Key::S, Deed::Save, "Save the workspace"),
+    command("Edit", Key::Z, Deed::Undo, "Undo"),
+    command("Edit", Key::Y, Deed::Redo, "Redo"),
+    command("Edit", Key::I, Deed::Invert, "Invert the marked pixels"),
+    command("Edit", Key::A, Deed::MarkRegion, "Mark the pixels of the selected region"),
+    plain("Edit", Key::Escape, Deed::Escape, "Give up the gesture; select and mark nothing"),
+    plain("Edit", Key::CloseBracket, Deed::Region(true), "Select the next region"),
+    plain("Edit", Key::OpenBracket, Deed::Region(false), "Select the region before"),
+    plain("Image", Key::Num1, Deed::Layer(Layer::Input), "Input"),
+    plain("Image", Key::Num2, Deed::Layer(Layer::Masks), "Masks: dark, clipped, bloomed"),
+    plain("Image", Key::Num3, Deed::Layer(Layer::Classes), "Classification"),
+    plain("Image", Key::Num4, Deed::Layer(Layer::Areas), "Merged areas"),
+    plain("Image", Key::Num5, Deed::Layer(Layer::Linear), "Linear hypotheses"),
+    plain("Image", Key::Num6, Deed::Layer(Layer::Planar), "Planar hypotheses"),
+    plain("Image", Key::Num7, Deed::Layer(Layer::Regions), "Final regions"),
+    plain("Image", Key::Num8, Deed::Layer(Layer::Body), "Body reflection"),
+    plain("Image", Key::Num9, Deed::Layer(Layer::Surface), "Surface reflection"),
+    plain("Image", Key::Num0, Deed::Layer(Layer::Noise), "Noise"),
+    plain("Image", Key::F, Deed::Fit, "Fit the whole picture"),
+    plain("Image", Key::Z, Deed::OneToOne, "One point a pixel"),
+    plain("Image", Key::O, Deed::Outline, "Outlines or fills"),
+    plain("Tools", Key::V, Deed::Tool(Tool::Pointer), "Pointer: click selects, drag pans"),
+    plain("Tools", Key::R, Deed::Tool(Tool::Rectangle), "Rectangle"),
+    plain("Tools", Key::L, Deed::Tool(Tool::Lasso), "Lasso"),
+    plain("Tools", Key::G, Deed::Tool(Tool::Polygon), "Polygon"),
+    plain("Tools", Key::B, Deed::Tool(Tool::Brush), "Brush"),
+    plain("Tools", Key::P, Deed::Tool(Tool::Profile), "Profile line"),
+    plain("Tools", Key::W, Deed::Tool(Tool::WhitePatch), "White patch: pin the light's colour"),
+    plain("Compare", Key::K, Deed::Pin, "Pin the result, or let it go"),
+    plain("Compare", Key::A, Deed::Swap, "A/B: pinned or newest result"),
+    plain("Window", Key::T, Deed::Theme, "Light or dark"),
+    plain("Window", Key::Questionmark, Deed::Help, "This list"),
+    plain("Window", Key::F1, Deed::Help, "This list"),
+];
+
+/// Habits of the pointer, listed with the keys.
+const POINTER: &[(&str, &str)] = &[
+    ("Scroll", "zoom at the pointer"),
+    ("Drag", "pan the image, orbit the colour space"),
+    ("Middle drag, Space drag", "pan, whatever the tool"),
+    ("Double-click", "fit a view; reset a slider to its default"),
+    ("Shift + mark", "add to what is marked"),
+    ("Alt + mark", "take away from what is marked"),
+    ("Arrow keys on a slider", "one step"),
+];
+
+/// The words for the keys of a deed, for menus and tooltips.
+pub fn keys_of(ctx: &egui::Context, deed: Deed) -> String {
+    let found = ALL.iter().find(|shortcut| shortcut.deed == deed);
+    found.map_or_else(String::new, |shortcut| ctx.format_shortcut(&shortcut.keys))
+}
+
+/// The deeds whose keys were pressed, unless somebody is typing.
+pub fn pressed(ctx: &egui::Context) -> Vec<Deed> {
+    if ctx.text_edit_focused() {
+        return Vec::new();
+    }
+    ctx.input_mut(|input| {
+        ALL.iter()
+            .filter(|shortcut| input.consume_shortcut(&shortcut.keys))
+            .map(|shortcut| shortcut.deed)
+            .collect()
+    })
+}
+
+/// Carries a deed out, as far as it is a matter of the state.
+pub fn carry_out(deed: Deed, cx: &mut Cx, dialogs: &mut files::Dialogs, help: &mut bool) {
+    match deed {
+        Deed::Open => dialogs.ask(files::Question::Open),
+        Deed::Export => dialogs.ask(files::Question::Export),
+        Deed::Save => dialogs.ask(files::Question::SaveWorkspace),
+        Deed::Help => *help = !*help,
+        Deed::Undo => cx.send(Command::Undo),
+        Deed::Redo => cx.send(Command::Redo),
+        Deed::Invert => cx.send(Command::InvertMarked),
+        Deed::MarkRegion => mark_region(cx),
+        Deed::Escape => {
+            if *help {
+                *help = false;
+            } else {
+                cx.send(Command::ClearSelection);
+            }
+        }
+        Deed::Region(next) => step_region(cx, next),
+        Deed::Pin => cx.send(Command::Pin(cx.state.pinned.is_none())),
+        Deed::Swap => cx.send(Command::ShowPinned(!cx.state.view.show_pinned)),
+        Deed::Theme => {
+            use crate::workbench::Theme::{Dark, Light};
+            cx.send(Command::Theme(if cx.state.view.theme == Dark { Light } else { Dark }));
+        }
+        Deed::Layer(_) | Deed::Tool(_) | Deed::Fit | Deed::OneToOne | Deed::Outline => look(deed, cx),
+    }
+}
+
+fn look(deed: Deed, cx: &mut Cx) {
+    use crate::workbench::Fill;
+    let mut image = cx.state.view.image.clone();
+    match deed {
+        Deed::Layer(layer) => image.layer = layer,
+        Deed::Tool(tool) => {
+            image.tool = tool;
+            let mut cube = cx.state.view.cube.clone();
+            if matches!(tool, Tool::Pointer | Tool::Rectangle | Tool::Lasso | Tool::Polygon) {
+                cube.tool = tool;
+                cx.send(Command::Cube(cube));
+            }
+        }
+        Deed::Fit => (image.zoom, image.centre_px) = (None, None),
+        Deed::OneToOne => image.zoom = Some(1.0),
+        Deed::Outline => image.fill = if image.fill == Fill::Fill { Fill::Outline } else { Fill::Fill },
+        _ => {}
+    }
+    cx.send(Command::Image(image));
+}
+
+fn mark_region(cx: &mut Cx) {
+    let (Some(region), Some(shown)) = (cx.state.selected_region(), cx.state.shown()) else { return };
+    let mask = shown.labels().map(|&label| label == region);
+    cx.send(Command::Mark(std::sync::Arc::new(mask), Combine::Replace, None));
+}
+
+fn step_region(cx: &mut Cx, next: bool) {
+    let Some(count) = cx.state.shown().map(|shown| shown.analysis.intrinsic.regions.len() as u16) else {
+        return;
+    };
+    if count == 0 {
+        return;
+    }
+    let region = match (cx.state.selected_region(), next) {
+        (Some(region), true) => region % count + 1,
+        (Some(region), false) => (region + count - 2) % count + 1,
+        (None, true) => 1,
+        (None, false) => count,
+    };
+    cx.send(Command::Select(Some(Item::Region(region))));
+}
+
+/// The list, in a window that stays until it is closed.
+pub fn show_help(ui: &mut Ui, cx: &Cx, open: &mut bool) {
+    let ctx = ui.ctx().clone();
+    egui::Window::new("Keyboard and pointer").open(open).collapsible(false).resizable(false).show(
+        &ctx,
+        |ui| {
+            ui.horizontal_top(|ui| {
+                for groups in [&["File", "Edit", "Compare", "Window"][..], &["Image"], &["Tools", "Pointer"]]
+                {
+                    ui.vertical(|ui| groups.iter().for_each(|group| list(ui, cx, group)));
+                    ui.add_space(12.0);
+                }
+            });
+        },
+    );
+}
+
+fn list(ui: &mut Ui, cx: &Cx, group: &str) {
+    super::widgets::heading(ui, cx.tones, group);
+    let rows: Vec<(String, &str)> = if group == "Pointer" {
+        POINTER.iter().map(|&(keys, words)| (keys.to_owned(), words)).collect()
+    } else {
+        let of_group = ALL.iter().filter(|shortcut| shortcut.group == group);
+        of_group.map(|shortcut| (ui.ctx().format_shortcut(&shortcut.keys), shortcut.words)).collect()
+    };
+    egui::Grid::new(group).num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| {
+        for (keys, words) in rows {
+            ui.label(RichText::new(keys).size(SMALL_PT).color(cx.tones.accent));
+            ui.label(words);
+            ui.end_row();
+        }
+    });
+}

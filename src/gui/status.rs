@@ -1,0 +1,62 @@
+//! The line that tells what is open, how it is analysed, what was found and how long it took.
+
+use super::Cx;
+use super::theme::SMALL_PT;
+use crate::segment::Parameter;
+use egui::{Align, Layout, RichText, Ui};
+use std::time::Duration;
+
+/// Work that takes longer gets a spinner and a progress bar.
+pub const PATIENCE: Duration = Duration::from_millis(150);
+
+/// Shows the line, right-aligned in what is left of the menu bar.
+pub fn show(ui: &mut Ui, cx: &Cx) {
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        ui.spacing_mut().item_spacing.x = 10.0;
+        progress(ui, cx);
+        let quiet = |text: String| RichText::new(text).size(SMALL_PT).color(cx.tones.quiet);
+        for part in parts(cx).into_iter().rev() {
+            ui.add(egui::Label::new(quiet(part)).truncate());
+        }
+    });
+}
+
+fn parts(cx: &Cx) -> Vec<String> {
+    let Some(picture) = &cx.state.picture else { return Vec::new() };
+    let (width, height) = picture.size();
+    let mut parts =
+        vec![picture.origin.name(), format!("{width} \u{d7} {height}"), picture.photo.encoding.to_string()];
+    if let Some(shown) = cx.state.shown() {
+        let used = &shown.analysis.used;
+        let auto = if shown.params.get(Parameter::CameraNoise).value().is_none() { " auto" } else { "" };
+        let regions = shown.analysis.intrinsic.regions.len();
+        parts.push(format!("\u{3c3}0 {:.2}{auto}", used.camera_noise));
+        parts.push(format!("{regions} regions, {:.1} %", 100.0 * shown.coverage));
+        parts.push(format!("{:.1} ms", shown.total_ms()));
+    }
+    parts
+}
+
+fn progress(ui: &mut Ui, cx: &Cx) {
+    let jobs = &cx.state.jobs;
+    let stages = crate::analysis::Stage::ALL.len() as f32;
+    let (job, words, done) = if let Some(job) = &jobs.analysis {
+        let stage = job.stage.map_or("waiting", crate::analysis::Stage::name);
+        (job, stage, job.stage.map(|stage| stage as usize as f32 / stages))
+    } else if let Some(job) = &jobs.reading {
+        (job, "reading", None)
+    } else if let Some(job) = &jobs.export {
+        (job, "writing", None)
+    } else {
+        return;
+    };
+    let elapsed = job.since.elapsed();
+    if elapsed < PATIENCE {
+        ui.ctx().request_repaint_after(PATIENCE - elapsed);
+        return;
+    }
+    let bar = egui::ProgressBar::new(done.unwrap_or(1.0)).desired_width(72.0).desired_height(6.0);
+    ui.add(bar.fill(cx.tones.accent));
+    ui.label(RichText::new(words).size(SMALL_PT).color(cx.tones.accent));
+    ui.add(egui::Spinner::new().size(12.0).color(cx.tones.accent));
+}

@@ -1,0 +1,139 @@
+//! Neutral greys around the pictures, one accent, two sizes of type.
+
+use crate::workbench::Theme;
+use egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, Style, TextStyle, Visuals, vec2};
+
+/// The colours of a theme.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tones {
+    /// Around the pictures.
+    pub background: Color32,
+    /// Behind controls.
+    pub panel: Color32,
+    /// Fields and rails.
+    pub well: Color32,
+    /// Between things.
+    pub line: Color32,
+    /// What is read.
+    pub text: Color32,
+    /// Units, labels, what is not in force.
+    pub quiet: Color32,
+    /// The cursor, the selection, the primary action.
+    pub accent: Color32,
+    /// Errors.
+    pub error: Color32,
+}
+
+impl Tones {
+    /// The colours of `theme`.
+    pub fn of(theme: Theme) -> Self {
+        match theme {
+            Theme::Dark => Self {
+                background: Color32::from_rgb(0x17, 0x18, 0x1A),
+                panel: Color32::from_rgb(0x1F, 0x20, 0x22),
+                well: Color32::from_rgb(0x2A, 0x2B, 0x2E),
+                line: Color32::from_rgb(0x30, 0x32, 0x36),
+                text: Color32::from_rgb(0xD6, 0xD8, 0xDC),
+                quiet: Color32::from_rgb(0x8C, 0x90, 0x96),
+                accent: Color32::from_rgb(0xE8, 0xA3, 0x3D),
+                error: Color32::from_rgb(0xF0, 0x6A, 0x5E),
+            },
+            Theme::Light => Self {
+                background: Color32::from_rgb(0xDC, 0xDC, 0xDC),
+                panel: Color32::from_rgb(0xF2, 0xF2, 0xF2),
+                well: Color32::from_rgb(0xE2, 0xE2, 0xE2),
+                line: Color32::from_rgb(0xC4, 0xC4, 0xC6),
+                text: Color32::from_rgb(0x1E, 0x1F, 0x22),
+                quiet: Color32::from_rgb(0x60, 0x63, 0x68),
+                accent: Color32::from_rgb(0xA8, 0x62, 0x00),
+                error: Color32::from_rgb(0xB8, 0x2A, 0x1E),
+            },
+        }
+    }
+}
+
+/// Size of type in panels, points.
+pub const BODY_PT: f32 = 12.5;
+/// Size of headers and notes, points.
+pub const SMALL_PT: f32 = 11.0;
+
+/// The bundled family, with arrows and mathematical signs from the monospaced one.
+pub fn load_fonts(ctx: &egui::Context) {
+    let mut fonts = egui::FontDefinitions::default();
+    if let Some(family) = fonts.families.get_mut(&FontFamily::Proportional) {
+        family.push("Hack".to_owned());
+    }
+    ctx.set_fonts(fonts);
+}
+
+/// Gives the whole context the look of `theme`.
+pub fn apply(ctx: &egui::Context, theme: Theme) {
+    let tones = Tones::of(theme);
+    let base = if theme == Theme::Dark { egui::Theme::Dark } else { egui::Theme::Light };
+    ctx.set_theme(base);
+    ctx.all_styles_mut(|style| dress(style, theme, &tones));
+}
+
+fn dress(style: &mut Style, theme: Theme, tones: &Tones) {
+    style.visuals = visuals(theme, tones);
+    let font = |size| FontId::new(size, FontFamily::Proportional);
+    style.text_styles = [
+        (TextStyle::Small, font(SMALL_PT)),
+        (TextStyle::Body, font(BODY_PT)),
+        (TextStyle::Button, font(BODY_PT)),
+        (TextStyle::Heading, font(BODY_PT)),
+        (TextStyle::Monospace, FontId::new(BODY_PT - 0.5, FontFamily::Monospace)),
+    ]
+    .into();
+    let spacing = &mut style.spacing;
+    spacing.item_spacing = vec2(8.0, 4.0);
+    spacing.button_padding = vec2(8.0, 2.0);
+    spacing.interact_size = vec2(24.0, 20.0);
+    spacing.slider_rail_height = 4.0;
+    spacing.icon_width = 14.0;
+    spacing.icon_width_inner = 8.0;
+    spacing.tooltip_width = 340.0;
+    spacing.combo_width = 64.0;
+    style.interaction.selectable_labels = false;
+    style.interaction.tooltip_delay = 0.4;
+    // Nothing moves by itself.
+    style.animation_time = 0.0;
+}
+
+fn visuals(theme: Theme, tones: &Tones) -> Visuals {
+    let mut visuals = if theme == Theme::Dark { Visuals::dark() } else { Visuals::light() };
+    visuals.override_text_color = None;
+    visuals.panel_fill = tones.panel;
+    visuals.window_fill = tones.panel;
+    visuals.window_stroke = Stroke::new(1.0, tones.line);
+    visuals.extreme_bg_color = tones.well;
+    visuals.faint_bg_color = tones.well.gamma_multiply(0.5);
+    visuals.hyperlink_color = tones.accent;
+    visuals.error_fg_color = tones.error;
+    visuals.warn_fg_color = tones.accent;
+    visuals.weak_text_color = Some(tones.quiet);
+    visuals.selection.bg_fill = tones.accent.gamma_multiply(0.35);
+    visuals.selection.stroke = Stroke::new(1.0, tones.text);
+    visuals.slider_trailing_fill = true;
+    visuals.menu_corner_radius = CornerRadius::same(4);
+    visuals.window_corner_radius = CornerRadius::same(4);
+    let widgets = &mut visuals.widgets;
+    widgets.noninteractive.bg_stroke = Stroke::new(1.0, tones.line);
+    widgets.noninteractive.fg_stroke = Stroke::new(1.0, tones.text);
+    for (widget, fill, text) in [
+        (&mut widgets.inactive, tones.well, tones.text),
+        (&mut widgets.hovered, tones.line, tones.text),
+        (&mut widgets.active, tones.line, tones.accent),
+        (&mut widgets.open, tones.line, tones.text),
+    ] {
+        widget.bg_fill = fill;
+        widget.weak_bg_fill = fill;
+        widget.bg_stroke = Stroke::NONE;
+        widget.fg_stroke = Stroke::new(1.0, text);
+        widget.corner_radius = CornerRadius::same(3);
+        widget.expansion = 0.0;
+    }
+    // Keyboard focus is drawn with the stroke of `hovered`.
+    widgets.hovered.bg_stroke = Stroke::new(1.0, tones.quiet);
+    visuals
+}

@@ -1,0 +1,52 @@
+//! Small things that several panels show alike.
+
+use super::theme::{SMALL_PT, Tones};
+use egui::{Align, Color32, Layout, Response, RichText, Sense, Ui, vec2};
+
+/// A quiet heading over a group of controls.
+pub fn heading(ui: &mut Ui, tones: &Tones, text: &str) -> Response {
+    ui.add_space(6.0);
+    ui.label(RichText::new(text).size(SMALL_PT).color(tones.quiet))
+}
+
+/// A square of colour.
+pub fn chip(ui: &mut Ui, colour: Color32, name: &str) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
+    ui.painter().rect_filled(rect, 2.0, colour);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, name));
+    response
+}
+
+/// A number with its unit in quiet text, aligned to the right of `width` points.
+pub fn number(ui: &mut Ui, tones: &Tones, width: f32, value: &str, unit: &str) {
+    ui.allocate_ui_with_layout(vec2(width, 18.0), Layout::right_to_left(Align::Center), |ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        if !unit.is_empty() {
+            ui.label(RichText::new(unit).color(tones.quiet));
+        }
+        ui.label(value);
+    });
+}
+
+/// What a panel says when there is nothing to show: a sentence in its middle.
+pub fn nothing(ui: &mut Ui, tones: &Tones, text: &str) {
+    ui.centered_and_justified(|ui| ui.label(RichText::new(text).color(tones.quiet)));
+}
+
+/// A sRGB triple as a colour.
+pub fn colour([r, g, b]: [u8; 3]) -> Color32 {
+    Color32::from_rgb(r, g, b)
+}
+
+/// A whole number with thin spaces between its thousands.
+pub fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::with_capacity(digits.len() * 2);
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
+            text.push('\u{2009}');
+        }
+        text.push(digit);
+    }
+    text
+}
