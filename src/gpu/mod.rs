@@ -24,3 +24,4 @@ pub use headless::{Headless, NoAdapter};
 pub use projector::{Projector, Ray, ScreenPoint};
 pub use renderer::Renderer;
 pub use scene::{Batch, Line, Mesh, Overlay, Point, Scene, Vertex};
+pub use target::read_texture;

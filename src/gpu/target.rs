@@ -30,36 +30,42 @@ impl Target {
 
     /// Waits for the picture; rows of premultiplied RGBA without padding. `None` when the device was lost.
     pub(super) fn read_back(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Option<Vec<u8>> {
-        let [width, height] = self.size_px;
-        let row_bytes = 4 * width;
-        let padded_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("read back"),
-            size: u64::from(padded_bytes) * u64::from(height),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_texture_to_buffer(
-            self.color.as_image_copy(),
-            wgpu::TexelCopyBufferInfo {
-                buffer: &buffer,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(padded_bytes),
-                    rows_per_image: None,
-                },
-            },
-            self.color.size(),
-        );
-        queue.submit([encoder.finish()]);
-        // A failure shows when the range is asked for.
-        buffer.map_async(wgpu::MapMode::Read, .., |_| ());
-        device.poll(wgpu::PollType::wait_indefinitely()).ok()?;
-        let mapped = buffer.get_mapped_range(..).ok()?;
-        let rows = mapped.chunks_exact(padded_bytes as usize);
-        Some(rows.flat_map(|row| &row[..row_bytes as usize]).copied().collect())
+        read_texture(device, queue, &self.color)
     }
+}
+
+/// The pixels of an RGBA texture of 8 bits a channel that may be copied from; rows without padding. Waits for the device;
+/// `None` when that was lost.
+pub fn read_texture(device: &wgpu::Device, queue: &wgpu::Queue, texture: &wgpu::Texture) -> Option<Vec<u8>> {
+    let (width, height) = (texture.width(), texture.height());
+    let row_bytes = 4 * width;
+    let padded_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("read back"),
+        size: u64::from(padded_bytes) * u64::from(height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_texture_to_buffer(
+        texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(padded_bytes),
+                rows_per_image: None,
+            },
+        },
+        texture.size(),
+    );
+    queue.submit([encoder.finish()]);
+    // A failure shows when the range is asked for.
+    buffer.map_async(wgpu::MapMode::Read, .., |_| ());
+    device.poll(wgpu::PollType::wait_indefinitely()).ok()?;
+    let mapped = buffer.get_mapped_range(..).ok()?;
+    let rows = mapped.chunks_exact(padded_bytes as usize);
+    Some(rows.flat_map(|row| &row[..row_bytes as usize]).copied().collect())
 }
 
 /// The largest size of the same shape that a texture can have (at least one pixel), and by how much it is smaller.

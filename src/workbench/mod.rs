@@ -12,11 +12,15 @@ mod document;
 mod histogram;
 mod item;
 mod jobs;
+mod layers;
 mod picture;
 mod read;
 mod reduce;
 mod shown;
 mod state;
+mod table;
+#[cfg(test)]
+mod testing;
 mod view;
 
 pub use analyst::Request;
@@ -26,10 +30,12 @@ pub use document::{Document, History};
 pub use histogram::{BINS_PER_BAND, ColourBin, Histogram};
 pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
+pub use layers::{ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, legend, marks, paint, pyramid};
 pub use picture::{Origin, Picture};
 pub use reduce::{Effect, reduce};
 pub use shown::Shown;
 pub use state::{Notice, Severity, State};
+pub use table::regions_text;
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
     Theme, Tool, View,
