@@ -2,7 +2,7 @@
 
 use crate::gpu::{Projector, pick};
 use crate::raster::Mask;
-use crate::workbench::{Picture, Tool, of_bins};
+use crate::workbench::{Picture, Tool, marking::of_bins};
 use egui::{Color32, Key, Painter, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui};
 
 /// Corners of a lasso are at least this far apart.

@@ -68,14 +68,14 @@ fn majority(picture: &Picture, kinds: usize, of: impl Fn(u32) -> usize) -> Vec<u
             let pixels = picture.histogram.pixels_of(bin);
             let kind = |pixel: u32| Some(of(pixel)).filter(|&kind| kind < kinds).unwrap_or(0);
             let mut best = 0;
-            for &pixel in pixels {
+            for &pixel in &pixels {
                 let kind = kind(pixel);
                 counts[kind] += 1;
                 if (counts[kind], std::cmp::Reverse(kind)) > (counts[best], std::cmp::Reverse(best)) {
                     best = kind;
                 }
             }
-            for &pixel in pixels {
+            for &pixel in &pixels {
                 counts[kind(pixel)] = 0;
             }
             best
