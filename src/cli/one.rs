@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use dichroscope::analysis::{Analysis, Observer, Session, Stage};
-use dichroscope::export::{self, Staging};
+use dichroscope::export::WholeResult;
 use dichroscope::photo::{self, Photo, ReadOptions};
 use dichroscope::raster::{Mask, Raster, UNASSIGNED};
 use dichroscope::report::{AreaFacts, ImageFacts, Report, Timings};
@@ -37,18 +37,6 @@ impl Shot {
         let begin = Instant::now();
         let photo = photo::decode(bytes, name, options)?;
         Ok(Self { photo, sha256: photo::sha256_hex(bytes), read_ms: ms_since(begin) })
-    }
-
-    fn facts(&self) -> ImageFacts {
-        let file = Path::new(&self.photo.name).file_name().unwrap_or_default();
-        ImageFacts {
-            file: file.to_string_lossy().into_owned(),
-            sha256: self.sha256.clone(),
-            width: self.photo.image.width(),
-            height: self.photo.image.height(),
-            encoding: self.photo.encoding.to_string(),
-            full_scale: self.photo.full_scale,
-        }
     }
 }
 
@@ -110,12 +98,13 @@ pub(super) struct Finished {
 pub(super) fn analyze(shot: &Shot, plan: &Plan, target: &Path) -> Result<Finished> {
     let mut clock = StageClock::default();
     let image = Arc::new(shot.photo.image.clone());
-    let mut session = Session::new(Arc::clone(&image));
+    let mut session = Session::new(image);
     if let Some(area) = plan.area {
         session.restrict(Some(Arc::clone(&area.mask))).with_context(|| format!("--area {}", area.name))?;
     }
     let analysis = session.run(plan.params, &mut clock)?;
-    let mut report = Report::new(shot.facts(), plan.params, &analysis, &shot.photo.warnings);
+    let mut report =
+        Report::new(ImageFacts::of(&shot.photo, &shot.sha256), plan.params, &analysis, &shot.photo.warnings);
     report.area = plan.area.map(Area::facts);
     report.timings_ms = Timings { read: Some(shot.read_ms), ..clock.timings };
     if let Some(Reference { truth, camera }) = plan.reference {
@@ -128,16 +117,8 @@ pub(super) fn analyze(shot: &Shot, plan: &Plan, target: &Path) -> Result<Finishe
         };
         report.scores = Some(score(truth, camera, &outcome)?);
     }
-    let begin = Instant::now();
-    let staging = Staging::begin(target, plan.force)?;
-    let (pictures, matte) = rayon::join(
-        || export::write_pictures(staging.folder(), &image, &analysis),
-        || export::write_matte(&shot.photo, &analysis.intrinsic, plan.keep_surface, staging.folder()),
-    );
-    pictures?;
-    matte?;
-    report.timings_ms.write = Some(ms_since(begin));
-    staging.publish(&report)?;
+    let whole = WholeResult { photo: &shot.photo, analysis: &analysis, keep_surface: plan.keep_surface };
+    let report = whole.write(report, target, plan.force, &|_, _| true)?;
     Ok(Finished { lit_share: lit_share(&analysis), report })
 }
 

@@ -54,18 +54,34 @@ pub fn write_matte(
     keep_surface: f64,
     folder: &Path,
 ) -> Result<PathBuf, MatteError> {
+    let (extension, bytes) = matte_bytes(photo, intrinsic, keep_surface).map_err(|error| match error {
+        MatteError::Encode { path, reason } => MatteError::Encode { path: folder.join(path), reason },
+        other => other,
+    })?;
+    let path = folder.join(format!("matte.{extension}"));
+    std::fs::write(&path, bytes).map_err(|cause| MatteError::Write { path: path.clone(), cause })?;
+    Ok(path)
+}
+
+/// The picture that [`write_matte`] writes, as its usual extension (`jpg`, `tif` or `png`) and its bytes.
+///
+/// # Errors
+/// [`MatteError`]: sizes that differ, or a picture that cannot be encoded.
+pub fn matte_bytes(
+    photo: &Photo,
+    intrinsic: &Intrinsic,
+    keep_surface: f64,
+) -> Result<(&'static str, Vec<u8>), MatteError> {
     let body = &intrinsic.body;
     let size = (photo.image.width(), photo.image.height());
     let body_size = (body.width(), body.height());
     if body_size != size {
         return Err(MatteError::Shape { body: body_size, photo: size });
     }
-    let (extension, encoded) =
-        container::encode(photo, coded(photo, intrinsic, keep_surface.clamp(0.0, 1.0) as f32));
-    let path = folder.join(format!("matte.{extension}"));
-    let bytes = encoded.map_err(|reason| MatteError::Encode { path: path.clone(), reason })?;
-    std::fs::write(&path, bytes).map_err(|cause| MatteError::Write { path: path.clone(), cause })?;
-    Ok(path)
+    let picture = coded(photo, intrinsic, keep_surface.clamp(0.0, 1.0) as f32);
+    let (extension, encoded) = container::encode(photo, picture);
+    let path = PathBuf::from(format!("matte.{extension}"));
+    encoded.map(|bytes| (extension, bytes)).map_err(|reason| MatteError::Encode { path, reason })
 }
 
 /// Samples for a file, with their bands.

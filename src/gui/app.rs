@@ -38,6 +38,7 @@ impl App {
         gpu: Option<egui_wgpu::RenderState>,
         executor: Executor,
     ) -> std::io::Result<Self> {
+        theme::load_fonts(ctx);
         let repaint = ctx.clone();
         let bench = Workbench::new(executor, move || repaint.request_repaint())?;
         Ok(Self { bench, front: Front::default(), gpu, dressed: None })

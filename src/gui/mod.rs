@@ -9,6 +9,7 @@ mod cube_panel;
 mod cx;
 mod dock;
 mod files;
+mod icons;
 mod image_panel;
 mod menu;
 mod notices;
@@ -21,6 +22,8 @@ mod screenshot;
 mod selection_panel;
 mod shortcuts;
 mod status;
+#[cfg(test)]
+mod testing;
 mod theme;
 mod widgets;
 mod window;

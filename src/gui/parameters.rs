@@ -38,7 +38,6 @@ fn method(ui: &mut Ui, cx: &mut Cx) {
     ui.horizontal(|ui| {
         label(
             ui,
-            cx,
             "method",
             "Refined: the paper's algorithm with switches below. Paper: as written in 1990 (section 5).",
         );
@@ -62,12 +61,12 @@ fn method(ui: &mut Ui, cx: &mut Cx) {
     ui.add_space(4.0);
 }
 
-fn label(ui: &mut Ui, cx: &Cx, text: &str, tip: &str) -> egui::Response {
+fn label(ui: &mut Ui, text: &str, tip: &str) -> egui::Response {
     let size = vec2(LABEL_PT, ui.spacing().interact_size.y);
     let layout = Layout::left_to_right(Align::Center);
     ui.allocate_ui_with_layout(size, layout, |ui| {
         ui.set_min_width(LABEL_PT);
-        ui.add(egui::Label::new(RichText::new(text).color(cx.tones.text)).truncate())
+        ui.add(egui::Label::new(text).truncate())
     })
     .inner
     .on_hover_text(tip)
@@ -163,13 +162,13 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
             .speed(feel.step)
             .range(spec.range.0..=spec.range.1)
             .fixed_decimals(decimals);
-        let typed = columns.value.show(ui, typed).on_hover_text(&tip);
+        let typed = ui.put(columns.value.0, typed).on_hover_text(&tip);
         typed.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, spec.name));
         let unit = RichText::new(spec.unit).size(SMALL_PT).color(cx.tones.quiet);
         columns.unit.show(ui, egui::Label::new(unit).truncate());
         let automatic = setting == Setting::Auto;
         let auto = Button::selectable(automatic, RichText::new("auto").size(SMALL_PT));
-        let auto = columns.auto.show(ui, auto);
+        let auto = ui.put(columns.auto.0, auto);
         auto.widget_info(|| {
             egui::WidgetInfo::selected(
                 egui::accesskit::Role::CheckBox,
@@ -199,16 +198,77 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
 /// The pinned illuminant and the outlined area.
 fn by_hand(ui: &mut Ui, cx: &mut Cx) {
     widgets::heading(ui, cx.tones, "By hand");
-    if let Some(area) = &cx.state.document.area {
-        let pixels = area.as_slice().iter().filter(|&&inside| inside).count();
-        ui.horizontal(|ui| {
-            label(ui, cx, "area", "Only these pixels are analysed; the others stay as they are.");
-            ui.label(format!("{pixels} px"));
-            if ui.small_button("Whole picture").clicked() {
-                cx.send(Command::RestrictTo(None));
+    illuminant(ui, cx);
+    let (area, marked) = (&cx.state.document.area, &cx.state.document.selection.marked);
+    ui.horizontal(|ui| {
+        label(ui, "area", "Only these pixels are analysed; the others stay as they are.");
+        match area {
+            Some(area) => {
+                let pixels = area.as_slice().iter().filter(|&&inside| inside).count();
+                ui.label(format!("{} px", widgets::grouped(pixels)));
+            }
+            None => {
+                ui.label(RichText::new("whole picture").color(cx.tones.quiet));
+            }
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if area.is_some() {
+                if ui.small_button("Lift").on_hover_text("Analyse the whole picture again.").clicked() {
+                    cx.out.push(Command::RestrictTo(None));
+                }
+            } else {
+                let take = ui.add_enabled(marked.is_some(), Button::new("To marked").small());
+                let tip = "Analyse only the marked pixels. Mark some with a tool of the image view.";
+                if take.on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
+                    cx.out.push(Command::RestrictTo(marked.clone()));
+                }
             }
         });
-    }
+    });
+}
+
+/// The light: the one found, or one that is given and turns every plane to it.
+fn illuminant(ui: &mut Ui, cx: &mut Cx) {
+    let given = cx.state.document.params.illuminant.direction();
+    let found =
+        cx.state.newest.as_ref().and_then(|shown| shown.analysis.illuminant).map(|light| light.direction);
+    let tip =
+        "The colour of the light. Found, or given: then every dichromatic plane turns to it (section 5.4).";
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP_PT;
+        label(ui, "illuminant", tip);
+        let mut direction = given.or(found).unwrap_or([1.0, 1.0, 1.0].map(|v: f64| v / 3f64.sqrt()));
+        let mut changed = false;
+        let mut rested = false;
+        for (value, band) in direction.iter_mut().zip(["red", "green", "blue"]) {
+            let field = DragValue::new(value).range(0.0..=1.0).speed(0.002).fixed_decimals(3);
+            let field = ui.add_sized(vec2(VALUE_PT, 18.0), field);
+            field.widget_info(|| {
+                let name = format!("illuminant {band}");
+                egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, name)
+            });
+            let field = field.on_hover_text(tip);
+            changed |= field.changed();
+            rested |= field.drag_stopped() || field.lost_focus();
+        }
+        if changed {
+            cx.send(Command::PinIlluminant(Some(direction), Some(Gesture::Illuminant)));
+        }
+        if rested {
+            cx.send(Command::EndGesture);
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let pin = Button::selectable(given.is_some(), RichText::new("pin").size(SMALL_PT));
+            let pin = ui.add_enabled(given.is_some() || found.is_some(), pin);
+            pin.widget_info(|| {
+                let role = egui::accesskit::Role::CheckBox;
+                egui::WidgetInfo::selected(role, true, given.is_some(), "pin illuminant")
+            });
+            if pin.on_hover_text("Keep this light, or let it be found again.").clicked() {
+                cx.send(Command::PinIlluminant(if given.is_some() { None } else { found }, None));
+            }
+        });
+    });
 }
 
 fn switches(ui: &mut Ui, cx: &mut Cx) {

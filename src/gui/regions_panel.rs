@@ -180,7 +180,7 @@ fn layout_of(key: Key) -> Layout {
 fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &Shown) {
     let none = || RichText::new("\u{2013}").color(tones.quiet);
     let plain = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).selectable(false));
-    row.col(|ui| {
+    cell(row, |ui| {
         let colour = shown.region_colours.get(usize::from(region.id) - 1).copied().unwrap_or([128; 3]);
         widgets::chip(ui, widgets::colour(colour), &format!("colour of region {}", region.id));
         plain(ui, RichText::new(region.id.to_string()));
@@ -191,17 +191,24 @@ fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &S
         });
     };
     number(row, RichText::new(widgets::grouped(region.pixels)));
-    row.col(|ui| vector(ui, tones, Some(region.body)));
-    row.col(|ui| vector(ui, tones, region.surface));
+    cell(row, |ui| vector(ui, tones, Some(region.body)));
+    cell(row, |ui| vector(ui, tones, region.surface));
     number(row, region.angle_deg.map_or_else(none, |angle| RichText::new(format!("{angle:.1}\u{b0}"))));
     let highlight = (region.highlight_pixels > 0).then(|| widgets::grouped(region.highlight_pixels));
     number(row, highlight.map_or_else(none, RichText::new));
     number(row, RichText::new(format!("{:.2}", region.fit_rms_counts)));
-    row.col(|ui| {
+    cell(row, |ui| {
         if !region.warnings.is_empty() {
             let text = RichText::new(format!("{}", region.warnings.len())).color(tones.accent);
             plain(ui, text).on_hover_text(region.warnings.join("\n"));
         }
+    });
+}
+
+/// A cell whose contents stand in a line.
+fn cell(row: &mut TableRow, contents: impl FnOnce(&mut Ui)) {
+    row.col(|ui| {
+        ui.horizontal_centered(contents);
     });
 }
 

@@ -3,9 +3,11 @@
 use super::scores::Scores;
 use crate::analysis::{Analysis, Stage};
 use crate::intrinsic::RegionReflection;
+use crate::photo::Photo;
 use crate::raster::UNASSIGNED;
 use crate::segment::{IlluminantSetting, Method, Parameter, Params, Refine, Setting};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// Version of the schema; it rises when a field changes its name or its meaning.
 pub const SCHEMA: u32 = 1;
@@ -81,6 +83,21 @@ pub struct ImageFacts {
     pub encoding: String,
     /// Counts that the file's full scale stands for.
     pub full_scale: f64,
+}
+
+impl ImageFacts {
+    /// Of a photograph, and of the SHA-256 of its file.
+    pub fn of(photo: &Photo, sha256: &str) -> Self {
+        let file = Path::new(&photo.name).file_name().unwrap_or_default();
+        Self {
+            file: file.to_string_lossy().into_owned(),
+            sha256: sha256.to_owned(),
+            width: photo.image.width(),
+            height: photo.image.height(),
+            encoding: photo.encoding.to_string(),
+            full_scale: photo.full_scale,
+        }
+    }
 }
 
 /// The area that an analysis was restricted to.

@@ -5,37 +5,55 @@
 //! out: on a named worker where the newest request wins, or inline in tests. Panels read the state and return commands.
 
 mod analyst;
+mod axes;
 mod colours;
 mod command;
+mod curves;
 mod desk;
 mod document;
 mod histogram;
 mod item;
 mod jobs;
 mod layers;
+pub mod marking;
 mod picture;
+mod plane_points;
 mod read;
 mod reduce;
+mod shapes;
 mod shown;
+mod solid;
+mod space;
 mod state;
+mod table;
 #[cfg(test)]
 mod testing;
-mod table;
+mod statistics;
+mod vector;
 mod view;
 
 pub use analyst::Request;
+pub use axes::{Axis, Tick};
 pub use command::{Combine, Command, Gesture};
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};
-pub use histogram::{BINS_PER_BAND, ColourBin, Histogram};
+pub use histogram::{BINS_PER_BAND, ColourBin, Histogram, UniqueColour};
 pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
 pub use layers::{ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, legend, marks, paint, pyramid};
 pub use picture::{Origin, Picture};
+pub use plane_points::{MOST_PLANE_POINTS, PlanePixel, RegionPlane, region_plane};
 pub use reduce::{Effect, reduce};
+pub use shapes::{
+    PlaneDirections, RegionShapes, dark_sphere, illuminant_line, plane_directions, region_shapes,
+    window_ellipsoid,
+};
 pub use shown::Shown;
+pub use solid::{Mesh, Solid};
 pub use state::{Notice, Severity, State};
 pub use table::regions_text;
+pub use statistics::{Band, Bounds, STATISTICS_BINS, Statistics, statistics, statistics_of};
+pub use vector::Point;
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
     Theme, Tool, View,

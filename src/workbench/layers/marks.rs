@@ -80,7 +80,7 @@ impl Canvas<'_> {
                 self.frame(left, top, side_px, colour);
             }
             (Item::Bin(bin), _) => {
-                for &pixel in self.picture.histogram.pixels_of(bin) {
+                for pixel in self.picture.histogram.pixels_of(bin) {
                     self.painted[pixel as usize] = colour;
                 }
             }
