@@ -6,7 +6,9 @@ use crate::gui::theme::Tones;
 use crate::photo::LinearImage;
 use crate::raster::Mask;
 use crate::trace::Class;
-use crate::workbench::{ColourBy, ColourSpace, CubeSettings, Item, Picture, Shown, State, Theme, marking::mask_of};
+use crate::workbench::{
+    ColourBy, ColourSpace, CubeSettings, Item, Picture, Shown, State, Theme, marking::mask_of,
+};
 use egui::Color32;
 use std::sync::Arc;
 

@@ -128,7 +128,11 @@ mod tests {
     use super::*;
 
     fn placed(settings: &ImageSettings) -> Placement {
-        Placement::new(Rect::from_min_size(pos2(100.0, 50.0), vec2(600.0, 400.0)), vec2(512.0, 480.0), settings)
+        Placement::new(
+            Rect::from_min_size(pos2(100.0, 50.0), vec2(600.0, 400.0)),
+            vec2(512.0, 480.0),
+            settings,
+        )
     }
 
     #[test]
@@ -143,7 +147,8 @@ mod tests {
     #[test]
     fn from_the_screen_to_the_picture_and_back() {
         for zoom in [None, Some(0.3), Some(1.0), Some(17.3)] {
-            let settings = ImageSettings { zoom, centre_px: Some([130.5, 77.25]), ..ImageSettings::default() };
+            let settings =
+                ImageSettings { zoom, centre_px: Some([130.5, 77.25]), ..ImageSettings::default() };
             let place = placed(&settings);
             for point in [pos2(100.0, 50.0), pos2(333.3, 222.2), pos2(699.0, 449.0)] {
                 let back = place.screen_from_image(place.image_from_screen(point));

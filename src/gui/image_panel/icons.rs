@@ -17,6 +17,8 @@ pub enum Sign {
     Arrangement(Arrangement),
     /// Areas or their outlines.
     Fill(Fill),
+    /// Exposure and gamma.
+    Display,
 }
 
 /// A button that is on or off, named `name` for those who do not see its sign.
@@ -63,6 +65,14 @@ fn draw(painter: &Painter, square: Rect, sign: Sign, colour: Color32) {
         Sign::Fill(Fill::Outline) => {
             frame(part(2.5, 2.5, 11.5, 11.5));
         }
+        Sign::Display => {
+            painter.circle_stroke(at(7.0, 7.0), 5.4, stroke);
+            let turn = |i: usize| {
+                let angle = (i as f32 / 12.0 - 0.5) * std::f32::consts::PI;
+                at(7.0 + 5.4 * angle.cos(), 7.0 + 5.4 * angle.sin())
+            };
+            painter.add(Shape::convex_polygon((0..=12).map(turn).collect(), colour, Stroke::NONE));
+        }
     }
 }
 
@@ -70,7 +80,8 @@ fn draw_tool(painter: &Painter, tool: Tool, stroke: Stroke, at: impl Fn(f32, f32
     let path = |points: &[(f32, f32)]| -> Vec<Pos2> { points.iter().map(|&(x, y)| at(x, y)).collect() };
     match tool {
         Tool::Pointer => {
-            let arrow = [(3.5, 1.5), (11.0, 8.2), (7.4, 8.5), (9.2, 12.2), (7.5, 13.0), (5.8, 9.2), (3.5, 11.5)];
+            let arrow =
+                [(3.5, 1.5), (11.0, 8.2), (7.4, 8.5), (9.2, 12.2), (7.5, 13.0), (5.8, 9.2), (3.5, 11.5)];
             painter.add(Shape::closed_line(path(&arrow), stroke));
         }
         Tool::Rectangle => {

@@ -165,7 +165,8 @@ impl Sheets {
         if self.sheets.iter().any(|sheet| sheet.key == key) {
             *last = Some(key);
         }
-        let wanted = last.clone().filter(|last| Weak::ptr_eq(&last.picture, &Arc::downgrade(&order.picture)))?;
+        let wanted =
+            last.clone().filter(|last| Weak::ptr_eq(&last.picture, &Arc::downgrade(&order.picture)))?;
         self.forget_oldest();
         let sheet = self.sheets.iter_mut().find(|sheet| sheet.key == wanted)?;
         sheet.used = self.clock;
@@ -268,9 +269,10 @@ impl Sheet {
         for row in rows {
             for column in columns.clone() {
                 let Some(tile) = Tile::of(texels, column, row) else { continue };
-                let texture = self.tiles.entry([level, column, row]).or_insert_with(|| {
-                    painter.ctx().load_texture("picture", tile.cut(texels), options())
-                });
+                let texture = self
+                    .tiles
+                    .entry([level, column, row])
+                    .or_insert_with(|| painter.ctx().load_texture("picture", tile.cut(texels), options()));
                 let part = Rect::from_min_max(
                     tile.inner.min * shrunk,
                     (tile.inner.max * shrunk).min(place.size.to_pos2()),
