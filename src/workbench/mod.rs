@@ -14,8 +14,8 @@ mod document;
 mod histogram;
 mod item;
 mod jobs;
-pub mod marking;
 mod layers;
+pub mod marking;
 mod picture;
 mod plane_points;
 mod read;
@@ -26,10 +26,10 @@ mod solid;
 mod space;
 mod state;
 mod statistics;
-mod vector;
 mod table;
 #[cfg(test)]
 mod testing;
+mod vector;
 mod view;
 
 pub use analyst::Request;
@@ -52,8 +52,8 @@ pub use shown::Shown;
 pub use solid::{Mesh, Solid};
 pub use state::{Notice, Severity, State};
 pub use statistics::{Band, Bounds, STATISTICS_BINS, Statistics, statistics, statistics_of};
-pub use vector::Point;
 pub use table::regions_text;
+pub use vector::Point;
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
     Theme, Tool, View,
