@@ -25,10 +25,10 @@ mod shown;
 mod solid;
 mod space;
 mod state;
+mod statistics;
 mod table;
 #[cfg(test)]
 mod testing;
-mod statistics;
 mod vector;
 mod view;
 
@@ -51,8 +51,8 @@ pub use shapes::{
 pub use shown::Shown;
 pub use solid::{Mesh, Solid};
 pub use state::{Notice, Severity, State};
-pub use table::regions_text;
 pub use statistics::{Band, Bounds, STATISTICS_BINS, Statistics, statistics, statistics_of};
+pub use table::regions_text;
 pub use vector::Point;
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
