@@ -6,8 +6,8 @@ use crate::gui::Cx;
 use crate::gui::theme::Tones;
 use crate::raster::Mask;
 use crate::workbench::{
-    Combine, Command, Gesture, ImageSettings, Item, Layer, ProfileLine, Severity, State, Tool, brush,
-    outline, rectangle,
+    Combine, Command, Gesture, ImageSettings, Item, Layer, ProfileLine, Severity, State, Tool, marking::brush,
+    marking::outline, marking::rectangle,
 };
 use egui::{
     Color32, CursorIcon, Key, Modifiers, Painter, PointerButton, Pos2, Rect, Response, Stroke, Ui, pos2,
