@@ -4,10 +4,13 @@
 //! does; it is pure but for the [`Effect`]s it asks for, and is tested without a window. A [`Workbench`] carries the effects
 //! out: on a named worker where the newest request wins, or inline in tests. Panels read the state and return commands.
 
+mod accuracy;
 mod analyst;
 mod axes;
 mod colours;
 mod command;
+mod command_line;
+mod compare;
 mod curves;
 mod desk;
 mod document;
@@ -16,8 +19,12 @@ mod item;
 mod jobs;
 mod layers;
 mod picture;
+mod profile;
 mod read;
 mod reduce;
+mod runs;
+mod selected;
+mod settings;
 mod shown;
 mod solid;
 mod space;
@@ -26,10 +33,15 @@ mod table;
 #[cfg(test)]
 mod testing;
 mod view;
+mod workspace;
+mod write;
 
+pub use accuracy::{Accuracy, RegionAccuracy};
 pub use analyst::Request;
 pub use axes::{Axis, Tick};
 pub use command::{Combine, Command, Gesture};
+pub use command_line::analyze_call;
+pub use compare::{BodyChange, Comparison, Fate, Figure, PixelFates, RegionFate, SettingChange, compare};
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};
 pub use histogram::{BINS_PER_BAND, ColourBin, Histogram};
@@ -37,7 +49,10 @@ pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
 pub use layers::{ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, legend, marks, paint, pyramid};
 pub use picture::{Origin, Picture};
+pub use profile::{ProfileSample, kind_name, profile, profile_csv, profile_ends};
 pub use reduce::{Effect, reduce};
+pub use runs::MaskRuns;
+pub use settings::Settings;
 pub use shown::Shown;
 pub use solid::{Mesh, Point, Solid};
 pub use state::{Notice, Severity, State};
@@ -46,3 +61,4 @@ pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
     Theme, Tool, View,
 };
+pub use workspace::Workspace;
