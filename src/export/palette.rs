@@ -59,14 +59,28 @@ impl Palette {
         self.colours[usize::from(index)]
     }
 
+    /// The colour's index; none where it is not one of these.
+    pub fn index_of(&self, colour: [u8; 3]) -> Option<u8> {
+        self.colours.iter().position(|known| *known == colour).map(|index| index as u8)
+    }
+
     /// A colour for each label, in ascending order: far from those of its neighbours, and the rarest of these.
     pub fn assign(&self, neighbours: &[Vec<u32>]) -> Vec<u8> {
-        let mut chosen = vec![0u8; neighbours.len()];
+        self.assign_keeping(neighbours, &[])
+    }
+
+    /// [`Self::assign`], where the labels that have a colour in `kept` keep it and the others stay clear of it.
+    pub fn assign_keeping(&self, neighbours: &[Vec<u32>], kept: &[Option<u8>]) -> Vec<u8> {
+        let kept = |label: usize| kept.get(label).copied().flatten();
+        let mut chosen: Vec<u8> = (0..neighbours.len()).map(|label| kept(label).unwrap_or(0)).collect();
         let mut uses = [0usize; COLOURS];
-        for label in 1..neighbours.len() {
-            let earlier = neighbours[label].iter().filter(|&&other| (other as usize) < label);
+        for index in (1..neighbours.len()).filter_map(kept) {
+            uses[usize::from(index)] += 1;
+        }
+        for label in (1..neighbours.len()).filter(|&label| kept(label).is_none()) {
+            let settled = |other: usize| other < label || kept(other).is_some();
             let mut clearance = [EASY; COLOURS];
-            for &other in earlier {
+            for &other in neighbours[label].iter().filter(|&&other| settled(other as usize)) {
                 let taken = &self.distances[usize::from(chosen[other as usize])];
                 for (clearance, distance) in clearance.iter_mut().zip(taken) {
                     *clearance = clearance.min(*distance);
@@ -177,6 +191,20 @@ mod tests {
                 assert!(palette.distances[a][b] >= 0.1, "{label} and {other}: {}", palette.distances[a][b]);
             }
         }
+    }
+
+    #[test]
+    fn kept_colours_stay_and_their_neighbours_stay_clear_of_them() {
+        let palette = Palette::new();
+        let neighbours = [vec![], vec![2, 3], vec![1, 3], vec![1, 2], vec![]];
+        let colours = palette.assign_keeping(&neighbours, &[None, None, None, Some(7), None]);
+        assert_eq!(colours[3], 7);
+        for (a, b) in [(1, 2), (1, 3), (2, 3)] {
+            assert!(palette.distances[usize::from(colours[a])][usize::from(colours[b])] >= 0.1);
+        }
+        assert_ne!(colours[4], 7, "the rarest");
+        assert!((0..COLOURS as u8).all(|index| palette.index_of(palette.colour(index)) == Some(index)));
+        assert_eq!(palette.index_of([1, 2, 3]), None);
     }
 
     #[test]

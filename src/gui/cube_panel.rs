@@ -10,7 +10,6 @@ mod frame;
 mod labels;
 mod legend;
 mod outline;
-mod tally;
 #[cfg(test)]
 mod tests;
 

@@ -11,6 +11,7 @@ mod dock;
 mod files;
 mod icons;
 mod image_panel;
+mod later;
 mod menu;
 mod notices;
 mod offscreen;

@@ -1,8 +1,8 @@
 //! The axes of the colour spaces: where they run, and the values to write on them.
 
 use super::ColourSpace;
-use super::solid::Point;
 use super::space::{LAB_REACH, LOG_FLOOR};
+use super::vector::Point;
 
 /// An axis of a space.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,19 +2,190 @@
 
 use crate::analysis::Analysis;
 use crate::export::Palette;
-use crate::raster::LabelMap;
+use crate::raster::{LabelMap, UNASSIGNED};
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+/// A region is another's former self when they share this much of the smaller of both.
+const SHARED: f64 = 0.2;
 
 /// A colour for each final region: its former self's where it overlaps one, otherwise one far from its neighbours'.
-pub(super) fn region_colours(analysis: &Analysis, _before: Option<(&LabelMap, &[[u8; 3]])>) -> Vec<[u8; 3]> {
+pub(super) fn region_colours(analysis: &Analysis, before: Option<(&LabelMap, &[[u8; 3]])>) -> Vec<[u8; 3]> {
+    let regions = analysis.intrinsic.regions.iter();
+    let neighbours: Vec<&[u16]> = regions.map(|region| region.neighbours.as_slice()).collect();
+    colours(&analysis.finals.labels, &neighbours, before)
+}
+
+/// Region `id` is at index `id − 1` of `neighbours`, of the former colours and of the result.
+fn colours(
+    labels: &LabelMap,
+    neighbours: &[&[u16]],
+    before: Option<(&LabelMap, &[[u8; 3]])>,
+) -> Vec<[u8; 3]> {
     let palette = Palette::new();
-    let neighbours: Vec<Vec<u32>> = std::iter::once(Vec::new())
-        .chain(
-            analysis
-                .intrinsic
-                .regions
-                .iter()
-                .map(|region| region.neighbours.iter().map(|&id| u32::from(id)).collect()),
-        )
+    let mut kept = vec![None; neighbours.len() + 1];
+    if let Some((former, colours)) = before {
+        for (now, old) in former_selves(former, labels) {
+            let colour = colours.get(usize::from(old) - 1).and_then(|&colour| palette.index_of(colour));
+            if let Some(slot) = kept.get_mut(usize::from(now)) {
+                *slot = colour;
+            }
+        }
+    }
+    // Regions of one colour that have come to touch would look like one: the smaller, which has the higher number, gives way.
+    for now in 1..kept.len() {
+        let touched =
+            neighbours[now - 1].iter().map(|&other| usize::from(other)).filter(|&other| other < now);
+        if kept[now].is_some() && touched.into_iter().any(|other| kept[other] == kept[now]) {
+            kept[now] = None;
+        }
+    }
+    let mut touching = vec![Vec::new()];
+    touching.extend(neighbours.iter().map(|list| list.iter().map(|&id| u32::from(id)).collect()));
+    palette.assign_keeping(&touching, &kept)[1..].iter().map(|&index| palette.colour(index)).collect()
+}
+
+/// Pairs of a region and its former self, the largest overlaps first. A former region lives on in one region at most.
+fn former_selves(before: &LabelMap, after: &LabelMap) -> Vec<(u16, u16)> {
+    if (before.width(), before.height()) != (after.width(), after.height()) {
+        return Vec::new();
+    }
+    let overlaps = overlaps(before, after);
+    let (mut old_sizes, mut new_sizes) = (BTreeMap::new(), BTreeMap::new());
+    for (&(old, new), pixels) in &overlaps {
+        *old_sizes.entry(old).or_insert(0) += pixels;
+        *new_sizes.entry(new).or_insert(0) += pixels;
+    }
+    let mut pairs: Vec<(usize, u16, u16)> = overlaps
+        .into_iter()
+        .filter(|&((old, new), pixels)| {
+            let smaller: usize = old_sizes[&old].min(new_sizes[&new]);
+            old != UNASSIGNED && new != UNASSIGNED && pixels as f64 >= SHARED * smaller as f64
+        })
+        .map(|((old, new), pixels)| (pixels, old, new))
         .collect();
-    palette.assign(&neighbours)[1..].iter().map(|&index| palette.colour(index)).collect()
+    pairs.sort_unstable_by_key(|&(pixels, old, new)| (Reverse(pixels), old, new));
+    let mut selves: Vec<(u16, u16)> = Vec::new();
+    for (_, old, new) in pairs {
+        if old_sizes.contains_key(&old) && new_sizes.contains_key(&new) {
+            selves.push((new, old));
+            old_sizes.remove(&old);
+            new_sizes.remove(&new);
+        }
+    }
+    selves
+}
+
+/// How many pixels each pair of a former and a new label shares.
+fn overlaps(before: &LabelMap, after: &LabelMap) -> BTreeMap<(u16, u16), usize> {
+    let mut counts = BTreeMap::new();
+    let mut pairs = before.as_slice().iter().copied().zip(after.as_slice().iter().copied());
+    let Some(mut current) = pairs.next() else { return counts };
+    // Labels change seldom along a row.
+    let mut run = 1;
+    for pair in pairs {
+        if pair == current {
+            run += 1;
+        } else {
+            *counts.entry(current).or_insert(0) += run;
+            (current, run) = (pair, 1);
+        }
+    }
+    *counts.entry(current).or_insert(0) += run;
+    counts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::Raster;
+    use crate::segment::neighbours;
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
+
+    fn labels(rows: &[&str]) -> LabelMap {
+        let label = |c: char| c.to_digit(10).unwrap_or(0) as u16;
+        let data = rows.iter().flat_map(|row| row.chars()).map(label).collect();
+        Raster::from_vec(rows[0].len(), rows.len(), data).unwrap()
+    }
+
+    fn coloured(map: &LabelMap, before: Option<(&LabelMap, &[[u8; 3]])>) -> Vec<[u8; 3]> {
+        let regions = usize::from(map.as_slice().iter().copied().max().unwrap_or(0));
+        let lists = neighbours(map, regions);
+        colours(map, &lists.iter().map(Vec::as_slice).collect::<Vec<_>>(), before)
+    }
+
+    #[test]
+    fn regions_keep_their_colours_when_numbers_and_outlines_change() {
+        let first = labels(&["1111..", "1122..", "1122.3", "....33"]);
+        let colours = coloured(&first, None);
+        // 2 has grown and is now the largest; 3 has shrunk; 4 is new.
+        let second = labels(&["2221..", "2111..", "2111.3", "44...."]);
+        let again = coloured(&second, Some((&first, &colours)));
+        assert_eq!(again[..3], [colours[1], colours[0], colours[2]]);
+        assert!(!colours.contains(&again[3]));
+    }
+
+    #[test]
+    fn of_two_parts_the_larger_keeps_the_colour_and_of_two_joined_the_larger_gives_it() {
+        let whole = labels(&["111111..22"]);
+        let parts = labels(&["1111.2..33"]);
+        let colours = coloured(&whole, None);
+        let parted = coloured(&parts, Some((&whole, &colours)));
+        assert_eq!((parted[0], parted[2]), (colours[0], colours[1]));
+        assert!(!colours.contains(&parted[1]));
+        assert_eq!(coloured(&whole, Some((&parts, &parted))), colours);
+    }
+
+    #[test]
+    fn a_brush_with_another_is_no_heritage() {
+        let first = labels(&["1111111111.........."]);
+        let second = labels(&[".........11111111111"]);
+        assert!(former_selves(&first, &second).is_empty());
+        assert!(former_selves(&first, &labels(&["11", "11"])).is_empty(), "another picture");
+    }
+
+    /// Rectangles that do not overlap, one in each cell of a 6 × 4 grid, numbered by `order`, with margins.
+    fn rectangles(order: &[usize], margins: &[[usize; 4]]) -> LabelMap {
+        let mut map = LabelMap::filled(60, 40, UNASSIGNED);
+        for (cell, (&id, margin)) in order.iter().zip(margins).enumerate() {
+            let (left, top) = (cell % 6 * 10, cell / 6 * 10);
+            for y in top + margin[0]..top + 10 - margin[1] {
+                map.as_mut_slice()[y * 60 + left + margin[2]..y * 60 + left + 10 - margin[3]]
+                    .fill(id as u16 + 1);
+            }
+        }
+        map
+    }
+
+    fn margins() -> impl Strategy<Value = Vec<[usize; 4]>> {
+        prop::collection::vec(prop::array::uniform4(0usize..3), 24)
+    }
+
+    proptest! {
+        #[test]
+        fn permuting_numbers_and_moving_outlines_changes_no_colour(
+            from in Just((0..24usize).collect::<Vec<_>>()).prop_shuffle(),
+            to in Just((0..24usize).collect::<Vec<_>>()).prop_shuffle(),
+            before in margins(), after in margins(),
+        ) {
+            let (first, second) = (rectangles(&from, &before), rectangles(&to, &after));
+            let colours = coloured(&first, None);
+            // Only as many regions as colours, so that no two of one colour can come to touch.
+            prop_assume!(colours.iter().collect::<BTreeSet<_>>().len() == 24);
+            let again = coloured(&second, Some((&first, &colours)));
+            for cell in 0..24 {
+                prop_assert_eq!(again[to[cell]], colours[from[cell]]);
+            }
+        }
+    }
+
+    #[test]
+    fn of_two_alike_that_come_to_touch_the_smaller_takes_another_colour() {
+        let apart = labels(&["111111..22"]);
+        let touching = labels(&["11111112.2"]);
+        let alike = [Palette::new().colour(3); 2];
+        let now = coloured(&touching, Some((&apart, &alike)));
+        assert!(now[0] == alike[0] && now[1] != alike[1]);
+    }
 }

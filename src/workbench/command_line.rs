@@ -97,7 +97,7 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::photo::EncodingChoice;
+    use crate::photo::{EncodingChoice, ReadOptions};
     use crate::segment::Setting;
     use crate::workbench::Picture;
     use crate::workbench::testing::grey;
@@ -105,7 +105,7 @@ mod tests {
 
     fn open(path: &str, change: impl FnOnce(&mut Picture)) -> State {
         let mut picture = Arc::into_inner(grey(&["."], 9)).unwrap();
-        picture.origin = Origin::File(path.into());
+        (picture.origin, picture.reading) = (Origin::File(path.into()), ReadOptions::default());
         change(&mut picture);
         State { picture: Some(Arc::new(picture)), ..State::default() }
     }

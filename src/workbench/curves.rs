@@ -3,7 +3,9 @@
 //! The model's shapes are straight in RGB alone; elsewhere they are subdivided until their pieces look straight.
 
 use super::ColourSpace;
-use super::solid::{Mesh, Point, cross, distance, dot, halfway, unit};
+use super::solid::Mesh;
+use super::space::LOG_FLOOR;
+use super::vector::{Point, cross, distance, dot, halfway, unit};
 use std::collections::BTreeMap;
 
 /// A piece of a curve may stray this far from its chord, in the unit of the world.
@@ -112,7 +114,7 @@ impl ColourSpace {
     fn normal(self, point: Point, normal: Point, full_counts: f32) -> Point {
         let step = 1e-3 * full_counts;
         // Away from black and the cube's lower sides, where some spaces have no derivative.
-        let inside = point.map(|v| v.max(2.0 * step));
+        let inside = point.map(|v| v.max(LOG_FLOOR * full_counts + 2.0 * step));
         let columns: [Point; 3] = std::array::from_fn(|band| {
             let (mut low, mut high) = (inside, inside);
             low[band] -= step;

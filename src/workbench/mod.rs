@@ -18,20 +18,25 @@ mod histogram;
 mod item;
 mod jobs;
 mod layers;
+pub mod marking;
 mod picture;
+mod plane_points;
 mod profile;
 mod read;
 mod reduce;
 mod runs;
 mod selected;
 mod settings;
+mod shapes;
 mod shown;
 mod solid;
 mod space;
 mod state;
+mod statistics;
 mod table;
 #[cfg(test)]
 mod testing;
+mod vector;
 mod view;
 mod workspace;
 mod write;
@@ -44,19 +49,26 @@ pub use command_line::analyze_call;
 pub use compare::{BodyChange, Comparison, Fate, Figure, PixelFates, RegionFate, SettingChange, compare};
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};
-pub use histogram::{BINS_PER_BAND, ColourBin, Histogram};
+pub use histogram::{BINS_PER_BAND, ColourBin, Histogram, UniqueColour};
 pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
 pub use layers::{ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, legend, marks, paint, pyramid};
 pub use picture::{Origin, Picture};
+pub use plane_points::{MOST_PLANE_POINTS, PlanePixel, RegionPlane, region_plane};
 pub use profile::{ProfileSample, kind_name, profile, profile_csv, profile_ends};
 pub use reduce::{Effect, reduce};
 pub use runs::MaskRuns;
 pub use settings::Settings;
+pub use shapes::{
+    PlaneDirections, RegionShapes, dark_sphere, illuminant_line, plane_directions, region_shapes,
+    window_ellipsoid,
+};
 pub use shown::Shown;
-pub use solid::{Mesh, Point, Solid};
+pub use solid::{Mesh, Solid};
 pub use state::{Notice, Severity, State};
+pub use statistics::{Band, Bounds, STATISTICS_BINS, Statistics, statistics, statistics_of};
 pub use table::regions_text;
+pub use vector::Point;
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
     Theme, Tool, View,

@@ -1,8 +1,9 @@
 //! The selection as a mask, a table and points, for other programs.
 
 use super::layers::Curve;
-use super::{Item, Picture, Selection, Shown, kind_name};
-use crate::raster::{Mask, Raster};
+use super::marking::mask_of;
+use super::{Picture, Selection, Shown, kind_name};
+use crate::raster::Mask;
 use std::fmt::Write;
 
 /// The marked pixels, or else those of the selected item; none where there are none.
@@ -11,29 +12,10 @@ pub(super) fn selected_pixels(
     picture: &Picture,
     shown: Option<&Shown>,
 ) -> Option<Mask> {
-    let (width, height) = picture.size();
     if let Some(marked) = &selection.marked {
-        return Some(Mask::clone(marked)).filter(|mask| (mask.width(), mask.height()) == (width, height));
+        return Some(Mask::clone(marked)).filter(|mask| (mask.width(), mask.height()) == picture.size());
     }
-    let mut mask = Raster::filled(width, height, false);
-    match (selection.item?, shown) {
-        (Item::Pixel(pixel), _) => *mask.as_mut_slice().get_mut(pixel as usize)? = true,
-        (Item::Bin(bin), _) => {
-            for &pixel in picture.histogram.pixels_of(bin) {
-                mask[pixel as usize] = true;
-            }
-        }
-        (Item::Region(region), Some(shown)) => mask = shown.labels().map(|&label| label == region),
-        (Item::Window(window), Some(shown)) => {
-            let (side_px, columns) = (shown.window_px(), shown.classes().width().max(1));
-            let (column, row) = (window as usize % columns, window as usize / columns);
-            for (pixel, on) in mask.as_mut_slice().iter_mut().enumerate() {
-                *on = pixel % width / side_px == column && pixel / width / side_px == row;
-            }
-        }
-        _ => return None,
-    }
-    mask.as_slice().contains(&true).then_some(mask)
+    mask_of(selection.item?, shown?)
 }
 
 /// A mask as a grey picture: 255 inside, 0 outside.
@@ -78,6 +60,8 @@ pub(super) fn ply(mask: &Mask, picture: &Picture) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::Raster;
+    use crate::workbench::Item;
     use crate::workbench::testing::{divided, grey, picture};
     use std::sync::Arc;
 

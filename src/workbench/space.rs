@@ -4,7 +4,7 @@
 //! up.
 
 use super::ColourSpace;
-use super::solid::{Point, dot};
+use super::vector::{Point, dot};
 
 /// Half of what the world spans along a* and b*: all of sRGB lies between −108 and 99.
 pub(super) const LAB_REACH: f32 = 110.0;
@@ -159,7 +159,7 @@ fn linear_from_hsv(hue_rad: f32, chroma: f32, value: f32) -> Point {
 
 #[cfg(test)]
 mod tests {
-    use super::super::solid::distance;
+    use super::super::vector::distance;
     use super::*;
     use proptest::prelude::*;
 

@@ -1,12 +1,12 @@
 //! The photograph's colours as points: what is looked at in full, the rest as its ghost.
 
-use super::tally::Tally;
 use crate::gpu::{Batch, Point};
 use crate::gui::theme::Tones;
-use crate::photo::LinearImage;
 use crate::raster::Mask;
 use crate::trace::Class;
-use crate::workbench::{ColourBy, ColourSpace, CubeSettings, Item, Picture, Shown, State, Theme, mask_of};
+use crate::workbench::{
+    ColourBy, ColourSpace, CubeSettings, Item, Picture, Shown, State, Theme, UniqueColour, marking,
+};
 use egui::Color32;
 use std::sync::Arc;
 
@@ -31,6 +31,34 @@ pub struct Cloud {
     pub fullest: u32,
 }
 
+/// What most pixels of each bin are.
+#[derive(Default)]
+struct Tally {
+    of: Option<(Arc<Picture>, Option<Arc<Shown>>)>,
+    /// Their region; 0 is none.
+    regions: Vec<u16>,
+    /// The class of their windows.
+    classes: Vec<Option<Class>>,
+}
+
+impl Tally {
+    /// Counts anew where picture or result are others.
+    fn update(&mut self, picture: &Arc<Picture>, shown: Option<&Arc<Shown>>) {
+        let same = |(counted, result): &(Arc<Picture>, Option<Arc<Shown>>)| {
+            Arc::ptr_eq(counted, picture) && same_arc(result.as_ref(), shown)
+        };
+        if self.of.as_ref().is_some_and(same) {
+            return;
+        }
+        let (histogram, width) = (&picture.histogram, picture.size().0);
+        (self.regions, self.classes) = shown.map_or_else(Default::default, |shown| {
+            let classes = histogram.majority_class(&shown.analysis.windows, width);
+            (histogram.majority(shown.labels()), classes)
+        });
+        self.of = Some((Arc::clone(picture), shown.cloned()));
+    }
+}
+
 /// All that the points depend on.
 #[derive(Clone)]
 struct Inputs {
@@ -39,20 +67,11 @@ struct Inputs {
     marked: Option<Arc<Mask>>,
     item: Option<Item>,
     look: (ColourSpace, ColourBy, bool, bool, Theme),
-    detail: Option<Arc<[Colour]>>,
-}
-
-/// A colour that occurs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Colour {
-    /// One of the pixels that have it.
-    pub pixel: u32,
-    /// How many have it.
-    pub count: u32,
+    detail: Option<Arc<[UniqueColour]>>,
 }
 
 impl Inputs {
-    fn of(state: &State, picture: &Arc<Picture>, detail: Option<&Arc<[Colour]>>) -> Self {
+    fn of(state: &State, picture: &Arc<Picture>, detail: Option<&Arc<[UniqueColour]>>) -> Self {
         let CubeSettings { space, colour_by, size_by_count, ghost_rest, .. } = state.view.cube;
         let selection = &state.document.selection;
         Self {
@@ -90,7 +109,7 @@ impl Cloud {
         state: &State,
         tones: &Tones,
         picture: &Arc<Picture>,
-        detail: Option<&Arc<[Colour]>>,
+        detail: Option<&Arc<[UniqueColour]>>,
     ) {
         let inputs = Inputs::of(state, picture, detail);
         if self.of.as_ref().is_some_and(|of| of.is(&inputs)) {
@@ -107,16 +126,11 @@ impl Cloud {
                 let points = self.bins.iter().copied().enumerate();
                 brush.split(points.map(|(bin, point)| (point, looked_at(focus.as_deref(), bin))))
             }
-            Some(colours) => {
-                let image = &picture.photo.image;
-                brush.split(colours.iter().map(|colour| {
-                    let pixel = colour.pixel as usize;
-                    let bin = picture.histogram.bin_of(pixel).unwrap_or(0) as usize;
-                    let mut point = brush.point(bin, image.pixels.as_slice()[pixel], colour.count);
-                    point.size_px = point.size_px.min(PLAIN_PT);
-                    (point, looked_at(focus.as_deref(), bin))
-                }))
-            }
+            Some(colours) => brush.split(colours.iter().map(|unique| {
+                let mut point = brush.point(unique.bin as usize, unique.colour, unique.count);
+                point.size_px = point.size_px.min(PLAIN_PT);
+                (point, looked_at(focus.as_deref(), unique.bin as usize))
+            })),
         };
         self.of = Some(inputs);
     }
@@ -138,33 +152,15 @@ fn focus(state: &State, picture: &Picture) -> Option<Vec<u32>> {
         return None;
     }
     let selection = &state.document.selection;
-    let mut counts = vec![0u32; picture.histogram.bins.len()];
-    let mut add = |mask: &Mask| {
-        for (pixel, _) in mask.as_slice().iter().enumerate().filter(|(_, on)| **on) {
-            if let Some(bin) = picture.histogram.bin_of(pixel) {
-                counts[bin as usize] += 1;
-            }
-        }
-    };
+    let histogram = &picture.histogram;
     let item = state.selected_region().map(Item::Region).or(selection.item);
-    let selected = item.zip(state.shown()).and_then(|(item, shown)| mask_of(item, shown));
-    selected.iter().for_each(&mut add);
-    selection.marked.as_deref().into_iter().for_each(&mut add);
-    counts.iter().any(|&count| count > 0).then_some(counts)
-}
-
-/// The pixels of a window of the classification.
-pub fn pixels_of_window(
-    shown: &Shown,
-    picture: &Picture,
-    window: u32,
-) -> impl Iterator<Item = usize> + use<> {
-    let windows = &shown.analysis.windows;
-    let (width, height) = picture.size();
-    let (columns, side) = (windows.classes.width().max(1), windows.size_px);
-    let (left, top) = (window as usize % columns * side, window as usize / columns * side);
-    let rows = top..(top + side).min(height);
-    rows.flat_map(move |y| (left..(left + side).min(width)).map(move |x| y * width + x))
+    let selected = item.zip(state.shown()).and_then(|(item, shown)| marking::mask_of(item, shown));
+    let masks = selected.iter().chain(selection.marked.as_deref());
+    let counts = masks.map(|mask| histogram.bins_of(mask)).reduce(|mut sum, counts| {
+        sum.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
+        sum
+    });
+    counts.filter(|counts| counts.iter().any(|&count| count > 0))
 }
 
 /// What a point looks like.
@@ -181,7 +177,7 @@ impl Brush<'_> {
         let full = self.inputs.picture.histogram.full_counts;
         let share = (pixels as f32).ln_1p() / (self.fullest as f32).ln_1p().max(1e-6);
         let colour = match colour_by {
-            ColourBy::Own => own_colour(counts),
+            ColourBy::Own => crate::gui::widgets::own_colour(counts),
             ColourBy::Region => self.region_colour(bin),
             ColourBy::Class => {
                 self.tally.classes.get(bin).copied().flatten().map_or(self.tones.quiet, class_colour)
@@ -216,12 +212,6 @@ impl Brush<'_> {
     }
 }
 
-/// Linear counts as the screen shows them.
-pub fn own_colour(counts: [f32; 3]) -> Color32 {
-    let [r, g, b] = counts.map(|v| egui::ecolor::gamma_u8_from_linear_f32((v / 255.0).clamp(0.0, 1.0)));
-    Color32::from_rgb(r, g, b)
-}
-
 /// The paper's colours: point yellow, line red, plane green, volume blue.
 pub const fn class_colour(class: Class) -> Color32 {
     match class {
@@ -249,14 +239,4 @@ pub fn density_colour(share: f32, theme: Theme) -> Color32 {
     let t = at - stop as f32;
     let [r, g, b] = std::array::from_fn(|i| STOPS[stop][i] + (STOPS[stop + 1][i] - STOPS[stop][i]) * t);
     Color32::from_rgb(r as u8, g as u8, b as u8)
-}
-
-/// Every colour that occurs in the photograph, once.
-pub fn unique_colours(image: &LinearImage) -> Vec<Colour> {
-    let pixels = image.pixels.as_slice();
-    let key = |pixel: u32| pixels[pixel as usize].map(f32::to_bits);
-    let mut order: Vec<u32> = (0..pixels.len() as u32).collect();
-    order.sort_unstable_by_key(|&pixel| key(pixel));
-    let runs = order.chunk_by(|&a, &b| key(a) == key(b));
-    runs.map(|run| Colour { pixel: run[0], count: run.len() as u32 }).collect()
 }

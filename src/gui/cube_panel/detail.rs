@@ -1,7 +1,6 @@
 //! Every unique colour, found on a thread of its own when it is first asked for.
 
-use super::cloud::{Colour, unique_colours};
-use crate::workbench::Picture;
+use crate::workbench::{Picture, UniqueColour};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
@@ -13,8 +12,8 @@ pub const REST: Duration = Duration::from_millis(200);
 #[derive(Default)]
 pub struct Detail {
     of: Option<Arc<Picture>>,
-    found: Option<Arc<[Colour]>>,
-    coming: Option<Receiver<Arc<[Colour]>>>,
+    found: Option<Arc<[UniqueColour]>>,
+    coming: Option<Receiver<Arc<[UniqueColour]>>>,
     moved: Option<Instant>,
 }
 
@@ -25,7 +24,12 @@ impl Detail {
     }
 
     /// The colours, once they are known and the camera rests; `swift`: the graphics device need not wait for that.
-    pub fn get(&mut self, ctx: &egui::Context, picture: &Arc<Picture>, swift: bool) -> Option<Arc<[Colour]>> {
+    pub fn get(
+        &mut self,
+        ctx: &egui::Context,
+        picture: &Arc<Picture>,
+        swift: bool,
+    ) -> Option<Arc<[UniqueColour]>> {
         if !self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, picture)) {
             *self = Self { of: Some(Arc::clone(picture)), ..Self::default() };
             self.coming = ask(ctx, picture);
@@ -45,12 +49,12 @@ impl Detail {
     }
 }
 
-fn ask(ctx: &egui::Context, picture: &Arc<Picture>) -> Option<Receiver<Arc<[Colour]>>> {
+fn ask(ctx: &egui::Context, picture: &Arc<Picture>) -> Option<Receiver<Arc<[UniqueColour]>>> {
     let (send, receive) = channel();
     let (ctx, picture) = (ctx.clone(), Arc::clone(picture));
     let find = move || {
         // Another photograph may have been opened by now.
-        let _ = send.send(unique_colours(&picture.photo.image).into());
+        let _ = send.send(picture.histogram.unique(&picture.photo.image).into());
         ctx.request_repaint();
     };
     std::thread::Builder::new().name("unique colours".to_owned()).spawn(find).ok().map(|_| receive)

@@ -2,7 +2,7 @@
 
 use crate::gpu::{Projector, pick};
 use crate::raster::Mask;
-use crate::workbench::{Picture, Tool, of_bins};
+use crate::workbench::{Picture, Tool, marking};
 use egui::{Color32, Key, Painter, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui};
 
 /// Corners of a lasso are at least this far apart.
@@ -109,5 +109,5 @@ pub fn mask_of(
     let inside = pick::inside_polygon(bins, projector, &corners);
     let inside: Vec<u32> = inside.into_iter().map(|bin| bin as u32).collect();
     let (width, height) = picture.size();
-    of_bins(picture, &inside).unwrap_or_else(|| Mask::filled(width, height, false))
+    marking::of_bins(picture, &inside).unwrap_or_else(|| Mask::filled(width, height, false))
 }

@@ -28,7 +28,7 @@ pub fn marks(
     let drawn = |item: &Item| match *item {
         Item::Pixel(_) => false,
         Item::Region(_) | Item::Window(_) => shown.is_some(),
-        Item::Bin(bin) => !picture.histogram.pixels_of(bin).is_empty(),
+        Item::Bin(bin) => (bin as usize) < picture.histogram.bins.len(),
     };
     let (selected, hover) = (selection.item.filter(drawn), hover.filter(drawn));
     if marked.is_none() && selected.is_none() && hover.is_none() {
@@ -80,7 +80,7 @@ impl Canvas<'_> {
                 self.frame(left, top, side_px, colour);
             }
             (Item::Bin(bin), _) => {
-                for &pixel in self.picture.histogram.pixels_of(bin) {
+                for pixel in self.picture.histogram.pixels_of(bin) {
                     self.painted[pixel as usize] = colour;
                 }
             }

@@ -260,7 +260,7 @@ fn one_export_at_a_time() {
 /// Polls whenever the workers say that there is something, until `done`.
 fn wait(bench: &mut Workbench, woken: &Receiver<()>, done: impl Fn(&State) -> bool) {
     while !done(bench.state()) {
-        woken.recv_timeout(Duration::from_secs(120)).expect("the workers have something to say");
+        woken.recv_timeout(Duration::from_mins(2)).expect("the workers have something to say");
         bench.poll();
     }
 }

@@ -1,0 +1,270 @@
+//! The model's shapes in the RGB cube, in counts: what a hypothesis claims, and where its lines run.
+
+use super::Shown;
+use super::solid::{HalfSpace, Solid, Tube, convex_body, cube, ellipsoid, octant};
+use super::vector::{Point, dot64};
+use crate::color::{Vec3, dot, principal_axes, rgb};
+use crate::reflection::DichromaticPlane;
+use crate::segment::PlanarHypothesis;
+use crate::trace::PixelKind;
+use rayon::prelude::*;
+
+/// Standard deviations that the ellipsoid of a window reaches.
+const ELLIPSOID_SIGMAS: f64 = 2.0;
+
+/// The skewed T of a region and the parts of the cube that it claims, in counts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RegionShapes {
+    /// The region, from 1.
+    pub region: u16,
+    /// Its cylinder (5.3.2), from the dark sphere to the cube's end; none where nothing lies between them.
+    pub cylinder: Option<Solid>,
+    /// The axis of the cylinder, as far as it reaches.
+    pub axis: Option<[Point; 2]>,
+    /// Its slice (5.4.2), cut to the cube: the outlines are the two faces along the plane. None without a plane.
+    pub slice: Option<Solid>,
+    /// From the matte line's nearest point to black to the brightest matte point.
+    pub matte_line: [Point; 2],
+    /// Where the matte line ends (5.4.1).
+    pub brightest_matte: Point,
+    /// Where the highlight line leaves the matte line; none without a plane.
+    pub meeting_point: Option<Point>,
+    /// From the meeting point along the illuminant to the brightest highlight pixel; none without highlight pixels.
+    pub highlight_line: Option<[Point; 2]>,
+    /// Whether the meeting point was found from a highlight; otherwise it is where highlights usually start.
+    pub meeting_point_found: bool,
+}
+
+/// Directions from which a region's plane is looked at; unit vectors at right angles to one another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaneDirections {
+    /// Along the matte line, away from black.
+    pub body: Point,
+    /// In the plane, from the matte line towards the illuminant; towards grey where there is no plane.
+    pub inward: Point,
+    /// Across the plane.
+    pub normal: Point,
+}
+
+/// The shapes of a region; none where there is no such region.
+pub fn region_shapes(shown: &Shown, region: u16) -> Option<RegionShapes> {
+    let hypothesis = hypothesis(shown, region)?;
+    let full = full(shown);
+    let tube = Tube {
+        mean: hypothesis.matte.mean.into(),
+        direction: hypothesis.matte.direction.into(),
+        radius: shown.analysis.used.radius_counts(),
+        dark: shown.analysis.used.min_intensity,
+        full,
+    };
+    let foot = hypothesis.matte.foot();
+    let end = foot + hypothesis.matte.direction * hypothesis.matte_length;
+    let reach = hypothesis.plane.and_then(|plane| highlight_reach(shown, region, &hypothesis.start, &plane));
+    let highlight_line = reach.zip(hypothesis.plane).map(|(reach, plane)| {
+        [rgb(&hypothesis.start), rgb(&(hypothesis.start + plane.surface * f64::from(reach)))]
+    });
+    Some(RegionShapes {
+        region,
+        cylinder: tube.solid(),
+        axis: tube.axis(),
+        slice: hypothesis.plane.map(|plane| slice(shown, hypothesis, &plane, full)),
+        matte_line: [rgb(&foot), rgb(&end)],
+        brightest_matte: rgb(&end),
+        meeting_point: hypothesis.plane.map(|_| rgb(&hypothesis.start)),
+        highlight_line,
+        meeting_point_found: hypothesis.highlight.is_some(),
+    })
+}
+
+/// The part of the dark sphere inside the cube; none where nothing is too dark.
+pub fn dark_sphere(shown: &Shown) -> Option<Solid> {
+    let radius = shown.analysis.used.min_intensity;
+    (radius > 0.0).then(|| octant(radius))
+}
+
+/// From black along the light's colour to where it leaves the cube; none where the light is unknown.
+pub fn illuminant_line(shown: &Shown) -> Option<[Point; 2]> {
+    let direction = shown.analysis.illuminant?.direction;
+    let largest = direction.iter().fold(0.0f64, |most, v| most.max(*v));
+    (largest > 0.0).then(|| [[0.0; 3], direction.map(|v| (v / largest * full(shown)) as f32)])
+}
+
+/// The ellipsoid of a window's colours at two standard deviations; none without at least two pixels.
+pub fn window_ellipsoid(shown: &Shown, window: u32) -> Option<Solid> {
+    let moments = shown.analysis.windows.moments.as_slice().get(window as usize)?;
+    if moments.n < 2.0 {
+        return None;
+    }
+    let (variances, axes) = principal_axes(&moments.covariance());
+    let half = variances.map(|variance| ELLIPSOID_SIGMAS * variance.max(0.0).sqrt());
+    Some(ellipsoid(moments.mean().into(), axes.map(Into::into), half))
+}
+
+/// Directions along and across a region's plane; none where there is no such region.
+pub fn plane_directions(shown: &Shown, region: u16) -> Option<PlaneDirections> {
+    let hypothesis = hypothesis(shown, region)?;
+    let body = hypothesis.matte.direction;
+    let inward = hypothesis.plane.map_or_else(|| across(hypothesis), |plane| plane.inward);
+    Some(PlaneDirections { body: rgb(&body), inward: rgb(&inward), normal: rgb(&body.cross(&inward)) })
+}
+
+/// A region's skewed T.
+pub(super) fn hypothesis(shown: &Shown, region: u16) -> Option<&PlanarHypothesis> {
+    shown.analysis.finals.hypotheses.get(usize::from(region).checked_sub(1)?)
+}
+
+/// A direction across the matte line where no light says which: towards grey, or any for a grey object.
+pub(super) fn across(hypothesis: &PlanarHypothesis) -> Vec3 {
+    let direction = hypothesis.matte.direction;
+    let towards_grey = hypothesis.matte.inward().try_normalize(1e-6);
+    towards_grey.unwrap_or_else(|| direction.cross(&Vec3::x()).normalize().cross(&direction))
+}
+
+fn full(shown: &Shown) -> f64 {
+    f64::from(shown.picture.histogram.full_counts)
+}
+
+/// The slice as the segmentation claims it, [`crate::reflection::Slice`], as a body: bounded where that is refined.
+fn slice(shown: &Shown, hypothesis: &PlanarHypothesis, plane: &DichromaticPlane, full: f64) -> Solid {
+    let used = &shown.analysis.used;
+    let (half_width, radius) = (used.slice_half_width_counts(), used.radius_counts());
+    let mean: [f64; 3] = plane.matte.mean.into();
+    let normal: [f64; 3] = plane.normal.into();
+    let level = dot64(normal, mean);
+    let mut sides = vec![
+        HalfSpace::new(normal, level + half_width),
+        HalfSpace::new(normal.map(|v| -v), half_width - level),
+    ];
+    sides.extend(cube(full));
+    if shown.params.refinements().slice_bounds {
+        let inward: [f64; 3] = plane.inward.into();
+        let on_line = dot64(inward, mean);
+        sides.push(HalfSpace::new(inward.map(|v| -v), radius - on_line));
+        // Body reflection is along − cotθ·offset.
+        let cotangent = 1.0 / plane.angle_rad.tan();
+        let slack = radius / plane.angle_rad.sin();
+        let body: [f64; 3] = (plane.matte.direction - plane.inward * cotangent).into();
+        let zero = -cotangent * on_line;
+        let most = 1.15 * hypothesis.matte_length + radius + slack;
+        sides.push(HalfSpace::new(body, most + zero));
+        sides.push(HalfSpace::new(body.map(|v| -v), slack - zero));
+    }
+    convex_body(&sides, 4.0 * full, 2)
+}
+
+/// How far the brightest highlight pixel lies from the meeting point along the light, counts.
+fn highlight_reach(shown: &Shown, region: u16, start: &Vec3, plane: &DichromaticPlane) -> Option<f32> {
+    let (start, surface) = (rgb(start), rgb(&plane.surface));
+    let kinds = shown.analysis.intrinsic.kinds.as_slice();
+    let pixels = shown.picture.photo.image.pixels.as_slice();
+    let at_start = dot(start, surface);
+    let reach = |((&label, &kind), &colour): ((&u16, &PixelKind), &[f32; 3])| {
+        (label == region && kind == PixelKind::Highlight).then(|| dot(colour, surface) - at_start)
+    };
+    let all = shown.labels().as_slice().par_iter().zip(kinds).zip(pixels);
+    all.with_min_len(1 << 14).filter_map(reach).reduce_with(f32::max).filter(|&reach| reach > 0.0)
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::super::vector::{cross, distance};
+    use super::super::{Command, Executor, Origin, Workbench};
+    use super::*;
+    use crate::reflection::Slice;
+    use std::sync::{Arc, OnceLock};
+
+    /// A result for the small scene.
+    pub fn tiny() -> Arc<Shown> {
+        static SHOWN: OnceLock<Arc<Shown>> = OnceLock::new();
+        let make = || {
+            let mut bench = Workbench::new(Executor::Inline, || {}).unwrap();
+            let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
+            bench.apply(Command::Open(Origin::File(path.into())));
+            Arc::clone(bench.state().newest.as_ref().expect("the small scene has a result"))
+        };
+        Arc::clone(SHOWN.get_or_init(make))
+    }
+
+    fn line_distance(shown: &Shown, region: u16, p: Point) -> f64 {
+        hypothesis(shown, region).unwrap().matte.distance(&crate::color::vec3(p))
+    }
+
+    #[test]
+    fn every_region_has_its_shapes() {
+        let shown = tiny();
+        let regions = shown.analysis.intrinsic.regions.len() as u16;
+        assert!(regions > 0 && region_shapes(&shown, 0).is_none());
+        assert!(region_shapes(&shown, regions + 1).is_none() && plane_directions(&shown, 0).is_none());
+        let radius = shown.analysis.used.radius_counts();
+        for region in 1..=regions {
+            let shapes = region_shapes(&shown, region).unwrap();
+            for &p in &shapes.cylinder.unwrap().surface.points {
+                assert!((line_distance(&shown, region, p) - radius).abs() < 1e-2);
+            }
+            for p in shapes.matte_line.into_iter().chain([shapes.brightest_matte]) {
+                assert!(line_distance(&shown, region, p) < 1e-2);
+            }
+            let directions = plane_directions(&shown, region).unwrap();
+            assert!(distance(cross(directions.body, directions.inward), directions.normal) < 1e-5);
+        }
+    }
+
+    #[test]
+    fn the_highlight_line_runs_with_the_light_inside_the_slice() {
+        let shown = tiny();
+        let light = rgb(&Vec3::from(shown.analysis.illuminant.unwrap().direction));
+        let [black, end] = illuminant_line(&shown).unwrap();
+        assert_eq!((black, end.iter().fold(0.0f32, |most, v| most.max(*v))), ([0.0; 3], 255.0));
+        let mut lines = 0;
+        for region in 1..=shown.analysis.intrinsic.regions.len() as u16 {
+            let Some([from, to]) = region_shapes(&shown, region).unwrap().highlight_line else { continue };
+            let along: Point = std::array::from_fn(|i| to[i] - from[i]);
+            assert!(dot(cross(along, light), cross(along, light)).sqrt() < 0.02 * distance(from, to));
+            lines += 1;
+        }
+        assert!(lines > 0);
+    }
+
+    #[test]
+    fn the_slice_is_what_the_segmentation_claims() {
+        let shown = tiny();
+        let used = &shown.analysis.used;
+        let mut slices = 0;
+        for region in 1..=shown.analysis.intrinsic.regions.len() as u16 {
+            let hypothesis = hypothesis(&shown, region).unwrap();
+            let (Some(plane), Some(body)) = (hypothesis.plane, region_shapes(&shown, region).unwrap().slice)
+            else {
+                continue;
+            };
+            slices += 1;
+            let margin = 0.02;
+            let claimed = Slice::bounded(
+                &plane,
+                used.slice_half_width_counts() + margin,
+                used.radius_counts() + margin,
+                hypothesis.matte_length,
+            );
+            assert_eq!(body.outlines.len(), 2);
+            for &p in &body.surface.points {
+                assert!(claimed.contains(p) && p.iter().all(|v| (-0.01..=255.01).contains(v)), "{p:?}");
+            }
+        }
+        assert!(slices > 0);
+    }
+
+    #[test]
+    fn windows_have_ellipsoids_of_two_standard_deviations() {
+        let shown = tiny();
+        let windows = &shown.analysis.windows;
+        let window = (0..windows.moments.len()).max_by_key(|&w| windows.moments[w].n as u32).unwrap();
+        let body = window_ellipsoid(&shown, window as u32).unwrap();
+        let (variances, axes) = principal_axes(&windows.moments[window].covariance());
+        let mean = rgb(&windows.moments[window].mean());
+        let reach =
+            body.surface.points.iter().map(|p| dot(std::array::from_fn(|i| p[i] - mean[i]), rgb(&axes[0])));
+        let reach = f64::from(reach.fold(0.0, f32::max));
+        assert!((reach - 2.0 * variances[0].sqrt()).abs() < 0.02 * reach + 1e-2);
+        assert!(window_ellipsoid(&shown, u32::MAX).is_none());
+        assert!(dark_sphere(&shown).is_some());
+    }
+}
