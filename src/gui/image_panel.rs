@@ -5,6 +5,8 @@ mod icons;
 mod overlay;
 mod readout;
 mod sheets;
+#[cfg(test)]
+mod tests;
 mod toolbar;
 mod tools;
 
@@ -34,6 +36,8 @@ pub struct ImagePanel {
     pointed: Option<u32>,
     /// The zoom of the last frame, screen points a pixel.
     zoom: f32,
+    /// The toolbar's height in the last frame, points.
+    bar_pt: f32,
 }
 
 impl ImagePanel {
@@ -54,10 +58,14 @@ impl ImagePanel {
         let mut settings = before.clone();
         let (tones, state) = (cx.tones, cx.state);
         let bar = Frame::new().fill(tones.panel);
-        Panel::top("image toolbar").frame(bar.inner_margin(Margin::symmetric(6, 3))).show(ui, |ui| {
-            toolbar::row(ui, state, tones, &mut settings, self.zoom);
-        });
-        let strip = readout::height(ui.available_width() - 16.0);
+        let top = Panel::top("image toolbar").frame(bar.inner_margin(Margin::symmetric(6, 3)));
+        let top = top.show(ui, |ui| toolbar::row(ui, state, tones, &mut settings, self.zoom));
+        // A row that wraps is as high as it needs to be from the next frame on.
+        let height = top.response.rect.height();
+        if height != std::mem::replace(&mut self.bar_pt, height) {
+            ui.ctx().request_repaint();
+        }
+        let strip = readout::height(ui, ui.available_width() - 16.0);
         let frame = bar.inner_margin(Margin { left: 8, right: 8, top: 2, bottom: 2 });
         Panel::bottom("read-out").frame(frame).exact_size(strip + 4.0).show(ui, |ui| {
             readout::show(ui, state, tones);
@@ -143,7 +151,7 @@ impl ImagePanel {
     }
 
     fn draw(&mut self, ui: &Ui, cx: &Cx, spot: &Spot, slot: Slot, wiped: Option<f32>) {
-        let (place, state, tones) = (&spot.place, cx.state, cx.tones);
+        let (place, state) = (&spot.place, cx.state);
         let settings = &state.view.image;
         let painter = ui.painter_at(place.view);
         let own = if slot == Slot::Other { settings.other } else { settings.layer };
@@ -167,17 +175,17 @@ impl ImagePanel {
         }
         overlay::grid(&painter, place);
         if place.zoom >= overlay::LINES {
-            overlay::outlines(&painter, place, state, tones);
+            overlay::outlines(&painter, place, state);
         } else if let Some(order) = Order::marks(state)
             && let Some(sheet) = self.sheets.get(ui.ctx(), Slot::Marks, &order)
         {
             sheet.draw(&painter, place, Color32::WHITE);
         }
-        overlay::profile(&painter, place, state, tones);
-        overlay::pixels(&painter, place, state, tones, spot.response.contains_pointer());
+        overlay::profile(&painter, place, state);
+        overlay::pixels(&painter, place, state, spot.response.contains_pointer());
         let brush =
             (settings.tool == Tool::Brush && spot.response.contains_pointer()).then_some(settings.brush_px);
-        self.hand.draw(&painter, place, tones, brush);
+        self.hand.draw(&painter, place, brush);
         if let Some(x) = wiped {
             handle(&painter, cx, place.view, x);
         }
@@ -271,14 +279,14 @@ fn tint(cx: &Cx, layer: Layer) -> Color32 {
 /// The wipe's line, with a grip in its middle.
 fn handle(painter: &egui::Painter, cx: &Cx, view: Rect, x: f32) {
     painter.vline(x, view.y_range(), (3.0, Color32::from_black_alpha(130)));
-    painter.vline(x, view.y_range(), (1.4, cx.tones.accent));
+    painter.vline(x, view.y_range(), (1.4, overlay::MARK));
     let grip = Rect::from_center_size(pos2(x, view.center().y), vec2(9.0, 26.0));
-    painter.rect(grip, 4.0, cx.tones.panel, (1.4, cx.tones.accent), egui::StrokeKind::Middle);
+    painter.rect(grip, 4.0, cx.tones.panel, (1.4, overlay::MARK), egui::StrokeKind::Middle);
     for dx in [-1.5, 1.5] {
         painter.vline(
             x + dx,
             egui::Rangef::new(grip.center().y - 6.0, grip.center().y + 6.0),
-            (1.0, cx.tones.accent),
+            (1.0, overlay::MARK),
         );
     }
 }

@@ -17,6 +17,8 @@ pub enum Sign {
     Arrangement(Arrangement),
     /// Areas or their outlines.
     Fill(Fill),
+    /// Exposure and gamma.
+    Display,
 }
 
 /// A button that is on or off, named `name` for those who do not see its sign.
@@ -62,6 +64,14 @@ fn draw(painter: &Painter, square: Rect, sign: Sign, colour: Color32) {
         }
         Sign::Fill(Fill::Outline) => {
             frame(part(2.5, 2.5, 11.5, 11.5));
+        }
+        Sign::Display => {
+            painter.circle_stroke(at(7.0, 7.0), 5.4, stroke);
+            let turn = |i: usize| {
+                let angle = (i as f32 / 12.0 - 0.5) * std::f32::consts::PI;
+                at(7.0 + 5.4 * angle.cos(), 7.0 + 5.4 * angle.sin())
+            };
+            painter.add(Shape::convex_polygon((0..=12).map(turn).collect(), colour, Stroke::NONE));
         }
     }
 }

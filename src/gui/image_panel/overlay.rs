@@ -4,9 +4,11 @@ use super::geometry::Placement;
 use super::icons::{corners, cross};
 use super::sheets::Sheet;
 use crate::gui::theme::{SMALL_PT, Tones};
-use crate::workbench::{Item, Layer, ProfileLine, State, Tool, legend};
+use crate::workbench::{ACCENT, Item, Layer, ProfileLine, State, Tool, legend};
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
+/// The accent over pictures, the same in both themes: a picture is as dark in either.
+pub const MARK: Color32 = Color32::from_rgb(ACCENT[0], ACCENT[1], ACCENT[2]);
 /// From this zoom on there is a grid, screen points a pixel.
 const GRID: f32 = 8.0;
 /// From this zoom on pixels tell their values.
@@ -50,9 +52,7 @@ pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer,
                 (Layer::Noise, Some(found)) => vec![found.noise[pixel]],
                 _ => picture.photo.image.pixels[pixel].to_vec(),
             };
-            let [r, g, b, _] = sheet.colour(pixel).map(u32::from);
-            let bright = 2 * r + 5 * g + b > 8 * 120;
-            let tone = if bright { Color32::from_gray(20) } else { Color32::from_gray(235) };
+            let tone = readable_on(sheet.colour(pixel));
             let middle = place.screen_from_image(pos2(x as f32 + 0.5, y as f32 + 0.5));
             for (line, value) in lines.iter().enumerate() {
                 let down = (line as f32 - (lines.len() as f32 - 1.0) / 2.0) * size * 1.2;
@@ -69,16 +69,24 @@ pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer,
     }
 }
 
+/// Black or white, whichever has more contrast with a sRGB colour: they are equal on a luminance of 0.18.
+fn readable_on([r, g, b, _]: [u8; 4]) -> Color32 {
+    // A square is near enough to sRGB's curve.
+    let light = |code: u8| (f32::from(code) / 255.0).powi(2);
+    let luminance = 0.21 * light(r) + 0.72 * light(g) + 0.07 * light(b);
+    if luminance > 0.18 { Color32::BLACK } else { Color32::WHITE }
+}
+
 /// From near: what is marked, selected and pointed at elsewhere, outlined between the pixels.
-pub fn outlines(painter: &Painter, place: &Placement, state: &State, tones: &Tones) {
+pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
     let (Some(picture), width) = (&state.picture, place.size.x as usize) else { return };
     let selection = &state.document.selection;
     if let Some(mask) = &selection.marked {
         let marked = |x: usize, y: usize| mask.get(x, y).copied().unwrap_or(false);
-        fill(painter, place, tones.accent.gamma_multiply(0.28), marked);
-        edges(painter, place, tones.accent, marked);
+        fill(painter, place, MARK.gamma_multiply(0.28), marked);
+        edges(painter, place, MARK, marked);
     }
-    for (item, colour) in [(selection.item, tones.accent), (state.hover, Color32::WHITE)] {
+    for (item, colour) in [(selection.item, MARK), (state.hover, Color32::WHITE)] {
         match (item, state.shown()) {
             (Some(Item::Region(region)), Some(shown)) => {
                 edges(painter, place, colour, |x, y| shown.labels().get(x, y) == Some(&region));
@@ -153,7 +161,7 @@ fn frame(painter: &Painter, area: Rect, colour: Color32) {
 }
 
 /// The pixel that is pointed at, unless the pointer itself is here, and the one that is selected.
-pub fn pixels(painter: &Painter, place: &Placement, state: &State, tones: &Tones, pointer_here: bool) {
+pub fn pixels(painter: &Painter, place: &Placement, state: &State, pointer_here: bool) {
     let show = |item: Option<Item>, colour: Color32, from_afar: bool| {
         let Some(Item::Pixel(pixel)) = item else { return };
         let square = place.screen_rect_of(place.square_of(pixel));
@@ -163,12 +171,12 @@ pub fn pixels(painter: &Painter, place: &Placement, state: &State, tones: &Tones
             cross(painter, square.center(), colour);
         }
     };
-    show(state.document.selection.item, tones.accent, true);
+    show(state.document.selection.item, MARK, true);
     show(state.hover, Color32::WHITE, !pointer_here);
 }
 
 /// The line along which the profile runs, with handles while its tool is in the hand.
-pub fn profile(painter: &Painter, place: &Placement, state: &State, tones: &Tones) {
+pub fn profile(painter: &Painter, place: &Placement, state: &State) {
     let editing = state.view.image.tool == Tool::Profile;
     let ends = match state.view.profile {
         ProfileLine::Between(a, b) => [a, b].map(Pos2::from),
@@ -178,10 +186,10 @@ pub fn profile(painter: &Painter, place: &Placement, state: &State, tones: &Tone
     let [a, b] = ends.map(|end| place.screen_from_image(end));
     let strength = if editing { 1.0 } else { 0.6 };
     painter.line_segment([a, b], Stroke::new(3.0, Color32::from_black_alpha(130)));
-    painter.line_segment([a, b], Stroke::new(1.3, tones.accent.gamma_multiply(strength)));
+    painter.line_segment([a, b], Stroke::new(1.3, MARK.gamma_multiply(strength)));
     if editing && matches!(state.view.profile, ProfileLine::Between(..)) {
         for end in [a, b] {
-            painter.circle(end, 4.0, tones.background, Stroke::new(1.5, tones.accent));
+            painter.circle(end, 4.0, Color32::from_black_alpha(160), Stroke::new(1.5, MARK));
         }
     }
 }

@@ -9,8 +9,8 @@ use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
 /// Height of a line, points.
 const LINE_PT: f32 = 18.0;
-/// Narrower strips have two lines, points.
-const WIDE_PT: f32 = 540.0;
+/// Between two cells, points.
+const GAP_PT: f32 = 7.0;
 
 /// A quiet name and the number's place.
 struct Cell {
@@ -25,22 +25,36 @@ const fn cell(name: &'static str, width: f32, tip: &'static str) -> Cell {
 }
 
 const CELLS: [Cell; 11] = [
-    cell("x", 30.0, "Column, from 0 at the left"),
-    cell("y", 30.0, "Row, from 0 at the top"),
-    cell("R", 38.0, "Red of the photograph, linear counts"),
-    cell("G", 38.0, "Green of the photograph, linear counts"),
-    cell("B", 38.0, "Blue of the photograph, linear counts"),
-    cell("", 40.0, "Class of its window: the shape of the colour cluster (section 5.2.1)"),
-    cell("", 28.0, "Its region"),
-    cell("m_b", 38.0, "Amount of body reflection, counts (section 6)"),
-    cell("m_s", 38.0, "Amount of surface reflection, counts (section 6)"),
-    cell("\u{3b5}", 34.0, "Distance from the dichromatic plane, counts (section 6)"),
-    cell("", 58.0, "What the pixel is to its region (section 6)"),
+    cell("x", 28.0, "Column, from 0 at the left"),
+    cell("y", 28.0, "Row, from 0 at the top"),
+    cell("R", 34.0, "Red of the photograph, linear counts"),
+    cell("G", 34.0, "Green of the photograph, linear counts"),
+    cell("B", 34.0, "Blue of the photograph, linear counts"),
+    cell("", 38.0, "Class of its window: the shape of the colour cluster (section 5.2.1)"),
+    cell("", 26.0, "Its region"),
+    cell("m_b", 34.0, "Amount of body reflection, counts (section 6)"),
+    cell("m_s", 34.0, "Amount of surface reflection, counts (section 6)"),
+    cell("\u{3b5}", 32.0, "Distance from the dichromatic plane, counts (section 6)"),
+    cell("", 50.0, "What the pixel is to its region (section 6)"),
 ];
 
 /// Height of the strip, points.
-pub fn height(width: f32) -> f32 {
-    if width < WIDE_PT { 2.0 * LINE_PT } else { LINE_PT }
+pub fn height(ui: &Ui, width: f32) -> f32 {
+    if is_narrow(ui, width) { 2.0 * LINE_PT } else { LINE_PT }
+}
+
+/// Whether all cells do not fit into one line.
+fn is_narrow(ui: &Ui, width: f32) -> bool {
+    let taken = |cell: &Cell| cell.width + name_width(ui, cell.name) + GAP_PT;
+    CELLS.iter().map(taken).sum::<f32>() - GAP_PT > width
+}
+
+fn name_width(ui: &Ui, name: &str) -> f32 {
+    if name.is_empty() {
+        return 0.0;
+    }
+    let font = FontId::proportional(SMALL_PT);
+    ui.painter().layout_no_wrap(name.to_owned(), font, Color32::WHITE).size().x + 3.0
 }
 
 /// Shows the strip: of the pixel that the pointer is over in any panel, otherwise of the selected one.
@@ -59,7 +73,7 @@ pub fn show(ui: &mut Ui, state: &State, tones: &Tones) {
     let chip = facts.as_ref().and_then(|facts| facts.chip);
     let whole = ui.interact(full, ui.scope_id().with("readout"), Sense::hover());
     whole.widget_info(|| WidgetInfo::labeled(Role::Label, true, sentence(&values)));
-    let lines: &[&[usize]] = if full.width() < WIDE_PT {
+    let lines: &[&[usize]] = if is_narrow(ui, full.width()) {
         &[&[0, 1, 2, 3, 4, 6], &[5, 7, 8, 9, 10]]
     } else {
         &[&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10]]
@@ -68,7 +82,7 @@ pub fn show(ui: &mut Ui, state: &State, tones: &Tones) {
         let mut x = full.left();
         for &cell in *cells {
             let top = full.top() + line as f32 * LINE_PT;
-            x = place(ui, tones, pos2(x, top), cell, &values[cell], chip) + 9.0;
+            x = place(ui, tones, pos2(x, top), cell, &values[cell], chip) + GAP_PT;
         }
     }
 }
@@ -79,8 +93,8 @@ fn place(ui: &Ui, tones: &Tones, at: egui::Pos2, index: usize, value: &str, chip
     let font = FontId::proportional(SMALL_PT);
     let painter = ui.painter();
     let middle = at.y + LINE_PT / 2.0;
-    let name = painter.text(pos2(at.x, middle), Align2::LEFT_CENTER, cell.name, font.clone(), tones.quiet);
-    let left = if cell.name.is_empty() { at.x } else { name.right() + 3.0 };
+    painter.text(pos2(at.x, middle), Align2::LEFT_CENTER, cell.name, font.clone(), tones.quiet);
+    let left = at.x + name_width(ui, cell.name);
     let right = left + cell.width;
     if let Some(colour) = chip.filter(|_| index == 6) {
         let square = Rect::from_center_size(pos2(left + 5.0, middle), vec2(9.0, 9.0));

@@ -5,9 +5,8 @@ use crate::gui::shortcuts::{Deed, keys_of};
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::workbench::{Arrangement, Fill, ImageSettings, Layer, State, Tool};
 use egui::accesskit::Role;
-use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{
-    Button, ComboBox, DragValue, Label, PopupCloseBehavior, Response, RichText, Sense, Slider, Ui,
+    Button, ComboBox, DragValue, Label, Popup, PopupCloseBehavior, Response, RichText, Sense, Slider, Ui,
     WidgetInfo, vec2,
 };
 
@@ -110,6 +109,7 @@ fn fill(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
 }
 
 fn zooming(ui: &mut Ui, settings: &mut ImageSettings, zoom: f32) {
+    ui.spacing_mut().button_padding.x = 5.0;
     let fit = Button::selectable(settings.zoom.is_none(), "Fit");
     let tip = format!("The whole picture ({}, double-click)", keys_of(ui.ctx(), Deed::Fit));
     if ui.add(fit).on_hover_text(tip).clicked() {
@@ -122,10 +122,10 @@ fn zooming(ui: &mut Ui, settings: &mut ImageSettings, zoom: f32) {
     }
     let mut percent = zoom * 100.0;
     let speed = percent / 100.0;
-    let typed = DragValue::new(&mut percent).range(0.1..=19_200.0).speed(speed).max_decimals(0).suffix(" %");
-    let typed = ui.add_sized(vec2(54.0, ui.spacing().interact_size.y), typed);
+    let typed = DragValue::new(&mut percent).range(0.0..=f32::MAX).speed(speed).max_decimals(0).suffix(" %");
+    let typed = ui.add_sized(vec2(50.0, ui.spacing().interact_size.y), typed);
     named(&typed, "Zoom", f64::from(percent));
-    if typed.changed() {
+    if typed.changed() && percent > 0.0 {
         settings.zoom = Some(percent / 100.0);
     }
     typed.on_hover_text("Zoom: scroll over the picture, + and \u{2212}, or type here");
@@ -140,10 +140,10 @@ fn named(response: &Response, name: &str, value: f64) {
 fn display(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
     let neutral = ImageSettings::default();
     let changed = settings.exposure_ev != neutral.exposure_ev || settings.gamma != neutral.gamma;
-    let words = RichText::new("Display").color(if changed { tones.accent } else { tones.text });
-    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    let button = MenuButton::from_button(Button::new(words)).config(config);
-    let (response, _) = button.ui(ui, |ui| {
+    let tip = "Exposure, gamma and opacity, of the display only";
+    let button = icons::toggle(ui, tones, Sign::Display, changed, "Display", tip);
+    let popup = Popup::menu(&button).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    popup.show(|ui| {
         ui.spacing_mut().slider_width = 120.0;
         egui::Grid::new("display").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
             let exposure = Slider::new(&mut settings.exposure_ev, -6.0..=6.0).step_by(0.1).suffix(" EV");
@@ -162,7 +162,6 @@ fn display(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
         let note = "Double-click resets. None of this changes the analysis.";
         ui.label(RichText::new(note).size(SMALL_PT).color(tones.quiet));
     });
-    response.on_hover_text("Exposure, gamma and opacity, of the display only");
 }
 
 /// A row of the grid; whether it is to be reset.
@@ -183,7 +182,13 @@ pub fn column(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
         }
     }
     if settings.tool == Tool::Brush {
-        let radius = DragValue::new(&mut settings.brush_px).range(0.5..=500.0).speed(0.25).max_decimals(1);
+        // It must not be wider than the tools.
+        ui.spacing_mut().button_padding.x = 0.0;
+        ui.spacing_mut().interact_size.x = icons::SIDE_PT;
+        ui.style_mut().drag_value_text_style = egui::TextStyle::Small;
+        let decimals = usize::from(settings.brush_px < 10.0);
+        let radius = DragValue::new(&mut settings.brush_px).range(0.5..=500.0).speed(0.25);
+        let radius = radius.max_decimals(decimals);
         let radius = ui.add_sized(vec2(icons::SIDE_PT, 18.0), radius);
         named(&radius, "Brush radius", f64::from(settings.brush_px));
         radius.on_hover_text("Radius of the brush, pixels of the picture");

@@ -2,12 +2,12 @@
 
 use super::geometry::Placement;
 use super::icons::{corners, dashed};
+use super::overlay::MARK;
 use crate::gui::Cx;
-use crate::gui::theme::Tones;
 use crate::raster::Mask;
+use crate::workbench::marking::{brush, outline, rectangle};
 use crate::workbench::{
     Combine, Command, Gesture, ImageSettings, Item, Layer, ProfileLine, Severity, State, Tool,
-    marking::brush, marking::outline, marking::rectangle,
 };
 use egui::{
     Color32, CursorIcon, Key, Modifiers, Painter, PointerButton, Pos2, Rect, Response, Stroke, Ui, pos2,
@@ -219,28 +219,28 @@ impl Hand {
     }
 
     /// Draws what is being drawn, and the brush where it is.
-    pub fn draw(&self, painter: &Painter, place: &Placement, tones: &Tones, brush_px: Option<f32>) {
+    pub fn draw(&self, painter: &Painter, place: &Placement, brush_px: Option<f32>) {
         let to_screen = |points: &[Pos2]| -> Vec<Pos2> {
             points.iter().map(|&point| place.screen_from_image(point)).collect()
         };
         match &self.draft {
             Draft::Rectangle(from) => {
                 let area = place.screen_rect_of(Rect::from_two_pos(*from, self.at));
-                painter.rect_filled(area, 0.0, tones.accent.gamma_multiply(0.12));
-                dashed(painter, &corners(area), tones.accent);
+                painter.rect_filled(area, 0.0, MARK.gamma_multiply(0.12));
+                dashed(painter, &corners(area), MARK);
             }
             Draft::Lasso(path) | Draft::Polygon(path) => {
                 let mut points = to_screen(path);
                 points.push(place.screen_from_image(self.at));
                 if matches!(self.draft, Draft::Polygon(_)) {
                     for &corner in &points[..points.len() - 1] {
-                        painter.circle_filled(corner, 2.5, tones.accent);
+                        painter.circle_filled(corner, 2.5, MARK);
                     }
-                    painter.circle_stroke(points[0], GRASP_PT, Stroke::new(1.0, tones.accent));
+                    painter.circle_stroke(points[0], GRASP_PT, Stroke::new(1.0, MARK));
                 } else {
                     points.push(points[0]);
                 }
-                dashed(painter, &points, tones.accent);
+                dashed(painter, &points, MARK);
             }
             _ => {}
         }
@@ -248,7 +248,7 @@ impl Hand {
             let centre = place.screen_from_image(self.at);
             let radius = (radius_px * place.zoom).max(1.5);
             painter.circle_stroke(centre, radius, Stroke::new(2.6, Color32::from_black_alpha(140)));
-            painter.circle_stroke(centre, radius, Stroke::new(1.2, tones.accent));
+            painter.circle_stroke(centre, radius, Stroke::new(1.2, MARK));
         }
     }
 }
