@@ -21,7 +21,7 @@ fn main() -> anyhow::Result<()> {
     let analysis = Session::new(Arc::new(photo.image.clone())).run(&Params::default(), &mut ())?;
 
     // Body reflection alone is the scene as if every surface were matte. Where a pixel is in no region it is the input.
-    let written = write_matte(&photo, &analysis.intrinsic.body, &folder)?;
+    let written = write_matte(&photo, &analysis.intrinsic, 0.0, &folder)?;
     let removed = analysis
         .intrinsic
         .surface

@@ -52,6 +52,7 @@
 //! | [`truth`] | ground truth and scores |
 //! | [`export`] | results as files |
 //! | [`workbench`] | the application without a screen |
+//! | `gpu` | the colour space in three dimensions (feature `gui`): camera, points, lines and solids, picking |
 //! | `gui` | the window: one file per panel |
 //!
 //! Who may use whom, left by right; rooms between the same arrows do not know each other:
@@ -67,6 +68,8 @@
 pub mod analysis;
 pub mod color;
 pub mod export;
+#[cfg(feature = "gui")]
+pub mod gpu;
 #[cfg(feature = "gui")]
 pub mod gui;
 pub mod intrinsic;

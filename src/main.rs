@@ -8,15 +8,27 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let arguments = cli::Arguments::parse();
     #[cfg(feature = "gui")]
-    if arguments.command.is_none() {
-        return window(arguments.image);
+    match arguments.command {
+        None => return ended(dichroscope::gui::open(arguments.image)),
+        Some(cli::Command::Screenshot(wish)) => return ended(screenshot(wish)),
+        Some(_) => {}
     }
     cli::run(arguments)
 }
 
 #[cfg(feature = "gui")]
-fn window(photograph: Option<std::path::PathBuf>) -> ExitCode {
-    match dichroscope::gui::open(photograph) {
+fn screenshot(wish: cli::ScreenshotArguments) -> Result<(), dichroscope::gui::ScreenshotError> {
+    use dichroscope::workbench::Origin;
+    let origin = wish.image.map_or(Origin::Sample(wish.scene), Origin::File);
+    for path in dichroscope::gui::screenshot(&wish.out, wish.size, origin)? {
+        cli::print(&format!("{}\n", path.display()));
+    }
+    Ok(())
+}
+
+#[cfg(feature = "gui")]
+fn ended<E: std::fmt::Display>(outcome: Result<(), E>) -> ExitCode {
+    match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             cli::note(&format!("error: {error}"));

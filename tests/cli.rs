@@ -4,8 +4,9 @@
 
 use assert_cmd::cargo::cargo_bin_cmd;
 use dichroscope::export::read_report;
-use dichroscope::report::Report;
-use dichroscope::segment::{Method, Setting};
+use dichroscope::photo::ReadOptions;
+use dichroscope::report::{RegionFacts, Report};
+use dichroscope::segment::{IlluminantSetting, Method, Setting};
 use dichroscope::truth::ResultPictures;
 use serde_json::Value;
 use std::fs;
@@ -308,6 +309,71 @@ fn defaults_give_way_to_the_file_and_the_file_to_flags() {
 }
 
 #[test]
+fn a_preset_is_a_column_of_table_6_and_gives_way_to_flags() {
+    let desk = Desk::new();
+    desk.photo("a.png");
+    desk.succeeds("analyze a.png --out out --preset cups_pink --min-area 300");
+    let params = desk.report("out/a").params;
+    assert_eq!((params.method, params.window_size.asked), (Method::Paper, Setting::Value(15.0)));
+    assert_eq!(params.min_area.asked, Setting::Value(300.0));
+    desk.succeeds("analyze a.png --out out --preset cups_white --method refined");
+    let params = desk.report("out/a").params;
+    assert_eq!((params.method, params.slice_width.asked), (Method::Refined, Setting::Value(6.0)));
+}
+
+#[test]
+fn a_light_can_be_given_and_the_report_says_so() {
+    let desk = Desk::new();
+    desk.photo("a.png");
+    desk.put("p.toml", b"illuminant = [1, 1, 1]\n");
+    desk.succeeds("analyze a.png --out out --params p.toml --illuminant 0,3,4");
+    let report = desk.report("out/a");
+    assert_eq!(report.params.illuminant.asked, IlluminantSetting::Given([0.0, 3.0, 4.0]));
+    assert_eq!(report.illuminant.direction, Some([0.0, 0.6, 0.8]));
+    assert!(report.illuminant.given);
+    desk.succeeds("analyze a.png --out out --params p.toml --illuminant auto");
+    assert!(!desk.report("out/a").illuminant.given);
+    desk.fails(2, "analyze a.png --out out --illuminant 1,-1,0", "illuminant = [1.0, -1.0, 0.0]: expected");
+    desk.fails(2, "analyze a.png --out out --illuminant white", "neither three numbers");
+}
+
+#[test]
+fn an_area_restricts_the_analysis_and_must_fit_the_photograph() {
+    let desk = Desk::new();
+    desk.photo("a.png");
+    // Its own regions as the area: all of it lies where the picture is lit.
+    desk.succeeds("analyze a.png --out out");
+    let regions = fs::read(desk.path("out/a/regions.png")).unwrap();
+    desk.put("mask.png", &regions);
+    let whole = desk.report("out/a");
+    desk.succeeds("analyze a.png --out out --area mask.png");
+    let report = desk.report("out/a");
+    let area = report.area.unwrap();
+    let assigned = |regions: &[RegionFacts]| regions.iter().map(|region| region.pixels).sum::<usize>();
+    assert_eq!((area.file.as_str(), area.pixels), ("mask.png", assigned(&whole.regions)));
+    assert_eq!(assigned(&report.regions) + report.unassigned_pixels, area.pixels);
+    desk.put("small.pgm", b"P5\n2 1\n255\n\0\x01");
+    desk.fails(1, "analyze a.png --out other --area small.pgm", "a.png: --area small.pgm: the area has 2");
+    desk.fails(2, "analyze a.png --out other --area none.png", "none.png: cannot be read");
+    assert!(!desk.path("other").exists());
+}
+
+#[test]
+fn with_all_its_surface_reflection_the_matte_picture_is_brighter() {
+    let desk = Desk::new();
+    desk.photo("a.png");
+    desk.succeeds("analyze a.png --out none");
+    desk.succeeds("analyze a.png --out all --keep-surface 1");
+    let sum = |name: &str| {
+        let photo = dichroscope::photo::read(&desk.path(name), &ReadOptions::default()).unwrap();
+        photo.image.pixels.as_slice().iter().flatten().map(|&band| f64::from(band)).sum::<f64>()
+    };
+    assert!(sum("none/a/matte.png") < sum("all/a/matte.png"));
+    assert!((sum("all/a/matte.png") / sum("a.png") - 1.0).abs() < 0.01);
+    desk.fails(2, "analyze a.png --out all --keep-surface 1.5", "expected a number from 0 to 1");
+}
+
+#[test]
 fn mistakes_in_the_file_are_named_with_their_line() {
     let desk = Desk::new();
     desk.photo("a.png");
@@ -316,6 +382,8 @@ fn mistakes_in_the_file_are_named_with_their_line() {
         ("[refine]\nmagic = true\n", "p.toml:2: unknown field `magic`"),
         ("window_size = \n", "p.toml:1: "),
         ("\nmethod = \"1990\"\n", "p.toml:2: unknown variant `1990`"),
+        ("illuminant = \"white\"\n", "p.toml:1: \"white\" is neither three numbers nor `auto`"),
+        ("illuminant = [0, 0, 0]\n", "p.toml: illuminant = [0.0, 0.0, 0.0]: expected"),
         ("min_area = 2\n", "p.toml: min_area = 2: expected `auto` or a whole number from 4"),
     ] {
         desk.put("p.toml", text.as_bytes());

@@ -15,10 +15,10 @@ pub use output::StageOutput;
 
 use crate::intrinsic::Intrinsic;
 use crate::photo::{LinearImage, Masks};
-use crate::raster::Raster;
+use crate::raster::{Mask, Raster};
 use crate::segment::{FinalRegions, MatteRegions, Params, PlanarRegions, UsedParams, Windows};
 use crate::trace::{Recorder, Silent};
-use stages::Stages;
+use stages::{Stages, Subject};
 use std::sync::Arc;
 
 /// Watches a run, and may stop it.
@@ -29,7 +29,8 @@ pub trait Observer: Sync {
     fn finished(&mut self, _stage: Stage, _reused: bool) {}
     /// What a stage has found, right after it ended and while later ones are still to come; reused outputs too.
     fn made(&mut self, _output: StageOutput) {}
-    /// Asked before each stage and once a hypothesis; a run stops soon after it turns true.
+    /// Asked before each stage, once a hypothesis, and within long loops about every millisecond, from any thread; a run
+    /// stops soon after it turns true.
     fn cancelled(&self) -> bool {
         false
     }
@@ -63,6 +64,16 @@ pub struct Analysis {
     pub warnings: Vec<String>,
 }
 
+/// An area of another shape than the image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the area has {} \u{d7} {} pixels, the photograph {} \u{d7} {}", area.0, area.1, image.0, image.1)]
+pub struct OtherShape {
+    /// Width and height of the area, pixels.
+    pub area: (usize, usize),
+    /// Width and height of the image, pixels.
+    pub image: (usize, usize),
+}
+
 /// The run was stopped by its observer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the analysis was cancelled")]
@@ -71,13 +82,29 @@ pub struct Cancelled;
 /// One image and what earlier runs found in it.
 pub struct Session {
     image: Arc<LinearImage>,
+    area: Option<Arc<Mask>>,
     stages: Stages,
 }
 
 impl Session {
     /// A session in which nothing has run yet.
     pub fn new(image: Arc<LinearImage>) -> Self {
-        Self { image, stages: Stages::default() }
+        Self { image, area: None, stages: Stages::default() }
+    }
+
+    /// Restricts the runs to come to the pixels that `area` holds, or lifts the restriction. What lies outside is left out
+    /// like pixels without a value: it is in no window and in no region.
+    ///
+    /// # Errors
+    /// An area of another shape than the image; then nothing changes.
+    pub fn restrict(&mut self, area: Option<Arc<Mask>>) -> Result<(), OtherShape> {
+        let image = (self.image.width(), self.image.height());
+        let shape = area.as_ref().map_or(image, |area| (area.width(), area.height()));
+        if shape != image {
+            return Err(OtherShape { area: shape, image });
+        }
+        self.area = area;
+        Ok(())
     }
 
     /// Runs the stages that `params` makes stale, and hands out the whole result.
@@ -85,7 +112,7 @@ impl Session {
     /// # Errors
     /// [`Cancelled`] when the observer asks for it; what had finished by then is kept.
     pub fn run(&mut self, params: &Params, observer: &mut impl Observer) -> Result<Analysis, Cancelled> {
-        self.stages.run(&self.image, params, observer, &mut Silent)
+        self.stages.run(&self.subject(), params, observer, &mut Silent)
     }
 
     /// Runs every stage anew and tells `recorder` of each decision.
@@ -99,6 +126,9 @@ impl Session {
         recorder: &mut R,
     ) -> Result<Analysis, Cancelled> {
         self.stages = Stages::default();
-        self.stages.run(&self.image, params, observer, recorder)
+        self.stages.run(&self.subject(), params, observer, recorder)
+    }
+    fn subject(&self) -> Subject {
+        Subject { image: Arc::clone(&self.image), area: self.area.clone() }
     }
 }

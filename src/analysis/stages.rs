@@ -5,7 +5,7 @@ use super::stale::seen_up_to;
 use super::{Analysis, Cancelled, Observer, Stage, StageOutput};
 use crate::intrinsic::{Intrinsic, split};
 use crate::photo::{LinearImage, MaskLimits, Masks, estimate_sigma};
-use crate::raster::{LabelMap, Raster};
+use crate::raster::{LabelMap, Mask, Raster};
 use crate::segment::{
     Areas, Classifier, FinalRegions, MatteRegions, Params, PlanarRegions, Refine, Scene, Setting, UsedParams,
     Windows, classify, clipping_regions, final_regions, matte_regions, merge, planar_regions,
@@ -28,13 +28,22 @@ pub struct Stages {
 /// Generation of the stage before, and what the stages up to this one look at.
 type Key = (u64, (UsedParams, Refine));
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 struct MaskKey {
     limits: MaskLimits,
     /// The noise, where the masks depend on it: where it is to be estimated, and where the minimal intensity follows it.
     camera_noise: Option<Setting>,
     /// Whether the minimal intensity follows the noise.
     automatic_intensity: bool,
+    /// Compared by its pixels, where it is not the same mask anyway.
+    area: Option<Arc<Mask>>,
+}
+
+/// What is analysed.
+pub struct Subject {
+    pub image: Arc<LinearImage>,
+    /// The pixels to analyse; none: all.
+    pub area: Option<Arc<Mask>>,
 }
 
 /// Merged areas, and as a map.
@@ -90,13 +99,14 @@ impl Stages {
     /// Runs what is stale.
     pub fn run<R: Recorder>(
         &mut self,
-        image: &LinearImage,
+        subject: &Subject,
         params: &Params,
         observer: &mut impl Observer,
         recorder: &mut R,
     ) -> Result<Analysis, Cancelled> {
         let refine = params.refinements();
-        let (masks, used) = self.masks(image, params, observer, recorder)?;
+        let (masks, used) = self.masks(subject, params, observer, recorder)?;
+        let image = &subject.image;
         let scene = Scene::new(image, &masks, &used, refine);
 
         let key = |stage, before| (before, seen_up_to(stage, &used, refine));
@@ -132,19 +142,22 @@ impl Stages {
         })?;
         observer.made(StageOutput::Planar(planar.clone()));
         let after_planar = key(Stage::Clipping, self.planar.generation);
-        let finals = self.clipping.get(Stage::Clipping, after_planar, observer, |_| {
+        let finals = self.clipping.get(Stage::Clipping, after_planar, observer, |observer| {
             begin(recorder, Stage::Clipping);
+            let stop = || observer.cancelled();
+            let scene = scene.stopped_by(&stop);
             let labels = clipping_regions(&scene, &planar, recorder);
             Arc::new(final_regions(&scene, labels, &planar, recorder))
         })?;
         observer.made(StageOutput::Finals(finals.clone()));
         let after_clipping = key(Stage::Split, self.clipping.generation);
-        let intrinsic = self.split.get(Stage::Split, after_clipping, observer, |_| {
+        let intrinsic = self.split.get(Stage::Split, after_clipping, observer, |observer| {
             begin(recorder, Stage::Split);
-            Arc::new(split(&scene, &finals, recorder))
+            let stop = || observer.cancelled();
+            Arc::new(split(&scene.stopped_by(&stop), &finals, recorder))
         })?;
         observer.made(StageOutput::Intrinsic(intrinsic.clone()));
-        let warnings = warnings(&finals.labels, &planar, &masks);
+        let warnings = warnings(&finals.labels, &planar, &masks, subject.area.is_some());
         let areas = merged.map.clone();
         let illuminant = planar.illuminant;
         Ok(Analysis { used, masks, windows, areas, matte, planar, finals, illuminant, intrinsic, warnings })
@@ -152,7 +165,7 @@ impl Stages {
 
     fn masks<R: Recorder>(
         &mut self,
-        image: &LinearImage,
+        Subject { image, area }: &Subject,
         params: &Params,
         observer: &mut impl Observer,
         recorder: &mut R,
@@ -161,17 +174,24 @@ impl Stages {
         let automatic_noise = params.camera_noise == Setting::Auto;
         let automatic_intensity = params.min_intensity == Setting::Auto;
         let depends = automatic_noise || automatic_intensity;
-        let key =
-            MaskKey { limits, camera_noise: depends.then_some(params.camera_noise), automatic_intensity };
+        let camera_noise = depends.then_some(params.camera_noise);
+        let key = MaskKey { limits, camera_noise, automatic_intensity, area: area.clone() };
+        let masks_of = |limits: &MaskLimits| {
+            let masks = Masks::new(image, limits);
+            match area {
+                Some(area) => masks.within(area),
+                None => masks,
+            }
+        };
         let (masks, sigma) = self.masks.get(Stage::Masks, key, observer, |_| {
             begin(recorder, Stage::Masks);
-            let masks = Masks::new(image, &limits);
+            let masks = masks_of(&limits);
             let sigma = if automatic_noise { estimate_sigma(image, &masks) } else { None };
             if !automatic_intensity {
                 return (Arc::new(masks), sigma);
             }
             let min_intensity = used_params(params, image, sigma).min_intensity;
-            (Arc::new(Masks::new(image, &MaskLimits { min_intensity, ..limits })), sigma)
+            (Arc::new(masks_of(&MaskLimits { min_intensity, ..limits })), sigma)
         })?;
         let used = used_params(params, image, sigma);
         observer.made(StageOutput::Masks { masks: masks.clone(), used });
@@ -193,7 +213,7 @@ fn classify_windows<R: Recorder>(scene: &Scene, recorder: &mut R) -> Windows {
         let valid = |pixel| scene.masks.usable(pixel);
         classify(scene.pixels, valid, size_px, size_px * size_px / 2, &mut classifier, recorder)
     } else {
-        let valid = |pixel| !scene.masks.invalid(pixel);
+        let valid = |pixel| !scene.masks.invalid(pixel) && !scene.masks.outside(pixel);
         classify(scene.pixels, valid, size_px, 2, &mut classifier, recorder)
     }
 }
@@ -216,12 +236,13 @@ fn area_map(areas: &Areas, windows: &Windows, width: usize, height: usize) -> Ra
     Raster::from_vec(width, height, map).unwrap_or_default()
 }
 
-fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks) -> Vec<String> {
+fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks, restricted: bool) -> Vec<String> {
     let mut warnings = Vec::new();
     let lit = (0..labels.len()).filter(|&pixel| !masks.dark(pixel)).count();
     let assigned = labels.as_slice().iter().filter(|&&label| label != 0).count();
     if labels.is_empty() || lit == 0 {
-        warnings.push("every pixel is darker than the minimal intensity: nothing was analysed".to_owned());
+        let which = if restricted { "every pixel of the area" } else { "every pixel" };
+        warnings.push(format!("{which} is darker than the minimal intensity: nothing was analysed"));
     } else if assigned == 0 {
         warnings.push(
             "no linear area was found: no window varies along one direction beyond the noise".to_owned(),

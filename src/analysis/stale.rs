@@ -8,7 +8,7 @@ use crate::segment::{Refine, UsedParams};
 /// The numbers and refinements that `stage` and those before it look at.
 ///
 /// The limits of the masks are not blanked for any stage; windows and noise matter from classification on, cylinders and
-/// areas from the linear stage on, slices from the planar one on.
+/// areas from the linear stage on, slices and a given light from the planar one on.
 pub fn seen_up_to(stage: Stage, used: &UsedParams, refine: Refine) -> (UsedParams, Refine) {
     let (mut used, mut refine) = (*used, refine);
     if stage < Stage::Linear {
@@ -16,6 +16,7 @@ pub fn seen_up_to(stage: Stage, used: &UsedParams, refine: Refine) -> (UsedParam
     }
     if stage < Stage::Planar {
         used.slice_width = 0.0;
+        used.illuminant = None;
     }
     for (name, switch) in refine.switches() {
         *switch &= first_stage(name) <= stage;

@@ -1,7 +1,7 @@
 //! `dichroscope analyze`: photographs to result folders.
 
 use super::inputs::{self, Job, parent_name};
-use super::one::{self, Finished, Reference, Shot};
+use super::one::{self, Area, Finished, Plan, Reference, Shot};
 use super::settings::Settings;
 use super::{Outcome, note};
 use anyhow::{Context, Result, anyhow, bail};
@@ -33,6 +33,12 @@ pub struct Arguments {
     /// Compare with a ground truth folder, or with those found under it by the results' names
     #[arg(long, value_name = "DIR")]
     truth: Option<PathBuf>,
+    /// Analyse only the pixels of the photographs that this picture of the same size shows as not black
+    #[arg(long, value_name = "MASK")]
+    area: Option<PathBuf>,
+    /// Share of the surface reflection that the matte picture keeps: 0 none of it, 1 all
+    #[arg(long, value_name = "SHARE", value_parser = share, default_value_t = 0.0)]
+    keep_surface: f64,
     /// Replace existing folders even if they are no earlier results
     #[arg(long)]
     force: bool,
@@ -68,13 +74,16 @@ struct Reading {
 struct Work<'a> {
     arguments: &'a Arguments,
     params: Params,
+    area: Option<Area>,
     reading: ReadOptions,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
     let Reading { encoding, full_scale, max_megapixels } = arguments.reading;
     let reading = ReadOptions { encoding, full_scale, max_megapixels };
-    let work = Work { arguments, params: arguments.settings.params()?, reading };
+    let params = arguments.settings.params()?;
+    let area = arguments.area.as_deref().map(|path| Area::read(path, &reading)).transpose()?;
+    let work = Work { arguments, params, area, reading };
     let jobs = inputs::plan(&arguments.inputs, arguments.pattern.as_ref(), &arguments.out)?;
     for job in &jobs {
         check_target(&work.target(job), arguments.force)?;
@@ -127,7 +136,14 @@ impl Work<'_> {
 
     fn compare_and_write(&self, job: &Job, shot: &Shot) -> Result<Finished> {
         let reference = self.arguments.truth.as_deref().map(|root| self.reference(root, job)).transpose()?;
-        one::analyze(shot, &self.params, reference.as_ref(), &self.target(job), self.arguments.force)
+        let plan = Plan {
+            params: &self.params,
+            area: self.area.as_ref(),
+            reference: reference.as_ref(),
+            keep_surface: self.arguments.keep_surface,
+            force: self.arguments.force,
+        };
+        one::analyze(shot, &plan, &self.target(job))
     }
 
     fn reference(&self, root: &Path, job: &Job) -> Result<Reference> {
@@ -165,6 +181,13 @@ pub(super) fn in_short(finished: &Finished) -> String {
         n => format!(", {}", count(n, "warning")),
     };
     format!("{regions}{poor}, {share}, {light}{warnings}, {:.0} ms", report.timings_ms.analysis_ms())
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if (0.0..=1.0).contains(&number) => Ok(number),
+        _ => Err("expected a number from 0 to 1".to_owned()),
+    }
 }
 
 fn positive(text: &str) -> Result<f64, String> {

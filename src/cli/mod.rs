@@ -37,6 +37,36 @@ pub struct Arguments {
 pub enum Command {
     Analyze(Box<analyze::Arguments>),
     Evaluate(evaluate::Arguments),
+    Screenshot(ScreenshotArguments),
+}
+
+/// Draw the window and single views of it as pictures, without a window
+#[derive(Debug, clap::Args)]
+pub struct ScreenshotArguments {
+    /// Photograph to show; none: a sample scene
+    pub image: Option<PathBuf>,
+    /// Folder to write the pictures to
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Size of the whole window in pixels; single views get three fifths of it
+    #[arg(long, value_name = "WxH", default_value = "1440x900", value_parser = parse_size)]
+    pub size: [u32; 2],
+    /// Sample scene to show
+    #[arg(long, value_name = "NAME", default_value = dichroscope::truth::sample::NAME, conflicts_with = "image")]
+    pub scene: String,
+}
+
+/// `1440x900` as columns and rows.
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    const SIDES: std::ops::RangeInclusive<u32> = 64..=8192;
+    let sides = text.split_once(['x', '\u{d7}']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    sides.filter(|sides: &[u32; 2]| sides.iter().all(|side| SIDES.contains(side))).ok_or_else(|| {
+        format!(
+            "expected WIDTHxHEIGHT, each from {} to {} pixels, as in 1440x900",
+            SIDES.start(),
+            SIDES.end()
+        )
+    })
 }
 
 /// How the work went.
@@ -53,6 +83,7 @@ pub fn run(arguments: Arguments) -> ExitCode {
     let result = match (arguments.command, arguments.image) {
         (Some(Command::Analyze(arguments)), _) => analyze::run(&arguments),
         (Some(Command::Evaluate(arguments)), _) => evaluate::run(&arguments),
+        (Some(Command::Screenshot(_)), _) => no_screenshot(),
         (None, None) => sample::run(),
         (None, Some(image)) => no_window(&image),
     };
@@ -73,12 +104,16 @@ fn no_window(image: &std::path::Path) -> Result<Outcome> {
     )
 }
 
+fn no_screenshot() -> Result<Outcome> {
+    bail!("this program has no window built in: build it with its default features to draw one")
+}
+
 /// A line on stderr. A reader that has gone away is no reason to stop working.
 pub fn note(line: &str) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
 /// Text on stdout, with the same indulgence.
-fn print(text: &str) {
+pub fn print(text: &str) {
     let _ = io::stdout().lock().write_all(text.as_bytes());
 }

@@ -2,10 +2,10 @@
 
 use anyhow::{Context, Result};
 use dichroscope::analysis::{Analysis, Observer, Session, Stage};
-use dichroscope::export::{self, Staging};
+use dichroscope::export::WholeResult;
 use dichroscope::photo::{self, Photo, ReadOptions};
-use dichroscope::raster::{Raster, UNASSIGNED};
-use dichroscope::report::{ImageFacts, Report, Timings};
+use dichroscope::raster::{Mask, Raster, UNASSIGNED};
+use dichroscope::report::{AreaFacts, ImageFacts, Report, Timings};
 use dichroscope::segment::Params;
 use dichroscope::truth::{GroundTruth, Outcome, score};
 use std::path::Path;
@@ -38,18 +38,6 @@ impl Shot {
         let photo = photo::decode(bytes, name, options)?;
         Ok(Self { photo, sha256: photo::sha256_hex(bytes), read_ms: ms_since(begin) })
     }
-
-    fn facts(&self) -> ImageFacts {
-        let file = Path::new(&self.photo.name).file_name().unwrap_or_default();
-        ImageFacts {
-            file: file.to_string_lossy().into_owned(),
-            sha256: self.sha256.clone(),
-            width: self.photo.image.width(),
-            height: self.photo.image.height(),
-            encoding: self.photo.encoding.to_string(),
-            full_scale: self.photo.full_scale,
-        }
-    }
 }
 
 /// What a result is compared with.
@@ -69,6 +57,36 @@ impl Reference {
     }
 }
 
+/// The pixels to analyse.
+pub(super) struct Area {
+    name: String,
+    mask: Arc<Mask>,
+}
+
+impl Area {
+    /// Reads a mask: what is not black is inside. Errors name the file.
+    pub(super) fn read(path: &Path, options: &ReadOptions) -> Result<Self> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { name, mask: Arc::new(photo::read_mask(path, options)?) })
+    }
+
+    fn facts(&self) -> AreaFacts {
+        let pixels = self.mask.as_slice().iter().filter(|&&inside| inside).count();
+        AreaFacts { file: self.name.clone(), pixels }
+    }
+}
+
+/// How a photograph is analysed and written.
+pub(super) struct Plan<'a> {
+    pub(super) params: &'a Params,
+    pub(super) area: Option<&'a Area>,
+    pub(super) reference: Option<&'a Reference>,
+    /// Share of the surface reflection that the matte picture keeps, 0…1.
+    pub(super) keep_surface: f64,
+    /// Whether a folder that is no earlier result may be replaced.
+    pub(super) force: bool,
+}
+
 /// What became of a photograph.
 pub(super) struct Finished {
     pub(super) report: Report,
@@ -77,19 +95,19 @@ pub(super) struct Finished {
 }
 
 /// Analyses a photograph and writes its result to `target`.
-pub(super) fn analyze(
-    shot: &Shot,
-    params: &Params,
-    reference: Option<&Reference>,
-    target: &Path,
-    force: bool,
-) -> Result<Finished> {
+pub(super) fn analyze(shot: &Shot, plan: &Plan, target: &Path) -> Result<Finished> {
     let mut clock = StageClock::default();
     let image = Arc::new(shot.photo.image.clone());
-    let analysis = Session::new(Arc::clone(&image)).run(params, &mut clock)?;
-    let mut report = Report::new(shot.facts(), params, &analysis, &shot.photo.warnings);
+    let mut session = Session::new(image);
+    if let Some(area) = plan.area {
+        session.restrict(Some(Arc::clone(&area.mask))).with_context(|| format!("--area {}", area.name))?;
+    }
+    let analysis = session.run(plan.params, &mut clock)?;
+    let mut report =
+        Report::new(ImageFacts::of(&shot.photo, &shot.sha256), plan.params, &analysis, &shot.photo.warnings);
+    report.area = plan.area.map(Area::facts);
     report.timings_ms = Timings { read: Some(shot.read_ms), ..clock.timings };
-    if let Some(Reference { truth, camera }) = reference {
+    if let Some(Reference { truth, camera }) = plan.reference {
         let intrinsic = &analysis.intrinsic;
         let outcome = Outcome {
             regions: &analysis.finals.labels,
@@ -99,16 +117,8 @@ pub(super) fn analyze(
         };
         report.scores = Some(score(truth, camera, &outcome)?);
     }
-    let begin = Instant::now();
-    let staging = Staging::begin(target, force)?;
-    let (pictures, matte) = rayon::join(
-        || export::write_pictures(staging.folder(), &image, &analysis),
-        || export::write_matte(&shot.photo, &analysis.intrinsic.body, staging.folder()),
-    );
-    pictures?;
-    matte?;
-    report.timings_ms.write = Some(ms_since(begin));
-    staging.publish(&report)?;
+    let whole = WholeResult { photo: &shot.photo, analysis: &analysis, keep_surface: plan.keep_surface };
+    let report = whole.write(report, target, plan.force, &|_, _| true)?;
     Ok(Finished { lit_share: lit_share(&analysis), report })
 }
 

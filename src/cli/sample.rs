@@ -1,7 +1,7 @@
 //! `dichroscope` alone: the embedded sample scene, analysed and compared with its ground truth.
 
 use super::analyze::in_short;
-use super::one::{self, Reference, Shot};
+use super::one::{self, Plan, Reference, Shot};
 use super::{Outcome, note, print, table};
 use anyhow::{Context, Result};
 use dichroscope::export::check_target;
@@ -32,7 +32,14 @@ fn analyze(target: &Path) -> Result<String> {
     let shot = Shot::decode(CAMERA, "camera8.png", &ReadOptions::default())?;
     let truth = sample::truth()?;
     let reference = Reference { truth, camera: shot.photo.image.pixels.clone() };
-    let finished = one::analyze(&shot, &Params::default(), Some(&reference), target, false)?;
+    let plan = Plan {
+        params: &Params::default(),
+        area: None,
+        reference: Some(&reference),
+        keep_surface: 0.0,
+        force: false,
+    };
+    let finished = one::analyze(&shot, &plan, target)?;
     let place = std::path::absolute(target)?;
     let scores = finished.report.scores.map(|scores| table::aligned(&[(NAME.to_owned(), scores)]));
     Ok(format!(

@@ -1,9 +1,9 @@
-//! Parameters from flags and a TOML file: defaults of the method < file < `--auto` < single flags.
+//! Parameters from flags and a TOML file: defaults of the method, or a preset < file < `--auto` < single flags.
 
 use anyhow::{Context, Result, anyhow, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
-use dichroscope::segment::{Method, Parameter, Params, Refine, Setting};
+use dichroscope::segment::{IlluminantSetting, Method, Parameter, Params, Preset, Refine, Setting};
 use std::path::{Path, PathBuf};
 
 /// How to analyse.
@@ -13,6 +13,9 @@ pub(super) struct Settings {
     /// The 1990 algorithm with refinements, or as it was written
     #[arg(long, value_parser = method_parser())]
     method: Option<Method>,
+    /// The paper's parameters for one of its pictures (a column of table 6), and its method unless --method says otherwise
+    #[arg(long, value_name = "NAME", value_parser = preset_parser())]
+    preset: Option<Preset>,
     /// Parameters from a TOML file: `method`, one key per parameter, and the switches under `[refine]`
     #[arg(long, value_name = "FILE.toml")]
     params: Option<PathBuf>,
@@ -27,6 +30,9 @@ pub(super) struct Settings {
     without: Vec<String>,
     #[command(flatten)]
     flags: ParameterFlags,
+    /// The colour of the light, of any length; every dichromatic plane turns to it [default: auto]
+    #[arg(long, value_name = "R,G,B|auto", allow_hyphen_values = true)]
+    illuminant: Option<IlluminantSetting>,
 }
 
 impl Settings {
@@ -35,7 +41,8 @@ impl Settings {
     /// Fails on an unreadable file, an unknown name, a value out of range, and switches that contradict each other.
     pub(super) fn params(&self) -> Result<Params> {
         let file = self.params.as_deref().map(read_toml).transpose()?.unwrap_or_default();
-        let mut params = Params::of(self.method.or(file.method).unwrap_or_default());
+        let by_method = || Params::of(self.method.or(file.method).unwrap_or_default());
+        let mut params = self.preset.map_or_else(by_method, Preset::params);
         params = overlay(params, file.table)?;
         params.method = self.method.unwrap_or(params.method);
         for parameter in Parameter::ALL {
@@ -44,6 +51,7 @@ impl Settings {
                 *params.slot(parameter) = setting;
             }
         }
+        params.illuminant = self.illuminant.unwrap_or(params.illuminant);
         self.switch(&mut params)?;
         params.validate()?;
         Ok(params)
@@ -108,6 +116,13 @@ fn method_parser() -> impl TypedValueParser<Value = Method> {
     PossibleValuesParser::new(["refined", "paper"]).map(|name| match name.as_str() {
         "paper" => Method::Paper,
         _ => Method::Refined,
+    })
+}
+
+fn preset_parser() -> impl TypedValueParser<Value = Preset> {
+    PossibleValuesParser::new(Preset::ALL.map(Preset::name)).map(|name| {
+        let named = Preset::ALL.into_iter().find(|preset| preset.name() == name);
+        named.expect("invariant: only the presets' names are possible values")
     })
 }
 

@@ -2,8 +2,8 @@
 
 mod container;
 
+use crate::intrinsic::{Intrinsic, PixelKind};
 use crate::photo::{AlphaKind, Layout, Photo, Samples, nearest_code};
-use crate::raster::Raster;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -37,26 +37,51 @@ pub enum MatteError {
     },
 }
 
-/// Writes `body` (linear counts, upright, composited as in `photo.image`) to `folder` as `matte.jpg` if the photograph
+/// Writes the body reflection and a share `keep_surface` (0…1, else the nearer of these) of all else to `folder` as `matte.jpg` if the photograph
 /// came as JPEG, `matte.tif` if as TIFF or floats, and `matte.png` otherwise; returns its path.
 ///
 /// Tone curve, depth, profile and alpha are the photograph's own, with these exceptions: floats are written linear and
 /// 32 bits wide, samples of less than 8 bits and palettes as 8 bits, and a PNM whose maximum fits no PNG as 16 bits.
-/// A pixel whose body equals the photograph keeps its samples exactly. A grey photograph stays grey if the body is.
+/// At 0 the picture is `intrinsic.body`, at 1 the photograph again, but for restored pixels: they are body and surface as
+/// restored, as far as the file can hold them.
+/// A pixel whose colour equals the photograph keeps its samples exactly. A grey photograph stays grey if the body is.
 ///
 /// # Errors
 /// [`MatteError`]: sizes that differ, or a file that cannot be encoded or written.
-pub fn write_matte(photo: &Photo, body: &Raster<[f32; 3]>, folder: &Path) -> Result<PathBuf, MatteError> {
+pub fn write_matte(
+    photo: &Photo,
+    intrinsic: &Intrinsic,
+    keep_surface: f64,
+    folder: &Path,
+) -> Result<PathBuf, MatteError> {
+    let (extension, bytes) = matte_bytes(photo, intrinsic, keep_surface).map_err(|error| match error {
+        MatteError::Encode { path, reason } => MatteError::Encode { path: folder.join(path), reason },
+        other => other,
+    })?;
+    let path = folder.join(format!("matte.{extension}"));
+    std::fs::write(&path, bytes).map_err(|cause| MatteError::Write { path: path.clone(), cause })?;
+    Ok(path)
+}
+
+/// The picture that [`write_matte`] writes, as its usual extension (`jpg`, `tif` or `png`) and its bytes.
+///
+/// # Errors
+/// [`MatteError`]: sizes that differ, or a picture that cannot be encoded.
+pub fn matte_bytes(
+    photo: &Photo,
+    intrinsic: &Intrinsic,
+    keep_surface: f64,
+) -> Result<(&'static str, Vec<u8>), MatteError> {
+    let body = &intrinsic.body;
     let size = (photo.image.width(), photo.image.height());
     let body_size = (body.width(), body.height());
     if body_size != size {
         return Err(MatteError::Shape { body: body_size, photo: size });
     }
-    let (extension, encoded) = container::encode(photo, coded(photo, body));
-    let path = folder.join(format!("matte.{extension}"));
-    let bytes = encoded.map_err(|reason| MatteError::Encode { path: path.clone(), reason })?;
-    std::fs::write(&path, bytes).map_err(|cause| MatteError::Write { path: path.clone(), cause })?;
-    Ok(path)
+    let picture = coded(photo, intrinsic, keep_surface.clamp(0.0, 1.0) as f32);
+    let (extension, encoded) = container::encode(photo, picture);
+    let path = PathBuf::from(format!("matte.{extension}"));
+    encoded.map(|bytes| (extension, bytes)).map_err(|reason| MatteError::Encode { path, reason })
 }
 
 /// Samples for a file, with their bands.
@@ -65,11 +90,11 @@ struct Picture {
     samples: Samples,
 }
 
-/// `body` as the photograph's own samples.
-fn coded(photo: &Photo, body: &Raster<[f32; 3]>) -> Picture {
+/// The picture in the photograph's own samples.
+fn coded(photo: &Photo, intrinsic: &Intrinsic, keep_surface: f32) -> Picture {
     let (source, curves, full_scale) = (&photo.source, &photo.encoding.curves, photo.full_scale);
     let max = source.max.unwrap_or(1);
-    let matte = Matte { photo, body, keep_unchanged: true };
+    let matte = Matte { photo, intrinsic, keep_surface, keep_unchanged: true };
     match &source.samples {
         Samples::U8(samples) => {
             let tables = curves.each_ref().map(|curve| curve.table(1 << 8, max, full_scale));
@@ -123,15 +148,32 @@ impl Sample for f32 {
 /// Pixels to a task: enough that handing them out costs nothing.
 const CHUNK: usize = 1 << 13;
 
-/// A body image and the photograph that it belongs to.
+/// A photograph, what it was split into, and how much of its surface reflection stays.
 struct Matte<'a> {
     photo: &'a Photo,
-    body: &'a Raster<[f32; 3]>,
+    intrinsic: &'a Intrinsic,
+    /// In 0…1.
+    keep_surface: f32,
     /// Whether pixels that did not change keep their samples as they are.
     keep_unchanged: bool,
 }
 
 impl Matte<'_> {
+    /// What is written of a pixel, counts. Between body and photograph an undistorted pixel keeps of its noise the share
+    /// that it keeps of its surface reflection.
+    fn color(&self, index: usize) -> [f32; 3] {
+        let (body, share) = (self.intrinsic.body[index], self.keep_surface);
+        if share <= 0.0 {
+            return body;
+        }
+        if matches!(self.intrinsic.kinds[index], PixelKind::Restored | PixelKind::Lost) {
+            let surface = self.intrinsic.surface[index];
+            return std::array::from_fn(|band| body[band] + share * surface[band]);
+        }
+        let photo = self.photo.image.pixels[index];
+        std::array::from_fn(|band| (1.0 - share) * body[band] + share * photo[band])
+    }
+
     fn picture<T: Sample + Default>(
         &self,
         samples: &[T],
@@ -141,7 +183,7 @@ impl Matte<'_> {
     ) -> Picture {
         let layout = self.photo.source.layout;
         let (stored, written) = (layout.channels(), layout.coloured().channels());
-        let mut coloured = vec![T::default(); self.body.len() * written];
+        let mut coloured = vec![T::default(); self.intrinsic.body.len() * written];
         coloured.par_chunks_mut(CHUNK * written).enumerate().for_each(|(chunk, out)| {
             for (offset, pixel) in out.chunks_exact_mut(written).enumerate() {
                 let index = chunk * CHUNK + offset;
@@ -181,12 +223,13 @@ impl Matte<'_> {
             Some(alpha) if source.alpha == AlphaKind::Straight => opacity(alpha),
             _ => 1.0,
         };
-        let unchanged = self.keep_unchanged && self.body[index] == self.photo.image.pixels[index];
+        let color = self.color(index);
+        let unchanged = self.keep_unchanged && color == self.photo.image.pixels[index];
         for band in 0..3 {
             pixel[band] = if unchanged || weight == 0.0 {
                 if source.layout.is_grey() { stored[0] } else { stored[band] }
             } else {
-                code(band, self.body[index][band] / weight)
+                code(band, color[band] / weight)
             };
         }
         if let Some(alpha) = alpha {

@@ -9,15 +9,20 @@ mod palette;
 mod pictures;
 mod png;
 mod result;
+mod single;
 mod stages;
 mod staging;
+mod whole;
 
-pub use matte::{MatteError, write_matte};
+pub use matte::{MatteError, matte_bytes, write_matte};
 pub use palette::Palette;
 pub use pictures::write_pictures;
-pub use png::png_of_rgba;
+pub use png::{png_of_grey, png_of_rgba};
 pub use result::{ResultError, is_result_folder, read_report};
+pub use single::write_file;
+pub use stages::coloured;
 pub use staging::{Staging, check_target};
+pub use whole::{Watch, WholeResult};
 
 use std::path::PathBuf;
 
@@ -56,6 +61,12 @@ pub enum ExportError {
         /// What could not be said in JSON.
         source: serde_json::Error,
     },
+    /// The photograph without its highlights could not be written.
+    #[error(transparent)]
+    Matte(#[from] MatteError),
+    /// Whoever watched the writing had it stopped.
+    #[error("stopped before all was written")]
+    Stopped,
     /// Something that is not a result of ours stands where the result shall be.
     #[error("{} exists and is not an earlier result: --force replaces it", .0.display())]
     Occupied(PathBuf),

@@ -27,6 +27,12 @@ pub struct Palette {
     distances: [[f32; COLOURS]; COLOURS],
 }
 
+impl Default for Palette {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Palette {
     /// Computes the colours and how far they are apart.
     pub fn new() -> Self {

@@ -16,8 +16,11 @@ struct Subject<'a> {
 
 type Writer = fn(&Subject, &Path) -> Result<(), ExportError>;
 
+/// Pictures in a result folder, the matte photograph apart.
+pub(super) const PICTURE_COUNT: usize = 13;
+
 /// Every picture by its name; the largest first, so that none is still at work when all others are done.
-const PICTURES: [(&str, Writer); 13] = [
+const PICTURES: [(&str, Writer); PICTURE_COUNT] = [
     ("body.exr", |s, path| floats::write_rgb(path, &s.analysis.intrinsic.body)),
     ("residual.exr", |s, path| floats::write_rgb(path, &residual(s))),
     ("surface.exr", |s, path| floats::write_rgb(path, &s.analysis.intrinsic.surface)),
@@ -38,8 +41,21 @@ const PICTURES: [(&str, Writer); 13] = [
 /// # Errors
 /// The first file that could not be written.
 pub fn write_pictures(folder: &Path, image: &LinearImage, analysis: &Analysis) -> Result<(), ExportError> {
+    write_pictures_watched(folder, image, analysis, &|| Ok(()))
+}
+
+/// Likewise; `file_done` is asked after each file whether to go on.
+pub(super) fn write_pictures_watched(
+    folder: &Path,
+    image: &LinearImage,
+    analysis: &Analysis,
+    file_done: &(dyn Fn() -> Result<(), ExportError> + Sync),
+) -> Result<(), ExportError> {
     let subject = Subject { image, analysis };
-    PICTURES.par_iter().with_max_len(1).try_for_each(|(name, write)| write(&subject, &folder.join(name)))
+    PICTURES.par_iter().with_max_len(1).try_for_each(|(name, write)| {
+        write(&subject, &folder.join(name))?;
+        file_done()
+    })
 }
 
 /// A stage's regions in the colours of the final ones.

@@ -26,6 +26,17 @@ pub(super) fn write_grey(path: &Path, values: &Raster<u8>) -> Result<(), ExportE
     write(path, (values.width(), values.height()), &kind, values.as_slice())
 }
 
+/// 8-bit grey values as the bytes of a PNG without a colour space: a mask, not light.
+pub fn png_of_grey(values: &Raster<u8>) -> Vec<u8> {
+    let kind = Kind { colour: ColorType::Grayscale, depth: BitDepth::Eight, srgb: false };
+    let mut bytes = Vec::new();
+    match encode(&mut bytes, (values.width(), values.height()), &kind, values.as_slice()) {
+        Ok(()) => bytes,
+        // A PNG has at least one pixel.
+        Err(_) => Vec::new(),
+    }
+}
+
 /// 8-bit sRGB values with alpha, as the bytes of a PNG; `size` is columns and rows.
 pub fn png_of_rgba(size: [u32; 2], rgba: &[u8]) -> Vec<u8> {
     let kind = Kind { colour: ColorType::Rgba, depth: BitDepth::Eight, srgb: true };

@@ -26,8 +26,8 @@ pub(super) fn classification(analysis: &Analysis) -> Raster<[u8; 3]> {
     picture
 }
 
-/// Labels in colours that keep neighbours apart; 0 is black.
-pub(super) fn coloured<T: Copy + Into<u32>>(labels: &Raster<T>) -> Raster<[u8; 3]> {
+/// Labels in colours that keep neighbours apart, as 8-bit sRGB; 0 is black.
+pub fn coloured<T: Copy + Into<u32>>(labels: &Raster<T>) -> Raster<[u8; 3]> {
     let palette = Palette::new();
     let colours = palette.assign(&neighbours(labels));
     labels.map(|&label| match label.into() {

@@ -100,7 +100,7 @@ impl Drop for Staging {
 }
 
 /// `.NAME.PURPOSE-PROCESS-SERIAL` beside `target`, on the same file system.
-fn hidden_sibling(target: &Path, purpose: &str) -> PathBuf {
+pub(super) fn hidden_sibling(target: &Path, purpose: &str) -> PathBuf {
     let name = target.file_name().unwrap_or_default().to_string_lossy();
     let serial = SERIAL.fetch_add(1, Ordering::Relaxed);
     target.with_file_name(format!(".{name}.{purpose}-{}-{serial}", std::process::id()))

@@ -1,6 +1,6 @@
 //! The application: the workbench, the panels over it, and what comes in from the keyboard and the desktop.
 
-use super::dock::{Dock, Panels};
+use super::dock::{Dock, Pane, Panels};
 use super::files::{Dialogs, is_workspace};
 use super::theme::{self, Tones};
 use super::{Cx, menu, notices, shortcuts};
@@ -12,12 +12,20 @@ use std::sync::Arc;
 /// The window's content. It needs no window: tests show it in a harness.
 pub struct App {
     bench: Workbench,
+    front: Front,
+    gpu: Option<egui_wgpu::RenderState>,
+    dressed: Option<Theme>,
+}
+
+/// What stands before the workbench: panels and what opens over them.
+#[derive(Default)]
+struct Front {
     dock: Dock,
     panels: Panels,
     dialogs: Dialogs,
     help: bool,
-    gpu: Option<egui_wgpu::RenderState>,
-    dressed: Option<Theme>,
+    /// The one panel that is shown, if not all.
+    alone: Option<Pane>,
 }
 
 impl App {
@@ -30,22 +38,20 @@ impl App {
         gpu: Option<egui_wgpu::RenderState>,
         executor: Executor,
     ) -> std::io::Result<Self> {
+        theme::load_fonts(ctx);
         let repaint = ctx.clone();
         let bench = Workbench::new(executor, move || repaint.request_repaint())?;
-        Ok(Self {
-            bench,
-            dock: Dock::default(),
-            panels: Panels::default(),
-            dialogs: Dialogs::default(),
-            help: false,
-            gpu,
-            dressed: None,
-        })
+        Ok(Self { bench, front: Front::default(), gpu, dressed: None })
     }
 
     /// Applies a command, as a panel would.
     pub fn apply(&mut self, command: Command) {
         self.bench.apply(command);
+    }
+
+    /// Shows one panel alone, without menu and docking, or all of them again.
+    pub fn show_alone(&mut self, pane: Option<Pane>) {
+        self.front.alone = pane;
     }
 
     /// All that is shown.
@@ -63,25 +69,8 @@ impl App {
         }
         let tones = Tones::of(theme);
         let mut out = Vec::new();
-        {
-            let state = self.bench.state();
-            let mut cx = Cx { state, tones: &tones, gpu: self.gpu.as_ref(), out: &mut out };
-            come_in(ui, &mut cx);
-            for deed in shortcuts::pressed(ui.ctx()) {
-                shortcuts::carry_out(deed, &mut cx, &mut self.dialogs, &mut self.help);
-            }
-            let bar = egui::Frame::new().fill(tones.panel).inner_margin(egui::Margin::symmetric(8, 3));
-            egui::Panel::top("menu").frame(bar).show(ui, |ui| {
-                menu::show(ui, &mut cx, &mut self.dock, &mut self.dialogs, &mut self.help);
-            });
-            let frame = egui::Frame::new().fill(tones.line);
-            egui::CentralPanel::default().frame(frame).show(ui, |ui| {
-                self.dock.show(ui, &mut self.panels, &mut cx);
-            });
-            self.dialogs.show(ui, &mut cx);
-            notices::show(ui, &mut cx);
-            shortcuts::show_help(ui, &cx, &mut self.help);
-        }
+        let mut cx = Cx { state: self.bench.state(), tones: &tones, gpu: self.gpu.as_ref(), out: &mut out };
+        self.front.show(ui, &mut cx);
         if !out.is_empty() {
             // What a command changes is seen at once, not when the pointer next moves.
             ui.ctx().request_repaint();
@@ -90,6 +79,29 @@ impl App {
             self.bench.apply(command);
         }
         title(ui, self.bench.state());
+    }
+}
+
+impl Front {
+    fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+        come_in(ui, cx);
+        for deed in shortcuts::pressed(ui.ctx()) {
+            shortcuts::carry_out(deed, cx, &mut self.dialogs, &mut self.help);
+        }
+        if let Some(pane) = self.alone {
+            let frame = egui::Frame::new().fill(cx.tones.panel);
+            egui::CentralPanel::default().frame(frame).show(ui, |ui| self.panels.show(pane, ui, cx));
+            return;
+        }
+        let bar = egui::Frame::new().fill(cx.tones.panel).inner_margin(egui::Margin::symmetric(8, 3));
+        egui::Panel::top("menu").frame(bar).show(ui, |ui| {
+            menu::show(ui, cx, &mut self.dock, &mut self.dialogs, &mut self.help);
+        });
+        let frame = egui::Frame::new().fill(cx.tones.line);
+        egui::CentralPanel::default().frame(frame).show(ui, |ui| self.dock.show(ui, &mut self.panels, cx));
+        self.dialogs.show(ui, cx);
+        notices::show(ui, cx);
+        shortcuts::show_help(ui, cx, &mut self.help);
     }
 }
 

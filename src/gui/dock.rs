@@ -80,6 +80,27 @@ pub struct Panels {
     pub compare: ComparePanel,
 }
 
+impl Panels {
+    /// Shows one panel in all of `ui`.
+    pub fn show(&mut self, pane: Pane, ui: &mut Ui, cx: &mut Cx) {
+        let fill = match pane {
+            Pane::Image | Pane::Colours => cx.tones.background,
+            _ => cx.tones.panel,
+        };
+        ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
+        match pane {
+            Pane::Image => self.image.show(ui, cx),
+            Pane::Colours => self.cube.show(ui, cx),
+            Pane::Plane => self.plane.show(ui, cx),
+            Pane::Profile => self.profile.show(ui, cx),
+            Pane::Parameters => parameters::show(ui, cx),
+            Pane::Regions => self.regions.show(ui, cx),
+            Pane::Selection => self.selection.show(ui, cx),
+            Pane::Compare => self.compare.show(ui, cx),
+        }
+    }
+}
+
 /// The tree of panels that a person arranges.
 pub struct Dock {
     tree: Tree<Pane>,
@@ -175,22 +196,7 @@ struct Shown<'a, 'b> {
 
 impl Behavior<Pane> for Shown<'_, '_> {
     fn pane_ui(&mut self, ui: &mut Ui, _id: TileId, pane: &mut Pane) -> UiResponse {
-        let (panels, cx) = (&mut *self.panels, &mut *self.cx);
-        let fill = match pane {
-            Pane::Image | Pane::Colours => cx.tones.background,
-            _ => cx.tones.panel,
-        };
-        ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
-        match pane {
-            Pane::Image => panels.image.show(ui, cx),
-            Pane::Colours => panels.cube.show(ui, cx),
-            Pane::Plane => panels.plane.show(ui, cx),
-            Pane::Profile => panels.profile.show(ui, cx),
-            Pane::Parameters => parameters::show(ui, cx),
-            Pane::Regions => panels.regions.show(ui, cx),
-            Pane::Selection => panels.selection.show(ui, cx),
-            Pane::Compare => panels.compare.show(ui, cx),
-        }
+        self.panels.show(*pane, ui, self.cx);
         UiResponse::None
     }
 

@@ -4,7 +4,7 @@ use super::dock::{Dock, Pane};
 use super::files::{Dialogs, Question};
 use super::shortcuts::{Deed, keys_of};
 use super::{Cx, status};
-use crate::segment::Method;
+use crate::segment::{Method, Preset};
 use crate::truth::sample;
 use crate::workbench::{Command, Origin, Theme};
 use egui::{Button, Ui};
@@ -128,6 +128,14 @@ fn analyse(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
             cx.send(Command::SetMethod(choice));
         }
     }
+    ui.menu_button("Presets of table 6", |ui| {
+        for preset in Preset::ALL {
+            let tip = "The paper's method with the numbers of this column of table 6 (section 7.3).";
+            if ui.button(preset.title()).on_hover_text(tip).clicked() {
+                cx.send(Command::SetParams(Box::new(preset.params())));
+            }
+        }
+    });
     if ui.button("Load parameters\u{2026}").clicked() {
         dialogs.ask(Question::LoadParameters);
     }

@@ -7,11 +7,17 @@ use crate::workbench::{Command, Gesture};
 use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Slider, Ui, vec2};
 
 /// Width of the labels' column, points.
-const LABEL_PT: f32 = 104.0;
-/// Width of value and unit.
-const VALUE_PT: f32 = 74.0;
+const LABEL_PT: f32 = 100.0;
+/// Width of a typed value.
+const VALUE_PT: f32 = 46.0;
+/// Width of its unit.
+const UNIT_PT: f32 = 38.0;
 /// Width of the `auto` button.
 const AUTO_PT: f32 = 38.0;
+/// Height of a row.
+const ROW_PT: f32 = 20.0;
+/// Between the columns.
+const GAP_PT: f32 = 4.0;
 
 /// Shows the panel.
 pub fn show(ui: &mut Ui, cx: &mut Cx) {
@@ -32,7 +38,6 @@ fn method(ui: &mut Ui, cx: &mut Cx) {
     ui.horizontal(|ui| {
         label(
             ui,
-            cx,
             "method",
             "Refined: the paper's algorithm with switches below. Paper: as written in 1990 (section 5).",
         );
@@ -56,15 +61,54 @@ fn method(ui: &mut Ui, cx: &mut Cx) {
     ui.add_space(4.0);
 }
 
-fn label(ui: &mut Ui, cx: &Cx, text: &str, tip: &str) -> egui::Response {
+fn label(ui: &mut Ui, text: &str, tip: &str) -> egui::Response {
     let size = vec2(LABEL_PT, ui.spacing().interact_size.y);
     let layout = Layout::left_to_right(Align::Center);
     ui.allocate_ui_with_layout(size, layout, |ui| {
         ui.set_min_width(LABEL_PT);
-        ui.add(egui::Label::new(RichText::new(text).color(cx.tones.text)).truncate())
+        ui.add(egui::Label::new(text).truncate())
     })
     .inner
     .on_hover_text(tip)
+}
+
+/// The cells of a row, the same in every row.
+struct Columns {
+    label: Cell,
+    rail: Cell,
+    value: Cell,
+    unit: Cell,
+    auto: Cell,
+}
+
+struct Cell(egui::Rect);
+
+impl Cell {
+    fn show(&self, ui: &mut Ui, widget: impl egui::Widget) -> egui::Response {
+        let layout = Layout::left_to_right(Align::Center);
+        let builder = egui::UiBuilder::new().max_rect(self.0).layout(layout);
+        ui.scope_builder(builder, |ui| ui.add(widget)).inner
+    }
+}
+
+impl Columns {
+    fn of(ui: &mut Ui) -> Self {
+        let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_PT), egui::Sense::hover());
+        let mut left = row.left();
+        let rail = (row.width() - LABEL_PT - VALUE_PT - UNIT_PT - AUTO_PT - 4.0 * GAP_PT).max(40.0);
+        let mut cell = |width: f32| {
+            let rect = egui::Rect::from_min_size(egui::pos2(left, row.top()), vec2(width, row.height()));
+            left += width + GAP_PT;
+            Cell(rect)
+        };
+        Self {
+            label: cell(LABEL_PT),
+            rail: cell(rail),
+            value: cell(VALUE_PT),
+            unit: cell(UNIT_PT),
+            auto: cell(AUTO_PT),
+        }
+    }
 }
 
 /// What a slider needs beyond the parameter's own specification: the range of the hand, and the paper's section.
@@ -102,33 +146,37 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
         "{}: {}.\nPaper, table 6: {} {}. Double-click: back to the default. ({})",
         spec.name, spec.meaning, spec.paper, spec.unit, feel.section
     );
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
-        let name = label(ui, cx, feel.title, &tip);
-        let rail = (ui.available_width() - VALUE_PT - AUTO_PT - 12.0).max(40.0);
-        ui.spacing_mut().slider_width = rail;
+    let columns = Columns::of(ui);
+    ui.scope(|ui| {
+        let name = columns.label.show(ui, egui::Label::new(feel.title).truncate()).on_hover_text(&tip);
+        ui.spacing_mut().slider_width = columns.rail.0.width();
         let slider = Slider::new(&mut value, feel.range.clone())
             .show_value(false)
             .step_by(feel.step)
             .logarithmic(feel.logarithmic)
-            .clamping(egui::SliderClamping::Never)
-            .text("");
-        let slider = ui.add(slider).on_hover_text(&tip);
-        slider.widget_info(|| egui::WidgetInfo::slider(ui.is_enabled(), value, feel.title));
+            .clamping(egui::SliderClamping::Never);
+        let slider = columns.rail.show(ui, slider).on_hover_text(&tip);
+        slider.widget_info(|| egui::WidgetInfo::slider(true, value, feel.title));
         let decimals = usize::from(feel.step < 1.0) * 2;
         let typed = DragValue::new(&mut value)
             .speed(feel.step)
             .range(spec.range.0..=spec.range.1)
-            .max_decimals(decimals)
-            .min_decimals(decimals.min(1));
-        let typed = ui.add_sized(vec2(44.0, 18.0), typed).on_hover_text(&tip);
+            .fixed_decimals(decimals);
+        let typed = ui.put(columns.value.0, typed).on_hover_text(&tip);
+        typed.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, spec.name));
         let unit = RichText::new(spec.unit).size(SMALL_PT).color(cx.tones.quiet);
-        ui.add_sized(vec2(VALUE_PT - 44.0, 18.0), egui::Label::new(unit).truncate());
+        columns.unit.show(ui, egui::Label::new(unit).truncate());
         let automatic = setting == Setting::Auto;
-        let auto = ui.add_sized(
-            vec2(AUTO_PT, 18.0),
-            Button::selectable(automatic, RichText::new("auto").size(SMALL_PT)),
-        );
+        let auto = Button::selectable(automatic, RichText::new("auto").size(SMALL_PT));
+        let auto = ui.put(columns.auto.0, auto);
+        auto.widget_info(|| {
+            egui::WidgetInfo::selected(
+                egui::accesskit::Role::CheckBox,
+                true,
+                automatic,
+                format!("{} auto", feel.title),
+            )
+        });
         let auto = auto.on_hover_text("Estimated from the image; the slider shows what was used.");
         if name.double_clicked() || slider.double_clicked() {
             let default = Params::of(cx.state.document.params.method).get(parameter);
@@ -150,16 +198,77 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
 /// The pinned illuminant and the outlined area.
 fn by_hand(ui: &mut Ui, cx: &mut Cx) {
     widgets::heading(ui, cx.tones, "By hand");
-    if let Some(area) = &cx.state.document.area {
-        let pixels = area.as_slice().iter().filter(|&&inside| inside).count();
-        ui.horizontal(|ui| {
-            label(ui, cx, "area", "Only these pixels are analysed; the others stay as they are.");
-            ui.label(format!("{pixels} px"));
-            if ui.small_button("Whole picture").clicked() {
-                cx.send(Command::RestrictTo(None));
+    illuminant(ui, cx);
+    let (area, marked) = (&cx.state.document.area, &cx.state.document.selection.marked);
+    ui.horizontal(|ui| {
+        label(ui, "area", "Only these pixels are analysed; the others stay as they are.");
+        match area {
+            Some(area) => {
+                let pixels = area.as_slice().iter().filter(|&&inside| inside).count();
+                ui.label(format!("{} px", widgets::grouped(pixels)));
+            }
+            None => {
+                ui.label(RichText::new("whole picture").color(cx.tones.quiet));
+            }
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if area.is_some() {
+                if ui.small_button("Lift").on_hover_text("Analyse the whole picture again.").clicked() {
+                    cx.out.push(Command::RestrictTo(None));
+                }
+            } else {
+                let take = ui.add_enabled(marked.is_some(), Button::new("To marked").small());
+                let tip = "Analyse only the marked pixels. Mark some with a tool of the image view.";
+                if take.on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
+                    cx.out.push(Command::RestrictTo(marked.clone()));
+                }
             }
         });
-    }
+    });
+}
+
+/// The light: the one found, or one that is given and turns every plane to it.
+fn illuminant(ui: &mut Ui, cx: &mut Cx) {
+    let given = cx.state.document.params.illuminant.direction();
+    let found =
+        cx.state.newest.as_ref().and_then(|shown| shown.analysis.illuminant).map(|light| light.direction);
+    let tip =
+        "The colour of the light. Found, or given: then every dichromatic plane turns to it (section 5.4).";
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP_PT;
+        label(ui, "illuminant", tip);
+        let mut direction = given.or(found).unwrap_or([1.0, 1.0, 1.0].map(|v: f64| v / 3f64.sqrt()));
+        let mut changed = false;
+        let mut rested = false;
+        for (value, band) in direction.iter_mut().zip(["red", "green", "blue"]) {
+            let field = DragValue::new(value).range(0.0..=1.0).speed(0.002).fixed_decimals(3);
+            let field = ui.add_sized(vec2(VALUE_PT, 18.0), field);
+            field.widget_info(|| {
+                let name = format!("illuminant {band}");
+                egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, name)
+            });
+            let field = field.on_hover_text(tip);
+            changed |= field.changed();
+            rested |= field.drag_stopped() || field.lost_focus();
+        }
+        if changed {
+            cx.send(Command::PinIlluminant(Some(direction), Some(Gesture::Illuminant)));
+        }
+        if rested {
+            cx.send(Command::EndGesture);
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let pin = Button::selectable(given.is_some(), RichText::new("pin").size(SMALL_PT));
+            let pin = ui.add_enabled(given.is_some() || found.is_some(), pin);
+            pin.widget_info(|| {
+                let role = egui::accesskit::Role::CheckBox;
+                egui::WidgetInfo::selected(role, true, given.is_some(), "pin illuminant")
+            });
+            if pin.on_hover_text("Keep this light, or let it be found again.").clicked() {
+                cx.send(Command::PinIlluminant(if given.is_some() { None } else { found }, None));
+            }
+        });
+    });
 }
 
 fn switches(ui: &mut Ui, cx: &mut Cx) {

@@ -1,14 +1,260 @@
-//! To be filled.
+//! The regions as a table, and the light beside it.
 
+use super::theme::{SMALL_PT, Tones};
 use super::{Cx, widgets};
+use crate::intrinsic::RegionReflection;
+use crate::workbench::{Command, Item, Shown, regions_text};
+use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
+use egui_extras::{Column, TableBuilder, TableRow};
 
-/// The panel.
+/// Height of a row, points.
+const ROW_PT: f32 = 18.0;
+
+/// What the rows are sorted by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Key {
+    #[default]
+    Id,
+    Pixels,
+    Body,
+    Surface,
+    Angle,
+    Highlight,
+    Rms,
+    Warnings,
+}
+
+/// A column: key, title, width in points, tooltip.
+const COLUMNS: [(Key, &str, f32, &str); 8] = [
+    (Key::Id, "#", 40.0, "The region's number; its colour is that of the Regions layer."),
+    (Key::Pixels, "pixels", 52.0, "All its pixels, restored ones included."),
+    (
+        Key::Body,
+        "body C_b",
+        96.0,
+        "Body reflection vector: unit direction of the matte line through black, red green blue (section 2.2, 6).",
+    ),
+    (
+        Key::Surface,
+        "surface C_s",
+        96.0,
+        "Surface reflection vector: unit direction of the highlight line, the colour of the light (section 2.2, 6).",
+    ),
+    (
+        Key::Angle,
+        "angle",
+        48.0,
+        "Between body and surface vector: the smaller it is, the harder they are to tell apart (section 5.6).",
+    ),
+    (
+        Key::Highlight,
+        "highlight",
+        58.0,
+        "Pixels nearer to the highlight line than to the matte line, restored ones included (section 6).",
+    ),
+    (
+        Key::Rms,
+        "rms",
+        44.0,
+        "Root mean square distance of its undistorted pixels from its dichromatic plane, counts (section 6).",
+    ),
+    (Key::Warnings, "notes", 60.0, "What to beware of in this region."),
+];
+
+/// The regions table.
 #[derive(Default)]
-pub struct RegionsPanel;
+pub struct RegionsPanel {
+    key: Key,
+    descending: bool,
+}
 
 impl RegionsPanel {
-    /// Shows it.
-    pub fn show(&mut self, ui: &mut egui::Ui, cx: &mut Cx) {
-        widgets::nothing(ui, cx.tones, "RegionsPanel");
+    /// Shows the table.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+        let Some(shown) = cx.state.shown().cloned() else {
+            return widgets::nothing(ui, cx.tones, "Regions appear when a photograph has been analysed.");
+        };
+        egui::Frame::new().inner_margin(egui::Margin::symmetric(8, 4)).show(ui, |ui| {
+            light(ui, cx, &shown);
+            if shown.analysis.intrinsic.regions.is_empty() {
+                let reason = shown.analysis.warnings.first().map_or("No region was found.", String::as_str);
+                return widgets::nothing(ui, cx.tones, reason);
+            }
+            egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| self.table(ui, cx, &shown));
+        });
     }
+
+    fn table(&mut self, ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
+        ui.spacing_mut().item_spacing = egui::vec2(6.0, 1.0);
+        let selected = cx.state.selected_region();
+        let order = self.order(&shown.analysis.intrinsic.regions);
+        let mut hovered = None;
+        let mut table = TableBuilder::new(ui).striped(false).sense(Sense::click()).resizable(false);
+        for (_, _, width, _) in COLUMNS {
+            table = table.column(Column::exact(width));
+        }
+        if let Some(row) =
+            selected.and_then(|id| order.iter().position(|&index| index + 1 == usize::from(id)))
+        {
+            table = table.scroll_to_row(row, None);
+        }
+        table
+            .header(ROW_PT, |mut header| {
+                for (key, title, _, tip) in COLUMNS {
+                    header.col(|ui| self.heading(ui, cx.tones, key, title, tip));
+                }
+            })
+            .body(|body| {
+                body.rows(ROW_PT, order.len(), |mut row| {
+                    let region = &shown.analysis.intrinsic.regions[order[row.index()]];
+                    row.set_selected(selected == Some(region.id));
+                    cells(&mut row, cx.tones, region, shown);
+                    let response = row.response();
+                    if response.hovered() {
+                        hovered = Some(Item::Region(region.id));
+                    }
+                    if response.clicked() {
+                        let chosen = (selected != Some(region.id)).then_some(Item::Region(region.id));
+                        cx.out.push(Command::Select(chosen));
+                    }
+                });
+            });
+        let ours = ui.rect_contains_pointer(ui.max_rect());
+        if ours && hovered != cx.state.hover {
+            cx.send(Command::Hover(hovered));
+        }
+    }
+
+    fn heading(&mut self, ui: &mut Ui, tones: &Tones, key: Key, title: &str, tip: &str) {
+        let chosen = self.key == key;
+        let arrow = match (chosen, self.descending) {
+            (false, _) => "",
+            (true, false) => " \u{2191}",
+            (true, true) => " \u{2193}",
+        };
+        let tone = if chosen { tones.text } else { tones.quiet };
+        let text = RichText::new(format!("{title}{arrow}")).size(SMALL_PT).color(tone);
+        ui.with_layout(layout_of(key), |ui| {
+            let response = ui.add(Button::new(text).frame(false)).on_hover_text(tip);
+            if response.clicked() {
+                // Numbers are asked for from the largest on, names from the first.
+                self.descending = if chosen { !self.descending } else { !matches!(key, Key::Id) };
+                self.key = key;
+            }
+        });
+    }
+
+    /// Indices of the regions in the order of the rows.
+    fn order(&self, regions: &[RegionReflection]) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..regions.len()).collect();
+        let value = |region: &RegionReflection| match self.key {
+            Key::Id => f64::from(region.id),
+            Key::Pixels => region.pixels as f64,
+            Key::Body => hue_rad(region.body),
+            Key::Surface => region.surface.map_or(-10.0, hue_rad),
+            Key::Angle => region.angle_deg.unwrap_or(-1.0),
+            Key::Highlight => region.highlight_pixels as f64,
+            Key::Rms => region.fit_rms_counts,
+            Key::Warnings => region.warnings.len() as f64,
+        };
+        order.sort_by(|&a, &b| {
+            let by_value = value(&regions[a]).total_cmp(&value(&regions[b]));
+            if self.descending { by_value.reverse() } else { by_value }.then(a.cmp(&b))
+        });
+        order
+    }
+}
+
+/// Angle around the grey diagonal: what sorts colours as a person would.
+fn hue_rad([r, g, b]: [f64; 3]) -> f64 {
+    (3f64.sqrt() * (g - b)).atan2(2.0 * r - g - b)
+}
+
+fn layout_of(key: Key) -> Layout {
+    match key {
+        Key::Id | Key::Body | Key::Surface | Key::Warnings => Layout::left_to_right(Align::Center),
+        _ => Layout::right_to_left(Align::Center),
+    }
+}
+
+fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &Shown) {
+    let none = || RichText::new("\u{2013}").color(tones.quiet);
+    let plain = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).selectable(false));
+    cell(row, |ui| {
+        let colour = shown.region_colours.get(usize::from(region.id) - 1).copied().unwrap_or([128; 3]);
+        widgets::chip(ui, widgets::colour(colour), &format!("colour of region {}", region.id));
+        plain(ui, RichText::new(region.id.to_string()));
+    });
+    let number = |row: &mut TableRow, text: RichText| {
+        row.col(|ui| {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| plain(ui, text));
+        });
+    };
+    number(row, RichText::new(widgets::grouped(region.pixels)));
+    cell(row, |ui| vector(ui, tones, Some(region.body)));
+    cell(row, |ui| vector(ui, tones, region.surface));
+    number(row, region.angle_deg.map_or_else(none, |angle| RichText::new(format!("{angle:.1}\u{b0}"))));
+    let highlight = (region.highlight_pixels > 0).then(|| widgets::grouped(region.highlight_pixels));
+    number(row, highlight.map_or_else(none, RichText::new));
+    number(row, RichText::new(format!("{:.2}", region.fit_rms_counts)));
+    cell(row, |ui| {
+        if !region.warnings.is_empty() {
+            let text = RichText::new(format!("{}", region.warnings.len())).color(tones.accent);
+            plain(ui, text).on_hover_text(region.warnings.join("\n"));
+        }
+    });
+}
+
+/// A cell whose contents stand in a line.
+fn cell(row: &mut TableRow, contents: impl FnOnce(&mut Ui)) {
+    row.col(|ui| {
+        ui.horizontal_centered(contents);
+    });
+}
+
+/// A unit vector as three aligned columns after a chip of its colour.
+fn vector(ui: &mut Ui, tones: &Tones, vector: Option<[f64; 3]>) {
+    ui.spacing_mut().item_spacing.x = 4.0;
+    let Some(vector) = vector else {
+        ui.label(RichText::new("\u{2013}").color(tones.quiet));
+        return;
+    };
+    widgets::chip(ui, shade(vector), "its colour");
+    for value in vector {
+        ui.add(Label::new(RichText::new(format!("{value:.2}").replace("0.", "."))).selectable(false));
+    }
+}
+
+/// A direction as the brightest colour that it points to.
+fn shade(direction: [f64; 3]) -> Color32 {
+    let most = direction.iter().fold(1e-9f64, |most, &v| most.max(v));
+    let [r, g, b] = direction.map(|v| (v / most).max(0.0) as f32);
+    egui::Rgba::from_rgb(r, g, b).into()
+}
+
+/// The light's colour, what it rests on, and how far it is from the truth.
+fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 6.0;
+        let tip =
+            "The colour of the light: where the dichromatic planes of all objects intersect (section 5.4).";
+        ui.label(RichText::new("light").color(cx.tones.quiet)).on_hover_text(tip);
+        match &shown.analysis.illuminant {
+            Some(light) => {
+                let objects = if light.objects == 1 { "object" } else { "objects" };
+                vector(ui, cx.tones, Some(light.direction));
+                let from = format!("from {} {objects}", light.objects);
+                ui.label(RichText::new(from).size(SMALL_PT).color(cx.tones.quiet));
+            }
+            None => {
+                ui.label("unknown: no highlight was found");
+            }
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let copy = ui.small_button("Copy").on_hover_text("The table as text, separated by tabs.");
+            if copy.clicked() {
+                ui.ctx().copy_text(regions_text(shown));
+            }
+        });
+    });
 }

@@ -57,6 +57,15 @@ pub const BODY_PT: f32 = 12.5;
 /// Size of headers and notes, points.
 pub const SMALL_PT: f32 = 11.0;
 
+/// The bundled family, with arrows and mathematical signs from the monospaced one.
+pub fn load_fonts(ctx: &egui::Context) {
+    let mut fonts = egui::FontDefinitions::default();
+    if let Some(family) = fonts.families.get_mut(&FontFamily::Proportional) {
+        family.push("Hack".to_owned());
+    }
+    ctx.set_fonts(fonts);
+}
+
 /// Gives the whole context the look of `theme`.
 pub fn apply(ctx: &egui::Context, theme: Theme) {
     let tones = Tones::of(theme);

@@ -207,6 +207,9 @@ impl Images {
             images.kinds.as_mut_slice().par_chunks_mut(width.max(1)),
         );
         rows.into_par_iter().enumerate().for_each(|(y, (body, surface, noise, kinds))| {
+            if scene.stopped() {
+                return;
+            }
             for (x, &label) in regions.labels.row(y).iter().enumerate() {
                 if label == UNASSIGNED || scene.masks.distorted(y * width + x) {
                     continue;

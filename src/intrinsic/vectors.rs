@@ -5,7 +5,7 @@
 //!
 //! Refined: the body vector is the direction from black in which the matte pixels lie, found from the outer edge of the
 //! cluster inward by mean shift (`edge_body`, rough surfaces .87° → .54°); the surface vector is the scene's illuminant
-//! (`scene_illuminant`, +5.7 dB body, +7.6 dB surface).
+//! (`scene_illuminant`, +5.7 dB body, +7.6 dB surface). A given illuminant is the surface vector under the paper's method too.
 
 use crate::color::{Line, Moments, Vec3, dot, rgb, vec3};
 use crate::photo::Masks;
@@ -42,7 +42,7 @@ pub fn fit_vectors(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: Pixels)
         Line::principal(&matte_moments).map_or(hypothesis.matte.direction, |line| line.direction)
     };
     let surface = hypothesis.plane.map(|plane| {
-        if scene.refine.scene_illuminant {
+        if scene.refine.scene_illuminant || scene.used.illuminant.is_some() {
             return plane.surface;
         }
         let own = Line::principal(&highlight.iter().copied().collect()).filter(|_| highlight.len() > 2);
@@ -171,6 +171,7 @@ mod tests {
             slice_width: paper(Parameter::SliceWidth),
             window_size: paper(Parameter::WindowSize),
             min_area: paper(Parameter::MinArea),
+            illuminant: None,
         }
     }
 

@@ -1,4 +1,5 @@
-//! Which pixels to believe (section 4): dark, clipped, bloomed and invalid ones are marked.
+//! Which pixels to believe (section 4): dark, clipped, bloomed and invalid ones are marked, and those outside an area that
+//! the analysis is restricted to.
 
 use super::LinearImage;
 use crate::color::dot;
@@ -26,6 +27,7 @@ const DARK: u8 = 1;
 const CLIPPED: u8 = 2;
 const BLOOMED: u8 = 4;
 const INVALID: u8 = 8;
+const OUTSIDE: u8 = 16;
 
 impl Masks {
     /// Marks the pixels of `image`.
@@ -50,16 +52,34 @@ impl Masks {
         Self { flags }
     }
 
-    /// Whether the colour can be believed: neither dark nor distorted.
+    /// Marks the pixels outside `area`, a mask of the same shape, as not to be analysed. Clipped ones among them still
+    /// bloom into the area.
+    #[must_use]
+    pub fn within(mut self, area: &Mask) -> Self {
+        debug_assert_eq!(area.len(), self.flags.len(), "the caller holds the area against the image");
+        for (flag, &inside) in self.flags.as_mut_slice().iter_mut().zip(area.as_slice()) {
+            *flag |= u8::from(!inside) * OUTSIDE;
+        }
+        self
+    }
+
+    /// Whether the colour can be believed: inside the area, and neither dark nor distorted.
     #[inline]
     pub fn usable(&self, pixel: usize) -> bool {
         self.flags[pixel] == 0
     }
 
-    /// Whether the pixel is too dark, or holds no value at all.
+    /// Whether there is nothing to analyse: the pixel is too dark, holds no value at all, or lies outside the area. All
+    /// other pixels are lit.
     #[inline]
     pub fn dark(&self, pixel: usize) -> bool {
-        self.flags[pixel] & (DARK | INVALID) != 0
+        self.flags[pixel] & (DARK | INVALID | OUTSIDE) != 0
+    }
+
+    /// Whether the pixel lies outside the area that the analysis is restricted to.
+    #[inline]
+    pub fn outside(&self, pixel: usize) -> bool {
+        self.flags[pixel] & OUTSIDE != 0
     }
 
     /// Whether a band is clipped.
@@ -130,6 +150,16 @@ mod tests {
         let masks = Masks::new(&image(&[13.0, 14.0, f32::NAN], 3), &limits(1));
         assert_eq!([0, 1, 2].map(|i| masks.dark(i)), [true, false, true]);
         assert!(masks.invalid(2) && !masks.usable(2));
+    }
+
+    #[test]
+    fn outside_the_area_nothing_is_lit_but_clipped_pixels_bloom_into_it() {
+        let area = Mask::from_vec(4, 1, vec![false, true, true, true]).unwrap();
+        let masks = Masks::new(&image(&[255.0, 99.0, 99.0, 5.0], 4), &limits(1)).within(&area);
+        assert_eq!([0, 1, 2, 3].map(|i| masks.outside(i)), [true, false, false, false]);
+        assert_eq!([0, 1, 2, 3].map(|i| masks.dark(i)), [true, false, false, true]);
+        assert_eq!([0, 1, 2, 3].map(|i| masks.usable(i)), [false, false, true, false]);
+        assert!(masks.clipped(0) && masks.distorted(1));
     }
 
     #[test]

@@ -29,7 +29,7 @@ pub use masks::{MaskLimits, Masks};
 pub use noise::estimate_sigma;
 pub use source::{AlphaKind, Layout, PngColour, Samples, Source};
 
-use crate::raster::Raster;
+use crate::raster::{Mask, Raster};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -85,6 +85,15 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Photo, ReadError> {
     identify(&bytes, &name)?;
     file.read_to_end(&mut bytes).map_err(io)?;
     decode(&bytes, &name, options)
+}
+
+/// Reads any picture as a mask, upright: what is not black is inside. Its tone curve does not matter.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_mask(path: &Path, options: &ReadOptions) -> Result<Mask, ReadError> {
+    let photo = read(path, &ReadOptions { encoding: EncodingChoice::Linear, ..*options })?;
+    Ok(photo.image.pixels.map(|color| color.iter().any(|&band| band > 0.0)))
 }
 
 /// Reads the photograph in `bytes`; `name_hint` is used in messages, and its extension is compared with the content.

@@ -3,9 +3,11 @@
 use super::scores::Scores;
 use crate::analysis::{Analysis, Stage};
 use crate::intrinsic::RegionReflection;
+use crate::photo::Photo;
 use crate::raster::UNASSIGNED;
-use crate::segment::{Method, Parameter, Params, Refine, Setting, UsedParams};
+use crate::segment::{IlluminantSetting, Method, Parameter, Params, Refine, Setting};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// Version of the schema; it rises when a field changes its name or its meaning.
 pub const SCHEMA: u32 = 1;
@@ -19,13 +21,16 @@ pub struct Report {
     pub program: String,
     /// The file and how it was read.
     pub image: ImageFacts,
+    /// The area that the analysis was restricted to, if it was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area: Option<AreaFacts>,
     /// What was asked for and what was used.
     pub params: ParamsFacts,
     /// The colour of the light.
     pub illuminant: IlluminantFacts,
     /// The regions; region `id` of `regions.png` is at index `id − 1`.
     pub regions: Vec<RegionFacts>,
-    /// Pixels in no region.
+    /// Pixels in no region; of an area only those inside.
     pub unassigned_pixels: usize,
     /// What to beware of, in words: of the file first, then of the analysis.
     pub warnings: Vec<String>,
@@ -37,18 +42,22 @@ pub struct Report {
 }
 
 impl Report {
-    /// The report of one run. `file_warnings` come from reading the image; scores and timings are still empty.
+    /// The report of one run. `file_warnings` come from reading the image; area, scores and timings are still empty.
     pub fn new(image: ImageFacts, params: &Params, analysis: &Analysis, file_warnings: &[String]) -> Self {
         let labels = analysis.finals.labels.as_slice();
-        let unassigned = labels.iter().filter(|&&id| id == UNASSIGNED).count();
+        let is_unassigned =
+            |&(pixel, &id): &(usize, &u16)| id == UNASSIGNED && !analysis.masks.outside(pixel);
+        let unassigned = labels.iter().enumerate().filter(is_unassigned).count();
         Self {
             schema: SCHEMA,
             program: env!("CARGO_PKG_VERSION").to_owned(),
             image,
-            params: ParamsFacts::new(params, &analysis.used),
+            area: None,
+            params: ParamsFacts::new(params, analysis),
             illuminant: IlluminantFacts {
                 direction: analysis.illuminant.map(|light| light.direction),
                 objects: analysis.illuminant.map_or(0, |light| light.objects),
+                given: analysis.illuminant.is_some_and(|light| light.given),
             },
             regions: analysis.intrinsic.regions.iter().map(RegionFacts::from).collect(),
             unassigned_pixels: unassigned,
@@ -76,6 +85,30 @@ pub struct ImageFacts {
     pub full_scale: f64,
 }
 
+impl ImageFacts {
+    /// Of a photograph, and of the SHA-256 of its file.
+    pub fn of(photo: &Photo, sha256: &str) -> Self {
+        let file = Path::new(&photo.name).file_name().unwrap_or_default();
+        Self {
+            file: file.to_string_lossy().into_owned(),
+            sha256: sha256.to_owned(),
+            width: photo.image.width(),
+            height: photo.image.height(),
+            encoding: photo.encoding.to_string(),
+            full_scale: photo.full_scale,
+        }
+    }
+}
+
+/// The area that an analysis was restricted to.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AreaFacts {
+    /// Name of the mask's file, without folders.
+    pub file: String,
+    /// Pixels inside.
+    pub pixels: usize,
+}
+
 /// A parameter as it was asked for and as it was used.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ParameterFacts {
@@ -83,6 +116,15 @@ pub struct ParameterFacts {
     pub asked: Setting,
     /// The number that the run worked with; null where it was off (infinite).
     pub used: Option<f64>,
+}
+
+/// The light as it was asked for and as it was used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LightFacts {
+    /// Three numbers of any length, or `auto`.
+    pub asked: IlluminantSetting,
+    /// The unit vector that the run worked with; null where nothing in the image told of it.
+    pub used: Option<[f64; 3]>,
 }
 
 /// Method, parameters and refinements of a run.
@@ -98,14 +140,17 @@ pub struct ParamsFacts {
     pub slice_width: ParameterFacts,
     pub window_size: ParameterFacts,
     pub min_area: ParameterFacts,
+    /// Absent in reports of versions that could not be told the light.
+    #[serde(default)]
+    pub illuminant: LightFacts,
     /// The refinements in force: all off under the paper's method.
     pub refine: Refine,
 }
 
 impl ParamsFacts {
-    fn new(params: &Params, used: &UsedParams) -> Self {
+    fn new(params: &Params, analysis: &Analysis) -> Self {
         let facts = |parameter| {
-            let number = used.get(parameter);
+            let number = analysis.used.get(parameter);
             ParameterFacts { asked: params.get(parameter), used: number.is_finite().then_some(number) }
         };
         Self {
@@ -118,6 +163,10 @@ impl ParamsFacts {
             slice_width: facts(Parameter::SliceWidth),
             window_size: facts(Parameter::WindowSize),
             min_area: facts(Parameter::MinArea),
+            illuminant: LightFacts {
+                asked: params.illuminant,
+                used: analysis.illuminant.map(|light| light.direction),
+            },
             refine: params.refinements(),
         }
     }
@@ -128,8 +177,11 @@ impl ParamsFacts {
 pub struct IlluminantFacts {
     /// Unit vector; null where nothing in the image told of it.
     pub direction: Option<[f64; 3]>,
-    /// Number of regions whose highlights it rests on.
+    /// Number of regions whose highlights it rests on; 0 where it was given.
     pub objects: usize,
+    /// Whether it was given and not estimated.
+    #[serde(default)]
+    pub given: bool,
 }
 
 /// One region, as [`RegionReflection`] describes it.

@@ -7,7 +7,8 @@ mod facts;
 mod scores;
 
 pub use facts::{
-    IlluminantFacts, ImageFacts, ParameterFacts, ParamsFacts, RegionFacts, Report, SCHEMA, Timings,
+    AreaFacts, IlluminantFacts, ImageFacts, LightFacts, ParameterFacts, ParamsFacts, RegionFacts, Report,
+    SCHEMA, Timings,
 };
 pub use scores::Scores;
 
@@ -122,7 +123,7 @@ mod tests {
         assert_eq!(json["params"]["method"], "paper");
         assert_eq!(json["params"]["refine"]["all_seeds"], false, "the paper's method refines nothing");
         assert_eq!(json["unassigned_pixels"], 12);
-        assert_eq!(json["illuminant"], serde_json::json!({"direction": null, "objects": 0}));
+        assert_eq!(json["illuminant"], serde_json::json!({"direction": null, "objects": 0, "given": false}));
     }
 
     #[test]

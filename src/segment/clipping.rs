@@ -25,10 +25,15 @@ pub fn clipping_regions<R: Recorder>(scene: &Scene, planar: &PlanarRegions, reco
         let is_highlight = |&pixel: &u32| highlight.is_highlight(scene.pixels[pixel as usize]);
         let mut front: Vec<u32> = members.region(id).iter().filter(is_highlight).collect();
         let start2 = hypothesis.start.norm_squared() as f32;
-        ledger.grow(id, &mut front, |_, pixel, holder| {
-            let color = scene.pixels[pixel];
-            holder == UNASSIGNED && !scene.masks.dark(pixel) && dot(color, color) > start2
-        });
+        ledger.grow(
+            id,
+            &mut front,
+            || scene.stopped(),
+            |_, pixel, holder| {
+                let color = scene.pixels[pixel];
+                holder == UNASSIGNED && !scene.masks.dark(pixel) && dot(color, color) > start2
+            },
+        );
     }
     let clipped = |pixel: usize| scene.masks.distorted(pixel) && !scene.masks.dark(pixel);
     fill(&mut ledger, clipped, |_, share| share >= SURROUNDED);

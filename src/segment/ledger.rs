@@ -3,6 +3,9 @@
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::trace::Recorder;
 
+/// So many pixels are grown from between two questions whether to stop: about a millisecond.
+const PIXELS_PER_POLL: usize = 1 << 16;
+
 /// The label map while it grows, and the recorder that is told of each claim.
 pub struct Ledger<'a, R: Recorder> {
     /// Region of each pixel.
@@ -31,11 +34,12 @@ impl<'a, R: Recorder> Ledger<'a, R> {
 
     /// Grows a region from the pixels in `front`, 4-connected and ring by ring: each neighbour that is not the region's
     /// is claimed when `accept(recorder, pixel, holder)` says so. Seeds must be the region's already. Claimed pixels are
-    /// appended to `front`, in order.
+    /// appended to `front`, in order. Gives up soon after `stop` turns true.
     pub fn grow(
         &mut self,
         region: u16,
         front: &mut Vec<u32>,
+        stop: impl Fn() -> bool,
         mut accept: impl FnMut(&mut R, usize, u16) -> bool,
     ) {
         let (width, len) = (self.labels.width(), self.labels.len());
@@ -43,6 +47,9 @@ impl<'a, R: Recorder> Ledger<'a, R> {
         while next < front.len() {
             let (pixel, x) = (front[next] as usize, (front[next] % width as u32) as usize);
             next += 1;
+            if next % PIXELS_PER_POLL == 0 && stop() {
+                return;
+            }
             let mut visit = |near: usize| {
                 let holder = self.labels[near];
                 if holder != region && accept(self.recorder, near, holder) {
@@ -192,7 +199,7 @@ mod tests {
         let mut ledger = Ledger::new(LabelMap::filled(3, 3, 0), &mut log);
         let mut front = vec![4];
         ledger.assign(4, 1);
-        ledger.grow(1, &mut front, |_, pixel, _| pixel != 0);
+        ledger.grow(1, &mut front, || false, |_, pixel, _| pixel != 0);
         assert_eq!(front, [4, 1, 3, 5, 7, 2, 6, 8]);
         assert_eq!(ledger.labels.as_slice(), [0, 1, 1, 1, 1, 1, 1, 1, 1]);
         let end = ledger.labels.clone();

@@ -212,28 +212,33 @@ fn grow_cylinder<R: Recorder>(
     ledger: &mut Ledger<R>,
 ) {
     let own = cylinders[usize::from(region) - 1];
-    ledger.grow(region, claimed, |recorder, pixel, holder| {
-        let color = scene.pixels[pixel];
-        if !scene.claimable(pixel) || !own.contains(color) {
-            return false;
-        }
-        if holder == UNASSIGNED {
-            return true;
-        }
-        let (mine, theirs) = (own.distance2(color), cylinders[usize::from(holder) - 1].distance2(color));
-        let taken = mine < theirs;
-        if R::KEEPS {
-            recorder.record(Event::Conflict {
-                pixel: pixel as u32,
-                holder,
-                challenger: region,
-                holder_distance: f64::from(theirs).sqrt(),
-                challenger_distance: f64::from(mine).sqrt(),
-                taken,
-            });
-        }
-        taken
-    });
+    ledger.grow(
+        region,
+        claimed,
+        || scene.stopped(),
+        |recorder, pixel, holder| {
+            let color = scene.pixels[pixel];
+            if !scene.claimable(pixel) || !own.contains(color) {
+                return false;
+            }
+            if holder == UNASSIGNED {
+                return true;
+            }
+            let (mine, theirs) = (own.distance2(color), cylinders[usize::from(holder) - 1].distance2(color));
+            let taken = mine < theirs;
+            if R::KEEPS {
+                recorder.record(Event::Conflict {
+                    pixel: pixel as u32,
+                    holder,
+                    challenger: region,
+                    holder_distance: f64::from(theirs).sqrt(),
+                    challenger_distance: f64::from(mine).sqrt(),
+                    taken,
+                });
+            }
+            taken
+        },
+    );
 }
 
 /// The areas that may still become hypotheses, with the number of pixels that no region has claimed.

@@ -4,8 +4,8 @@
 //! all of them need to know. Values are in counts, 255 = full scale, whatever the depth of the file.
 
 use super::refine::Refine;
+use super::setting::{IlluminantSetting, Setting};
 use serde::{Deserialize, Serialize};
-use std::fmt;
 
 /// Which algorithm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -16,84 +16,6 @@ pub enum Method {
     Refined,
     /// The algorithm as written in 1990, its weaknesses included.
     Paper,
-}
-
-/// A parameter's value, or the wish that it be estimated from the image.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Setting {
-    /// Estimated from the image; the report says what was used.
-    Auto,
-    /// This number.
-    Value(f64),
-}
-
-impl Setting {
-    /// The number, if one was given.
-    pub fn value(self) -> Option<f64> {
-        match self {
-            Self::Auto => None,
-            Self::Value(value) => Some(value),
-        }
-    }
-}
-
-impl fmt::Display for Setting {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Auto => f.write_str("auto"),
-            Self::Value(value) => write!(f, "{value}"),
-        }
-    }
-}
-
-impl std::str::FromStr for Setting {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        if text == "auto" {
-            return Ok(Self::Auto);
-        }
-        text.parse().map(Self::Value).map_err(|_| format!("{text:?} is neither a number nor `auto`"))
-    }
-}
-
-impl Serialize for Setting {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match *self {
-            Self::Auto => serializer.serialize_str("auto"),
-            Self::Value(value) => serializer.serialize_f64(value),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for Setting {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Visitor;
-        impl serde::de::Visitor<'_> for Visitor {
-            type Value = Setting;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a number or \"auto\"")
-            }
-
-            fn visit_f64<E>(self, value: f64) -> Result<Setting, E> {
-                Ok(Setting::Value(value))
-            }
-
-            fn visit_i64<E>(self, value: i64) -> Result<Setting, E> {
-                Ok(Setting::Value(value as f64))
-            }
-
-            fn visit_u64<E>(self, value: u64) -> Result<Setting, E> {
-                Ok(Setting::Value(value as f64))
-            }
-
-            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Setting, E> {
-                text.parse().map_err(E::custom)
-            }
-        }
-        deserializer.deserialize_any(Visitor)
-    }
 }
 
 /// The eight control parameters of table 6.
@@ -233,6 +155,8 @@ pub struct Params {
     pub slice_width: Setting,
     pub window_size: Setting,
     pub min_area: Setting,
+    /// The colour of the light: estimated, or given.
+    pub illuminant: IlluminantSetting,
     pub refine: Refine,
 }
 
@@ -262,6 +186,7 @@ impl Params {
             slice_width: paper(Parameter::SliceWidth),
             window_size: paper(Parameter::WindowSize),
             min_area: paper(Parameter::MinArea),
+            illuminant: IlluminantSetting::Auto,
             refine: Refine::default(),
         }
     }
@@ -301,7 +226,7 @@ impl Params {
         }
     }
 
-    /// Every number finite, in range and whole where it must be.
+    /// Every number finite, in range and whole where it must be, and the light a colour.
     ///
     /// # Errors
     /// The first parameter that is not, with its value and what was expected.
@@ -311,10 +236,15 @@ impl Params {
             let Setting::Value(value) = self.get(parameter) else { continue };
             let inside = (spec.range.0..=spec.range.1).contains(&value);
             if !inside || (spec.whole && value.fract() != 0.0) {
-                return Err(InvalidParameter { spec, value });
+                return Err(InvalidParameter::Number { spec, value });
             }
         }
-        Ok(())
+        match self.illuminant {
+            IlluminantSetting::Given(colour) if self.illuminant.direction().is_none() => {
+                Err(InvalidParameter::Illuminant(colour))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -330,6 +260,8 @@ pub struct UsedParams {
     pub slice_width: f64,
     pub window_size: f64,
     pub min_area: f64,
+    /// Direction of the light where it was given, unit; none: the image is asked.
+    pub illuminant: Option<[f64; 3]>,
 }
 
 impl UsedParams {
@@ -358,15 +290,21 @@ impl UsedParams {
     }
 }
 
-/// A parameter outside its range.
+/// A parameter that makes no sense.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{} = {value}: expected `auto` or a {} from {} to {} {}", spec.name,
-    if spec.whole { "whole number" } else { "number" }, spec.range.0, spec.range.1, spec.unit)]
-pub struct InvalidParameter {
-    /// The parameter.
-    pub spec: ParameterSpec,
-    /// The value that it does not accept.
-    pub value: f64,
+pub enum InvalidParameter {
+    /// A number outside its range.
+    #[error("{} = {value}: expected `auto` or a {} from {} to {} {}", spec.name,
+        if spec.whole { "whole number" } else { "number" }, spec.range.0, spec.range.1, spec.unit)]
+    Number {
+        /// The parameter.
+        spec: ParameterSpec,
+        /// The value that it does not accept.
+        value: f64,
+    },
+    /// A light that is no colour.
+    #[error("illuminant = {0:?}: expected `auto` or three numbers from 0 on, not all of them 0")]
+    Illuminant([f64; 3]),
 }
 
 #[cfg(test)]
@@ -389,6 +327,18 @@ mod tests {
         assert_eq!(message, "window_size = 2.5: expected `auto` or a whole number from 3 to 64 px");
         let params = Params { camera_noise: Setting::Value(f64::NAN), ..Params::default() };
         assert!(params.validate().unwrap_err().to_string().starts_with("camera_noise = NaN"));
+    }
+
+    #[test]
+    fn a_light_has_any_positive_length_and_no_negative_band() {
+        let with = |colour| Params { illuminant: IlluminantSetting::Given(colour), ..Params::default() };
+        for colour in [[1.0, 0.9, 0.7], [255.0, 0.0, 0.0], [1e-300; 3], [f64::MAX; 3]] {
+            assert!(with(colour).validate().is_ok(), "{colour:?}");
+        }
+        for colour in [[0.0; 3], [1.0, -0.1, 1.0], [f64::NAN, 1.0, 1.0], [f64::INFINITY, 1.0, 1.0]] {
+            let message = with(colour).validate().unwrap_err().to_string();
+            assert!(message.starts_with(&format!("illuminant = {colour:?}: expected")), "{message}");
+        }
     }
 
     #[test]

@@ -7,6 +7,8 @@
 //! Refined: the illuminant from `illuminant` and `in_plane`, then slices, then both again from the grown regions until it rests
 //! (`robust_illuminant`); regions without a highlight candidate get a slice too (`extend_planes`); slices end where body or
 //! surface reflection would be negative (`slice_bounds`).
+//!
+//! A light that was given is not estimated, whatever the method: every plane turns to it.
 
 use super::candidates::{Found, HighlightLine, highlight_lines};
 use super::classify::Windows;
@@ -41,8 +43,10 @@ const BRANCH_SAMPLES: usize = 16_000;
 pub struct Illuminant {
     /// Unit vector.
     pub direction: [f64; 3],
-    /// Number of regions whose highlights it rests on.
+    /// Number of regions whose highlights it rests on; 0 where it was given.
     pub objects: usize,
+    /// Whether it was given and not estimated.
+    pub given: bool,
 }
 
 /// A region's skewed T.
@@ -98,6 +102,9 @@ pub fn planar_regions<R: Recorder>(
         lines,
         ledger: Ledger::new(matte.labels.clone(), recorder),
     };
+    if let Some(direction) = scene.used.illuminant {
+        return stage.under_given_light(direction);
+    }
     if !scene.refine.robust_illuminant {
         let objects = stage.lines.iter().flatten().count();
         let direction = average_direction(&stage.lines);
@@ -139,8 +146,26 @@ impl<R: Recorder> Stage<'_, '_, R> {
         direction: Option<Vec3>,
         objects: usize,
     ) -> PlanarRegions {
-        let illuminant =
-            direction.filter(|_| objects > 0).map(|d| Illuminant { direction: d.into(), objects });
+        let illuminant = direction.filter(|_| objects > 0).map(|d| Illuminant {
+            direction: d.into(),
+            objects,
+            given: false,
+        });
+        PlanarRegions { labels: self.ledger.labels, hypotheses, illuminant }
+    }
+
+    /// Slices that all turn to a light that is known: nothing is estimated, and one round settles it.
+    fn under_given_light(mut self, direction: [f64; 3]) -> PlanarRegions {
+        if R::KEEPS {
+            self.ledger.recorder.record(Event::IlluminantGiven { direction });
+        }
+        let light = Some(Vec3::from(direction));
+        let mut hypotheses = self.slices(light);
+        if self.scene.refine.robust_illuminant {
+            self.unite();
+            hypotheses = self.hypotheses(light);
+        }
+        let illuminant = Some(Illuminant { direction, objects: 0, given: true });
         PlanarRegions { labels: self.ledger.labels, hypotheses, illuminant }
     }
 
@@ -320,38 +345,43 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let matte_labels = &self.matte_labels;
         let mut front: Vec<u32> =
             members.region(id).iter().filter(|&p| self.ledger.labels[p as usize] == id).collect();
-        self.ledger.grow(id, &mut front, |recorder, pixel, holder| {
-            let color = scene.pixels[pixel];
-            if !scene.claimable(pixel) || !slice.contains(color) {
-                return false;
-            }
-            if holder == UNASSIGNED {
-                return true;
-            }
-            let matte = matte_labels[pixel];
-            let foreign = matte != UNASSIGNED && matte != id;
-            if foreign && !own.contains(color) {
-                return false;
-            }
-            let theirs = &slices[usize::from(holder) - 1];
-            let (mine, held) = match theirs {
-                Some(theirs) if !foreign => (slice.distance(color), theirs.distance(color)),
-                _ => {
-                    let axis = &cylinders[usize::from(holder) - 1];
-                    (own.distance2(color).sqrt(), axis.distance2(color).sqrt())
+        self.ledger.grow(
+            id,
+            &mut front,
+            || scene.stopped(),
+            |recorder, pixel, holder| {
+                let color = scene.pixels[pixel];
+                if !scene.claimable(pixel) || !slice.contains(color) {
+                    return false;
                 }
-            };
-            if R::KEEPS {
-                recorder.record(Event::Conflict {
-                    pixel: pixel as u32,
-                    holder,
-                    challenger: id,
-                    holder_distance: f64::from(held),
-                    challenger_distance: f64::from(mine),
-                    taken: mine < held,
-                });
-            }
-            mine < held
-        });
+                if holder == UNASSIGNED {
+                    return true;
+                }
+                let matte = matte_labels[pixel];
+                let foreign = matte != UNASSIGNED && matte != id;
+                if foreign && !own.contains(color) {
+                    return false;
+                }
+                let theirs = &slices[usize::from(holder) - 1];
+                let (mine, held) = match theirs {
+                    Some(theirs) if !foreign => (slice.distance(color), theirs.distance(color)),
+                    _ => {
+                        let axis = &cylinders[usize::from(holder) - 1];
+                        (own.distance2(color).sqrt(), axis.distance2(color).sqrt())
+                    }
+                };
+                if R::KEEPS {
+                    recorder.record(Event::Conflict {
+                        pixel: pixel as u32,
+                        holder,
+                        challenger: id,
+                        holder_distance: f64::from(held),
+                        challenger_distance: f64::from(mine),
+                        taken: mine < held,
+                    });
+                }
+                mine < held
+            },
+        );
     }
 }

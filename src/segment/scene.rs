@@ -31,7 +31,7 @@ impl<'a> Scene<'a> {
         Self { stop, ..self }
     }
 
-    /// Whether to give up. Asked once a hypothesis.
+    /// Whether to give up. Asked once a hypothesis, a row, or every 64k pixels that a region grows from.
     pub fn stopped(&self) -> bool {
         (self.stop)()
     }

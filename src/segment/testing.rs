@@ -33,6 +33,7 @@ impl Drawing {
             slice_width: 4.0,
             window_size: 10.0,
             min_area: 4.0,
+            illuminant: None,
         };
         Self { masks: Masks::new(&image, &limits), image, used, refine: Params::default().refine }
     }

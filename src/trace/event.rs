@@ -211,6 +211,11 @@ pub enum Event {
         /// Each region that had a say, with its residual in degrees and its weight.
         contributions: Vec<(u16, f64, f64)>,
     },
+    /// The colour of the light was given: none was estimated.
+    IlluminantGiven {
+        /// Unit direction.
+        direction: Triple,
+    },
     /// A region's dichromatic plane became a slice (5.4.2).
     SliceMade {
         /// The region.

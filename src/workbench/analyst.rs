@@ -1,12 +1,12 @@
 //! The worker that analyses. The newest request wins.
 
 use super::{Command, Picture, Shown};
-use crate::analysis::{Analysis, Observer, Session, Stage};
+use crate::analysis::{Analysis, Observer, Session, Stage, StageOutput};
 use crate::raster::Mask;
 use crate::segment::Params;
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// What is to be analysed, and how.
 #[derive(Clone, Debug)]
@@ -109,10 +109,24 @@ impl Analyst {
             self.last = None;
         }
         let (_, session) = self.session.as_mut()?;
-        let mut clock =
-            Clock { generation: request.generation, begun: None, took_ms: [None; 7], tell, overtaken };
-        let analysis = session.run(&request.params, &mut clock).ok()?;
-        let shown = Arc::new(show(request, analysis, clock.took_ms, self.last.as_deref()));
+        if session.restrict(request.area.clone()).is_err() {
+            // The reducer forgets the areas of other pictures; one that comes all the same restricts nothing.
+            session.restrict(None).ok()?;
+        }
+        let mut watch = Watch {
+            request,
+            begun: Instant::now(),
+            stage_begun: None,
+            took_ms: [None; Stage::ALL.len()],
+            partial: self.last.as_deref().map(|last| last.analysis.clone()),
+            base: self.last.as_deref(),
+            owes: self.last.is_some(),
+            tell,
+            overtaken,
+        };
+        let analysis = session.run(&request.params, &mut watch).ok()?;
+        let took_ms = watch.took_ms;
+        let shown = Arc::new(show(request, analysis, took_ms, self.last.as_deref()));
         self.last = Some(Arc::clone(&shown));
         Some(shown)
     }
@@ -126,6 +140,7 @@ fn show(request: &Request, analysis: Analysis, took_ms: [Option<f64>; 7], last: 
         generation: request.generation,
         picture: Arc::clone(&request.picture),
         params: request.params,
+        area: request.area.clone(),
         analysis,
         stale_from: None,
         coverage,
@@ -142,27 +157,68 @@ fn coverage(analysis: &Analysis) -> f64 {
     assigned as f64 / lit.max(1) as f64
 }
 
+/// A run that takes longer shows its stages as they come.
+const SHOW_STAGES_AFTER: Duration = Duration::from_millis(60);
+
 /// Takes the time of each stage, tells of it, and stops for a newer request.
-struct Clock<'a> {
-    generation: u64,
-    begun: Option<Instant>,
+struct Watch<'a> {
+    request: &'a Request,
+    begun: Instant,
+    stage_begun: Option<Instant>,
     took_ms: [Option<f64>; Stage::ALL.len()],
+    /// The last result, with the stages that have been made anew in their places.
+    partial: Option<Analysis>,
+    base: Option<&'a Shown>,
+    /// Whether nothing new has been shown yet: then the run goes on although it has been overtaken, or a hand that never
+    /// rests would see nothing of a large picture.
+    owes: bool,
     tell: &'a (dyn Fn(Command) + Sync),
     overtaken: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl Observer for Clock<'_> {
+impl Observer for Watch<'_> {
     fn started(&mut self, stage: Stage) {
-        self.begun = Some(Instant::now());
-        (self.tell)(Command::Progress { generation: self.generation, stage });
+        self.stage_begun = Some(Instant::now());
+        (self.tell)(Command::Progress { generation: self.request.generation, stage });
     }
 
     fn finished(&mut self, stage: Stage, reused: bool) {
-        let took = self.begun.take().map(|begun| begun.elapsed().as_secs_f64() * 1e3);
+        let took = self.stage_begun.take().map(|begun| begun.elapsed().as_secs_f64() * 1e3);
         self.took_ms[stage as usize] = took.filter(|_| !reused);
     }
 
+    fn made(&mut self, output: StageOutput) {
+        let stage = output.stage();
+        let Some(partial) = &mut self.partial else { return };
+        match output {
+            StageOutput::Masks { masks, used } => (partial.masks, partial.used) = (masks, used),
+            StageOutput::Windows(windows) => partial.windows = windows,
+            StageOutput::Areas(areas) => partial.areas = areas,
+            StageOutput::Matte(matte) => partial.matte = matte,
+            StageOutput::Planar(planar) => partial.planar = planar,
+            // Labels and what is known of the regions change together, at the end.
+            StageOutput::Finals(_) | StageOutput::Intrinsic(_) => return,
+        }
+        let anew = self.took_ms[stage as usize].is_some();
+        let Some(base) = self.base.filter(|_| anew && self.begun.elapsed() > SHOW_STAGES_AFTER) else {
+            return;
+        };
+        let next = Stage::ALL.iter().copied().find(|&later| later > stage);
+        (self.tell)(Command::Analysed(Arc::new(Shown {
+            generation: self.request.generation,
+            picture: Arc::clone(&self.request.picture),
+            params: self.request.params,
+            area: self.request.area.clone(),
+            analysis: partial.clone(),
+            stale_from: next,
+            coverage: base.coverage,
+            region_colours: base.region_colours.clone(),
+            took_ms: self.took_ms,
+        })));
+        self.owes = false;
+    }
+
     fn cancelled(&self) -> bool {
-        (self.overtaken)()
+        !self.owes && (self.overtaken)()
     }
 }

@@ -14,6 +14,7 @@ mod document;
 mod histogram;
 mod item;
 mod jobs;
+mod layers;
 pub mod marking;
 mod picture;
 mod plane_points;
@@ -25,6 +26,9 @@ mod solid;
 mod space;
 mod state;
 mod statistics;
+mod table;
+#[cfg(test)]
+mod testing;
 mod vector;
 mod view;
 
@@ -36,6 +40,7 @@ pub use document::{Document, History};
 pub use histogram::{BINS_PER_BAND, ColourBin, Histogram, UniqueColour};
 pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
+pub use layers::{ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, legend, marks, paint, pyramid};
 pub use picture::{Origin, Picture};
 pub use plane_points::{MOST_PLANE_POINTS, PlanePixel, RegionPlane, region_plane};
 pub use reduce::{Effect, reduce};
@@ -47,6 +52,7 @@ pub use shown::Shown;
 pub use solid::{Mesh, Solid};
 pub use state::{Notice, Severity, State};
 pub use statistics::{Band, Bounds, STATISTICS_BINS, Statistics, statistics, statistics_of};
+pub use table::regions_text;
 pub use vector::Point;
 pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,

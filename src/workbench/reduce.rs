@@ -4,7 +4,7 @@ use super::{
     Combine, Command, Document, Export, Gesture, Notice, Origin, Picture, Selection, Severity, Shown, State,
 };
 use crate::raster::{Mask, Raster};
-use crate::segment::{Method, Parameter, Params};
+use crate::segment::{IlluminantSetting, Method, Parameter, Params};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -233,8 +233,8 @@ fn analyse(state: &mut State) -> Vec<Effect> {
 }
 
 fn pin_illuminant(state: &mut State, direction: Option<[f64; 3]>, gesture: Option<Gesture>) -> Vec<Effect> {
-    let _ = (direction, gesture);
-    analyse(state)
+    let setting = direction.map_or(IlluminantSetting::Auto, IlluminantSetting::Given);
+    edit_params(state, gesture, |params| params.illuminant = setting)
 }
 
 /// The other method, with what stood at the first one's default at the second one's.

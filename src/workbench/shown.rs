@@ -2,8 +2,10 @@
 
 use super::Picture;
 use crate::analysis::{Analysis, Stage};
-use crate::raster::LabelMap;
+use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 use crate::segment::Params;
+use crate::trace::Class;
+use std::cmp::Reverse;
 use std::sync::Arc;
 
 /// What one request found. Shared, never changed.
@@ -15,6 +17,8 @@ pub struct Shown {
     pub picture: Arc<Picture>,
     /// What was asked.
     pub params: Params,
+    /// The pixels that it was restricted to; none: all.
+    pub area: Option<Arc<Mask>>,
     /// What was found.
     pub analysis: Analysis,
     /// The first stage whose output is still an older request's; none: all is of this one.
@@ -33,6 +37,31 @@ impl Shown {
         &self.analysis.finals.labels
     }
 
+    /// Regions after the linear stage, numbered in the order of their hypotheses.
+    pub fn linear_labels(&self) -> &LabelMap {
+        &self.analysis.matte.labels
+    }
+
+    /// Regions after the planar stage, numbered likewise.
+    pub fn planar_labels(&self) -> &LabelMap {
+        &self.analysis.planar.labels
+    }
+
+    /// Class of each window, row-major; none where too few pixels are valid.
+    pub fn classes(&self) -> &Raster<Option<Class>> {
+        &self.analysis.windows.classes
+    }
+
+    /// Merged area of each pixel, from 1; 0 where its window has no class.
+    pub fn areas(&self) -> &Raster<u32> {
+        &self.analysis.areas
+    }
+
+    /// Side of a window, pixels.
+    pub fn window_px(&self) -> usize {
+        self.analysis.windows.size_px.max(1)
+    }
+
     /// Time of the stages that ran, milliseconds.
     pub fn total_ms(&self) -> f64 {
         self.took_ms.iter().flatten().sum()
@@ -41,15 +70,69 @@ impl Shown {
 
 /// The region of `after` that covers most of `region`'s pixels in `before`; none where none covers any.
 pub(super) fn heir(before: &LabelMap, after: &LabelMap, region: u16) -> Option<u16> {
-    let mut counts: Vec<usize> = Vec::new();
-    for (&old, &new) in before.as_slice().iter().zip(after.as_slice()) {
-        if old == region && new != 0 {
-            if counts.len() <= usize::from(new) {
-                counts.resize(usize::from(new) + 1, 0);
-            }
-            counts[usize::from(new)] += 1;
+    heirs(before, after).get(usize::from(region)).copied().filter(|&heir| heir != UNASSIGNED)
+}
+
+/// For each label of `before` (the first: of unassigned pixels) the region of `after` that covers most of its pixels, of
+/// equals the one with the smaller number; 0 where none covers any.
+pub(super) fn heirs(before: &LabelMap, after: &LabelMap) -> Vec<u16> {
+    overlaps(before, after)
+        .iter()
+        .map(|covers| {
+            let best = covers.iter().filter(|(region, _)| *region != UNASSIGNED);
+            best.max_by_key(|&&(region, pixels)| (pixels, Reverse(region))).map_or(UNASSIGNED, |best| best.0)
+        })
+        .collect()
+}
+
+/// For each label of `before` (the first: of unassigned pixels) the labels of `after` that it shares pixels with, and how
+/// many; in the order in which they are met.
+pub(super) fn overlaps(before: &LabelMap, after: &LabelMap) -> Vec<Vec<(u16, usize)>> {
+    let mut shared: Vec<Vec<(u16, usize)>> = vec![Vec::new()];
+    let mut add = |(old, new): (u16, u16), pixels: usize| {
+        let old = usize::from(old);
+        if shared.len() <= old {
+            shared.resize(old + 1, Vec::new());
         }
+        match shared[old].iter_mut().find(|(known, _)| *known == new) {
+            Some((_, count)) => *count += pixels,
+            None => shared[old].push((new, pixels)),
+        }
+    };
+    // Neighbours are mostly alike: only runs are looked up.
+    let (mut run, mut length) = ((UNASSIGNED, UNASSIGNED), 0);
+    for pair in before.as_slice().iter().copied().zip(after.as_slice().iter().copied()) {
+        if pair != run {
+            add(run, length);
+            (run, length) = (pair, 0);
+        }
+        length += 1;
     }
-    let best = (1..counts.len()).max_by_key(|&id| (counts[id], std::cmp::Reverse(id)))?;
-    (counts[best] > 0).then_some(best as u16)
+    add(run, length);
+    shared
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(text: &str) -> LabelMap {
+        let data: Vec<u16> = text.bytes().map(|b| u16::from(b - b'0')).collect();
+        Raster::from_vec(data.len(), 1, data).unwrap()
+    }
+
+    #[test]
+    fn an_heir_covers_most_and_of_equals_has_the_smaller_number() {
+        let (before, after) = (labels("0111122223340"), labels("1330122110443"));
+        assert_eq!(heirs(&before, &after), [1, 3, 1, 4, 4]);
+        assert_eq!((heir(&before, &after, 2), heir(&before, &after, 9)), (Some(1), None));
+        assert_eq!(heir(&labels("11"), &labels("00"), 1), None);
+    }
+
+    #[test]
+    fn overlaps_count_every_pixel_once() {
+        let shared = overlaps(&labels("0111122223340"), &labels("1330122110443"));
+        assert_eq!(shared.iter().flatten().map(|pair| pair.1).sum::<usize>(), 13);
+        assert_eq!(shared[2], [(2, 2), (1, 2)]);
+    }
 }

@@ -158,7 +158,7 @@ pub struct ImageSettings {
     pub opacity: f32,
     /// For display only, stops.
     pub exposure_ev: f32,
-    /// For display only: exponent on top of sRGB's own curve, 1 = none.
+    /// For display only, on top of sRGB's own curve: above 1 the middle tones are brighter, 1 = none.
     pub gamma: f32,
     /// Point of the picture in the middle of the view, pixels; none: the picture's middle.
     pub centre_px: Option<[f32; 2]>,

@@ -3,6 +3,7 @@
 use crate::files::{self, Png, curv, rgb_icc};
 use crate::{pixels, read_with};
 use dichroscope::export::write_matte;
+use dichroscope::intrinsic::{Intrinsic, PixelKind};
 use dichroscope::photo::{Layout, Photo, ReadOptions, decode, read};
 use dichroscope::raster::Raster;
 use exr::image::FlatSamples;
@@ -14,9 +15,21 @@ use tiff::tags::ExtraSamples;
 /// Writes `body` as the matte picture of `photo` and reads it again; also its file name.
 fn written(photo: &Photo, body: &Raster<[f32; 3]>, options: &ReadOptions) -> (Photo, String) {
     let folder = tempfile::tempdir().unwrap();
-    let path = write_matte(photo, body, folder.path()).unwrap();
+    let path = write_matte(photo, &split(body, [0.0; 3]), 0.0, folder.path()).unwrap();
     let name = path.file_name().unwrap().to_string_lossy().into_owned();
     (read(&path, options).unwrap(), name)
+}
+
+/// A picture of matte pixels with this body and this surface reflection, counts.
+fn split(body: &Raster<[f32; 3]>, surface: [f32; 3]) -> Intrinsic {
+    let (width, height) = (body.width(), body.height());
+    Intrinsic {
+        body: body.clone(),
+        surface: Raster::filled(width, height, surface),
+        noise: Raster::filled(width, height, 0.0),
+        kinds: Raster::filled(width, height, PixelKind::Matte),
+        regions: Vec::new(),
+    }
 }
 
 fn shorts(n: u32) -> Vec<u16> {
@@ -169,11 +182,51 @@ fn transparent_pixels_keep_what_they_hide() {
 }
 
 #[test]
+fn the_surface_reflection_that_is_kept_runs_from_the_body_to_the_photograph() {
+    for (name, bytes, _) in lossless() {
+        let options = ReadOptions::default();
+        let photo = read_with(&bytes, &options);
+        let body = photo.image.pixels.map(|pixel| pixel.map(|counts| counts * 0.7));
+        let intrinsic = split(&body, [5.0; 3]);
+        let kept = |share| {
+            let folder = tempfile::tempdir().unwrap();
+            read(&write_matte(&photo, &intrinsic, share, folder.path()).unwrap(), &options).unwrap()
+        };
+        assert_eq!(kept(0.0).image, written(&photo, &body, &options).0.image, "{name}");
+        assert_eq!(kept(1.0).image, photo.image, "{name}");
+        let (half, none) = (kept(0.5), kept(0.0));
+        for ((half, none), all) in pixels(&half).iter().zip(pixels(&none)).zip(pixels(&photo)) {
+            assert!((0..3).all(|band| none[band] <= half[band] && half[band] <= all[band]), "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_restored_pixel_keeps_its_restored_surface_reflection_as_far_as_the_file_goes() {
+    let photo = read_with(&files::rgb8_png((2, 1), &[255, 250, 200, 90, 80, 70]), &crate::linear());
+    let body = Raster::from_vec(2, 1, vec![[100.0, 50.0, 20.0], [60.0, 50.0, 40.0]]).unwrap();
+    let mut intrinsic = split(&body, [200.0, 180.0, 160.0]);
+    intrinsic.kinds[0] = PixelKind::Restored;
+    let kept = |share| {
+        let folder = tempfile::tempdir().unwrap();
+        read(&write_matte(&photo, &intrinsic, share, folder.path()).unwrap(), &crate::linear()).unwrap()
+    };
+    assert_eq!(pixels(&kept(0.5)), [[200.0, 140.0, 100.0], [75.0, 65.0, 55.0]]);
+    assert_eq!(pixels(&kept(1.0)), [[255.0, 230.0, 180.0], [90.0, 80.0, 70.0]]);
+}
+
+#[test]
 fn a_body_of_another_size_is_refused() {
     let photo = read_with(&files::rgb8_png((1, 1), &[1, 2, 3]), &ReadOptions::default());
-    let error =
-        write_matte(&photo, &Raster::filled(2, 1, [0.0; 3]), std::path::Path::new("/nowhere")).unwrap_err();
+    let error = write_matte(
+        &photo,
+        &split(&Raster::filled(2, 1, [0.0; 3]), [0.0; 3]),
+        0.0,
+        std::path::Path::new("/nowhere"),
+    )
+    .unwrap_err();
     assert_eq!(error.to_string(), "the body image has 2 \u{d7} 1 pixels, the photograph 1 \u{d7} 1");
-    let error = write_matte(&photo, &photo.image.pixels, std::path::Path::new("/nowhere")).unwrap_err();
+    let same = split(&photo.image.pixels, [0.0; 3]);
+    let error = write_matte(&photo, &same, 0.0, std::path::Path::new("/nowhere")).unwrap_err();
     assert!(error.to_string().starts_with("/nowhere/matte.png: cannot be written"));
 }

@@ -4,7 +4,7 @@ use crate::common::{analyze, fingerprint};
 use crate::synthetic::Scene;
 use dichroscope::analysis::{Cancelled, Observer, Session, Stage, StageOutput};
 use dichroscope::photo::LinearImage;
-use dichroscope::segment::{Params, Refine, Setting};
+use dichroscope::segment::{IlluminantSetting, Params, Refine, Setting};
 use std::sync::Arc;
 
 /// Notes which stages ran anew, and stops after some.
@@ -50,11 +50,16 @@ fn a_changed_parameter_reruns_from_the_first_stage_that_looks_at_it() {
         change(&mut refine);
         Params { refine, ..base }
     };
-    let cases: [(&str, Params, &[Stage]); 10] = [
+    let cases: [(&str, Params, &[Stage]); 11] = [
         ("nothing", base, &[]),
         ("split", off(|r| r.restore_prior = false), &[Split]),
         ("components", off(|r| r.split_components = false), &[Clipping, Split]),
         ("slice", Params { slice_width: value(2.0), ..base }, &[Planar, Clipping, Split]),
+        (
+            "light",
+            Params { illuminant: IlluminantSetting::Given([1.0, 0.9, 0.8]), ..base },
+            &[Planar, Clipping, Split],
+        ),
         ("bounds", off(|r| r.slice_bounds = false), &[Planar, Clipping, Split]),
         ("area", Params { min_area: value(300.0), ..base }, &[Linear, Planar, Clipping, Split]),
         ("cylinder", Params { cylinder_width: value(3.0), ..base }, &[Linear, Planar, Clipping, Split]),

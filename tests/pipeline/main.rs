@@ -3,11 +3,13 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 #![allow(clippy::float_cmp, reason = "what is exact by construction is tested for exactness")]
 
+mod area;
 mod cache;
 mod common;
 mod degenerate;
 mod files;
 mod identities;
+mod light;
 mod methods;
 mod replay;
 mod scenes;

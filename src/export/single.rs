@@ -1,0 +1,54 @@
+//! A file that appears whole or not at all.
+
+use super::ExportError;
+use super::staging::hidden_sibling;
+use std::fs;
+use std::path::Path;
+
+/// Writes `bytes` to a hidden sibling of `path` and renames that into place. Folders on the way are made.
+///
+/// # Errors
+/// When a folder stands there, or something cannot be made, written or renamed; an earlier file then still stands.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
+    // Links to a file are followed, so that the file itself is replaced and not the link.
+    let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let failed = |source| ExportError::Io { path: path.clone(), source };
+    if path.is_dir() {
+        return Err(failed(std::io::ErrorKind::IsADirectory.into()));
+    }
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        fs::create_dir_all(folder).map_err(failed)?;
+    }
+    let hidden = hidden_sibling(path, "new");
+    let written = fs::write(&hidden, bytes).and_then(|()| fs::rename(&hidden, path));
+    written.map_err(|source| {
+        // The failure's own message is the one that counts.
+        let _ = fs::remove_file(&hidden);
+        failed(source)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_whole_and_nothing_else_is_left() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("a/b.txt");
+        write_file(&path, b"one").unwrap();
+        write_file(&path, b"two").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"two");
+        assert_eq!(fs::read_dir(root.path().join("a")).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_folder_is_not_replaced_by_a_file() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join("results");
+        fs::create_dir(&folder).unwrap();
+        let message = write_file(&folder, b"").unwrap_err().to_string();
+        assert!(message.starts_with("cannot write") && message.ends_with("results"), "{message}");
+        assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1);
+    }
+}

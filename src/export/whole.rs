@@ -1,0 +1,61 @@
+//! A whole result, written by the command line and by the window alike.
+
+use super::pictures::{PICTURE_COUNT, write_pictures_watched};
+use super::{ExportError, Staging, write_matte};
+use crate::analysis::Analysis;
+use crate::photo::Photo;
+use crate::report::Report;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// What a result folder is made of, its report apart.
+#[derive(Clone, Copy, Debug)]
+pub struct WholeResult<'a> {
+    /// The photograph.
+    pub photo: &'a Photo,
+    /// What was found in it.
+    pub analysis: &'a Analysis,
+    /// Share of the surface reflection that the matte picture keeps, 0…1.
+    pub keep_surface: f64,
+}
+
+/// Told how many files of how many are written; the writing stops when it answers false.
+pub type Watch<'a> = &'a (dyn Fn(usize, usize) -> bool + Sync);
+
+impl WholeResult<'_> {
+    /// Writes everything to the folder `target`, which appears whole or not at all, and hands the report back with the time
+    /// that the writing took.
+    ///
+    /// # Errors
+    /// When `target` is taken (see [`super::check_target`]), a file cannot be written, or `watch` answers false
+    /// ([`ExportError::Stopped`]); `target` is then as it was.
+    pub fn write(
+        &self,
+        mut report: Report,
+        target: &Path,
+        force: bool,
+        watch: Watch,
+    ) -> Result<Report, ExportError> {
+        let begin = Instant::now();
+        let staging = Staging::begin(target, force)?;
+        let written = AtomicUsize::new(0);
+        let file_done = || {
+            let done = written.fetch_add(1, Ordering::Relaxed) + 1;
+            if watch(done, PICTURE_COUNT + 1) { Ok(()) } else { Err(ExportError::Stopped) }
+        };
+        let (pictures, matte) = rayon::join(
+            || write_pictures_watched(staging.folder(), &self.photo.image, self.analysis, &file_done),
+            || {
+                write_matte(self.photo, &self.analysis.intrinsic, self.keep_surface, staging.folder())?;
+                file_done()
+            },
+        );
+        pictures?;
+        matte?;
+        // To the microsecond.
+        report.timings_ms.write = Some(begin.elapsed().as_micros() as f64 / 1e3);
+        staging.publish(&report)?;
+        Ok(report)
+    }
+}

@@ -1,0 +1,142 @@
+//! What lies under a cursor or inside a lasso; on the CPU, from the same numbers that are drawn.
+//!
+//! Screen positions are in logical pixels, the unit of [`Point::size_px`]; make the [`Projector`] for that size.
+
+use super::projector::Projector;
+use super::scene::Point;
+
+/// A point that was hit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Its place in the list.
+    pub index: usize,
+    /// From the cursor to the rim of its dot, logical pixels; 0 when the cursor is on the dot.
+    pub beside_px: f32,
+    /// 0 at the near plane, 1 at the far one.
+    pub depth: f32,
+}
+
+/// The point at the cursor: of the dots under it the front-most, otherwise the dot whose rim is nearest, if its centre is
+/// within `radius_px`.
+pub fn nearest(points: &[Point], projector: &Projector, cursor: [f32; 2], radius_px: f32) -> Option<Hit> {
+    let mut best: Option<Hit> = None;
+    for (index, point) in points.iter().enumerate() {
+        let Some(screen) = projector.screen_from_world(point.position) else { continue };
+        let offset_px = [screen.at[0] - cursor[0], screen.at[1] - cursor[1]];
+        let dot_radius_px = 0.5 * point.size_px;
+        let reach_px = radius_px.max(dot_radius_px);
+        let squared = offset_px[0] * offset_px[0] + offset_px[1] * offset_px[1];
+        if squared <= reach_px * reach_px {
+            let beside_px = (squared.sqrt() - dot_radius_px).max(0.0);
+            let hit = Hit { index, beside_px, depth: screen.depth };
+            if best.is_none_or(|best| (hit.beside_px, hit.depth) < (best.beside_px, best.depth)) {
+                best = Some(hit);
+            }
+        }
+    }
+    best
+}
+
+/// The points whose centres are seen inside the polygon, in the order of the list; see [`encloses`].
+pub fn inside_polygon(points: &[Point], projector: &Projector, polygon: &[[f32; 2]]) -> Vec<usize> {
+    let low = [0, 1].map(|axis| polygon.iter().map(|p| p[axis]).fold(f32::INFINITY, f32::min));
+    let high = [0, 1].map(|axis| polygon.iter().map(|p| p[axis]).fold(f32::NEG_INFINITY, f32::max));
+    let inside = |point: &Point| {
+        projector.screen_from_world(point.position).is_some_and(|screen| {
+            let in_box = (0..2).all(|axis| (low[axis]..=high[axis]).contains(&screen.at[axis]));
+            in_box && encloses(polygon, screen.at)
+        })
+    };
+    (0..points.len()).filter(|&index| inside(&points[index])).collect()
+}
+
+/// Whether a position lies inside a closed polygon, by the even-odd rule: where its border crosses itself, what is
+/// enclosed twice is outside. Fewer than three corners enclose nothing.
+pub fn encloses(polygon: &[[f32; 2]], [x, y]: [f32; 2]) -> bool {
+    let Some(&last) = polygon.last() else { return false };
+    let mut inside = false;
+    let mut from = last;
+    for &to in polygon {
+        // Half-open: a corner belongs to one of its two sides.
+        if (from[1] > y) != (to[1] > y) {
+            let crossing = from[0] + (y - from[1]) / (to[1] - from[1]) * (to[0] - from[0]);
+            inside ^= x < crossing;
+        }
+        from = to;
+    }
+    inside
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::{Orbit, Preset, Projection};
+
+    const SIZE: [f32; 2] = [200.0, 200.0];
+
+    /// Along green, red to the right, blue up; the cube's middle in the middle of the screen.
+    fn front() -> Orbit {
+        let mut camera = Orbit { projection: Projection::Orthographic, ..Orbit::default() };
+        camera.preset(Preset::Green);
+        camera
+    }
+
+    fn dot(position: [f32; 3], size_px: f32) -> Point {
+        Point { position, color: [255; 4], size_px }
+    }
+
+    #[track_caller]
+    fn at(position: [f32; 3]) -> [f32; 2] {
+        front().screen_from_world(position, SIZE).expect("in view").at
+    }
+
+    #[test]
+    fn the_dot_in_front_wins_where_dots_overlap() {
+        let points = [dot([0.5, 0.9, 0.5], 8.0), dot([0.5, 0.1, 0.5], 8.0), dot([0.5, 0.5, 0.5], 8.0)];
+        let hit = nearest(&points, &front().projector(SIZE), at([0.5; 3]), 20.0).expect("three dots");
+        assert_eq!((hit.index, hit.beside_px), (1, 0.0));
+    }
+
+    #[test]
+    fn beside_all_dots_the_nearest_wins_within_the_radius() {
+        let points = [dot([0.2, 0.1, 0.5], 2.0), dot([0.6, 0.9, 0.5], 2.0)];
+        let projector = front().projector(SIZE);
+        let middle = at([0.5; 3]);
+        let beside = at([0.6, 0.0, 0.5])[0] - middle[0];
+        let hit = nearest(&points, &projector, middle, beside + 0.5).expect("one within reach");
+        assert_eq!(hit.index, 1);
+        assert!((hit.beside_px - (beside - 1.0)).abs() < 1e-3, "{hit:?}");
+        assert_eq!(nearest(&points, &projector, middle, beside - 0.5), None);
+        assert_eq!(nearest(&[], &projector, middle, 100.0), None);
+    }
+
+    #[test]
+    fn a_large_dot_is_hit_anywhere_on_it() {
+        let points = [dot([0.5; 3], 30.0)];
+        let [x, y] = at([0.5; 3]);
+        assert!(nearest(&points, &front().projector(SIZE), [x + 14.0, y], 3.0).is_some());
+        assert!(nearest(&points, &front().projector(SIZE), [x + 16.0, y], 3.0).is_none());
+    }
+
+    #[test]
+    fn a_lasso_takes_what_it_surrounds() {
+        let points: Vec<Point> =
+            (0..5).map(|i| dot([0.2 + 0.15 * i as f32, 0.3 * i as f32, 0.5], 2.0)).collect();
+        let [left, right] = [at([0.3, 0.0, 0.4]), at([0.7, 0.0, 0.6])];
+        let lasso = [left, [right[0], left[1]], right, [left[0], right[1]]];
+        assert_eq!(inside_polygon(&points, &front().projector(SIZE), &lasso), [1, 2, 3]);
+        assert_eq!(inside_polygon(&points, &front().projector(SIZE), &[]), [0_usize; 0]);
+    }
+
+    #[test]
+    fn even_odd() {
+        let star = [0, 2, 4, 1, 3]
+            .map(|k| (1.25 + k as f32 * 0.4) * std::f32::consts::PI)
+            .map(|a| [a.cos(), a.sin()]);
+        assert!(!encloses(&star, [0.0, 0.0]), "the heart of a pentagram is surrounded twice");
+        let tip = star[0].map(|c| 0.7 * c);
+        assert!(encloses(&star, tip));
+        assert!(!encloses(&star, star[0].map(|c| -0.8 * c)));
+        assert!(!encloses(&[[0.0, 0.0], [1.0, 1.0]], [0.5, 0.5]));
+    }
+}

@@ -1,0 +1,183 @@
+//! The five ways to draw: how vertices are read, which depths pass, and what is blended.
+
+use super::scene::{Point, Vertex};
+use super::target::{COLOR_FORMAT, DEPTH_FORMAT};
+use super::upload::{Globals, Segment};
+use wgpu::{CompareFunction, VertexAttribute, VertexStepMode, vertex_attr_array};
+
+pub(super) const POINTS_WGSL: &str = concat!(include_str!("globals.wgsl"), include_str!("points.wgsl"));
+pub(super) const LINES_WGSL: &str = concat!(include_str!("globals.wgsl"), include_str!("lines.wgsl"));
+pub(super) const SOLIDS_WGSL: &str = concat!(include_str!("globals.wgsl"), include_str!("solids.wgsl"));
+
+/// What is left of a `Faint` line behind nearer points.
+const FAINT: f64 = 0.3;
+
+/// The fields of [`Point`].
+const POINT: [VertexAttribute; 3] = vertex_attr_array![0 => Float32x3, 1 => Unorm8x4, 2 => Float32];
+/// The fields of [`Segment`].
+const SEGMENT: [VertexAttribute; 5] =
+    vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4, 3 => Float32, 4 => Float32];
+/// The fields of [`Vertex`].
+const VERTEX: [VertexAttribute; 3] = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4];
+
+/// One pipeline for each way to draw, and the buffer that they all read.
+pub(super) struct Pipelines {
+    pub(super) points: wgpu::RenderPipeline,
+    /// Lines where nothing hides them.
+    pub(super) lines: wgpu::RenderPipeline,
+    /// Lines where something hides them, faintly.
+    pub(super) faint_lines: wgpu::RenderPipeline,
+    /// Lines whatever is in front of them.
+    pub(super) over_lines: wgpu::RenderPipeline,
+    pub(super) back_faces: wgpu::RenderPipeline,
+    pub(super) front_faces: wgpu::RenderPipeline,
+    pub(super) bind_group: wgpu::BindGroup,
+    pub(super) globals: wgpu::Buffer,
+}
+
+/// What differs between the pipelines.
+struct Way<'a> {
+    shader: &'a wgpu::ShaderModule,
+    stride: usize,
+    attributes: &'a [VertexAttribute],
+    step: VertexStepMode,
+    topology: wgpu::PrimitiveTopology,
+    /// Which side of a triangle is left out.
+    cull: Option<wgpu::Face>,
+    passes: CompareFunction,
+    writes_depth: bool,
+    constants: &'a [(&'a str, f64)],
+}
+
+impl Pipelines {
+    pub(super) fn new(device: &wgpu::Device) -> Self {
+        let globals = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("globals"),
+            size: size_of::<Globals>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let bind_layout = bind_layout(device);
+        let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("globals"),
+            layout: &bind_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: globals.as_entire_binding() }],
+        });
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("colour space"),
+            bind_group_layouts: &[Some(&bind_layout)],
+            immediate_size: 0,
+        });
+        let [points, lines, solids] =
+            [("points", POINTS_WGSL), ("lines", LINES_WGSL), ("solids", SOLIDS_WGSL)].map(|(label, text)| {
+                device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                    label: Some(label),
+                    source: wgpu::ShaderSource::Wgsl(text.into()),
+                })
+            });
+        let make = |way: &Way| pipeline(device, &layout, way);
+        let point = Way {
+            shader: &points,
+            stride: size_of::<Point>(),
+            attributes: &POINT,
+            step: VertexStepMode::Instance,
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            cull: None,
+            passes: CompareFunction::LessEqual,
+            writes_depth: true,
+            constants: &[],
+        };
+        let line = Way {
+            shader: &lines,
+            stride: size_of::<Segment>(),
+            attributes: &SEGMENT,
+            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            ..point
+        };
+        let solid = Way {
+            shader: &solids,
+            stride: size_of::<Vertex>(),
+            attributes: &VERTEX,
+            step: VertexStepMode::Vertex,
+            passes: CompareFunction::Less,
+            writes_depth: false,
+            ..point
+        };
+        let faint = [("strength", FAINT)];
+        Self {
+            points: make(&point),
+            lines: make(&line),
+            faint_lines: make(&Way {
+                passes: CompareFunction::Greater,
+                writes_depth: false,
+                constants: &faint,
+                ..line
+            }),
+            over_lines: make(&Way { passes: CompareFunction::Always, writes_depth: false, ..line }),
+            back_faces: make(&Way { cull: Some(wgpu::Face::Front), ..solid }),
+            front_faces: make(&Way { cull: Some(wgpu::Face::Back), ..solid }),
+            bind_group,
+            globals,
+        }
+    }
+}
+
+fn bind_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("globals"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        }],
+    })
+}
+
+fn pipeline(device: &wgpu::Device, layout: &wgpu::PipelineLayout, way: &Way) -> wgpu::RenderPipeline {
+    let compilation_options =
+        wgpu::PipelineCompilationOptions { constants: way.constants, ..Default::default() };
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("colour space"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module: way.shader,
+            entry_point: Some("vertex"),
+            compilation_options: compilation_options.clone(),
+            buffers: &[Some(wgpu::VertexBufferLayout {
+                array_stride: way.stride as u64,
+                step_mode: way.step,
+                attributes: way.attributes,
+            })],
+        },
+        primitive: wgpu::PrimitiveState {
+            topology: way.topology,
+            cull_mode: way.cull,
+            ..wgpu::PrimitiveState::default()
+        },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(way.writes_depth),
+            depth_compare: Some(way.passes),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: way.shader,
+            entry_point: Some("fragment"),
+            compilation_options,
+            targets: &[Some(wgpu::ColorTargetState {
+                format: COLOR_FORMAT,
+                blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,0 +1,149 @@
+//! The whole window without a window: drawn into a texture, for the gallery.
+
+use super::App;
+use crate::gpu::{Headless, NoAdapter, read_texture};
+use crate::workbench::Executor;
+use egui::{FullOutput, Pos2, RawInput, Rect, vec2};
+use egui_wgpu::{
+    RenderState, RendererOptions, ScreenDescriptor, WgpuConfiguration, WgpuSetup, WgpuSetupExisting,
+};
+use std::time::Duration;
+
+/// Frames after which a view that asks for ever more is taken as it is.
+const MOST_FRAMES: usize = 200;
+
+/// An application, and the texture that it is drawn into.
+pub struct Offscreen {
+    /// The application.
+    pub app: App,
+    ctx: egui::Context,
+    gpu: RenderState,
+    size_px: [u32; 2],
+    pixels_per_point: f32,
+    frames: usize,
+}
+
+/// Why nothing can be drawn off screen.
+#[derive(Debug, thiserror::Error)]
+pub enum OffscreenError {
+    /// There is nothing to draw with.
+    #[error(transparent)]
+    NoAdapter(#[from] NoAdapter),
+    /// The graphics device cannot draw the interface.
+    #[error("the graphics device cannot draw the window: {0}")]
+    Device(#[from] egui_wgpu::WgpuError),
+    /// No thread, or no picture.
+    #[error("{0}")]
+    Other(#[from] std::io::Error),
+}
+
+impl Offscreen {
+    /// An empty application of this size.
+    ///
+    /// # Errors
+    /// Where there is no graphics adapter, not even a software one.
+    pub fn new(size_px: [u32; 2], pixels_per_point: f32) -> Result<Self, OffscreenError> {
+        let Headless { instance, adapter, device, queue } = Headless::new()?;
+        let existing = WgpuSetupExisting { instance: instance.clone(), adapter, device, queue };
+        let configuration =
+            WgpuConfiguration { wgpu_setup: WgpuSetup::Existing(existing), ..WgpuConfiguration::default() };
+        let options = RendererOptions::PREDICTABLE;
+        let gpu = pollster::block_on(RenderState::create(&configuration, &instance, None, options))?;
+        let ctx = egui::Context::default();
+        let app = App::new(&ctx, Some(gpu.clone()), Executor::Inline)?;
+        Ok(Self { app, ctx, gpu, size_px, pixels_per_point, frames: 0 })
+    }
+
+    /// Another size from the next frame on.
+    pub fn resize(&mut self, size_px: [u32; 2]) {
+        self.size_px = size_px;
+    }
+
+    /// Lets the application rest, and draws it: sRGB and alpha, row-major.
+    ///
+    /// # Errors
+    /// When the device is lost.
+    pub fn picture(&mut self) -> Result<Vec<u8>, OffscreenError> {
+        let mut output = self.frame();
+        for _ in 0..MOST_FRAMES {
+            let wait = output.viewport_output.values().map(|viewport| viewport.repaint_delay).min();
+            // What blinks or waits for a tooltip is not worth waiting for.
+            if wait.is_none_or(|wait| wait > Duration::from_millis(60)) {
+                break;
+            }
+            std::thread::sleep(wait.unwrap_or_default());
+            output = self.frame();
+        }
+        self.draw(output)
+    }
+
+    fn frame(&mut self) -> FullOutput {
+        self.frames += 1;
+        let points = vec2(self.size_px[0] as f32, self.size_px[1] as f32) / self.pixels_per_point;
+        let mut input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, points)),
+            time: Some(self.frames as f64 / 60.0),
+            max_texture_side: Some(self.gpu.device.limits().max_texture_dimension_2d as usize),
+            ..RawInput::default()
+        };
+        if let Some(viewport) = input.viewports.get_mut(&input.viewport_id) {
+            viewport.native_pixels_per_point = Some(self.pixels_per_point);
+        }
+        let app = &mut self.app;
+        let mut output = self.ctx.run_ui(input, |ui| app.show(ui));
+        self.upload(&mut output);
+        output
+    }
+
+    fn upload(&self, output: &mut FullOutput) {
+        let mut renderer = self.gpu.renderer.write();
+        for (id, images) in output.textures_delta.set.drain() {
+            for image in images {
+                renderer.update_texture(&self.gpu.device, &self.gpu.queue, id, &image);
+            }
+        }
+        for id in output.textures_delta.free.drain() {
+            renderer.free_texture(&id);
+        }
+    }
+
+    fn draw(&self, output: FullOutput) -> Result<Vec<u8>, OffscreenError> {
+        let RenderState { device, queue, renderer, target_format, .. } = &self.gpu;
+        let screen =
+            ScreenDescriptor { size_in_pixels: self.size_px, pixels_per_point: self.pixels_per_point };
+        let shapes = self.ctx.tessellate(output.shapes, self.pixels_per_point);
+        let [width, height] = self.size_px;
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("window"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: *target_format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut renderer = renderer.write();
+        let prepared = renderer.update_buffers(device, queue, &mut encoder, &shapes, &screen);
+        let attachment = wgpu::RenderPassColorAttachment {
+            view: &view,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                store: wgpu::StoreOp::Store,
+            },
+            depth_slice: None,
+        };
+        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("window"),
+            color_attachments: &[Some(attachment)],
+            ..wgpu::RenderPassDescriptor::default()
+        });
+        renderer.render(&mut pass.forget_lifetime(), &shapes, &screen);
+        queue.submit(prepared.into_iter().chain([encoder.finish()]));
+        let lost = || std::io::Error::other("the graphics device was lost while it drew the window");
+        Ok(read_texture(device, queue, &texture).ok_or_else(lost)?)
+    }
+}

@@ -1,0 +1,123 @@
+//! `dichroscope screenshot`: the gallery, drawn without a window.
+
+use super::dock::Pane;
+use super::offscreen::{Offscreen, OffscreenError};
+use crate::export::png_of_rgba;
+use crate::workbench::{
+    Arrangement, ColourBy, Command, CubeSettings, Fill, ImageSettings, Item, Layer, Origin, ProfileLine,
+    Severity, Theme,
+};
+use std::path::{Path, PathBuf};
+
+/// Why a gallery could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ScreenshotError {
+    /// Nothing can be drawn here.
+    #[error(transparent)]
+    Offscreen(#[from] OffscreenError),
+    /// A picture could not be written.
+    #[error("{}: cannot be written: {cause}", path.display())]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        cause: std::io::Error,
+    },
+    /// The photograph could not be opened.
+    #[error("{0}")]
+    Photograph(String),
+}
+
+/// One picture of the gallery.
+struct Shot {
+    name: &'static str,
+    /// One panel alone, or the whole window.
+    pane: Option<Pane>,
+    theme: Theme,
+    region: Option<u16>,
+    image: ImageSettings,
+    cube: CubeSettings,
+}
+
+fn whole(name: &'static str) -> Shot {
+    Shot {
+        name,
+        pane: None,
+        theme: Theme::Dark,
+        region: Some(1),
+        image: ImageSettings { layer: Layer::Regions, fill: Fill::Outline, ..ImageSettings::default() },
+        cube: CubeSettings::default(),
+    }
+}
+
+fn image(name: &'static str, layer: Layer) -> Shot {
+    let image = ImageSettings { layer, ..ImageSettings::default() };
+    Shot { pane: Some(Pane::Image), region: None, image, ..whole(name) }
+}
+
+fn colours(name: &'static str, region: Option<u16>, colour_by: ColourBy) -> Shot {
+    let cube = CubeSettings { colour_by, ..CubeSettings::default() };
+    Shot { pane: Some(Pane::Colours), region, cube, ..whole(name) }
+}
+
+fn gallery() -> Vec<Shot> {
+    let wipe = ImageSettings {
+        layer: Layer::Input,
+        other: Layer::Body,
+        arrangement: Arrangement::Wipe(0.5),
+        ..ImageSettings::default()
+    };
+    vec![
+        whole("window"),
+        Shot { theme: Theme::Light, ..whole("window-light") },
+        Shot { image: wipe, ..image("image-wipe", Layer::Input) },
+        image("image-classification", Layer::Classes),
+        image("image-regions", Layer::Regions),
+        image("image-surface", Layer::Surface),
+        colours("colours", None, ColourBy::Own),
+        colours("colours-region", Some(1), ColourBy::Region),
+        Shot { pane: Some(Pane::Plane), ..whole("plane") },
+        Shot { pane: Some(Pane::Profile), ..whole("profile") },
+    ]
+}
+
+/// Draws the gallery of `origin` into `folder`, the whole window at `size_px` and single panels at three fifths of it.
+///
+/// # Errors
+/// Where there is no graphics adapter, the photograph cannot be opened or a picture cannot be written.
+pub fn screenshot(folder: &Path, size_px: [u32; 2], origin: Origin) -> Result<Vec<PathBuf>, ScreenshotError> {
+    let write = |path: &Path, cause| ScreenshotError::Write { path: path.to_path_buf(), cause };
+    std::fs::create_dir_all(folder).map_err(|cause| write(folder, cause))?;
+    let mut stage = Offscreen::new(size_px, 1.0)?;
+    stage.app.apply(Command::Open(origin));
+    if stage.app.state().picture.is_none() {
+        let mut errors = stage.app.state().notices.iter().filter(|notice| notice.severity == Severity::Error);
+        let reason = errors.next().map_or_else(String::new, |notice| notice.text.clone());
+        return Err(ScreenshotError::Photograph(reason));
+    }
+    let mut written = Vec::new();
+    for shot in gallery() {
+        let size = if shot.pane.is_some() { size_px.map(|length| (length * 3 / 5).max(1)) } else { size_px };
+        prepare(&mut stage, &shot, size);
+        let rgba = stage.picture()?;
+        let path = folder.join(format!("{}.png", shot.name));
+        std::fs::write(&path, png_of_rgba(size, &rgba)).map_err(|cause| write(&path, cause))?;
+        written.push(path);
+    }
+    Ok(written)
+}
+
+fn prepare(stage: &mut Offscreen, shot: &Shot, size_px: [u32; 2]) {
+    let app = &mut stage.app;
+    let notices: Vec<u64> = app.state().notices.iter().map(|notice| notice.id).collect();
+    for id in notices {
+        app.apply(Command::Dismiss(id));
+    }
+    app.apply(Command::Theme(shot.theme));
+    app.apply(Command::Select(shot.region.map(Item::Region)));
+    app.apply(Command::Image(shot.image.clone()));
+    app.apply(Command::Cube(shot.cube.clone()));
+    app.apply(Command::Profile(ProfileLine::Row));
+    app.show_alone(shot.pane);
+    stage.resize(size_px);
+}
