@@ -7,14 +7,20 @@
 //!     five to ten copies: (a) stands beside it to show how far away memory itself is;
 //! (c) the whole analysis, masks to split, with default parameters and all threads;
 //! and (c) as a multiple of (b). A ratio travels between machines better than a time; nothing here passes or fails.
+//!
+//! Then, for the embedded sample and for a tiling of it, what one movement of a slider costs: a session that holds the
+//! result of the default parameters runs again after one parameter or switch has changed. Best and median of several runs,
+//! and the best as a multiple of (b). For the largest tiling, the stages of a first run.
 
 #[path = "../tests/synthetic/mod.rs"]
 mod synthetic;
 
-use dichroscope::analysis::Session;
+use dichroscope::analysis::{Observer, Session, Stage};
+use dichroscope::photo::{LinearImage, ReadOptions, read};
 use dichroscope::raster::Raster;
-use dichroscope::segment::Params;
+use dichroscope::segment::{IlluminantSetting, Parameter, Params, Refine, Setting};
 use std::hint::black_box;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -39,6 +45,96 @@ fn main() {
             milliseconds(analysis),
             analysis.as_secs_f64() / floor.as_secs_f64()
         );
+    }
+    let runs = runs.min(7);
+    sliders(1, runs);
+    sliders(2, runs);
+    stages(7, runs.min(3));
+}
+
+/// The sample, repeated this often to either side.
+fn sample(tiles: usize) -> Arc<LinearImage> {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/plastic8_white/camera8.png"));
+    let one =
+        read(path, &ReadOptions::default()).expect("invariant: the sample is part of the repository").image;
+    let mut pixels = Vec::with_capacity(one.pixels.len() * tiles * tiles);
+    for y in 0..one.height() * tiles {
+        for _ in 0..tiles {
+            pixels.extend_from_slice(one.pixels.row(y % one.height()));
+        }
+    }
+    let pixels = Raster::from_vec(one.width() * tiles, one.height() * tiles, pixels);
+    Arc::new(LinearImage::new(pixels.expect("invariant: the tiles fill it"), one.saturation))
+}
+
+/// Every parameter and switch with its name, moved a little from where it stands by default.
+fn movements(image: &Arc<LinearImage>) -> Vec<(&'static str, Params)> {
+    let base = Params::default();
+    let used = Session::new(image.clone()).run(&base, &mut ()).expect("invariant: nobody cancels").used;
+    let mut all: Vec<(&'static str, Params)> = Vec::new();
+    for parameter in Parameter::ALL {
+        let (spec, number) = (parameter.spec(), used.get(parameter));
+        let mut moved = base;
+        *moved.slot(parameter) = Setting::Value(if spec.whole { number + 1.0 } else { number * 1.05 });
+        all.push((spec.name, moved));
+    }
+    all.push(("illuminant", Params { illuminant: IlluminantSetting::Given([1.0, 1.0, 0.9]), ..base }));
+    for (name, _) in Refine::default().switches() {
+        let mut moved = base;
+        for (_, switch) in moved.refine.switches().into_iter().filter(|(other, _)| *other == name) {
+            *switch = false;
+        }
+        all.push((name, moved));
+    }
+    all
+}
+
+fn sliders(tiles: usize, runs: usize) {
+    let image = sample(tiles);
+    let floor = best_of(runs, || window_moments(&image.pixels));
+    let pixels = image.pixels.len() as f64 / 1e6;
+    println!("\n{pixels:>7.2} MP  {:>19}  {:>9}  {:>9}  {:>7}", "moved", "best", "median", "ratio");
+    for (name, moved) in movements(&image) {
+        let mut session = Session::new(image.clone());
+        let mut times: Vec<Duration> = (0..runs)
+            .map(|_| {
+                let _ = session.run(&Params::default(), &mut ());
+                best_of(1, || session.run(&moved, &mut ()))
+            })
+            .collect();
+        times.sort_unstable();
+        let (best, median) = (times[0], times[runs / 2]);
+        let ratio = best.as_secs_f64() / floor.as_secs_f64();
+        println!("{name:>31}  {}  {}  {ratio:>6.1}\u{d7}", milliseconds(best), milliseconds(median));
+    }
+}
+
+/// The shortest time of each stage.
+#[derive(Default)]
+struct StageTimes {
+    begun: Option<Instant>,
+    best: [Option<Duration>; Stage::ALL.len()],
+}
+
+impl Observer for StageTimes {
+    fn started(&mut self, _stage: Stage) {
+        self.begun = Some(Instant::now());
+    }
+
+    fn finished(&mut self, stage: Stage, _reused: bool) {
+        let took = self.begun.take().map(|begun| begun.elapsed());
+        let best = &mut self.best[stage as usize];
+        *best = [*best, took].into_iter().flatten().min();
+    }
+}
+
+fn stages(tiles: usize, runs: usize) {
+    let image = sample(tiles);
+    let mut times = StageTimes::default();
+    let whole = best_of(runs, || Session::new(image.clone()).run(&Params::default(), &mut times));
+    println!("\n{:>7.2} MP  {:>19}  {}", image.pixels.len() as f64 / 1e6, "analysis", milliseconds(whole));
+    for stage in Stage::ALL {
+        println!("{:>31}  {}", stage.name(), milliseconds(times.best[stage as usize].unwrap_or_default()));
     }
 }
 

@@ -298,11 +298,11 @@ fn a_cylinder_reads_as_round() {
     let triangles = shapes::cylinder([0.5, 0.5, 0.1], [0.5, 0.5, 0.9], 0.2, 48, [255, 255, 255, 60]);
     let scene = Scene { meshes: vec![Mesh::new(triangles)], ..Scene::default() };
     let Some(picture) = Picture::of(&scene, &orthographic()) else { return };
-    let profile = [0.5, 0.6, 0.66, 0.69].map(|x| picture.at_world([x, 0.5, 0.5])[0]);
+    let profile = [0.5, 0.6, 0.64, 0.67].map(|x| picture.at_world([x, 0.5, 0.5])[0]);
     assert!(profile.is_sorted_by(|a, b| a < b), "denser towards the silhouette: {profile:?}");
     let through = 1.0 - (1.0_f32 - 60.0 / 255.0).powi(2);
     assert!(profile[0].abs_diff((255.0 * through) as u8) < 4, "two skins in the middle: {profile:?}");
-    let mirrored = [0.4, 0.34, 0.31].map(|x| picture.at_world([x, 0.5, 0.5])[0]);
+    let mirrored = [0.4, 0.36, 0.33].map(|x| picture.at_world([x, 0.5, 0.5])[0]);
     assert!(mirrored.iter().zip(&profile[1..]).all(|(a, b)| a.abs_diff(*b) < 12), "{mirrored:?} {profile:?}");
 }
 

@@ -85,6 +85,7 @@ impl App {
 impl Front {
     fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         come_in(ui, cx);
+        self.panels.image.hear_escape(ui.ctx());
         for deed in shortcuts::pressed(ui.ctx()) {
             shortcuts::carry_out(deed, cx, &mut self.dialogs, &mut self.help);
         }

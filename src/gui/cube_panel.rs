@@ -1,14 +1,234 @@
-//! To be filled.
+//! The colour space view: the photograph's colours as points in three dimensions, and what the model claims of them.
+
+mod bar;
+mod canvas;
+mod cloud;
+mod detail;
+mod eye;
+mod figure;
+mod frame;
+mod labels;
+mod legend;
+mod outline;
+#[cfg(test)]
+mod tests;
 
 use super::{Cx, widgets};
+use crate::gpu::{Batch, Line, Orbit, Projector, Scene, pick};
+use crate::workbench::{Combine, Command, Item, Picture, Tool};
+use canvas::Canvas;
+use cloud::Cloud;
+use detail::Detail;
+use egui::{Color32, EventFilter, Rect, Response, Sense, Stroke, Ui, vec2};
+use eye::{Eye, Plane};
+use figure::Figure;
+use frame::Frame;
+use outline::Outline;
+use std::sync::Arc;
+
+/// A point this near to the pointer is meant, points.
+const REACH_PT: f32 = 6.0;
+/// Radius of the ring around what is hovered.
+const RING_PT: f32 = 7.0;
 
 /// The panel.
 #[derive(Default)]
-pub struct CubePanel;
+pub struct CubePanel {
+    eye: Eye,
+    cloud: Cloud,
+    detail: Detail,
+    figure: Figure,
+    frame: Frame,
+    canvas: Canvas,
+    outline: Outline,
+    scene: Scene,
+    /// The camera that the lines in the scene were made for.
+    seen_from: Option<Orbit>,
+    hovers: bool,
+    size: [f32; 2],
+}
 
 impl CubePanel {
     /// Shows it.
-    pub fn show(&mut self, ui: &mut egui::Ui, cx: &mut Cx) {
-        widgets::nothing(ui, cx.tones, "CubePanel");
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+        let Some(picture) = cx.state.picture.clone() else {
+            widgets::nothing(ui, cx.tones, "Open a photograph to see its colours.");
+            return;
+        };
+        let Some(gpu) = cx.gpu else {
+            let text = "There is no graphics adapter, so the colour space cannot be drawn; all else works.";
+            widgets::nothing(ui, cx.tones, text);
+            return;
+        };
+        egui::Frame::new().fill(cx.tones.panel).inner_margin(egui::Margin::symmetric(6, 3)).show(ui, |ui| {
+            bar::show(ui, cx, &mut self.eye, self.size);
+            ui.allocate_space(vec2(ui.available_width(), 0.0));
+        });
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        if rect.width() < 8.0 || rect.height() < 8.0 {
+            return;
+        }
+        self.size = [rect.width(), rect.height()];
+        self.turn(ui, cx, &response, rect);
+        self.update(ui, cx, gpu, &picture);
+        self.canvas.show(ui, gpu, rect, &self.scene, &self.eye.orbit);
+        let projector = self.eye.orbit.projector(self.size);
+        self.write(ui, cx, &projector, &response, &picture);
+        self.point(cx, &response, &projector, rect);
+        self.mark(ui, cx, &response, &projector, rect, &picture);
+        describe(&response);
     }
+
+    /// What turns the camera.
+    fn turn(&mut self, ui: &Ui, cx: &Cx, response: &Response, rect: Rect) {
+        let (plane, settings) = (Plane::of(cx.state), &cx.state.view.cube);
+        if response.clicked() || response.drag_started() {
+            response.request_focus();
+        }
+        let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+        self.eye.arrive(self.size);
+        self.eye.follow(plane, settings.locked);
+        self.eye.obey(ui, response, rect, settings.tool == Tool::Pointer, plane);
+    }
+
+    /// What is to be drawn, as far as it has changed.
+    fn update(&mut self, ui: &Ui, cx: &Cx, gpu: &egui_wgpu::RenderState, picture: &Arc<Picture>) {
+        let settings = &cx.state.view.cube;
+        let moved = self.seen_from != Some(self.eye.orbit);
+        if moved {
+            self.detail.stir();
+        }
+        let detail = settings.full_detail.then(|| {
+            let swift = gpu.adapter.get_info().device_type != wgpu::DeviceType::Cpu;
+            self.detail.get(ui.ctx(), picture, swift)
+        });
+        self.cloud.update(cx.state, cx.tones, picture, detail.flatten().as_ref());
+        self.scene.points = self.cloud.drawn.to_vec();
+        self.scene.background = cx.tones.background.to_array();
+        let other_space =
+            self.frame.update(settings.space, picture.histogram.full_counts, cx.state.view.theme);
+        let other_figure = self.figure.update(cx.state, picture);
+        if other_figure {
+            self.scene.meshes.clone_from(&self.figure.meshes);
+        }
+        if moved || other_space || other_figure {
+            let mut lines: Vec<Line> = self.frame.lines.clone();
+            lines.extend(&self.figure.lines);
+            lines.extend(self.figure.silhouettes(&self.eye.orbit));
+            self.scene.lines = Batch::new(lines);
+            self.seen_from = Some(self.eye.orbit);
+        }
+    }
+
+    /// Labels, gizmo, legend, and the ring around what is hovered.
+    fn write(&self, ui: &Ui, cx: &Cx, projector: &Projector, response: &Response, picture: &Picture) {
+        let rect = response.rect;
+        let settings = &cx.state.view.cube;
+        let mut occupied = vec![legend::show(ui, cx, rect, self.cloud.fullest)];
+        if matches!(
+            settings.space,
+            crate::workbench::ColourSpace::Rgb | crate::workbench::ColourSpace::LogRgb
+        ) {
+            let axes = self.eye.orbit.right_up_forward();
+            occupied.push(frame::gizmo(ui, axes, rect, ["R", "G", "B"], cx.tones));
+        }
+        occupied.push(self.readout(ui, cx, rect, picture));
+        let mut labels = self.figure.labels(ui, projector, rect, cx.tones);
+        labels.extend(self.frame.labels(ui, projector, rect, cx.tones));
+        let halo = cx.tones.background.gamma_multiply(0.72);
+        labels::show(ui, response.id.with("labels"), &labels, rect, &occupied, halo);
+        self.ring(ui, cx, projector, rect, picture);
+    }
+
+    /// The colour of what is hovered, in numbers; returns the room that it takes.
+    fn readout(&self, ui: &Ui, cx: &Cx, rect: Rect, picture: &Picture) -> Rect {
+        let corner = rect.right_bottom() - vec2(8.0, 6.0);
+        let Some((colour, count, region)) = self.hovered(cx, picture) else {
+            return Rect::from_min_max(corner, corner);
+        };
+        let [r, g, b] = colour.map(|v| v.round() as i32);
+        let region = region.map_or(String::new(), |region| format!("  region {region}"));
+        let text = format!("R {r}  G {g}  B {b}  {count} px{region}");
+        let font = egui::FontId::proportional(crate::gui::theme::SMALL_PT);
+        ui.painter_at(rect).text(corner, egui::Align2::RIGHT_BOTTOM, text, font, cx.tones.text)
+    }
+
+    /// Colour, number of pixels and region of the pixel or bin that is hovered.
+    fn hovered(&self, cx: &Cx, picture: &Picture) -> Option<([f32; 3], u32, Option<u16>)> {
+        let item = cx.state.hover?;
+        match item {
+            Item::Pixel(pixel) => {
+                let colour = *picture.photo.image.pixels.as_slice().get(pixel as usize)?;
+                Some((colour, 1, cx.state.region_of(item)))
+            }
+            Item::Bin(bin) => {
+                let of = picture.histogram.bins.get(bin as usize)?;
+                Some((of.mean, of.count, self.cloud.region_of(bin)))
+            }
+            Item::Window(_) | Item::Region(_) => None,
+        }
+    }
+
+    fn ring(&self, ui: &Ui, cx: &Cx, projector: &Projector, rect: Rect, picture: &Picture) {
+        let Some((colour, ..)) = self.hovered(cx, picture) else { return };
+        let world = cx.state.view.cube.space.place(colour, picture.histogram.full_counts);
+        let Some(at) = frame::screen(projector, rect, world) else { return };
+        let painter = ui.painter_at(rect);
+        let (dark, accent) =
+            (Stroke::new(3.5, Color32::from_black_alpha(140)), Stroke::new(1.6, cx.tones.accent));
+        for stroke in [dark, accent] {
+            painter.circle_stroke(at, RING_PT, stroke);
+            for side in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)] {
+                painter.line_segment([at + side * RING_PT, at + side * (RING_PT + 5.0)], stroke);
+            }
+        }
+    }
+
+    /// Hovering a bin lights up its pixels; a click selects its region, with Alt the bin itself.
+    fn point(&mut self, cx: &mut Cx, response: &Response, projector: &Projector, rect: Rect) {
+        let pointer = response.hover_pos().filter(|_| !response.dragged());
+        let bin = pointer.and_then(|at| {
+            let at = (at - rect.min).into();
+            pick::nearest(&self.cloud.bins, projector, at, REACH_PT).map(|hit| hit.index as u32)
+        });
+        let hover = bin.map(Item::Bin);
+        let was_ours = std::mem::replace(&mut self.hovers, pointer.is_some());
+        if (self.hovers || was_ours) && cx.state.hover != hover {
+            cx.send(Command::Hover(hover));
+        }
+        if response.clicked() && !response.double_clicked() && cx.state.view.cube.tool == Tool::Pointer {
+            let alt = response.ctx.input(|input| input.modifiers.alt);
+            let region = bin.and_then(|bin| self.cloud.region_of(bin)).map(Item::Region);
+            cx.send(Command::Select(if alt { hover } else { region.or(hover) }));
+        }
+    }
+
+    /// Rectangle, lasso and polygon mark the pixels of the colours inside.
+    fn mark(
+        &mut self,
+        ui: &Ui,
+        cx: &mut Cx,
+        response: &Response,
+        projector: &Projector,
+        rect: Rect,
+        picture: &Picture,
+    ) {
+        if let Some(outline) = self.outline.follow(ui, response, cx.state.view.cube.tool) {
+            let mask = outline::mask_of(picture, &self.cloud.bins, projector, rect, &outline);
+            let combine = ui.input(|input| match input.modifiers {
+                egui::Modifiers { alt: true, .. } => Combine::Subtract,
+                egui::Modifiers { shift: true, .. } => Combine::Union,
+                _ => Combine::Replace,
+            });
+            cx.send(Command::Mark(Arc::new(mask), combine, None));
+        }
+        self.outline.paint(&ui.painter_at(rect), response, cx.tones.accent);
+    }
+}
+
+fn describe(response: &Response) {
+    response
+        .widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, "Colour space view"));
 }

@@ -9,7 +9,9 @@ mod cube_panel;
 mod cx;
 mod dock;
 mod files;
+mod icons;
 mod image_panel;
+mod later;
 mod menu;
 mod notices;
 mod offscreen;
@@ -21,6 +23,8 @@ mod screenshot;
 mod selection_panel;
 mod shortcuts;
 mod status;
+#[cfg(test)]
+mod testing;
 mod theme;
 mod widgets;
 mod window;

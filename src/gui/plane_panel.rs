@@ -1,14 +1,195 @@
-//! To be filled.
+//! The plane view: the selected region's pixels in its dichromatic plane, the skewed T of figure 2.
 
+mod chart;
+mod kinds;
+#[cfg(test)]
+mod tests;
+
+use super::theme::SMALL_PT;
 use super::{Cx, widgets};
+use crate::workbench::{Command, Item, Point, RegionPlane, Shown, Theme, region_plane};
+use chart::Chart;
+use egui::{Align2, Color32, FontId, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
+use std::sync::Arc;
+
+/// A point this near to the pointer is meant, points.
+const REACH_PT: f32 = 8.0;
+const RING_PT: f32 = 6.0;
+/// Points of scrolling that zoom by e.
+const SCROLL_PT: f32 = 260.0;
 
 /// The panel.
 #[derive(Default)]
-pub struct PlanePanel;
+pub struct PlanePanel {
+    of: Option<(Arc<Shown>, u16)>,
+    plane: Option<RegionPlane>,
+    chart: Option<Chart>,
+    cloud: Option<Cloud>,
+    hovers: bool,
+}
+
+/// The points as triangles, and what they were made for.
+struct Cloud {
+    look: (Chart, Rect, bool, Theme),
+    mesh: Arc<egui::Mesh>,
+}
 
 impl PlanePanel {
     /// Shows it.
-    pub fn show(&mut self, ui: &mut egui::Ui, cx: &mut Cx) {
-        widgets::nothing(ui, cx.tones, "PlanePanel");
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+        let Some((shown, region)) = cx.state.shown().cloned().zip(cx.state.selected_region()) else {
+            widgets::nothing(ui, cx.tones, "Select a region to see its dichromatic plane.");
+            return;
+        };
+        self.update(&shown, region);
+        let Some(plane) = &self.plane else {
+            widgets::nothing(ui, cx.tones, "This region has no matte line, and so no dichromatic plane.");
+            return;
+        };
+        egui::Frame::new()
+            .inner_margin(egui::Margin::symmetric(6, 3))
+            .show(ui, |ui| kinds::bar(ui, cx, plane));
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        if rect.width() < 16.0 || rect.height() < 16.0 {
+            return;
+        }
+        response.widget_info(|| {
+            let name = format!("Dichromatic plane of region {region}");
+            egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, name)
+        });
+        let chart = navigate(ui, &response, plane, self.chart, rect);
+        self.chart = Some(chart);
+        let painter = ui.painter_at(rect);
+        chart.axes(&painter, plane, rect, cx.tones);
+        let mesh = cloud(&mut self.cloud, cx, plane, chart, rect);
+        painter.add(Shape::Mesh(mesh));
+        chart.skewed_t(ui, &response, plane, rect, cx.tones);
+        edge_notes(&painter, cx, plane, &shown, rect);
+        hovered(&painter, cx, plane, chart, &shown, rect);
+        self.point(cx, &response, chart, rect);
     }
+
+    fn update(&mut self, shown: &Arc<Shown>, region: u16) {
+        let known = self.of.as_ref().map(|(shown, region)| (Arc::as_ptr(shown), *region));
+        if known == Some((Arc::as_ptr(shown), region)) {
+            return;
+        }
+        // The same region of a newer result keeps its place under the eye.
+        if known.is_none_or(|(_, known)| known != region) {
+            self.chart = None;
+        }
+        self.plane = region_plane(shown, region);
+        self.cloud = None;
+        self.of = Some((Arc::clone(shown), region));
+    }
+
+    /// Hovering a point hovers its pixel; a click selects it.
+    fn point(&mut self, cx: &mut Cx, response: &Response, chart: Chart, rect: Rect) {
+        let Some(plane) = &self.plane else { return };
+        let pointer = response.hover_pos().filter(|_| !response.dragged());
+        let found =
+            pointer.and_then(|at| plane.nearest(chart.oblique(at, rect), REACH_PT * chart.counts_per_pt));
+        let hover = found.map(|point| Item::Pixel(point.pixel));
+        let was_ours = std::mem::replace(&mut self.hovers, pointer.is_some());
+        if (self.hovers || was_ours) && cx.state.hover != hover {
+            cx.send(Command::Hover(hover));
+        }
+        if let Some(item) = hover.filter(|_| response.clicked() && !response.double_clicked()) {
+            cx.send(Command::Select(Some(item)));
+        }
+    }
+}
+
+/// Drag pans, the wheel zooms at the pointer, a double click fits.
+fn navigate(ui: &Ui, response: &Response, plane: &RegionPlane, chart: Option<Chart>, rect: Rect) -> Chart {
+    let mut chart = chart.filter(|_| !response.double_clicked()).unwrap_or_else(|| Chart::fit(plane, rect));
+    chart.pan(response.drag_delta());
+    if let Some(pointer) = response.hover_pos() {
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+        chart.zoom((scroll / SCROLL_PT).exp() * pinch, pointer, rect);
+    }
+    chart
+}
+
+/// Two triangles a point, made anew when view or colours change.
+fn cloud(
+    kept: &mut Option<Cloud>,
+    cx: &Cx,
+    plane: &RegionPlane,
+    chart: Chart,
+    rect: Rect,
+) -> Arc<egui::Mesh> {
+    let by_label = cx.state.view.plane.colour_by_label;
+    let look = (chart, rect, by_label, cx.state.view.theme);
+    if let Some(cloud) = kept.as_ref().filter(|cloud| cloud.look == look) {
+        return Arc::clone(&cloud.mesh);
+    }
+    let mut mesh = egui::Mesh::default();
+    mesh.reserve_vertices(4 * plane.points.len());
+    mesh.reserve_triangles(2 * plane.points.len());
+    for point in &plane.points {
+        let at = chart.screen(plane.oblique(point.body, point.surface), rect);
+        if rect.expand(4.0).contains(at) {
+            let colour = if by_label {
+                kinds::colour(point.kind, cx.state.view.theme)
+            } else {
+                widgets::own_colour(point.colour)
+            };
+            let side = 1.7 + 0.5 * (point.count as f32).ln();
+            mesh.add_colored_rect(Rect::from_center_size(at, vec2(side, side)), colour);
+        }
+    }
+    let mesh = Arc::new(mesh);
+    *kept = Some(Cloud { look, mesh: Arc::clone(&mesh) });
+    mesh
+}
+
+/// Angle, slice and noise, in the lower corner; why there is no plane, in the upper one.
+fn edge_notes(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, shown: &Shown, rect: Rect) {
+    let font = FontId::proportional(SMALL_PT);
+    let region = &shown.analysis.intrinsic.regions[usize::from(plane.region) - 1];
+    let rms = region.fit_rms_counts;
+    let text = if plane.has_plane {
+        let (angle, slice) = (plane.angle_deg, plane.slice_half_width);
+        format!("angle {angle:.1}\u{b0}   slice \u{b1}{slice:.1} counts   \u{3b5} {rms:.2} counts rms")
+    } else {
+        let why = if shown.analysis.illuminant.is_none() {
+            "the light's colour is unknown, as no highlight was found"
+        } else {
+            "its body colour is the light's"
+        };
+        let below = rect.left_top() + vec2(8.0, 2.0);
+        let text = format!("No dichromatic plane: {why}. Shown across the matte line.");
+        painter.text(below, Align2::LEFT_TOP, text, font.clone(), cx.tones.text);
+        format!("cylinder radius {:.1} counts   {rms:.2} counts rms from the line", plane.radius)
+    };
+    painter.text(rect.right_bottom() - vec2(8.0, 4.0), Align2::RIGHT_BOTTOM, text, font, cx.tones.quiet);
+}
+
+/// Rings the colour that is hovered anywhere, and tells its amounts.
+fn hovered(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, chart: Chart, shown: &Shown, rect: Rect) {
+    let colour: Option<Point> = match cx.state.hover {
+        Some(Item::Pixel(pixel)) => shown.picture.photo.image.pixels.as_slice().get(pixel as usize).copied(),
+        Some(Item::Bin(bin)) => shown.picture.histogram.bins.get(bin as usize).map(|bin| bin.mean),
+        _ => None,
+    };
+    let Some(amounts) = colour.map(|colour| plane.amounts(colour)) else { return };
+    let at = chart.screen(plane.oblique(amounts.body, amounts.surface), rect);
+    let inside = cx.state.hover.and_then(|item| cx.state.region_of(item)) == Some(plane.region);
+    let colour = if inside { cx.tones.accent } else { cx.tones.quiet };
+    painter.circle_stroke(at, RING_PT, Stroke::new(3.5, Color32::from_black_alpha(140)));
+    painter.circle_stroke(at, RING_PT, Stroke::new(1.6, colour));
+    let other = if inside { "" } else { "   not in this region" };
+    let text = format!(
+        "m_b {:.1}   m_s {:.1}   \u{3b5} {:+.1}{other}",
+        amounts.body, amounts.surface, amounts.noise
+    );
+    let corner = rect.right_top() + vec2(-8.0, 4.0);
+    painter.text(corner, Align2::RIGHT_TOP, text, FontId::proportional(SMALL_PT), cx.tones.text);
+}
+
+/// Small quiet words.
+fn quiet(cx: &Cx, text: &str) -> RichText {
+    RichText::new(text).size(SMALL_PT).color(cx.tones.quiet)
 }

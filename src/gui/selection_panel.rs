@@ -1,14 +1,193 @@
-//! To be filled.
+//! What is known of the selected pixels: how many, which colours, where.
 
+use super::later::{AT_ONCE_PX, Later};
+use super::theme::SMALL_PT;
 use super::{Cx, widgets};
+use crate::raster::Mask;
+use crate::trace::Class;
+use crate::workbench::{Band, Command, Item, Statistics, statistics, statistics_of};
+use egui::{Color32, Label, RichText, ScrollArea, Sense, Ui, pos2, vec2};
+use std::sync::Arc;
 
-/// The panel.
+/// Height of a band's histogram, points.
+const HISTOGRAM_PT: f32 = 36.0;
+
+/// What the statistics are of: the result, the marked pixels or else the item.
+type Key = (u64, Option<usize>, Option<Item>);
+
+/// Statistics of the selection.
 #[derive(Default)]
-pub struct SelectionPanel;
+pub struct SelectionPanel {
+    statistics: Later<Key, Option<Statistics>>,
+}
 
 impl SelectionPanel {
-    /// Shows it.
-    pub fn show(&mut self, ui: &mut egui::Ui, cx: &mut Cx) {
-        widgets::nothing(ui, cx.tones, "SelectionPanel");
+    /// Shows the statistics.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+        let state = cx.state;
+        let Some(shown) = state.shown().cloned() else {
+            return widgets::nothing(ui, cx.tones, "Statistics appear when a photograph has been analysed.");
+        };
+        let (marked, item) = (state.document.selection.marked.clone(), state.document.selection.item);
+        let subject = match (&marked, item) {
+            (Some(_), _) => "Marked pixels".to_owned(),
+            (None, Some(item)) => name_of(item, shown.picture.size().0),
+            (None, None) => {
+                let hint = "Click a region, or mark pixels with a tool of the image or the colour space.";
+                return widgets::nothing(ui, cx.tones, hint);
+            }
+        };
+        let address = marked.as_ref().map(|mask: &Arc<Mask>| Arc::as_ptr(mask) as usize);
+        let key = (shown.generation, address, item.filter(|_| marked.is_none()));
+        let at_once = shown.labels().len() <= AT_ONCE_PX;
+        let make = move || match (marked, item) {
+            (Some(mask), _) => statistics(&shown, &mask),
+            (None, item) => item.and_then(|item| statistics_of(&shown, item)),
+        };
+        let found = self.statistics.get(ui.ctx(), key, at_once, make);
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            egui::Frame::new().inner_margin(8).show(ui, |ui| match found {
+                Some(Some(found)) => {
+                    verbs(ui, cx, &subject);
+                    ui.horizontal_wrapped(|ui| facts(ui, cx, found));
+                    bands(ui, cx, found);
+                }
+                Some(None) => {
+                    verbs(ui, cx, &subject);
+                    ui.label(RichText::new("No pixel of the picture is in it.").color(cx.tones.quiet));
+                }
+                None => {
+                    ui.label(RichText::new("counting\u{2026}").color(cx.tones.quiet));
+                }
+            });
+        });
     }
+}
+
+fn name_of(item: Item, width: usize) -> String {
+    match item {
+        Item::Pixel(pixel) => {
+            format!("Pixel {}, {}", pixel as usize % width.max(1), pixel as usize / width.max(1))
+        }
+        Item::Window(window) => format!("Window {}", window + 1),
+        Item::Region(region) => format!("Region {region}"),
+        Item::Bin(bin) => format!("Colour bin {}", bin + 1),
+    }
+}
+
+fn verbs(ui: &mut Ui, cx: &mut Cx, subject: &str) {
+    let marked = cx.state.document.selection.marked.is_some();
+    ui.horizontal(|ui| {
+        ui.label(subject);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if ui.small_button("Deselect").on_hover_text("Select and mark nothing (Esc).").clicked() {
+                cx.send(Command::ClearSelection);
+            }
+            if ui.add_enabled(marked, egui::Button::new("Invert").small()).clicked() {
+                cx.send(Command::InvertMarked);
+            }
+        });
+    });
+}
+
+fn facts(ui: &mut Ui, cx: &Cx, found: &Statistics) {
+    ui.spacing_mut().item_spacing.x = 12.0;
+    let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {
+        let text = format!("{name} ");
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            ui.label(RichText::new(text).size(SMALL_PT).color(cx.tones.quiet)).on_hover_text(tip);
+            ui.add(Label::new(value).selectable(true)).on_hover_text(tip);
+        });
+    };
+    fact(ui, "pixels", widgets::grouped(found.pixels), "How many pixels are selected.");
+    let class = found.class.map_or("\u{2013}", class_name);
+    fact(
+        ui,
+        "class",
+        class.to_owned(),
+        "By the number of significant eigenvalues of their colours (section 5.2.1, table 1).",
+    );
+    let [a, b, c] = found.variances.map(f64::sqrt);
+    let tip = "Standard deviations along the principal axes, counts: square roots of the eigenvalues (section 5.2.1).";
+    fact(ui, "\u{221a}\u{3bb}", format!("{a:.2}  {b:.2}  {c:.2}"), tip);
+    let [x, y, z] = found.axes[0];
+    fact(
+        ui,
+        "axis",
+        format!("{x:.3}  {y:.3}  {z:.3}"),
+        "The first principal axis: the matte line's direction, of a linear cluster (section 5.3).",
+    );
+    let box_ = &found.bounds;
+    fact(
+        ui,
+        "box",
+        format!("{}, {}  {} \u{d7} {}", box_.left, box_.top, box_.width, box_.height),
+        "Left, top, width and height of the smallest rectangle, pixels.",
+    );
+    let percent = |n: usize| format!("{:.1} %", 100.0 * n as f64 / found.pixels.max(1) as f64);
+    fact(ui, "clipped", percent(found.clipped), "A band is at or above the clipping threshold (section 4).");
+    fact(ui, "dark", percent(found.dark), "Inside the dark sphere: not analysed (section 5.3).");
+    let regions: Vec<String> = found
+        .regions
+        .iter()
+        .take(4)
+        .map(|&(id, n)| {
+            let name = if id == 0 { "none".to_owned() } else { id.to_string() };
+            format!("{name}: {}", percent(n))
+        })
+        .collect();
+    fact(ui, "regions", regions.join("   "), "The regions that most of them are in.");
+}
+
+const fn class_name(class: Class) -> &'static str {
+    match class {
+        Class::Point => "point",
+        Class::Line => "line",
+        Class::Plane => "plane",
+        Class::Volume => "volume",
+    }
+}
+
+fn bands(ui: &mut Ui, cx: &Cx, found: &Statistics) {
+    let colours = [
+        ("R", Color32::from_rgb(0xD8, 0x6A, 0x5E)),
+        ("G", Color32::from_rgb(0x6C, 0xB0, 0x6A)),
+        ("B", Color32::from_rgb(0x6E, 0x96, 0xDE)),
+    ];
+    let quiet = |text: &str| RichText::new(text.to_owned()).size(SMALL_PT).color(cx.tones.quiet);
+    egui::Grid::new("bands").num_columns(6).spacing([12.0, 2.0]).show(ui, |ui| {
+        for title in ["", "min", "median", "mean", "max", "counts"] {
+            ui.label(quiet(title));
+        }
+        ui.end_row();
+        for ((band, (name, colour)), mean) in found.bands.iter().zip(colours).zip(found.mean) {
+            ui.label(RichText::new(name).color(colour));
+            for value in [f64::from(band.min), f64::from(band.median), mean, f64::from(band.max)] {
+                widgets::number(ui, cx.tones, 44.0, &format!("{value:.1}"), "");
+            }
+            histogram(ui, band, colour, cx.tones.well);
+            ui.end_row();
+        }
+    });
+}
+
+/// How often each value occurs, from 0 to full scale; the tallest bar fills the height.
+fn histogram(ui: &mut Ui, band: &Band, colour: Color32, ground: Color32) {
+    let size = vec2(ui.available_width().clamp(96.0, 220.0), HISTOGRAM_PT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    response
+        .widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, "histogram of a band"));
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(rect, 2.0, ground);
+    let most = band.histogram.iter().copied().max().unwrap_or(0).max(1) as f32;
+    let width = rect.width() / band.histogram.len().max(1) as f32;
+    for (bin, &count) in band.histogram.iter().enumerate().filter(|(_, count)| **count > 0) {
+        let left = rect.left() + bin as f32 * width;
+        // The square root lets rare values be seen beside frequent ones.
+        let top = rect.bottom() - rect.height() * (count as f32 / most).sqrt().max(0.04);
+        let bar = egui::Rect::from_min_max(pos2(left, top), pos2(left + width, rect.bottom()));
+        painter.rect_filled(bar, 0.0, colour);
+    }
+    response.on_hover_text("Share of pixels (square root) at each value, from 0 to full scale.");
 }

@@ -50,3 +50,9 @@ pub fn grouped(number: usize) -> String {
     }
     text
 }
+
+/// Linear counts as the screen shows them.
+pub fn own_colour(counts: [f32; 3]) -> Color32 {
+    let [r, g, b] = counts.map(|v| egui::ecolor::gamma_u8_from_linear_f32((v / 255.0).clamp(0.0, 1.0)));
+    Color32::from_rgb(r, g, b)
+}

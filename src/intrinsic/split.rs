@@ -29,6 +29,9 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
         .map(|(index, hypothesis)| Splitter::new(scene, hypothesis, members.region(index as u16 + 1)))
         .collect();
     let mut images = Images::split_undistorted(scene, regions, &splitters);
+    if scene.stopped() {
+        return images.with_regions(Vec::new());
+    }
     images.restore(scene, regions, &splitters, &members);
     if R::KEEPS {
         for (pixel, &kind) in images.kinds.as_slice().iter().enumerate() {
@@ -47,13 +50,7 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
             splitter.report(scene, id, members.region(id), &images.kinds, neighbours)
         })
         .collect();
-    Intrinsic {
-        body: images.body,
-        surface: images.surface,
-        noise: images.noise,
-        kinds: images.kinds,
-        regions: reflections,
-    }
+    images.with_regions(reflections)
 }
 
 /// How one region's pixels are split.
@@ -195,7 +192,7 @@ impl Images {
     fn split_undistorted(scene: &Scene, regions: &FinalRegions, splitters: &[Splitter]) -> Self {
         let (width, height) = (scene.pixels.width(), scene.pixels.height());
         let mut images = Self {
-            body: scene.pixels.clone(),
+            body: Raster::filled(width, height, [0.0; 3]),
             surface: Raster::filled(width, height, [0.0; 3]),
             noise: Raster::filled(width, height, 0.0),
             kinds: Raster::filled(width, height, PixelKind::Unassigned),
@@ -210,6 +207,8 @@ impl Images {
             if scene.stopped() {
                 return;
             }
+            // Copied here and not all at once before, so that threads share the cost of fresh memory.
+            body.copy_from_slice(scene.pixels.row(y));
             for (x, &label) in regions.labels.row(y).iter().enumerate() {
                 if label == UNASSIGNED || scene.masks.distorted(y * width + x) {
                     continue;
@@ -223,6 +222,12 @@ impl Images {
             }
         });
         images
+    }
+
+    /// The images, finished, with what is known of each region.
+    fn with_regions(self, regions: Vec<RegionReflection>) -> Intrinsic {
+        let Self { body, surface, noise, kinds } = self;
+        Intrinsic { body, surface, noise, kinds, regions }
     }
 
     /// Restores distorted pixels from their good bands and their surroundings.

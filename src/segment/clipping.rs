@@ -10,6 +10,7 @@ use super::scene::Scene;
 use crate::color::{Line, Vec3, dot, rgb};
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 use crate::trace::{Event, Recorder};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// A clipped component joins the region that holds this share of its assigned border.
@@ -19,11 +20,20 @@ const SURROUNDED: f64 = 0.7;
 pub fn clipping_regions<R: Recorder>(scene: &Scene, planar: &PlanarRegions, recorder: &mut R) -> LabelMap {
     let mut ledger = Ledger::new(planar.labels.clone(), recorder);
     let members = ledger.members(planar.hypotheses.len());
-    for (index, hypothesis) in planar.hypotheses.iter().enumerate() {
-        let Some(highlight) = HighlightTest::new(hypothesis) else { continue };
-        let id = index as u16 + 1;
-        let is_highlight = |&pixel: &u32| highlight.is_highlight(scene.pixels[pixel as usize]);
-        let mut front: Vec<u32> = members.region(id).iter().filter(is_highlight).collect();
+    let fronts: Vec<Vec<u32>> = planar
+        .hypotheses
+        .par_iter()
+        .enumerate()
+        .map(|(index, hypothesis)| {
+            let Some(highlight) = HighlightTest::new(hypothesis) else { return Vec::new() };
+            let is_highlight = |&pixel: &u32| highlight.is_highlight(scene.pixels[pixel as usize]);
+            members.region(index as u16 + 1).iter().filter(is_highlight).collect()
+        })
+        .collect();
+    for ((id, hypothesis), mut front) in (1..).zip(&planar.hypotheses).zip(fronts) {
+        if scene.stopped() {
+            return ledger.labels;
+        }
         let start2 = hypothesis.start.norm_squared() as f32;
         ledger.grow(
             id,
@@ -37,6 +47,9 @@ pub fn clipping_regions<R: Recorder>(scene: &Scene, planar: &PlanarRegions, reco
     }
     let clipped = |pixel: usize| scene.masks.distorted(pixel) && !scene.masks.dark(pixel);
     fill(&mut ledger, clipped, |_, share| share >= SURROUNDED);
+    if scene.stopped() {
+        return ledger.labels;
+    }
     let largest_px = scene.used.min_area as usize;
     let lit = |pixel: usize| !scene.masks.dark(pixel);
     fill(&mut ledger, lit, |hole, share| !hole.open && share >= 1.0 && hole.pixels.len() <= largest_px);

@@ -72,6 +72,29 @@ impl<'a, R: Recorder> Ledger<'a, R> {
         }
     }
 
+    /// Those of `pixels` that are `region`'s and have a neighbour that is not: all that growth has to start from, in the
+    /// order of `pixels`. Of a large region they are few.
+    pub fn border(&self, region: u16, pixels: Pixels) -> Vec<u32> {
+        let (width, labels) = (self.labels.width(), self.labels.as_slice());
+        let mut border = Vec::new();
+        for &(first, length) in pixels.runs() {
+            // A run lies within a row.
+            let (first, x) = (first as usize, first as usize % width);
+            for pixel in first..first + length as usize {
+                let column = x + pixel - first;
+                let other = |near: usize| labels[near] != region;
+                let edge = (pixel >= width && other(pixel - width))
+                    || (column > 0 && other(pixel - 1))
+                    || (column + 1 < width && other(pixel + 1))
+                    || (pixel + width < labels.len() && other(pixel + width));
+                if edge && labels[pixel] == region {
+                    border.push(pixel as u32);
+                }
+            }
+        }
+        border
+    }
+
     /// The pixels of every region, each list in row-major order; region `id` at index `id − 1`.
     pub fn members(&self, regions: usize) -> Members {
         Members::of(&self.labels, regions)
@@ -191,6 +214,25 @@ mod tests {
         assert_eq!(members.region(2).len(), 3);
         assert!(members.region(3).is_empty());
         assert_eq!(members.region(2).sample(2).collect::<Vec<_>>(), [0, 5]);
+    }
+
+    #[test]
+    fn growth_from_the_border_is_growth_from_all_pixels() {
+        let rows = [[1u16, 1, 1, 0, 2], [1, 1, 1, 0, 2], [1, 1, 1, 0, 0], [0, 0, 0, 0, 1]];
+        let labels = LabelMap::from_vec(5, 4, rows.concat()).unwrap();
+        let members = Members::of(&labels, 2);
+        let grown = |from_border: bool| {
+            let mut log = Log::default();
+            let mut ledger = Ledger::new(labels.clone(), &mut log);
+            let all = members.region(1);
+            let mut front = if from_border { ledger.border(1, all) } else { all.iter().collect() };
+            let seeds = front.clone();
+            ledger.grow(1, &mut front, || false, |_, _, holder| holder == 0);
+            (log, seeds)
+        };
+        let (from_border, seeds) = grown(true);
+        assert_eq!(seeds, [2, 7, 10, 11, 12, 19]);
+        assert_eq!(from_border, grown(false).0);
     }
 
     #[test]

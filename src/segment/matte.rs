@@ -57,6 +57,9 @@ pub fn matte_regions<R: Recorder>(
 /// Repeats the stages so far on unexplained pixels, for what is smaller than the minimal area or too flat for a line.
 fn second_look<R: Recorder>(scene: &Scene, hypotheses: &mut Vec<Hypothesis>, ledger: &mut Ledger<R>) {
     for (size_px, min_area_px) in SECOND_LOOKS {
+        if scene.stopped() {
+            return;
+        }
         let min_area_px = min_area_px.min(scene.used.min_area as usize);
         let mut classifier = Classifier::new(scene.used.camera_noise, scene.refine.tail_test);
         let labels = &ledger.labels;

@@ -115,7 +115,7 @@ pub fn planar_regions<R: Recorder>(
     let (mut direction, mut objects) = stage.first_illuminant(&members);
     let mut hypotheses = stage.slices(direction);
     for _ in 0..ROUNDS {
-        let Some(before) = direction else { break };
+        let Some(before) = direction.filter(|_| !scene.stopped()) else { break };
         let (next, count) = stage.illuminant_again(&hypotheses, &before);
         (direction, objects) = (Some(next), count);
         stage.unite();
@@ -187,7 +187,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let start = candidates.unwrap_or(white);
         let constraints: Vec<Constraint> = (1..=self.matte.len() as u16)
             .into_par_iter()
-            .filter(|&id| self.matte[usize::from(id) - 1].alive)
+            .filter(|&id| self.matte[usize::from(id) - 1].alive && !self.scene.stopped())
             .filter_map(|id| {
                 let line = &self.matte[usize::from(id) - 1].line;
                 let plane = DichromaticPlane::new(line, &start)?;
@@ -214,7 +214,8 @@ impl<R: Recorder> Stage<'_, '_, R> {
             .into_par_iter()
             .map(|id| {
                 let hypothesis = &hypotheses[usize::from(id) - 1];
-                let Some(plane) = hypothesis.plane.filter(|_| hypothesis.alive) else { return (None, None) };
+                let wanted = hypothesis.alive && !self.scene.stopped();
+                let Some(plane) = hypothesis.plane.filter(|_| wanted) else { return (None, None) };
                 let (pixels, length) = (members.region(id), hypothesis.matte_length);
                 let Some(lies_in) = plane_constraint(self.scene, id, &plane, length, pixels.iter()) else {
                     return (None, None);
@@ -343,8 +344,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let scene = self.scene;
         let own = cylinders[usize::from(id) - 1];
         let matte_labels = &self.matte_labels;
-        let mut front: Vec<u32> =
-            members.region(id).iter().filter(|&p| self.ledger.labels[p as usize] == id).collect();
+        let mut front = self.ledger.border(id, members.region(id));
         self.ledger.grow(
             id,
             &mut front,

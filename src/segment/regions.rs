@@ -49,6 +49,9 @@ pub fn final_regions<R: Recorder>(
     if scene.refine.split_components {
         let members = ledger.members(hypotheses.len());
         for id in 1..=hypotheses.len() as u16 {
+            if scene.stopped() {
+                break;
+            }
             separate(id, members.region(id), &mut hypotheses, &mut ledger);
         }
     }
@@ -92,6 +95,9 @@ fn join_across<R: Recorder>(scene: &Scene, hypotheses: &[PlanarHypothesis], ledg
     let mut clusters: BTreeMap<u16, Moments> = BTreeMap::new();
     let mut into_of: Vec<u16> = (0..=hypotheses.len() as u16).collect();
     for (i, &into) in order.iter().enumerate() {
+        if scene.stopped() {
+            break;
+        }
         for &from in &order[i + 1..] {
             let free = into_of[usize::from(from)] == from && into_of[usize::from(into)] == into;
             let angle_deg = axis_angle_deg(&line(from).direction, &line(into).direction);

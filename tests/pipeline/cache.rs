@@ -6,6 +6,7 @@ use dichroscope::analysis::{Cancelled, Observer, Session, Stage, StageOutput};
 use dichroscope::photo::LinearImage;
 use dichroscope::segment::{IlluminantSetting, Params, Refine, Setting};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Notes which stages ran anew, and stops after some.
 #[derive(Default)]
@@ -149,6 +150,36 @@ fn a_cancelled_run_leaves_a_session_that_works() {
             assert!(fingerprint(&analysis) == fingerprint(&fresh), "after {stop_after} stages");
         }
     }
+}
+
+/// Stops after it has been asked so often, wherever that is.
+struct Impatient {
+    patience: AtomicUsize,
+}
+
+impl Observer for Impatient {
+    fn cancelled(&self) -> bool {
+        self.patience.fetch_update(Relaxed, Relaxed, |left| left.checked_sub(1)).is_err()
+    }
+}
+
+#[test]
+fn a_run_that_is_cancelled_within_a_stage_leaves_nothing_half_made() {
+    let image = balls();
+    let params = Params::default();
+    let fresh = fingerprint(&analyze(&image, &params));
+    let mut cancelled = 0;
+    for patience in (0..400).step_by(7) {
+        let mut session = Session::new(Arc::new(image.clone()));
+        let mut impatient = Impatient { patience: AtomicUsize::new(patience) };
+        match session.run(&params, &mut impatient) {
+            Ok(analysis) => assert!(fingerprint(&analysis) == fresh, "asked {patience} times"),
+            Err(Cancelled) => cancelled += 1,
+        }
+        let analysis = session.run(&params, &mut ()).unwrap();
+        assert!(fingerprint(&analysis) == fresh, "cancelled after {patience} questions");
+    }
+    assert!(cancelled > 10, "stages ask on their way, not only between them");
 }
 
 #[test]

@@ -1,0 +1,69 @@
+//! The off-screen picture as a texture of the window.
+
+use crate::gpu::{Orbit, Renderer, Scene};
+use egui::{Rect, TextureId, Ui};
+use egui_wgpu::RenderState;
+
+/// The renderer, and the window's name for its picture.
+#[derive(Default)]
+pub struct Canvas {
+    made: Option<Made>,
+}
+
+struct Made {
+    device: wgpu::Device,
+    renderer: Renderer,
+    texture: Option<(TextureId, u64)>,
+}
+
+impl Canvas {
+    /// Draws the scene where something has changed, and shows it.
+    pub fn show(&mut self, ui: &Ui, gpu: &RenderState, rect: Rect, scene: &Scene, camera: &Orbit) {
+        let made = self.made(gpu);
+        let scale = ui.ctx().pixels_per_point();
+        let size_px = [rect.width(), rect.height()].map(|length| (length * scale).round().max(1.0) as u32);
+        made.renderer.draw(&gpu.device, &gpu.queue, scene, camera, size_px, scale);
+        let uv = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+        ui.painter().image(made.texture(gpu), rect, uv, egui::Color32::WHITE);
+    }
+
+    /// The picture: width, height and sRGB bytes with alpha; none before the first drawing.
+    #[cfg(test)]
+    pub fn read_back(&self, gpu: &RenderState) -> Option<([u32; 2], Vec<u8>)> {
+        let renderer = &self.made.as_ref()?.renderer;
+        Some((renderer.size_px(), renderer.read_back(&gpu.device, &gpu.queue)?))
+    }
+
+    /// A renderer of this device: a lost one comes back as another.
+    fn made(&mut self, gpu: &RenderState) -> &mut Made {
+        if self.made.as_ref().is_some_and(|made| made.device != gpu.device) {
+            self.made = None;
+        }
+        self.made.get_or_insert_with(|| Made {
+            device: gpu.device.clone(),
+            renderer: Renderer::new(&gpu.device),
+            texture: None,
+        })
+    }
+}
+
+impl Made {
+    fn texture(&mut self, gpu: &RenderState) -> TextureId {
+        let (view, generation) = (self.renderer.view(), self.renderer.generation());
+        let filter = wgpu::FilterMode::Nearest;
+        match self.texture {
+            Some((id, known)) if known == generation => id,
+            Some((id, _)) => {
+                let mut window = gpu.renderer.write();
+                window.update_egui_texture_from_wgpu_texture(&gpu.device, view, filter, id);
+                self.texture = Some((id, generation));
+                id
+            }
+            None => {
+                let id = gpu.renderer.write().register_native_texture(&gpu.device, view, filter);
+                self.texture = Some((id, generation));
+                id
+            }
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! The photograph's colours as points: what is looked at in full, the rest as its ghost.
+
+use crate::gpu::{Batch, Point};
+use crate::gui::theme::Tones;
+use crate::raster::Mask;
+use crate::trace::Class;
+use crate::workbench::{
+    ColourBy, ColourSpace, CubeSettings, Item, Picture, Shown, State, Theme, UniqueColour, marking,
+};
+use egui::Color32;
+use std::sync::Arc;
+
+/// Diameter of a point where sizes say nothing, points of the screen.
+const PLAIN_PT: f32 = 3.0;
+/// Diameter of a bin with one pixel, and of the fullest.
+const SIZES_PT: [f32; 2] = [2.0, 9.0];
+/// Of a ghost.
+const GHOST_PT: f32 = 1.8;
+const GHOST_ALPHA: u8 = 72;
+
+/// The points of a photograph.
+#[derive(Default)]
+pub struct Cloud {
+    of: Option<Inputs>,
+    tally: Tally,
+    /// The bins, in the histogram's order.
+    pub bins: Vec<Point>,
+    /// What is drawn: first what is looked at, then the ghosts.
+    pub drawn: [Batch<Point>; 2],
+    /// Pixels of the fullest bin.
+    pub fullest: u32,
+}
+
+/// What most pixels of each bin are.
+#[derive(Default)]
+struct Tally {
+    of: Option<(Arc<Picture>, Option<Arc<Shown>>)>,
+    /// Their region; 0 is none.
+    regions: Vec<u16>,
+    /// The class of their windows.
+    classes: Vec<Option<Class>>,
+}
+
+impl Tally {
+    /// Counts anew where picture or result are others.
+    fn update(&mut self, picture: &Arc<Picture>, shown: Option<&Arc<Shown>>) {
+        let same = |(counted, result): &(Arc<Picture>, Option<Arc<Shown>>)| {
+            Arc::ptr_eq(counted, picture) && same_arc(result.as_ref(), shown)
+        };
+        if self.of.as_ref().is_some_and(same) {
+            return;
+        }
+        let (histogram, width) = (&picture.histogram, picture.size().0);
+        (self.regions, self.classes) = shown.map_or_else(Default::default, |shown| {
+            let classes = histogram.majority_class(&shown.analysis.windows, width);
+            (histogram.majority(shown.labels()), classes)
+        });
+        self.of = Some((Arc::clone(picture), shown.cloned()));
+    }
+}
+
+/// All that the points depend on.
+#[derive(Clone)]
+struct Inputs {
+    picture: Arc<Picture>,
+    shown: Option<Arc<Shown>>,
+    marked: Option<Arc<Mask>>,
+    item: Option<Item>,
+    look: (ColourSpace, ColourBy, bool, bool, Theme),
+    detail: Option<Arc<[UniqueColour]>>,
+}
+
+impl Inputs {
+    fn of(state: &State, picture: &Arc<Picture>, detail: Option<&Arc<[UniqueColour]>>) -> Self {
+        let CubeSettings { space, colour_by, size_by_count, ghost_rest, .. } = state.view.cube;
+        let selection = &state.document.selection;
+        Self {
+            picture: Arc::clone(picture),
+            shown: state.shown().cloned(),
+            marked: selection.marked.clone(),
+            item: selection.item,
+            look: (space, colour_by, size_by_count, ghost_rest, state.view.theme),
+            detail: detail.cloned(),
+        }
+    }
+
+    fn is(&self, other: &Self) -> bool {
+        let same = same_arc::<Shown>;
+        Arc::ptr_eq(&self.picture, &other.picture)
+            && same(self.shown.as_ref(), other.shown.as_ref())
+            && same_arc(self.marked.as_ref(), other.marked.as_ref())
+            && same_arc(self.detail.as_ref(), other.detail.as_ref())
+            && (self.item, self.look) == (other.item, other.look)
+    }
+}
+
+fn same_arc<T: ?Sized>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
+    match (a, b) {
+        (None, None) => true,
+        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        _ => false,
+    }
+}
+
+impl Cloud {
+    /// Brings the points up to date; `detail` are all unique colours, where they are to be drawn.
+    pub fn update(
+        &mut self,
+        state: &State,
+        tones: &Tones,
+        picture: &Arc<Picture>,
+        detail: Option<&Arc<[UniqueColour]>>,
+    ) {
+        let inputs = Inputs::of(state, picture, detail);
+        if self.of.as_ref().is_some_and(|of| of.is(&inputs)) {
+            return;
+        }
+        self.tally.update(picture, inputs.shown.as_ref());
+        let focus = focus(state, picture);
+        self.fullest = picture.histogram.bins.iter().map(|bin| bin.count).max().unwrap_or(1);
+        let brush = Brush { inputs: &inputs, tally: &self.tally, tones, fullest: self.fullest };
+        let bins = picture.histogram.bins.iter().enumerate();
+        self.bins = bins.map(|(bin, of)| brush.point(bin, of.mean, of.count)).collect();
+        self.drawn = match &inputs.detail {
+            None => {
+                let points = self.bins.iter().copied().enumerate();
+                brush.split(points.map(|(bin, point)| (point, looked_at(focus.as_deref(), bin))))
+            }
+            Some(colours) => brush.split(colours.iter().map(|unique| {
+                let mut point = brush.point(unique.bin as usize, unique.colour, unique.count);
+                point.size_px = point.size_px.min(PLAIN_PT);
+                (point, looked_at(focus.as_deref(), unique.bin as usize))
+            })),
+        };
+        self.of = Some(inputs);
+    }
+
+    /// The region that most pixels of a bin are in.
+    pub fn region_of(&self, bin: u32) -> Option<u16> {
+        self.tally.regions.get(bin as usize).copied().filter(|&region| region != 0)
+    }
+}
+
+/// Pixels looked at in a bin; all of them where nothing is selected.
+fn looked_at(focus: Option<&[u32]>, bin: usize) -> bool {
+    focus.is_none_or(|focus| focus[bin] > 0)
+}
+
+/// How many pixels of each bin are marked or in the selected region, window or bin; none where nothing is selected.
+fn focus(state: &State, picture: &Picture) -> Option<Vec<u32>> {
+    if !state.view.cube.ghost_rest {
+        return None;
+    }
+    let selection = &state.document.selection;
+    let histogram = &picture.histogram;
+    let item = state.selected_region().map(Item::Region).or(selection.item);
+    let selected = item.zip(state.shown()).and_then(|(item, shown)| marking::mask_of(item, shown));
+    let masks = selected.iter().chain(selection.marked.as_deref());
+    let counts = masks.map(|mask| histogram.bins_of(mask)).reduce(|mut sum, counts| {
+        sum.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
+        sum
+    });
+    counts.filter(|counts| counts.iter().any(|&count| count > 0))
+}
+
+/// What a point looks like.
+struct Brush<'a> {
+    inputs: &'a Inputs,
+    tally: &'a Tally,
+    tones: &'a Tones,
+    fullest: u32,
+}
+
+impl Brush<'_> {
+    fn point(&self, bin: usize, counts: [f32; 3], pixels: u32) -> Point {
+        let (space, colour_by, size_by_count, ..) = self.inputs.look;
+        let full = self.inputs.picture.histogram.full_counts;
+        let share = (pixels as f32).ln_1p() / (self.fullest as f32).ln_1p().max(1e-6);
+        let colour = match colour_by {
+            ColourBy::Own => crate::gui::widgets::own_colour(counts),
+            ColourBy::Region => self.region_colour(bin),
+            ColourBy::Class => {
+                self.tally.classes.get(bin).copied().flatten().map_or(self.tones.quiet, class_colour)
+            }
+            ColourBy::Density => density_colour(share, self.inputs.look.4),
+        };
+        let size_px =
+            if size_by_count { SIZES_PT[0] + (SIZES_PT[1] - SIZES_PT[0]) * share * share } else { PLAIN_PT };
+        Point { position: space.place(counts, full), color: colour.to_array(), size_px }
+    }
+
+    fn region_colour(&self, bin: usize) -> Color32 {
+        let region = self.tally.regions.get(bin).copied().unwrap_or(0);
+        let colours = self.inputs.shown.as_ref().map(|shown| shown.region_colours.as_slice());
+        let colour = colours.and_then(|colours| colours.get(usize::from(region).checked_sub(1)?));
+        colour.map_or(self.tones.quiet, |&colour| crate::gui::widgets::colour(colour))
+    }
+
+    /// What is looked at, and the ghosts.
+    fn split(&self, points: impl Iterator<Item = (Point, bool)>) -> [Batch<Point>; 2] {
+        let (mut full, mut ghosts) = (Vec::new(), Vec::new());
+        for (point, looked_at) in points {
+            if looked_at {
+                full.push(point);
+            } else {
+                let [r, g, b, _] = point.color;
+                let size_px = point.size_px.min(GHOST_PT);
+                ghosts.push(Point { color: [r, g, b, GHOST_ALPHA], size_px, ..point });
+            }
+        }
+        [Batch::new(full), Batch::new(ghosts)]
+    }
+}
+
+/// The paper's colours: point yellow, line red, plane green, volume blue.
+pub const fn class_colour(class: Class) -> Color32 {
+    match class {
+        Class::Point => Color32::from_rgb(0xF0, 0xD0, 0x30),
+        Class::Line => Color32::from_rgb(0xE8, 0x4A, 0x40),
+        Class::Plane => Color32::from_rgb(0x45, 0xB8, 0x50),
+        Class::Volume => Color32::from_rgb(0x4A, 0x7A, 0xF0),
+    }
+}
+
+/// From few pixels (0) to the fullest bin (1): away from the background, hue and lightness together.
+pub fn density_colour(share: f32, theme: Theme) -> Color32 {
+    // Viridis at quarters (Smith & van der Walt 2015).
+    const STOPS: [[f32; 3]; 5] = [
+        [68.0, 1.0, 84.0],
+        [59.0, 82.0, 139.0],
+        [33.0, 145.0, 140.0],
+        [94.0, 201.0, 98.0],
+        [253.0, 231.0, 37.0],
+    ];
+    // The end that is like the background is left out.
+    let share = share.clamp(0.0, 1.0);
+    let at = if theme == Theme::Dark { 0.6 + 3.4 * share } else { 3.4 * (1.0 - share) };
+    let stop = (at as usize).min(3);
+    let t = at - stop as f32;
+    let [r, g, b] = std::array::from_fn(|i| STOPS[stop][i] + (STOPS[stop + 1][i] - STOPS[stop][i]) * t);
+    Color32::from_rgb(r as u8, g as u8, b as u8)
+}

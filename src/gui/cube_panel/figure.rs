@@ -1,0 +1,333 @@
+//! What the model claims of one region, drawn in the space: cylinder, slice, skewed T, illuminant, window ellipsoid.
+
+use super::labels::{Label, all_around};
+use crate::gpu::{self, Line, Orbit, Overlay, Projection, Projector, Vertex};
+use crate::gui::theme::{SMALL_PT, Tones};
+use crate::gui::widgets;
+use crate::workbench::{
+    self, ColourSpace, CubeSettings, Item, Mesh, Picture, Point, RegionShapes, Shown, Solid, State, Theme,
+};
+use egui::{Color32, Rect, Stroke, Ui};
+use std::sync::Arc;
+
+const CYLINDER_ALPHA: u8 = 34;
+const SLICE_ALPHA: u8 = 30;
+const DARK_ALPHA: u8 = 60;
+const ELLIPSOID_ALPHA: u8 = 40;
+const OUTLINE_ALPHA: u8 = 190;
+const LINE_PT: f32 = 2.0;
+const OUTLINE_PT: f32 = 1.2;
+const DASH_PT: f32 = 5.0;
+
+/// The shapes of what is selected, or else hovered.
+#[derive(Default)]
+pub struct Figure {
+    of: Option<Inputs>,
+    /// Translucent bodies.
+    pub meshes: Vec<gpu::Mesh>,
+    /// Their edges, and the lines of the skewed T.
+    pub lines: Vec<Line>,
+    smooth: Vec<(Mesh, Color32)>,
+    notes: Vec<Note>,
+}
+
+/// A place with a name.
+struct Note {
+    place: Point,
+    text: &'static str,
+    tip: &'static str,
+    dot: bool,
+}
+
+#[derive(Clone, PartialEq)]
+struct Inputs {
+    /// A result is not compared but by its place in memory; it is held, so that no other can take that place.
+    shown: Same,
+    region: Option<u16>,
+    window: Option<u32>,
+    view: (ColourSpace, [bool; 5], Theme),
+}
+
+#[derive(Clone)]
+struct Same(Arc<Shown>);
+
+impl PartialEq for Same {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Inputs {
+    fn of(state: &State) -> Option<Self> {
+        let CubeSettings {
+            space,
+            show_cylinder,
+            show_slice,
+            show_lines,
+            show_illuminant,
+            show_ellipsoid,
+            ..
+        } = state.view.cube;
+        let selected = state.document.selection.item;
+        let window = |item| if let Some(Item::Window(window)) = item { Some(window) } else { None };
+        let hovered = || state.hover.and_then(|item| state.region_of(item));
+        Some(Self {
+            shown: Same(Arc::clone(state.shown()?)),
+            region: state.selected_region().or_else(hovered),
+            window: window(state.hover).or_else(|| window(selected)),
+            view: (
+                space,
+                [show_cylinder, show_slice, show_lines, show_illuminant, show_ellipsoid],
+                state.view.theme,
+            ),
+        })
+    }
+}
+
+impl Figure {
+    /// Builds anew what has changed; whether anything had.
+    pub fn update(&mut self, state: &State, picture: &Picture) -> bool {
+        let inputs = Inputs::of(state);
+        if self.of == inputs {
+            return false;
+        }
+        *self = Self { of: inputs.clone(), ..Self::default() };
+        let Some(Inputs { shown: Same(shown), region, window, view: (space, show, theme) }) = inputs else {
+            return true;
+        };
+        let tones = Tones::of(theme);
+        let mut pen = Pen { figure: self, space, full: picture.histogram.full_counts };
+        let [cylinder, slice, lines, illuminant, ellipsoid] = show;
+        if let Some(region) = region
+            && let Some(shapes) = workbench::region_shapes(&shown, region)
+        {
+            let colour = shown.region_colours.get(usize::from(region) - 1);
+            let colour = colour.map_or(tones.quiet, |&colour| widgets::colour(colour));
+            if cylinder {
+                pen.cylinder(&shown, &shapes, colour, tones.quiet);
+            }
+            if let Some(solid) = shapes.slice.as_ref().filter(|_| slice) {
+                pen.solid(solid, colour, SLICE_ALPHA);
+                pen.note_at_corner(
+                    solid,
+                    "slice",
+                    "The colours within the slice's half width of the dichromatic plane (section 5.4.2).",
+                );
+            }
+            if lines {
+                pen.skewed_t(&shapes, tones.text);
+            }
+        }
+        if let Some(ends) = workbench::illuminant_line(&shown).filter(|_| illuminant) {
+            let dash = if space == ColourSpace::Rgb { DASH_PT } else { 0.0 };
+            pen.line(&ends, tones.text, OUTLINE_PT, dash);
+            pen.note(
+                ends[1],
+                "illuminant",
+                "The colour of the light, common to all highlights (section 5.4).",
+                false,
+            );
+        }
+        if let Some(solid) = window.filter(|_| ellipsoid).and_then(|w| workbench::window_ellipsoid(&shown, w))
+        {
+            pen.solid(&solid, tones.accent, ELLIPSOID_ALPHA);
+            pen.note_at_corner(&solid, "window", "The window's colours at two standard deviations: what its class is decided from (section 5.2.1).");
+        }
+        true
+    }
+
+    /// The lines in which the smooth bodies turn away from the viewer.
+    pub fn silhouettes(&self, orbit: &Orbit) -> Vec<Line> {
+        let mut lines = Vec::new();
+        for (mesh, colour) in &self.smooth {
+            silhouette(mesh, orbit, |a, b| lines.push(outline(a, b, *colour)));
+        }
+        lines
+    }
+
+    /// The labels of the shapes, the most important first; dots are painted.
+    pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, tones: &Tones) -> Vec<Label> {
+        let painter = ui.painter_at(rect);
+        let of = |note: &Note| {
+            let at = super::frame::screen(projector, rect, note.place)?;
+            if note.dot {
+                painter.circle(at, 4.0, tones.background, Stroke::new(1.8, tones.text));
+            }
+            Some(Label {
+                text: note.text.to_owned(),
+                at,
+                sides: all_around(),
+                colour: tones.text,
+                size_pt: SMALL_PT,
+                tip: note.tip,
+            })
+        };
+        self.notes.iter().filter_map(of).collect()
+    }
+}
+
+/// Puts shapes in counts into the space.
+struct Pen<'a> {
+    figure: &'a mut Figure,
+    space: ColourSpace,
+    full: f32,
+}
+
+impl Pen<'_> {
+    fn cylinder(&mut self, shown: &Shown, shapes: &RegionShapes, colour: Color32, dark: Color32) {
+        if let Some(solid) = &shapes.cylinder {
+            self.solid(solid, colour, CYLINDER_ALPHA);
+            self.note_at_corner(
+                solid,
+                "cylinder",
+                "The colours within the cylinder's radius of the matte line (section 5.3.2).",
+            );
+        }
+        if let Some(solid) = workbench::dark_sphere(shown) {
+            self.solid(&solid, dark, DARK_ALPHA);
+        }
+    }
+
+    fn skewed_t(&mut self, shapes: &RegionShapes, colour: Color32) {
+        if let Some(place) = shapes.meeting_point {
+            let tip = if shapes.meeting_point_found {
+                "Where the highlight line leaves the matte line: the body reflection under the highlight (section 3.1)."
+            } else {
+                "No highlight was found: where highlights usually leave the matte line, at half of its length or beyond (section 5.4.1)."
+            };
+            self.note(place, "meeting point", tip, true);
+        }
+        let tip = "The end of the matte line, where the surface faces the light (section 5.4.1).";
+        self.note(shapes.brightest_matte, "brightest matte point", tip, true);
+        self.line(&shapes.matte_line, colour, LINE_PT, 0.0);
+        let third = along(shapes.matte_line, 0.35);
+        self.note(
+            third,
+            "matte line",
+            "Body reflection alone: from black to the brightest matte point (section 3.1).",
+            false,
+        );
+        if let Some(ends) = shapes.highlight_line {
+            self.line(&ends, colour, LINE_PT, 0.0);
+            let tip = "Body reflection of one shade plus more and more light reflected at the surface (section 3.1).";
+            self.note(along(ends, 0.75), "highlight line", tip, false);
+        }
+    }
+
+    fn note(&mut self, counts: Point, text: &'static str, tip: &'static str, dot: bool) {
+        let place = self.space.place(counts, self.full);
+        self.figure.notes.push(Note { place, text, tip, dot });
+    }
+
+    /// Named where its last outline begins.
+    fn note_at_corner(&mut self, solid: &Solid, text: &'static str, tip: &'static str) {
+        if let Some(&corner) = solid.outlines.last().and_then(|outline| outline.first()) {
+            self.note(corner, text, tip, false);
+        }
+    }
+
+    fn line(&mut self, counts: &[Point], colour: Color32, width_px: f32, dash_px: f32) {
+        let curve = self.space.polyline(counts, self.full);
+        let pieces = curve.windows(2).map(|ends| Line {
+            a: ends[0],
+            b: ends[1],
+            color: colour.to_array(),
+            width_px,
+            dash_px,
+            overlay: Overlay::Over,
+        });
+        self.figure.lines.extend(pieces);
+    }
+
+    fn solid(&mut self, solid: &Solid, colour: Color32, alpha: u8) {
+        let surface = self.space.surface(&solid.surface, self.full);
+        let [r, g, b, _] = colour.to_array();
+        let corner = |&index: &u32| Vertex {
+            position: surface.points[index as usize],
+            normal: surface.normals[index as usize],
+            color: [r, g, b, alpha],
+        };
+        self.figure.meshes.push(gpu::Mesh::new(surface.triangles.iter().flatten().map(corner).collect()));
+        for edge in &solid.outlines {
+            let curve = self.space.polyline(edge, self.full);
+            self.figure.lines.extend(curve.windows(2).map(|ends| outline(ends[0], ends[1], colour)));
+        }
+        self.figure.smooth.push((surface, colour));
+    }
+}
+
+fn outline(a: Point, b: Point, colour: Color32) -> Line {
+    let [r, g, b_, _] = colour.to_array();
+    let color = [r, g, b_, OUTLINE_ALPHA];
+    Line { a, b, color, width_px: OUTLINE_PT, dash_px: 0.0, overlay: Overlay::Faint }
+}
+
+fn along([a, b]: [Point; 2], t: f32) -> Point {
+    std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t)
+}
+
+/// Where the interpolated normal is at right angles to the line of sight (Hertzmann & Zorin 2000).
+fn silhouette(mesh: &Mesh, orbit: &Orbit, mut add: impl FnMut(Point, Point)) {
+    let [_, _, forward] = orbit.right_up_forward();
+    let eye = orbit.eye();
+    let facing: Vec<f32> = mesh
+        .points
+        .iter()
+        .zip(&mesh.normals)
+        .map(|(point, normal)| match orbit.projection {
+            Projection::Perspective => (0..3).map(|i| normal[i] * (eye[i] - point[i])).sum(),
+            Projection::Orthographic => (0..3).map(|i| -normal[i] * forward[i]).sum::<f32>(),
+        })
+        .collect();
+    for triangle in &mesh.triangles {
+        let mut crossings = [[0.0; 3]; 3];
+        let mut found = 0;
+        for side in 0..3 {
+            let (a, b) = (triangle[side] as usize, triangle[(side + 1) % 3] as usize);
+            if (facing[a] > 0.0) != (facing[b] > 0.0) {
+                let t = facing[a] / (facing[a] - facing[b]);
+                crossings[found] = along([mesh.points[a], mesh.points[b]], t);
+                found += 1;
+            }
+        }
+        if found == 2 {
+            add(crossings[0], crossings[1]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A band around the z axis.
+    fn tube(sides: u32) -> Mesh {
+        let mut mesh = Mesh::default();
+        for side in 0..sides {
+            let (y, x) = (std::f32::consts::TAU * side as f32 / sides as f32).sin_cos();
+            for z in [0.0, 1.0] {
+                mesh.points.push([0.5 + 0.2 * x, 0.5 + 0.2 * y, z]);
+                mesh.normals.push([x, y, 0.0]);
+            }
+            let at = |i: u32| (2 * side + i) % (2 * sides);
+            mesh.triangles.extend([[at(0), at(2), at(3)], [at(0), at(3), at(1)]]);
+        }
+        mesh
+    }
+
+    #[test]
+    fn a_cylinder_has_two_straight_silhouettes_where_it_turns_away() {
+        let mut orbit = Orbit { projection: Projection::Orthographic, ..Orbit::default() };
+        // Along +y: the silhouettes are the lines at the least and the largest x.
+        orbit.look_along([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+        let mut found = Vec::new();
+        silhouette(&tube(62), &orbit, |a, b| found.push((a, b)));
+        assert!(found.len() >= 4);
+        for (a, b) in found {
+            for end in [a, b] {
+                assert!(((end[0] - 0.5).abs() - 0.2).abs() < 2e-3, "{end:?}");
+            }
+            assert_eq!(a[0] < 0.5, b[0] < 0.5);
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! The space itself: what the cube's edges become, the axes and their ticks, and which way they point.
+
+use super::labels::Label;
+use crate::gpu::{Line, Overlay, Projector};
+use crate::gui::theme::{SMALL_PT, Tones};
+use crate::workbench::{Axis, ColourSpace, Theme};
+use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2, vec2};
+
+const EDGE_PT: f32 = 1.0;
+const AXIS_PT: f32 = 1.4;
+/// Half of a tick's length on the screen.
+const TICK_PT: f32 = 3.0;
+/// The gizmo's radius.
+const GIZMO_PT: f32 = 22.0;
+
+/// The space's edges and axes.
+#[derive(Default)]
+pub struct Frame {
+    of: Option<(ColourSpace, u32, Theme)>,
+    /// The edges and axes as lines.
+    pub lines: Vec<Line>,
+    axes: Vec<Axis>,
+}
+
+impl Frame {
+    /// Builds anew what depends on the space; whether that was needed.
+    pub fn update(&mut self, space: ColourSpace, full_counts: f32, theme: Theme) -> bool {
+        let inputs = Some((space, full_counts.to_bits(), theme));
+        if self.of == inputs {
+            return false;
+        }
+        let tones = Tones::of(theme);
+        let dim = mixed(tones.background, tones.quiet, 0.45);
+        self.lines.clear();
+        for edge in space.frame(full_counts) {
+            self.lines.extend(pieces(&edge, dim, EDGE_PT));
+        }
+        self.axes = space.axes(full_counts);
+        let bright = mixed(tones.background, tones.quiet, 0.9);
+        for axis in &self.axes {
+            self.lines.extend(pieces(&axis.line, bright, AXIS_PT));
+        }
+        self.of = inputs;
+        true
+    }
+
+    /// Names and values of the axes, and the black corner, the most important first; ticks are painted.
+    pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, tones: &Tones) -> Vec<Label> {
+        let on_screen = |world| screen(projector, rect, world);
+        let Some(middle) = on_screen([0.5; 3]) else { return Vec::new() };
+        let (mut names, mut values) = (Vec::new(), Vec::new());
+        let painter = ui.painter_at(rect);
+        for axis in &self.axes {
+            let ends = axis.line.first().zip(axis.line.last());
+            let Some((from, to)) = ends.and_then(|(a, b)| Some((on_screen(*a)?, on_screen(*b)?))) else {
+                continue;
+            };
+            let along = (to - from).normalized();
+            let length = (to - from).length();
+            let closed = length < 1.0;
+            let unit = if axis.unit.is_empty() || axis.unit == "\u{b0}" { "" } else { ", counts" };
+            let side = if closed { vec2(0.0, -1.0) } else { along };
+            names.push(Label {
+                text: format!("{}{unit}", axis.name),
+                at: to,
+                sides: vec![side, outward(along, from, middle), -outward(along, from, middle)],
+                colour: tones.text,
+                size_pt: SMALL_PT + 0.5,
+                tip: axis.meaning,
+            });
+            if !closed && length < 24.0 {
+                // Seen end-on: its values would be one heap.
+                continue;
+            }
+            for tick in &axis.ticks {
+                let Some(at) = on_screen(tick.place) else { continue };
+                let side = if closed {
+                    (at - middle).normalized()
+                } else {
+                    outward(along, from.lerp(to, 0.5), middle)
+                };
+                painter.line_segment([at, at + side * TICK_PT], Stroke::new(1.0, tones.quiet));
+                values.push(Label {
+                    text: format!("{}{}", tick.label, if axis.unit == "\u{b0}" { "\u{b0}" } else { "" }),
+                    at,
+                    sides: vec![side],
+                    colour: tones.quiet,
+                    size_pt: SMALL_PT - 1.0,
+                    tip: "",
+                });
+            }
+        }
+        if let (Some((ColourSpace::Rgb, ..)), Some(black)) = (self.of, on_screen([0.0; 3])) {
+            painter.circle(black, 3.5, Color32::BLACK, Stroke::new(1.2, tones.text));
+            let away = (black - middle).normalized();
+            names.push(Label {
+                text: "black".to_owned(),
+                at: black,
+                sides: vec![away, vec2(0.0, 1.0), vec2(-1.0, 0.0)],
+                colour: tones.quiet,
+                size_pt: SMALL_PT,
+                tip: "No light at all: every matte line starts here (section 3.1).",
+            });
+        }
+        names.extend(values);
+        names
+    }
+}
+
+/// The directions of the bands in a corner of the view; returns the room that it takes.
+pub fn gizmo(
+    ui: &Ui,
+    [right, up, forward]: [[f32; 3]; 3],
+    rect: Rect,
+    names: [&str; 3],
+    tones: &Tones,
+) -> Rect {
+    let room = Rect::from_min_size(
+        rect.left_bottom() + vec2(4.0, -2.0 * GIZMO_PT - 24.0),
+        Vec2::splat(2.0 * GIZMO_PT + 20.0),
+    );
+    let painter = ui.painter_at(rect);
+    let hues = [
+        Color32::from_rgb(0xE0, 0x5A, 0x50),
+        Color32::from_rgb(0x55, 0xB0, 0x5A),
+        Color32::from_rgb(0x5A, 0x88, 0xE8),
+    ];
+    let mut order = [0, 1, 2];
+    // Those that point away first.
+    order.sort_by(|&a: &usize, &b: &usize| forward[b].total_cmp(&forward[a]));
+    for axis in order {
+        let tip = vec2(right[axis], -up[axis]);
+        let end = room.center() + tip * GIZMO_PT;
+        let colour = if forward[axis] > 0.05 { mixed(tones.background, hues[axis], 0.6) } else { hues[axis] };
+        painter.line_segment([room.center(), end], Stroke::new(1.8, colour));
+        let beyond = if tip.length() < 0.2 { vec2(0.3, -0.3) } else { tip.normalized() * 0.32 };
+        painter.text(
+            end + beyond * GIZMO_PT,
+            egui::Align2::CENTER_CENTER,
+            names[axis],
+            FontId::proportional(SMALL_PT - 1.0),
+            colour,
+        );
+    }
+    room
+}
+
+/// Where a world point is in the window.
+pub fn screen(projector: &Projector, rect: Rect, world: [f32; 3]) -> Option<Pos2> {
+    projector.screen_from_world(world).map(|point| rect.min + Vec2::from(point.at))
+}
+
+/// A polyline as lines behind the points.
+fn pieces(curve: &[[f32; 3]], colour: Color32, width_px: f32) -> impl Iterator<Item = Line> + '_ {
+    curve.windows(2).map(move |ends| Line {
+        a: ends[0],
+        b: ends[1],
+        color: colour.to_array(),
+        width_px,
+        dash_px: 0.0,
+        overlay: Overlay::Hidden,
+    })
+}
+
+/// Across a line through `on`, away from the middle.
+fn outward(along: Vec2, on: Pos2, middle: Pos2) -> Vec2 {
+    let across = along.rot90();
+    if across.dot(on - middle) < 0.0 { -across } else { across }
+}
+
+/// From `a` (0) to `b` (1).
+pub fn mixed(a: Color32, b: Color32, t: f32) -> Color32 {
+    let at = |a: u8, b: u8| (f32::from(a) + (f32::from(b) - f32::from(a)) * t).round() as u8;
+    Color32::from_rgb(at(a.r(), b.r()), at(a.g(), b.g()), at(a.b(), b.b()))
+}

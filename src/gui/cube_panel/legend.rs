@@ -1,0 +1,64 @@
+//! What the points' colours mean, where they are not their own.
+
+use super::cloud::{class_colour, density_colour};
+use crate::gui::Cx;
+use crate::gui::theme::SMALL_PT;
+use crate::trace::Class;
+use crate::workbench::ColourBy;
+use egui::{Align2, FontId, Mesh, Painter, Rect, Ui, pos2, vec2};
+
+const RAMP_PT: egui::Vec2 = vec2(96.0, 6.0);
+const STEPS: usize = 24;
+
+/// Shows it in the upper left corner; returns the room that it takes.
+pub fn show(ui: &Ui, cx: &Cx, rect: Rect, fullest: u32) -> Rect {
+    let painter = ui.painter_at(rect);
+    let corner = rect.min + vec2(8.0, 6.0);
+    match cx.state.view.cube.colour_by {
+        ColourBy::Class => classes(&painter, cx, corner),
+        ColourBy::Density => density(&painter, cx, corner, fullest),
+        ColourBy::Own | ColourBy::Region => Rect::from_min_max(corner, corner),
+    }
+}
+
+fn classes(painter: &Painter, cx: &Cx, corner: egui::Pos2) -> Rect {
+    let mut room = Rect::from_min_size(corner, vec2(0.0, 0.0));
+    for (class, name) in
+        [(Class::Point, "point"), (Class::Line, "line"), (Class::Plane, "plane"), (Class::Volume, "volume")]
+    {
+        let left = pos2(room.right(), corner.y);
+        painter.rect_filled(
+            Rect::from_min_size(left + vec2(0.0, 3.0), vec2(9.0, 9.0)),
+            2.0,
+            class_colour(class),
+        );
+        let font = FontId::proportional(SMALL_PT);
+        let text = painter.text(left + vec2(13.0, 0.0), Align2::LEFT_TOP, name, font, cx.tones.text);
+        room = room.union(text.expand2(vec2(5.0, 0.0)));
+    }
+    room
+}
+
+fn density(painter: &Painter, cx: &Cx, corner: egui::Pos2, fullest: u32) -> Rect {
+    let mut ramp = Mesh::default();
+    let bar = Rect::from_min_size(corner + vec2(0.0, 2.0), RAMP_PT);
+    for step in 0..=STEPS {
+        let share = step as f32 / STEPS as f32;
+        let x = bar.left() + share * bar.width();
+        let colour = density_colour(share, cx.state.view.theme);
+        ramp.colored_vertex(pos2(x, bar.top()), colour);
+        ramp.colored_vertex(pos2(x, bar.bottom()), colour);
+        if step > 0 {
+            let last = 2 * step as u32;
+            ramp.add_triangle(last - 2, last - 1, last);
+            ramp.add_triangle(last - 1, last, last + 1);
+        }
+    }
+    painter.add(ramp);
+    let font = FontId::proportional(SMALL_PT - 1.0);
+    let below = bar.left_bottom() + vec2(0.0, 1.0);
+    let one = painter.text(below, Align2::LEFT_TOP, "1 px", font.clone(), cx.tones.quiet);
+    let end = bar.right_bottom() + vec2(0.0, 1.0);
+    let most = painter.text(end, Align2::RIGHT_TOP, format!("{fullest} px"), font, cx.tones.quiet);
+    bar.union(one).union(most)
+}

@@ -1,0 +1,113 @@
+//! Outlines drawn over the points: rectangle, lasso, polygon.
+
+use crate::gpu::{Projector, pick};
+use crate::raster::Mask;
+use crate::workbench::{Picture, Tool, marking};
+use egui::{Color32, Key, Painter, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui};
+
+/// Corners of a lasso are at least this far apart.
+const STEP_PT: f32 = 2.0;
+/// A click this near to the first corner closes a polygon.
+const CLOSE_PT: f32 = 8.0;
+const DASH_PT: f32 = 4.0;
+
+/// The outline that the pointer is in the middle of.
+#[derive(Default)]
+pub struct Outline {
+    corners: Vec<Pos2>,
+    tool: Tool,
+}
+
+impl Outline {
+    /// Follows the pointer. The closed outline, when it is finished.
+    pub fn follow(&mut self, ui: &Ui, response: &Response, tool: Tool) -> Option<Vec<Pos2>> {
+        if tool != self.tool || ui.input(|input| input.key_down(Key::Escape)) {
+            self.corners.clear();
+            self.tool = tool;
+        }
+        match tool {
+            Tool::Rectangle | Tool::Lasso => self.drag(response, tool),
+            Tool::Polygon => self.click(ui, response),
+            _ => None,
+        }
+    }
+
+    fn drag(&mut self, response: &Response, tool: Tool) -> Option<Vec<Pos2>> {
+        let at = response.interact_pointer_pos();
+        if response.drag_started_by(PointerButton::Primary) {
+            self.corners = at.map(|at| at - response.drag_delta()).into_iter().collect();
+        }
+        if response.dragged_by(PointerButton::Primary)
+            && let (Some(at), Some(&last)) = (at, self.corners.last())
+        {
+            if tool == Tool::Rectangle {
+                self.corners.truncate(1);
+                self.corners.push(at);
+            } else if last.distance(at) >= STEP_PT {
+                self.corners.push(at);
+            }
+        }
+        response.drag_stopped_by(PointerButton::Primary).then(|| self.take())
+    }
+
+    fn click(&mut self, ui: &Ui, response: &Response) -> Option<Vec<Pos2>> {
+        let enter = ui.input(|input| input.key_pressed(Key::Enter));
+        let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
+        let near = |a: Pos2, b: Option<&Pos2>| b.is_some_and(|b| a.distance(*b) < CLOSE_PT);
+        let closes = clicked.is_some_and(|at| self.corners.len() > 2 && near(at, self.corners.first()));
+        if let Some(at) = clicked.filter(|at| !closes && !near(*at, self.corners.last())) {
+            self.corners.push(at);
+        }
+        let done = closes || response.double_clicked() || enter;
+        (done && self.corners.len() > 2).then(|| self.take())
+    }
+
+    fn take(&mut self) -> Vec<Pos2> {
+        let closed = self.closed(None);
+        self.corners.clear();
+        closed
+    }
+
+    /// All corners, those of a rectangle included, with the pointer's place as a polygon's next one.
+    fn closed(&self, next: Option<Pos2>) -> Vec<Pos2> {
+        match (self.tool, self.corners.as_slice()) {
+            (Tool::Rectangle, &[from, to]) => {
+                let rect = Rect::from_two_pos(from, to);
+                vec![rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()]
+            }
+            (_, corners) => corners.iter().copied().chain(next).collect(),
+        }
+    }
+
+    /// Draws what there is of it, dashed.
+    pub fn paint(&self, painter: &Painter, response: &Response, accent: Color32) {
+        if self.corners.is_empty() {
+            return;
+        }
+        let next = response.hover_pos().filter(|_| self.tool == Tool::Polygon);
+        let mut path = self.closed(next);
+        path.extend(path.first().copied());
+        let stroke = Stroke::new(1.5, accent);
+        painter.extend(Shape::dashed_line(&path, stroke, DASH_PT, DASH_PT));
+        if self.tool == Tool::Polygon {
+            self.corners.iter().for_each(|corner| {
+                painter.circle_filled(*corner, 2.5, accent);
+            });
+        }
+    }
+}
+
+/// The pixels of the bins whose centres are seen inside an outline.
+pub fn mask_of(
+    picture: &Picture,
+    bins: &[crate::gpu::Point],
+    projector: &Projector,
+    rect: Rect,
+    outline: &[Pos2],
+) -> Mask {
+    let corners: Vec<[f32; 2]> = outline.iter().map(|corner| (*corner - rect.min).into()).collect();
+    let inside = pick::inside_polygon(bins, projector, &corners);
+    let inside: Vec<u32> = inside.into_iter().map(|bin| bin as u32).collect();
+    let (width, height) = picture.size();
+    marking::of_bins(picture, &inside).unwrap_or_else(|| Mask::filled(width, height, false))
+}

@@ -1,0 +1,83 @@
+//! Small pictures on buttons, drawn as lines.
+
+use super::theme::Tones;
+use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
+
+/// A picture on a button.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Icon {
+    /// The pointer.
+    Arrow,
+    /// A dashed rectangle.
+    Rectangle,
+    /// A free outline.
+    Lasso,
+    /// An outline of straight sides.
+    Polygon,
+    /// A lock, closed or open.
+    Lock(bool),
+}
+
+/// A button with a picture; `name` is read to those who do not see it.
+pub fn button(ui: &mut Ui, tones: &Tones, icon: Icon, selected: bool, name: &str) -> Response {
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(ui.spacing().interact_size.y), Sense::click());
+    response.widget_info(|| {
+        egui::WidgetInfo::selected(egui::accesskit::Role::Button, ui.is_enabled(), selected, name)
+    });
+    let visuals = ui.style().interact_selectable(&response, selected);
+    if selected || response.hovered() || response.has_focus() {
+        ui.painter().rect(
+            rect,
+            visuals.corner_radius,
+            visuals.weak_bg_fill,
+            visuals.bg_stroke,
+            egui::StrokeKind::Inside,
+        );
+    }
+    let colour = if selected { tones.accent } else { tones.text };
+    paint(ui.painter(), icon, rect.shrink(4.0), colour);
+    response
+}
+
+/// Paints `icon` into a square.
+fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
+    let at = |x: f32, y: f32| rect.min + vec2(x, y) * rect.size();
+    let stroke = Stroke::new(1.3, colour);
+    let closed = |points: Vec<Pos2>| Shape::closed_line(points, stroke);
+    match icon {
+        Icon::Arrow => {
+            let points =
+                [(0.2, 0.0), (0.2, 0.85), (0.42, 0.66), (0.58, 1.0), (0.72, 0.94), (0.56, 0.6), (0.82, 0.6)];
+            painter.add(closed(points.map(|(x, y)| at(x, y)).to_vec()));
+        }
+        Icon::Rectangle => {
+            let corners = [at(0.0, 0.12), at(1.0, 0.12), at(1.0, 0.88), at(0.0, 0.88), at(0.0, 0.12)];
+            painter.extend(Shape::dashed_line(&corners, stroke, 2.5, 1.8));
+        }
+        Icon::Lasso => {
+            let ring = (0..=20).map(|i| {
+                let (y, x) = (std::f32::consts::TAU * i as f32 / 20.0).sin_cos();
+                at(0.5 + 0.48 * x, 0.4 + 0.32 * y - 0.08 * x * y)
+            });
+            painter.add(Shape::line(ring.collect(), stroke));
+            painter.add(Shape::line(vec![at(0.3, 0.68), at(0.2, 0.82), at(0.32, 1.0)], stroke));
+        }
+        Icon::Polygon => {
+            let points = [(0.1, 0.3), (0.6, 0.05), (0.95, 0.5), (0.7, 0.95), (0.2, 0.85)];
+            painter.add(closed(points.map(|(x, y)| at(x, y)).to_vec()));
+        }
+        Icon::Lock(shut) => {
+            let body = Rect::from_min_max(at(0.15, 0.48), at(0.85, 0.98));
+            painter.rect_stroke(body, 1.5, stroke, egui::StrokeKind::Middle);
+            let lift = if shut { 0.0 } else { 0.14 };
+            let shackle = (0..=10).map(|i| {
+                let (y, x) = (std::f32::consts::PI * i as f32 / 10.0).sin_cos();
+                at(0.5 - 0.24 * x, 0.3 - lift - 0.24 * y)
+            });
+            let foot = if shut { pos2(0.74, 0.48) } else { pos2(0.74, 0.3) };
+            let left = at(0.26, 0.48);
+            let points = std::iter::once(left).chain(shackle).chain([at(foot.x, foot.y - lift)]);
+            painter.add(Shape::line(points.collect(), stroke));
+        }
+    }
+}

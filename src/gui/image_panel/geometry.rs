@@ -1,0 +1,201 @@
+//! Where the picture lies on the screen. A pixel covers the unit square right and below of its column and row.
+
+use crate::workbench::ImageSettings;
+use egui::{Pos2, Rect, Vec2, pos2, vec2};
+
+/// Screen points that stay free around a picture that fits.
+const MARGIN_PT: f32 = 6.0;
+/// Largest zoom, screen points a pixel.
+const NEAREST: f32 = 192.0;
+/// A picture never gets smaller than this, screen points.
+const SMALLEST_PT: f32 = 32.0;
+
+/// A picture's place in a view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// The view, screen points.
+    pub view: Rect,
+    /// Columns and rows of the picture.
+    pub size: Vec2,
+    /// Screen points a pixel.
+    pub zoom: f32,
+    /// The point of the picture in the middle of the view.
+    pub centre: Pos2,
+}
+
+impl Placement {
+    /// The place that the settings ask for, as far as the picture stays in sight.
+    pub fn new(view: Rect, size: Vec2, settings: &ImageSettings) -> Self {
+        let zoom = settings.zoom.unwrap_or_else(|| fit(view, size));
+        let centre = match (settings.zoom, settings.centre_px) {
+            (Some(_), Some([x, y])) => pos2(x, y),
+            _ => (size / 2.0).to_pos2(),
+        };
+        Self { view, size, zoom, centre }.clamped()
+    }
+
+    /// The settings that put the picture here.
+    pub fn put(&self, settings: &mut ImageSettings) {
+        settings.zoom = Some(self.zoom);
+        settings.centre_px = Some(self.centre.into());
+    }
+
+    /// Where a point of the picture is on the screen.
+    pub fn screen_from_image(&self, point: Pos2) -> Pos2 {
+        self.view.center() + (point - self.centre) * self.zoom
+    }
+
+    /// The point of the picture that a point of the screen shows.
+    pub fn image_from_screen(&self, point: Pos2) -> Pos2 {
+        self.centre + (point - self.view.center()) / self.zoom
+    }
+
+    /// Where the picture is on the screen.
+    pub fn screen_rect(&self) -> Rect {
+        self.screen_rect_of(Rect::from_min_size(Pos2::ZERO, self.size))
+    }
+
+    /// Where a part of the picture is on the screen.
+    pub fn screen_rect_of(&self, part: Rect) -> Rect {
+        Rect::from_min_max(self.screen_from_image(part.min), self.screen_from_image(part.max))
+    }
+
+    /// The row-major index of the pixel at a point of the screen; none beside the picture.
+    pub fn pixel_at(&self, point: Pos2) -> Option<u32> {
+        let at = self.image_from_screen(point);
+        let inside = at.x >= 0.0 && at.y >= 0.0 && at.x < self.size.x && at.y < self.size.y;
+        inside.then(|| at.y as u32 * self.size.x as u32 + at.x as u32)
+    }
+
+    /// The square of a pixel, in the picture.
+    pub fn square_of(&self, pixel: u32) -> Rect {
+        let width = (self.size.x as u32).max(1);
+        Rect::from_min_size(pos2((pixel % width) as f32, (pixel / width) as f32), vec2(1.0, 1.0))
+    }
+
+    /// The part of the picture that is in sight, in whole pixels: first and one past the last column, likewise rows.
+    pub fn visible(&self) -> [std::ops::Range<usize>; 2] {
+        let from = self.image_from_screen(self.view.min).max(Pos2::ZERO).floor();
+        let to = self.image_from_screen(self.view.max).min(self.size.to_pos2()).ceil();
+        [from.x as usize..to.x.max(0.0) as usize, from.y as usize..to.y.max(0.0) as usize]
+    }
+
+    /// Zoomed by a factor; what is at `anchor` on the screen stays there.
+    pub fn zoomed(mut self, factor: f32, anchor: Pos2) -> Self {
+        let fixed = self.image_from_screen(anchor);
+        let [least, most] = limits(self.view, self.size);
+        self.zoom = (self.zoom * factor).clamp(least, most);
+        self.centre = fixed - (anchor - self.view.center()) / self.zoom;
+        self.clamped()
+    }
+
+    /// Moved on the screen.
+    pub fn panned(mut self, by: Vec2) -> Self {
+        self.centre -= by / self.zoom;
+        self.clamped()
+    }
+
+    /// Some point of the picture is always in the middle of the view, so that it cannot be lost.
+    fn clamped(mut self) -> Self {
+        let [least, most] = limits(self.view, self.size);
+        self.zoom = self.zoom.clamp(least, most);
+        self.centre = self.centre.clamp(Pos2::ZERO, self.size.to_pos2());
+        self
+    }
+}
+
+/// The zoom at which the whole picture is seen.
+fn fit(view: Rect, size: Vec2) -> f32 {
+    let free = (view.size() - Vec2::splat(2.0 * MARGIN_PT)).max(Vec2::splat(1.0));
+    (free / size.max(Vec2::splat(1.0))).min_elem()
+}
+
+fn limits(view: Rect, size: Vec2) -> [f32; 2] {
+    let fit = fit(view, size);
+    let least = (SMALLEST_PT / size.max_elem().max(1.0)).min(fit);
+    [least, NEAREST.max(fit)]
+}
+
+/// The smaller copy of a picture to show: 0 the picture itself, each further one half as large. It has at least one and
+/// less than two texels a screen pixel, as far as there are copies.
+pub fn level_for(screen_px_per_pixel: f32, levels: usize) -> usize {
+    let level = (1.0 / screen_px_per_pixel.max(f32::MIN_POSITIVE)).log2().floor();
+    (level.max(0.0) as usize).min(levels.saturating_sub(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn placed(settings: &ImageSettings) -> Placement {
+        Placement::new(
+            Rect::from_min_size(pos2(100.0, 50.0), vec2(600.0, 400.0)),
+            vec2(512.0, 480.0),
+            settings,
+        )
+    }
+
+    #[test]
+    fn the_whole_picture_fits_and_is_in_the_middle() {
+        let place = placed(&ImageSettings::default());
+        assert!(place.view.contains_rect(place.screen_rect()));
+        assert!((place.screen_rect().center() - place.view.center()).length() < 1e-3);
+        assert_eq!(place.zoom, (400.0 - 12.0) / 480.0);
+        assert_eq!(place.visible(), [0..512, 0..480]);
+    }
+
+    #[test]
+    fn from_the_screen_to_the_picture_and_back() {
+        for zoom in [None, Some(0.3), Some(1.0), Some(17.3)] {
+            let settings =
+                ImageSettings { zoom, centre_px: Some([130.5, 77.25]), ..ImageSettings::default() };
+            let place = placed(&settings);
+            for point in [pos2(100.0, 50.0), pos2(333.3, 222.2), pos2(699.0, 449.0)] {
+                let back = place.screen_from_image(place.image_from_screen(point));
+                assert!((back - point).length() < 1e-2, "{zoom:?} {point:?} {back:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_is_in_the_pixel_whose_square_holds_it() {
+        let place = placed(&ImageSettings { zoom: Some(4.0), ..ImageSettings::default() });
+        let pixel = place.pixel_at(pos2(400.0, 250.0)).unwrap();
+        assert_eq!(pixel, 240 * 512 + 256);
+        assert!(place.screen_rect_of(place.square_of(pixel)).contains(pos2(401.0, 251.0)));
+        let fitted = placed(&ImageSettings::default());
+        assert_eq!(fitted.pixel_at(fitted.screen_rect().min - vec2(1.0, 1.0)), None);
+        assert_eq!(fitted.pixel_at(fitted.screen_rect().max + vec2(1.0, 1.0)), None);
+    }
+
+    #[test]
+    fn zooming_keeps_what_is_under_the_pointer() {
+        let pointer = pos2(321.0, 187.0);
+        let mut place = placed(&ImageSettings::default());
+        let under = place.image_from_screen(pointer);
+        for factor in [1.25, 1.25, 3.0, 0.5, 8.0] {
+            place = place.zoomed(factor, pointer);
+            assert!((place.image_from_screen(pointer) - under).length() < 1e-2);
+        }
+    }
+
+    #[test]
+    fn the_picture_cannot_be_lost() {
+        let place = placed(&ImageSettings::default());
+        for by in [vec2(1e6, -1e6), vec2(-1e6, 0.0)] {
+            let moved = place.panned(by);
+            assert!(moved.view.intersects(moved.screen_rect()));
+        }
+        let far = place.zoomed(1e-9, place.view.min);
+        assert!(far.screen_rect().size().max_elem() >= SMALLEST_PT - 1e-3);
+        assert_eq!(place.zoomed(1e9, place.view.min).zoom, NEAREST);
+    }
+
+    #[test]
+    fn a_smaller_copy_has_one_to_two_texels_a_screen_pixel() {
+        for (scale, level) in [(8.0, 0), (1.0, 0), (0.51, 0), (0.5, 1), (0.26, 1), (0.1, 3), (0.001, 4)] {
+            assert_eq!(level_for(scale, 5), level, "{scale}");
+        }
+        assert_eq!(level_for(0.1, 1), 0);
+    }
+}

@@ -1,0 +1,143 @@
+//! Small buttons with drawn signs.
+
+use crate::gui::theme::Tones;
+use crate::workbench::{Arrangement, Fill, Tool};
+use egui::accesskit::Role;
+use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+
+/// Side of a button, points.
+pub const SIDE_PT: f32 = 22.0;
+
+/// What a button shows.
+#[derive(Clone, Copy)]
+pub enum Sign {
+    /// A tool.
+    Tool(Tool),
+    /// One layer, or two.
+    Arrangement(Arrangement),
+    /// Areas or their outlines.
+    Fill(Fill),
+    /// Exposure and gamma.
+    Display,
+}
+
+/// A button that is on or off, named `name` for those who do not see its sign.
+pub fn toggle(ui: &mut Ui, tones: &Tones, sign: Sign, on: bool, name: &str, tip: &str) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(SIDE_PT, SIDE_PT), Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), on, name));
+    let ground = match (on, response.hovered() || response.has_focus()) {
+        (true, _) => tones.accent.gamma_multiply(0.3),
+        (false, true) => tones.line,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(rect, 3.0, ground);
+    let mut colour = if on { tones.text } else { tones.text.gamma_multiply(0.75) };
+    if !ui.is_enabled() {
+        colour = tones.quiet.gamma_multiply(0.5);
+    }
+    draw(ui.painter(), rect.shrink(4.0), sign, colour);
+    response.on_hover_text(tip)
+}
+
+/// Points of a sign are given in a square of 14 × 14.
+fn draw(painter: &Painter, square: Rect, sign: Sign, colour: Color32) {
+    let stroke = Stroke::new(1.3, colour);
+    let at = |x: f32, y: f32| square.min + vec2(x, y) * (square.width() / 14.0);
+    let part = |x0, y0, x1, y1| Rect::from_min_max(at(x0, y0), at(x1, y1));
+    let frame = |rect| painter.rect_stroke(rect, 1.0, stroke, egui::StrokeKind::Middle);
+    match sign {
+        Sign::Tool(tool) => draw_tool(painter, tool, stroke, at),
+        Sign::Arrangement(Arrangement::Single) => {
+            frame(part(1.5, 2.5, 12.5, 11.5));
+        }
+        Sign::Arrangement(Arrangement::Wipe(_)) => {
+            frame(part(1.5, 2.5, 12.5, 11.5));
+            painter.rect_filled(part(7.0, 2.5, 12.5, 11.5), 0.0, colour.gamma_multiply(0.55));
+            painter.line_segment([at(7.0, 0.5), at(7.0, 13.5)], stroke);
+        }
+        Sign::Arrangement(Arrangement::SideBySide) => {
+            frame(part(0.8, 3.0, 6.2, 11.0));
+            frame(part(7.8, 3.0, 13.2, 11.0));
+        }
+        Sign::Fill(Fill::Fill) => {
+            painter.rect_filled(part(2.0, 2.0, 12.0, 12.0), 2.0, colour.gamma_multiply(0.7));
+        }
+        Sign::Fill(Fill::Outline) => {
+            frame(part(2.5, 2.5, 11.5, 11.5));
+        }
+        Sign::Display => {
+            painter.circle_stroke(at(7.0, 7.0), 5.4, stroke);
+            let turn = |i: usize| {
+                let angle = (i as f32 / 12.0 - 0.5) * std::f32::consts::PI;
+                at(7.0 + 5.4 * angle.cos(), 7.0 + 5.4 * angle.sin())
+            };
+            painter.add(Shape::convex_polygon((0..=12).map(turn).collect(), colour, Stroke::NONE));
+        }
+    }
+}
+
+fn draw_tool(painter: &Painter, tool: Tool, stroke: Stroke, at: impl Fn(f32, f32) -> Pos2) {
+    let path = |points: &[(f32, f32)]| -> Vec<Pos2> { points.iter().map(|&(x, y)| at(x, y)).collect() };
+    match tool {
+        Tool::Pointer => {
+            let arrow =
+                [(3.5, 1.5), (11.0, 8.2), (7.4, 8.5), (9.2, 12.2), (7.5, 13.0), (5.8, 9.2), (3.5, 11.5)];
+            painter.add(Shape::closed_line(path(&arrow), stroke));
+        }
+        Tool::Rectangle => {
+            let corners = path(&[(1.5, 2.5), (12.5, 2.5), (12.5, 11.5), (1.5, 11.5), (1.5, 2.5)]);
+            painter.extend(Shape::dashed_line(&corners, stroke, 2.4, 1.7));
+        }
+        Tool::Lasso => {
+            let turn = |i: usize| {
+                let angle = i as f32 / 24.0 * std::f32::consts::TAU;
+                at(7.3 + 5.6 * angle.cos(), 5.6 + 3.9 * angle.sin())
+            };
+            painter.add(Shape::closed_line((0..24).map(turn).collect(), stroke));
+            painter.add(Shape::line(path(&[(4.2, 9.0), (3.0, 10.6), (4.2, 11.8), (3.0, 13.3)]), stroke));
+        }
+        Tool::Polygon => {
+            let corners = [(2.0, 11.5), (3.5, 3.0), (9.0, 5.5), (12.5, 2.0), (11.0, 12.0)];
+            painter.add(Shape::closed_line(path(&corners), Stroke::new(1.0, stroke.color)));
+            for (x, y) in corners {
+                painter.circle_filled(at(x, y), 1.5, stroke.color);
+            }
+        }
+        Tool::Brush => {
+            painter.circle_filled(at(7.0, 7.0), 2.6, stroke.color);
+            painter.circle_stroke(at(7.0, 7.0), 5.6, Stroke::new(1.0, stroke.color));
+        }
+        Tool::Profile => {
+            painter.line_segment([at(2.5, 11.5), at(11.5, 2.5)], stroke);
+            painter.circle_filled(at(2.5, 11.5), 2.0, stroke.color);
+            painter.circle_filled(at(11.5, 2.5), 2.0, stroke.color);
+        }
+        Tool::WhitePatch => {
+            let card = Rect::from_min_max(at(2.0, 2.0), at(12.0, 12.0));
+            painter.rect_stroke(card, 1.0, Stroke::new(1.0, stroke.color), egui::StrokeKind::Middle);
+            painter.rect_filled(card.shrink(2.4), 0.0, stroke.color);
+        }
+    }
+}
+
+/// A small cross at a point: quiet, and seen on any ground.
+pub fn cross(painter: &Painter, at: Pos2, colour: Color32) {
+    for (width, colour) in [(3.0, Color32::from_black_alpha(150)), (1.2, colour)] {
+        for (dx, dy) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
+            let direction = vec2(dx, dy);
+            painter.line_segment([at + direction * 4.0, at + direction * 11.0], (width, colour));
+        }
+    }
+}
+
+/// A line that is seen on any ground.
+pub fn dashed(painter: &Painter, points: &[Pos2], colour: Color32) {
+    painter.add(Shape::line(points.to_vec(), Stroke::new(2.6, Color32::from_black_alpha(140))));
+    painter.extend(Shape::dashed_line(points, Stroke::new(1.4, colour), 5.0, 3.0));
+}
+
+/// The corners of a rectangle, the first once more at the end.
+pub fn corners(rect: Rect) -> [Pos2; 5] {
+    let Rect { min, max } = rect;
+    [min, pos2(max.x, min.y), max, pos2(min.x, max.y), min]
+}

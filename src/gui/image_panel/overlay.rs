@@ -1,0 +1,258 @@
+//! What is drawn over a layer: pixels from near, outlines, cross-hairs, the profile's line, and words.
+
+use super::geometry::Placement;
+use super::icons::{corners, cross};
+use super::sheets::Sheet;
+use crate::gui::theme::{SMALL_PT, Tones};
+use crate::workbench::{ACCENT, Item, Layer, ProfileLine, State, Tool, legend};
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+
+/// The accent over pictures, the same in both themes: a picture is as dark in either.
+pub const MARK: Color32 = Color32::from_rgb(ACCENT[0], ACCENT[1], ACCENT[2]);
+/// From this zoom on there is a grid, screen points a pixel.
+const GRID: f32 = 8.0;
+/// From this zoom on pixels tell their values.
+const VALUES: f32 = 48.0;
+/// From this zoom on outlines are lines between pixels; before, pixels of a picture.
+pub const LINES: f32 = 4.0;
+
+/// Lines between pixels.
+pub fn grid(painter: &Painter, place: &Placement) {
+    if place.zoom < GRID {
+        return;
+    }
+    // It comes in softly.
+    let strength = ((place.zoom - GRID) / GRID).clamp(0.2, 1.0);
+    let stroke = Stroke::new(1.0, Color32::from_gray(128).gamma_multiply(0.35 * strength));
+    let area = place.screen_rect().intersect(place.view);
+    let [columns, rows] = place.visible();
+    for x in columns.start..=columns.end {
+        painter.vline(place.screen_from_image(pos2(x as f32, 0.0)).x, area.y_range(), stroke);
+    }
+    for y in rows.start..=rows.end {
+        painter.hline(area.x_range(), place.screen_from_image(pos2(0.0, y as f32)).y, stroke);
+    }
+}
+
+/// The numbers behind the colours, in the pixels: those of the layer where it has numbers, otherwise the photograph's.
+pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer, sheet: &Sheet) {
+    if place.zoom < VALUES {
+        return;
+    }
+    let Some(picture) = &state.picture else { return };
+    let intrinsic = state.shown().map(|shown| &shown.analysis.intrinsic);
+    let size = (place.zoom / 5.2).clamp(9.0, 13.0);
+    let [columns, rows] = place.visible();
+    for y in rows {
+        for x in columns.clone() {
+            let pixel = y * place.size.x as usize + x;
+            let lines: Vec<f32> = match (layer, intrinsic) {
+                (Layer::Body, Some(found)) => found.body[pixel].to_vec(),
+                (Layer::Surface, Some(found)) => found.surface[pixel].to_vec(),
+                (Layer::Noise, Some(found)) => vec![found.noise[pixel]],
+                _ => picture.photo.image.pixels[pixel].to_vec(),
+            };
+            let tone = readable_on(sheet.colour(pixel));
+            let middle = place.screen_from_image(pos2(x as f32 + 0.5, y as f32 + 0.5));
+            for (line, value) in lines.iter().enumerate() {
+                let down = (line as f32 - (lines.len() as f32 - 1.0) / 2.0) * size * 1.2;
+                let font = FontId::proportional(size);
+                painter.text(
+                    middle + vec2(0.0, down),
+                    Align2::CENTER_CENTER,
+                    format!("{value:.1}"),
+                    font,
+                    tone,
+                );
+            }
+        }
+    }
+}
+
+/// Black or white, whichever has more contrast with a sRGB colour: they are equal on a luminance of 0.18.
+fn readable_on([r, g, b, _]: [u8; 4]) -> Color32 {
+    // A square is near enough to sRGB's curve.
+    let light = |code: u8| (f32::from(code) / 255.0).powi(2);
+    let luminance = 0.21 * light(r) + 0.72 * light(g) + 0.07 * light(b);
+    if luminance > 0.18 { Color32::BLACK } else { Color32::WHITE }
+}
+
+/// From near: what is marked, selected and pointed at elsewhere, outlined between the pixels.
+pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
+    let (Some(picture), width) = (&state.picture, place.size.x as usize) else { return };
+    let selection = &state.document.selection;
+    if let Some(mask) = &selection.marked {
+        let marked = |x: usize, y: usize| mask.get(x, y).copied().unwrap_or(false);
+        fill(painter, place, MARK.gamma_multiply(0.28), marked);
+        edges(painter, place, MARK, marked);
+    }
+    for (item, colour) in [(selection.item, MARK), (state.hover, Color32::WHITE)] {
+        match (item, state.shown()) {
+            (Some(Item::Region(region)), Some(shown)) => {
+                edges(painter, place, colour, |x, y| shown.labels().get(x, y) == Some(&region));
+            }
+            (Some(Item::Window(window)), Some(shown)) => {
+                let (side_px, columns) = (shown.window_px(), shown.classes().width().max(1));
+                let at = [window as usize % columns, window as usize / columns].map(|k| (k * side_px) as f32);
+                let square = Rect::from_min_size(at.into(), egui::Vec2::splat(side_px as f32));
+                frame(painter, place.screen_rect_of(square), colour);
+            }
+            (Some(Item::Bin(bin)), _) => {
+                let of_bin = |x, y| picture.histogram.bin_of(y * width + x) == Some(bin);
+                fill(painter, place, colour.gamma_multiply(0.8), of_bin);
+            }
+            _ => {}
+        }
+    }
+}
+
+fn fill(painter: &Painter, place: &Placement, colour: Color32, inside: impl Fn(usize, usize) -> bool) {
+    let [columns, rows] = place.visible();
+    for y in rows {
+        let mut from = None;
+        for x in columns.start..=columns.end {
+            let here = x < columns.end && inside(x, y);
+            match (from, here) {
+                (None, true) => from = Some(x),
+                (Some(start), false) => {
+                    let run =
+                        Rect::from_min_max(pos2(start as f32, y as f32), pos2(x as f32, y as f32 + 1.0));
+                    painter.rect_filled(place.screen_rect_of(run), 0.0, colour);
+                    from = None;
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// Lines between pixels that are inside and pixels that are not.
+fn edges(painter: &Painter, place: &Placement, colour: Color32, inside: impl Fn(usize, usize) -> bool) {
+    let [columns, rows] = place.visible();
+    let stroke = Stroke::new(1.5, colour);
+    let line = |a: (usize, usize), b: (usize, usize)| {
+        let on_screen = |(x, y): (usize, usize)| place.screen_from_image(pos2(x as f32, y as f32));
+        painter.line_segment([on_screen(a), on_screen(b)], stroke);
+    };
+    for y in rows {
+        for x in columns.clone() {
+            if !inside(x, y) {
+                continue;
+            }
+            if x == 0 || !inside(x - 1, y) {
+                line((x, y), (x, y + 1));
+            }
+            if !inside(x + 1, y) {
+                line((x + 1, y), (x + 1, y + 1));
+            }
+            if y == 0 || !inside(x, y - 1) {
+                line((x, y), (x + 1, y));
+            }
+            if !inside(x, y + 1) {
+                line((x, y + 1), (x + 1, y + 1));
+            }
+        }
+    }
+}
+
+fn frame(painter: &Painter, area: Rect, colour: Color32) {
+    painter.add(Shape::line(corners(area).to_vec(), Stroke::new(3.0, Color32::from_black_alpha(140))));
+    painter.add(Shape::line(corners(area).to_vec(), Stroke::new(1.4, colour)));
+}
+
+/// The pixel that is pointed at, unless the pointer itself is here, and the one that is selected.
+pub fn pixels(painter: &Painter, place: &Placement, state: &State, pointer_here: bool) {
+    let show = |item: Option<Item>, colour: Color32, from_afar: bool| {
+        let Some(Item::Pixel(pixel)) = item else { return };
+        let square = place.screen_rect_of(place.square_of(pixel));
+        if place.zoom >= GRID {
+            frame(painter, square, colour);
+        } else if from_afar {
+            cross(painter, square.center(), colour);
+        }
+    };
+    show(state.document.selection.item, MARK, true);
+    show(state.hover, Color32::WHITE, !pointer_here);
+}
+
+/// The line along which the profile runs, with handles while its tool is in the hand.
+pub fn profile(painter: &Painter, place: &Placement, state: &State) {
+    let editing = state.view.image.tool == Tool::Profile;
+    let ends = match state.view.profile {
+        ProfileLine::Between(a, b) => [a, b].map(Pos2::from),
+        line if editing => whole(line, place, state),
+        _ => return,
+    };
+    let [a, b] = ends.map(|end| place.screen_from_image(end));
+    let strength = if editing { 1.0 } else { 0.6 };
+    painter.line_segment([a, b], Stroke::new(3.0, Color32::from_black_alpha(130)));
+    painter.line_segment([a, b], Stroke::new(1.3, MARK.gamma_multiply(strength)));
+    if editing && matches!(state.view.profile, ProfileLine::Between(..)) {
+        for end in [a, b] {
+            painter.circle(end, 4.0, Color32::from_black_alpha(160), Stroke::new(1.5, MARK));
+        }
+    }
+}
+
+/// A whole row or column: of the hovered or selected pixel, or the middle one.
+fn whole(line: ProfileLine, place: &Placement, state: &State) -> [Pos2; 2] {
+    let pixel = [state.hover, state.document.selection.item].into_iter().find_map(|item| match item {
+        Some(Item::Pixel(pixel)) => Some(place.square_of(pixel).center()),
+        _ => None,
+    });
+    let through = pixel.unwrap_or((place.size / 2.0).to_pos2());
+    if line == ProfileLine::Column {
+        [pos2(through.x, 0.0), pos2(through.x, place.size.y)]
+    } else {
+        [pos2(0.0, through.y), pos2(place.size.x, through.y)]
+    }
+}
+
+/// A word over the picture, at a corner of it.
+pub fn tag(painter: &Painter, tones: &Tones, at: Pos2, align: Align2, text: &str) -> Rect {
+    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(SMALL_PT), tones.text);
+    let area = align.anchor_size(at, galley.size() + vec2(10.0, 4.0));
+    painter.rect_filled(area, 3.0, tones.panel.gamma_multiply(0.86));
+    painter.galley(area.min + vec2(5.0, 2.0), galley, tones.text);
+    area
+}
+
+/// What the colours of a layer stand for, along the lower edge.
+pub fn key(painter: &Painter, tones: &Tones, view: Rect, layer: Layer) {
+    let entries = legend(layer);
+    if entries.is_empty() {
+        return;
+    }
+    let font = FontId::proportional(SMALL_PT);
+    let galleys: Vec<_> = entries
+        .iter()
+        .map(|entry| painter.layout_no_wrap(entry.name.to_owned(), font.clone(), tones.text))
+        .collect();
+    let width: f32 = galleys.iter().map(|galley| galley.size().x + 24.0).sum::<f32>() + 2.0;
+    let area = Rect::from_min_size(view.left_bottom() + vec2(6.0, -24.0), vec2(width, 18.0));
+    painter.rect_filled(area, 3.0, tones.panel.gamma_multiply(0.86));
+    let mut x = area.left() + 6.0;
+    for (entry, galley) in entries.iter().zip(galleys) {
+        let chip = Rect::from_center_size(pos2(x + 4.5, area.center().y), vec2(9.0, 9.0));
+        painter.rect_filled(chip, 2.0, crate::gui::widgets::colour(entry.colour));
+        let step = galley.size().x + 24.0;
+        painter.galley(pos2(x + 13.0, area.center().y - galley.size().y / 2.0), galley, tones.text);
+        x += step;
+    }
+}
+
+/// What the analysis warns of, quietly, along the upper edge.
+pub fn warnings(painter: &Painter, tones: &Tones, view: Rect, state: &State) {
+    let Some(shown) = state.shown() else { return };
+    let mut top = view.top() + 6.0;
+    for warning in &shown.analysis.warnings {
+        let width = view.width() - 32.0;
+        let font = FontId::proportional(SMALL_PT);
+        let galley = painter.layout(warning.clone(), font, tones.quiet, width.max(40.0));
+        let size = galley.size() + vec2(12.0, 6.0);
+        let area = Rect::from_min_size(pos2(view.center().x - size.x / 2.0, top), size);
+        painter.rect_filled(area, 3.0, tones.panel.gamma_multiply(0.9));
+        painter.galley(area.min + vec2(6.0, 3.0), galley, tones.quiet);
+        top = area.bottom() + 4.0;
+    }
+}

@@ -1,0 +1,208 @@
+//! The numbers of one pixel, each always in its place.
+
+use crate::gui::theme::{SMALL_PT, Tones};
+use crate::intrinsic::PixelKind;
+use crate::trace::Class;
+use crate::workbench::{Item, Picture, Shown, State};
+use egui::accesskit::Role;
+use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
+
+/// Height of a line, points.
+const LINE_PT: f32 = 18.0;
+/// Between two cells, points.
+const GAP_PT: f32 = 7.0;
+
+/// A quiet name and the number's place.
+struct Cell {
+    name: &'static str,
+    tip: &'static str,
+    /// Points that the value takes.
+    width: f32,
+}
+
+const fn cell(name: &'static str, width: f32, tip: &'static str) -> Cell {
+    Cell { name, tip, width }
+}
+
+const CELLS: [Cell; 11] = [
+    cell("x", 28.0, "Column, from 0 at the left"),
+    cell("y", 28.0, "Row, from 0 at the top"),
+    cell("R", 34.0, "Red of the photograph, linear counts"),
+    cell("G", 34.0, "Green of the photograph, linear counts"),
+    cell("B", 34.0, "Blue of the photograph, linear counts"),
+    cell("", 38.0, "Class of its window: the shape of the colour cluster (section 5.2.1)"),
+    cell("", 26.0, "Its region"),
+    cell("m_b", 34.0, "Amount of body reflection, counts (section 6)"),
+    cell("m_s", 34.0, "Amount of surface reflection, counts (section 6)"),
+    cell("\u{3b5}", 32.0, "Distance from the dichromatic plane, counts (section 6)"),
+    cell("", 50.0, "What the pixel is to its region (section 6)"),
+];
+
+/// Height of the strip, points.
+pub fn height(ui: &Ui, width: f32) -> f32 {
+    if is_narrow(ui, width) { 2.0 * LINE_PT } else { LINE_PT }
+}
+
+/// Whether all cells do not fit into one line.
+fn is_narrow(ui: &Ui, width: f32) -> bool {
+    let taken = |cell: &Cell| cell.width + name_width(ui, cell.name) + GAP_PT;
+    CELLS.iter().map(taken).sum::<f32>() - GAP_PT > width
+}
+
+fn name_width(ui: &Ui, name: &str) -> f32 {
+    if name.is_empty() {
+        return 0.0;
+    }
+    let font = FontId::proportional(SMALL_PT);
+    ui.painter().layout_no_wrap(name.to_owned(), font, Color32::WHITE).size().x + 3.0
+}
+
+/// Shows the strip: of the pixel that the pointer is over in any panel, otherwise of the selected one.
+pub fn show(ui: &mut Ui, state: &State, tones: &Tones) {
+    let full = ui.available_rect_before_wrap();
+    let pixel = [state.hover, state.document.selection.item].into_iter().find_map(|item| match item {
+        Some(Item::Pixel(pixel)) => Some(pixel as usize),
+        _ => None,
+    });
+    let facts = state
+        .picture
+        .as_ref()
+        .zip(pixel)
+        .and_then(|(picture, pixel)| Facts::of(picture, state.shown().map(|shown| &**shown), pixel));
+    let values = facts.as_ref().map_or_else(Default::default, Facts::values);
+    let chip = facts.as_ref().and_then(|facts| facts.chip);
+    let whole = ui.interact(full, ui.scope_id().with("readout"), Sense::hover());
+    whole.widget_info(|| WidgetInfo::labeled(Role::Label, true, sentence(&values)));
+    let lines: &[&[usize]] = if is_narrow(ui, full.width()) {
+        &[&[0, 1, 2, 3, 4, 6], &[5, 7, 8, 9, 10]]
+    } else {
+        &[&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10]]
+    };
+    for (line, cells) in lines.iter().enumerate() {
+        let mut x = full.left();
+        for &cell in *cells {
+            let top = full.top() + line as f32 * LINE_PT;
+            x = place(ui, tones, pos2(x, top), cell, &values[cell], chip) + GAP_PT;
+        }
+    }
+}
+
+/// Draws a cell at a place; its right end.
+fn place(ui: &Ui, tones: &Tones, at: egui::Pos2, index: usize, value: &str, chip: Option<Color32>) -> f32 {
+    let cell = &CELLS[index];
+    let font = FontId::proportional(SMALL_PT);
+    let painter = ui.painter();
+    let middle = at.y + LINE_PT / 2.0;
+    painter.text(pos2(at.x, middle), Align2::LEFT_CENTER, cell.name, font.clone(), tones.quiet);
+    let left = at.x + name_width(ui, cell.name);
+    let right = left + cell.width;
+    if let Some(colour) = chip.filter(|_| index == 6) {
+        let square = Rect::from_center_size(pos2(left + 5.0, middle), vec2(9.0, 9.0));
+        painter.rect_filled(square, 2.0, colour);
+    }
+    let (x, align) = match index {
+        5 | 10 => (left, Align2::LEFT_CENTER),
+        _ => (right, Align2::RIGHT_CENTER),
+    };
+    let (text, tone) = if value.is_empty() { ("\u{2013}", tones.quiet) } else { (value, tones.text) };
+    painter.text(pos2(x, middle), align, text, font, tone);
+    let area = Rect::from_min_max(at, pos2(right, at.y + LINE_PT));
+    ui.interact(area, ui.scope_id().with(("readout", index)), Sense::hover()).on_hover_text(cell.tip);
+    right
+}
+
+/// The same for those who listen.
+fn sentence(values: &[String; 11]) -> String {
+    if values[0].is_empty() {
+        return "No pixel".to_owned();
+    }
+    let named = CELLS.iter().zip(values).filter(|(_, value)| !value.is_empty());
+    named.map(|(cell, value)| format!("{} {value}", cell.name)).collect::<Vec<_>>().join(", ")
+}
+
+/// What is known of a pixel.
+struct Facts {
+    at: [usize; 2],
+    colour: [f32; 3],
+    found: Option<Found>,
+    chip: Option<Color32>,
+}
+
+struct Found {
+    class: Option<Class>,
+    kind: PixelKind,
+    region: Option<u16>,
+    body: f32,
+    surface: Option<f32>,
+    noise: f32,
+}
+
+impl Facts {
+    fn of(picture: &Picture, shown: Option<&Shown>, pixel: usize) -> Option<Self> {
+        let image = &picture.photo.image;
+        let colour = *image.pixels.as_slice().get(pixel)?;
+        let at = [pixel % image.width(), pixel / image.width()];
+        let found = shown.map(|shown| Found::of(shown, pixel, at));
+        let chip = found.as_ref().and_then(|found| found.region).zip(shown).and_then(|(region, shown)| {
+            let colour = shown.region_colours.get(usize::from(region).wrapping_sub(1))?;
+            Some(crate::gui::widgets::colour(*colour))
+        });
+        Some(Self { at, colour, found, chip })
+    }
+
+    fn values(&self) -> [String; 11] {
+        let counts = |value: f32| format!("{value:.1}");
+        let mut values: [String; 11] = Default::default();
+        (values[0], values[1]) = (self.at[0].to_string(), self.at[1].to_string());
+        for (value, &band) in values[2..5].iter_mut().zip(&self.colour) {
+            *value = counts(band);
+        }
+        let Some(found) = &self.found else { return values };
+        found.class.map_or("", class_name).clone_into(&mut values[5]);
+        let Some(region) = found.region else { return values };
+        values[6] = region.to_string();
+        values[7] = counts(found.body);
+        values[8] = found.surface.map_or_else(String::new, counts);
+        values[9] = format!("{:+.1}", found.noise);
+        kind_name(found.kind).clone_into(&mut values[10]);
+        values
+    }
+}
+
+impl Found {
+    fn of(shown: &Shown, pixel: usize, [x, y]: [usize; 2]) -> Self {
+        let intrinsic = &shown.analysis.intrinsic;
+        let label = shown.labels()[pixel];
+        let reflection = intrinsic.regions.get(usize::from(label).wrapping_sub(1));
+        // Along a unit vector, the component is the amount.
+        let along = |colour: [f32; 3], vector: [f64; 3]| crate::color::dot(colour, vector.map(|v| v as f32));
+        Self {
+            class: shown.classes().get(x / shown.window_px(), y / shown.window_px()).copied().flatten(),
+            kind: intrinsic.kinds[pixel],
+            region: reflection.map(|_| label),
+            body: reflection.map_or(0.0, |region| along(intrinsic.body[pixel], region.body)),
+            surface: reflection
+                .and_then(|region| region.surface.map(|surface| along(intrinsic.surface[pixel], surface))),
+            noise: intrinsic.noise[pixel],
+        }
+    }
+}
+
+const fn class_name(class: Class) -> &'static str {
+    match class {
+        Class::Point => "point",
+        Class::Line => "line",
+        Class::Plane => "plane",
+        Class::Volume => "volume",
+    }
+}
+
+const fn kind_name(kind: PixelKind) -> &'static str {
+    match kind {
+        PixelKind::Unassigned => "",
+        PixelKind::Matte => "matte",
+        PixelKind::Highlight => "highlight",
+        PixelKind::Restored => "restored",
+        PixelKind::Lost => "lost",
+    }
+}

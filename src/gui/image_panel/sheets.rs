@@ -1,0 +1,375 @@
+//! Painted layers and marks, and their textures: painted when something changed, uploaded where they are seen.
+
+use super::geometry::{Placement, level_for};
+use crate::raster::{Mask, Raster};
+use crate::workbench::{
+    Fill, ImageSettings, Item, Layer, Look, Picture, Selection, Shown, State, marks, paint, pyramid,
+};
+use egui::{
+    Color32, ColorImage, Context, Mesh, Painter, Rect, Shape, TextureFilter, TextureHandle, TextureOptions,
+    pos2,
+};
+use std::collections::HashMap;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{Arc, Weak};
+use std::time::Duration;
+
+/// Larger pictures are painted in the background, so that no frame waits for them; pixels.
+const LARGE_PX: usize = 1 << 20;
+/// Side of a texture without its seam, texels.
+const TILE: usize = 1024;
+/// Sheets kept at most, and their pixels in total.
+const MOST: (usize, usize) = (8, 40 << 20);
+
+/// Where a sheet is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slot {
+    /// The layer.
+    Layer,
+    /// The second layer.
+    Other,
+    /// Over both.
+    Marks,
+}
+
+/// What is to be painted.
+#[derive(Clone)]
+pub struct Order {
+    picture: Arc<Picture>,
+    shown: Option<Arc<Shown>>,
+    pinned: Option<Arc<Shown>>,
+    subject: Subject,
+}
+
+#[derive(Clone)]
+enum Subject {
+    Layer(Layer, Look),
+    Marks(Selection, Option<Item>),
+}
+
+impl Order {
+    /// A layer. What does not change its picture is left out, so that it is not painted anew.
+    pub fn layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
+        let picture = Arc::clone(state.picture.as_ref()?);
+        let by_region = matches!(layer, Layer::Linear | Layer::Planar | Layer::Regions);
+        let mut look = Look::of(settings, state.selected_region().filter(|_| by_region));
+        if !layer.is_overlay() {
+            (look.fill, look.opacity) = (Fill::Fill, 1.0);
+        }
+        let shown = state.shown().filter(|_| layer != Layer::Input).cloned();
+        let pinned = state.pinned.as_ref().filter(|_| layer == Layer::Difference).cloned();
+        Some(Self { picture, shown, pinned, subject: Subject::Layer(layer, look) })
+    }
+
+    /// What is marked, selected and pointed at elsewhere; none where nothing of this is larger than a pixel.
+    pub fn marks(state: &State) -> Option<Self> {
+        let large = |item: &Item| !matches!(item, Item::Pixel(_));
+        let hover = state.hover.filter(large);
+        let mut selection = state.document.selection.clone();
+        selection.item = selection.item.filter(large);
+        if selection.is_empty() && hover.is_none() {
+            return None;
+        }
+        let picture = Arc::clone(state.picture.as_ref()?);
+        let shown = state.shown().cloned();
+        Some(Self { picture, shown, pinned: None, subject: Subject::Marks(selection, hover) })
+    }
+
+    fn paint(&self) -> Raster<[u8; 4]> {
+        let (shown, pinned) = (self.shown.as_deref(), self.pinned.as_deref());
+        match &self.subject {
+            Subject::Layer(layer, look) => paint(*layer, &self.picture, shown, pinned, look),
+            Subject::Marks(selection, hover) => {
+                let drawn = marks(&self.picture, shown, selection, *hover);
+                // One transparent texel stands for nothing.
+                drawn.unwrap_or_else(|| Raster::filled(1, 1, [0; 4]))
+            }
+        }
+    }
+
+    fn key(&self) -> Key {
+        let weak = |shown: &Option<Arc<Shown>>| shown.as_ref().map(Arc::downgrade).unwrap_or_default();
+        let subject = match &self.subject {
+            Subject::Layer(layer, look) => SubjectKey::Layer(*layer, *look),
+            Subject::Marks(selection, hover) => {
+                let marked = selection.marked.as_ref().map(Arc::downgrade).unwrap_or_default();
+                SubjectKey::Marks(selection.item, marked, *hover)
+            }
+        };
+        Key {
+            picture: Arc::downgrade(&self.picture),
+            shown: weak(&self.shown),
+            pinned: weak(&self.pinned),
+            subject,
+        }
+    }
+}
+
+/// Tells sheets apart without keeping results alive.
+#[derive(Clone)]
+struct Key {
+    picture: Weak<Picture>,
+    shown: Weak<Shown>,
+    pinned: Weak<Shown>,
+    subject: SubjectKey,
+}
+
+#[derive(Clone)]
+enum SubjectKey {
+    Layer(Layer, Look),
+    Marks(Option<Item>, Weak<Mask>, Option<Item>),
+}
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        let subject = match (&self.subject, &other.subject) {
+            (SubjectKey::Layer(a, b), SubjectKey::Layer(c, d)) => (a, b) == (c, d),
+            (SubjectKey::Marks(a, b, c), SubjectKey::Marks(d, e, f)) => {
+                (a, c) == (d, f) && Weak::ptr_eq(b, e)
+            }
+            _ => false,
+        };
+        subject
+            && Weak::ptr_eq(&self.picture, &other.picture)
+            && Weak::ptr_eq(&self.shown, &other.shown)
+            && Weak::ptr_eq(&self.pinned, &other.pinned)
+    }
+}
+
+/// All sheets.
+#[derive(Default)]
+pub struct Sheets {
+    sheets: Vec<Sheet>,
+    /// What each slot showed last: it stays until the new one is painted.
+    last: [Option<Key>; 3],
+    painting: Option<Receiver<Sheet>>,
+    clock: u64,
+}
+
+impl Sheets {
+    /// The sheet that was ordered, or an older one of the same picture while it is being painted.
+    pub fn get(&mut self, ctx: &Context, slot: Slot, order: &Order) -> Option<&mut Sheet> {
+        self.take_in();
+        self.clock += 1;
+        let key = order.key();
+        if !self.sheets.iter().any(|sheet| sheet.key == key) {
+            if order.picture.photo.image.pixels.len() <= LARGE_PX {
+                self.sheets.push(Sheet::painted(order));
+            } else if self.painting.is_none() {
+                self.paint_in_background(ctx, order);
+            }
+            // The painter rings when it is done; where nobody hears it, off screen, one looks again.
+            ctx.request_repaint_after(Duration::from_millis(30));
+        }
+        let last = &mut self.last[slot as usize];
+        if self.sheets.iter().any(|sheet| sheet.key == key) {
+            *last = Some(key);
+        }
+        let wanted =
+            last.clone().filter(|last| Weak::ptr_eq(&last.picture, &Arc::downgrade(&order.picture)))?;
+        self.forget_oldest();
+        let sheet = self.sheets.iter_mut().find(|sheet| sheet.key == wanted)?;
+        sheet.used = self.clock;
+        Some(sheet)
+    }
+
+    /// Takes the sheet that a painter has finished.
+    fn take_in(&mut self) {
+        let Some(painting) = &self.painting else { return };
+        match painting.try_recv() {
+            Ok(mut sheet) => {
+                sheet.used = self.clock;
+                self.sheets.push(sheet);
+                self.painting = None;
+            }
+            Err(TryRecvError::Disconnected) => self.painting = None,
+            Err(TryRecvError::Empty) => {}
+        }
+    }
+
+    fn paint_in_background(&mut self, ctx: &Context, order: &Order) {
+        let (send, receive) = channel();
+        let (order, ctx) = (order.clone(), ctx.clone());
+        let work = move || {
+            let mut sheet = Sheet::painted(&order);
+            sheet.make_copies();
+            // The window may be closed by now: then nobody waits for it.
+            let _ = send.send(sheet);
+            ctx.request_repaint();
+        };
+        if std::thread::Builder::new().name("painter".to_owned()).spawn(work).is_ok() {
+            self.painting = Some(receive);
+        }
+    }
+
+    /// Sheets of results that are gone are never asked for again; of the others the oldest go first.
+    fn forget_oldest(&mut self) {
+        let last = &self.last;
+        let in_use = |sheet: &Sheet| last.iter().flatten().any(|key| *key == sheet.key);
+        self.sheets.retain(|sheet| in_use(sheet) || !sheet.is_orphan());
+        loop {
+            let pixels: usize = self.sheets.iter().map(|sheet| sheet.levels[0].len()).sum();
+            if self.sheets.len() <= MOST.0 && pixels <= MOST.1 {
+                return;
+            }
+            let free = self.sheets.iter().enumerate().filter(|(_, sheet)| !in_use(sheet));
+            let Some((oldest, _)) = free.min_by_key(|(_, sheet)| sheet.used) else { return };
+            self.sheets.swap_remove(oldest);
+        }
+    }
+}
+
+/// A painted picture, smaller copies of it, and textures of what was seen of them.
+pub struct Sheet {
+    key: Key,
+    levels: Vec<Raster<[u8; 4]>>,
+    tiles: HashMap<[usize; 3], TextureHandle>,
+    used: u64,
+}
+
+impl Sheet {
+    fn painted(order: &Order) -> Self {
+        Self { key: order.key(), levels: vec![order.paint()], tiles: HashMap::new(), used: 0 }
+    }
+
+    fn is_orphan(&self) -> bool {
+        let gone = |shown: &Weak<Shown>| shown.strong_count() == 0 && !Weak::ptr_eq(shown, &Weak::new());
+        self.key.picture.strong_count() == 0 || gone(&self.key.shown) || gone(&self.key.pinned)
+    }
+
+    /// The colour shown for a pixel.
+    pub fn colour(&self, pixel: usize) -> [u8; 4] {
+        self.levels[0].as_slice().get(pixel).copied().unwrap_or_default()
+    }
+
+    /// Makes the smaller copies, unless they are there.
+    fn make_copies(&mut self) {
+        if self.levels.len() == 1 {
+            let copies = match self.key.subject {
+                SubjectKey::Layer(..) => pyramid(&self.levels[0]),
+                SubjectKey::Marks(..) => boldest(&self.levels[0]),
+            };
+            self.levels.extend(copies);
+        }
+    }
+
+    /// Draws what is in sight, multiplied by `tint`.
+    pub fn draw(&mut self, painter: &Painter, place: &Placement, tint: Color32) {
+        let scale = place.zoom * painter.ctx().pixels_per_point();
+        if level_for(scale, usize::MAX) > 0 {
+            self.make_copies();
+        }
+        let level = level_for(scale, self.levels.len());
+        let texels = &self.levels[level];
+        let shrunk = (1usize << level) as f32;
+        let [columns, rows] = place.visible().map(|seen| {
+            let tile = TILE << level;
+            seen.start / tile..seen.end.div_ceil(tile)
+        });
+        for row in rows {
+            for column in columns.clone() {
+                let Some(tile) = Tile::of(texels, column, row) else { continue };
+                let texture = self
+                    .tiles
+                    .entry([level, column, row])
+                    .or_insert_with(|| painter.ctx().load_texture("picture", tile.cut(texels), options()));
+                let part = Rect::from_min_max(
+                    tile.inner.min * shrunk,
+                    (tile.inner.max * shrunk).min(place.size.to_pos2()),
+                );
+                let uv = |texel: egui::Pos2| ((texel - tile.outer.min) / tile.outer.size()).to_pos2();
+                let uv = Rect::from_min_max(uv(part.min / shrunk), uv(part.max / shrunk));
+                let mut mesh = Mesh::with_texture(texture.id());
+                mesh.add_rect_with_uv(place.screen_rect_of(part), uv, tint);
+                painter.add(Shape::mesh(mesh));
+            }
+        }
+    }
+}
+
+/// Sharp pixels from near, smooth from afar.
+fn options() -> TextureOptions {
+    TextureOptions {
+        magnification: TextureFilter::Nearest,
+        minification: TextureFilter::Linear,
+        ..TextureOptions::default()
+    }
+}
+
+/// A part of a picture: what is drawn, and what is uploaded, a texel more where the picture goes on: smoothing looks there.
+struct Tile {
+    inner: Rect,
+    outer: Rect,
+}
+
+impl Tile {
+    fn of(texels: &Raster<[u8; 4]>, column: usize, row: usize) -> Option<Self> {
+        let (left, top) = (column * TILE, row * TILE);
+        let (right, bottom) = ((left + TILE).min(texels.width()), (top + TILE).min(texels.height()));
+        let rect = |left, top, right, bottom| {
+            Rect::from_min_max(pos2(left as f32, top as f32), pos2(right as f32, bottom as f32))
+        };
+        (left < right && top < bottom).then(|| Self {
+            inner: rect(left, top, right, bottom),
+            outer: rect(
+                left.saturating_sub(1),
+                top.saturating_sub(1),
+                (right + 1).min(texels.width()),
+                (bottom + 1).min(texels.height()),
+            ),
+        })
+    }
+
+    fn cut(&self, texels: &Raster<[u8; 4]>) -> ColorImage {
+        let columns = self.outer.min.x as usize..self.outer.max.x as usize;
+        let rows = self.outer.min.y as usize..self.outer.max.y as usize;
+        let colour = |&[r, g, b, a]: &[u8; 4]| Color32::from_rgba_unmultiplied(r, g, b, a);
+        let size = [columns.len(), rows.len()];
+        let pixels = rows.flat_map(|y| texels.row(y)[columns.clone()].iter().map(colour)).collect();
+        ColorImage::new(size, pixels)
+    }
+}
+
+/// Smaller and smaller copies that keep thin outlines: of every 2 × 2 the most opaque.
+fn boldest(marks: &Raster<[u8; 4]>) -> Vec<Raster<[u8; 4]>> {
+    let mut levels: Vec<Raster<[u8; 4]>> = Vec::new();
+    loop {
+        let last = levels.last().unwrap_or(marks);
+        let (width, height) = (last.width().div_ceil(2), last.height().div_ceil(2));
+        if last.width().max(last.height()) <= 64 {
+            return levels;
+        }
+        let boldest = |at: usize| {
+            let (x, y) = (at % width * 2, at / width * 2);
+            let four = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
+            four.iter().filter_map(|&(x, y)| last.get(x, y)).max_by_key(|texel| texel[3]).copied()
+        };
+        let data = (0..width * height).map(|at| boldest(at).unwrap_or_default()).collect();
+        levels.push(Raster::from_vec(width, height, data).unwrap_or_default());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_overlap_by_a_texel_where_the_picture_goes_on() {
+        let texels = Raster::filled(TILE + 10, 5, [0; 4]);
+        let first = Tile::of(&texels, 0, 0).unwrap();
+        let second = Tile::of(&texels, 1, 0).unwrap();
+        assert_eq!((first.inner.max.x, first.outer.max.x), (1024.0, 1025.0));
+        assert_eq!((second.outer.min.x, second.outer.max.x), (1023.0, 1034.0));
+        assert_eq!(second.cut(&texels).size, [11, 5]);
+        assert!(Tile::of(&texels, 2, 0).is_none());
+    }
+
+    #[test]
+    fn a_thin_outline_survives_in_smaller_copies() {
+        let mut marks = Raster::filled(200, 100, [0u8; 4]);
+        marks[37 * 200 + 133] = [9, 9, 9, 255];
+        let levels = boldest(&marks);
+        assert_eq!(levels.len(), 2);
+        assert_eq!(*levels[1].get(33, 9).unwrap(), [9, 9, 9, 255]);
+    }
+}

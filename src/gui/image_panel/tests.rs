@@ -1,0 +1,257 @@
+//! The panel in a harness: opened, looked at, clicked and drawn in.
+
+use super::geometry::Placement;
+use crate::gui::App;
+use crate::gui::testing::{harness, open_sample};
+use crate::workbench::{
+    Arrangement, Command, ImageSettings, Item, Layer, Picture, ProfileLine, Tool, View, marking,
+};
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, pos2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::sync::Arc;
+
+/// The sample scene in the window; none without a graphics adapter.
+fn opened() -> Option<Harness<'static, App>> {
+    let (mut harness, _) = harness()?;
+    open_sample(&mut harness);
+    Some(harness)
+}
+
+fn view(harness: &Harness<App>) -> View {
+    harness.state().state().view.clone()
+}
+
+fn picture(harness: &Harness<App>) -> Arc<Picture> {
+    Arc::clone(harness.state().state().picture.as_ref().unwrap())
+}
+
+fn look(harness: &mut Harness<App>, change: impl FnOnce(&mut ImageSettings)) {
+    let mut settings = view(harness).image;
+    change(&mut settings);
+    harness.state_mut().apply(Command::Image(settings));
+    harness.run_steps(3);
+}
+
+fn place(harness: &Harness<App>) -> Placement {
+    let (width, height) = picture(harness).size();
+    let rect = harness.get_by_role_and_label(Role::Image, "Picture").rect();
+    Placement::new(rect, vec2(width as f32, height as f32), &view(harness).image)
+}
+
+/// Where a point of the picture is on the screen.
+fn screen(harness: &Harness<App>, x: f32, y: f32) -> Pos2 {
+    place(harness).screen_from_image(pos2(x, y))
+}
+
+fn press(harness: &mut Harness<App>, pos: Pos2, pressed: bool, modifiers: Modifiers) {
+    harness.event_modifiers(
+        Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers },
+        modifiers,
+    );
+    harness.run_steps(1);
+}
+
+fn move_to(harness: &mut Harness<App>, pos: Pos2) {
+    harness.hover_at(pos);
+    harness.run_steps(1);
+}
+
+fn click(harness: &mut Harness<App>, pos: Pos2, modifiers: Modifiers) {
+    move_to(harness, pos);
+    press(harness, pos, true, modifiers);
+    press(harness, pos, false, modifiers);
+    // The next click shall not be the second of a double one.
+    harness.run_steps(30);
+}
+
+fn drag(harness: &mut Harness<App>, points: &[Pos2], modifiers: Modifiers) {
+    move_to(harness, points[0]);
+    press(harness, points[0], true, modifiers);
+    for &point in &points[1..] {
+        move_to(harness, point);
+    }
+    press(harness, points[points.len() - 1], false, modifiers);
+    harness.run_steps(2);
+}
+
+fn marked(harness: &Harness<App>) -> usize {
+    let mask = &harness.state().state().document.selection.marked;
+    mask.as_ref().map_or(0, |mask| mask.as_slice().iter().filter(|&&on| on).count())
+}
+
+/// The middle of a run of a region's pixels, far from its border.
+fn inside(harness: &Harness<App>, region: u16) -> u32 {
+    let shown = harness.state().state().newest.as_ref().unwrap();
+    let labels = shown.labels();
+    let width = labels.width();
+    let all = |pixel: usize| (pixel - 6..pixel + 7).all(|near| labels[near] == region);
+    (6..labels.len() - 6).find(|&pixel| pixel % width > 6 && all(pixel)).unwrap() as u32
+}
+
+#[test]
+fn a_layer_is_chosen_by_name_and_every_layer_is_drawn() {
+    let Some(mut harness) = opened() else { return };
+    harness.get_by_role_and_label(Role::ComboBox, "Layer").click();
+    harness.run_steps(3);
+    harness.get_by_label_contains("Classification").click();
+    harness.run_steps(3);
+    assert_eq!(view(&harness).image.layer, Layer::Classes);
+    assert_eq!(view(&harness).image.zoom, None, "looking changes nothing");
+    for layer in Layer::ALL {
+        for arrangement in [Arrangement::Single, Arrangement::Wipe(0.3), Arrangement::SideBySide] {
+            look(&mut harness, |settings| (settings.layer, settings.arrangement) = (layer, arrangement));
+        }
+    }
+    harness.get_by_label("Wipe").click();
+    harness.run_steps(3);
+    assert!(matches!(view(&harness).image.arrangement, Arrangement::Wipe(_)));
+}
+
+#[test]
+fn scrolling_zooms_at_the_pointer_and_keys_travel() {
+    let Some(mut harness) = opened() else { return };
+    let pointer = screen(&harness, 300.0, 200.0);
+    let under = place(&harness).image_from_screen(pointer);
+    let before = place(&harness).zoom;
+    move_to(&mut harness, pointer);
+    harness.event(Event::MouseWheel {
+        unit: MouseWheelUnit::Point,
+        delta: vec2(0.0, 240.0),
+        phase: TouchPhase::Move,
+        modifiers: Modifiers::NONE,
+    });
+    harness.run_steps(30);
+    let after = place(&harness);
+    assert!(after.zoom > 2.0 * before, "{} {}", after.zoom, before);
+    assert!((after.image_from_screen(pointer) - under).length() < 0.1);
+    harness.key_press(Key::Minus);
+    harness.run_steps(3);
+    assert!((place(&harness).zoom - after.zoom / 1.25).abs() < 1e-3);
+    let centre = place(&harness).centre;
+    harness.key_press(Key::ArrowRight);
+    harness.run_steps(3);
+    assert!(place(&harness).centre.x > centre.x);
+    harness.get_by_label("Fit").click();
+    harness.run_steps(3);
+    assert_eq!(view(&harness).image.zoom, None);
+}
+
+#[test]
+fn a_click_selects_a_region_a_pixel_or_nothing() {
+    let Some(mut harness) = opened() else { return };
+    let pixel = inside(&harness, 2);
+    let at = place(&harness).screen_rect_of(place(&harness).square_of(pixel)).center();
+    move_to(&mut harness, at);
+    harness.run_steps(2);
+    assert_eq!(harness.state().state().hover, Some(Item::Pixel(pixel)));
+    click(&mut harness, at, Modifiers::NONE);
+    let item = |harness: &Harness<App>| harness.state().state().document.selection.item;
+    assert_eq!(item(&harness), Some(Item::Region(2)));
+    click(&mut harness, at, Modifiers::ALT);
+    assert_eq!(item(&harness), Some(Item::Pixel(pixel)));
+    look(&mut harness, |settings| settings.layer = Layer::Classes);
+    click(&mut harness, at, Modifiers::NONE);
+    assert!(matches!(item(&harness), Some(Item::Window(_))), "{:?}", item(&harness));
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    assert_eq!(item(&harness), None);
+    harness.remove_cursor();
+    harness.run_steps(2);
+    assert_eq!(harness.state().state().hover, None);
+}
+
+#[test]
+fn dragging_pans_and_two_clicks_fit() {
+    let Some(mut harness) = opened() else { return };
+    look(&mut harness, |settings| settings.zoom = Some(3.0));
+    let before = place(&harness).centre;
+    let at = screen(&harness, before.x, before.y);
+    drag(&mut harness, &[at, at + vec2(20.0, 0.0), at + vec2(60.0, 30.0)], Modifiers::NONE);
+    let moved = before - place(&harness).centre;
+    assert!((moved - vec2(20.0, 10.0)).length() < 0.1, "{moved:?}");
+    for _ in 0..2 {
+        press(&mut harness, at, true, Modifiers::NONE);
+        press(&mut harness, at, false, Modifiers::NONE);
+    }
+    harness.run_steps(2);
+    assert_eq!(view(&harness).image.zoom, None);
+}
+
+#[test]
+fn a_rectangle_marks_the_pixels_in_it() {
+    let Some(mut harness) = opened() else { return };
+    harness.get_by_label("Rectangle").click();
+    harness.run_steps(2);
+    assert_eq!(view(&harness).image.tool, Tool::Rectangle);
+    let corner = |harness: &Harness<App>, x, y| screen(harness, x, y);
+    let (a, b) = (corner(&harness, 100.2, 80.2), corner(&harness, 150.2, 110.2));
+    drag(&mut harness, &[a, a.lerp(b, 0.5), b], Modifiers::NONE);
+    assert_eq!(marked(&harness), 50 * 30);
+    let (c, d) = (corner(&harness, 200.2, 80.2), corner(&harness, 210.2, 90.2));
+    drag(&mut harness, &[c, d], Modifiers::SHIFT);
+    assert_eq!(marked(&harness), 50 * 30 + 100);
+    let (e, f) = (corner(&harness, 100.2, 80.2), corner(&harness, 110.2, 90.2));
+    drag(&mut harness, &[e, f], Modifiers::ALT);
+    assert_eq!(marked(&harness), 50 * 30);
+    click(&mut harness, c, Modifiers::NONE);
+    assert_eq!(marked(&harness), 0);
+}
+
+#[test]
+fn a_polygon_is_closed_by_enter_and_given_up_by_escape() {
+    let Some(mut harness) = opened() else { return };
+    look(&mut harness, |settings| settings.tool = Tool::Polygon);
+    let corners = [[100.2, 100.2], [160.2, 100.2], [160.2, 140.2], [100.2, 140.2]];
+    for [x, y] in corners {
+        let at = screen(&harness, x, y);
+        click(&mut harness, at, Modifiers::NONE);
+    }
+    harness.key_press(Key::Enter);
+    harness.run_steps(2);
+    let expected = marking::outline(picture(&harness).size(), &corners);
+    assert_eq!(marked(&harness), expected.as_slice().iter().filter(|&&on| on).count());
+    let at = screen(&harness, 30.0, 30.0);
+    click(&mut harness, at, Modifiers::NONE);
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    assert_eq!(marked(&harness), 60 * 40, "Escape gives up the polygon first");
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    assert_eq!(marked(&harness), 0);
+}
+
+#[test]
+fn a_stroke_of_the_brush_is_one_step() {
+    let Some(mut harness) = opened() else { return };
+    look(&mut harness, |settings| (settings.tool, settings.brush_px) = (Tool::Brush, 5.0));
+    let path: Vec<Pos2> = (0..5).map(|i| screen(&harness, 100.0 + 10.0 * i as f32, 100.0)).collect();
+    drag(&mut harness, &path, Modifiers::NONE);
+    let swept = marked(&harness);
+    assert!((430..560).contains(&swept), "{swept}");
+    harness.state_mut().apply(Command::Undo);
+    assert_eq!(marked(&harness), 0);
+}
+
+#[test]
+fn a_profile_line_is_drawn_and_kept_straight() {
+    let Some(mut harness) = opened() else { return };
+    look(&mut harness, |settings| settings.tool = Tool::Profile);
+    let (a, b) = (screen(&harness, 50.0, 60.0), screen(&harness, 200.0, 80.0));
+    drag(&mut harness, &[a, b], Modifiers::SHIFT);
+    let ProfileLine::Between(from, to) = view(&harness).profile else { panic!("no line") };
+    assert!((from[0] - 50.0).abs() < 0.1 && (to[0] - 200.0).abs() < 0.1, "{from:?} {to:?}");
+    assert_eq!(from[1], to[1]);
+}
+
+#[test]
+fn the_read_out_tells_the_pixel() {
+    let Some(mut harness) = opened() else { return };
+    let pixel = inside(&harness, 1);
+    harness.state_mut().apply(Command::Hover(Some(Item::Pixel(pixel))));
+    harness.run_steps(2);
+    let width = picture(&harness).size().0 as u32;
+    let words = format!("x {}, y {}, R ", pixel % width, pixel / width);
+    assert!(harness.query_by_label_contains(&words).is_some(), "{words}");
+}

@@ -1,0 +1,196 @@
+//! What is shown, how, and what a drag does: the row over the picture and the column beside it.
+
+use super::icons::{self, Sign};
+use crate::gui::shortcuts::{Deed, keys_of};
+use crate::gui::theme::{SMALL_PT, Tones};
+use crate::workbench::{Arrangement, Fill, ImageSettings, Layer, State, Tool};
+use egui::accesskit::Role;
+use egui::{
+    Button, ComboBox, DragValue, Label, Popup, PopupCloseBehavior, Response, RichText, Sense, Slider, Ui,
+    WidgetInfo, vec2,
+};
+
+/// Tools in the order of the column.
+const TOOLS: [(Tool, &str, &str); 7] = [
+    (Tool::Pointer, "Pointer", "Click selects a region, Alt + click a pixel; drag pans."),
+    (Tool::Rectangle, "Rectangle", "Marks a rectangle; Shift adds, Alt takes away."),
+    (Tool::Lasso, "Lasso", "Marks what a free outline encloses; Shift adds, Alt takes away."),
+    (Tool::Polygon, "Polygon", "Marks a polygon, corner by corner; double-click or Enter closes it."),
+    (Tool::Brush, "Brush", "Marks what it sweeps over; Shift adds, Alt takes away."),
+    (Tool::Profile, "Profile line", "The line of the profile; Shift keeps it in a row or column."),
+    (Tool::WhitePatch, "White patch", "Pins the light's colour to the mean of a white patch (section 6)."),
+];
+
+/// The paper's word for a layer.
+const fn tip(layer: Layer) -> &'static str {
+    match layer {
+        Layer::Input => "The photograph.",
+        Layer::Masks => "Pixels not to believe: dark, clipped, bloomed (section 4).",
+        Layer::Classes => {
+            "Windows by the shape of their colour cluster: point, line, plane, volume (section 5.2.1)."
+        }
+        Layer::Areas => "Neighbouring windows of one class merged (section 5.2.2).",
+        Layer::Linear => "Regions grown from linear hypotheses: matte pixels in a cylinder (section 5.3).",
+        Layer::Planar => {
+            "Regions grown from planar hypotheses: matte and highlight in a slice (section 5.4)."
+        }
+        Layer::Regions => "The final regions, clipped pixels included (section 5.5).",
+        Layer::Body => "Body reflection: the photograph without highlights (section 6).",
+        Layer::Surface => "Surface reflection: the highlights alone (section 6).",
+        Layer::Noise => "Distance \u{3b5} from the dichromatic plane; grey is 0 (section 6).",
+        Layer::Difference => "Body reflection minus that of the pinned result; grey is 0.",
+    }
+}
+
+/// Shows the row. `zoom` is the one in force, screen points a pixel.
+pub fn row(ui: &mut Ui, state: &State, tones: &Tones, settings: &mut ImageSettings, zoom: f32) {
+    ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
+    ui.spacing_mut().interact_size.y = icons::SIDE_PT;
+    ui.horizontal_wrapped(|ui| {
+        layer(ui, state, "Layer", &mut settings.layer);
+        arrangement(ui, tones, settings);
+        if settings.arrangement != Arrangement::Single {
+            layer(ui, state, "Second layer", &mut settings.other);
+        }
+        fill(ui, tones, settings);
+        zooming(ui, settings, zoom);
+        display(ui, tones, settings);
+    });
+}
+
+fn layer(ui: &mut Ui, state: &State, name: &str, layer: &mut Layer) {
+    let combo = ComboBox::from_id_salt(name).width(104.0).height(320.0).selected_text(layer.name());
+    let shown = combo.show_ui(ui, |ui| {
+        for choice in Layer::ALL {
+            let possible = choice != Layer::Difference || state.pinned.is_some();
+            let keys = keys_of(ui.ctx(), Deed::Layer(choice));
+            let button = Button::selectable(*layer == choice, choice.name()).shortcut_text(keys);
+            let button = ui.add_enabled(possible, button).on_hover_text(tip(choice));
+            if button.on_disabled_hover_text("Pin a result first (K).").clicked() {
+                *layer = choice;
+            }
+        }
+    });
+    shown.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
+    shown.response.on_hover_text(tip(*layer));
+}
+
+fn arrangement(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
+    let now = settings.arrangement;
+    let half = if let Arrangement::Wipe(share) = now { share } else { 0.5 };
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        for (choice, name, tip) in [
+            (Arrangement::Single, "One layer", "One layer"),
+            (Arrangement::Wipe(half), "Wipe", "A wipe between two layers: drag the line"),
+            (Arrangement::SideBySide, "Side by side", "Two layers side by side, panned and zoomed as one"),
+        ] {
+            if icons::toggle(ui, tones, Sign::Arrangement(choice), now == choice, name, tip).clicked() {
+                settings.arrangement = choice;
+            }
+        }
+    });
+}
+
+fn fill(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
+    let second = settings.arrangement != Arrangement::Single;
+    let overlay = settings.layer.is_overlay() || (second && settings.other.is_overlay());
+    let outline = settings.fill == Fill::Outline;
+    let tip = format!(
+        "Outlines instead of fills, of areas over the photograph ({})",
+        keys_of(ui.ctx(), Deed::Outline)
+    );
+    ui.add_enabled_ui(overlay, |ui| {
+        let sign = Sign::Fill(Fill::Outline);
+        if icons::toggle(ui, tones, sign, outline && overlay, "Outlines", &tip).clicked() {
+            settings.fill = if outline { Fill::Fill } else { Fill::Outline };
+        }
+    });
+}
+
+fn zooming(ui: &mut Ui, settings: &mut ImageSettings, zoom: f32) {
+    ui.spacing_mut().button_padding.x = 5.0;
+    let fit = Button::selectable(settings.zoom.is_none(), "Fit");
+    let tip = format!("The whole picture ({}, double-click)", keys_of(ui.ctx(), Deed::Fit));
+    if ui.add(fit).on_hover_text(tip).clicked() {
+        (settings.zoom, settings.centre_px) = (None, None);
+    }
+    let tip = format!("One screen point a pixel ({})", keys_of(ui.ctx(), Deed::OneToOne));
+    let same = settings.zoom == Some(1.0);
+    if ui.add(Button::selectable(same, "1:1")).on_hover_text(tip).clicked() {
+        settings.zoom = Some(1.0);
+    }
+    let mut percent = zoom * 100.0;
+    let speed = percent / 100.0;
+    let typed = DragValue::new(&mut percent).range(0.0..=f32::MAX).speed(speed).max_decimals(0).suffix(" %");
+    let typed = ui.add_sized(vec2(50.0, ui.spacing().interact_size.y), typed);
+    named(&typed, "Zoom", f64::from(percent));
+    if typed.changed() && percent > 0.0 {
+        settings.zoom = Some(percent / 100.0);
+    }
+    typed.on_hover_text("Zoom: scroll over the picture, + and \u{2212}, or type here");
+}
+
+fn named(response: &Response, name: &str, value: f64) {
+    response
+        .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::drag_value(true, value) });
+}
+
+/// What changes the display only, behind one button: it is marked while it changes something.
+fn display(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
+    let neutral = ImageSettings::default();
+    let changed = settings.exposure_ev != neutral.exposure_ev || settings.gamma != neutral.gamma;
+    let tip = "Exposure, gamma and opacity, of the display only";
+    let button = icons::toggle(ui, tones, Sign::Display, changed, "Display", tip);
+    let popup = Popup::menu(&button).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    popup.show(|ui| {
+        ui.spacing_mut().slider_width = 120.0;
+        egui::Grid::new("display").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+            let exposure = Slider::new(&mut settings.exposure_ev, -6.0..=6.0).step_by(0.1).suffix(" EV");
+            if slider(ui, "Exposure", "Stops, of the display only.", exposure) {
+                settings.exposure_ev = neutral.exposure_ev;
+            }
+            let gamma = Slider::new(&mut settings.gamma, 0.25..=4.0).logarithmic(true).max_decimals(2);
+            if slider(ui, "Gamma", "Brightens (above 1) the middle tones, of the display only.", gamma) {
+                settings.gamma = neutral.gamma;
+            }
+            let opacity = Slider::new(&mut settings.opacity, 0.0..=1.0).max_decimals(2);
+            if slider(ui, "Opacity", "Of fills over the photograph.", opacity) {
+                settings.opacity = neutral.opacity;
+            }
+        });
+        let note = "Double-click resets. None of this changes the analysis.";
+        ui.label(RichText::new(note).size(SMALL_PT).color(tones.quiet));
+    });
+}
+
+/// A row of the grid; whether it is to be reset.
+fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> bool {
+    let label = ui.add(Label::new(name).sense(Sense::click())).on_hover_text(tip);
+    let slider = ui.add(slider).labelled_by(label.id).on_hover_text(tip);
+    ui.end_row();
+    slider.double_clicked() || label.double_clicked()
+}
+
+/// Shows the column of tools, and the brush's radius.
+pub fn column(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
+    ui.spacing_mut().item_spacing.y = 2.0;
+    for (tool, name, tip) in TOOLS {
+        let tip = format!("{name} ({}). {tip}", keys_of(ui.ctx(), Deed::Tool(tool)));
+        if icons::toggle(ui, tones, Sign::Tool(tool), settings.tool == tool, name, &tip).clicked() {
+            settings.tool = tool;
+        }
+    }
+    if settings.tool == Tool::Brush {
+        // It must not be wider than the tools.
+        ui.spacing_mut().button_padding.x = 0.0;
+        ui.spacing_mut().interact_size.x = icons::SIDE_PT;
+        ui.style_mut().drag_value_text_style = egui::TextStyle::Small;
+        let decimals = usize::from(settings.brush_px < 10.0);
+        let radius = DragValue::new(&mut settings.brush_px).range(0.5..=500.0).speed(0.25);
+        let radius = radius.max_decimals(decimals);
+        let radius = ui.add_sized(vec2(icons::SIDE_PT, 18.0), radius);
+        named(&radius, "Brush radius", f64::from(settings.brush_px));
+        radius.on_hover_text("Radius of the brush, pixels of the picture");
+    }
+}

@@ -1,0 +1,355 @@
+//! What clicks and drags in the picture do.
+
+use super::geometry::Placement;
+use super::icons::{corners, dashed};
+use super::overlay::MARK;
+use crate::gui::Cx;
+use crate::raster::Mask;
+use crate::workbench::marking::{brush, outline, rectangle};
+use crate::workbench::{
+    Combine, Command, Gesture, ImageSettings, Item, Layer, ProfileLine, Severity, State, Tool,
+};
+use egui::{
+    Color32, CursorIcon, Key, Modifiers, Painter, PointerButton, Pos2, Rect, Response, Stroke, Ui, pos2,
+};
+use std::sync::Arc;
+
+/// Nearer than this to a handle or a first corner is on it, screen points.
+const GRASP_PT: f32 = 8.0;
+/// A drag shorter than this is a click, screen points.
+const STILL_PT: f32 = 3.0;
+
+/// A gesture in progress, in pixels of the picture.
+#[derive(Clone, Debug, Default, PartialEq)]
+enum Draft {
+    #[default]
+    None,
+    /// Space and drag.
+    Pan,
+    Rectangle(Pos2),
+    Lasso(Vec<Pos2>),
+    Polygon(Vec<Pos2>),
+    /// Where the brush was last.
+    Brush(Pos2),
+    /// The end of the profile line that stays.
+    Profile(Pos2),
+}
+
+/// The hand that holds the tool.
+#[derive(Default)]
+pub struct Hand {
+    draft: Draft,
+    tool: Tool,
+    /// The pointer, in pixels of the picture.
+    at: Pos2,
+}
+
+/// Where something happens.
+pub struct Spot<'a> {
+    /// The view.
+    pub response: &'a Response,
+    /// The picture's place in it.
+    pub place: Placement,
+    /// The layer under the pointer.
+    pub layer: Layer,
+}
+
+impl Hand {
+    /// Gives up what is being drawn.
+    pub fn give_up(&mut self) {
+        self.draft = Draft::None;
+    }
+
+    /// Whether something is being drawn.
+    pub fn is_busy(&self) -> bool {
+        self.draft != Draft::None
+    }
+
+    /// Follows the pointer in one view.
+    pub fn act(&mut self, ui: &Ui, spot: &Spot, cx: &mut Cx, settings: &mut ImageSettings) {
+        if self.tool != settings.tool {
+            (self.draft, self.tool) = (Draft::None, settings.tool);
+        }
+        let Spot { response, place, .. } = spot;
+        let (pointer, modifiers, pressed, released, space) = ui.input(|input| {
+            let pointer = &input.pointer;
+            let space = input.key_down(Key::Space);
+            (
+                pointer.interact_pos(),
+                input.modifiers,
+                pointer.primary_pressed(),
+                pointer.any_released(),
+                space,
+            )
+        });
+        let held = response.is_pointer_button_down_on();
+        if let Some(pointer) = pointer.filter(|_| held || response.hovered()) {
+            self.at = place.image_from_screen(pointer);
+        }
+        if pressed && held && space {
+            self.draft = Draft::Pan;
+        }
+        let primary = response.dragged_by(PointerButton::Primary);
+        let pans = self.draft == Draft::Pan || (self.tool == Tool::Pointer && !space);
+        if response.dragged_by(PointerButton::Middle) || (primary && pans) {
+            place.panned(response.drag_delta()).put(settings);
+            ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
+            return;
+        }
+        if self.draft == Draft::Pan {
+            if released {
+                self.draft = Draft::None;
+            }
+            return;
+        }
+        if response.hovered() && self.tool != Tool::Pointer {
+            ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
+        }
+        match self.tool {
+            Tool::Pointer => point(spot, cx, settings, modifiers),
+            Tool::Polygon => self.polygon(ui, spot, cx, modifiers),
+            _ => {
+                if pressed && held {
+                    self.begin(place, cx, modifiers, settings.brush_px);
+                } else if held {
+                    self.go_on(place, cx, modifiers, settings.brush_px);
+                }
+                if released && (held || response.drag_stopped() || response.clicked()) {
+                    self.end(place, cx, modifiers);
+                }
+            }
+        }
+    }
+
+    fn begin(&mut self, place: &Placement, cx: &mut Cx, modifiers: Modifiers, radius_px: f32) {
+        let at = self.at;
+        match self.tool {
+            Tool::Rectangle | Tool::WhitePatch => self.draft = Draft::Rectangle(at),
+            Tool::Lasso => self.draft = Draft::Lasso(vec![at]),
+            Tool::Brush => {
+                self.draft = Draft::Brush(at);
+                let mask = brush(size(place), &[at.into()], radius_px);
+                cx.send(Command::Mark(Arc::new(mask), combine(modifiers), Some(Gesture::Brush)));
+            }
+            Tool::Profile => {
+                let near = |end: &[f32; 2]| (pos2(end[0], end[1]) - at).length() * place.zoom < GRASP_PT;
+                let stays = match cx.state.view.profile {
+                    ProfileLine::Between(a, b) if near(&a) => b.into(),
+                    ProfileLine::Between(a, b) if near(&b) => a.into(),
+                    _ => within(at, place),
+                };
+                self.draft = Draft::Profile(stays);
+            }
+            Tool::Pointer | Tool::Polygon => {}
+        }
+    }
+
+    fn go_on(&mut self, place: &Placement, cx: &mut Cx, modifiers: Modifiers, radius_px: f32) {
+        let at = self.at;
+        match &mut self.draft {
+            Draft::Lasso(path) => {
+                let far = path.last().is_none_or(|last| (*last - at).length() * place.zoom >= 1.5);
+                if far {
+                    path.push(at);
+                }
+            }
+            Draft::Brush(last) if *last != at => {
+                let mask = brush(size(place), &[(*last).into(), at.into()], radius_px);
+                *last = at;
+                // A stroke that replaces does so with its first touch.
+                let combine = if modifiers.alt { Combine::Subtract } else { Combine::Union };
+                cx.send(Command::Mark(Arc::new(mask), combine, Some(Gesture::Brush)));
+            }
+            Draft::Profile(stays) => {
+                let stays = *stays;
+                let end = within(if modifiers.shift { straight(stays, at) } else { at }, place);
+                let line = ProfileLine::Between(stays.into(), end.into());
+                if end != stays && line != cx.state.view.profile {
+                    cx.send(Command::Profile(line));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn end(&mut self, place: &Placement, cx: &mut Cx, modifiers: Modifiers) {
+        let at = self.at;
+        match std::mem::take(&mut self.draft) {
+            Draft::Rectangle(from) => {
+                let mask = rectangle(size(place), from.into(), at.into());
+                let still = (from - at).abs().max_elem() * place.zoom < STILL_PT;
+                match (self.tool, still) {
+                    (Tool::WhitePatch, false) => pin(cx, &mask),
+                    (Tool::WhitePatch, true) => {}
+                    (_, false) => mark(cx, mask, modifiers),
+                    (_, true) => unmark(cx, modifiers),
+                }
+            }
+            Draft::Lasso(path) if path.len() > 2 => mark(cx, outline(size(place), &arrays(&path)), modifiers),
+            Draft::Lasso(_) => unmark(cx, modifiers),
+            Draft::Brush(_) => cx.send(Command::EndGesture),
+            _ => {}
+        }
+    }
+
+    fn polygon(&mut self, ui: &Ui, spot: &Spot, cx: &mut Cx, modifiers: Modifiers) {
+        let (response, place) = (spot.response, &spot.place);
+        let at = self.at;
+        let mut closes = ui.input(|input| input.key_pressed(Key::Enter));
+        if response.clicked_by(PointerButton::Primary) {
+            if let Draft::Polygon(path) = &mut self.draft {
+                let first = (path[0] - at).length() * place.zoom < GRASP_PT;
+                closes |= response.double_clicked_by(PointerButton::Primary) || (first && path.len() > 2);
+                if !closes {
+                    path.push(at);
+                }
+            } else {
+                self.draft = Draft::Polygon(vec![at]);
+            }
+        }
+        if !closes {
+            return;
+        }
+        match std::mem::take(&mut self.draft) {
+            Draft::Polygon(path) if path.len() > 2 => {
+                mark(cx, outline(size(place), &arrays(&path)), modifiers);
+            }
+            _ => {}
+        }
+    }
+
+    /// Draws what is being drawn, and the brush where it is.
+    pub fn draw(&self, painter: &Painter, place: &Placement, brush_px: Option<f32>) {
+        let to_screen = |points: &[Pos2]| -> Vec<Pos2> {
+            points.iter().map(|&point| place.screen_from_image(point)).collect()
+        };
+        match &self.draft {
+            Draft::Rectangle(from) => {
+                let area = place.screen_rect_of(Rect::from_two_pos(*from, self.at));
+                painter.rect_filled(area, 0.0, MARK.gamma_multiply(0.12));
+                dashed(painter, &corners(area), MARK);
+            }
+            Draft::Lasso(path) | Draft::Polygon(path) => {
+                let mut points = to_screen(path);
+                points.push(place.screen_from_image(self.at));
+                if matches!(self.draft, Draft::Polygon(_)) {
+                    for &corner in &points[..points.len() - 1] {
+                        painter.circle_filled(corner, 2.5, MARK);
+                    }
+                    painter.circle_stroke(points[0], GRASP_PT, Stroke::new(1.0, MARK));
+                } else {
+                    points.push(points[0]);
+                }
+                dashed(painter, &points, MARK);
+            }
+            _ => {}
+        }
+        if let Some(radius_px) = brush_px {
+            let centre = place.screen_from_image(self.at);
+            let radius = (radius_px * place.zoom).max(1.5);
+            painter.circle_stroke(centre, radius, Stroke::new(2.6, Color32::from_black_alpha(140)));
+            painter.circle_stroke(centre, radius, Stroke::new(1.2, MARK));
+        }
+    }
+}
+
+/// Selects by a click, and fits by two.
+fn point(spot: &Spot, cx: &mut Cx, settings: &mut ImageSettings, modifiers: Modifiers) {
+    let response = spot.response;
+    if response.double_clicked_by(PointerButton::Primary) {
+        (settings.zoom, settings.centre_px) = (None, None);
+    } else if response.clicked_by(PointerButton::Primary) {
+        let pixel = response.interact_pointer_pos().and_then(|at| spot.place.pixel_at(at));
+        let item = pixel.and_then(|pixel| item_at(cx.state, spot.layer, pixel, modifiers.alt));
+        if item != cx.state.document.selection.item {
+            cx.send(Command::Select(item));
+        }
+    }
+}
+
+/// What a click on a pixel selects.
+fn item_at(state: &State, layer: Layer, pixel: u32, the_pixel: bool) -> Option<Item> {
+    if the_pixel {
+        return Some(Item::Pixel(pixel));
+    }
+    let shown = state.shown()?;
+    if layer == Layer::Classes {
+        let width = shown.picture.size().0;
+        let (x, y) = (pixel as usize % width / shown.window_px(), pixel as usize / width / shown.window_px());
+        let class = shown.classes().get(x, y).copied().flatten();
+        return class.map(|_| Item::Window((y * shown.classes().width() + x) as u32));
+    }
+    state.region_of(Item::Pixel(pixel)).map(Item::Region)
+}
+
+/// How new marks join those before.
+fn combine(modifiers: Modifiers) -> Combine {
+    match (modifiers.shift, modifiers.alt) {
+        (_, true) => Combine::Subtract,
+        (true, false) => Combine::Union,
+        (false, false) => Combine::Replace,
+    }
+}
+
+fn mark(cx: &mut Cx, mask: Mask, modifiers: Modifiers) {
+    cx.send(Command::Mark(Arc::new(mask), combine(modifiers), None));
+}
+
+/// A click that draws nothing takes the marks away.
+fn unmark(cx: &mut Cx, modifiers: Modifiers) {
+    if let Some(marked) = &cx.state.document.selection.marked
+        && combine(modifiers) == Combine::Replace
+    {
+        let nothing = Mask::filled(marked.width(), marked.height(), false);
+        cx.send(Command::Mark(Arc::new(nothing), Combine::Replace, None));
+    }
+}
+
+/// Pins the light's colour to the mean of the pixels that can be believed.
+fn pin(cx: &mut Cx, mask: &Mask) {
+    cx.send(match mean_direction(cx.state, mask) {
+        Some(direction) => Command::PinIlluminant(Some(direction), None),
+        None => Command::Notify(
+            Severity::Warning,
+            "white patch: all its pixels are clipped, black or hold no value; outline a darker part"
+                .to_owned(),
+        ),
+    });
+}
+
+fn mean_direction(state: &State, mask: &Mask) -> Option<[f64; 3]> {
+    let image = &state.picture.as_ref()?.photo.image;
+    let masks = state.newest.as_ref().map(|shown| &shown.analysis.masks);
+    let full = image.saturation.unwrap_or(f32::INFINITY);
+    let usable = |pixel: usize, colour: &[f32; 3]| match masks {
+        Some(masks) => !masks.distorted(pixel) && !masks.invalid(pixel),
+        None => !image.invalid[pixel] && colour.iter().all(|&band| band < full),
+    };
+    let mut sum = [0.0f64; 3];
+    for (pixel, colour) in image.pixels.as_slice().iter().enumerate() {
+        if mask[pixel] && usable(pixel, colour) {
+            for (sum, &band) in sum.iter_mut().zip(colour) {
+                *sum += f64::from(band);
+            }
+        }
+    }
+    let length = sum.iter().map(|band| band * band).sum::<f64>().sqrt();
+    (length > 0.0).then(|| sum.map(|band| band / length))
+}
+
+/// The point on the row or column of `from` that is nearest to `to`.
+fn straight(from: Pos2, to: Pos2) -> Pos2 {
+    if (to.x - from.x).abs() >= (to.y - from.y).abs() { pos2(to.x, from.y) } else { pos2(from.x, to.y) }
+}
+
+fn within(point: Pos2, place: &Placement) -> Pos2 {
+    point.clamp(Pos2::ZERO, place.size.to_pos2())
+}
+
+fn size(place: &Placement) -> (usize, usize) {
+    (place.size.x as usize, place.size.y as usize)
+}
+
+fn arrays(points: &[Pos2]) -> Vec<[f32; 2]> {
+    points.iter().map(|&point| point.into()).collect()
+}

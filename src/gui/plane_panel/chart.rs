@@ -1,0 +1,249 @@
+//! The plane on the screen: where counts lie, the oblique axes, and the skewed T.
+
+use crate::gui::theme::{SMALL_PT, Tones};
+use crate::workbench::RegionPlane;
+use egui::{Align2, FontId, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
+
+/// Between ticks, at least, points.
+const TICKS_APART_PT: f32 = 44.0;
+/// Around what is fitted: room for the axes' labels.
+const MARGIN_PT: Vec2 = vec2(40.0, 30.0);
+/// How far zooming goes, counts per point.
+const SCALES: [f32; 2] = [0.002, 20.0];
+
+/// Where the plane lies in the view. Both axes have one scale, so that angles are true.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chart {
+    /// What lies in the middle, in oblique counts, see [`RegionPlane::oblique`].
+    pub centre: [f32; 2],
+    /// Counts that a point of the screen spans.
+    pub counts_per_pt: f32,
+}
+
+impl Chart {
+    /// All points, the origin and the skewed T.
+    pub fn fit(plane: &RegionPlane, rect: Rect) -> Self {
+        let [body, surface] = plane.extent;
+        let finite = |v: f32| if v.is_finite() { v } else { 0.0 };
+        let corners = [[0.0, 0.0], [plane.matte_length, 0.0]]
+            .into_iter()
+            .chain(plane.highlight_line().into_iter().flatten())
+            .chain(plane.points.iter().map(|point| [point.body, point.surface]))
+            .chain(plane.points.is_empty().then_some([finite(body[1]), finite(surface[1])]));
+        let mut room = Rect::NOTHING;
+        for [body, surface] in corners {
+            room.extend_with(plane.oblique(body, surface).into());
+        }
+        let free = (rect.size() - 2.0 * MARGIN_PT).max(vec2(20.0, 20.0));
+        let needed = room.size().max(vec2(1.0, 1.0)) / free;
+        Self { centre: room.center().into(), counts_per_pt: needed.max_elem().clamp(SCALES[0], SCALES[1]) }
+    }
+
+    /// Where oblique counts are on the screen; the second axis points up.
+    pub fn screen(self, [x, y]: [f32; 2], rect: Rect) -> Pos2 {
+        rect.center() + vec2(x - self.centre[0], self.centre[1] - y) / self.counts_per_pt
+    }
+
+    /// What lies at a place of the screen, in oblique counts.
+    pub fn oblique(self, at: Pos2, rect: Rect) -> [f32; 2] {
+        let from_middle = (at - rect.center()) * self.counts_per_pt;
+        [self.centre[0] + from_middle.x, self.centre[1] - from_middle.y]
+    }
+
+    /// Moves what is shown by points of the screen.
+    pub fn pan(&mut self, delta: Vec2) {
+        self.centre[0] -= delta.x * self.counts_per_pt;
+        self.centre[1] += delta.y * self.counts_per_pt;
+    }
+
+    /// Enlarges by `factor`; what lies under the pointer stays there.
+    pub fn zoom(&mut self, factor: f32, pointer: Pos2, rect: Rect) {
+        if factor > 0.0 && factor.is_finite() && (factor - 1.0).abs() > 1e-6 {
+            let under = self.oblique(pointer, rect);
+            self.counts_per_pt = (self.counts_per_pt / factor).clamp(SCALES[0], SCALES[1]);
+            let now = self.oblique(pointer, rect);
+            self.centre = [self.centre[0] + under[0] - now[0], self.centre[1] + under[1] - now[1]];
+        }
+    }
+
+    /// Both axes through black, with a mesh of equal amounts.
+    pub fn axes(self, painter: &Painter, plane: &RegionPlane, rect: Rect, tones: &Tones) {
+        let step = step(TICKS_APART_PT * self.counts_per_pt);
+        let corners = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()]
+            .map(|corner| plane.from_oblique(self.oblique(corner, rect)));
+        let at = |body: f32, surface: f32| self.screen(plane.oblique(body, surface), rect);
+        let font = FontId::proportional(SMALL_PT - 1.0);
+        let span = |axis: usize| {
+            let all = corners.map(|corner| corner[axis]);
+            [
+                all.iter().copied().fold(f32::INFINITY, f32::min),
+                all.iter().copied().fold(f32::NEG_INFINITY, f32::max),
+            ]
+        };
+        let (body, surface) = (span(0), span(1));
+        for value in multiples(body, step) {
+            let stroke = line(value, tones);
+            painter.line_segment([at(value, surface[0]), at(value, surface[1])], stroke);
+            let foot = at(value, 0.0);
+            if value != 0.0 && rect.shrink2(vec2(12.0, 0.0)).x_range().contains(foot.x) {
+                let y = foot.y.clamp(rect.top() + 16.0, rect.bottom() - 34.0);
+                painter.text(
+                    pos2(foot.x, y + 3.0),
+                    Align2::CENTER_TOP,
+                    number(value),
+                    font.clone(),
+                    tones.quiet,
+                );
+            }
+        }
+        for value in multiples(surface, step) {
+            painter.line_segment([at(body[0], value), at(body[1], value)], line(value, tones));
+            let foot = at(0.0, value);
+            if value != 0.0 && rect.shrink2(vec2(0.0, 20.0)).y_range().contains(foot.y) {
+                let x = foot.x.clamp(rect.left() + 28.0, rect.right() - 6.0);
+                painter.text(
+                    pos2(x - 4.0, foot.y),
+                    Align2::RIGHT_CENTER,
+                    number(value),
+                    font.clone(),
+                    tones.quiet,
+                );
+            }
+        }
+    }
+
+    /// Matte and highlight line, where they meet, and the cylinder's border, with their names.
+    pub fn skewed_t(self, ui: &Ui, response: &Response, plane: &RegionPlane, rect: Rect, tones: &Tones) {
+        let painter = ui.painter_at(rect);
+        let at = |[body, surface]: [f32; 2]| self.screen(plane.oblique(body, surface), rect);
+        for side in [plane.radius, -plane.radius] {
+            let ends = [[0.0, side], [plane.matte_length, side]].map(|end| self.screen(end, rect));
+            painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, tones.quiet), 4.0, 4.0));
+        }
+        let stroke = Stroke::new(1.8, tones.text);
+        let matte = plane.matte_line().map(at);
+        painter.line_segment(matte, stroke);
+        let along = (matte[1] - matte[0]).normalized();
+        let mut names = vec![Name {
+            at: matte[1] + along * 8.0,
+            anchor: Align2::LEFT_CENTER,
+            text: "m_b, counts",
+            tip: "Amount of body reflection, along the matte line (equation 13).",
+        }];
+        let away = plane.oblique(0.0, 1.0);
+        let up = vec2(away[0], -away[1]);
+        if let Some(line) = plane.highlight_line().map(|line| line.map(at)) {
+            painter.line_segment(line, stroke);
+            names.push(Name {
+                at: line[1] + up * 10.0,
+                anchor: Align2::CENTER_BOTTOM,
+                text: "highlight line",
+                tip: "More and more light reflected at the surface, along m_s (section 3.1).",
+            });
+        }
+        let axis = if plane.has_plane { "m_s, counts" } else { "across, counts" };
+        let top = at([0.0, 1.15 * plane.highlight_length.max(0.3 * plane.matte_length)]);
+        painter.line_segment([at([0.0, 0.0]), top], Stroke::new(1.0, tones.quiet));
+        names.push(Name {
+            at: top,
+            anchor: Align2::CENTER_BOTTOM,
+            text: axis,
+            tip: "Amount of surface reflection, in the direction of the light's colour (equation 13).",
+        });
+        names.push(Name {
+            at: matte[0].lerp(matte[1], 0.3) + vec2(0.0, 16.0),
+            anchor: Align2::CENTER_TOP,
+            text: "matte line",
+            tip: "Body reflection alone, from black to the brightest matte point (section 3.1).",
+        });
+        if let Some(meeting) = plane.meeting_point.map(|body| at([body, 0.0])) {
+            painter.circle(meeting, 4.0, tones.panel, Stroke::new(1.8, tones.text));
+            names.push(Name {
+                at: meeting + vec2(0.0, 16.0),
+                anchor: Align2::CENTER_TOP,
+                text: "meeting point",
+                tip: "The shade on which the highlight lies: where its line leaves the matte line (section 3.1).",
+            });
+        }
+        for name in names {
+            name.show(ui, response, rect, tones);
+        }
+    }
+}
+
+/// A word beside a line.
+struct Name {
+    at: Pos2,
+    anchor: Align2,
+    text: &'static str,
+    tip: &'static str,
+}
+
+impl Name {
+    fn show(&self, ui: &Ui, response: &Response, rect: Rect, tones: &Tones) {
+        let painter = ui.painter_at(rect);
+        let galley = painter.layout_no_wrap(self.text.to_owned(), FontId::proportional(SMALL_PT), tones.text);
+        let place = self.anchor.anchor_size(self.at, galley.size());
+        if !rect.contains_rect(place) {
+            return;
+        }
+        painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, tones.panel.gamma_multiply(0.75));
+        painter.galley(place.min, galley, tones.text);
+        let name = ui.interact(place, response.id.with(self.text), Sense::hover());
+        name.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, self.text));
+        name.on_hover_text(self.tip);
+    }
+}
+
+/// The line of a value: that of zero is an axis.
+fn line(value: f32, tones: &Tones) -> Stroke {
+    if value == 0.0 { Stroke::new(1.0, tones.quiet) } else { Stroke::new(1.0, tones.line) }
+}
+
+/// 1, 2 or 5 times a power of ten, the smallest not below `least`.
+fn step(least: f32) -> f32 {
+    let decade = 10f32.powf(least.max(1e-6).log10().floor());
+    [1.0, 2.0, 5.0, 10.0]
+        .map(|factor| factor * decade)
+        .into_iter()
+        .find(|step| *step >= least)
+        .unwrap_or(least)
+}
+
+fn multiples([low, high]: [f32; 2], step: f32) -> impl Iterator<Item = f32> {
+    let range = (low / step).ceil() as i32..=(high / step).floor() as i32;
+    range.take(400).map(move |i| i as f32 * step)
+}
+
+fn number(value: f32) -> String {
+    let digits = usize::from(value.fract() != 0.0);
+    if value < 0.0 { format!("\u{2212}{:.digits$}", -value) } else { format!("{value:.digits$}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_round() {
+        for (least, round) in [(0.7, 1.0), (1.0, 1.0), (1.2, 2.0), (3.0, 5.0), (7.0, 10.0), (44.0, 50.0)] {
+            assert!((step(least) - round).abs() < 1e-4 * round, "{least}: {}", step(least));
+        }
+        assert_eq!(multiples([-1.0, 2.1], 1.0).collect::<Vec<_>>(), [-1.0, 0.0, 1.0, 2.0]);
+        assert_eq!(number(-50.0), "\u{2212}50");
+    }
+
+    #[test]
+    fn zooming_keeps_what_is_under_the_pointer() {
+        let rect = Rect::from_min_size(pos2(10.0, 20.0), vec2(300.0, 200.0));
+        let mut chart = Chart { centre: [100.0, 30.0], counts_per_pt: 0.8 };
+        let pointer = pos2(60.0, 150.0);
+        let before = chart.oblique(pointer, rect);
+        chart.zoom(2.5, pointer, rect);
+        let after = chart.oblique(pointer, rect);
+        assert!((before[0] - after[0]).abs() < 1e-3 && (before[1] - after[1]).abs() < 1e-3);
+        assert!(chart.screen(before, rect).distance(pointer) < 1e-2);
+        chart.pan(vec2(10.0, -6.0));
+        assert!(chart.screen(before, rect).distance(pointer + vec2(10.0, -6.0)) < 1e-2);
+    }
+}
