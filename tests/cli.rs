@@ -5,12 +5,15 @@
 use assert_cmd::cargo::cargo_bin_cmd;
 use dichroscope::export::read_report;
 use dichroscope::photo::ReadOptions;
+use dichroscope::raster::Raster;
 use dichroscope::report::{RegionFacts, Report};
-use dichroscope::segment::{IlluminantSetting, Method, Setting};
+use dichroscope::segment::{IlluminantSetting, Method, Parameter, Setting};
 use dichroscope::truth::ResultPictures;
+use dichroscope::workbench::{Command, Executor, Export, Origin, Workbench, analyze_call};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use tempfile::TempDir;
 
 const FILES: [&str; 15] = [
@@ -456,4 +459,40 @@ fn without_arguments_the_sample_is_analysed() {
     desk.succeeds("");
     fs::remove_file(desk.path("dichroscope-sample/report.json")).unwrap();
     desk.fails(2, "", "run this in another folder");
+}
+
+/// The window, without its screen: a photograph is opened, parameters are changed, and the call that the window hands out
+/// is run. Both write the same result, but for the time that it took.
+#[test]
+fn the_call_that_the_window_hands_out_writes_the_windows_result() {
+    let desk = Desk::new();
+    for name in list(&tiny()) {
+        desk.put(&format!("scene/{name}"), &fs::read(tiny().join(&name)).unwrap());
+    }
+    let mut bench = Workbench::new(Executor::Inline, || ()).unwrap();
+    bench.apply(Command::Open(Origin::File(desk.path("scene/camera8.png"))));
+    bench.apply(Command::SetParameter(Parameter::CameraNoise, Setting::Value(3.5), None));
+    bench.apply(Command::SetSwitch("second_look", false));
+    bench.apply(Command::PinIlluminant(Some([1.0, 0.75, 0.5]), None));
+    let (width, height) = bench.state().picture.as_ref().unwrap().size();
+    let inside = (0..width * height).map(|pixel| pixel % width < width * 3 / 4).collect();
+    let area = Arc::new(Raster::from_vec(width, height, inside).unwrap());
+    bench.apply(Command::RestrictTo(Some(area)));
+    bench.apply(Command::Export(Export::Area { path: desk.path("area.png") }));
+    let folder = desk.path("window");
+    bench.apply(Command::Export(Export::Result { folder: folder.clone(), force: false }));
+    assert!(folder.is_dir(), "{:?}", bench.state().notices);
+
+    let call = analyze_call(bench.state());
+    let words = call.split("  # ").next().unwrap().strip_prefix("dichroscope ").unwrap();
+    desk.succeeds(words);
+    for file in FILES.into_iter().filter(|file| *file != "report.json") {
+        let same = fs::read(folder.join(file)).unwrap()
+            == fs::read(desk.path("results/camera8").join(file)).unwrap();
+        assert!(same, "{file} differs");
+    }
+    let [mut ours, mut theirs] = ["window", "results/camera8"].map(|name| desk.report(name));
+    (ours.timings_ms, theirs.timings_ms) = Default::default();
+    assert_eq!(ours, theirs);
+    assert!(ours.scores.is_some() && ours.area.is_some());
 }

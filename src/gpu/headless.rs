@@ -53,7 +53,8 @@ impl Headless {
             power_preference: wgpu::PowerPreference::HighPerformance,
             ..wgpu::RequestAdapterOptions::default()
         };
-        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|e| e.to_string())?;
+        let adapter =
+            pollster::block_on(instance.request_adapter(&options)).map_err(|_| "no adapter".to_owned())?;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("dichroscope"),
             required_limits: adapter.limits(),

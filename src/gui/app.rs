@@ -4,7 +4,7 @@ use super::dock::{Dock, Pane, Panels};
 use super::files::{Dialogs, is_workspace};
 use super::theme::{self, Tones};
 use super::{Cx, menu, notices, shortcuts};
-use crate::workbench::{Command, Executor, Origin, State, Theme, Workbench};
+use crate::workbench::{Command, Executor, Origin, Settings, State, Theme, Workbench};
 use egui::{Event, Ui};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,6 +21,8 @@ pub struct App {
 #[derive(Default)]
 struct Front {
     dock: Dock,
+    /// The arrangement as it was last kept.
+    layout: String,
     panels: Panels,
     dialogs: Dialogs,
     help: bool,
@@ -42,6 +44,11 @@ impl App {
         let repaint = ctx.clone();
         let bench = Workbench::new(executor, move || repaint.request_repaint())?;
         Ok(Self { bench, front: Front::default(), gpu, dressed: None })
+    }
+
+    /// Puts back what was remembered from another session.
+    pub fn remember(&mut self, settings: Settings) {
+        self.bench.remember(settings.view, settings.recent);
     }
 
     /// Applies a command, as a panel would.
@@ -71,6 +78,7 @@ impl App {
         let mut out = Vec::new();
         let mut cx = Cx { state: self.bench.state(), tones: &tones, gpu: self.gpu.as_ref(), out: &mut out };
         self.front.show(ui, &mut cx);
+        self.front.keep_layout(&mut cx);
         if !out.is_empty() {
             // What a command changes is seen at once, not when the pointer next moves.
             ui.ctx().request_repaint();
@@ -83,6 +91,23 @@ impl App {
 }
 
 impl Front {
+    /// The panels' arrangement follows the view's, where a workspace brings another, and is kept there.
+    fn keep_layout(&mut self, cx: &mut Cx) {
+        let wanted = &cx.state.view.layout;
+        if *wanted != self.layout {
+            if let Some(dock) = Dock::from_text(wanted) {
+                self.dock = dock;
+            }
+            self.layout.clone_from(wanted);
+            return;
+        }
+        let now = self.dock.to_text();
+        if now != self.layout {
+            self.layout.clone_from(&now);
+            cx.send(Command::Layout(now));
+        }
+    }
+
     fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         come_in(ui, cx);
         self.panels.image.hear_escape(ui.ctx());
@@ -109,6 +134,14 @@ impl Front {
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.show(ui);
+    }
+
+    fn on_exit(&mut self) {
+        if let Some(path) = Settings::path()
+            && let Err(reason) = Settings::of(self.state()).save(&path)
+        {
+            tracing::warn!("{reason}");
+        }
     }
 }
 

@@ -1,14 +1,168 @@
-//! To be filled.
+//! The pinned result (A) beside the newest (B): what was asked, what was found, what became of the regions.
 
+use super::later::{AT_ONCE_PX, Later};
+use super::theme::SMALL_PT;
 use super::{Cx, widgets};
+use crate::workbench::{Command, Comparison, Fate, ImageSettings, Item, Layer, compare};
+use egui::{Grid, RichText, ScrollArea, Ui};
 
-/// The panel.
+/// The comparison.
 #[derive(Default)]
-pub struct ComparePanel;
+pub struct ComparePanel {
+    comparison: Later<(u64, u64), Option<Comparison>>,
+}
 
 impl ComparePanel {
-    /// Shows it.
-    pub fn show(&mut self, ui: &mut egui::Ui, cx: &mut Cx) {
-        widgets::nothing(ui, cx.tones, "ComparePanel");
+    /// Shows the comparison.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+        let (pinned, newest) = (cx.state.pinned.clone(), cx.state.newest.clone());
+        egui::Frame::new().inner_margin(8).show(ui, |ui| {
+            let (Some(pinned), Some(newest)) = (pinned, newest) else { return begin(ui, cx) };
+            let key = (pinned.generation, newest.generation);
+            let at_once = newest.labels().len() <= AT_ONCE_PX;
+            // A result that is half older is compared when it is whole.
+            if newest.stale_from.is_some() {
+                return verbs(ui, cx);
+            }
+            let found = self.comparison.get(ui.ctx(), key, at_once, move || compare(&pinned, &newest));
+            verbs(ui, cx);
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                if let Some(Some(found)) = found {
+                    ui.horizontal_top(|ui| {
+                        ui.vertical(|ui| figures(ui, cx, found));
+                        ui.add_space(16.0);
+                        ui.vertical(|ui| regions(ui, cx, found));
+                    });
+                }
+            });
+        });
+    }
+}
+
+/// Nothing is pinned yet.
+fn begin(ui: &mut Ui, cx: &mut Cx) {
+    ui.label(RichText::new("Pin this result, change a slider, and see what changed.").color(cx.tones.quiet));
+    let ready = cx.state.newest.is_some();
+    if ui.add_enabled(ready, egui::Button::new("Pin this result (K)")).clicked() {
+        cx.send(Command::Pin(true));
+    }
+}
+
+fn verbs(ui: &mut Ui, cx: &mut Cx) {
+    ui.horizontal(|ui| {
+        let pinned = cx.state.view.show_pinned;
+        for (choice, name) in [(true, "A pinned"), (false, "B newest")] {
+            if ui
+                .selectable_label(pinned == choice, name)
+                .on_hover_text("Which of both every panel shows (A).")
+                .clicked()
+            {
+                cx.send(Command::ShowPinned(choice));
+            }
+        }
+        if ui
+            .button("Difference image")
+            .on_hover_text("The newest body reflection minus the pinned one, grey = none.")
+            .clicked()
+        {
+            cx.send(Command::Image(ImageSettings {
+                layer: Layer::Difference,
+                ..cx.state.view.image.clone()
+            }));
+        }
+        if ui.button("Pin anew").on_hover_text("The newest result takes the pinned one's place.").clicked() {
+            cx.send(Command::Pin(true));
+        }
+        if ui.button("Let go").clicked() {
+            cx.send(Command::Pin(false));
+        }
+    });
+}
+
+fn quiet(cx: &Cx, text: impl Into<String>) -> RichText {
+    RichText::new(text).size(SMALL_PT).color(cx.tones.quiet)
+}
+
+fn figures(ui: &mut Ui, cx: &Cx, found: &Comparison) {
+    Grid::new("figures").num_columns(4).spacing([14.0, 2.0]).show(ui, |ui| {
+        for title in ["", "A", "B", "B \u{2212} A"] {
+            ui.label(quiet(cx, title));
+        }
+        ui.end_row();
+        for change in &found.settings {
+            ui.label(RichText::new(change.name.replace('_', " ")).color(cx.tones.accent));
+            ui.label(&change.pinned);
+            ui.label(&change.newest);
+            ui.end_row();
+        }
+        for figure in &found.figures {
+            let unit = if figure.unit.is_empty() { String::new() } else { format!(" ({})", figure.unit) };
+            ui.label(format!("{}{unit}", figure.name));
+            let text = |value: Option<f64>| value.map_or("\u{2013}".to_owned(), shortened);
+            ui.label(text(figure.pinned));
+            ui.label(text(figure.newest));
+            let difference = figure.pinned.zip(figure.newest).map(|(a, b)| b - a).filter(|d| d.abs() > 1e-9);
+            let tone = if difference.is_some() { cx.tones.accent } else { cx.tones.quiet };
+            ui.label(
+                RichText::new(difference.map_or("=".to_owned(), |d| {
+                    format!("{}{}", if d > 0.0 { "+" } else { "" }, shortened(d))
+                }))
+                .color(tone),
+            );
+            ui.end_row();
+        }
+        if let Some(angle) = found.illuminant_deg {
+            ui.label("between both lights");
+            ui.label("");
+            ui.label("");
+            ui.label(format!("{angle:.2}\u{b0}"));
+            ui.end_row();
+        }
+    });
+}
+
+/// As many digits as matter.
+fn shortened(value: f64) -> String {
+    if value.abs() >= 1000.0 || value.fract() == 0.0 { format!("{value:.0}") } else { format!("{value:.3}") }
+}
+
+fn regions(ui: &mut Ui, cx: &mut Cx, found: &Comparison) {
+    let (pixels, body) = (&found.pixels, &found.body);
+    let all = (pixels.kept + pixels.gained + pixels.lost + pixels.changed).max(1) as f64;
+    let percent = |n: usize| format!("{:.2} %", 100.0 * n as f64 / all);
+    Grid::new("pixels").num_columns(2).spacing([14.0, 2.0]).show(ui, |ui| {
+        for (name, value) in [
+            ("pixels gained", percent(pixels.gained)),
+            ("pixels lost", percent(pixels.lost)),
+            ("pixels of another region", percent(pixels.changed)),
+            ("body changed by > 1 count", format!("{:.2} %", 100.0 * body.share)),
+            ("largest change", format!("{:.1} counts", body.most_counts)),
+        ] {
+            ui.label(quiet(cx, name));
+            ui.label(value);
+            ui.end_row();
+        }
+    });
+    widgets::heading(ui, cx.tones, "Regions that are not the same");
+    let others: Vec<_> = found.regions.iter().filter(|fate| fate.fate != Fate::Kept).collect();
+    if others.is_empty() {
+        ui.label(quiet(cx, "none"));
+    }
+    for fate in others {
+        let id = |id: Option<u16>| id.map_or("\u{2013}".to_owned(), |id| id.to_string());
+        let word = match fate.fate {
+            Fate::Gained => "gained",
+            Fate::Lost => "lost",
+            Fate::Changed | Fate::Kept => "changed",
+        };
+        let change = fate.pixels_newest as i64 - fate.pixels_pinned as i64;
+        let text = format!("{word}  A {} \u{2192} B {}  {change:+} px", id(fate.pinned), id(fate.newest));
+        let row = ui.selectable_label(false, text);
+        let target = if cx.state.view.show_pinned { fate.pinned } else { fate.newest };
+        if row.clicked()
+            && let Some(region) = target
+        {
+            cx.send(Command::Select(Some(Item::Region(region))));
+        }
     }
 }

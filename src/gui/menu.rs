@@ -6,7 +6,7 @@ use super::shortcuts::{Deed, keys_of};
 use super::{Cx, status};
 use crate::segment::{Method, Preset};
 use crate::truth::sample;
-use crate::workbench::{Command, Origin, Theme};
+use crate::workbench::{Command, Origin, Theme, analyze_call};
 use egui::{Button, Ui};
 
 /// Shows the bar.
@@ -150,5 +150,10 @@ fn analyse(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
     }
     if item(ui, "Show the other of the two", Deed::Swap, pinned) {
         cx.send(Command::ShowPinned(!cx.state.view.show_pinned));
+    }
+    ui.separator();
+    let copy = ui.add_enabled(cx.state.picture.is_some(), Button::new("Copy as command line"));
+    if copy.on_hover_text("The `dichroscope analyze` call that reproduces what is on the screen.").clicked() {
+        ui.ctx().copy_text(analyze_call(cx.state));
     }
 }

@@ -243,13 +243,18 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
             Some(light) => {
                 let objects = if light.objects == 1 { "object" } else { "objects" };
                 vector(ui, cx.tones, Some(light.direction));
-                let from = format!("from {} {objects}", light.objects);
+                let from = if light.given {
+                    "given".to_owned()
+                } else {
+                    format!("from {} {objects}", light.objects)
+                };
                 ui.label(RichText::new(from).size(SMALL_PT).color(cx.tones.quiet));
             }
             None => {
                 ui.label("unknown: no highlight was found");
             }
         }
+        accuracy(ui, cx, shown);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let copy = ui.small_button("Copy").on_hover_text("The table as text, separated by tabs.");
             if copy.clicked() {
@@ -257,4 +262,26 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
             }
         });
     });
+}
+
+/// How far the result is from the ground truth, doing nothing beside it.
+fn accuracy(ui: &mut Ui, cx: &Cx, shown: &Shown) {
+    let Some(scores) = shown.accuracy().map(|accuracy| &accuracy.scores) else { return };
+    let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {
+        ui.label(RichText::new(name).size(SMALL_PT).color(cx.tones.quiet)).on_hover_text(tip);
+        ui.label(value).on_hover_text(tip);
+    };
+    ui.separator();
+    if shown.analysis.illuminant.is_some() {
+        let tip = "Angle between the light found and the scene's true light.";
+        fact(ui, "off by", format!("{:.2}\u{b0}", scores.illum_deg), tip);
+    }
+    if let Some(angle) = scores.body_deg {
+        let tip = "Mean angle between the regions' body vectors and the true ones.";
+        fact(ui, "body", format!("{angle:.3}\u{b0}"), tip);
+    }
+    if let (Some(body), Some(nothing)) = (scores.psnr_body, scores.psnr_nothing) {
+        let tip = "Peak signal to noise ratio of the body image inside objects; in parentheses that of doing nothing.";
+        fact(ui, "", format!("{body:.1} dB ({nothing:.1})"), tip);
+    }
 }

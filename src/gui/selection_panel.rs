@@ -66,7 +66,9 @@ impl SelectionPanel {
 
 fn name_of(item: Item, width: usize) -> String {
     match item {
-        Item::Pixel(pixel) => format!("Pixel {}, {}", pixel as usize % width.max(1), pixel as usize / width.max(1)),
+        Item::Pixel(pixel) => {
+            format!("Pixel {}, {}", pixel as usize % width.max(1), pixel as usize / width.max(1))
+        }
         Item::Window(window) => format!("Window {}", window + 1),
         Item::Region(region) => format!("Region {region}"),
         Item::Bin(bin) => format!("Colour bin {}", bin + 1),
@@ -100,21 +102,41 @@ fn facts(ui: &mut Ui, cx: &Cx, found: &Statistics) {
     };
     fact(ui, "pixels", widgets::grouped(found.pixels), "How many pixels are selected.");
     let class = found.class.map_or("\u{2013}", class_name);
-    fact(ui, "class", class.to_owned(), "By the number of significant eigenvalues of their colours (section 5.2.1, table 1).");
+    fact(
+        ui,
+        "class",
+        class.to_owned(),
+        "By the number of significant eigenvalues of their colours (section 5.2.1, table 1).",
+    );
     let [a, b, c] = found.variances.map(f64::sqrt);
     let tip = "Standard deviations along the principal axes, counts: square roots of the eigenvalues (section 5.2.1).";
     fact(ui, "\u{221a}\u{3bb}", format!("{a:.2}  {b:.2}  {c:.2}"), tip);
     let [x, y, z] = found.axes[0];
-    fact(ui, "axis", format!("{x:.3}  {y:.3}  {z:.3}"), "The first principal axis: the matte line's direction, of a linear cluster (section 5.3).");
+    fact(
+        ui,
+        "axis",
+        format!("{x:.3}  {y:.3}  {z:.3}"),
+        "The first principal axis: the matte line's direction, of a linear cluster (section 5.3).",
+    );
     let box_ = &found.bounds;
-    fact(ui, "box", format!("{}, {}  {} \u{d7} {}", box_.left, box_.top, box_.width, box_.height), "Left, top, width and height of the smallest rectangle, pixels.");
+    fact(
+        ui,
+        "box",
+        format!("{}, {}  {} \u{d7} {}", box_.left, box_.top, box_.width, box_.height),
+        "Left, top, width and height of the smallest rectangle, pixels.",
+    );
     let percent = |n: usize| format!("{:.1} %", 100.0 * n as f64 / found.pixels.max(1) as f64);
     fact(ui, "clipped", percent(found.clipped), "A band is at or above the clipping threshold (section 4).");
     fact(ui, "dark", percent(found.dark), "Inside the dark sphere: not analysed (section 5.3).");
-    let regions: Vec<String> = found.regions.iter().take(4).map(|&(id, n)| {
-        let name = if id == 0 { "none".to_owned() } else { id.to_string() };
-        format!("{name}: {}", percent(n))
-    }).collect();
+    let regions: Vec<String> = found
+        .regions
+        .iter()
+        .take(4)
+        .map(|&(id, n)| {
+            let name = if id == 0 { "none".to_owned() } else { id.to_string() };
+            format!("{name}: {}", percent(n))
+        })
+        .collect();
     fact(ui, "regions", regions.join("   "), "The regions that most of them are in.");
 }
 
@@ -128,7 +150,11 @@ const fn class_name(class: Class) -> &'static str {
 }
 
 fn bands(ui: &mut Ui, cx: &Cx, found: &Statistics) {
-    let colours = [("R", Color32::from_rgb(0xD8, 0x6A, 0x5E)), ("G", Color32::from_rgb(0x6C, 0xB0, 0x6A)), ("B", Color32::from_rgb(0x6E, 0x96, 0xDE))];
+    let colours = [
+        ("R", Color32::from_rgb(0xD8, 0x6A, 0x5E)),
+        ("G", Color32::from_rgb(0x6C, 0xB0, 0x6A)),
+        ("B", Color32::from_rgb(0x6E, 0x96, 0xDE)),
+    ];
     let quiet = |text: &str| RichText::new(text.to_owned()).size(SMALL_PT).color(cx.tones.quiet);
     egui::Grid::new("bands").num_columns(6).spacing([12.0, 2.0]).show(ui, |ui| {
         for title in ["", "min", "median", "mean", "max", "counts"] {
@@ -150,7 +176,8 @@ fn bands(ui: &mut Ui, cx: &Cx, found: &Statistics) {
 fn histogram(ui: &mut Ui, band: &Band, colour: Color32, ground: Color32) {
     let size = vec2(ui.available_width().clamp(96.0, 220.0), HISTOGRAM_PT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, "histogram of a band"));
+    response
+        .widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, "histogram of a band"));
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 2.0, ground);
     let most = band.histogram.iter().copied().max().unwrap_or(0).max(1) as f32;

@@ -46,7 +46,7 @@ fn progress(ui: &mut Ui, cx: &Cx) {
     } else if let Some(job) = &jobs.reading {
         (job, "reading", None)
     } else if let Some(job) = &jobs.export {
-        (job, "writing", None)
+        (job, "writing", job.files.map(|(done, total)| done as f32 / total.max(1) as f32))
     } else {
         return;
     };

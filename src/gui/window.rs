@@ -2,7 +2,7 @@
 
 use super::App;
 use crate::truth::sample;
-use crate::workbench::{Command, Executor, Origin};
+use crate::workbench::{Command, Executor, Origin, Settings, Severity};
 use egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use std::path::PathBuf;
 
@@ -34,6 +34,13 @@ pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
     };
     let create = move |cc: &eframe::CreationContext<'_>| {
         let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.clone(), Executor::Threads)?;
+        if let Some(path) = Settings::path() {
+            let (settings, warning) = Settings::load(&path);
+            app.remember(settings);
+            if let Some(text) = warning {
+                app.apply(Command::Notify(Severity::Warning, text));
+            }
+        }
         app.apply(Command::Open(origin));
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };

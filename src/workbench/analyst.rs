@@ -5,7 +5,7 @@ use crate::analysis::{Analysis, Observer, Session, Stage, StageOutput};
 use crate::raster::Mask;
 use crate::segment::Params;
 use std::sync::mpsc::Sender;
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// What is to be analysed, and how.
@@ -82,7 +82,12 @@ pub(super) fn work(desk: &Desk, report: &Sender<Command>, wake: &(dyn Fn() + Sen
             wake();
         };
         if let Some(shown) = analyst.analyse(&request, &tell, &|| desk.is_overtaken()) {
-            tell(Command::Analysed(shown));
+            tell(Command::Analysed(Arc::clone(&shown)));
+            // Scoring takes as long as the analysis: nobody waits for it while a slider moves.
+            if shown.picture.truth.is_some() && !desk.is_overtaken() {
+                shown.measure();
+                wake();
+            }
         }
     }
 }
@@ -146,6 +151,7 @@ fn show(request: &Request, analysis: Analysis, took_ms: [Option<f64>; 7], last: 
         coverage,
         region_colours,
         took_ms,
+        accuracy: OnceLock::new(),
     }
 }
 
@@ -214,6 +220,7 @@ impl Observer for Watch<'_> {
             coverage: base.coverage,
             region_colours: base.region_colours.clone(),
             took_ms: self.took_ms,
+            accuracy: OnceLock::new(),
         })));
         self.owes = false;
     }

@@ -1,5 +1,6 @@
 //! Colours of regions that stay with the objects while parameters move.
 
+use super::shown::overlaps;
 use crate::analysis::Analysis;
 use crate::export::Palette;
 use crate::raster::{LabelMap, UNASSIGNED};
@@ -52,17 +53,18 @@ fn former_selves(before: &LabelMap, after: &LabelMap) -> Vec<(u16, u16)> {
     }
     let overlaps = overlaps(before, after);
     let (mut old_sizes, mut new_sizes) = (BTreeMap::new(), BTreeMap::new());
-    for (&(old, new), pixels) in &overlaps {
+    let shared = |old: usize| overlaps[old].iter().map(move |&(new, pixels)| (old as u16, new, pixels));
+    for (old, new, pixels) in (0..overlaps.len()).flat_map(shared) {
         *old_sizes.entry(old).or_insert(0) += pixels;
         *new_sizes.entry(new).or_insert(0) += pixels;
     }
-    let mut pairs: Vec<(usize, u16, u16)> = overlaps
-        .into_iter()
-        .filter(|&((old, new), pixels)| {
+    let mut pairs: Vec<(usize, u16, u16)> = (0..overlaps.len())
+        .flat_map(shared)
+        .filter(|&(old, new, pixels)| {
             let smaller: usize = old_sizes[&old].min(new_sizes[&new]);
             old != UNASSIGNED && new != UNASSIGNED && pixels as f64 >= SHARED * smaller as f64
         })
-        .map(|((old, new), pixels)| (pixels, old, new))
+        .map(|(old, new, pixels)| (pixels, old, new))
         .collect();
     pairs.sort_unstable_by_key(|&(pixels, old, new)| (Reverse(pixels), old, new));
     let mut selves: Vec<(u16, u16)> = Vec::new();
@@ -74,25 +76,6 @@ fn former_selves(before: &LabelMap, after: &LabelMap) -> Vec<(u16, u16)> {
         }
     }
     selves
-}
-
-/// How many pixels each pair of a former and a new label shares.
-fn overlaps(before: &LabelMap, after: &LabelMap) -> BTreeMap<(u16, u16), usize> {
-    let mut counts = BTreeMap::new();
-    let mut pairs = before.as_slice().iter().copied().zip(after.as_slice().iter().copied());
-    let Some(mut current) = pairs.next() else { return counts };
-    // Labels change seldom along a row.
-    let mut run = 1;
-    for pair in pairs {
-        if pair == current {
-            run += 1;
-        } else {
-            *counts.entry(current).or_insert(0) += run;
-            (current, run) = (pair, 1);
-        }
-    }
-    *counts.entry(current).or_insert(0) += run;
-    counts
 }
 
 #[cfg(test)]

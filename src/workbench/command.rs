@@ -2,9 +2,10 @@
 
 use super::{
     CubeSettings, Export, ImageSettings, Item, Origin, Picture, PlaneSettings, ProfileLine, Severity, Shown,
-    Theme,
+    Theme, Workspace,
 };
 use crate::analysis::Stage;
+use crate::photo::ReadOptions;
 use crate::raster::Mask;
 use crate::segment::{Method, Parameter, Params, Setting};
 use std::path::PathBuf;
@@ -38,6 +39,10 @@ pub enum Combine {
 pub enum Command {
     /// Read a photograph and show it.
     Open(Origin),
+    /// Read the open photograph again, its values understood in this way.
+    ReadAs(ReadOptions),
+    /// Read a workspace's photograph, and put everything back as it was when that has been read.
+    Restore(Box<Workspace>),
     /// A photograph was read.
     Opened(Arc<Picture>),
     /// Work began or went on to a stage.
@@ -49,6 +54,13 @@ pub enum Command {
     },
     /// A result, or a part of one.
     Analysed(Arc<Shown>),
+    /// An export goes on.
+    Exporting {
+        /// Files written so far.
+        done: usize,
+        /// Files that it writes in all.
+        total: usize,
+    },
     /// An export ended, with the sentence to say.
     Exported(Result<String, String>),
     /// Reading failed.
@@ -100,6 +112,8 @@ pub enum Command {
     Profile(ProfileLine),
     /// Dark or light.
     Theme(Theme),
+    /// How panels and cameras are arranged, in words that only the window understands.
+    Layout(String),
 
     /// Write something.
     Export(Export),

@@ -1,11 +1,10 @@
 //! Carries the effects of commands out, on threads or inline.
 
 use super::analyst::{self, Analyst, Desk};
-use super::{Command, Effect, Job, Request, State, jobs, read, reduce};
+use super::{Command, Effect, Job, Request, State, jobs, read, reduce, write};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
-use std::time::Instant;
 
 /// Where work is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,9 +84,9 @@ impl Workbench {
     fn carry_out(&mut self, effect: Effect) {
         match effect {
             Effect::Analyse => self.analyse(),
-            Effect::Read(origin) => {
-                self.state.jobs.reading = Some(Job { since: Instant::now(), stage: None });
-                self.run("reader", move || match read::picture(origin) {
+            Effect::Read(origin, options) => {
+                self.state.jobs.reading = Some(Job::now());
+                self.run("reader", move || match read::picture(origin, options) {
                     Ok(picture) => Command::Opened(Arc::new(picture)),
                     Err(reason) => Command::OpenFailed(reason),
                 });
@@ -95,11 +94,16 @@ impl Workbench {
             Effect::ReadParams(path) => self.run("reader", move || read::params(&path)),
             Effect::ReadWorkspace(path) => self.run("reader", move || read::workspace(&path)),
             Effect::Write(export) => {
-                self.state.jobs.export = Some(Job { since: Instant::now(), stage: None });
+                self.state.jobs.export = Some(Job::now());
                 let bench = jobs::Bench::of(&self.state);
                 self.writing = Arc::default();
                 let stop = Arc::clone(&self.writing);
-                self.run("writer", move || Command::Exported(jobs::write(&export, &bench, &stop)));
+                let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
+                let tell = move |done, total| {
+                    let _ = outbox.send(Command::Exporting { done, total });
+                    wake();
+                };
+                self.run("writer", move || Command::Exported(write::write(&export, &bench, &stop, &tell)));
             }
             Effect::StopWriting => self.writing.stop(),
         }
@@ -114,8 +118,8 @@ impl Workbench {
             area: self.state.document.area.clone(),
         };
         // A queue of slider positions is one piece of work: the spinner tells of the wait, not of each position.
-        let since = self.state.jobs.analysis.map_or_else(Instant::now, |job| job.since);
-        self.state.jobs.analysis = Some(Job { since, stage: None });
+        let begun = self.state.jobs.analysis.unwrap_or_else(Job::now);
+        self.state.jobs.analysis = Some(Job { stage: None, ..begun });
         match &mut self.hands {
             Hands::Threads { desk, .. } => desk.leave(request),
             Hands::Inline(analyst) => {
@@ -124,6 +128,7 @@ impl Workbench {
                     let _ = outbox.lock().unwrap_or_else(PoisonError::into_inner).send(command);
                 };
                 if let Some(shown) = analyst.analyse(&request, &tell, &|| false) {
+                    shown.measure();
                     tell(Command::Analysed(shown));
                 }
             }

@@ -1,6 +1,6 @@
 //! What takes longer than a frame: one analysis, and exports.
 
-use super::{Document, ImageSettings, Shown, State, View};
+use super::{Document, ImageSettings, Picture, Shown, State, Workspace};
 use crate::analysis::Stage;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -27,6 +27,11 @@ pub enum Export {
     /// The selection as a mask (`.png`), its pixels as a table (`.csv`) or as points (`.ply`).
     Selection {
         /// The file; its extension says which.
+        path: PathBuf,
+    },
+    /// The area that the analysis is restricted to, as a mask for `--area`.
+    Area {
+        /// The file, a PNG.
         path: PathBuf,
     },
     /// The regions table, tab separated.
@@ -74,6 +79,7 @@ impl Export {
             Self::Result { folder, .. } => folder,
             Self::Matte { path, .. }
             | Self::Selection { path }
+            | Self::Area { path }
             | Self::Regions { path }
             | Self::Profile { path }
             | Self::Layer { path, .. }
@@ -102,6 +108,15 @@ pub struct Job {
     pub since: Instant,
     /// The stage it is at, of an analysis.
     pub stage: Option<Stage>,
+    /// Files written, of how many, of an export.
+    pub files: Option<(usize, usize)>,
+}
+
+impl Job {
+    /// Work that begins.
+    pub(super) fn now() -> Self {
+        Self { since: Instant::now(), stage: None, files: None }
+    }
 }
 
 /// Asks a writer to stop.
@@ -121,19 +136,26 @@ impl Stop {
 /// What there is to write, as it was when the writing was asked for.
 #[derive(Clone, Debug)]
 pub(super) struct Bench {
+    pub(super) picture: Option<Arc<Picture>>,
     pub(super) shown: Option<Arc<Shown>>,
+    pub(super) pinned: Option<Arc<Shown>>,
     pub(super) document: Document,
-    pub(super) view: View,
+    pub(super) selected_region: Option<u16>,
+    /// Ends of the profile's line, pixels.
+    pub(super) profile: Option<[[f32; 2]; 2]>,
+    pub(super) workspace: Result<Workspace, String>,
 }
 
 impl Bench {
     pub(super) fn of(state: &State) -> Self {
-        Self { shown: state.shown().cloned(), document: state.document.clone(), view: state.view.clone() }
+        Self {
+            picture: state.picture.clone(),
+            shown: state.shown().cloned(),
+            pinned: state.pinned.clone(),
+            document: state.document.clone(),
+            selected_region: state.selected_region(),
+            profile: state.profile_ends(),
+            workspace: Workspace::of(state),
+        }
     }
-}
-
-/// Writes something; the sentence says what was written, or what failed and what to do.
-pub(super) fn write(export: &Export, bench: &Bench, stop: &Stop) -> Result<String, String> {
-    let _ = (bench, stop.stopped());
-    Err(format!("{}: cannot be written yet", export.path().display()))
 }

@@ -15,7 +15,7 @@ use crate::export::coloured;
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Mask, Raster};
 use crate::trace::Class;
-use curve::Curve;
+pub(super) use curve::Curve;
 use rayon::prelude::*;
 
 /// Body reflection that differs by this many counts is black or white in [`Layer::Difference`].

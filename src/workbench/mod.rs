@@ -4,10 +4,13 @@
 //! does; it is pure but for the [`Effect`]s it asks for, and is tested without a window. A [`Workbench`] carries the effects
 //! out: on a named worker where the newest request wins, or inline in tests. Panels read the state and return commands.
 
+mod accuracy;
 mod analyst;
 mod axes;
 mod colours;
 mod command;
+mod command_line;
+mod compare;
 mod curves;
 mod desk;
 mod document;
@@ -18,8 +21,12 @@ mod layers;
 pub mod marking;
 mod picture;
 mod plane_points;
+mod profile;
 mod read;
 mod reduce;
+mod runs;
+mod selected;
+mod settings;
 mod shapes;
 mod shown;
 mod solid;
@@ -31,10 +38,15 @@ mod table;
 mod testing;
 mod vector;
 mod view;
+mod workspace;
+mod write;
 
+pub use accuracy::{Accuracy, RegionAccuracy};
 pub use analyst::Request;
 pub use axes::{Axis, Tick};
 pub use command::{Combine, Command, Gesture};
+pub use command_line::analyze_call;
+pub use compare::{BodyChange, Comparison, Fate, Figure, PixelFates, RegionFate, SettingChange, compare};
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};
 pub use histogram::{BINS_PER_BAND, ColourBin, Histogram, UniqueColour};
@@ -43,7 +55,10 @@ pub use jobs::{Export, Job, JobState};
 pub use layers::{ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, legend, marks, paint, pyramid};
 pub use picture::{Origin, Picture};
 pub use plane_points::{MOST_PLANE_POINTS, PlanePixel, RegionPlane, region_plane};
+pub use profile::{ProfileSample, kind_name, profile, profile_csv, profile_ends};
 pub use reduce::{Effect, reduce};
+pub use runs::MaskRuns;
+pub use settings::Settings;
 pub use shapes::{
     PlaneDirections, RegionShapes, dark_sphere, illuminant_line, plane_directions, region_shapes,
     window_ellipsoid,
@@ -58,3 +73,4 @@ pub use view::{
     Arrangement, ColourBy, ColourSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
     Theme, Tool, View,
 };
+pub use workspace::Workspace;

@@ -1,7 +1,7 @@
 //! A photograph that is open, where it came from, and what it is compared with.
 
 use super::Histogram;
-use crate::photo::Photo;
+use crate::photo::{Photo, ReadOptions};
 use crate::truth::GroundTruth;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -46,6 +46,8 @@ impl Origin {
 pub struct Picture {
     /// Where it came from.
     pub origin: Origin,
+    /// How it was read.
+    pub reading: ReadOptions,
     /// The photograph; its linear image is in `image`.
     pub photo: Photo,
     /// SHA-256 of the file, hexadecimal.

@@ -1,6 +1,6 @@
 //! Reads photographs, parameters and workspaces for the state.
 
-use super::{Command, Histogram, Origin, Picture, Severity};
+use super::{Command, Histogram, Origin, Picture, Severity, Workspace};
 use crate::photo::{self, ReadOptions};
 use crate::segment::Params;
 use crate::truth::{GroundTruth, sample};
@@ -11,9 +11,8 @@ use std::time::Instant;
 ///
 /// # Errors
 /// A sentence that names the file.
-pub(super) fn picture(origin: Origin) -> Result<Picture, String> {
+pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, String> {
     let begun = Instant::now();
-    let options = ReadOptions::default();
     let (photo, sha256) = match &origin {
         Origin::File(path) => {
             let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
@@ -30,7 +29,7 @@ pub(super) fn picture(origin: Origin) -> Result<Picture, String> {
     let read_ms = begun.elapsed().as_secs_f64() * 1e3;
     let truth = truth(&origin);
     let histogram = Histogram::of(&photo.image);
-    Ok(Picture { origin, photo, sha256, read_ms, histogram, truth })
+    Ok(Picture { origin, reading: options, photo, sha256, read_ms, histogram, truth })
 }
 
 /// A scene's ground truth lies beside its photograph.
@@ -49,7 +48,10 @@ fn truth(origin: &Origin) -> Option<GroundTruth> {
 pub(super) fn params(path: &Path) -> Command {
     let read = || -> Result<Params, String> {
         let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        toml::from_str(&text).map_err(|error| format!("{}: {}", path.display(), error.message()))
+        let params: Params =
+            toml::from_str(&text).map_err(|error| format!("{}: {}", path.display(), error.message()))?;
+        params.validate().map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(params)
     };
     match read() {
         Ok(params) => Command::SetParams(Box::new(params)),
@@ -57,7 +59,10 @@ pub(super) fn params(path: &Path) -> Command {
     }
 }
 
-/// A workspace file.
+/// A workspace file, as the command that restores it.
 pub(super) fn workspace(path: &Path) -> Command {
-    Command::Notify(Severity::Error, format!("{}: workspaces cannot be read yet", path.display()))
+    match Workspace::load(path) {
+        Ok(workspace) => Command::Restore(Box::new(workspace)),
+        Err(reason) => Command::Notify(Severity::Error, reason),
+    }
 }

@@ -1,8 +1,11 @@
 //! The one function that changes the state.
 
+use super::state::AfterPin;
 use super::{
-    Combine, Command, Document, Export, Gesture, Notice, Origin, Picture, Selection, Severity, Shown, State,
+    Combine, Command, Document, Export, Gesture, MaskRuns, Notice, Origin, Picture, Selection, Severity,
+    Shown, State, View, Workspace,
 };
+use crate::photo::ReadOptions;
 use crate::raster::{Mask, Raster};
 use crate::segment::{IlluminantSetting, Method, Parameter, Params};
 use std::path::PathBuf;
@@ -13,8 +16,8 @@ use std::sync::Arc;
 pub enum Effect {
     /// Analyse the picture with the document as it is now.
     Analyse,
-    /// Read a photograph.
-    Read(Origin),
+    /// Read a photograph in this way.
+    Read(Origin, ReadOptions),
     /// Read parameters.
     ReadParams(PathBuf),
     /// Read a workspace.
@@ -31,10 +34,25 @@ const MOST_RECENT: usize = 12;
 /// Applies `command` to `state` and says what else is to be done.
 pub fn reduce(state: &mut State, command: Command) -> Vec<Effect> {
     match command {
-        Command::Open(origin) => vec![Effect::Read(origin)],
+        Command::Open(origin) => {
+            state.restoring = None;
+            vec![Effect::Read(origin, ReadOptions::default())]
+        }
+        Command::ReadAs(options) => {
+            state.restoring = None;
+            state.picture.iter().map(|picture| Effect::Read(picture.origin.clone(), options)).collect()
+        }
+        Command::Restore(workspace) => match workspace.reading() {
+            Ok(options) => {
+                let origin = workspace.origin.clone();
+                state.restoring = Some(workspace);
+                vec![Effect::Read(origin, options)]
+            }
+            Err(reason) => notify(state, Severity::Error, reason),
+        },
         Command::Opened(picture) => opened(state, picture),
         Command::OpenFailed(reason) => {
-            state.jobs.reading = None;
+            (state.jobs.reading, state.restoring) = (None, None);
             notify(state, Severity::Error, reason)
         }
         Command::Progress { generation, stage } => {
@@ -44,6 +62,12 @@ pub fn reduce(state: &mut State, command: Command) -> Vec<Effect> {
             Vec::new()
         }
         Command::Analysed(shown) => analysed(state, shown),
+        Command::Exporting { done, total } => {
+            if let Some(job) = &mut state.jobs.export {
+                job.files = Some((done, total));
+            }
+            Vec::new()
+        }
         Command::Exported(outcome) => {
             state.jobs.export = None;
             match outcome {
@@ -62,6 +86,10 @@ pub fn reduce(state: &mut State, command: Command) -> Vec<Effect> {
         Command::EndGesture => {
             state.history.end_gesture();
             Vec::new()
+        }
+        Command::Export(_) if state.jobs.export.is_some() => {
+            let text = "an export is still under way: wait for its end, or cancel it first";
+            notify(state, Severity::Warning, text.to_owned())
         }
         Command::Export(export) => vec![Effect::Write(export)],
         Command::CancelExport => vec![Effect::StopWriting],
@@ -134,6 +162,7 @@ fn look(state: &mut State, command: Command) {
         Command::Plane(settings) => state.view.plane = settings,
         Command::Profile(line) => state.view.profile = line,
         Command::Theme(theme) => state.view.theme = theme,
+        Command::Layout(layout) => state.view.layout = layout,
         other => unreachable!("handled before: {other:?}"),
     }
 }
@@ -148,6 +177,7 @@ fn opened(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     let warnings =
         picture.photo.warnings.iter().map(|warning| format!("{}: {warning}", picture.origin.name()));
     let warnings: Vec<String> = warnings.collect();
+    let restored = state.restoring.take().filter(|workspace| workspace.origin == picture.origin);
     state.picture = Some(picture);
     // Masks of another picture mean nothing here; parameters stay.
     state.document = Document { params: state.document.params, ..Document::default() };
@@ -155,11 +185,41 @@ fn opened(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     (state.newest, state.pinned, state.hover) = (None, None, None);
     state.view.show_pinned = false;
     (state.view.image.centre_px, state.view.image.zoom) = (None, None);
-    state.view.profile = super::ProfileLine::Row;
+    (state.view.profile, state.after_pin) = (super::ProfileLine::Row, None);
     for warning in warnings {
         notify(state, Severity::Warning, warning);
     }
+    if let Some(workspace) = restored {
+        put_back(state, *workspace);
+    }
     analyse(state)
+}
+
+/// Puts back what a workspace holds beside its photograph, which is open by now.
+fn put_back(state: &mut State, workspace: Workspace) {
+    let Some(size) = state.picture.as_ref().map(|picture| picture.size()) else { return };
+    let Workspace { params, pinned, area, item, marked, view, .. } = workspace;
+    let show_pinned = view.show_pinned;
+    // Dark or light is a matter of the room that one sits in.
+    state.view = View { show_pinned: false, theme: state.view.theme, ..view };
+    let mut mask = |what: &str, runs: Option<MaskRuns>| {
+        let runs = runs?;
+        let mask = runs.mask().filter(|mask| (mask.width(), mask.height()) == size);
+        if mask.is_none() {
+            let text = format!("the workspace's {what} belongs to a picture of another size: it is left out");
+            notify(state, Severity::Warning, text);
+        }
+        mask.map(Arc::new)
+    };
+    let (area, marked) = (mask("area", area), mask("selection", marked));
+    state.document.area = area;
+    state.document.selection.marked = marked;
+    if let Some(pinned) = pinned {
+        state.document.params = pinned;
+        state.after_pin = Some(AfterPin { params, item, show_pinned });
+    } else {
+        (state.document.params, state.document.selection.item) = (params, item);
+    }
 }
 
 fn analysed(state: &mut State, shown: Arc<Shown>) -> Vec<Effect> {
@@ -173,9 +233,14 @@ fn analysed(state: &mut State, shown: Arc<Shown>) -> Vec<Effect> {
     if shown.generation == state.generation && shown.stale_from.is_none() {
         state.jobs.analysis = None;
     }
+    let is_last = shown.generation == state.generation && shown.stale_from.is_none();
     follow_region(state, &shown);
     state.newest = Some(shown);
-    Vec::new()
+    let Some(after) = state.after_pin.take_if(|_| is_last) else { return Vec::new() };
+    state.pinned = state.newest.clone();
+    state.view.show_pinned = after.show_pinned;
+    (state.document.params, state.document.selection.item) = (after.params, after.item);
+    analyse(state)
 }
 
 /// A selected region stays selected: it becomes the one that overlaps it most.
@@ -190,6 +255,9 @@ fn follow_region(state: &mut State, shown: &Shown) {
 }
 
 fn edit_params(state: &mut State, gesture: Option<Gesture>, change: impl FnOnce(&mut Params)) -> Vec<Effect> {
+    if let Some(after) = state.after_pin.take() {
+        state.document.params = after.params;
+    }
     let mut params = state.document.params;
     change(&mut params);
     if let Err(invalid) = params.validate() {
@@ -276,3 +344,6 @@ fn notify(state: &mut State, severity: Severity, text: String) -> Vec<Effect> {
     state.notices.push(Notice { id: state.notices_so_far, severity, text });
     Vec::new()
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,12 +1,12 @@
 //! A result as the panels see it.
 
-use super::Picture;
+use super::{Accuracy, Picture};
 use crate::analysis::{Analysis, Stage};
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 use crate::segment::Params;
 use crate::trace::Class;
 use std::cmp::Reverse;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// What one request found. Shared, never changed.
 #[derive(Debug)]
@@ -29,6 +29,8 @@ pub struct Shown {
     pub coverage: f64,
     /// Time of each stage that ran, in the order of [`Stage::ALL`], milliseconds; none: its earlier output still stood.
     pub took_ms: [Option<f64>; Stage::ALL.len()],
+    /// How near it is to the ground truth, once that has been measured.
+    pub(super) accuracy: OnceLock<Option<Accuracy>>,
 }
 
 impl Shown {
@@ -55,6 +57,16 @@ impl Shown {
     /// Merged area of each pixel, from 1; 0 where its window has no class.
     pub fn areas(&self) -> &Raster<u32> {
         &self.analysis.areas
+    }
+
+    /// How near it is to the ground truth; none where there is no truth, and until the worker has measured it.
+    pub fn accuracy(&self) -> Option<&Accuracy> {
+        self.accuracy.get()?.as_ref()
+    }
+
+    /// Measures that, where there is a truth. Takes about as long as the analysis.
+    pub(super) fn measure(&self) {
+        self.accuracy.get_or_init(|| super::accuracy::accuracy(self));
     }
 
     /// Side of a window, pixels.

@@ -1,6 +1,7 @@
 //! All there is to show.
 
-use super::{Document, History, Item, JobState, Picture, Shown, View};
+use super::{Document, History, Item, JobState, Picture, Shown, View, Workspace};
+use crate::segment::Params;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -30,6 +31,18 @@ pub struct State {
     /// Number of the newest request.
     pub generation: u64,
     pub(super) notices_so_far: u64,
+    /// The workspace whose photograph is being read.
+    pub(super) restoring: Option<Box<Workspace>>,
+    /// What follows when a restored workspace's pinned result has been found anew.
+    pub(super) after_pin: Option<AfterPin>,
+}
+
+/// What a restored workspace still lacks while its pinned result is found anew.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AfterPin {
+    pub(super) params: Params,
+    pub(super) item: Option<Item>,
+    pub(super) show_pinned: bool,
 }
 
 impl State {
@@ -58,6 +71,17 @@ impl State {
             Item::Window(_) | Item::Bin(_) => return None,
         };
         (region != 0 && usize::from(region) <= shown.analysis.intrinsic.regions.len()).then_some(region)
+    }
+
+    /// The ends of the profile's line, in pixels of the picture: through the hovered pixel, else through the selected one,
+    /// else through the middle.
+    pub fn profile_ends(&self) -> Option<[[f32; 2]; 2]> {
+        let pixel = |item: Option<Item>| match item {
+            Some(Item::Pixel(pixel)) => Some(pixel),
+            _ => None,
+        };
+        let at = pixel(self.hover).or(pixel(self.document.selection.item));
+        self.picture.as_ref().map(|picture| super::profile_ends(self.view.profile, picture, at))
     }
 
     /// The region that panels about one region show: the selected item's.

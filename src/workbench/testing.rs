@@ -6,7 +6,7 @@ use crate::intrinsic::{Intrinsic, RegionReflection};
 use crate::photo::{self, EncodingChoice, ReadOptions};
 use crate::raster::{LabelMap, Raster};
 use crate::segment::{FinalRegions, Params};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A picture `width` pixels wide, of linear 8-bit colours.
 pub(super) fn picture(width: usize, colours: &[[u8; 3]]) -> Arc<Picture> {
@@ -18,6 +18,7 @@ pub(super) fn picture(width: usize, colours: &[[u8; 3]]) -> Arc<Picture> {
     let histogram = Histogram::of(&photo.image);
     Arc::new(Picture {
         origin,
+        reading: options,
         photo,
         sha256: photo::sha256_hex(&bytes),
         read_ms: 0.0,
@@ -54,6 +55,7 @@ pub(super) fn shown(picture: &Arc<Picture>) -> Shown {
         coverage: 0.0,
         region_colours: (0..count).map(|id| [id as u8; 3]).collect(),
         took_ms: [None; 7],
+        accuracy: OnceLock::new(),
     }
 }
 

@@ -18,6 +18,8 @@ pub struct View {
     pub show_pinned: bool,
     /// Dark or light.
     pub theme: Theme,
+    /// How panels and cameras are arranged, in words that only the window understands; empty: as usual.
+    pub layout: String,
 }
 
 /// Dark or light.

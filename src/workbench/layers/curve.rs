@@ -11,14 +11,14 @@ const ENTRIES: usize = ((1.0f32.to_bits() >> SHIFT) - FIRST + 1) as usize;
 
 /// Exposure, the curve of sRGB and a gamma for display, tabulated over the leading bits of the number: entries are as
 /// dense as the eye is keen, within a tenth of a code of the exact curve.
-pub(super) struct Curve {
+pub(in crate::workbench) struct Curve {
     per_count: f32,
     codes: Vec<u8>,
 }
 
 impl Curve {
     /// A curve that brightens by `exposure_ev` stops and raises sRGB values to `1 / gamma`.
-    pub(super) fn new(exposure_ev: f32, gamma: f32) -> Self {
+    pub(in crate::workbench) fn new(exposure_ev: f32, gamma: f32) -> Self {
         let mut codes = vec![0u8; ENTRIES];
         // The first entry stays black.
         for (code, entry) in codes.iter_mut().zip(FIRST..).skip(1) {
@@ -31,7 +31,7 @@ impl Curve {
     /// The 8-bit value of linear counts; what is brighter than white is white.
     #[inline]
     #[allow(clippy::manual_clamp, reason = "what is no number is black")]
-    pub(super) fn code(&self, counts: f32) -> u8 {
+    pub(in crate::workbench) fn code(&self, counts: f32) -> u8 {
         let share = (counts * self.per_count).max(DARKEST).min(1.0);
         self.codes[((share.to_bits() >> SHIFT) - FIRST) as usize]
     }
