@@ -112,6 +112,8 @@ impl Front {
         come_in(ui, cx);
         self.panels.image.hear_escape(ui.ctx());
         for deed in shortcuts::pressed(ui.ctx()) {
+            // A window that opens is measured unseen in its first frame.
+            ui.ctx().request_repaint();
             shortcuts::carry_out(deed, cx, &mut self.dialogs, &mut self.help);
         }
         if let Some(pane) = self.alone {
