@@ -10,7 +10,7 @@ use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 /// Height of a line, points.
 const LINE_PT: f32 = 18.0;
 /// Between two cells, points.
-const GAP_PT: f32 = 7.0;
+const GAP_PT: f32 = 6.0;
 
 /// A quiet name and the number's place.
 struct Cell {

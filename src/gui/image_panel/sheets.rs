@@ -255,7 +255,11 @@ impl Sheet {
 
     /// Draws what is in sight, multiplied by `tint`.
     pub fn draw(&mut self, painter: &Painter, place: &Placement, tint: Color32) {
-        let scale = place.zoom * painter.ctx().pixels_per_point();
+        let mut scale = place.zoom * painter.ctx().pixels_per_point();
+        if let SubjectKey::Marks(..) = self.key.subject {
+            // A thin line must not fall between screen pixels: at most one texel each.
+            scale *= 0.501;
+        }
         if level_for(scale, usize::MAX) > 0 {
             self.make_copies();
         }

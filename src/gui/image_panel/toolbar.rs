@@ -44,7 +44,7 @@ const fn tip(layer: Layer) -> &'static str {
 
 /// Shows the row. `zoom` is the one in force, screen points a pixel.
 pub fn row(ui: &mut Ui, state: &State, tones: &Tones, settings: &mut ImageSettings, zoom: f32) {
-    ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
+    ui.spacing_mut().item_spacing = vec2(3.0, 3.0);
     ui.spacing_mut().interact_size.y = icons::SIDE_PT;
     ui.horizontal_wrapped(|ui| {
         layer(ui, state, "Layer", &mut settings.layer);
@@ -123,7 +123,7 @@ fn zooming(ui: &mut Ui, settings: &mut ImageSettings, zoom: f32) {
     let mut percent = zoom * 100.0;
     let speed = percent / 100.0;
     let typed = DragValue::new(&mut percent).range(0.0..=f32::MAX).speed(speed).max_decimals(0).suffix(" %");
-    let typed = ui.add_sized(vec2(50.0, ui.spacing().interact_size.y), typed);
+    let typed = ui.add_sized(vec2(48.0, ui.spacing().interact_size.y), typed);
     named(&typed, "Zoom", f64::from(percent));
     if typed.changed() && percent > 0.0 {
         settings.zoom = Some(percent / 100.0);
