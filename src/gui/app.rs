@@ -66,6 +66,12 @@ impl App {
         self.bench.state()
     }
 
+    /// What the panels keep.
+    #[cfg(test)]
+    pub(super) fn panels(&self) -> &Panels {
+        &self.panels
+    }
+
     /// Shows everything, and obeys.
     pub fn show(&mut self, ui: &mut Ui) {
         self.bench.poll();

@@ -70,8 +70,14 @@ impl CubePanel {
             return;
         }
         self.size = [rect.width(), rect.height()];
+        let settings = &cx.state.view.cube;
+        let full_counts = picture.histogram.full_counts;
+        let other_space = self.frame.update(settings.space, full_counts, cx.state.view.theme);
+        if other_space {
+            self.eye.enter(self.frame.lines.iter().flat_map(|line| [line.a, line.b]).collect());
+        }
         self.turn(ui, cx, &response, rect);
-        self.update(ui, cx, gpu, &picture);
+        self.update(ui, cx, gpu, &picture, other_space);
         self.canvas.show(ui, gpu, rect, &self.scene, &self.eye.orbit);
         let projector = self.eye.orbit.projector(self.size);
         self.write(ui, cx, &projector, &response, &picture);
@@ -94,7 +100,14 @@ impl CubePanel {
     }
 
     /// What is to be drawn, as far as it has changed.
-    fn update(&mut self, ui: &Ui, cx: &Cx, gpu: &egui_wgpu::RenderState, picture: &Arc<Picture>) {
+    fn update(
+        &mut self,
+        ui: &Ui,
+        cx: &Cx,
+        gpu: &egui_wgpu::RenderState,
+        picture: &Arc<Picture>,
+        other_space: bool,
+    ) {
         let settings = &cx.state.view.cube;
         let moved = self.seen_from != Some(self.eye.orbit);
         if moved {
@@ -107,8 +120,6 @@ impl CubePanel {
         self.cloud.update(cx.state, cx.tones, picture, detail.flatten().as_ref());
         self.scene.points = self.cloud.drawn.to_vec();
         self.scene.background = cx.tones.background.to_array();
-        let other_space =
-            self.frame.update(settings.space, picture.histogram.full_counts, cx.state.view.theme);
         let other_figure = self.figure.update(cx.state, picture);
         if other_figure {
             self.scene.meshes.clone_from(&self.figure.meshes);
