@@ -257,8 +257,8 @@ impl Sheet {
     pub fn draw(&mut self, painter: &Painter, place: &Placement, tint: Color32) {
         let mut scale = place.zoom * painter.ctx().pixels_per_point();
         if let SubjectKey::Marks(..) = self.key.subject {
-            // A thin line must not fall between screen pixels: at most one texel each.
-            scale *= 0.501;
+            // A thin line must not fall between screen pixels, nor become a thick one: about one texel each.
+            scale *= 0.7;
         }
         if level_for(scale, usize::MAX) > 0 {
             self.make_copies();
