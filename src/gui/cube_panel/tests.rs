@@ -192,14 +192,17 @@ fn a_lasso_marks_the_pixels_whose_colours_are_inside() {
         vec2(off.x / 34.0, off.y / 26.0).length()
     };
     let pixels = |bins: &dyn Fn(usize) -> bool| {
-        (0..bins_of(&picture)).filter(|bin| bins(*bin)).map(|bin| picture.histogram.bins[bin].count as usize).sum::<usize>()
+        (0..bins_of(&picture))
+            .filter(|bin| bins(*bin))
+            .map(|bin| picture.histogram.bins[bin].count as usize)
+            .sum::<usize>()
     };
     let found = marked.as_slice().iter().filter(|on| **on).count();
     assert!(found >= pixels(&|bin| radius(bin) < 0.9) && found <= pixels(&|bin| radius(bin) < 1.1));
     assert!(found > 100 && found < marked.len() / 2 && bins > 100);
-    let outside = (0..marked.len()).filter(|&pixel| marked[pixel]).find(|&pixel| {
-        picture.histogram.bin_of(pixel).is_none_or(|bin| radius(bin as usize) > 1.1)
-    });
+    let outside = (0..marked.len())
+        .filter(|&pixel| marked[pixel])
+        .find(|&pixel| picture.histogram.bin_of(pixel).is_none_or(|bin| radius(bin as usize) > 1.1));
     assert_eq!(outside, None);
     // With Alt the same outline takes its pixels away again.
     hover(&mut harness, corners[0]);
