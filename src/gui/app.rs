@@ -2,6 +2,7 @@
 
 use super::dock::{Dock, Pane, Panels};
 use super::files::{Dialogs, is_workspace};
+use super::portrait::Portraitist;
 use super::theme::{self, Tones};
 use super::{Cx, menu, notices, shortcuts};
 use crate::workbench::{Command, Executor, Origin, Settings, State, Theme, Workbench};
@@ -25,6 +26,7 @@ struct Front {
     layout: String,
     panels: Panels,
     dialogs: Dialogs,
+    portraitist: Portraitist,
     help: bool,
     /// The one panel that is shown, if not all.
     alone: Option<Pane>,
@@ -66,6 +68,12 @@ impl App {
         self.bench.state()
     }
 
+    /// What the panels keep.
+    #[cfg(test)]
+    pub(super) fn panels(&self) -> &Panels {
+        &self.panels
+    }
+
     /// Shows everything, and obeys.
     pub fn show(&mut self, ui: &mut Ui) {
         self.bench.poll();
@@ -76,7 +84,13 @@ impl App {
         }
         let tones = Tones::of(theme);
         let mut out = Vec::new();
-        let mut cx = Cx { state: self.bench.state(), tones: &tones, gpu: self.gpu.as_ref(), out: &mut out };
+        let mut cx = Cx {
+            state: self.bench.state(),
+            tones: &tones,
+            gpu: self.gpu.as_ref(),
+            bare: false,
+            out: &mut out,
+        };
         self.front.show(ui, &mut cx);
         self.front.keep_layout(&mut cx);
         if !out.is_empty() {
@@ -112,6 +126,8 @@ impl Front {
         come_in(ui, cx);
         self.panels.image.hear_escape(ui.ctx());
         for deed in shortcuts::pressed(ui.ctx()) {
+            // A window that opens is measured unseen in its first frame.
+            ui.ctx().request_repaint();
             shortcuts::carry_out(deed, cx, &mut self.dialogs, &mut self.help);
         }
         if let Some(pane) = self.alone {
@@ -125,7 +141,12 @@ impl Front {
         });
         let frame = egui::Frame::new().fill(cx.tones.line);
         egui::CentralPanel::default().frame(frame).show(ui, |ui| self.dock.show(ui, &mut self.panels, cx));
-        self.dialogs.show(ui, cx);
+        if let Some(sitting) = self.dialogs.show(ui, cx) {
+            self.portraitist.begin(ui.ctx(), sitting, cx, &self.panels.cube);
+        }
+        if let Some(command) = self.portraitist.done() {
+            cx.send(command);
+        }
         notices::show(ui, cx);
         shortcuts::show_help(ui, cx, &mut self.help);
     }

@@ -49,6 +49,11 @@ pub struct CubePanel {
 }
 
 impl CubePanel {
+    /// Another panel that sees the same.
+    pub fn likeness(&self) -> Self {
+        Self { eye: self.eye.clone(), ..Self::default() }
+    }
+
     /// Shows it.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let Some(picture) = cx.state.picture.clone() else {
@@ -60,18 +65,29 @@ impl CubePanel {
             widgets::nothing(ui, cx.tones, text);
             return;
         };
-        egui::Frame::new().fill(cx.tones.panel).inner_margin(egui::Margin::symmetric(6, 3)).show(ui, |ui| {
-            bar::show(ui, cx, &mut self.eye, self.size);
-            ui.allocate_space(vec2(ui.available_width(), 0.0));
-        });
+        if !cx.bare {
+            egui::Frame::new().fill(cx.tones.panel).inner_margin(egui::Margin::symmetric(6, 3)).show(
+                ui,
+                |ui| {
+                    bar::show(ui, cx, &mut self.eye, self.size);
+                    ui.allocate_space(vec2(ui.available_width(), 0.0));
+                },
+            );
+        }
         ui.spacing_mut().item_spacing.y = 0.0;
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         if rect.width() < 8.0 || rect.height() < 8.0 {
             return;
         }
         self.size = [rect.width(), rect.height()];
+        let settings = &cx.state.view.cube;
+        let full_counts = picture.histogram.full_counts;
+        let other_space = self.frame.update(settings.space, full_counts, cx.state.view.theme);
+        if other_space {
+            self.eye.enter(self.frame.lines.iter().flat_map(|line| [line.a, line.b]).collect());
+        }
         self.turn(ui, cx, &response, rect);
-        self.update(ui, cx, gpu, &picture);
+        self.update(ui, cx, gpu, &picture, other_space);
         self.canvas.show(ui, gpu, rect, &self.scene, &self.eye.orbit);
         let projector = self.eye.orbit.projector(self.size);
         self.write(ui, cx, &projector, &response, &picture);
@@ -94,7 +110,14 @@ impl CubePanel {
     }
 
     /// What is to be drawn, as far as it has changed.
-    fn update(&mut self, ui: &Ui, cx: &Cx, gpu: &egui_wgpu::RenderState, picture: &Arc<Picture>) {
+    fn update(
+        &mut self,
+        ui: &Ui,
+        cx: &Cx,
+        gpu: &egui_wgpu::RenderState,
+        picture: &Arc<Picture>,
+        other_space: bool,
+    ) {
         let settings = &cx.state.view.cube;
         let moved = self.seen_from != Some(self.eye.orbit);
         if moved {
@@ -107,8 +130,6 @@ impl CubePanel {
         self.cloud.update(cx.state, cx.tones, picture, detail.flatten().as_ref());
         self.scene.points = self.cloud.drawn.to_vec();
         self.scene.background = cx.tones.background.to_array();
-        let other_space =
-            self.frame.update(settings.space, picture.histogram.full_counts, cx.state.view.theme);
         let other_figure = self.figure.update(cx.state, picture);
         if other_figure {
             self.scene.meshes.clone_from(&self.figure.meshes);

@@ -1,11 +1,13 @@
 //! The camera of the colour space view, and what turns it.
 
+use crate::gpu::shapes::cube_edges;
 use crate::gpu::{Orbit, Preset, Projection};
 use crate::workbench::{ColourSpace, State};
 use egui::{Event, Key, PointerButton, Rect, Response, Ui};
 
-/// Around the unit cube, so that the axes' labels lie inside the view.
-const FRAMED: f32 = 0.98;
+/// Left free beside and above the framed cube for the axes' labels, points; at most this share of the view.
+const MARGIN_PT: [f32; 2] = [64.0, 30.0];
+const MARGIN_SHARE: f32 = 0.14;
 /// A step of an arrow key, as a drag in points.
 const KEY_STEP_PT: f32 = 18.0;
 /// A step of + and −.
@@ -82,23 +84,33 @@ impl Plane {
 }
 
 /// The camera.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Eye {
     /// Where it is.
     pub orbit: Orbit,
-    framed: bool,
+    /// What is to be seen of the space when it is framed; none: the unit cube.
+    whole: Vec<[f32; 3]>,
+    /// The size that it was framed for.
+    framed: Option<[f32; 2]>,
+    /// Whether a hand has moved the camera since.
+    by_hand: bool,
     /// The view of the plane that goes with the selection until a hand turns it away.
     follows: Option<Sight>,
     faced: Option<Plane>,
 }
 
 impl Eye {
-    /// Frames the whole space when it is first seen.
+    /// Frames the whole space in a view of another size, as long as no hand has moved the camera.
     pub fn arrive(&mut self, size: [f32; 2]) {
-        if !self.framed && size[1] > 0.0 {
+        if !self.by_hand && self.framed != Some(size) {
             self.frame(size);
-            self.framed = true;
         }
+    }
+
+    /// Another space: what is to be seen of it, framed unless a hand has moved the camera.
+    pub fn enter(&mut self, whole: Vec<[f32; 3]>) {
+        self.whole = whole;
+        self.framed = None;
     }
 
     /// Takes a view.
@@ -137,8 +149,28 @@ impl Eye {
         }
     }
 
+    /// Moves and scales the space as it is seen into the middle, as large as the labels let it be.
     fn frame(&mut self, size: [f32; 2]) {
-        self.orbit.frame([0.5; 3], FRAMED, size[0] / size[1].max(1.0));
+        (self.framed, self.by_hand) = (Some(size), false);
+        self.orbit.fit(size[0] / size[1].max(1.0));
+        let middle = size.map(|length| 0.5 * length);
+        // What moves to the middle changes its perspective a little.
+        for _ in 0..3 {
+            let projector = self.orbit.projector(size);
+            let cube = cube_edges().into_iter().flatten().filter(|_| self.whole.is_empty());
+            let mut seen = Rect::NOTHING;
+            cube.chain(self.whole.iter().copied())
+                .filter_map(|corner| projector.screen_from_world(corner))
+                .for_each(|corner| seen.extend_with(corner.at.into()));
+            if !seen.is_positive() {
+                return;
+            }
+            let free = |axis: usize| size[axis] - 2.0 * MARGIN_PT[axis].min(MARGIN_SHARE * size[axis]);
+            let centre = seen.center();
+            self.orbit.pan([middle[0] - centre.x, middle[1] - centre.y], size[1]);
+            let factor = (free(0) / seen.width()).min(free(1) / seen.height());
+            self.orbit.zoom_at(factor, middle, size);
+        }
     }
 
     /// From perspective to orthographic and back.
@@ -152,6 +184,21 @@ impl Eye {
     /// Turns, moves and zooms as pointer and keys ask. `orbits`: whether a primary drag turns (no other tool is in hand).
     pub fn obey(&mut self, ui: &Ui, response: &Response, rect: Rect, orbits: bool, plane: Option<Plane>) {
         let size = [rect.width(), rect.height()];
+        let before = self.orbit;
+        let listens = (response.hovered() || response.has_focus()) && !ui.ctx().text_edit_focused();
+        let keys = if listens { pressed(ui) } else { Vec::new() };
+        self.obey_pointer(ui, response, rect, orbits);
+        keys.iter().for_each(|&key| self.obey_key(key, size));
+        self.by_hand |= self.orbit != before;
+        let named = keys.iter().find_map(|key| Sight::ALL.into_iter().find(|(_, of, ..)| of == key));
+        let reset = (response.double_clicked() && orbits).then_some(Sight::ALL[0]);
+        if let Some((sight, ..)) = named.or(reset) {
+            self.look(sight, plane, size);
+        }
+    }
+
+    fn obey_pointer(&mut self, ui: &Ui, response: &Response, rect: Rect, orbits: bool) {
+        let size = [rect.width(), rect.height()];
         let delta = response.drag_delta();
         let shift = ui.input(|input| input.modifiers.shift);
         let primary = response.dragged_by(PointerButton::Primary) && orbits;
@@ -163,56 +210,41 @@ impl Eye {
             self.orbit.orbit(delta.into());
             self.follows = None;
         }
-        if response.double_clicked() && orbits {
-            self.look(Sight::Along(Preset::Home), None, size);
-        }
         if let Some(pointer) = response.hover_pos() {
             let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
             let factor = (scroll / SCROLL_PT).exp() * pinch;
             if (factor - 1.0).abs() > 1e-6 {
-                let at = pointer - rect.min;
-                self.orbit.zoom_at(factor, at.into(), size);
+                self.orbit.zoom_at(factor, (pointer - rect.min).into(), size);
             }
-        }
-        if (response.hovered() || response.has_focus()) && !ui.ctx().text_edit_focused() {
-            self.obey_keys(ui, size, plane);
         }
     }
 
-    fn obey_keys(&mut self, ui: &Ui, size: [f32; 2], plane: Option<Plane>) {
-        let pressed: Vec<Key> = ui.input(|input| {
-            let plain = |event: &Event| match event {
-                Event::Key { key, pressed: true, modifiers, .. } if !modifiers.command && !modifiers.alt => {
-                    Some(*key)
-                }
-                _ => None,
-            };
-            input.events.iter().filter_map(plain).collect()
-        });
-        for key in pressed {
-            let step = match key {
-                Key::ArrowLeft => [-KEY_STEP_PT, 0.0],
-                Key::ArrowRight => [KEY_STEP_PT, 0.0],
-                Key::ArrowUp => [0.0, -KEY_STEP_PT],
-                Key::ArrowDown => [0.0, KEY_STEP_PT],
-                _ => [0.0; 2],
-            };
-            if step != [0.0; 2] {
-                self.orbit.orbit(step);
-                self.follows = None;
-            }
-            let middle = size.map(|length| length / 2.0);
-            match key {
-                Key::Plus | Key::Equals => self.orbit.zoom_at(KEY_ZOOM, middle, size),
-                Key::Minus => self.orbit.zoom_at(1.0 / KEY_ZOOM, middle, size),
-                Key::M => self.toggle_projection(),
-                _ => {}
-            }
-            if let Some((sight, ..)) = Sight::ALL.into_iter().find(|(_, of, ..)| *of == key) {
-                self.look(sight, plane, size);
-            }
-        }
+    fn obey_key(&mut self, key: Key, size: [f32; 2]) {
+        let middle = size.map(|length| length / 2.0);
+        let step = match key {
+            Key::ArrowLeft => [-KEY_STEP_PT, 0.0],
+            Key::ArrowRight => [KEY_STEP_PT, 0.0],
+            Key::ArrowUp => [0.0, -KEY_STEP_PT],
+            Key::ArrowDown => [0.0, KEY_STEP_PT],
+            Key::Plus | Key::Equals => return self.orbit.zoom_at(KEY_ZOOM, middle, size),
+            Key::Minus => return self.orbit.zoom_at(1.0 / KEY_ZOOM, middle, size),
+            Key::M => return self.toggle_projection(),
+            _ => return,
+        };
+        self.orbit.orbit(step);
+        self.follows = None;
     }
+}
+
+/// The keys pressed alone or with Shift.
+fn pressed(ui: &Ui) -> Vec<Key> {
+    let plain = |event: &Event| match event {
+        Event::Key { key, pressed: true, modifiers, .. } if !modifiers.command && !modifiers.alt => {
+            Some(*key)
+        }
+        _ => None,
+    };
+    ui.input(|input| input.events.iter().filter_map(plain).collect())
 }
 
 fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {

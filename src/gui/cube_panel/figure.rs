@@ -10,11 +10,11 @@ use crate::workbench::{
 use egui::{Color32, Rect, Stroke, Ui};
 use std::sync::Arc;
 
-const CYLINDER_ALPHA: u8 = 34;
-const SLICE_ALPHA: u8 = 30;
-const DARK_ALPHA: u8 = 60;
-const ELLIPSOID_ALPHA: u8 = 40;
-const OUTLINE_ALPHA: u8 = 190;
+const CYLINDER_ALPHA: u8 = 16;
+const SLICE_ALPHA: u8 = 14;
+const DARK_ALPHA: u8 = 30;
+const ELLIPSOID_ALPHA: u8 = 26;
+const OUTLINE_ALPHA: u8 = 170;
 const LINE_PT: f32 = 2.0;
 const OUTLINE_PT: f32 = 1.2;
 const DASH_PT: f32 = 5.0;
@@ -29,6 +29,8 @@ pub struct Figure {
     pub lines: Vec<Line>,
     smooth: Vec<(Mesh, Color32)>,
     notes: Vec<Note>,
+    /// The matte line in the space: its names stand beside it.
+    spine: Option<[Point; 2]>,
 }
 
 /// A place with a name.
@@ -148,6 +150,10 @@ impl Figure {
     /// The labels of the shapes, the most important first; dots are painted.
     pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, tones: &Tones) -> Vec<Label> {
         let painter = ui.painter_at(rect);
+        let ends = self.spine.map(|ends| ends.map(|end| super::frame::screen(projector, rect, end)));
+        let spine = if let Some([Some(a), Some(b)]) = ends { (b - a).normalized() } else { egui::Vec2::ZERO };
+        let mut sides = all_around();
+        sides.sort_by(|a, b| a.dot(spine).abs().total_cmp(&b.dot(spine).abs()));
         let of = |note: &Note| {
             let at = super::frame::screen(projector, rect, note.place)?;
             if note.dot {
@@ -156,7 +162,8 @@ impl Figure {
             Some(Label {
                 text: note.text.to_owned(),
                 at,
-                sides: all_around(),
+                sides: sides.clone(),
+                leader: true,
                 colour: tones.text,
                 size_pt: SMALL_PT,
                 tip: note.tip,
@@ -200,6 +207,7 @@ impl Pen<'_> {
         let tip = "The end of the matte line, where the surface faces the light (section 5.4.1).";
         self.note(shapes.brightest_matte, "brightest matte point", tip, true);
         self.line(&shapes.matte_line, colour, LINE_PT, 0.0);
+        self.figure.spine = Some(shapes.matte_line.map(|end| self.space.place(end, self.full)));
         let third = along(shapes.matte_line, 0.35);
         self.note(
             third,

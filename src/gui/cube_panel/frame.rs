@@ -67,6 +67,7 @@ impl Frame {
                 colour: tones.text,
                 size_pt: SMALL_PT + 0.5,
                 tip: axis.meaning,
+                leader: false,
             });
             if !closed && length < 24.0 {
                 // Seen end-on: its values would be one heap.
@@ -87,6 +88,7 @@ impl Frame {
                     colour: tones.quiet,
                     size_pt: SMALL_PT - 1.0,
                     tip: "",
+                    leader: false,
                 });
             }
         }
@@ -100,6 +102,7 @@ impl Frame {
                 colour: tones.quiet,
                 size_pt: SMALL_PT,
                 tip: "No light at all: every matte line starts here (section 3.1).",
+                leader: false,
             });
         }
         names.extend(values);

@@ -4,6 +4,8 @@ use egui::{Align2, Color32, FontId, Id, Pos2, Rect, Sense, Ui, Vec2, vec2};
 
 /// Between the place that a label names and the label.
 const GAP_PT: f32 = 5.0;
+/// The same, where a line leads from one to the other.
+const LEADER_PT: f32 = 16.0;
 /// Kept free around a label.
 const AIR_PT: f32 = 1.5;
 
@@ -22,6 +24,8 @@ pub struct Label {
     pub size_pt: f32,
     /// What it means, in one sentence.
     pub tip: &'static str,
+    /// Whether a line leads to it.
+    pub leader: bool,
 }
 
 /// Eight sides, up and to the right first: for what may be named from anywhere.
@@ -39,7 +43,7 @@ pub fn arrange(labels: &[(&Label, Vec2)], bounds: Rect, occupied: &[Rect]) -> Ve
         let free = |rect: &Rect| {
             bounds.contains_rect(*rect) && taken.iter().all(|other| !other.intersects(rect.expand(AIR_PT)))
         };
-        let place = label.sides.iter().map(|&side| beside(label.at, side, *size)).find(free);
+        let place = label.sides.iter().map(|&side| beside(label, side, *size)).find(free);
         taken.extend(place);
         places.push(place);
     }
@@ -47,11 +51,12 @@ pub fn arrange(labels: &[(&Label, Vec2)], bounds: Rect, occupied: &[Rect]) -> Ve
 }
 
 /// The rectangle of this size on that side of a place.
-fn beside(at: Pos2, side: Vec2, size: Vec2) -> Rect {
+fn beside(label: &Label, side: Vec2, size: Vec2) -> Rect {
+    let gap = if label.leader { LEADER_PT } else { GAP_PT };
     // As far out as the rectangle's own half width or height makes it.
     let reach = side.x.abs() * size.x / 2.0 + side.y.abs() * size.y / 2.0;
-    let away = if side == Vec2::ZERO { 0.0 } else { GAP_PT + reach };
-    Rect::from_center_size(at + side * away, size)
+    let away = if side == Vec2::ZERO { 0.0 } else { gap + reach };
+    Rect::from_center_size(label.at + side * away, size)
 }
 
 /// Writes the labels that have room, in their order of importance, around what is `occupied`.
@@ -68,6 +73,10 @@ pub fn show(ui: &Ui, id: Id, labels: &[Label], bounds: Rect, occupied: &[Rect], 
     let places = arrange(&sized, bounds, occupied);
     for (index, ((label, galley), place)) in labels.iter().zip(galleys).zip(places).enumerate() {
         let Some(place) = place else { continue };
+        if label.leader {
+            let end = place.clamp(label.at);
+            painter.line_segment([label.at, end], egui::Stroke::new(1.0, label.colour.gamma_multiply(0.6)));
+        }
         painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, halo);
         painter.galley(
             Align2::LEFT_TOP.align_size_within_rect(place.size(), place).min,
@@ -90,7 +99,15 @@ mod tests {
     use egui::pos2;
 
     fn label(x: f32, y: f32, sides: Vec<Vec2>) -> Label {
-        Label { text: String::new(), at: pos2(x, y), sides, colour: Color32::WHITE, size_pt: 11.0, tip: "" }
+        Label {
+            text: String::new(),
+            at: pos2(x, y),
+            sides,
+            colour: Color32::WHITE,
+            size_pt: 11.0,
+            tip: "",
+            leader: false,
+        }
     }
 
     #[test]
@@ -105,7 +122,7 @@ mod tests {
             label(10.0, 95.0, all_around()),
         ];
         let sized: Vec<_> = labels.iter().map(|label| (label, vec2(40.0, 14.0))).collect();
-        let gizmo = Rect::from_min_max(pos2(0.0, 60.0), pos2(60.0, 100.0));
+        let gizmo = Rect::from_min_max(pos2(0.0, 70.0), pos2(60.0, 100.0));
         let places = arrange(&sized, bounds, &[gizmo]);
         assert_eq!(places[0], Some(Rect::from_min_size(pos2(55.0, 43.0), vec2(40.0, 14.0))));
         assert_eq!(places[1], None, "covered by the first");
@@ -121,12 +138,12 @@ mod tests {
     #[test]
     fn a_label_stands_clear_of_its_place() {
         for side in all_around() {
-            let rect = beside(pos2(0.0, 0.0), side, vec2(40.0, 14.0));
+            let rect = beside(&label(0.0, 0.0, Vec::new()), side, vec2(40.0, 14.0));
             assert!(
                 !rect.contains(pos2(0.0, 0.0)) && rect.distance_to_pos(pos2(0.0, 0.0)) >= 3.0,
                 "{side:?}"
             );
         }
-        assert_eq!(beside(pos2(3.0, 4.0), Vec2::ZERO, vec2(2.0, 2.0)).center(), pos2(3.0, 4.0));
+        assert_eq!(beside(&label(3.0, 4.0, Vec::new()), Vec2::ZERO, vec2(2.0, 2.0)).center(), pos2(3.0, 4.0));
     }
 }

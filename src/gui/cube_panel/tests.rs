@@ -1,36 +1,236 @@
+//! The panel in a harness: opened, turned, pointed at, drawn in.
+
+use super::CubePanel;
+use crate::gpu::Projector;
 use crate::gui::App;
 use crate::gui::testing::{harness, open_sample};
-use crate::workbench::{ColourBy, ColourSpace, Command, Item, Theme};
+use crate::workbench::{ColourSpace, Command, Item, Picture, Tool};
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use egui_wgpu::RenderState;
+use std::sync::Arc;
+
+fn opened() -> Option<(Harness<'static, App>, RenderState)> {
+    let (mut harness, gpu) = harness()?;
+    open_sample(&mut harness);
+    Some((harness, gpu))
+}
+
+fn panel<'a>(harness: &'a Harness<'_, App>) -> &'a CubePanel {
+    &harness.state().panels().cube
+}
+
+fn picture(harness: &Harness<App>) -> Arc<Picture> {
+    Arc::clone(harness.state().state().picture.as_ref().unwrap())
+}
+
+fn canvas(harness: &Harness<App>) -> Rect {
+    harness.get_by_role_and_label(Role::Canvas, "Colour space view").rect()
+}
+
+fn projector(harness: &Harness<App>) -> Projector {
+    panel(harness).eye.orbit.projector(canvas(harness).size().into())
+}
+
+/// Where a bin is seen.
+fn place_of(harness: &Harness<App>, bin: usize) -> Pos2 {
+    let world = panel(harness).cloud.bins[bin].position;
+    super::frame::screen(&projector(harness), canvas(harness), world).expect("in view")
+}
+
+fn hover(harness: &mut Harness<App>, at: Pos2) {
+    harness.hover_at(at);
+    harness.run_steps(2);
+}
+
+fn press(harness: &mut Harness<App>, pos: Pos2, pressed: bool, modifiers: Modifiers) {
+    let button = PointerButton::Primary;
+    harness.event_modifiers(Event::PointerButton { pos, button, pressed, modifiers }, modifiers);
+    harness.run_steps(2);
+}
+
+fn click(harness: &mut Harness<App>, at: Pos2, modifiers: Modifiers) {
+    hover(harness, at);
+    press(harness, at, true, modifiers);
+    press(harness, at, false, modifiers);
+}
+
+fn tool(harness: &mut Harness<App>, tool: Tool) {
+    let mut cube = harness.state().state().view.cube.clone();
+    cube.tool = tool;
+    harness.state_mut().apply(Command::Cube(cube));
+    harness.run_steps(2);
+}
+
+/// The bin that most of a region's pixels are in.
+fn fullest_bin(harness: &Harness<App>, region: u16) -> usize {
+    let cloud = &panel(harness).cloud;
+    let bins = &picture(harness).histogram.bins;
+    let of_region = (0..bins.len()).filter(|&bin| cloud.region_of(bin as u32) == Some(region));
+    of_region.max_by_key(|&bin| bins[bin].count).expect("the region has bins")
+}
 
 #[test]
-fn pictures() {
-    let Some((mut h, _)) = harness() else { return };
-    open_sample(&mut h);
-    let dir = std::env::var("LOOK").unwrap_or_default();
-    if dir.is_empty() {
-        return;
-    }
-    let shot = |h: &mut egui_kittest::Harness<App>, name: &str| {
-        h.run_steps(4);
-        h.render().unwrap().save(format!("{dir}/{name}.png")).unwrap();
+fn the_sample_is_seen_and_fills_the_view() {
+    let Some((harness, gpu)) = opened() else { return };
+    let ([width, height], rgba) = panel(&harness).canvas.read_back(&gpu).expect("drawn");
+    let size = canvas(&harness).size().round();
+    assert_eq!([width as f32, height as f32], [size.x, size.y]);
+    let background: [u8; 4] = rgba[..4].try_into().unwrap();
+    let drawn = rgba.as_chunks::<4>().0.iter().filter(|pixel| **pixel != background).count();
+    assert!(drawn > 4000, "{drawn} pixels of points and lines");
+    let bins = panel(&harness).cloud.bins.len();
+    let inside = (0..bins).filter(|&bin| canvas(&harness).shrink(8.0).contains(place_of(&harness, bin)));
+    assert_eq!(inside.count(), bins, "every point is inside the view");
+}
+
+#[test]
+fn hovering_a_bin_tells_everybody_and_leaving_it_too() {
+    let Some((mut harness, _)) = opened() else { return };
+    let bin = fullest_bin(&harness, 1);
+    let at = place_of(&harness, bin);
+    hover(&mut harness, at);
+    let Some(Item::Bin(found)) = harness.state().state().hover else { panic!("a bin is hovered") };
+    // Another one may lie in front.
+    assert!(place_of(&harness, found as usize).distance(at) < 8.0);
+    let beside = canvas(&harness).right_top() + vec2(-30.0, 12.0);
+    hover(&mut harness, beside);
+    assert_eq!(harness.state().state().hover, None);
+}
+
+#[test]
+fn a_click_selects_the_region_and_with_alt_the_colour() {
+    let Some((mut harness, _)) = opened() else { return };
+    let at = place_of(&harness, fullest_bin(&harness, 2));
+    hover(&mut harness, at);
+    let Some(Item::Bin(bin)) = harness.state().state().hover else { panic!("a bin is hovered") };
+    let region = panel(&harness).cloud.region_of(bin);
+    click(&mut harness, at, Modifiers::NONE);
+    assert_eq!(harness.state().state().selected_region(), region);
+    assert!(region.is_some());
+    let [looked_at, ghosts] = &panel(&harness).cloud.drawn;
+    assert!(!looked_at.is_empty() && !ghosts.is_empty(), "the rest is ghosted, not hidden");
+    assert_eq!(looked_at.len() + ghosts.len(), panel(&harness).cloud.bins.len());
+    harness.run_steps(60);
+    click(&mut harness, at, Modifiers::ALT);
+    assert_eq!(harness.state().state().document.selection.item, Some(Item::Bin(bin)));
+}
+
+#[test]
+fn views_have_names() {
+    let Some((mut harness, _)) = opened() else { return };
+    let forward = |harness: &Harness<App>| panel(harness).eye.orbit.right_up_forward()[2];
+    harness.get_by_label("Views").click();
+    harness.run_steps(3);
+    harness.get_by_label_contains("Along blue").click();
+    harness.run_steps(3);
+    assert!((forward(&harness)[2] + 1.0).abs() < 1e-4, "{:?}", forward(&harness));
+    harness.state_mut().apply(Command::Select(Some(Item::Region(1))));
+    harness.run_steps(3);
+    harness.get_by_label("Views").click();
+    harness.run_steps(3);
+    harness.get_by_label_contains("Face-on to the plane").click();
+    harness.run_steps(3);
+    let normal = |harness: &Harness<App>, region: usize| {
+        let shown = harness.state().state().shown().unwrap().clone();
+        shown.analysis.intrinsic.regions[region - 1].plane_normal.unwrap()
     };
-    shot(&mut h, "1-open");
-    h.state_mut().apply(Command::Select(Some(Item::Region(1))));
-    shot(&mut h, "2-region1");
-    for space in [ColourSpace::Lab, ColourSpace::Hsv, ColourSpace::Chromaticity, ColourSpace::LogRgb] {
-        let mut cube = h.state().state().view.cube.clone();
+    let facing = |harness: &Harness<App>, region| {
+        let (forward, normal) = (forward(harness), normal(harness, region));
+        -(0..3).map(|i| f64::from(forward[i]) * normal[i]).sum::<f64>()
+    };
+    assert!(facing(&harness, 1) > 0.9999);
+    // The view goes with the selection, until it is locked.
+    harness.state_mut().apply(Command::Select(Some(Item::Region(2))));
+    harness.run_steps(3);
+    assert!(facing(&harness, 2) > 0.9999);
+    harness.get_by_label("Lock the view").click();
+    harness.run_steps(3);
+    harness.state_mut().apply(Command::Select(Some(Item::Region(1))));
+    harness.run_steps(3);
+    assert!(facing(&harness, 2) > 0.9999);
+}
+
+#[test]
+fn a_drag_orbits_and_home_comes_back() {
+    let Some((mut harness, _)) = opened() else { return };
+    let home = panel(&harness).eye.orbit;
+    let middle = canvas(&harness).center() + vec2(0.0, -20.0);
+    hover(&mut harness, middle);
+    press(&mut harness, middle, true, Modifiers::NONE);
+    hover(&mut harness, middle + vec2(80.0, 10.0));
+    press(&mut harness, middle + vec2(80.0, 10.0), false, Modifiers::NONE);
+    assert_ne!(panel(&harness).eye.orbit.orientation, home.orientation);
+    assert_eq!(harness.state().state().document.selection.item, None, "a drag is not a click");
+    harness.key_press(Key::Home);
+    harness.run_steps(2);
+    assert_eq!(panel(&harness).eye.orbit, home);
+}
+
+#[test]
+fn a_lasso_marks_the_pixels_whose_colours_are_inside() {
+    let Some((mut harness, _)) = opened() else { return };
+    tool(&mut harness, Tool::Lasso);
+    let centre = place_of(&harness, fullest_bin(&harness, 1));
+    let corners: Vec<Pos2> = (0..=24)
+        .map(|i| {
+            let (y, x) = (std::f32::consts::TAU * i as f32 / 24.0).sin_cos();
+            centre + vec2(34.0 * x, 26.0 * y)
+        })
+        .collect();
+    hover(&mut harness, corners[0]);
+    press(&mut harness, corners[0], true, Modifiers::NONE);
+    corners.iter().for_each(|&corner| hover(&mut harness, corner));
+    press(&mut harness, corners[24], false, Modifiers::NONE);
+    let marked = harness.state().state().document.selection.marked.clone().expect("pixels are marked");
+    let (picture, bins) = (picture(&harness), panel(&harness).cloud.bins.len());
+    // An ellipse that the lasso follows to a point or two.
+    let radius = |bin: usize| {
+        let off = place_of(&harness, bin) - centre;
+        vec2(off.x / 34.0, off.y / 26.0).length()
+    };
+    let pixels = |bins: &dyn Fn(usize) -> bool| {
+        (0..bins_of(&picture))
+            .filter(|bin| bins(*bin))
+            .map(|bin| picture.histogram.bins[bin].count as usize)
+            .sum::<usize>()
+    };
+    let found = marked.as_slice().iter().filter(|on| **on).count();
+    assert!(found >= pixels(&|bin| radius(bin) < 0.9) && found <= pixels(&|bin| radius(bin) < 1.1));
+    assert!(found > 100 && found < marked.len() / 2 && bins > 100);
+    let outside = (0..marked.len())
+        .filter(|&pixel| marked[pixel])
+        .find(|&pixel| picture.histogram.bin_of(pixel).is_none_or(|bin| radius(bin as usize) > 1.1));
+    assert_eq!(outside, None);
+    // With Alt the same outline takes its pixels away again.
+    hover(&mut harness, corners[0]);
+    press(&mut harness, corners[0], true, Modifiers::ALT);
+    corners.iter().for_each(|&corner| hover(&mut harness, corner));
+    harness.event_modifiers(Event::PointerMoved(corners[24]), Modifiers::ALT);
+    press(&mut harness, corners[24], false, Modifiers::ALT);
+    assert_eq!(harness.state().state().document.selection.marked, None);
+}
+
+fn bins_of(picture: &Picture) -> usize {
+    picture.histogram.bins.len()
+}
+
+#[test]
+fn other_spaces_are_drawn_with_the_shapes_that_they_become() {
+    let Some((mut harness, gpu)) = opened() else { return };
+    harness.state_mut().apply(Command::Select(Some(Item::Region(1))));
+    for space in ColourSpace::ALL {
+        let mut cube = harness.state().state().view.cube.clone();
         cube.space = space;
-        h.state_mut().apply(Command::Cube(cube));
-        shot(&mut h, &format!("3-{space:?}"));
+        harness.state_mut().apply(Command::Cube(cube));
+        harness.run_steps(2);
+        let figure = &panel(&harness).figure;
+        assert!(figure.meshes.len() >= 3, "{space:?}: cylinder, dark sphere and slice");
+        let (_, rgba) = panel(&harness).canvas.read_back(&gpu).expect("drawn");
+        let background: [u8; 4] = rgba[..4].try_into().unwrap();
+        let drawn = rgba.as_chunks::<4>().0.iter().filter(|pixel| **pixel != background).count();
+        assert!(drawn > 3000, "{space:?}: {drawn}");
     }
-    let mut cube = h.state().state().view.cube.clone();
-    cube.space = ColourSpace::Rgb;
-    cube.colour_by = ColourBy::Region;
-    h.state_mut().apply(Command::Cube(cube.clone()));
-    h.state_mut().apply(Command::Theme(Theme::Light));
-    shot(&mut h, "4-light");
-    cube.colour_by = ColourBy::Density;
-    h.state_mut().apply(Command::Cube(cube.clone()));
-    h.state_mut().apply(Command::Select(None));
-    shot(&mut h, "5-density-light");
 }

@@ -112,6 +112,18 @@ impl Chart {
         }
     }
 
+    /// Where the axis of m_s leaves the view at the top or at a side, left of the axis.
+    fn top_of_axis(self, plane: &RegionPlane, rect: Rect) -> Pos2 {
+        let black = self.screen([0.0, 0.0], rect);
+        let away = plane.oblique(0.0, 1.0);
+        let rise = vec2(away[0], -away[1]);
+        let room = rect.shrink2(vec2(90.0, 24.0));
+        let to_top = (room.top() - black.y) / rise.y.min(-1e-3);
+        let side = if rise.x >= 0.0 { room.right() } else { room.left() };
+        let to_side = if rise.x.abs() < 1e-3 { f32::INFINITY } else { (side - black.x) / rise.x };
+        black + rise * to_top.min(to_side).max(0.0) + vec2(-34.0, -4.0)
+    }
+
     /// Matte and highlight line, where they meet, and the cylinder's border, with their names.
     pub fn skewed_t(self, ui: &Ui, response: &Response, plane: &RegionPlane, rect: Rect, tones: &Tones) {
         let painter = ui.painter_at(rect);
@@ -123,10 +135,9 @@ impl Chart {
         let stroke = Stroke::new(1.8, tones.text);
         let matte = plane.matte_line().map(at);
         painter.line_segment(matte, stroke);
-        let along = (matte[1] - matte[0]).normalized();
         let mut names = vec![Name {
-            at: matte[1] + along * 8.0,
-            anchor: Align2::LEFT_CENTER,
+            at: pos2(rect.right() - 8.0, matte[0].y - 4.0),
+            anchor: Align2::RIGHT_BOTTOM,
             text: "m_b, counts",
             tip: "Amount of body reflection, along the matte line (equation 13).",
         }];
@@ -142,11 +153,9 @@ impl Chart {
             });
         }
         let axis = if plane.has_plane { "m_s, counts" } else { "across, counts" };
-        let top = at([0.0, 1.15 * plane.highlight_length.max(0.3 * plane.matte_length)]);
-        painter.line_segment([at([0.0, 0.0]), top], Stroke::new(1.0, tones.quiet));
         names.push(Name {
-            at: top,
-            anchor: Align2::CENTER_BOTTOM,
+            at: self.top_of_axis(plane, rect),
+            anchor: Align2::RIGHT_TOP,
             text: axis,
             tip: "Amount of surface reflection, in the direction of the light's colour (equation 13).",
         });
@@ -197,7 +206,11 @@ impl Name {
 
 /// The line of a value: that of zero is an axis.
 fn line(value: f32, tones: &Tones) -> Stroke {
-    if value == 0.0 { Stroke::new(1.0, tones.quiet) } else { Stroke::new(1.0, tones.line) }
+    if value == 0.0 {
+        Stroke::new(1.0, tones.quiet)
+    } else {
+        Stroke::new(1.0, tones.line.gamma_multiply(0.55))
+    }
 }
 
 /// 1, 2 or 5 times a power of ten, the smallest not below `least`.

@@ -57,6 +57,7 @@ pub fn bar(ui: &mut Ui, cx: &mut Cx, plane: &RegionPlane) {
                 if plane.points.iter().any(|point| point.kind == kind) {
                     widgets::chip(ui, colour(kind, cx.state.view.theme), name).on_hover_text(tip);
                     ui.label(quiet(cx, name)).on_hover_text(tip);
+                    ui.add_space(6.0);
                 }
             }
         }
