@@ -45,5 +45,23 @@ pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };
     eframe::run_native("dichroscope", options, Box::new(create))
-        .map_err(|error| WindowError(error.to_string()))
+        .map_err(|error| WindowError(reason(&error.to_string()).to_owned()))
+}
+
+/// What a message says, without the place in somebody's source that it begins with and the full stop that it ends with.
+fn reason(message: &str) -> &str {
+    let after = message.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
+    after.map_or(message, |(_, reason)| reason).trim_end_matches('.')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reason_tells_no_places_in_sources() {
+        let winit = "winit EventLoopError: os error at /home/a/linux/mod.rs:765: neither DISPLAY nor WAYLAND_DISPLAY is set.";
+        assert_eq!(reason(winit), "neither DISPLAY nor WAYLAND_DISPLAY is set");
+        assert_eq!(reason("no adapter: out of memory"), "no adapter: out of memory");
+    }
 }
