@@ -113,11 +113,6 @@ impl Default for Dialogs {
 }
 
 impl Dialogs {
-    /// Whether a window asks.
-    pub fn is_open(&self) -> bool {
-        self.question.is_some()
-    }
-
     /// Opens the window for a question.
     pub fn ask(&mut self, question: Question) {
         (self.question, self.focus, self.force) = (Some(question), true, false);
