@@ -69,7 +69,7 @@ impl App {
     /// What the panels keep.
     #[cfg(test)]
     pub(super) fn panels(&self) -> &Panels {
-        &self.panels
+        &self.front.panels
     }
 
     /// Shows everything, and obeys.
@@ -117,6 +117,7 @@ impl Front {
     fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         come_in(ui, cx);
         self.panels.image.hear_escape(ui.ctx());
+        self.panels.cube.hear_escape(ui.ctx());
         for deed in shortcuts::pressed(ui.ctx()) {
             shortcuts::carry_out(deed, cx, &mut self.dialogs, &mut self.help);
         }

@@ -122,6 +122,8 @@ const POINTER: &[(&str, &str)] = &[
     ("Shift + mark", "add to what is marked"),
     ("Alt + mark", "take away from what is marked"),
     ("Arrow keys on a slider", "one step"),
+    ("Arrow keys, + \u{2212} on the cube", "orbit, zoom"),
+    ("X Y U D S E M on the cube", "named views, see its menu"),
 ];
 
 /// The words for the keys of a deed, for menus and tooltips.

@@ -1,7 +1,7 @@
 //! The panel in a harness: opened, turned, pointed at, drawn in.
 
 use super::CubePanel;
-use crate::gpu::Projector;
+use crate::gpu::{Point, Projector};
 use crate::gui::App;
 use crate::gui::testing::{harness, open_sample};
 use crate::workbench::{ColourSpace, Command, Item, Picture, Tool};
@@ -34,10 +34,15 @@ fn projector(harness: &Harness<App>) -> Projector {
     panel(harness).eye.orbit.projector(canvas(harness).size().into())
 }
 
-/// Where a bin is seen.
+/// Where each bin is seen.
+fn places(harness: &Harness<App>) -> Vec<Pos2> {
+    let (projector, rect) = (projector(harness), canvas(harness));
+    let place = |bin: &Point| super::frame::screen(&projector, rect, bin.position).expect("in view");
+    panel(harness).cloud.bins.iter().map(place).collect()
+}
+
 fn place_of(harness: &Harness<App>, bin: usize) -> Pos2 {
-    let world = panel(harness).cloud.bins[bin].position;
-    super::frame::screen(&projector(harness), canvas(harness), world).expect("in view")
+    places(harness)[bin]
 }
 
 fn hover(harness: &mut Harness<App>, at: Pos2) {
@@ -48,7 +53,8 @@ fn hover(harness: &mut Harness<App>, at: Pos2) {
 fn press(harness: &mut Harness<App>, pos: Pos2, pressed: bool, modifiers: Modifiers) {
     let button = PointerButton::Primary;
     harness.event_modifiers(Event::PointerButton { pos, button, pressed, modifiers }, modifiers);
-    harness.run_steps(2);
+    // Held for long it would be no click.
+    harness.run_steps(1);
 }
 
 fn click(harness: &mut Harness<App>, at: Pos2, modifiers: Modifiers) {
@@ -82,7 +88,8 @@ fn the_sample_is_seen_and_fills_the_view() {
     let drawn = rgba.as_chunks::<4>().0.iter().filter(|pixel| **pixel != background).count();
     assert!(drawn > 4000, "{drawn} pixels of points and lines");
     let bins = panel(&harness).cloud.bins.len();
-    let inside = (0..bins).filter(|&bin| canvas(&harness).shrink(8.0).contains(place_of(&harness, bin)));
+    let view = canvas(&harness).shrink(8.0);
+    let inside = places(&harness).into_iter().filter(|at| view.contains(*at));
     assert_eq!(inside.count(), bins, "every point is inside the view");
 }
 
@@ -185,21 +192,22 @@ fn a_lasso_marks_the_pixels_whose_colours_are_inside() {
     corners.iter().for_each(|&corner| hover(&mut harness, corner));
     press(&mut harness, corners[24], false, Modifiers::NONE);
     let marked = harness.state().state().document.selection.marked.clone().expect("pixels are marked");
-    let (picture, bins) = (picture(&harness), panel(&harness).cloud.bins.len());
+    let (picture, places) = (picture(&harness), places(&harness));
     // An ellipse that the lasso follows to a point or two.
     let radius = |bin: usize| {
-        let off = place_of(&harness, bin) - centre;
+        let off = places[bin] - centre;
         vec2(off.x / 34.0, off.y / 26.0).length()
     };
-    let pixels = |bins: &dyn Fn(usize) -> bool| {
-        (0..bins_of(&picture)).filter(|bin| bins(*bin)).map(|bin| picture.histogram.bins[bin].count as usize).sum::<usize>()
+    let pixels_within = |most: f32| {
+        let bins = picture.histogram.bins.iter().enumerate();
+        bins.filter(|(bin, _)| radius(*bin) < most).map(|(_, bin)| bin.count as usize).sum::<usize>()
     };
     let found = marked.as_slice().iter().filter(|on| **on).count();
-    assert!(found >= pixels(&|bin| radius(bin) < 0.9) && found <= pixels(&|bin| radius(bin) < 1.1));
-    assert!(found > 100 && found < marked.len() / 2 && bins > 100);
-    let outside = (0..marked.len()).filter(|&pixel| marked[pixel]).find(|&pixel| {
-        picture.histogram.bin_of(pixel).is_none_or(|bin| radius(bin as usize) > 1.1)
-    });
+    assert!((pixels_within(0.9)..=pixels_within(1.1)).contains(&found), "{found}");
+    assert!(found > 100 && found < marked.len() / 2);
+    let outside = (0..marked.len())
+        .filter(|&pixel| marked[pixel])
+        .find(|&pixel| picture.histogram.bin_of(pixel).is_none_or(|bin| radius(bin as usize) > 1.1));
     assert_eq!(outside, None);
     // With Alt the same outline takes its pixels away again.
     hover(&mut harness, corners[0]);
@@ -208,10 +216,6 @@ fn a_lasso_marks_the_pixels_whose_colours_are_inside() {
     harness.event_modifiers(Event::PointerMoved(corners[24]), Modifiers::ALT);
     press(&mut harness, corners[24], false, Modifiers::ALT);
     assert_eq!(harness.state().state().document.selection.marked, None);
-}
-
-fn bins_of(picture: &Picture) -> usize {
-    picture.histogram.bins.len()
 }
 
 #[test]

@@ -24,7 +24,8 @@ fn a_region_is_asked_for_and_shown() {
     let panel = &harness.state().panels().plane;
     let (plane, chart) = (panel.plane.as_ref().unwrap(), panel.chart.unwrap());
     assert!(plane.has_plane && !plane.points.is_empty());
-    let places = plane.points.iter().map(|point| chart.screen(plane.oblique(point.body, point.surface), rect));
+    let places =
+        plane.points.iter().map(|point| chart.screen(plane.oblique(point.body, point.surface), rect));
     assert!(places.into_iter().all(|at| rect.contains(at)), "all points are inside the view");
     // Figure 2's angle between both lines is seen as it is.
     let [start, end] = plane.highlight_line().unwrap().map(|[b, s]| chart.screen(plane.oblique(b, s), rect));
