@@ -2,6 +2,7 @@
 
 use super::dock::{Dock, Pane, Panels};
 use super::files::{Dialogs, is_workspace};
+use super::portrait::Portraitist;
 use super::theme::{self, Tones};
 use super::{Cx, menu, notices, shortcuts};
 use crate::workbench::{Command, Executor, Origin, Settings, State, Theme, Workbench};
@@ -25,6 +26,7 @@ struct Front {
     layout: String,
     panels: Panels,
     dialogs: Dialogs,
+    portraitist: Portraitist,
     help: bool,
     /// The one panel that is shown, if not all.
     alone: Option<Pane>,
@@ -82,7 +84,13 @@ impl App {
         }
         let tones = Tones::of(theme);
         let mut out = Vec::new();
-        let mut cx = Cx { state: self.bench.state(), tones: &tones, gpu: self.gpu.as_ref(), out: &mut out };
+        let mut cx = Cx {
+            state: self.bench.state(),
+            tones: &tones,
+            gpu: self.gpu.as_ref(),
+            bare: false,
+            out: &mut out,
+        };
         self.front.show(ui, &mut cx);
         self.front.keep_layout(&mut cx);
         if !out.is_empty() {
@@ -119,6 +127,8 @@ impl Front {
         self.panels.image.hear_escape(ui.ctx());
         self.panels.cube.hear_escape(ui.ctx());
         for deed in shortcuts::pressed(ui.ctx()) {
+            // A window that opens is measured unseen in its first frame.
+            ui.ctx().request_repaint();
             shortcuts::carry_out(deed, cx, &mut self.dialogs, &mut self.help);
         }
         if let Some(pane) = self.alone {
@@ -132,7 +142,12 @@ impl Front {
         });
         let frame = egui::Frame::new().fill(cx.tones.line);
         egui::CentralPanel::default().frame(frame).show(ui, |ui| self.dock.show(ui, &mut self.panels, cx));
-        self.dialogs.show(ui, cx);
+        if let Some(sitting) = self.dialogs.show(ui, cx) {
+            self.portraitist.begin(ui.ctx(), sitting, cx, &self.panels.cube);
+        }
+        if let Some(command) = self.portraitist.done() {
+            cx.send(command);
+        }
         notices::show(ui, cx);
         shortcuts::show_help(ui, cx, &mut self.help);
     }

@@ -57,6 +57,11 @@ impl CubePanel {
         }
     }
 
+    /// Another panel that sees the same.
+    pub fn likeness(&self) -> Self {
+        Self { eye: self.eye.clone(), ..Self::default() }
+    }
+
     /// Shows it.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let Some(picture) = cx.state.picture.clone() else {
@@ -68,10 +73,15 @@ impl CubePanel {
             widgets::nothing(ui, cx.tones, text);
             return;
         };
-        egui::Frame::new().fill(cx.tones.panel).inner_margin(egui::Margin::symmetric(6, 3)).show(ui, |ui| {
-            bar::show(ui, cx, &mut self.eye, self.size);
-            ui.allocate_space(vec2(ui.available_width(), 0.0));
-        });
+        if !cx.bare {
+            egui::Frame::new().fill(cx.tones.panel).inner_margin(egui::Margin::symmetric(6, 3)).show(
+                ui,
+                |ui| {
+                    bar::show(ui, cx, &mut self.eye, self.size);
+                    ui.allocate_space(vec2(ui.available_width(), 0.0));
+                },
+            );
+        }
         ui.spacing_mut().item_spacing.y = 0.0;
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         if rect.width() < 8.0 || rect.height() < 8.0 {

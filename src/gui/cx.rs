@@ -11,6 +11,8 @@ pub struct Cx<'a> {
     pub tones: &'a Tones,
     /// The graphics device, where there is one.
     pub gpu: Option<&'a egui_wgpu::RenderState>,
+    /// Whether a view is to be drawn without its toolbar: it is a picture, not an instrument.
+    pub bare: bool,
     /// What the panel asks for.
     pub out: &'a mut Vec<Command>,
 }

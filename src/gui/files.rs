@@ -3,6 +3,8 @@
 //! The dialog runs on a thread of its own: a portal that hangs, hangs alone.
 
 use super::Cx;
+use super::dock::Pane;
+use super::portrait::Sitting;
 use crate::truth::sample;
 use crate::workbench::{Command, Export, Origin};
 use egui::{Key, RichText, Ui};
@@ -32,14 +34,18 @@ enum Ware {
     Result,
     Matte,
     Layer,
+    View,
     Selection,
     Regions,
     Profile,
 }
 
+/// Views that can be drawn at any size.
+const VIEWS: [Pane; 3] = [Pane::Colours, Pane::Plane, Pane::Profile];
+
 impl Ware {
-    const ALL: [Self; 6] =
-        [Self::Matte, Self::Result, Self::Layer, Self::Selection, Self::Regions, Self::Profile];
+    const ALL: [Self; 7] =
+        [Self::Matte, Self::Result, Self::Layer, Self::View, Self::Selection, Self::Regions, Self::Profile];
 
     const fn words(self) -> (&'static str, &'static str) {
         match self {
@@ -52,6 +58,7 @@ impl Ware {
                 "The files of `dichroscope analyze`: body, surface and noise as floats, regions, stage pictures, report.",
             ),
             Self::Layer => ("Image view as PNG", "The layer that the image view shows, a pixel a pixel."),
+            Self::View => ("A view as PNG", "Colour space, plane or profile as they are now, at any size."),
             Self::Selection => (
                 "Marked pixels",
                 "The marked pixels as a mask (.png), as a table (.csv) or as points in the colour cube (.ply).",
@@ -66,6 +73,7 @@ impl Ware {
             Self::Matte => "matte",
             Self::Result => "result",
             Self::Layer => "layer.png",
+            Self::View => "view.png",
             Self::Selection => "selection.png",
             Self::Regions => "regions.tsv",
             Self::Profile => "profile.csv",
@@ -80,6 +88,9 @@ pub struct Dialogs {
     ware: Ware,
     keep_surface: f64,
     force: bool,
+    view: Pane,
+    size_px: [u32; 2],
+    sitting: Option<Sitting>,
     browsing: Option<Receiver<Option<PathBuf>>>,
     focus: bool,
 }
@@ -92,6 +103,9 @@ impl Default for Dialogs {
             ware: Ware::Matte,
             keep_surface: 0.0,
             force: false,
+            view: Pane::Colours,
+            size_px: [1800, 1200],
+            sitting: None,
             browsing: None,
             focus: false,
         }
@@ -110,10 +124,10 @@ impl Dialogs {
         }
     }
 
-    /// Shows what is open.
-    pub fn show(&mut self, ui: &Ui, cx: &mut Cx) {
+    /// Shows what is open. A view that is to be drawn is handed out.
+    pub fn show(&mut self, ui: &Ui, cx: &mut Cx) -> Option<Sitting> {
         self.take_answer(ui);
-        let Some(question) = self.question else { return };
+        let question = self.question?;
         let title = match question {
             Question::Open => "Open",
             Question::LoadParameters => "Load parameters",
@@ -139,6 +153,7 @@ impl Dialogs {
         if answered || !open || ui.input(|input| input.key_pressed(Key::Escape)) {
             self.question = None;
         }
+        self.sitting.take()
     }
 
     /// What can be exported, with the options of what is chosen.
@@ -170,6 +185,19 @@ impl Dialogs {
                 ui.checkbox(&mut self.force, "replace the folder whatever it holds").on_hover_text(
                     "An earlier result is replaced anyway; this replaces any other folder too.",
                 );
+            }
+            Ware::View => {
+                ui.horizontal(|ui| {
+                    for pane in VIEWS {
+                        ui.selectable_value(&mut self.view, pane, pane.title());
+                    }
+                    for (side, name) in self.size_px.iter_mut().zip(["width", "height"]) {
+                        let field = ui.add(egui::DragValue::new(side).range(64..=8192).suffix(" px"));
+                        field.widget_info(|| {
+                            egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, name)
+                        });
+                    }
+                });
             }
             _ => {}
         }
@@ -205,6 +233,10 @@ impl Dialogs {
         });
         if go {
             let path = expanded(self.path.trim());
+            if question == Question::Export && self.ware == Ware::View {
+                self.sitting = Some(Sitting { pane: self.view, size_px: self.size_px, path });
+                return go;
+            }
             cx.send(match question {
                 Question::Open if is_workspace(&path) => Command::OpenWorkspace(path),
                 Question::Open => Command::Open(Origin::File(path)),
@@ -222,7 +254,8 @@ impl Dialogs {
         match self.ware {
             Ware::Result => Export::Result { folder: path, force: self.force },
             Ware::Matte => Export::Matte { path, keep_surface: self.keep_surface },
-            Ware::Layer => Export::Layer { path, settings: cx.state.view.image.clone() },
+            // Views are drawn before they are written.
+            Ware::Layer | Ware::View => Export::Layer { path, settings: cx.state.view.image.clone() },
             Ware::Selection => Export::Selection { path },
             Ware::Regions => Export::Regions { path },
             Ware::Profile => Export::Profile { path },

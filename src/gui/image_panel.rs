@@ -62,7 +62,7 @@ impl ImagePanel {
         let top = top.show(ui, |ui| toolbar::row(ui, state, tones, &mut settings, self.zoom));
         // A row that wraps is as high as it needs to be from the next frame on.
         let height = top.response.rect.height();
-        if height != std::mem::replace(&mut self.bar_pt, height) {
+        if (height - std::mem::replace(&mut self.bar_pt, height)).abs() > 0.5 {
             ui.ctx().request_repaint();
         }
         let strip = readout::height(ui, ui.available_width() - 16.0);
@@ -189,28 +189,7 @@ impl ImagePanel {
         if let Some(x) = wiped {
             handle(&painter, cx, place.view, x);
         }
-        self.words(&painter, cx, &parts);
-    }
-
-    /// Names of the layers where there are two, what their colours mean, and what the analysis warns of.
-    fn words(&self, painter: &egui::Painter, cx: &Cx, parts: &[(Layer, Slot, Rect)]) {
-        let two = cx.state.view.image.arrangement != Arrangement::Single;
-        for &(layer, slot, part) in parts {
-            let painter = painter.with_clip_rect(part);
-            if two {
-                let right = parts.len() == 2 && slot == Slot::Other;
-                let (corner, align) = if right {
-                    (part.right_top() + vec2(-6.0, 6.0), Align2::RIGHT_TOP)
-                } else {
-                    (part.left_top() + vec2(6.0, 6.0), Align2::LEFT_TOP)
-                };
-                overlay::tag(&painter, cx.tones, corner, align, layer.name());
-            }
-            overlay::key(&painter, cx.tones, part, layer);
-        }
-        let view = painter.clip_rect();
-        let below = if two { vec2(0.0, 22.0) } else { Vec2::ZERO };
-        overlay::warnings(painter, cx.tones, view.translate(below), cx.state);
+        words(&painter, cx, &parts);
     }
 
     /// Tells what the pointer is over, when that has changed.
@@ -227,6 +206,27 @@ impl ImagePanel {
     }
 }
 
+/// Names of the layers where there are two, what their colours mean, and what the analysis warns of.
+fn words(painter: &egui::Painter, cx: &Cx, parts: &[(Layer, Slot, Rect)]) {
+    let two = cx.state.view.image.arrangement != Arrangement::Single;
+    for &(layer, slot, part) in parts {
+        let painter = painter.with_clip_rect(part);
+        if two {
+            let right = parts.len() == 2 && slot == Slot::Other;
+            let (corner, align) = if right {
+                (part.right_top() + vec2(-6.0, 6.0), Align2::RIGHT_TOP)
+            } else {
+                (part.left_top() + vec2(6.0, 6.0), Align2::LEFT_TOP)
+            };
+            overlay::tag(&painter, cx.tones, corner, align, layer.name());
+        }
+        overlay::key(&painter, cx.tones, part, layer);
+    }
+    let view = painter.clip_rect();
+    let below = if two { vec2(0.0, 22.0) } else { Vec2::ZERO };
+    overlay::warnings(painter, cx.tones, view.translate(below), cx.state);
+}
+
 /// Scroll, pinch and keys.
 fn travel(ui: &Ui, response: &Response, place: &Placement, settings: &mut ImageSettings) {
     let pointer = response.hover_pos().filter(|_| response.contains_pointer());
@@ -235,7 +235,7 @@ fn travel(ui: &Ui, response: &Response, place: &Placement, settings: &mut ImageS
     }
     let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
     let factor = pinch * (scroll / 200.0).exp();
-    if let Some(pointer) = pointer.filter(|_| factor != 1.0) {
+    if let Some(pointer) = pointer.filter(|_| (factor - 1.0).abs() > 1e-6) {
         place.zoomed(factor, pointer).put(settings);
     }
     let focused = ui.memory(egui::Memory::focused);
@@ -259,7 +259,7 @@ fn travel(ui: &Ui, response: &Response, place: &Placement, settings: &mut ImageS
     });
     if by != Vec2::ZERO {
         place.panned(by).put(settings);
-    } else if factor != 1.0 {
+    } else if (factor - 1.0).abs() > 1e-6 {
         place.zoomed(factor, pointer.unwrap_or(place.view.center())).put(settings);
     }
 }
@@ -294,7 +294,7 @@ fn handle(painter: &egui::Painter, cx: &Cx, view: Rect, x: f32) {
 fn nothing_open(ui: &mut Ui, cx: &Cx) {
     match &cx.state.jobs.reading {
         Some(job) if job.since.elapsed() >= PATIENCE => {
-            widgets::nothing(ui, cx.tones, "Reading the photograph\u{2026}")
+            widgets::nothing(ui, cx.tones, "Reading the photograph\u{2026}");
         }
         Some(job) => ui.ctx().request_repaint_after(PATIENCE.saturating_sub(job.since.elapsed())),
         None => {

@@ -17,6 +17,7 @@ mod notices;
 mod offscreen;
 mod parameters;
 mod plane_panel;
+mod portrait;
 mod profile_panel;
 mod regions_panel;
 mod screenshot;

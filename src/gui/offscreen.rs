@@ -16,6 +16,11 @@ const MOST_FRAMES: usize = 200;
 pub struct Offscreen {
     /// The application.
     pub app: App,
+    easel: Easel,
+}
+
+/// An interface of its own with a texture to be drawn into.
+pub struct Easel {
     ctx: egui::Context,
     gpu: RenderState,
     size_px: [u32; 2],
@@ -44,19 +49,15 @@ impl Offscreen {
     /// Where there is no graphics adapter, not even a software one.
     pub fn new(size_px: [u32; 2], pixels_per_point: f32) -> Result<Self, OffscreenError> {
         let Headless { instance, adapter, device, queue } = Headless::new()?;
-        let existing = WgpuSetupExisting { instance: instance.clone(), adapter, device, queue };
-        let configuration =
-            WgpuConfiguration { wgpu_setup: WgpuSetup::Existing(existing), ..WgpuConfiguration::default() };
-        let options = RendererOptions::PREDICTABLE;
-        let gpu = pollster::block_on(RenderState::create(&configuration, &instance, None, options))?;
-        let ctx = egui::Context::default();
-        let app = App::new(&ctx, Some(gpu.clone()), Executor::Inline)?;
-        Ok(Self { app, ctx, gpu, size_px, pixels_per_point, frames: 0 })
+        let easel =
+            Easel::new(WgpuSetupExisting { instance, adapter, device, queue }, size_px, pixels_per_point)?;
+        let app = App::new(&easel.ctx, Some(easel.gpu.clone()), Executor::Inline)?;
+        Ok(Self { app, easel })
     }
 
     /// Another size from the next frame on.
     pub fn resize(&mut self, size_px: [u32; 2]) {
-        self.size_px = size_px;
+        self.easel.size_px = size_px;
     }
 
     /// Lets the application rest, and draws it: sRGB and alpha, row-major.
@@ -64,7 +65,45 @@ impl Offscreen {
     /// # Errors
     /// When the device is lost.
     pub fn picture(&mut self) -> Result<Vec<u8>, OffscreenError> {
-        let mut output = self.frame();
+        let app = &mut self.app;
+        self.easel.picture(|ui| app.show(ui))
+    }
+}
+
+impl Easel {
+    /// An interface that draws with a device of others.
+    ///
+    /// # Errors
+    /// When the device cannot draw it.
+    pub fn new(
+        device: WgpuSetupExisting,
+        size_px: [u32; 2],
+        pixels_per_point: f32,
+    ) -> Result<Self, OffscreenError> {
+        let instance = device.instance.clone();
+        let configuration =
+            WgpuConfiguration { wgpu_setup: WgpuSetup::Existing(device), ..WgpuConfiguration::default() };
+        let options = RendererOptions::PREDICTABLE;
+        let gpu = pollster::block_on(RenderState::create(&configuration, &instance, None, options))?;
+        Ok(Self { ctx: egui::Context::default(), gpu, size_px, pixels_per_point, frames: 0 })
+    }
+
+    /// The interface's context.
+    pub fn ctx(&self) -> &egui::Context {
+        &self.ctx
+    }
+
+    /// What panels draw with.
+    pub fn gpu(&self) -> RenderState {
+        self.gpu.clone()
+    }
+
+    /// Shows frames until nothing moves any more, and draws the last: sRGB and alpha, row-major.
+    ///
+    /// # Errors
+    /// When the device is lost.
+    pub fn picture(&mut self, mut show: impl FnMut(&mut egui::Ui)) -> Result<Vec<u8>, OffscreenError> {
+        let mut output = self.frame(&mut show);
         for _ in 0..MOST_FRAMES {
             let wait = output.viewport_output.values().map(|viewport| viewport.repaint_delay).min();
             // What blinks or waits for a tooltip is not worth waiting for.
@@ -72,12 +111,12 @@ impl Offscreen {
                 break;
             }
             std::thread::sleep(wait.unwrap_or_default());
-            output = self.frame();
+            output = self.frame(&mut show);
         }
         self.draw(output)
     }
 
-    fn frame(&mut self) -> FullOutput {
+    fn frame(&mut self, show: &mut impl FnMut(&mut egui::Ui)) -> FullOutput {
         self.frames += 1;
         let points = vec2(self.size_px[0] as f32, self.size_px[1] as f32) / self.pixels_per_point;
         let mut input = RawInput {
@@ -89,8 +128,7 @@ impl Offscreen {
         if let Some(viewport) = input.viewports.get_mut(&input.viewport_id) {
             viewport.native_pixels_per_point = Some(self.pixels_per_point);
         }
-        let app = &mut self.app;
-        let mut output = self.ctx.run_ui(input, |ui| app.show(ui));
+        let mut output = self.ctx.run_ui(input, |ui| show(ui));
         self.upload(&mut output);
         output
     }

@@ -155,7 +155,8 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
             .step_by(feel.step)
             .logarithmic(feel.logarithmic)
             .clamping(egui::SliderClamping::Never);
-        let slider = columns.rail.show(ui, slider).on_hover_text(&tip);
+        // No tooltip here: it would hide the rows below from the hand that drags.
+        let slider = columns.rail.show(ui, slider);
         slider.widget_info(|| egui::WidgetInfo::slider(true, value, feel.title));
         let decimals = usize::from(feel.step < 1.0) * 2;
         let typed = DragValue::new(&mut value)
@@ -242,7 +243,7 @@ fn illuminant(ui: &mut Ui, cx: &mut Cx) {
         let mut rested = false;
         for (value, band) in direction.iter_mut().zip(["red", "green", "blue"]) {
             let field = DragValue::new(value).range(0.0..=1.0).speed(0.002).fixed_decimals(3);
-            let field = ui.add_sized(vec2(VALUE_PT, 18.0), field);
+            let field = ui.add_sized(vec2(VALUE_PT, ROW_PT), field);
             field.widget_info(|| {
                 let name = format!("illuminant {band}");
                 egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, name)

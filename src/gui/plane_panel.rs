@@ -46,9 +46,10 @@ impl PlanePanel {
             widgets::nothing(ui, cx.tones, "This region has no matte line, and so no dichromatic plane.");
             return;
         };
-        egui::Frame::new()
-            .inner_margin(egui::Margin::symmetric(6, 3))
-            .show(ui, |ui| kinds::bar(ui, cx, plane));
+        if !cx.bare {
+            let frame = egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 3));
+            frame.show(ui, |ui| kinds::bar(ui, cx, plane));
+        }
         ui.spacing_mut().item_spacing.y = 0.0;
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         if rect.width() < 16.0 || rect.height() < 16.0 {

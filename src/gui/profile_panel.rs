@@ -49,7 +49,9 @@ impl ProfilePanel {
         }
         let Some((_, samples)) = &self.samples else { return };
         egui::Frame::new().inner_margin(egui::Margin::symmetric(8, 4)).show(ui, |ui| {
-            bar(ui, cx, ends, samples, picture.size().0);
+            if !cx.bare {
+                bar(ui, cx, ends, samples, picture.size().0);
+            }
             plot(ui, cx, samples, hovered);
         });
     }

@@ -90,8 +90,10 @@ impl RegionsPanel {
         let order = self.order(&shown.analysis.intrinsic.regions);
         let mut hovered = None;
         let mut table = TableBuilder::new(ui).striped(false).sense(Sense::click()).resizable(false);
-        for (_, _, width, _) in COLUMNS {
-            table = table.column(Column::exact(width));
+        for (key, _, width, _) in COLUMNS {
+            let last = key == Key::Warnings;
+            table =
+                table.column(if last { Column::remainder().at_least(width) } else { Column::exact(width) });
         }
         if let Some(row) =
             selected.and_then(|id| order.iter().position(|&index| index + 1 == usize::from(id)))
@@ -198,9 +200,14 @@ fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &S
     number(row, highlight.map_or_else(none, RichText::new));
     number(row, RichText::new(format!("{:.2}", region.fit_rms_counts)));
     cell(row, |ui| {
-        if !region.warnings.is_empty() {
-            let text = RichText::new(format!("{}", region.warnings.len())).color(tones.accent);
-            plain(ui, text).on_hover_text(region.warnings.join("\n"));
+        if let Some(first) = region.warnings.first() {
+            let more = region.warnings.len() - 1;
+            let text = if more > 0 { format!("{first} (+{more})") } else { first.clone() };
+            let label = Label::new(RichText::new(text).size(SMALL_PT).color(tones.quiet)).truncate();
+            ui.add(label.selectable(false)).on_hover_text(region.warnings.join(
+                "
+",
+            ));
         }
     });
 }

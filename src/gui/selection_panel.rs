@@ -91,14 +91,12 @@ fn verbs(ui: &mut Ui, cx: &mut Cx, subject: &str) {
 }
 
 fn facts(ui: &mut Ui, cx: &Cx, found: &Statistics) {
-    ui.spacing_mut().item_spacing.x = 12.0;
+    ui.spacing_mut().item_spacing.x = 4.0;
     let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {
-        let text = format!("{name} ");
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 2.0;
-            ui.label(RichText::new(text).size(SMALL_PT).color(cx.tones.quiet)).on_hover_text(tip);
-            ui.add(Label::new(value).selectable(true)).on_hover_text(tip);
-        });
+        let name = RichText::new(name).size(SMALL_PT).color(cx.tones.quiet);
+        ui.add(Label::new(name).extend()).on_hover_text(tip);
+        ui.add(Label::new(value).selectable(true).extend()).on_hover_text(tip);
+        ui.add_space(8.0);
     };
     fact(ui, "pixels", widgets::grouped(found.pixels), "How many pixels are selected.");
     let class = found.class.map_or("\u{2013}", class_name);

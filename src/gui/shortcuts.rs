@@ -129,7 +129,14 @@ const POINTER: &[(&str, &str)] = &[
 /// The words for the keys of a deed, for menus and tooltips.
 pub fn keys_of(ctx: &egui::Context, deed: Deed) -> String {
     let found = ALL.iter().find(|shortcut| shortcut.deed == deed);
-    found.map_or_else(String::new, |shortcut| ctx.format_shortcut(&shortcut.keys))
+    found.map_or_else(String::new, |shortcut| written(ctx, &shortcut.keys))
+}
+
+/// Keys as they are printed on a keyboard.
+fn written(ctx: &egui::Context, keys: &KeyboardShortcut) -> String {
+    let all = ctx.format_shortcut(keys);
+    let symbol = keys.logical_key.symbol_or_name();
+    all.strip_suffix(keys.logical_key.name()).map_or_else(|| all.clone(), |held| format!("{held}{symbol}"))
 }
 
 /// The deeds whose keys were pressed, unless somebody is typing.
@@ -220,9 +227,12 @@ fn step_region(cx: &mut Cx, next: bool) {
 /// The list, in a window that stays until it is closed.
 pub fn show_help(ui: &mut Ui, cx: &Cx, open: &mut bool) {
     let ctx = ui.ctx().clone();
-    egui::Window::new("Keyboard and pointer").open(open).collapsible(false).resizable(false).show(
-        &ctx,
-        |ui| {
+    egui::Window::new("Keyboard and pointer")
+        .open(open)
+        .collapsible(false)
+        .resizable(false)
+        .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
+        .show(&ctx, |ui| {
             ui.horizontal_top(|ui| {
                 for groups in [&["File", "Edit", "Compare", "Window"][..], &["Image"], &["Tools", "Pointer"]]
                 {
@@ -230,8 +240,7 @@ pub fn show_help(ui: &mut Ui, cx: &Cx, open: &mut bool) {
                     ui.add_space(12.0);
                 }
             });
-        },
-    );
+        });
 }
 
 fn list(ui: &mut Ui, cx: &Cx, group: &str) {
@@ -240,7 +249,7 @@ fn list(ui: &mut Ui, cx: &Cx, group: &str) {
         POINTER.iter().map(|&(keys, words)| (keys.to_owned(), words)).collect()
     } else {
         let of_group = ALL.iter().filter(|shortcut| shortcut.group == group);
-        of_group.map(|shortcut| (ui.ctx().format_shortcut(&shortcut.keys), shortcut.words)).collect()
+        of_group.map(|shortcut| (written(ui.ctx(), &shortcut.keys), shortcut.words)).collect()
     };
     egui::Grid::new(group).num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| {
         for (keys, words) in rows {

@@ -61,6 +61,13 @@ impl Desk {
         }
     }
 
+    /// Whether no request comes for so long.
+    fn rests(&self, quiet: Duration) -> bool {
+        let nothing = |waiting: &mut Waiting| !waiting.closed && waiting.request.is_none();
+        let waited = self.arrived.wait_timeout_while(self.lock(), quiet, nothing);
+        waited.unwrap_or_else(PoisonError::into_inner).1.timed_out()
+    }
+
     /// Whether the request at work has been overtaken.
     fn is_overtaken(&self) -> bool {
         let waiting = self.lock();
@@ -71,6 +78,9 @@ impl Desk {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
+
+/// A hand that has not moved for so long rests.
+const QUIET: Duration = Duration::from_millis(200);
 
 /// Works at the desk until it closes.
 pub(super) fn work(desk: &Desk, report: &Sender<Command>, wake: &(dyn Fn() + Send + Sync)) {
@@ -83,8 +93,8 @@ pub(super) fn work(desk: &Desk, report: &Sender<Command>, wake: &(dyn Fn() + Sen
         };
         if let Some(shown) = analyst.analyse(&request, &tell, &|| desk.is_overtaken()) {
             tell(Command::Analysed(Arc::clone(&shown)));
-            // Scoring takes as long as the analysis: nobody waits for it while a slider moves.
-            if shown.picture.truth.is_some() && !desk.is_overtaken() {
+            // Scoring takes as long as the analysis: it waits until no slider moves.
+            if shown.picture.truth.is_some() && desk.rests(QUIET) {
                 shown.measure();
                 wake();
             }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// All there is to show. Panels read it; only [`super::reduce`] changes it.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct State {
     /// The open photograph.
     pub picture: Option<Arc<Picture>>,

@@ -84,7 +84,7 @@ impl Plane {
 }
 
 /// The camera.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Eye {
     /// Where it is.
     pub orbit: Orbit,

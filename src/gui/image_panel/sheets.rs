@@ -139,7 +139,7 @@ impl PartialEq for Key {
 /// All sheets.
 #[derive(Default)]
 pub struct Sheets {
-    sheets: Vec<Sheet>,
+    kept: Vec<Sheet>,
     /// What each slot showed last: it stays until the new one is painted.
     last: [Option<Key>; 3],
     painting: Option<Receiver<Sheet>>,
@@ -152,9 +152,9 @@ impl Sheets {
         self.take_in();
         self.clock += 1;
         let key = order.key();
-        if !self.sheets.iter().any(|sheet| sheet.key == key) {
+        if !self.kept.iter().any(|sheet| sheet.key == key) {
             if order.picture.photo.image.pixels.len() <= LARGE_PX {
-                self.sheets.push(Sheet::painted(order));
+                self.kept.push(Sheet::painted(order));
             } else if self.painting.is_none() {
                 self.paint_in_background(ctx, order);
             }
@@ -162,13 +162,13 @@ impl Sheets {
             ctx.request_repaint_after(Duration::from_millis(30));
         }
         let last = &mut self.last[slot as usize];
-        if self.sheets.iter().any(|sheet| sheet.key == key) {
+        if self.kept.iter().any(|sheet| sheet.key == key) {
             *last = Some(key);
         }
         let wanted =
             last.clone().filter(|last| Weak::ptr_eq(&last.picture, &Arc::downgrade(&order.picture)))?;
         self.forget_oldest();
-        let sheet = self.sheets.iter_mut().find(|sheet| sheet.key == wanted)?;
+        let sheet = self.kept.iter_mut().find(|sheet| sheet.key == wanted)?;
         sheet.used = self.clock;
         Some(sheet)
     }
@@ -179,7 +179,7 @@ impl Sheets {
         match painting.try_recv() {
             Ok(mut sheet) => {
                 sheet.used = self.clock;
-                self.sheets.push(sheet);
+                self.kept.push(sheet);
                 self.painting = None;
             }
             Err(TryRecvError::Disconnected) => self.painting = None,
@@ -206,15 +206,15 @@ impl Sheets {
     fn forget_oldest(&mut self) {
         let last = &self.last;
         let in_use = |sheet: &Sheet| last.iter().flatten().any(|key| *key == sheet.key);
-        self.sheets.retain(|sheet| in_use(sheet) || !sheet.is_orphan());
+        self.kept.retain(|sheet| in_use(sheet) || !sheet.is_orphan());
         loop {
-            let pixels: usize = self.sheets.iter().map(|sheet| sheet.levels[0].len()).sum();
-            if self.sheets.len() <= MOST.0 && pixels <= MOST.1 {
+            let pixels: usize = self.kept.iter().map(|sheet| sheet.levels[0].len()).sum();
+            if self.kept.len() <= MOST.0 && pixels <= MOST.1 {
                 return;
             }
-            let free = self.sheets.iter().enumerate().filter(|(_, sheet)| !in_use(sheet));
+            let free = self.kept.iter().enumerate().filter(|(_, sheet)| !in_use(sheet));
             let Some((oldest, _)) = free.min_by_key(|(_, sheet)| sheet.used) else { return };
-            self.sheets.swap_remove(oldest);
+            self.kept.swap_remove(oldest);
         }
     }
 }
@@ -257,8 +257,8 @@ impl Sheet {
     pub fn draw(&mut self, painter: &Painter, place: &Placement, tint: Color32) {
         let mut scale = place.zoom * painter.ctx().pixels_per_point();
         if let SubjectKey::Marks(..) = self.key.subject {
-            // A thin line must not fall between screen pixels: at most one texel each.
-            scale *= 0.501;
+            // A thin line must not fall between screen pixels, nor become a thick one: about one texel each.
+            scale *= 0.7;
         }
         if level_for(scale, usize::MAX) > 0 {
             self.make_copies();

@@ -139,7 +139,8 @@ fn named(response: &Response, name: &str, value: f64) {
 /// What changes the display only, behind one button: it is marked while it changes something.
 fn display(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
     let neutral = ImageSettings::default();
-    let changed = settings.exposure_ev != neutral.exposure_ev || settings.gamma != neutral.gamma;
+    let off = |value: f32, neutral: f32| (value - neutral).abs() > 1e-4;
+    let changed = off(settings.exposure_ev, neutral.exposure_ev) || off(settings.gamma, neutral.gamma);
     let tip = "Exposure, gamma and opacity, of the display only";
     let button = icons::toggle(ui, tones, Sign::Display, changed, "Display", tip);
     let popup = Popup::menu(&button).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
