@@ -271,7 +271,10 @@ fn classes(base: &Base, shown: &Shown, look: &Look) -> Raster<[u8; 4]> {
     let side_px = shown.window_px();
     let windows = shown.classes().map(number);
     let styles = legend_styles(&CLASSES, look);
-    base.overlaid(look.fill, &styles, |x, y| *windows.get(x / side_px, y / side_px).unwrap_or(&0))
+    // A division for each pixel would take longer than all else.
+    let window = |length: usize| -> Vec<usize> { (0..length).map(|place| place / side_px).collect() };
+    let (columns, rows) = (window(base.photo.width()), window(base.photo.height()));
+    base.overlaid(look.fill, &styles, |x, y| *windows.get(columns[x], rows[y]).unwrap_or(&0))
 }
 
 /// Merged areas, each in a colour that its neighbours do not have. They consist of whole windows.
@@ -288,7 +291,7 @@ fn areas(base: &Base, shown: &Shown, look: &Look) -> Raster<[u8; 4]> {
     for (&area, &colour) in windows.as_slice().iter().zip(colours.as_slice()).filter(|(area, _)| **area > 0) {
         styles[area as usize] = look.style(colour, true);
     }
-    base.overlaid(look.fill, &styles, |x, y| areas.row(y)[x] as usize)
+    base.overlaid(look.fill, &styles, |x, y| areas[y * areas.width() + x] as usize)
 }
 
 fn regions(base: &Base, shown: &Shown, look: &Look) -> Raster<[u8; 4]> {
@@ -296,7 +299,7 @@ fn regions(base: &Base, shown: &Shown, look: &Look) -> Raster<[u8; 4]> {
     let colours = shown.region_colours.iter().zip(1..).map(|(&colour, id)| look.style(colour, selected(id)));
     let styles: Vec<[u8; 4]> = std::iter::once([0; 4]).chain(colours).collect();
     let labels = shown.labels();
-    base.overlaid(look.fill, &styles, |x, y| usize::from(labels.row(y)[x]))
+    base.overlaid(look.fill, &styles, |x, y| usize::from(labels[y * labels.width() + x]))
 }
 
 /// Regions of an earlier stage, each in the colour of the final region that covers most of it.
@@ -308,7 +311,7 @@ fn stage(base: &Base, labels: &LabelMap, shown: &Shown, look: &Look) -> Raster<[
     let heirs = super::shown::heirs(labels, shown.labels());
     let styles: Vec<[u8; 4]> =
         std::iter::once([0; 4]).chain(heirs.iter().skip(1).map(|&heir| style(heir))).collect();
-    base.overlaid(look.fill, &styles, |x, y| usize::from(labels.row(y)[x]))
+    base.overlaid(look.fill, &styles, |x, y| usize::from(labels[y * labels.width() + x]))
 }
 
 fn masks(base: &Base, masks: &Masks, area: Option<&Mask>, look: &Look) -> Raster<[u8; 4]> {
