@@ -71,7 +71,7 @@ impl App {
     /// What the panels keep.
     #[cfg(test)]
     pub(super) fn panels(&self) -> &Panels {
-        &self.panels
+        &self.front.panels
     }
 
     /// Shows everything, and obeys.
