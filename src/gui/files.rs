@@ -36,6 +36,7 @@ enum Ware {
     Layer,
     View,
     Selection,
+    Area,
     Regions,
     Profile,
 }
@@ -44,8 +45,16 @@ enum Ware {
 const VIEWS: [Pane; 3] = [Pane::Colours, Pane::Plane, Pane::Profile];
 
 impl Ware {
-    const ALL: [Self; 7] =
-        [Self::Matte, Self::Result, Self::Layer, Self::View, Self::Selection, Self::Regions, Self::Profile];
+    const ALL: [Self; 8] = [
+        Self::Matte,
+        Self::Result,
+        Self::Layer,
+        Self::View,
+        Self::Selection,
+        Self::Area,
+        Self::Regions,
+        Self::Profile,
+    ];
 
     const fn words(self) -> (&'static str, &'static str) {
         match self {
@@ -63,6 +72,9 @@ impl Ware {
                 "Marked pixels",
                 "The marked pixels as a mask (.png), as a table (.csv) or as points in the colour cube (.ply).",
             ),
+            Self::Area => {
+                ("Analysed area", "What the analysis is restricted to, as a mask for `analyze --area`.")
+            }
             Self::Regions => ("Regions table", "The regions and their vectors, separated by tabs."),
             Self::Profile => ("Profile", "Input, body, surface and noise along the profile's line, as CSV."),
         }
@@ -75,6 +87,7 @@ impl Ware {
             Self::Layer => "layer.png",
             Self::View => "view.png",
             Self::Selection => "selection.png",
+            Self::Area => "area.png",
             Self::Regions => "regions.tsv",
             Self::Profile => "profile.csv",
         }
@@ -146,7 +159,7 @@ impl Dialogs {
                     self.wares(ui, cx);
                 }
                 let answered = self.path_row(ui, question, cx);
-                if question == Question::Open { self.shelf(ui, cx) || answered } else { answered }
+                if question == Question::Open { Self::shelf(ui, cx) || answered } else { answered }
             })
             .and_then(|shown| shown.inner)
             .unwrap_or(false);
@@ -163,7 +176,15 @@ impl Dialogs {
         }
         for ware in Ware::ALL {
             let (name, tip) = ware.words();
-            if ui.radio(self.ware == ware, name).on_hover_text(tip).clicked() {
+            // What there is nothing of cannot be written.
+            let there = match ware {
+                Ware::Selection => cx.state.document.selection.marked.is_some(),
+                Ware::Area => cx.state.document.area.is_some(),
+                Ware::View => cx.gpu.is_some(),
+                _ => true,
+            };
+            let radio = ui.add_enabled(there, egui::RadioButton::new(self.ware == ware, name));
+            if radio.on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
                 self.ware = ware;
                 self.path = proposed(ware, cx).display().to_string();
             }
@@ -257,13 +278,14 @@ impl Dialogs {
             // Views are drawn before they are written.
             Ware::Layer | Ware::View => Export::Layer { path, settings: cx.state.view.image.clone() },
             Ware::Selection => Export::Selection { path },
+            Ware::Area => Export::Area { path },
             Ware::Regions => Export::Regions { path },
             Ware::Profile => Export::Profile { path },
         }
     }
 
     /// The sample scene and the photographs opened before. Whether one was chosen.
-    fn shelf(&mut self, ui: &mut Ui, cx: &mut Cx) -> bool {
+    fn shelf(ui: &mut Ui, cx: &mut Cx) -> bool {
         let mut chosen = None;
         ui.add_space(4.0);
         super::widgets::heading(ui, cx.tones, "Sample");

@@ -129,12 +129,12 @@ const POINTER: &[(&str, &str)] = &[
 /// The words for the keys of a deed, for menus and tooltips.
 pub fn keys_of(ctx: &egui::Context, deed: Deed) -> String {
     let found = ALL.iter().find(|shortcut| shortcut.deed == deed);
-    found.map_or_else(String::new, |shortcut| written(ctx, &shortcut.keys))
+    found.map_or_else(String::new, |shortcut| written(ctx, shortcut.keys))
 }
 
 /// Keys as they are printed on a keyboard.
-fn written(ctx: &egui::Context, keys: &KeyboardShortcut) -> String {
-    let all = ctx.format_shortcut(keys);
+fn written(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
+    let all = ctx.format_shortcut(&keys);
     let symbol = keys.logical_key.symbol_or_name();
     all.strip_suffix(keys.logical_key.name()).map_or_else(|| all.clone(), |held| format!("{held}{symbol}"))
 }
@@ -249,7 +249,7 @@ fn list(ui: &mut Ui, cx: &Cx, group: &str) {
         POINTER.iter().map(|&(keys, words)| (keys.to_owned(), words)).collect()
     } else {
         let of_group = ALL.iter().filter(|shortcut| shortcut.group == group);
-        of_group.map(|shortcut| (written(ui.ctx(), &shortcut.keys), shortcut.words)).collect()
+        of_group.map(|shortcut| (written(ui.ctx(), shortcut.keys), shortcut.words)).collect()
     };
     egui::Grid::new(group).num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| {
         for (keys, words) in rows {
