@@ -4,6 +4,7 @@ use super::CubePanel;
 use crate::gpu::{Point, Projector};
 use crate::gui::App;
 use crate::gui::testing::{harness, open_sample};
+use crate::trace::Class;
 use crate::workbench::{ColourSpace, Command, Item, Picture, Tool};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, vec2};
@@ -257,4 +258,24 @@ fn at_rest_every_colour_is_drawn_where_that_is_asked_for() {
         std::thread::sleep(std::time::Duration::from_millis(50));
     }
     panic!("still {bins} bins");
+}
+
+#[test]
+fn a_window_shows_its_ellipsoid_around_its_mean() {
+    let Some((mut harness, _)) = opened() else { return };
+    let shown = Arc::clone(harness.state().state().shown().unwrap());
+    let windows = &shown.analysis.windows;
+    let plane = |&window: &usize| windows.classes[window] == Some(Class::Plane);
+    let window = (0..windows.classes.len()).find(plane).expect("a window of class plane");
+    harness.state_mut().apply(Command::Select(Some(Item::Window(window as u32))));
+    harness.run_steps(2);
+    let [ellipsoid] = panel(&harness).figure.meshes.as_slice() else { panic!("one body") };
+    let vertices = ellipsoid.triangles();
+    let mean = windows.moments[window].mean() / 255.0;
+    for axis in 0..3 {
+        let ends = vertices.iter().map(|vertex| vertex.position[axis]);
+        let (low, high) = (ends.clone().fold(1.0, f32::min), ends.fold(0.0, f32::max));
+        let middle = f64::from(f32::midpoint(low, high));
+        assert!((middle - mean[axis]).abs() < 2e-3 && high > low, "{axis}: {low} {high} {}", mean[axis]);
+    }
 }
