@@ -1,0 +1,97 @@
+//! Whatever can be acted on has a name.
+
+use crate::window::{Window, apply, press, state, tiny, tiny_window, window, with_gpu};
+use dichroscope::gui::Pane;
+use dichroscope::workbench::{Arrangement, Command, ImageSettings, Item, Origin, Tool};
+use egui::accesskit::{Action, Role};
+use egui::{Key, Modifiers, vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+/// Everything that can be clicked, focused or set, but has no name to be found by.
+fn nameless(window: &Window) -> Vec<String> {
+    // Of a scrolled panel, of a window and of the place between two panels one needs no name.
+    let needs_none = [Role::GenericContainer, Role::Window, Role::ScrollView, Role::Pane, Role::Unknown];
+    window
+        .root()
+        .children_recursive()
+        .map(|node| node.accesskit_node())
+        .filter(|node| !needs_none.contains(&node.role()) && !node.is_hidden())
+        .filter(|node| {
+            let data = node.data();
+            [Action::Click, Action::SetValue, Action::Increment].iter().any(|&a| data.supports_action(a))
+        })
+        .filter(|node| {
+            let named = |text: Option<String>| text.is_some_and(|text| !text.trim().is_empty());
+            !named(node.label()) && !(node.role() == Role::Label && named(node.value()))
+        })
+        .map(|node| format!("{:?} at {:?}", node.role(), node.raw_bounds()))
+        .collect()
+}
+
+#[track_caller]
+fn check(window: &Window, what: &str) {
+    let nameless = nameless(window);
+    assert!(nameless.is_empty(), "{what}: {nameless:#?}");
+    let unnamed = window.unnamed_widgets();
+    assert!(unnamed.is_empty(), "{what}: {unnamed:#?}");
+}
+
+#[test]
+fn everything_has_a_name_in_every_panel() {
+    check(&window(), "nothing open");
+    let mut window = tiny_window();
+    check(&window, "a photograph open");
+    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    apply(&mut window, Command::Pin(true));
+    press(&mut window, Modifiers::COMMAND, Key::A);
+    for pane in Pane::ALL {
+        window.state_mut().show_alone(Some(pane));
+        window.run_steps(3);
+        check(&window, pane.title());
+    }
+    window.state_mut().show_alone(Some(Pane::Image));
+    let image = state(&window).view.image.clone();
+    for settings in [
+        ImageSettings { arrangement: Arrangement::SideBySide, ..image.clone() },
+        ImageSettings { arrangement: Arrangement::Wipe(0.4), tool: Tool::Brush, ..image },
+    ] {
+        apply(&mut window, Command::Image(settings));
+        check(&window, "two layers");
+    }
+}
+
+#[test]
+fn everything_has_a_name_in_the_colour_space() {
+    let Some(mut window) = with_gpu(vec2(900.0, 600.0)) else { return };
+    apply(&mut window, Command::Open(Origin::File(tiny())));
+    window.state_mut().show_alone(Some(Pane::Colours));
+    window.run_steps(3);
+    check(&window, "colour space");
+    for menu in ["Show", "Views"] {
+        window.get_by_role_and_label(Role::Button, menu).click();
+        window.run_steps(3);
+        check(&window, menu);
+        press(&mut window, Modifiers::NONE, Key::Escape);
+    }
+}
+
+#[test]
+fn everything_has_a_name_in_menus_and_windows() {
+    let mut window = tiny_window();
+    for menu in ["File", "Edit", "View", "Analyse", "Help"] {
+        window.get_by_role_and_label(Role::Button, menu).click();
+        window.run_steps(3);
+        check(&window, menu);
+        window.get_by_role_and_label(Role::Button, menu).click();
+        window.run_steps(3);
+    }
+    for key in [Key::O, Key::E, Key::S] {
+        press(&mut window, Modifiers::COMMAND, key);
+        check(&window, key.name());
+    }
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    for ware in ["Everything, as a folder", "Marked pixels"] {
+        crate::window::click(&mut window, Role::RadioButton, ware);
+        check(&window, ware);
+    }
+}

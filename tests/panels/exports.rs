@@ -1,0 +1,135 @@
+//! What the window writes is what the library and the command line write.
+
+use crate::window::{
+    Window, answer, apply, choose, click, item, marked, named, notice, press, shown, sigma, state, tiny,
+    tiny_window,
+};
+use assert_cmd::cargo::cargo_bin_cmd;
+use dichroscope::export::write_matte;
+use dichroscope::segment::Setting;
+use dichroscope::workbench::{Command, Item, Layer, regions_text};
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use std::fs;
+use std::path::Path;
+
+/// Asks for one thing from the export window.
+fn export(window: &mut Window, ware: &str, path: &Path) {
+    press(window, Modifiers::COMMAND, Key::E);
+    click(window, Role::RadioButton, ware);
+    answer(window, path);
+    assert!(path.exists(), "{}", notice(window));
+    assert!(notice(window).contains(&path.display().to_string()), "{}", notice(window));
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_photograph_without_highlights_is_the_librarys() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = tiny_window();
+    let path = folder.path().join("bare.png");
+    export(&mut window, "Photograph without highlights", &path);
+    let result = shown(&window);
+    let library = write_matte(&result.picture.photo, &result.analysis.intrinsic, 0.0, folder.path()).unwrap();
+    assert!(fs::read(&path).unwrap() == fs::read(library).unwrap());
+
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    named(&window, Role::Slider, "surface reflection kept").set_value_accesskit(0.5);
+    window.run_steps(2);
+    let half = folder.path().join("half.png");
+    answer(&mut window, &half);
+    let library = write_matte(&result.picture.photo, &result.analysis.intrinsic, 0.5, folder.path()).unwrap();
+    assert!(fs::read(&half).unwrap() == fs::read(library).unwrap());
+    assert!(fs::read(&half).unwrap() != fs::read(&path).unwrap());
+}
+
+#[test]
+fn everything_is_what_analyze_writes() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = tiny_window();
+    let ours = folder.path().join("window");
+    export(&mut window, "Everything, as a folder", &ours);
+    cargo_bin_cmd!("dichroscope")
+        .current_dir(folder.path())
+        .arg("analyze")
+        .arg(tiny())
+        .args(["--out", "command"])
+        .assert()
+        .success();
+    let theirs = folder.path().join("command/camera8");
+    assert_eq!(names(&ours), names(&theirs));
+    for name in names(&ours).iter().filter(|name| *name != "report.json") {
+        assert!(fs::read(ours.join(name)).unwrap() == fs::read(theirs.join(name)).unwrap(), "{name} differs");
+    }
+    // A folder of somebody else's is not replaced.
+    let letters = folder.path().join("letters");
+    fs::create_dir(&letters).unwrap();
+    fs::write(letters.join("love.txt"), "dear").unwrap();
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    answer(&mut window, &letters);
+    assert_eq!(names(&letters), ["love.txt"]);
+    assert!(notice(&window).contains("letters"), "{}", notice(&window));
+}
+
+#[test]
+fn tables_layers_and_marks_are_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = tiny_window();
+    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    press(&mut window, Modifiers::COMMAND, Key::A);
+    let table = folder.path().join("regions.tsv");
+    export(&mut window, "Regions table", &table);
+    assert_eq!(fs::read_to_string(&table).unwrap(), regions_text(&shown(&window)));
+    let mask = folder.path().join("marked.png");
+    export(&mut window, "Marked pixels", &mask);
+    let white = image::open(&mask).unwrap().to_luma8().pixels().filter(|pixel| pixel.0[0] > 127).count();
+    assert_eq!(white, marked(&window));
+    press(&mut window, Modifiers::NONE, Key::Num8);
+    assert_eq!(state(&window).view.image.layer, Layer::Body);
+    let layer = folder.path().join("layer.png");
+    export(&mut window, "Image view as PNG", &layer);
+    assert_eq!(image::image_dimensions(&layer).unwrap(), (178, 150));
+    let profile = folder.path().join("profile.csv");
+    export(&mut window, "Profile", &profile);
+    assert_eq!(fs::read_to_string(&profile).unwrap().lines().count(), 178 + 1);
+}
+
+#[test]
+fn a_workspace_is_saved_and_opened_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("evening.dichroscope");
+    let mut window = tiny_window();
+    named(&window, Role::Slider, "camera noise \u{3c3}0").set_value_accesskit(4.0);
+    window.run_steps(3);
+    click(&mut window, Role::Label, "colour of region 2");
+    press(&mut window, Modifiers::COMMAND, Key::A);
+    press(&mut window, Modifiers::NONE, Key::Num7);
+    choose(&mut window, "View", "Profile");
+    press(&mut window, Modifiers::NONE, Key::V);
+    let (document, view) = (state(&window).document.clone(), state(&window).view.clone());
+    press(&mut window, Modifiers::COMMAND, Key::S);
+    answer(&mut window, &path);
+    assert!(path.is_file(), "{}", notice(&window));
+
+    choose(&mut window, "File", "Sample scene");
+    named(&window, Role::Slider, "camera noise \u{3c3}0").set_value_accesskit(8.0);
+    window.run_steps(3);
+    press(&mut window, Modifiers::NONE, Key::Num1);
+    choose(&mut window, "View", "Arrange as at first");
+    assert_eq!((item(&window), sigma(&window)), (None, Setting::Value(8.0)));
+    assert_ne!(state(&window).view, view);
+
+    choose(&mut window, "File", "Open workspace");
+    answer(&mut window, &path);
+    window.run_steps(3);
+    assert_eq!(state(&window).document, document);
+    assert_eq!(state(&window).view, view);
+    assert_eq!(state(&window).picture.as_ref().unwrap().origin.path(), Some(tiny().as_path()));
+    assert!(state(&window).is_current());
+}

@@ -1,0 +1,122 @@
+//! The image view: layers, marks, and the area that an analysis is restricted to.
+
+use crate::window::{at, click, drag, marked, named, press, shown, size, state, tiny_window, undo, zoom_in};
+use dichroscope::workbench::{Arrangement, Fill, Layer, Tool};
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+
+#[test]
+fn layers_are_chosen_by_key() {
+    let mut window = tiny_window();
+    for (key, layer) in [
+        (Key::Num2, Layer::Masks),
+        (Key::Num3, Layer::Classes),
+        (Key::Num4, Layer::Areas),
+        (Key::Num5, Layer::Linear),
+        (Key::Num6, Layer::Planar),
+        (Key::Num7, Layer::Regions),
+        (Key::Num8, Layer::Body),
+        (Key::Num9, Layer::Surface),
+        (Key::Num0, Layer::Noise),
+        (Key::Num1, Layer::Input),
+    ] {
+        press(&mut window, Modifiers::NONE, key);
+        assert_eq!(state(&window).view.image.layer, layer);
+    }
+    assert!(!state(&window).history.can_undo(), "looking is no step");
+}
+
+#[test]
+fn layers_are_chosen_by_name_one_or_two_of_them() {
+    let mut window = tiny_window();
+    for (name, layer) in [("Merged areas", Layer::Areas), ("Surface", Layer::Surface)] {
+        click(&mut window, Role::ComboBox, "Layer");
+        click(&mut window, Role::Button, name);
+        assert_eq!(state(&window).view.image.layer, layer);
+    }
+    click(&mut window, Role::Button, "Side by side");
+    assert_eq!(state(&window).view.image.arrangement, Arrangement::SideBySide);
+    named(&window, Role::Image, "Second picture");
+    click(&mut window, Role::ComboBox, "Second layer");
+    click(&mut window, Role::Button, "Classification");
+    assert_eq!(state(&window).view.image.other, Layer::Classes);
+    click(&mut window, Role::Button, "Wipe");
+    assert_eq!(state(&window).view.image.arrangement, Arrangement::Wipe(0.5));
+    let line = named(&window, Role::Slider, "Wipe line").rect().center();
+    drag(&mut window, &[line, line + egui::vec2(20.0, 0.0), line + egui::vec2(60.0, 0.0)], Modifiers::NONE);
+    let Arrangement::Wipe(share) = state(&window).view.image.arrangement else { panic!("still a wipe") };
+    assert!(share > 0.55, "{share}");
+    press(&mut window, Modifiers::NONE, Key::O);
+    assert_eq!(state(&window).view.image.fill, Fill::Outline);
+}
+
+#[test]
+fn a_rectangle_is_marked_inverted_analysed_alone_and_all_of_it_taken_back() {
+    let mut window = tiny_window();
+    zoom_in(&mut window);
+    press(&mut window, Modifiers::NONE, Key::R);
+    assert_eq!(state(&window).view.image.tool, Tool::Rectangle);
+    let (from, to) = (at(&window, 40.2, 30.2), at(&window, 100.2, 90.2));
+    drag(&mut window, &[from, from.lerp(to, 0.5), to], Modifiers::NONE);
+    assert_eq!(marked(&window), 60 * 60);
+    let (width, height) = size(&window);
+    press(&mut window, Modifiers::COMMAND, Key::I);
+    assert_eq!(marked(&window), width * height - 60 * 60);
+    click(&mut window, Role::Button, "To marked");
+    let area = state(&window).document.area.clone().unwrap();
+    assert!(state(&window).is_current());
+    let restricted = shown(&window);
+    let labels = restricted.labels();
+    assert!((0..labels.len()).all(|pixel| area[pixel] || labels[pixel] == 0));
+    assert!(!area.get(70, 60).unwrap() && *area.get(10, 10).unwrap());
+    click(&mut window, Role::Button, "Lift");
+    assert!(state(&window).document.area.is_none());
+    undo(&mut window);
+    assert!(state(&window).document.area.is_some());
+    for _ in 0..3 {
+        undo(&mut window);
+    }
+    assert!(state(&window).document.area.is_none() && marked(&window) == 0);
+    assert!(state(&window).is_current() && !state(&window).history.can_undo());
+}
+
+#[test]
+fn marks_of_the_image_show_in_the_statistics() {
+    let mut window = tiny_window();
+    zoom_in(&mut window);
+    click(&mut window, Role::Button, "Selection");
+    click(&mut window, Role::Button, "Lasso");
+    let corners = [[60.2, 40.2], [100.2, 40.2], [100.2, 80.2], [60.2, 80.2], [60.2, 40.2]];
+    let path: Vec<_> = corners.iter().map(|&[x, y]| at(&window, x, y)).collect();
+    drag(&mut window, &path, Modifiers::NONE);
+    assert_eq!(marked(&window), 1600);
+    assert!(crate::window::says(&window, "Marked pixels") && crate::window::says(&window, "1\u{2009}600"));
+    click(&mut window, Role::Button, "Invert");
+    let (width, height) = size(&window);
+    assert_eq!(marked(&window), width * height - 1600);
+    click(&mut window, Role::Button, "Deselect");
+    assert_eq!(marked(&window), 0);
+}
+
+#[test]
+fn the_selected_region_is_marked_by_key() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::NONE, Key::CloseBracket);
+    press(&mut window, Modifiers::COMMAND, Key::A);
+    assert_eq!(marked(&window), shown(&window).analysis.intrinsic.regions[0].pixels);
+}
+
+#[test]
+fn a_white_patch_pins_the_light() {
+    let mut window = tiny_window();
+    zoom_in(&mut window);
+    let (x, y) = crate::window::inside(&window, 1);
+    click(&mut window, Role::Button, "White patch");
+    let (x, y) = (x as f32, y as f32);
+    let (from, to) = (at(&window, x - 1.8, y - 1.8), at(&window, x + 2.2, y + 2.2));
+    drag(&mut window, &[from, to], Modifiers::NONE);
+    let light = state(&window).document.params.illuminant.direction().unwrap();
+    let body = shown(&window).analysis.intrinsic.regions[0].body;
+    let cosine: f64 = light.iter().zip(body).map(|(a, b)| a * b).sum();
+    assert!(cosine > 0.95, "the mean of a matte patch lies near its body colour: {light:?}, {body:?}");
+}

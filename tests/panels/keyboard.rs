@@ -1,0 +1,94 @@
+//! Keys, help, and the theme.
+
+use crate::window::{Window, apply, choose, press, says, state, tiny_window, window};
+use dichroscope::workbench::{Command, Severity, Theme, Tool};
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+
+const LISTED: &str = "Mark the pixels of the selected region";
+
+#[test]
+fn a_question_mark_opens_the_list_of_keys_and_escape_closes_it() {
+    let mut window = tiny_window();
+    assert!(!says(&window, LISTED));
+    press(&mut window, Modifiers::SHIFT, Key::Questionmark);
+    assert!(says(&window, LISTED) && says(&window, "zoom at the pointer"));
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!says(&window, LISTED));
+    press(&mut window, Modifiers::NONE, Key::F1);
+    assert!(says(&window, LISTED));
+    press(&mut window, Modifiers::NONE, Key::F1);
+    choose(&mut window, "Help", "Keyboard and pointer");
+    assert!(says(&window, LISTED));
+}
+
+#[test]
+fn the_theme_is_toggled_by_key_and_by_menu() {
+    let mut window = tiny_window();
+    let dark = window.ctx.global_style().visuals.clone();
+    press(&mut window, Modifiers::NONE, Key::T);
+    assert_eq!(state(&window).view.theme, Theme::Light);
+    assert_ne!(window.ctx.global_style().visuals.panel_fill, dark.panel_fill);
+    choose(&mut window, "View", "Dark");
+    assert_eq!(state(&window).view.theme, Theme::Dark);
+    assert_eq!(window.ctx.global_style().visuals.panel_fill, dark.panel_fill);
+}
+
+#[test]
+fn keys_are_letters_while_somebody_types() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    assert!(is_asked(&window));
+    for (key, letter) in [(Key::T, "t"), (Key::K, "k"), (Key::R, "r"), (Key::Num3, "3")] {
+        window.event(Event::Text(letter.to_owned()));
+        press(&mut window, Modifiers::NONE, key);
+    }
+    let view = &state(&window).view;
+    assert_eq!((view.theme, view.image.tool), (Theme::Dark, Tool::Pointer));
+    assert!(state(&window).pinned.is_none());
+    assert_eq!(window.get_by_role(Role::TextInput).value().as_deref(), Some("tkr3"));
+}
+
+fn is_asked(window: &Window) -> bool {
+    window.query_by_role(Role::TextInput).is_some()
+}
+
+#[test]
+fn escape_closes_a_window_that_asks_and_leaves_the_selection() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::NONE, Key::CloseBracket);
+    for leaves_the_field in [false, true] {
+        press(&mut window, Modifiers::COMMAND, Key::O);
+        assert!(is_asked(&window));
+        if leaves_the_field {
+            press(&mut window, Modifiers::NONE, Key::Tab);
+        }
+        press(&mut window, Modifiers::NONE, Key::Escape);
+        assert!(!is_asked(&window), "left the field: {leaves_the_field}");
+        assert!(crate::window::item(&window).is_some(), "left the field: {leaves_the_field}");
+    }
+}
+
+#[test]
+fn a_notice_stays_until_it_is_dismissed() {
+    let mut window = window();
+    apply(&mut window, Command::Notify(Severity::Warning, "The moon is full.".to_owned()));
+    assert!(says(&window, "The moon is full."));
+    crate::window::click(&mut window, Role::Button, "Dismiss");
+    assert!(!says(&window, "The moon is full.") && state(&window).notices.is_empty());
+}
+
+#[test]
+fn panels_are_hidden_shown_and_arranged_as_at_first() {
+    let mut window = tiny_window();
+    let first = state(&window).view.layout.clone();
+    assert!(says(&window, "camera noise"));
+    choose(&mut window, "View", "Parameters");
+    press(&mut window, Modifiers::NONE, Key::V);
+    assert_ne!(state(&window).view.layout, first, "the arrangement is kept with the view");
+    assert!(!says(&window, "camera noise"));
+    choose(&mut window, "View", "Arrange as at first");
+    assert!(says(&window, "camera noise"));
+    assert_eq!(state(&window).view.layout, first);
+}

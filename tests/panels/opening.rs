@@ -1,0 +1,171 @@
+//! Opening: by menu, path, drop, paste and shelf; and what is said when there is nothing or something is wrong.
+
+use crate::window::{
+    Window, answer, apply, choose, click, notice, press, says, shown, sigma, size, state, tiny, tiny_window,
+    window,
+};
+use dichroscope::segment::Setting;
+use dichroscope::truth::sample;
+use dichroscope::workbench::{Command, Item, Origin, Severity};
+use egui::accesskit::Role;
+use egui::{Color32, ColorImage, Event, Key, Modifiers};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+#[test]
+fn nothing_is_open_and_every_panel_says_so() {
+    let window = window();
+    for sentence in [
+        "Open a photograph: Ctrl+O, drop a file here, or paste",
+        "Open a photograph to see its colours.",
+        "Regions appear when a photograph has been analysed.",
+        "Select a region to see its dichromatic plane.",
+    ] {
+        assert!(says(&window, sentence), "{sentence}");
+    }
+}
+
+#[test]
+fn without_a_graphics_adapter_one_panel_says_so_and_all_else_works() {
+    let window = tiny_window();
+    assert!(says(&window, "There is no graphics adapter"));
+    assert!(says(&window, "colour of region 1"));
+}
+
+#[test]
+fn the_sample_opens_from_the_menu_with_its_accuracy() {
+    let mut window = window();
+    choose(&mut window, "File", "Sample scene");
+    assert_eq!(state(&window).picture.as_ref().unwrap().origin, Origin::Sample(sample::NAME.to_owned()));
+    assert!(says(&window, "off by") && says(&window, "colour of region 1"));
+    assert!(shown(&window).coverage > 0.9);
+}
+
+#[test]
+fn a_typed_path_opens_and_a_bad_one_leaves_the_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let copy = folder.path().join("cups of mine.png");
+    std::fs::copy(tiny(), &copy).unwrap();
+    let mut window = window();
+    choose(&mut window, "File", "Open\u{2026}");
+    answer(&mut window, &copy);
+    assert_eq!(state(&window).picture.as_ref().unwrap().origin, Origin::File(copy.clone()));
+    assert_eq!(state(&window).recent, [copy]);
+    let result = shown(&window);
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    answer(&mut window, &folder.path().join("gone.png"));
+    assert_eq!(state(&window).notices[0].severity, Severity::Error);
+    assert!(notice(&window).contains("gone.png") && says(&window, "gone.png"));
+    assert!(Arc::ptr_eq(&result, &shown(&window)));
+    click(&mut window, Role::Button, "Dismiss");
+    assert!(state(&window).notices.is_empty());
+}
+
+#[test]
+fn what_was_opened_before_is_on_the_shelf() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    click(&mut window, Role::Link, sample::NAME);
+    assert_eq!(state(&window).picture.as_ref().unwrap().origin.name(), sample::NAME);
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    click(&mut window, Role::Link, "camera8.png");
+    assert_eq!(state(&window).picture.as_ref().unwrap().origin, Origin::File(tiny()));
+}
+
+#[test]
+fn a_second_photograph_keeps_the_parameters() {
+    let mut window = tiny_window();
+    crate::window::named(&window, Role::Slider, "camera noise \u{3c3}0").set_value_accesskit(4.0);
+    window.run_steps(3);
+    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    choose(&mut window, "File", "Sample scene");
+    assert_eq!(sigma(&window), Setting::Value(4.0));
+    assert_eq!(crate::window::item(&window), None);
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf, Vec<u8>);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        if self.1.is_empty() { Err("it is gone".to_owned()) } else { Ok(self.1.clone()) }
+    }
+}
+
+fn drop_file(window: &mut Window, path: &Path, bytes: &[u8]) {
+    window.input_mut().dropped_files.push(Arc::new(Dropped(path.to_path_buf(), bytes.to_vec())));
+    window.run_steps(3);
+}
+
+#[test]
+fn a_dropped_file_opens_by_its_path_or_its_bytes() {
+    let mut window = window();
+    drop_file(&mut window, &tiny(), &[]);
+    assert_eq!(state(&window).picture.as_ref().unwrap().origin, Origin::File(tiny()));
+    let bytes = std::fs::read(tiny()).unwrap();
+    drop_file(&mut window, Path::new("from the mail.png"), &bytes);
+    assert_eq!(state(&window).picture.as_ref().unwrap().origin.name(), "from the mail.png");
+    assert_eq!(size(&window), (178, 150));
+    drop_file(&mut window, Path::new("vanished.png"), &[]);
+    assert!(notice(&window).contains("vanished.png") && notice(&window).contains("it is gone"));
+    drop_file(&mut window, Path::new("letter.txt"), b"dear all");
+    assert!(notice(&window).contains("letter.txt"), "{}", notice(&window));
+    assert_eq!(state(&window).picture.as_ref().unwrap().origin.name(), "from the mail.png");
+}
+
+#[test]
+fn a_pasted_path_and_a_pasted_picture_open() {
+    let mut window = window();
+    window.event(Event::Paste(format!("file://{}\n", tiny().display())));
+    window.run_steps(3);
+    assert_eq!(state(&window).picture.as_ref().unwrap().origin, Origin::File(tiny()));
+    let pixels =
+        (0..64 * 48).map(|i| Color32::from_rgb((i % 64) as u8 * 4, (i / 64) as u8 * 5, 90)).collect();
+    let picture = ColorImage::new([64, 48], pixels);
+    window.event(Event::PasteImage(Arc::new(picture)));
+    window.run_steps(3);
+    assert_eq!(state(&window).picture.as_ref().unwrap().origin.name(), "clipboard");
+    assert_eq!(size(&window), (64, 48));
+}
+
+#[test]
+fn a_path_pasted_into_a_field_stays_there() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    window.event(Event::Paste("elsewhere.png".to_owned()));
+    window.run_steps(3);
+    assert!(state(&window).notices.is_empty(), "it is not opened yet");
+    assert!(says(&window, "elsewhere.png"));
+}
+
+/// A PPM of one colour a column.
+fn plain(name: &str, colour: impl Fn(usize) -> [u8; 3]) -> Origin {
+    let (width, height) = (96, 64);
+    let mut bytes = format!("P6 {width} {height} 255\n").into_bytes();
+    bytes.extend((0..width * height).flat_map(|pixel| colour(pixel % width)));
+    Origin::Bytes { name: name.to_owned(), bytes: bytes.into() }
+}
+
+#[test]
+fn without_a_highlight_the_light_is_unknown() {
+    let mut window = window();
+    let shade = |x: usize| [1.0, 0.55, 0.3].map(|band: f32| (band * (60 + x) as f32) as u8);
+    apply(&mut window, Command::Open(plain("matte.ppm", shade)));
+    assert!(!shown(&window).analysis.intrinsic.regions.is_empty());
+    assert!(says(&window, "unknown: no highlight was found"));
+    click(&mut window, Role::Label, "colour of region 1");
+    assert!(says(&window, "Dichromatic plane of region 1"), "its matte line is shown nevertheless");
+}
+
+#[test]
+fn a_picture_without_regions_says_why() {
+    let mut window = window();
+    apply(&mut window, Command::Open(plain("night.ppm", |_| [1, 1, 1])));
+    assert!(shown(&window).analysis.intrinsic.regions.is_empty());
+    let reason = shown(&window).analysis.warnings[0].clone();
+    assert!(says(&window, &reason), "{reason}");
+}

@@ -1,0 +1,100 @@
+//! What the panels look like: a few small pictures, with an allowance for a few pixels.
+//!
+//! `UPDATE_SNAPSHOTS=1 cargo test --test panels` makes them anew. Nothing in them tells the time.
+
+use crate::window::{Window, apply, shown, tiny, with_gpu};
+use dichroscope::gui::Pane;
+use dichroscope::segment::{Parameter, Setting};
+use dichroscope::workbench::{
+    Arrangement, ColourBy, Command, Fill, ImageSettings, Item, Layer, Origin, ProfileLine, Theme,
+};
+use egui::{Vec2, vec2};
+use egui_kittest::SnapshotOptions;
+
+/// Of a single panel.
+const PANEL: Vec2 = vec2(480.0, 330.0);
+
+/// Pixels that may differ: two versions of a driver round differently on a few edges.
+const EDGES_PX: usize = 60;
+
+fn opened(size: Vec2, pane: Option<Pane>) -> Option<Window> {
+    let mut window = with_gpu(size)?;
+    window.state_mut().show_alone(pane);
+    // Fixed, so that a picture does not change with the estimate.
+    window.state_mut().apply(Command::SetParameter(Parameter::CameraNoise, Setting::Value(2.5), None));
+    apply(&mut window, Command::Open(Origin::File(tiny())));
+    Some(window)
+}
+
+fn compare(window: &mut Window, name: &str) {
+    window.run_steps(6);
+    let options = SnapshotOptions::new().output_path("tests/panels/snapshots").max_failed_pixels(EDGES_PX);
+    window.snapshot_options(name, &options);
+}
+
+fn look(window: &mut Window, change: impl FnOnce(&mut ImageSettings)) {
+    let mut image = window.state().state().view.image.clone();
+    change(&mut image);
+    apply(window, Command::Image(image));
+}
+
+#[test]
+fn the_image_view() {
+    let Some(mut window) = opened(PANEL, Some(Pane::Image)) else { return };
+    compare(&mut window, "image-input");
+    look(&mut window, |image| image.layer = Layer::Classes);
+    compare(&mut window, "image-classes");
+    look(&mut window, |image| (image.layer, image.fill) = (Layer::Regions, Fill::Outline));
+    apply(&mut window, Command::Select(Some(Item::Region(2))));
+    compare(&mut window, "image-regions");
+    look(&mut window, |image| {
+        (image.layer, image.other) = (Layer::Body, Layer::Surface);
+        image.arrangement = Arrangement::Wipe(0.5);
+    });
+    apply(&mut window, Command::Theme(Theme::Light));
+    compare(&mut window, "image-wipe-light");
+}
+
+#[test]
+fn the_colour_space_view() {
+    let Some(mut window) = opened(PANEL, Some(Pane::Colours)) else { return };
+    compare(&mut window, "colours");
+    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    compare(&mut window, "colours-region");
+    let mut cube = window.state().state().view.cube.clone();
+    cube.colour_by = ColourBy::Density;
+    apply(&mut window, Command::Cube(cube));
+    apply(&mut window, Command::Select(None));
+    apply(&mut window, Command::Theme(Theme::Light));
+    compare(&mut window, "colours-density-light");
+}
+
+#[test]
+fn the_plots() {
+    let Some(mut window) = opened(PANEL, Some(Pane::Plane)) else { return };
+    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    compare(&mut window, "plane");
+    let row = *shown(&window).labels().as_slice().first().unwrap();
+    assert!(usize::from(row) <= shown(&window).analysis.intrinsic.regions.len());
+    apply(&mut window, Command::Profile(ProfileLine::Between([10.5, 75.5], [167.5, 75.5])));
+    window.state_mut().show_alone(Some(Pane::Profile));
+    compare(&mut window, "profile");
+}
+
+#[test]
+fn sliders_and_tables() {
+    let Some(mut window) = opened(vec2(330.0, 520.0), Some(Pane::Parameters)) else { return };
+    compare(&mut window, "parameters");
+    window.set_size(PANEL);
+    apply(&mut window, Command::Select(Some(Item::Region(2))));
+    window.state_mut().show_alone(Some(Pane::Regions));
+    compare(&mut window, "regions");
+    window.state_mut().show_alone(Some(Pane::Selection));
+    compare(&mut window, "selection");
+}
+
+#[test]
+fn an_empty_window() {
+    let Some(mut window) = with_gpu(vec2(960.0, 600.0)) else { return };
+    compare(&mut window, "window-empty");
+}

@@ -1,0 +1,137 @@
+//! Regions: chosen in the table, in the picture or by key, and the same everywhere.
+
+use crate::window::{
+    Window, apply, at, click, drag, inside, item, named, pointer, press, says, shown, state, tiny_window,
+    undo, zoom_in,
+};
+use dichroscope::gui::Pane;
+use dichroscope::workbench::{Command, Item};
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+/// The regions in the order of the table's rows.
+fn rows(window: &Window) -> Vec<u16> {
+    let mut rows: Vec<(f32, u16)> = window
+        .query_all_by_label_contains("colour of region ")
+        .map(|chip| {
+            let label = chip.accesskit_node().label().unwrap();
+            (chip.rect().center().y, label.trim_start_matches("colour of region ").parse().unwrap())
+        })
+        .collect();
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    rows.into_iter().map(|(_, id)| id).collect()
+}
+
+#[test]
+fn a_row_selects_the_region_everywhere() {
+    let mut window = tiny_window();
+    assert!(says(&window, "Select a region to see its dichromatic plane."));
+    click(&mut window, Role::Label, "colour of region 2");
+    assert_eq!((item(&window), state(&window).selected_region()), (Some(Item::Region(2)), Some(2)));
+    assert!(says(&window, "Dichromatic plane of region 2"));
+    click(&mut window, Role::Button, "Selection");
+    let pixels = shown(&window).analysis.intrinsic.regions[1].pixels;
+    assert!(says(&window, "Region 2") && says(&window, &grouped(pixels)));
+    click(&mut window, Role::Button, "Deselect");
+    assert_eq!(item(&window), None);
+    assert!(says(&window, "Select a region to see its dichromatic plane."));
+    undo(&mut window);
+    assert_eq!(item(&window), Some(Item::Region(2)), "a selection is taken back like a parameter");
+}
+
+fn grouped(number: usize) -> String {
+    let text = number.to_string();
+    let (head, tail) = text.split_at(text.len().saturating_sub(3));
+    if head.is_empty() { tail.to_owned() } else { format!("{head}\u{2009}{tail}") }
+}
+
+#[test]
+fn a_second_click_on_the_row_lets_it_go() {
+    let mut window = tiny_window();
+    click(&mut window, Role::Label, "colour of region 1");
+    click(&mut window, Role::Label, "colour of region 1");
+    assert_eq!(item(&window), None);
+}
+
+#[test]
+fn a_click_in_the_picture_selects_the_region_and_hovering_tells_the_pixel() {
+    let mut window = tiny_window();
+    zoom_in(&mut window);
+    let (x, y) = inside(&window, 2);
+    let place = at(&window, x as f32 + 0.5, y as f32 + 0.5);
+    window.hover_at(place);
+    window.run_steps(2);
+    assert_eq!(state(&window).hover, Some(Item::Pixel((y * shown(&window).labels().width() + x) as u32)));
+    pointer(&mut window, place, true, Modifiers::NONE);
+    pointer(&mut window, place, false, Modifiers::NONE);
+    assert_eq!(item(&window), Some(Item::Region(2)));
+    assert!(says(&window, "Dichromatic plane of region 2"));
+    window.remove_cursor();
+    window.run_steps(2);
+    assert_eq!(state(&window).hover, None);
+}
+
+#[test]
+fn headings_sort() {
+    let mut window = tiny_window();
+    window.state_mut().show_alone(Some(Pane::Regions));
+    window.run_steps(3);
+    let regions = shown(&window).analysis.intrinsic.regions.clone();
+    let count = regions.len() as u16;
+    assert_eq!(rows(&window), (1..=count).collect::<Vec<_>>());
+    click(&mut window, Role::Button, "#");
+    assert_eq!(rows(&window), (1..=count).rev().collect::<Vec<_>>(), "again: the other way round");
+    click(&mut window, Role::Button, "pixels");
+    let pixels = |window: &Window| -> Vec<usize> {
+        rows(window).iter().map(|&id| regions[usize::from(id) - 1].pixels).collect()
+    };
+    assert!(pixels(&window).is_sorted_by(|a, b| a >= b), "{:?}", pixels(&window));
+    click(&mut window, Role::Button, "pixels");
+    assert!(pixels(&window).is_sorted(), "{:?}", pixels(&window));
+    for heading in ["body C_b", "surface C_s", "angle", "highlight", "rms", "notes"] {
+        click(&mut window, Role::Button, heading);
+        let mut sorted = rows(&window);
+        sorted.sort_unstable();
+        assert_eq!(sorted, (1..=count).collect::<Vec<_>>(), "{heading} loses nobody");
+    }
+}
+
+#[test]
+fn brackets_step_through_the_regions() {
+    let mut window = tiny_window();
+    let count = shown(&window).analysis.intrinsic.regions.len() as u16;
+    press(&mut window, Modifiers::NONE, Key::CloseBracket);
+    assert_eq!(item(&window), Some(Item::Region(1)));
+    press(&mut window, Modifiers::NONE, Key::OpenBracket);
+    assert_eq!(item(&window), Some(Item::Region(count)));
+    press(&mut window, Modifiers::NONE, Key::CloseBracket);
+    assert_eq!(item(&window), Some(Item::Region(1)));
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(item(&window), None);
+}
+
+#[test]
+fn a_selected_region_survives_a_slider() {
+    let mut window = tiny_window();
+    let (x, y) = inside(&window, 1);
+    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    let slider = named(&window, Role::Slider, "cylinder width").rect();
+    let (a, b) = (slider.left_center().lerp(slider.right_center(), 0.3), slider.center());
+    drag(&mut window, &[a, b], Modifiers::NONE);
+    let region = shown(&window).labels().get(x, y).copied().unwrap();
+    assert_eq!(state(&window).selected_region(), Some(region));
+}
+
+#[test]
+fn the_plane_is_panned_and_two_clicks_fit_it() {
+    let mut window = tiny_window();
+    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    let plane = named(&window, Role::Canvas, "Dichromatic plane of region 1").rect();
+    assert!(plane.width() > 300.0 && plane.height() > 150.0, "{plane:?}");
+    let middle = plane.center();
+    drag(&mut window, &[middle, middle + egui::vec2(30.0, 10.0)], Modifiers::NONE);
+    assert_eq!(item(&window), Some(Item::Region(1)), "a drag selects nothing");
+    crate::window::double_click(&mut window, middle);
+    assert_eq!(item(&window), Some(Item::Region(1)));
+}

@@ -1,0 +1,193 @@
+//! Parameters: dragged, typed, reset, switched, and taken back.
+
+use crate::window::{
+    Window, apply, choose, click, double_click, drag, named, notice, press, shown, sigma, state, tiny,
+    tiny_window, undo,
+};
+use dichroscope::gui::Pane;
+use dichroscope::segment::{Method, Parameter, Params, Preset, Setting};
+use dichroscope::workbench::{Command, Export};
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers, Rect};
+use egui_kittest::kittest::Queryable;
+
+const SIGMA: &str = "camera noise \u{3c3}0";
+
+fn rail(window: &Window) -> Rect {
+    named(window, Role::Slider, SIGMA).rect()
+}
+
+fn typed(window: &mut Window, name: &str, text: &str) {
+    click(window, Role::SpinButton, name);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.event(Event::Text(text.to_owned()));
+    press(window, Modifiers::NONE, Key::Enter);
+}
+
+#[test]
+fn a_drag_of_the_slider_is_one_step_and_is_analysed_all_along() {
+    let mut window = tiny_window();
+    let (before, generation) = (sigma(&window), state(&window).generation);
+    let rail = rail(&window);
+    let points: Vec<_> =
+        (0..6).map(|i| rail.left_center().lerp(rail.right_center(), 0.3 + 0.08 * i as f32)).collect();
+    drag(&mut window, &points, Modifiers::NONE);
+    let Setting::Value(after) = sigma(&window) else { panic!("a drag sets a value") };
+    assert!((3.0..8.0).contains(&after), "{after}");
+    assert!(state(&window).generation >= generation + 4, "each movement is analysed");
+    assert!(state(&window).is_current());
+    assert!((shown(&window).analysis.used.camera_noise - after).abs() < 1e-9);
+    undo(&mut window);
+    assert_eq!(sigma(&window), before);
+    assert!(!state(&window).history.can_undo() && state(&window).is_current());
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    assert_eq!(sigma(&window), Setting::Value(after));
+}
+
+#[test]
+fn every_slider_listens_to_assistive_technology() {
+    let mut window = tiny_window();
+    for (parameter, title, value) in [
+        (Parameter::ClipThreshold, "clip threshold", 200.0),
+        (Parameter::BloomDensity, "noise density", 3.0),
+        (Parameter::CameraNoise, SIGMA, 4.0),
+        (Parameter::MinIntensity, "min. intensity", 30.0),
+        (Parameter::CylinderWidth, "cylinder width", 5.0),
+        (Parameter::SliceWidth, "slice width", 5.0),
+        (Parameter::WindowSize, "window size", 8.0),
+        (Parameter::MinArea, "min. area", 300.0),
+    ] {
+        let before = state(&window).document.params.get(parameter);
+        named(&window, Role::Slider, title).set_value_accesskit(value);
+        window.run_steps(3);
+        assert_eq!(state(&window).document.params.get(parameter), Setting::Value(value), "{title}");
+        assert!(state(&window).is_current());
+        undo(&mut window);
+        assert_eq!(state(&window).document.params.get(parameter), before, "{title}");
+    }
+}
+
+#[test]
+fn a_value_is_typed_and_one_out_of_range_goes_as_far_as_it_can() {
+    let mut window = tiny_window();
+    typed(&mut window, "camera_noise", "4.5");
+    assert_eq!(sigma(&window), Setting::Value(4.5));
+    typed(&mut window, "camera_noise", "900");
+    let most = Parameter::CameraNoise.spec().range.1;
+    assert_eq!(sigma(&window), Setting::Value(most));
+    undo(&mut window);
+    assert_eq!(sigma(&window), Setting::Value(4.5));
+    undo(&mut window);
+    assert_eq!(sigma(&window), Params::default().camera_noise);
+}
+
+#[test]
+fn two_clicks_bring_the_default_back() {
+    let mut window = tiny_window();
+    let default = sigma(&window);
+    named(&window, Role::Slider, SIGMA).set_value_accesskit(6.0);
+    window.run_steps(3);
+    let rail = rail(&window);
+    double_click(&mut window, rail.center());
+    assert_eq!(sigma(&window), default, "on the slider");
+    named(&window, Role::Slider, SIGMA).set_value_accesskit(6.0);
+    window.run_steps(3);
+    let name = named(&window, Role::Label, SIGMA).rect();
+    double_click(&mut window, name.center());
+    assert_eq!(sigma(&window), default, "on its name");
+}
+
+#[test]
+fn auto_keeps_what_was_found_when_it_is_let_go() {
+    let mut window = tiny_window();
+    let used = shown(&window).analysis.used.camera_noise;
+    click(&mut window, Role::CheckBox, "camera noise \u{3c3}0 auto");
+    let Setting::Value(value) = sigma(&window) else { panic!("it is a value now") };
+    assert!((value - used).abs() < 1e-9);
+    click(&mut window, Role::CheckBox, "camera noise \u{3c3}0 auto");
+    assert_eq!(sigma(&window), Setting::Auto);
+}
+
+#[test]
+fn methods_and_switches_are_chosen_and_reset() {
+    let mut window = tiny_window();
+    let switch = |window: &Window| {
+        let mut params = state(window).document.params;
+        params.refine.switches().into_iter().find(|(name, _)| *name == "edge_body").map(|(_, on)| *on)
+    };
+    let before = switch(&window);
+    apply(&mut window, Command::EndGesture);
+    window.state_mut().show_alone(Some(Pane::Parameters));
+    window.run_steps(2);
+    click(&mut window, Role::CheckBox, "edge body");
+    assert_eq!(switch(&window), before.map(|on| !on));
+    click(&mut window, Role::Button, "paper");
+    assert_eq!(state(&window).document.params.method, Method::Paper);
+    assert_eq!(sigma(&window), Setting::Value(2.5), "table 6");
+    click(&mut window, Role::Button, "Reset");
+    assert_eq!(state(&window).document.params, Params::paper());
+    click(&mut window, Role::Button, "refined");
+    assert_eq!(state(&window).document.params.method, Method::Refined);
+    for _ in 0..4 {
+        undo(&mut window);
+    }
+    assert_eq!(state(&window).document.params, Params::default());
+}
+
+#[test]
+fn presets_are_in_the_menu_and_parameters_travel_through_a_file() {
+    let mut window = tiny_window();
+    let preset = Preset::ALL[1];
+    choose(&mut window, "Analyse", "Presets of table 6");
+    click(&mut window, Role::Button, preset.title());
+    assert_eq!(state(&window).document.params, preset.params());
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("p.toml");
+    apply(&mut window, Command::Export(Export::Parameters { path: path.clone() }));
+    undo(&mut window);
+    assert_eq!(state(&window).document.params, Params::default());
+    choose(&mut window, "Analyse", "Load parameters");
+    crate::window::answer(&mut window, &path);
+    assert_eq!(state(&window).document.params, preset.params());
+    std::fs::write(&path, "window_size = \n").unwrap();
+    choose(&mut window, "Analyse", "Load parameters");
+    crate::window::answer(&mut window, &path);
+    assert!(notice(&window).contains("p.toml"), "{}", notice(&window));
+    assert_eq!(state(&window).document.params, preset.params());
+}
+
+#[test]
+fn the_light_is_pinned_and_let_go() {
+    let mut window = tiny_window();
+    let found = shown(&window).analysis.illuminant.unwrap().direction;
+    click(&mut window, Role::CheckBox, "pin illuminant");
+    assert_eq!(state(&window).document.params.illuminant.direction(), Some(found));
+    assert!(shown(&window).analysis.illuminant.unwrap().given);
+    typed(&mut window, "illuminant green", "0.9");
+    let given = state(&window).document.params.illuminant.direction().unwrap();
+    assert!((given[1] - 0.9).abs() < 1e-9 && (given[0] - found[0]).abs() < 1e-9, "{given:?}");
+    click(&mut window, Role::CheckBox, "pin illuminant");
+    assert_eq!(state(&window).document.params.illuminant.direction(), None);
+}
+
+#[test]
+fn the_call_of_what_is_shown_can_be_copied() {
+    let mut window = tiny_window();
+    named(&window, Role::Slider, SIGMA).set_value_accesskit(4.0);
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::Button, "Analyse").click();
+    window.run_steps(3);
+    named(&window, Role::Button, "Copy as command line").click();
+    let mut copied = Vec::new();
+    // A frame for each event: the text is in the output of one of them.
+    for _ in 0..4 {
+        window.run_steps(1);
+        copied.extend(window.output().platform_output.commands.iter().filter_map(|command| match command {
+            egui::OutputCommand::CopyText(text) => Some(text.clone()),
+            _ => None,
+        }));
+    }
+    let call = copied.concat();
+    assert!(call.starts_with("dichroscope analyze ") && call.contains("--camera-noise 4"), "{call:?}");
+    assert!(call.contains(&tiny().display().to_string()), "{call:?}");
+}

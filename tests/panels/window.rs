@@ -1,0 +1,235 @@
+//! A window to act on: what a person sees, points at and types.
+
+use dichroscope::gui::App;
+use dichroscope::segment::{Parameter, Setting};
+use dichroscope::workbench::{Command, Executor, Item, Origin, Shown, State};
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
+use egui_kittest::kittest::{AccessKitNode, NodeT, Queryable};
+use egui_kittest::wgpu::WgpuTestRenderer;
+use egui_kittest::{Harness, HarnessBuilder, Node};
+use egui_wgpu::{RenderState, RendererOptions, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+pub type Window = Harness<'static, App>;
+
+/// Of a first start.
+pub const SIZE: Vec2 = vec2(1440.0, 900.0);
+
+/// Frames until what a click opened stands still.
+const FRAMES: usize = 3;
+
+/// An empty window without a graphics adapter.
+pub fn window() -> Window {
+    builder(SIZE).build_eframe(|cc| App::new(&cc.egui_ctx, None, Executor::Inline).unwrap())
+}
+
+/// An empty window with a graphics adapter. Where there is none the test is skipped with a word, unless
+/// `DICHROSCOPE_REQUIRE_GPU` says that there must be one.
+pub fn with_gpu(size: Vec2) -> Option<Window> {
+    let gpu = match render_state() {
+        Ok(gpu) => gpu,
+        Err(reason) => {
+            assert!(!gpu_required(), "a graphics adapter is required: {reason}");
+            eprintln!("SKIP: no graphics adapter ({reason})");
+            return None;
+        }
+    };
+    let of_app = gpu.clone();
+    let builder = builder(size).renderer(WgpuTestRenderer::from_render_state(gpu));
+    Some(builder.build_eframe(move |cc| App::new(&cc.egui_ctx, Some(of_app), Executor::Inline).unwrap()))
+}
+
+fn gpu_required() -> bool {
+    std::env::var_os("DICHROSCOPE_REQUIRE_GPU").is_some_and(|value| !value.is_empty() && value != "0")
+}
+
+fn builder(size: Vec2) -> HarnessBuilder<App> {
+    Harness::builder().with_size(size).with_pixels_per_point(1.0).with_max_steps(32).with_render_cursor(false)
+}
+
+/// Vulkan alone: another interface gives slightly different pictures.
+fn render_state() -> Result<RenderState, String> {
+    let mut setup = WgpuSetupCreateNew::without_display_handle();
+    setup.instance_descriptor.backends = wgpu::Backends::VULKAN;
+    let config =
+        WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..WgpuConfiguration::default() };
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends: wgpu::Backends::VULKAN,
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    pollster::block_on(RenderState::create(&config, &instance, None, RendererOptions::PREDICTABLE))
+        .map_err(|error| error.to_string())
+}
+
+/// A small photograph with three highlights.
+pub fn tiny() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/tiny/camera8.png")
+}
+
+/// A window in which the small photograph is open.
+pub fn tiny_window() -> Window {
+    let mut window = window();
+    apply(&mut window, Command::Open(Origin::File(tiny())));
+    window
+}
+
+pub fn apply(window: &mut Window, command: Command) {
+    window.state_mut().apply(command);
+    window.run_steps(FRAMES);
+}
+
+pub fn state(window: &Window) -> &State {
+    window.state().state()
+}
+
+pub fn shown(window: &Window) -> Arc<Shown> {
+    Arc::clone(state(window).shown().expect("a result is shown"))
+}
+
+pub fn item(window: &Window) -> Option<Item> {
+    state(window).document.selection.item
+}
+
+/// How many pixels are marked.
+pub fn marked(window: &Window) -> usize {
+    let mask = &state(window).document.selection.marked;
+    mask.as_ref().map_or(0, |mask| mask.as_slice().iter().filter(|&&on| on).count())
+}
+
+pub fn sigma(window: &Window) -> Setting {
+    state(window).document.params.get(Parameter::CameraNoise)
+}
+
+/// The text of the newest notice.
+#[track_caller]
+pub fn notice(window: &Window) -> String {
+    state(window).notices.last().expect("there is a notice").text.clone()
+}
+
+/// What has this role and a name that begins so; menus add their keys to a name.
+#[track_caller]
+pub fn named<'w>(window: &'w Window, role: Role, name: &str) -> Node<'w> {
+    let name = name.to_owned();
+    let fits = move |node: &AccessKitNode<'_>| {
+        node.role() == role && node.label().is_some_and(|label| label.starts_with(&name))
+    };
+    let mut found: Vec<Node<'w>> = window.query_all_by(fits).collect();
+    assert_eq!(found.len(), 1, "{role:?}: {found:#?}");
+    found.remove(0)
+}
+
+/// Whether anything that is shown has these words in its name.
+pub fn says(window: &Window, words: &str) -> bool {
+    let holds = |text: Option<String>| text.is_some_and(|text| text.contains(words));
+    window.root().children_recursive().any(|node| {
+        let node = node.accesskit_node();
+        holds(node.label()) || holds(node.value())
+    })
+}
+
+#[track_caller]
+pub fn click(window: &mut Window, role: Role, name: &str) {
+    named(window, role, name).click();
+    window.run_steps(FRAMES);
+}
+
+/// Opens a menu of the bar and chooses from it.
+#[track_caller]
+pub fn choose(window: &mut Window, menu: &str, entry: &str) {
+    window.get_by_role_and_label(Role::Button, menu).click();
+    window.run_steps(FRAMES);
+    let entries = [Role::Button, Role::CheckBox, Role::RadioButton];
+    let of_menu = |node: &AccessKitNode<'_>| {
+        entries.contains(&node.role()) && node.label().is_some_and(|label| label.starts_with(entry))
+    };
+    // The panels below may have a button of the same name: what opened last stands last.
+    window.query_all_by(of_menu).last().unwrap_or_else(|| panic!("{menu} has no {entry}")).click();
+    window.run_steps(FRAMES);
+}
+
+pub fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run_steps(FRAMES);
+}
+
+pub fn undo(window: &mut Window) {
+    press(window, Modifiers::COMMAND, Key::Z);
+}
+
+/// Replaces what stands in the window that asks for a path, and answers it.
+#[track_caller]
+pub fn answer(window: &mut Window, path: &Path) {
+    let field = named(window, Role::TextInput, "Path");
+    field.focus();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.event(Event::Text(path.display().to_string()));
+    window.run_steps(2);
+    press(window, Modifiers::NONE, Key::Enter);
+}
+
+pub fn pointer(window: &mut Window, pos: Pos2, pressed: bool, modifiers: Modifiers) {
+    let button = PointerButton::Primary;
+    window.event_modifiers(Event::PointerButton { pos, button, pressed, modifiers }, modifiers);
+    window.run_steps(1);
+}
+
+/// Presses at the first point, moves through the others and lets go.
+pub fn drag(window: &mut Window, points: &[Pos2], modifiers: Modifiers) {
+    let (first, last) = (points[0], points[points.len() - 1]);
+    window.hover_at(first);
+    window.run_steps(1);
+    pointer(window, first, true, modifiers);
+    for &point in &points[1..] {
+        window.hover_at(point);
+        window.run_steps(1);
+    }
+    pointer(window, last, false, modifiers);
+    window.run_steps(2);
+}
+
+/// Two clicks in one frame: a frame of the harness is a quarter of a second.
+pub fn double_click(window: &mut Window, pos: Pos2) {
+    window.hover_at(pos);
+    window.run_steps(4);
+    for pressed in [true, false, true, false] {
+        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+        window.input_mut().events.push(Event::PointerButton { pos, button, pressed, modifiers });
+    }
+    window.run_steps(FRAMES);
+}
+
+/// Two screen points a pixel, the middle of the picture in the middle of the view: [`at`] relies on it.
+pub fn zoom_in(window: &mut Window) {
+    let (width, height) = size(window);
+    let mut image = state(window).view.image.clone();
+    (image.zoom, image.centre_px) = (Some(2.0), Some([width as f32 / 2.0, height as f32 / 2.0]));
+    apply(window, Command::Image(image));
+}
+
+/// Where a point of the picture is on the screen, after [`zoom_in`].
+pub fn at(window: &Window, x: f32, y: f32) -> Pos2 {
+    let (width, height) = size(window);
+    let view = window.get_by_role_and_label(Role::Image, "Picture").rect();
+    view.center() + 2.0 * vec2(x - width as f32 / 2.0, y - height as f32 / 2.0)
+}
+
+/// Columns and rows of the picture.
+pub fn size(window: &Window) -> (usize, usize) {
+    state(window).picture.as_ref().expect("a picture is open").size()
+}
+
+/// A pixel of a region far from its border: column and row.
+pub fn inside(window: &Window, region: u16) -> (usize, usize) {
+    let shown = shown(window);
+    let labels = shown.labels();
+    let all = |x: usize, y: usize| {
+        (y - 3..=y + 3).all(|y| (x - 3..=x + 3).all(|x| labels.get(x, y) == Some(&region)))
+    };
+    (3..labels.height() - 3)
+        .flat_map(|y| (3..labels.width() - 3).map(move |x| (x, y)))
+        .find(|&(x, y)| all(x, y))
+        .expect("the region has an inside")
+}
