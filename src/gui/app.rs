@@ -124,6 +124,7 @@ impl Front {
 
     fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         come_in(ui, cx);
+        self.dialogs.hear_escape(ui.ctx());
         self.panels.image.hear_escape(ui.ctx());
         self.panels.cube.hear_escape(ui.ctx());
         for deed in shortcuts::pressed(ui.ctx()) {

@@ -7,7 +7,7 @@ use super::dock::Pane;
 use super::portrait::Sitting;
 use crate::truth::sample;
 use crate::workbench::{Command, Export, Origin};
-use egui::{Key, RichText, Ui};
+use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
@@ -130,10 +130,18 @@ impl Dialogs {
     pub fn ask(&mut self, question: Question) {
         (self.question, self.focus, self.force) = (Some(question), true, false);
         match question {
-            Question::Export => self.path.clear(),
+            Question::Export | Question::Open | Question::LoadParameters | Question::OpenWorkspace => {
+                self.path.clear();
+            }
             Question::SaveParameters => "parameters.toml".clone_into(&mut self.path),
             Question::SaveWorkspace => "workspace.dichroscope".clone_into(&mut self.path),
-            _ => {}
+        }
+    }
+
+    /// Escape closes the window that is open, before it is taken to unselect anything.
+    pub fn hear_escape(&mut self, ctx: &egui::Context) {
+        if self.question.is_some() && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+            self.question = None;
         }
     }
 
@@ -163,7 +171,7 @@ impl Dialogs {
             })
             .and_then(|shown| shown.inner)
             .unwrap_or(false);
-        if answered || !open || ui.input(|input| input.key_pressed(Key::Escape)) {
+        if answered || !open {
             self.question = None;
         }
         self.sitting.take()
