@@ -73,7 +73,7 @@ impl App {
     /// What the panels keep.
     #[cfg(test)]
     pub(super) fn panels(&self) -> &Panels {
-        &self.panels
+        &self.front.panels
     }
 
     /// Shows everything, and obeys.
@@ -126,10 +126,12 @@ impl Front {
 
     fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         come_in(ui, cx);
+        self.dialogs.hear_escape(ui.ctx());
         self.panels.image.hear_escape(ui.ctx());
+        self.panels.cube.hear_escape(ui.ctx());
         // egui takes the focus from what is typed in when Escape comes: the frame before tells who had it.
         let typed = std::mem::replace(&mut self.typing, false);
-        let escape_is_meant = !typed && !self.dialogs.is_open() && !egui::Popup::is_any_open(ui.ctx());
+        let escape_is_meant = !typed && !egui::Popup::is_any_open(ui.ctx());
         for deed in shortcuts::pressed(ui.ctx(), escape_is_meant) {
             // A window that opens is measured unseen in its first frame.
             ui.ctx().request_repaint();

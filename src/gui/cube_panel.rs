@@ -49,6 +49,14 @@ pub struct CubePanel {
 }
 
 impl CubePanel {
+    /// Escape gives up an outline before it clears the selection.
+    pub fn hear_escape(&mut self, ctx: &egui::Context) {
+        let key = egui::Key::Escape;
+        if self.outline.is_begun() && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, key)) {
+            self.outline = Outline::default();
+        }
+    }
+
     /// Another panel that sees the same.
     pub fn likeness(&self) -> Self {
         Self { eye: self.eye.clone(), ..Self::default() }
@@ -209,7 +217,8 @@ impl CubePanel {
 
     /// Hovering a bin lights up its pixels; a click selects its region, with Alt the bin itself.
     fn point(&mut self, cx: &mut Cx, response: &Response, projector: &Projector, rect: Rect) {
-        let pointer = response.hover_pos().filter(|_| !response.dragged());
+        let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
+        let pointer = clicked.or(response.hover_pos().filter(|_| !response.dragged()));
         let bin = pointer.and_then(|at| {
             let at = (at - rect.min).into();
             pick::nearest(&self.cloud.bins, projector, at, REACH_PT).map(|hit| hit.index as u32)

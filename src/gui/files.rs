@@ -7,7 +7,7 @@ use super::dock::Pane;
 use super::portrait::Sitting;
 use crate::truth::sample;
 use crate::workbench::{Command, Export, Origin};
-use egui::{Key, RichText, Ui};
+use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
@@ -36,6 +36,7 @@ enum Ware {
     Layer,
     View,
     Selection,
+    Area,
     Regions,
     Profile,
 }
@@ -44,8 +45,16 @@ enum Ware {
 const VIEWS: [Pane; 3] = [Pane::Colours, Pane::Plane, Pane::Profile];
 
 impl Ware {
-    const ALL: [Self; 7] =
-        [Self::Matte, Self::Result, Self::Layer, Self::View, Self::Selection, Self::Regions, Self::Profile];
+    const ALL: [Self; 8] = [
+        Self::Matte,
+        Self::Result,
+        Self::Layer,
+        Self::View,
+        Self::Selection,
+        Self::Area,
+        Self::Regions,
+        Self::Profile,
+    ];
 
     const fn words(self) -> (&'static str, &'static str) {
         match self {
@@ -63,6 +72,9 @@ impl Ware {
                 "Marked pixels",
                 "The marked pixels as a mask (.png), as a table (.csv) or as points in the colour cube (.ply).",
             ),
+            Self::Area => {
+                ("Analysed area", "What the analysis is restricted to, as a mask for `analyze --area`.")
+            }
             Self::Regions => ("Regions table", "The regions and their vectors, separated by tabs."),
             Self::Profile => ("Profile", "Input, body, surface and noise along the profile's line, as CSV."),
         }
@@ -75,6 +87,7 @@ impl Ware {
             Self::Layer => "layer.png",
             Self::View => "view.png",
             Self::Selection => "selection.png",
+            Self::Area => "area.png",
             Self::Regions => "regions.tsv",
             Self::Profile => "profile.csv",
         }
@@ -117,10 +130,18 @@ impl Dialogs {
     pub fn ask(&mut self, question: Question) {
         (self.question, self.focus, self.force) = (Some(question), true, false);
         match question {
-            Question::Export => self.path.clear(),
+            Question::Export | Question::Open | Question::LoadParameters | Question::OpenWorkspace => {
+                self.path.clear();
+            }
             Question::SaveParameters => "parameters.toml".clone_into(&mut self.path),
             Question::SaveWorkspace => "workspace.dichroscope".clone_into(&mut self.path),
-            _ => {}
+        }
+    }
+
+    /// Escape closes the window that is open, before it is taken to unselect anything.
+    pub fn hear_escape(&mut self, ctx: &egui::Context) {
+        if self.question.is_some() && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+            self.question = None;
         }
     }
 
@@ -146,11 +167,11 @@ impl Dialogs {
                     self.wares(ui, cx);
                 }
                 let answered = self.path_row(ui, question, cx);
-                if question == Question::Open { self.shelf(ui, cx) || answered } else { answered }
+                if question == Question::Open { Self::shelf(ui, cx) || answered } else { answered }
             })
             .and_then(|shown| shown.inner)
             .unwrap_or(false);
-        if answered || !open || ui.input(|input| input.key_pressed(Key::Escape)) {
+        if answered || !open {
             self.question = None;
         }
         self.sitting.take()
@@ -163,7 +184,15 @@ impl Dialogs {
         }
         for ware in Ware::ALL {
             let (name, tip) = ware.words();
-            if ui.radio(self.ware == ware, name).on_hover_text(tip).clicked() {
+            // What there is nothing of cannot be written.
+            let there = match ware {
+                Ware::Selection => cx.state.document.selection.marked.is_some(),
+                Ware::Area => cx.state.document.area.is_some(),
+                Ware::View => cx.gpu.is_some(),
+                _ => true,
+            };
+            let radio = ui.add_enabled(there, egui::RadioButton::new(self.ware == ware, name));
+            if radio.on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
                 self.ware = ware;
                 self.path = proposed(ware, cx).display().to_string();
             }
@@ -257,13 +286,14 @@ impl Dialogs {
             // Views are drawn before they are written.
             Ware::Layer | Ware::View => Export::Layer { path, settings: cx.state.view.image.clone() },
             Ware::Selection => Export::Selection { path },
+            Ware::Area => Export::Area { path },
             Ware::Regions => Export::Regions { path },
             Ware::Profile => Export::Profile { path },
         }
     }
 
     /// The sample scene and the photographs opened before. Whether one was chosen.
-    fn shelf(&mut self, ui: &mut Ui, cx: &mut Cx) -> bool {
+    fn shelf(ui: &mut Ui, cx: &mut Cx) -> bool {
         let mut chosen = None;
         ui.add_space(4.0);
         super::widgets::heading(ui, cx.tones, "Sample");

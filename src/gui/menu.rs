@@ -4,10 +4,11 @@ use super::dock::{Dock, Pane};
 use super::files::{Dialogs, Question};
 use super::shortcuts::{Deed, keys_of};
 use super::{Cx, status};
+use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::segment::{Method, Preset};
 use crate::truth::sample;
 use crate::workbench::{Command, Origin, Theme, analyze_call};
-use egui::{Button, Ui};
+use egui::{Button, RadioButton, Ui};
 
 /// Shows the bar.
 pub fn show(ui: &mut Ui, cx: &mut Cx, dock: &mut Dock, dialogs: &mut Dialogs, help: &mut bool) {
@@ -53,6 +54,7 @@ fn file(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
     if ui.button(format!("Sample scene {}", sample::NAME)).clicked() {
         cx.send(Command::Open(Origin::Sample(sample::NAME.to_owned())));
     }
+    ui.menu_button("Read as", |ui| read_as(ui, cx));
     ui.separator();
     if ui.button("Open workspace\u{2026}").clicked() {
         dialogs.ask(Question::OpenWorkspace);
@@ -68,6 +70,42 @@ fn file(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
     if ui.button("Quit").clicked() {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
     }
+}
+
+/// What the file's values mean, where the file does not say or says wrong.
+fn read_as(ui: &mut Ui, cx: &mut Cx) {
+    let now = cx.state.picture.as_ref().map_or_else(ReadOptions::default, |picture| picture.reading);
+    for (choice, name, tip) in [
+        (
+            EncodingChoice::Auto,
+            "as the file says",
+            "sRGB for integers and linear for floats that say nothing.",
+        ),
+        (EncodingChoice::Linear, "linear light", "The values are proportional to light."),
+        (EncodingChoice::Srgb, "sRGB", "The values carry sRGB's tone curve."),
+        (EncodingChoice::Gamma(2.2), "gamma 2.2", "linear = value ^ 2.2"),
+    ] {
+        let radio =
+            ui.add_enabled(cx.state.picture.is_some(), RadioButton::new(now.encoding == choice, name));
+        if radio.on_hover_text(tip).clicked() {
+            cx.send(Command::ReadAs(ReadOptions { encoding: choice, ..now }));
+        }
+    }
+    ui.separator();
+    ui.horizontal(|ui| {
+        let tip = "Counts that an integer's maximum or a float's 1.0 stands for; 255 unless the file has head-room.";
+        ui.label("full scale").on_hover_text(tip);
+        let mut counts = now.full_scale.unwrap_or(FULL_SCALE_COUNTS);
+        // Typed, not dragged: each value reads the file anew.
+        let field = egui::DragValue::new(&mut counts).range(1.0..=1e6).speed(0.0).update_while_editing(false);
+        let field = ui.add(field.suffix(" counts")).on_hover_text(tip);
+        field.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, "full scale")
+        });
+        if field.changed() {
+            cx.send(Command::ReadAs(ReadOptions { full_scale: Some(counts), ..now }));
+        }
+    });
 }
 
 fn edit(ui: &mut Ui, cx: &mut Cx) {

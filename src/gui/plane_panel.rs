@@ -88,7 +88,8 @@ impl PlanePanel {
     /// Hovering a point hovers its pixel; a click selects it.
     fn point(&mut self, cx: &mut Cx, response: &Response, chart: Chart, rect: Rect) {
         let Some(plane) = &self.plane else { return };
-        let pointer = response.hover_pos().filter(|_| !response.dragged());
+        let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
+        let pointer = clicked.or(response.hover_pos().filter(|_| !response.dragged()));
         let found =
             pointer.and_then(|at| plane.nearest(chart.oblique(at, rect), REACH_PT * chart.counts_per_pt));
         let hover = found.map(|point| Item::Pixel(point.pixel));
@@ -146,26 +147,27 @@ fn cloud(
     mesh
 }
 
-/// Angle, slice and noise, in the lower corner; why there is no plane, in the upper one.
+/// Angle, slice and noise in the upper corner, or why there is no plane.
 fn edge_notes(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, shown: &Shown, rect: Rect) {
-    let font = FontId::proportional(SMALL_PT);
     let region = &shown.analysis.intrinsic.regions[usize::from(plane.region) - 1];
     let rms = region.fit_rms_counts;
     let text = if plane.has_plane {
         let (angle, slice) = (plane.angle_deg, plane.slice_half_width);
-        format!("angle {angle:.1}\u{b0}   slice \u{b1}{slice:.1} counts   \u{3b5} {rms:.2} counts rms")
+        format!("angle {angle:.1}\u{b0}\nslice \u{b1}{slice:.1} counts\n\u{3b5} {rms:.2} counts rms")
     } else {
         let why = if shown.analysis.illuminant.is_none() {
             "the light's colour is unknown, as no highlight was found"
         } else {
             "its body colour is the light's"
         };
-        let below = rect.left_top() + vec2(8.0, 2.0);
-        let text = format!("No dichromatic plane: {why}. Shown across the matte line.");
-        painter.text(below, Align2::LEFT_TOP, text, font.clone(), cx.tones.text);
-        format!("cylinder radius {:.1} counts   {rms:.2} counts rms from the line", plane.radius)
+        let radius = plane.radius;
+        format!(
+            "No dichromatic plane: {why}.\nShown across the matte line.\ncylinder radius {radius:.1} counts\n\
+             {rms:.2} counts rms from the line"
+        )
     };
-    painter.text(rect.right_bottom() - vec2(8.0, 4.0), Align2::RIGHT_BOTTOM, text, font, cx.tones.quiet);
+    let corner = rect.left_top() + vec2(8.0, 4.0);
+    painter.text(corner, Align2::LEFT_TOP, text, FontId::proportional(SMALL_PT), cx.tones.quiet);
 }
 
 /// Rings the colour that is hovered anywhere, and tells its amounts.
@@ -177,15 +179,15 @@ fn hovered(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, chart: Chart, 
     };
     let Some(amounts) = colour.map(|colour| plane.amounts(colour)) else { return };
     let at = chart.screen(plane.oblique(amounts.body, amounts.surface), rect);
-    let inside = cx.state.hover.and_then(|item| cx.state.region_of(item)) == Some(plane.region);
+    let elsewhere = |item| matches!(item, Item::Pixel(_)) && cx.state.region_of(item) != Some(plane.region);
+    let inside = !cx.state.hover.is_some_and(elsewhere);
     let colour = if inside { cx.tones.accent } else { cx.tones.quiet };
     painter.circle_stroke(at, RING_PT, Stroke::new(3.5, Color32::from_black_alpha(140)));
     painter.circle_stroke(at, RING_PT, Stroke::new(1.6, colour));
     let other = if inside { "" } else { "   not in this region" };
-    let text = format!(
-        "m_b {:.1}   m_s {:.1}   \u{3b5} {:+.1}{other}",
-        amounts.body, amounts.surface, amounts.noise
-    );
+    let [body, surface, noise] =
+        [amounts.body, amounts.surface, amounts.noise].map(|v| format!("{v:.1}").replace('-', "\u{2212}"));
+    let text = format!("m_b {body}   m_s {surface}   \u{3b5} {noise}{other}");
     let corner = rect.right_top() + vec2(-8.0, 4.0);
     painter.text(corner, Align2::RIGHT_TOP, text, FontId::proportional(SMALL_PT), cx.tones.text);
 }

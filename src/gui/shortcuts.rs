@@ -122,17 +122,19 @@ const POINTER: &[(&str, &str)] = &[
     ("Shift + mark", "add to what is marked"),
     ("Alt + mark", "take away from what is marked"),
     ("Arrow keys on a slider", "one step"),
+    ("Arrow keys, + \u{2212} on the cube", "orbit, zoom"),
+    ("X Y U D S E M on the cube", "named views, see its menu"),
 ];
 
 /// The words for the keys of a deed, for menus and tooltips.
 pub fn keys_of(ctx: &egui::Context, deed: Deed) -> String {
     let found = ALL.iter().find(|shortcut| shortcut.deed == deed);
-    found.map_or_else(String::new, |shortcut| written(ctx, &shortcut.keys))
+    found.map_or_else(String::new, |shortcut| written(ctx, shortcut.keys))
 }
 
 /// Keys as they are printed on a keyboard.
-fn written(ctx: &egui::Context, keys: &KeyboardShortcut) -> String {
-    let all = ctx.format_shortcut(keys);
+fn written(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
+    let all = ctx.format_shortcut(&keys);
     let symbol = keys.logical_key.symbol_or_name();
     all.strip_suffix(keys.logical_key.name()).map_or_else(|| all.clone(), |held| format!("{held}{symbol}"))
 }
@@ -231,6 +233,7 @@ pub fn show_help(ui: &mut Ui, cx: &Cx, open: &mut bool) {
         .open(open)
         .collapsible(false)
         .resizable(false)
+        .min_width(880.0)
         .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
         .show(&ctx, |ui| {
             ui.horizontal_top(|ui| {
@@ -249,7 +252,7 @@ fn list(ui: &mut Ui, cx: &Cx, group: &str) {
         POINTER.iter().map(|&(keys, words)| (keys.to_owned(), words)).collect()
     } else {
         let of_group = ALL.iter().filter(|shortcut| shortcut.group == group);
-        of_group.map(|shortcut| (written(ui.ctx(), &shortcut.keys), shortcut.words)).collect()
+        of_group.map(|shortcut| (written(ui.ctx(), shortcut.keys), shortcut.words)).collect()
     };
     egui::Grid::new(group).num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| {
         for (keys, words) in rows {

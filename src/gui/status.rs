@@ -51,8 +51,8 @@ fn progress(ui: &mut Ui, cx: &Cx) {
         return;
     };
     let elapsed = job.since.elapsed();
-    if elapsed < PATIENCE {
-        ui.ctx().request_repaint_after(PATIENCE - elapsed);
+    if let Some(rest) = PATIENCE.checked_sub(elapsed) {
+        ui.ctx().request_repaint_after(rest);
         return;
     }
     let bar = egui::ProgressBar::new(done.unwrap_or(1.0)).desired_width(72.0).desired_height(6.0);

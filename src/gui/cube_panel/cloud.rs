@@ -124,9 +124,9 @@ impl Cloud {
         self.drawn = match &inputs.detail {
             None => {
                 let points = self.bins.iter().copied().enumerate();
-                brush.split(points.map(|(bin, point)| (point, looked_at(focus.as_deref(), bin))))
+                Brush::split(points.map(|(bin, point)| (point, looked_at(focus.as_deref(), bin))))
             }
-            Some(colours) => brush.split(colours.iter().map(|unique| {
+            Some(colours) => Brush::split(colours.iter().map(|unique| {
                 let mut point = brush.point(unique.bin as usize, unique.colour, unique.count);
                 point.size_px = point.size_px.min(PLAIN_PT);
                 (point, looked_at(focus.as_deref(), unique.bin as usize))
@@ -197,7 +197,7 @@ impl Brush<'_> {
     }
 
     /// What is looked at, and the ghosts.
-    fn split(&self, points: impl Iterator<Item = (Point, bool)>) -> [Batch<Point>; 2] {
+    fn split(points: impl Iterator<Item = (Point, bool)>) -> [Batch<Point>; 2] {
         let (mut full, mut ghosts) = (Vec::new(), Vec::new());
         for (point, looked_at) in points {
             if looked_at {

@@ -143,9 +143,9 @@ impl Eye {
         // The body vector to the right, the light's side up: as the plane view draws it.
         let inward = cross(normal, body);
         if sight == Sight::FaceOn {
-            self.orbit.face(normal, inward)
+            self.orbit.face(normal, inward);
         } else {
-            self.orbit.edge_on(normal, body)
+            self.orbit.edge_on(normal, body);
         }
     }
 
@@ -188,7 +188,9 @@ impl Eye {
         let listens = (response.hovered() || response.has_focus()) && !ui.ctx().text_edit_focused();
         let keys = if listens { pressed(ui) } else { Vec::new() };
         self.obey_pointer(ui, response, rect, orbits);
-        keys.iter().for_each(|&key| self.obey_key(key, size));
+        for &key in &keys {
+            self.obey_key(key, size);
+        }
         self.by_hand |= self.orbit != before;
         let named = keys.iter().find_map(|key| Sight::ALL.into_iter().find(|(_, of, ..)| of == key));
         let reset = (response.double_clicked() && orbits).then_some(Sight::ALL[0]);

@@ -92,21 +92,25 @@ impl Frame {
                 });
             }
         }
-        if let (Some((ColourSpace::Rgb, ..)), Some(black)) = (self.of, on_screen([0.0; 3])) {
-            painter.circle(black, 3.5, Color32::BLACK, Stroke::new(1.2, tones.text));
-            let away = (black - middle).normalized();
-            names.push(Label {
-                text: "black".to_owned(),
-                at: black,
-                sides: vec![away, vec2(0.0, 1.0), vec2(-1.0, 0.0)],
-                colour: tones.quiet,
-                size_pt: SMALL_PT,
-                tip: "No light at all: every matte line starts here (section 3.1).",
-                leader: false,
-            });
+        if let (Some((ColourSpace::Rgb, ..)), Some(at)) = (self.of, on_screen([0.0; 3])) {
+            painter.circle(at, 3.5, Color32::BLACK, Stroke::new(1.2, tones.text));
+            names.push(black(at, middle, tones));
         }
         names.extend(values);
         names
+    }
+}
+
+/// The name of the black corner.
+fn black(at: Pos2, middle: Pos2, tones: &Tones) -> Label {
+    Label {
+        text: "black".to_owned(),
+        at,
+        sides: vec![(at - middle).normalized(), vec2(0.0, 1.0), vec2(-1.0, 0.0)],
+        colour: tones.quiet,
+        size_pt: SMALL_PT,
+        tip: "No light at all: every matte line starts here (section 3.1).",
+        leader: false,
     }
 }
 

@@ -19,9 +19,14 @@ pub struct Outline {
 }
 
 impl Outline {
+    /// Whether there is something to give up.
+    pub fn is_begun(&self) -> bool {
+        !self.corners.is_empty()
+    }
+
     /// Follows the pointer. The closed outline, when it is finished.
     pub fn follow(&mut self, ui: &Ui, response: &Response, tool: Tool) -> Option<Vec<Pos2>> {
-        if tool != self.tool || ui.input(|input| input.key_down(Key::Escape)) {
+        if tool != self.tool {
             self.corners.clear();
             self.tool = tool;
         }
