@@ -66,11 +66,15 @@ impl Desk {
         fs::write(path, bytes).unwrap();
     }
 
+    /// Runs the program as on a machine without a display.
     fn run(&self, arguments: &str) -> Ended {
         let tiny = tiny().display().to_string();
         let arguments = arguments.split_whitespace().map(|word| word.replace("TINY", &tiny));
-        let output =
-            cargo_bin_cmd!("dichroscope").current_dir(self.folder.path()).args(arguments).output().unwrap();
+        let mut program = cargo_bin_cmd!("dichroscope");
+        for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+            program.env_remove(name);
+        }
+        let output = program.current_dir(self.folder.path()).args(arguments).output().unwrap();
         let text = |bytes| String::from_utf8(bytes).unwrap();
         Ended { code: output.status.code().unwrap(), out: text(output.stdout), err: text(output.stderr) }
     }
@@ -131,8 +135,14 @@ fn wrong_usage_is_exit_2_before_any_work() {
     let desk = Desk::new();
     desk.photo("a.png");
     desk.put("empty/notes.txt", b"");
+    if cfg!(not(feature = "gui")) {
+        desk.fails(2, "a.png", "`dichroscope analyze a.png --out DIR`");
+        desk.fails(2, "screenshot --out out", "no window built in");
+    }
     for (arguments, says) in [
-        ("a.png", "`dichroscope analyze a.png --out DIR`"),
+        ("screenshot --out out --size 10x20", "expected WIDTHxHEIGHT, each from 64 to 8192 pixels"),
+        ("screenshot --out out --size large", "expected WIDTHxHEIGHT"),
+        ("screenshot --size 640x400", "--out"),
         ("analyze a.png", "--out"),
         ("analyze --out out", "IMAGE|DIR"),
         (
@@ -449,6 +459,47 @@ fn evaluate_says_what_is_wrong_with_a_result() {
     desk.fails(1, "evaluate out/a --truth TINY", "out/a: cannot decode out/a/body.exr");
 }
 
+#[cfg(feature = "gui")]
+#[test]
+fn without_a_display_one_sentence_names_what_needs_none() {
+    let desk = Desk::new();
+    desk.photo("a.png");
+    for arguments in ["", "a.png"] {
+        let ended = desk.run(arguments);
+        assert_eq!((ended.code, ended.out.as_str()), (1, ""), "{}", ended.err);
+        assert_eq!(ended.err.lines().count(), 1, "{}", ended.err);
+        assert!(ended.err.contains("`dichroscope analyze PHOTO --out DIR` needs none"), "{}", ended.err);
+        assert!(!ended.err.contains(".rs"), "{}", ended.err);
+    }
+    assert_eq!(desk.list(""), ["a.png"]);
+}
+
+/// Without a graphics adapter there is nothing to draw with: a skip, unless `DICHROSCOPE_REQUIRE_GPU` says that there is one.
+#[cfg(feature = "gui")]
+#[test]
+fn the_gallery_is_drawn_without_a_display() {
+    let desk = Desk::new();
+    let ended = desk.run("screenshot --out gallery --size 640x400");
+    if ended.code == 1 && ended.err.contains("no graphics device") {
+        let required = std::env::var_os("DICHROSCOPE_REQUIRE_GPU");
+        assert!(!required.is_some_and(|value| !value.is_empty() && value != "0"), "{}", ended.err);
+        eprintln!("SKIP: {}", ended.err);
+        return;
+    }
+    assert_eq!(ended.code, 0, "{}", ended.err);
+    let files = desk.list("gallery");
+    assert_eq!(ended.out.lines().count(), files.len(), "each picture is named: {}", ended.out);
+    let size = |name: &str| image::image_dimensions(desk.path("gallery").join(name)).unwrap();
+    assert_eq!(size("window.png"), (640, 400));
+    for name in files.iter().filter(|name| !name.starts_with("window")) {
+        assert_eq!(size(name), (384, 240), "{name}: three fifths");
+    }
+    assert!(files.len() >= 8, "{files:?}");
+    desk.put("letter.txt", b"dear all");
+    desk.fails(1, "screenshot letter.txt --out other", "letter.txt");
+}
+
+#[cfg(not(feature = "gui"))]
 #[test]
 fn without_arguments_the_sample_is_analysed() {
     let desk = Desk::new();

@@ -30,6 +30,8 @@ struct Front {
     dialogs: Dialogs,
     portraitist: Portraitist,
     help: bool,
+    /// Whether somebody typed in the last frame.
+    typing: bool,
     /// The one panel that is shown, if not all.
     alone: Option<Pane>,
 }
@@ -140,7 +142,10 @@ impl Front {
         self.dialogs.hear_escape(ui.ctx());
         self.panels.image.hear_escape(ui.ctx());
         self.panels.cube.hear_escape(ui.ctx());
-        for deed in shortcuts::pressed(ui.ctx()) {
+        // egui takes the focus from what is typed in when Escape comes: the frame before tells who had it.
+        let typed = std::mem::replace(&mut self.typing, false);
+        let escape_is_meant = !typed && !egui::Popup::is_any_open(ui.ctx());
+        for deed in shortcuts::pressed(ui.ctx(), escape_is_meant) {
             // A window that opens is measured unseen in its first frame.
             ui.ctx().request_repaint();
             shortcuts::carry_out(deed, cx, &mut self.dialogs, &mut self.help);
@@ -164,6 +169,7 @@ impl Front {
         }
         notices::show(ui, cx);
         shortcuts::show_help(ui, cx, &mut self.help);
+        self.typing = ui.ctx().text_edit_focused();
     }
 }
 

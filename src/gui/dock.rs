@@ -143,9 +143,14 @@ impl Dock {
         *self = Self::default();
     }
 
-    /// The arrangement, to be remembered.
+    /// The arrangement, to be remembered: the same for the same arrangement, however its tiles are hashed.
     pub fn to_text(&self) -> String {
-        serde_json::to_string(&self.tree).unwrap_or_default()
+        let Ok(mut tree) = serde_json::to_value(&self.tree) else { return String::new() };
+        tree.sort_all_objects();
+        if let Some(invisible) = tree.get_mut("invisible").and_then(serde_json::Value::as_array_mut) {
+            invisible.sort_by_key(serde_json::Value::as_u64);
+        }
+        tree.to_string()
     }
 
     /// A remembered arrangement; none where it cannot be read or lacks a panel.

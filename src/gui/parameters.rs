@@ -2,9 +2,9 @@
 
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
-use crate::segment::{Method, Parameter, Params, Setting};
+use crate::segment::{IlluminantSetting, Method, Parameter, Params, Setting};
 use crate::workbench::{Command, Gesture};
-use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Slider, Ui, vec2};
+use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Sense, Slider, Ui, vec2};
 
 /// Width of the labels' column, points.
 const LABEL_PT: f32 = 100.0;
@@ -148,7 +148,8 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
     );
     let columns = Columns::of(ui);
     ui.scope(|ui| {
-        let name = columns.label.show(ui, egui::Label::new(feel.title).truncate()).on_hover_text(&tip);
+        let name = egui::Label::new(feel.title).truncate().selectable(false).sense(Sense::click());
+        let name = columns.label.show(ui, name).on_hover_text(&tip);
         ui.spacing_mut().slider_width = columns.rail.0.width();
         let slider = Slider::new(&mut value, feel.range.clone())
             .show_value(false)
@@ -156,7 +157,7 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
             .logarithmic(feel.logarithmic)
             .clamping(egui::SliderClamping::Never);
         // No tooltip here: it would hide the rows below from the hand that drags.
-        let slider = columns.rail.show(ui, slider);
+        let slider = widgets::clickable(columns.rail.show(ui, slider));
         slider.widget_info(|| egui::WidgetInfo::slider(true, value, feel.title));
         let decimals = usize::from(feel.step < 1.0) * 2;
         let typed = DragValue::new(&mut value)
@@ -190,7 +191,8 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
             let setting = if automatic { Setting::Value(value) } else { Setting::Auto };
             cx.send(Command::SetParameter(parameter, setting, None));
         }
-        if slider.drag_stopped() || typed.drag_stopped() || typed.lost_focus() || slider.lost_focus() {
+        let let_go = slider.drag_stopped() || slider.clicked() || slider.lost_focus();
+        if let_go || typed.drag_stopped() || typed.lost_focus() {
             cx.send(Command::EndGesture);
         }
     });
@@ -230,7 +232,13 @@ fn by_hand(ui: &mut Ui, cx: &mut Cx) {
 
 /// The light: the one found, or one that is given and turns every plane to it.
 fn illuminant(ui: &mut Ui, cx: &mut Cx) {
-    let given = cx.state.document.params.illuminant.direction();
+    let setting = cx.state.document.params.illuminant;
+    let given = setting.direction();
+    // As it was typed: a unit vector would turn with each digit.
+    let typed = match setting {
+        IlluminantSetting::Given(bands) if bands.iter().all(|&band| band <= 1.0) => Some(bands),
+        _ => given,
+    };
     let found =
         cx.state.newest.as_ref().and_then(|shown| shown.analysis.illuminant).map(|light| light.direction);
     let tip =
@@ -238,7 +246,7 @@ fn illuminant(ui: &mut Ui, cx: &mut Cx) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = GAP_PT;
         label(ui, "illuminant", tip);
-        let mut direction = given.or(found).unwrap_or([1.0, 1.0, 1.0].map(|v: f64| v / 3f64.sqrt()));
+        let mut direction = typed.or(found).unwrap_or([1.0, 1.0, 1.0].map(|v: f64| v / 3f64.sqrt()));
         let mut changed = false;
         let mut rested = false;
         for (value, band) in direction.iter_mut().zip(["red", "green", "blue"]) {

@@ -139,13 +139,15 @@ fn written(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
     all.strip_suffix(keys.logical_key.name()).map_or_else(|| all.clone(), |held| format!("{held}{symbol}"))
 }
 
-/// The deeds whose keys were pressed, unless somebody is typing.
-pub fn pressed(ctx: &egui::Context) -> Vec<Deed> {
+/// The deeds whose keys were pressed, unless somebody is typing. `escape_is_meant` says whether Escape is not what closes
+/// something that is open over the panels.
+pub fn pressed(ctx: &egui::Context, escape_is_meant: bool) -> Vec<Deed> {
     if ctx.text_edit_focused() {
         return Vec::new();
     }
     ctx.input_mut(|input| {
         ALL.iter()
+            .filter(|shortcut| escape_is_meant || shortcut.deed != Deed::Escape)
             .filter(|shortcut| input.consume_shortcut(&shortcut.keys))
             .map(|shortcut| shortcut.deed)
             .collect()

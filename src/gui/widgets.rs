@@ -17,6 +17,12 @@ pub fn chip(ui: &mut Ui, colour: Color32, name: &str) -> Response {
     response
 }
 
+/// A slider that hears clicks too: by itself it hears drags only.
+pub fn clickable(slider: Response) -> Response {
+    let clicks = slider.interact(Sense::click());
+    slider.union(clicks)
+}
+
 /// A number with its unit in quiet text, aligned to the right of `width` points.
 pub fn number(ui: &mut Ui, tones: &Tones, width: f32, value: &str, unit: &str) {
     ui.allocate_ui_with_layout(vec2(width, 18.0), Layout::right_to_left(Align::Center), |ui| {

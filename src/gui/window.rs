@@ -40,7 +40,7 @@ pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
         };
         let ended = eframe::run_native("dichroscope", options(), Box::new(create));
         if lock(&passage).is_none() {
-            return ended.map_err(|error| WindowError(error.to_string()));
+            return ended.map_err(|error| WindowError(reason(&error.to_string()).to_owned()));
         }
     }
 }
@@ -123,5 +123,23 @@ impl eframe::App for Tenant {
         {
             tracing::warn!("{reason}");
         }
+    }
+}
+
+/// What a message says, without the place in somebody's source that it begins with and the full stop that it ends with.
+fn reason(message: &str) -> &str {
+    let after = message.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
+    after.map_or(message, |(_, reason)| reason).trim_end_matches('.')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reason_tells_no_places_in_sources() {
+        let winit = "winit EventLoopError: os error at /home/a/linux/mod.rs:765: neither DISPLAY nor WAYLAND_DISPLAY is set.";
+        assert_eq!(reason(winit), "neither DISPLAY nor WAYLAND_DISPLAY is set");
+        assert_eq!(reason("no adapter: out of memory"), "no adapter: out of memory");
     }
 }

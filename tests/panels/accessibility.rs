@@ -88,6 +88,7 @@ fn everything_has_a_name_in_menus_and_windows() {
     for key in [Key::O, Key::E, Key::S] {
         press(&mut window, Modifiers::COMMAND, key);
         check(&window, key.name());
+        press(&mut window, Modifiers::NONE, Key::Escape);
     }
     press(&mut window, Modifiers::COMMAND, Key::E);
     for ware in ["Everything, as a folder", "Marked pixels"] {

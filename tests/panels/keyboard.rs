@@ -71,6 +71,28 @@ fn escape_closes_a_window_that_asks_and_leaves_the_selection() {
 }
 
 #[test]
+fn escape_closes_a_menu_or_gives_typing_up_and_leaves_the_selection() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::NONE, Key::CloseBracket);
+    window.get_by_role_and_label(Role::Button, "Edit").click();
+    window.run_steps(3);
+    assert!(says(&window, "Invert marked"));
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!says(&window, "Invert marked"));
+    assert!(crate::window::item(&window).is_some(), "a menu");
+    let before = crate::window::sigma(&window);
+    crate::window::click(&mut window, Role::SpinButton, "camera_noise");
+    window.event(Event::Text("7".to_owned()));
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(crate::window::item(&window).is_some(), "typing");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(crate::window::item(&window), None, "nothing was open any more");
+    crate::window::undo(&mut window);
+    crate::window::undo(&mut window);
+    assert_eq!(crate::window::sigma(&window), before, "what was typed is a step");
+}
+
+#[test]
 fn a_notice_stays_until_it_is_dismissed() {
     let mut window = window();
     apply(&mut window, Command::Notify(Severity::Warning, "The moon is full.".to_owned()));

@@ -2,23 +2,22 @@
 
 use crate::window::{
     Window, apply, at, click, drag, inside, item, named, pointer, press, says, shown, state, tiny_window,
-    undo, zoom_in,
+    undo, words, zoom_in,
 };
 use dichroscope::gui::Pane;
 use dichroscope::workbench::{Command, Item};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::Node;
+use egui_kittest::kittest::NodeT;
 
 /// The regions in the order of the table's rows.
 fn rows(window: &Window) -> Vec<u16> {
-    let mut rows: Vec<(f32, u16)> = window
-        .query_all_by_label_contains("colour of region ")
-        .map(|chip| {
-            let label = chip.accesskit_node().label().unwrap();
-            (chip.rect().center().y, label.trim_start_matches("colour of region ").parse().unwrap())
-        })
-        .collect();
+    let of_row = |node: Node<'_>| {
+        let id = words(&node)?.strip_prefix("colour of region ")?.parse().ok()?;
+        Some((node.rect().center().y, id))
+    };
+    let mut rows: Vec<(f32, u16)> = window.root().children_recursive().filter_map(of_row).collect();
     rows.sort_by(|a, b| a.0.total_cmp(&b.0));
     rows.into_iter().map(|(_, id)| id).collect()
 }

@@ -95,6 +95,14 @@ fn two_clicks_bring_the_default_back() {
     let name = named(&window, Role::Label, SIGMA).rect();
     double_click(&mut window, name.center());
     assert_eq!(sigma(&window), default, "on its name");
+    window.run_steps(4);
+    drag(&mut window, &[rail.center()], Modifiers::NONE);
+    window.run_steps(4);
+    drag(&mut window, &[rail.center() + egui::vec2(20.0, 0.0)], Modifiers::NONE);
+    assert_ne!(sigma(&window), default, "one click moves the handle");
+    undo(&mut window);
+    undo(&mut window);
+    assert_eq!(sigma(&window), default, "two clicks at two places are two steps");
 }
 
 #[test]
@@ -163,9 +171,15 @@ fn the_light_is_pinned_and_let_go() {
     click(&mut window, Role::CheckBox, "pin illuminant");
     assert_eq!(state(&window).document.params.illuminant.direction(), Some(found));
     assert!(shown(&window).analysis.illuminant.unwrap().given);
-    typed(&mut window, "illuminant green", "0.9");
+    click(&mut window, Role::SpinButton, "illuminant green");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    for digit in ["0", ".", "9"] {
+        window.event(Event::Text(digit.to_owned()));
+        window.run_steps(2);
+    }
+    press(&mut window, Modifiers::NONE, Key::Enter);
     let given = state(&window).document.params.illuminant.direction().unwrap();
-    assert!((given[1] - 0.9).abs() < 1e-9 && (given[0] - found[0]).abs() < 1e-9, "{given:?}");
+    assert!((given[1] / given[0] - 0.9 / found[0]).abs() < 1e-9, "a direction: {found:?}, {given:?}");
     click(&mut window, Role::CheckBox, "pin illuminant");
     assert_eq!(state(&window).document.params.illuminant.direction(), None);
 }

@@ -5,7 +5,7 @@ use dichroscope::segment::{Parameter, Setting};
 use dichroscope::workbench::{Command, Executor, Item, Origin, Shown, State};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
-use egui_kittest::kittest::{AccessKitNode, NodeT, Queryable};
+use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::wgpu::WgpuTestRenderer;
 use egui_kittest::{Harness, HarnessBuilder, Node};
 use egui_wgpu::{RenderState, RendererOptions, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
@@ -111,13 +111,18 @@ pub fn notice(window: &Window) -> String {
 /// What has this role and a name that begins so; menus add their keys to a name.
 #[track_caller]
 pub fn named<'w>(window: &'w Window, role: Role, name: &str) -> Node<'w> {
-    let name = name.to_owned();
-    let fits = move |node: &AccessKitNode<'_>| {
-        node.role() == role && node.label().is_some_and(|label| label.starts_with(&name))
+    let fits = |node: &Node<'w>| {
+        node.accesskit_node().role() == role && words(node).is_some_and(|words| words.starts_with(name))
     };
-    let mut found: Vec<Node<'w>> = window.query_all_by(fits).collect();
+    let mut found: Vec<Node<'w>> = window.root().children_recursive().filter(fits).collect();
     assert_eq!(found.len(), 1, "{role:?}: {found:#?}");
     found.remove(0)
+}
+
+/// The name of a widget; a label's own text.
+pub fn words(node: &Node<'_>) -> Option<String> {
+    let node = node.accesskit_node();
+    if node.role() == Role::Label { node.value().or(node.label()) } else { node.label() }
 }
 
 /// Whether anything that is shown has these words in its name.
@@ -140,12 +145,15 @@ pub fn click(window: &mut Window, role: Role, name: &str) {
 pub fn choose(window: &mut Window, menu: &str, entry: &str) {
     window.get_by_role_and_label(Role::Button, menu).click();
     window.run_steps(FRAMES);
-    let entries = [Role::Button, Role::CheckBox, Role::RadioButton];
-    let of_menu = |node: &AccessKitNode<'_>| {
-        entries.contains(&node.role()) && node.label().is_some_and(|label| label.starts_with(entry))
-    };
-    // The panels below may have a button of the same name: what opened last stands last.
-    window.query_all_by(of_menu).last().unwrap_or_else(|| panic!("{menu} has no {entry}")).click();
+    // A tab may have the name of its panel's entry.
+    let roles = [Role::CheckBox, Role::RadioButton, Role::Button];
+    let found = roles.iter().find_map(|&role| {
+        let fits = |node: &Node<'_>| {
+            node.accesskit_node().role() == role && words(node).is_some_and(|words| words.starts_with(entry))
+        };
+        window.root().children_recursive().filter(fits).last()
+    });
+    found.unwrap_or_else(|| panic!("{menu} has no {entry}")).click();
     window.run_steps(FRAMES);
 }
 

@@ -3,6 +3,7 @@
 use super::icons::{self, Sign};
 use crate::gui::shortcuts::{Deed, keys_of};
 use crate::gui::theme::{SMALL_PT, Tones};
+use crate::gui::widgets::clickable;
 use crate::workbench::{Arrangement, Fill, ImageSettings, Layer, State, Tool};
 use egui::accesskit::Role;
 use egui::{
@@ -168,7 +169,7 @@ fn display(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
 /// A row of the grid; whether it is to be reset.
 fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> bool {
     let label = ui.add(Label::new(name).sense(Sense::click())).on_hover_text(tip);
-    let slider = ui.add(slider).labelled_by(label.id).on_hover_text(tip);
+    let slider = clickable(ui.add(slider).labelled_by(label.id).on_hover_text(tip));
     ui.end_row();
     slider.double_clicked() || label.double_clicked()
 }
