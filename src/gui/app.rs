@@ -8,7 +8,7 @@ use super::{Cx, menu, notices, shortcuts};
 use crate::workbench::{Command, Executor, Origin, Settings, State, Theme, Workbench};
 use egui::{Event, Ui};
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The window's content. It needs no window: tests show it in a harness.
 pub struct App {
@@ -16,6 +16,8 @@ pub struct App {
     front: Front,
     gpu: Option<egui_wgpu::RenderState>,
     dressed: Option<Theme>,
+    /// Where the workers ring when they have finished.
+    bell: Arc<Mutex<egui::Context>>,
 }
 
 /// What stands before the workbench: panels and what opens over them.
@@ -45,9 +47,20 @@ impl App {
         executor: Executor,
     ) -> std::io::Result<Self> {
         theme::load_fonts(ctx);
-        let repaint = ctx.clone();
-        let bench = Workbench::new(executor, move || repaint.request_repaint())?;
-        Ok(Self { bench, front: Front::default(), gpu, dressed: None })
+        let bell = Arc::new(Mutex::new(ctx.clone()));
+        let rung = Arc::clone(&bell);
+        let ring = move || rung.lock().unwrap_or_else(PoisonError::into_inner).request_repaint();
+        let bench = Workbench::new(executor, ring)?;
+        Ok(Self { bench, front: Front::default(), gpu, dressed: None, bell })
+    }
+
+    /// Moves to another window, where the graphics device of the first was lost: all stays but what was uploaded.
+    pub fn move_to(&mut self, ctx: &egui::Context, gpu: Option<egui_wgpu::RenderState>) {
+        theme::load_fonts(ctx);
+        *self.bell.lock().unwrap_or_else(PoisonError::into_inner) = ctx.clone();
+        let cube = self.front.panels.cube.likeness();
+        self.front.panels = Panels { cube, ..Panels::default() };
+        (self.gpu, self.dressed) = (gpu, None);
     }
 
     /// Puts back what was remembered from another session.
@@ -163,14 +176,6 @@ impl Front {
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.show(ui);
-    }
-
-    fn on_exit(&mut self) {
-        if let Some(path) = Settings::path()
-            && let Err(reason) = Settings::of(self.state()).save(&path)
-        {
-            tracing::warn!("{reason}");
-        }
     }
 }
 

@@ -3,8 +3,10 @@
 use super::App;
 use crate::truth::sample;
 use crate::workbench::{Command, Executor, Origin, Settings, Severity};
-use egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Why there is no window.
 #[derive(Debug, thiserror::Error)]
@@ -13,17 +15,51 @@ pub struct WindowError(String);
 
 /// Opens the window on `photograph`, or on the sample scene, and returns when it is closed.
 ///
+/// A graphics device that is lost (a driver that restarts, a card that is unplugged) is replaced: the window closes and
+/// opens again with everything that was in it.
+///
 /// # Errors
 /// Where there is no display or no graphics adapter.
 pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
-    let origin = photograph.map_or_else(|| Origin::Sample(sample::NAME.to_owned()), Origin::File);
+    let mut origin = Some(photograph.map_or_else(|| Origin::Sample(sample::NAME.to_owned()), Origin::File));
+    let passage: Passage = Arc::default();
+    loop {
+        let (origin, arrived) = (origin.take(), Arc::clone(&passage));
+        let create = move |cc: &eframe::CreationContext<'_>| {
+            let app = lock(&arrived).take();
+            let app = match (app, origin) {
+                (Some(mut app), _) => {
+                    app.move_to(&cc.egui_ctx, cc.wgpu_render_state.clone());
+                    app
+                }
+                (None, origin) => begin(cc, origin)?,
+            };
+            let lost =
+                cc.wgpu_render_state.as_ref().map_or_else(Arc::default, |gpu| watch(gpu, &cc.egui_ctx));
+            Ok(Box::new(Tenant { app: Some(app), lost, passage: arrived }) as Box<dyn eframe::App>)
+        };
+        let ended = eframe::run_native("dichroscope", options(), Box::new(create));
+        if lock(&passage).is_none() {
+            return ended.map_err(|error| WindowError(reason(&error.to_string()).to_owned()));
+        }
+    }
+}
+
+/// Where the application waits between a window whose device was lost and the next.
+type Passage = Arc<Mutex<Option<App>>>;
+
+fn lock(passage: &Passage) -> std::sync::MutexGuard<'_, Option<App>> {
+    passage.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn options() -> eframe::NativeOptions {
     let viewport = egui::ViewportBuilder::default()
         .with_title("Dichroscope")
         .with_app_id("dichroscope")
         .with_inner_size([1440.0, 900.0])
         .with_min_inner_size([900.0, 560.0])
         .with_drag_and_drop(true);
-    let options = eframe::NativeOptions {
+    eframe::NativeOptions {
         viewport,
         renderer: eframe::Renderer::Wgpu,
         wgpu_options: WgpuConfiguration {
@@ -31,21 +67,63 @@ pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
             ..WgpuConfiguration::default()
         },
         ..eframe::NativeOptions::default()
-    };
-    let create = move |cc: &eframe::CreationContext<'_>| {
-        let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.clone(), Executor::Threads)?;
-        if let Some(path) = Settings::path() {
-            let (settings, warning) = Settings::load(&path);
-            app.remember(settings);
-            if let Some(text) = warning {
-                app.apply(Command::Notify(Severity::Warning, text));
-            }
+    }
+}
+
+/// The application of the first window, as it was left the last time.
+fn begin(cc: &eframe::CreationContext<'_>, origin: Option<Origin>) -> std::io::Result<App> {
+    let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.clone(), Executor::Threads)?;
+    if let Some(path) = Settings::path() {
+        let (settings, warning) = Settings::load(&path);
+        app.remember(settings);
+        if let Some(text) = warning {
+            app.apply(Command::Notify(Severity::Warning, text));
         }
+    }
+    if let Some(origin) = origin {
         app.apply(Command::Open(origin));
-        Ok(Box::new(app) as Box<dyn eframe::App>)
-    };
-    eframe::run_native("dichroscope", options, Box::new(create))
-        .map_err(|error| WindowError(reason(&error.to_string()).to_owned()))
+    }
+    Ok(app)
+}
+
+/// Set when the device is lost.
+fn watch(gpu: &RenderState, ctx: &egui::Context) -> Arc<AtomicBool> {
+    let lost = Arc::new(AtomicBool::new(false));
+    let (flag, ctx) = (Arc::clone(&lost), ctx.clone());
+    gpu.device.set_device_lost_callback(move |_, message| {
+        tracing::warn!("the graphics device was lost: {message}");
+        flag.store(true, Ordering::Relaxed);
+        ctx.request_repaint();
+    });
+    lost
+}
+
+/// The application in one window.
+struct Tenant {
+    app: Option<App>,
+    lost: Arc<AtomicBool>,
+    passage: Passage,
+}
+
+impl eframe::App for Tenant {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        if self.lost.load(Ordering::Relaxed) {
+            ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+        } else if let Some(app) = &mut self.app {
+            app.show(ui);
+        }
+    }
+
+    fn on_exit(&mut self) {
+        let Some(app) = self.app.take() else { return };
+        if self.lost.load(Ordering::Relaxed) {
+            *lock(&self.passage) = Some(app);
+        } else if let Some(path) = Settings::path()
+            && let Err(reason) = Settings::of(app.state()).save(&path)
+        {
+            tracing::warn!("{reason}");
+        }
+    }
 }
 
 /// What a message says, without the place in somebody's source that it begins with and the full stop that it ends with.
