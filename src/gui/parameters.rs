@@ -157,7 +157,7 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
             .logarithmic(feel.logarithmic)
             .clamping(egui::SliderClamping::Never);
         // No tooltip here: it would hide the rows below from the hand that drags.
-        let slider = widgets::clickable(columns.rail.show(ui, slider));
+        let slider = widgets::clickable(&columns.rail.show(ui, slider));
         slider.widget_info(|| egui::WidgetInfo::slider(true, value, feel.title));
         let decimals = usize::from(feel.step < 1.0) * 2;
         let typed = DragValue::new(&mut value)

@@ -18,7 +18,7 @@ pub fn chip(ui: &mut Ui, colour: Color32, name: &str) -> Response {
 }
 
 /// A slider that hears clicks too: by itself it hears drags only.
-pub fn clickable(slider: Response) -> Response {
+pub fn clickable(slider: &Response) -> Response {
     let clicks = slider.interact(Sense::click());
     slider.union(clicks)
 }

@@ -169,7 +169,7 @@ fn display(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
 /// A row of the grid; whether it is to be reset.
 fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> bool {
     let label = ui.add(Label::new(name).sense(Sense::click())).on_hover_text(tip);
-    let slider = clickable(ui.add(slider).labelled_by(label.id).on_hover_text(tip));
+    let slider = clickable(&ui.add(slider).labelled_by(label.id).on_hover_text(tip));
     ui.end_row();
     slider.double_clicked() || label.double_clicked()
 }
