@@ -27,6 +27,7 @@ pub fn clickable(slider: &Response) -> Response {
 pub fn number(ui: &mut Ui, tones: &Tones, width: f32, value: &str, unit: &str) {
     ui.allocate_ui_with_layout(vec2(width, 18.0), Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
+        ui.set_min_width(width);
         if !unit.is_empty() {
             ui.label(RichText::new(unit).color(tones.quiet));
         }
