@@ -2,7 +2,7 @@
 //!
 //! `UPDATE_SNAPSHOTS=1 cargo test --test panels` makes them anew. Nothing in them tells the time.
 
-use crate::window::{Window, apply, named, tiny, with_gpu};
+use crate::window::{Window, apply, named, tiny, with_software_driver};
 use dichroscope::gui::Pane;
 use dichroscope::segment::{Parameter, Setting};
 use dichroscope::workbench::{
@@ -20,7 +20,7 @@ const PANEL: Vec2 = vec2(420.0, 300.0);
 const EDGES_PX: usize = 60;
 
 fn opened(size: Vec2, pane: Option<Pane>) -> Option<Window> {
-    let mut window = with_gpu(size)?;
+    let mut window = with_software_driver(size)?;
     window.state_mut().show_alone(pane);
     // Fixed, so that a picture does not change with the estimate.
     window.state_mut().apply(Command::SetParameter(Parameter::CameraNoise, Setting::Value(2.5), None));

@@ -28,17 +28,35 @@ pub fn window() -> Window {
 /// An empty window with a graphics adapter. Where there is none the test is skipped with a word, unless
 /// `DICHROSCOPE_REQUIRE_GPU` says that there must be one.
 pub fn with_gpu(size: Vec2) -> Option<Window> {
+    match render_state() {
+        Ok(gpu) => Some(drawn_by(gpu, size)),
+        Err(reason) => skip(&format!("no graphics adapter ({reason})")),
+    }
+}
+
+/// As [`with_gpu`], of Mesa's software driver: the pictures are its work, and a graphics card's edges lie elsewhere.
+pub fn with_software_driver(size: Vec2) -> Option<Window> {
     let gpu = match render_state() {
         Ok(gpu) => gpu,
-        Err(reason) => {
-            assert!(!gpu_required(), "a graphics adapter is required: {reason}");
-            eprintln!("SKIP: no graphics adapter ({reason})");
-            return None;
-        }
+        Err(reason) => return skip(&format!("no graphics adapter ({reason})")),
     };
-    let of_app = gpu.clone();
-    let builder = builder(size).renderer(WgpuTestRenderer::from_render_state(gpu));
-    Some(builder.build_eframe(move |cc| App::new(&cc.egui_ctx, Some(of_app), Executor::Inline).unwrap()))
+    let info = gpu.adapter.get_info();
+    if info.device_type == wgpu::DeviceType::Cpu {
+        Some(drawn_by(gpu, size))
+    } else {
+        skip(&format!("the pictures are of the software driver, not of {}", info.name))
+    }
+}
+
+fn drawn_by(gpu: RenderState, size: Vec2) -> Window {
+    let builder = builder(size).renderer(WgpuTestRenderer::from_render_state(gpu.clone()));
+    builder.build_eframe(move |cc| App::new(&cc.egui_ctx, Some(gpu), Executor::Inline).unwrap())
+}
+
+fn skip(why: &str) -> Option<Window> {
+    assert!(!gpu_required(), "a graphics adapter is required: {why}");
+    eprintln!("SKIP: {why}");
+    None
 }
 
 fn gpu_required() -> bool {
