@@ -22,7 +22,7 @@ fn nameless(window: &Window) -> Vec<String> {
         })
         .filter(|node| {
             let named = |text: Option<String>| text.is_some_and(|text| !text.trim().is_empty());
-            !named(node.label()) && !(node.role() == Role::Label && named(node.value()))
+            !(named(node.label()) || node.role() == Role::Label && named(node.value()))
         })
         .map(|node| format!("{:?} at {:?}", node.role(), node.raw_bounds()))
         .collect()

@@ -73,7 +73,7 @@ fn a_region_is_claimed_by_its_cylinder_and_colours_are_hovered() {
         }
     }
     let (place, bin) = found.expect("some colour is under the pointer");
-    let of = shown(&window).picture.histogram.bins[bin as usize].clone();
+    let of = shown(&window).picture.histogram.bins[bin as usize];
     assert!(of.count > 0);
     drag(&mut window, &[place], Modifiers::ALT);
     assert_eq!(item(&window), Some(Item::Bin(bin)), "Alt + click selects the colours alone");
