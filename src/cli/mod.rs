@@ -12,7 +12,9 @@ mod settings;
 mod table;
 
 use anyhow::{Result, bail};
+use clap::builder::PossibleValuesParser;
 use clap::{Parser, Subcommand};
+use dichroscope::truth::sample::SAMPLES;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -52,7 +54,8 @@ pub struct ScreenshotArguments {
     #[arg(long, value_name = "WxH", default_value = "1440x900", value_parser = parse_size)]
     pub size: [u32; 2],
     /// Sample scene to show
-    #[arg(long, value_name = "NAME", default_value = dichroscope::truth::sample::NAME, conflicts_with = "image")]
+    #[arg(long, value_name = "NAME", default_value = dichroscope::truth::sample::NAME, conflicts_with = "image",
+        value_parser = PossibleValuesParser::new(SAMPLES.iter().map(|sample| sample.name)))]
     pub scene: String,
 }
 

@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use dichroscope::export::check_target;
 use dichroscope::photo::ReadOptions;
 use dichroscope::segment::Params;
-use dichroscope::truth::sample::{self, CAMERA, NAME};
+use dichroscope::truth::sample::{NAME, SAMPLES};
 use std::path::Path;
 
 const TARGET: &str = "dichroscope-sample";
@@ -29,8 +29,8 @@ pub(super) fn run() -> Result<Outcome> {
 }
 
 fn analyze(target: &Path) -> Result<String> {
-    let shot = Shot::decode(CAMERA, "camera8.png", &ReadOptions::default())?;
-    let truth = sample::truth()?;
+    let shot = Shot::decode(SAMPLES[0].camera, "camera8.png", &ReadOptions::default())?;
+    let truth = SAMPLES[0].truth()?;
     let reference = Reference { truth, camera: shot.photo.image.pixels.clone() };
     let plan = Plan {
         params: &Params::default(),

@@ -5,7 +5,7 @@
 use super::Cx;
 use super::dock::Pane;
 use super::portrait::Sitting;
-use crate::truth::sample;
+use crate::truth::sample::SAMPLES;
 use crate::workbench::{Command, Export, Origin};
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
@@ -296,9 +296,12 @@ impl Dialogs {
     fn shelf(ui: &mut Ui, cx: &mut Cx) -> bool {
         let mut chosen = None;
         ui.add_space(4.0);
-        super::widgets::heading(ui, cx.tones, "Sample");
-        if ui.link(sample::NAME).on_hover_text("Rendered plastic objects, with ground truth.").clicked() {
-            chosen = Some(Origin::Sample(sample::NAME.to_owned()));
+        super::widgets::heading(ui, cx.tones, "Sample scenes");
+        for sample in &SAMPLES {
+            let tip = format!("{} Rendered, with its ground truth.", sample.about);
+            if ui.link(sample.name).on_hover_text(tip).clicked() {
+                chosen = Some(Origin::Sample(sample.name.to_owned()));
+            }
         }
         if !cx.state.recent.is_empty() {
             super::widgets::heading(ui, cx.tones, "Recent");

@@ -6,7 +6,7 @@ use super::shortcuts::{Deed, keys_of};
 use super::{Cx, status};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::segment::{Method, Preset};
-use crate::truth::sample;
+use crate::truth::sample::SAMPLES;
 use crate::workbench::{Command, Origin, Theme, analyze_call};
 use egui::{Button, RadioButton, Ui};
 
@@ -51,9 +51,13 @@ fn file(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
             cx.send(Command::ForgetRecent);
         }
     });
-    if ui.button(format!("Sample scene {}", sample::NAME)).clicked() {
-        cx.send(Command::Open(Origin::Sample(sample::NAME.to_owned())));
-    }
+    ui.menu_button("Sample scenes", |ui| {
+        for sample in &SAMPLES {
+            if ui.button(sample.name).on_hover_text(sample.about).clicked() {
+                cx.send(Command::Open(Origin::Sample(sample.name.to_owned())));
+            }
+        }
+    });
     ui.menu_button("Read as", |ui| read_as(ui, cx));
     ui.separator();
     if ui.button("Open workspace\u{2026}").clicked() {

@@ -3,6 +3,7 @@
 use super::Cx;
 use super::theme::SMALL_PT;
 use crate::segment::Parameter;
+use crate::workbench::Command;
 use egui::{Align, Layout, RichText, Ui};
 use std::time::Duration;
 
@@ -10,7 +11,7 @@ use std::time::Duration;
 pub const PATIENCE: Duration = Duration::from_millis(150);
 
 /// Shows the line, right-aligned in what is left of the menu bar.
-pub fn show(ui: &mut Ui, cx: &Cx) {
+pub fn show(ui: &mut Ui, cx: &mut Cx) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         progress(ui, cx);
@@ -37,7 +38,7 @@ fn parts(cx: &Cx) -> Vec<String> {
     parts
 }
 
-fn progress(ui: &mut Ui, cx: &Cx) {
+fn progress(ui: &mut Ui, cx: &mut Cx) {
     let jobs = &cx.state.jobs;
     let stages = crate::analysis::Stage::ALL.len() as f32;
     let (job, words, done) = if let Some(job) = &jobs.analysis {
@@ -54,6 +55,11 @@ fn progress(ui: &mut Ui, cx: &Cx) {
     if let Some(rest) = PATIENCE.checked_sub(elapsed) {
         ui.ctx().request_repaint_after(rest);
         return;
+    }
+    if words == "writing"
+        && ui.small_button("Cancel").on_hover_text("Stop writing; nothing is left half written.").clicked()
+    {
+        cx.out.push(Command::CancelExport);
     }
     let bar = egui::ProgressBar::new(done.unwrap_or(1.0)).desired_width(72.0).desired_height(6.0);
     ui.add(bar.fill(cx.tones.accent));

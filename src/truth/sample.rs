@@ -1,25 +1,73 @@
-//! The scene that the program carries: rendered plastic objects under white light, with their ground truth.
+//! The scenes that the program carries: rendered objects with their ground truth.
 
 use super::{GroundTruth, TruthError, TruthFiles};
 use std::path::Path;
 
-/// Its name.
+/// A scene that the program carries.
+pub struct Sample {
+    /// Its name.
+    pub name: &'static str,
+    /// What is to be seen, in a sentence.
+    pub about: &'static str,
+    /// Its photograph, an 8-bit PNG in linear light.
+    pub camera: &'static [u8],
+    files: TruthFiles<'static>,
+}
+
+macro_rules! sample {
+    ($name:literal, $about:literal) => {
+        Sample {
+            name: $name,
+            about: $about,
+            camera: include_bytes!(concat!("../../assets/", $name, "/camera8.png")),
+            files: TruthFiles {
+                body: include_bytes!(concat!("../../assets/", $name, "/body.exr")),
+                surface: include_bytes!(concat!("../../assets/", $name, "/surface.exr")),
+                labels: include_bytes!(concat!("../../assets/", $name, "/labels.png")),
+                json: include_bytes!(concat!("../../assets/", $name, "/truth.json")),
+            },
+        }
+    };
+}
+
+/// The name of the first of them.
 pub const NAME: &str = "plastic8_white";
 
-/// Its photograph, an 8-bit PNG in linear light.
-pub const CAMERA: &[u8] = include_bytes!("../../assets/plastic8_white/camera8.png");
+/// All of them; the first is shown when nothing else is asked for.
+pub static SAMPLES: [Sample; 2] = [
+    sample!("plastic8_white", "Eight plastic objects under white light."),
+    sample!("cups3_yellow", "Three cups under yellow light."),
+];
 
-const FILES: TruthFiles = TruthFiles {
-    body: include_bytes!("../../assets/plastic8_white/body.exr"),
-    surface: include_bytes!("../../assets/plastic8_white/surface.exr"),
-    labels: include_bytes!("../../assets/plastic8_white/labels.png"),
-    json: include_bytes!("../../assets/plastic8_white/truth.json"),
-};
+impl Sample {
+    /// The scene called `name`.
+    pub fn find(name: &str) -> Option<&'static Self> {
+        SAMPLES.iter().find(|sample| sample.name == name)
+    }
 
-/// Its ground truth.
-///
-/// # Errors
-/// As [`GroundTruth::decode`].
-pub fn truth() -> Result<GroundTruth, TruthError> {
-    GroundTruth::decode(&FILES, Path::new(NAME))
+    /// Its ground truth.
+    ///
+    /// # Errors
+    /// As [`GroundTruth::decode`].
+    pub fn truth(&self) -> Result<GroundTruth, TruthError> {
+        GroundTruth::decode(&self.files, Path::new(self.name))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_sample_is_whole() {
+        assert_eq!(SAMPLES[0].name, NAME);
+        for sample in &SAMPLES {
+            assert!(std::ptr::eq(Sample::find(sample.name).unwrap(), sample));
+            let photo =
+                crate::photo::decode(sample.camera, "camera8.png", &crate::photo::ReadOptions::default());
+            let (image, truth) = (photo.unwrap().image, sample.truth().unwrap());
+            assert_eq!((truth.body.width(), truth.body.height()), (image.width(), image.height()));
+        }
+        assert!(Sample::find("nothing").is_none());
+    }
 }

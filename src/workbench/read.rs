@@ -3,7 +3,7 @@
 use super::{Command, Histogram, Origin, Picture, Severity, Workspace};
 use crate::photo::{self, ReadOptions};
 use crate::segment::Params;
-use crate::truth::{GroundTruth, sample};
+use crate::truth::{GroundTruth, sample::Sample};
 use std::path::Path;
 use std::time::Instant;
 
@@ -19,8 +19,9 @@ pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, S
             let name = path.display().to_string();
             (photo::decode(&bytes, &name, &options), photo::sha256_hex(&bytes))
         }
-        Origin::Sample(name) if name == sample::NAME => {
-            (photo::decode(sample::CAMERA, "camera8.png", &options), photo::sha256_hex(sample::CAMERA))
+        Origin::Sample(name) if Sample::find(name).is_some() => {
+            let bytes = Sample::find(name).map_or(&[][..], |sample| sample.camera);
+            (photo::decode(bytes, "camera8.png", &options), photo::sha256_hex(bytes))
         }
         Origin::Sample(name) => return Err(format!("{name}: there is no such sample scene")),
         Origin::Bytes { name, bytes } => (photo::decode(bytes, name, &options), photo::sha256_hex(bytes)),
@@ -35,7 +36,7 @@ pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, S
 /// A scene's ground truth lies beside its photograph.
 fn truth(origin: &Origin) -> Option<GroundTruth> {
     match origin {
-        Origin::Sample(_) => sample::truth().ok(),
+        Origin::Sample(name) => Sample::find(name)?.truth().ok(),
         Origin::File(path) => {
             let folder = path.parent()?;
             folder.join("truth.json").is_file().then(|| GroundTruth::read(folder).ok())?

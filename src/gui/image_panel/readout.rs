@@ -32,8 +32,8 @@ const CELLS: [Cell; 11] = [
     cell("B", 34.0, "Blue of the photograph, linear counts"),
     cell("", 38.0, "Class of its window: the shape of the colour cluster (section 5.2.1)"),
     cell("", 26.0, "Its region"),
-    cell("m_b", 34.0, "Amount of body reflection, counts (section 6)"),
-    cell("m_s", 34.0, "Amount of surface reflection, counts (section 6)"),
+    cell("m_b", 40.0, "Amount of body reflection, counts (section 6)"),
+    cell("m_s", 40.0, "Amount of surface reflection, counts (section 6)"),
     cell("\u{3b5}", 32.0, "Distance from the dichromatic plane, counts (section 6)"),
     cell("", 50.0, "What the pixel is to its region (section 6)"),
 ];
