@@ -1,12 +1,13 @@
 //! What the window writes is what the library and the command line write.
 
 use crate::window::{
-    Window, answer, apply, choose, click, item, marked, named, notice, press, shown, sigma, state, tiny,
-    tiny_window,
+    Window, answer, apply, choose, click, item, marked, named, notice, open_sample, press, shown, sigma,
+    state, tiny, tiny_window,
 };
 use assert_cmd::cargo::cargo_bin_cmd;
 use dichroscope::export::write_matte;
 use dichroscope::segment::Setting;
+use dichroscope::truth::sample;
 use dichroscope::workbench::{Command, Item, Layer, regions_text};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
@@ -117,7 +118,7 @@ fn a_workspace_is_saved_and_opened_again() {
     answer(&mut window, &path);
     assert!(path.is_file(), "{}", notice(&window));
 
-    choose(&mut window, "File", "Sample scene");
+    open_sample(&mut window, sample::NAME);
     named(&window, Role::Slider, "camera noise \u{3c3}0").set_value_accesskit(8.0);
     window.run_steps(3);
     press(&mut window, Modifiers::NONE, Key::Num1);

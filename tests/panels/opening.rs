@@ -1,8 +1,8 @@
 //! Opening: by menu, path, drop, paste and shelf; and what is said when there is nothing or something is wrong.
 
 use crate::window::{
-    Window, answer, apply, choose, click, notice, press, says, shown, sigma, size, state, tiny, tiny_window,
-    window,
+    Window, answer, apply, choose, click, notice, open_sample, press, says, shown, sigma, size, state, tiny,
+    tiny_window, window,
 };
 use dichroscope::segment::Setting;
 use dichroscope::truth::sample;
@@ -33,12 +33,13 @@ fn without_a_graphics_adapter_one_panel_says_so_and_all_else_works() {
 }
 
 #[test]
-fn the_sample_opens_from_the_menu_with_its_accuracy() {
+fn each_sample_opens_from_the_menu_with_its_accuracy() {
     let mut window = window();
-    choose(&mut window, "File", "Sample scene");
-    assert_eq!(state(&window).picture.as_ref().unwrap().origin, Origin::Sample(sample::NAME.to_owned()));
-    assert!(says(&window, "off by") && says(&window, "colour of region 1"));
-    assert!(shown(&window).coverage > 0.9);
+    for sample in &sample::SAMPLES {
+        open_sample(&mut window, sample.name);
+        assert!(says(&window, "off by") && says(&window, "colour of region 1"), "{}", sample.name);
+        assert!(shown(&window).coverage > 0.8, "{}", sample.name);
+    }
 }
 
 #[test]
@@ -78,7 +79,7 @@ fn a_second_photograph_keeps_the_parameters() {
     crate::window::named(&window, Role::Slider, "camera noise \u{3c3}0").set_value_accesskit(4.0);
     window.run_steps(3);
     apply(&mut window, Command::Select(Some(Item::Region(1))));
-    choose(&mut window, "File", "Sample scene");
+    open_sample(&mut window, sample::NAME);
     assert_eq!(sigma(&window), Setting::Value(4.0));
     assert_eq!(crate::window::item(&window), None);
 }

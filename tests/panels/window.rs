@@ -175,6 +175,13 @@ pub fn choose(window: &mut Window, menu: &str, entry: &str) {
     window.run_steps(FRAMES);
 }
 
+/// Opens one of the scenes that the program carries, from the menu.
+pub fn open_sample(window: &mut Window, name: &str) {
+    choose(window, "File", "Sample scenes");
+    click(window, Role::Button, name);
+    assert_eq!(state(window).picture.as_ref().unwrap().origin, Origin::Sample(name.to_owned()));
+}
+
 pub fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
     window.key_press_modifiers(modifiers, key);
     window.run_steps(FRAMES);
