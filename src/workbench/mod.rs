@@ -1,6 +1,6 @@
 //! The application without a screen.
 //!
-//! A [`State`] is all there is to show. A [`Command`] is the only way to change it, and [`reduce`] the only function that
+//! A [`State`] is all there is to show. A [`Command`] is the only way to change it, and [`reduce()`] the only function that
 //! does; it is pure but for the [`Effect`]s it asks for, and is tested without a window. A [`Workbench`] carries the effects
 //! out: on a named worker where the newest request wins, or inline in tests. Panels read the state and return commands.
 

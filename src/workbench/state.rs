@@ -5,7 +5,7 @@ use crate::segment::Params;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// All there is to show. Panels read it; only [`super::reduce`] changes it.
+/// All there is to show. Panels read it; only [`super::reduce()`] changes it.
 #[derive(Clone, Debug, Default)]
 pub struct State {
     /// The open photograph.
