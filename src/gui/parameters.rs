@@ -16,6 +16,10 @@ const UNIT_PT: f32 = 38.0;
 const AUTO_PT: f32 = 38.0;
 /// Height of a row.
 const ROW_PT: f32 = 20.0;
+/// A panel of less than this is narrow.
+const NARROW_PT: f32 = 272.0;
+/// Width of the labels' column in a narrow panel.
+const NARROW_LABEL_PT: f32 = 78.0;
 /// Between the columns.
 const GAP_PT: f32 = 4.0;
 
@@ -36,13 +40,13 @@ pub fn show(ui: &mut Ui, cx: &mut Cx) {
 fn method(ui: &mut Ui, cx: &mut Cx) {
     let now = cx.state.document.params.method;
     ui.horizontal(|ui| {
-        label(
-            ui,
-            "method",
-            "Refined: the paper's algorithm with switches below. Paper: as written in 1990 (section 5).",
-        );
+        let tip =
+            "Refined: the paper's algorithm with switches below. Paper: as written in 1990 (section 5).";
+        if ui.available_width() >= NARROW_PT {
+            label(ui, "method", tip);
+        }
         for (choice, name) in [(Method::Refined, "refined"), (Method::Paper, "paper")] {
-            if ui.selectable_label(now == choice, name).clicked() {
+            if ui.selectable_label(now == choice, name).on_hover_text(tip).clicked() {
                 cx.send(Command::SetMethod(choice));
             }
         }
@@ -95,17 +99,20 @@ impl Columns {
     fn of(ui: &mut Ui) -> Self {
         let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_PT), egui::Sense::hover());
         let mut left = row.left();
-        let rail = (row.width() - LABEL_PT - VALUE_PT - UNIT_PT - AUTO_PT - 4.0 * GAP_PT).max(40.0);
+        // In a narrow panel the tooltips tell the units.
+        let (label, unit) =
+            if row.width() < NARROW_PT { (NARROW_LABEL_PT, 0.0) } else { (LABEL_PT, UNIT_PT) };
+        let rail = (row.width() - label - VALUE_PT - unit - AUTO_PT - 4.0 * GAP_PT).max(20.0);
         let mut cell = |width: f32| {
             let rect = egui::Rect::from_min_size(egui::pos2(left, row.top()), vec2(width, row.height()));
             left += width + GAP_PT;
             Cell(rect)
         };
         Self {
-            label: cell(LABEL_PT),
+            label: cell(label),
             rail: cell(rail),
             value: cell(VALUE_PT),
-            unit: cell(UNIT_PT),
+            unit: cell(unit),
             auto: cell(AUTO_PT),
         }
     }
@@ -167,7 +174,9 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
         let typed = ui.put(columns.value.0, typed).on_hover_text(&tip);
         typed.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, spec.name));
         let unit = RichText::new(spec.unit).size(SMALL_PT).color(cx.tones.quiet);
-        columns.unit.show(ui, egui::Label::new(unit).truncate());
+        if columns.unit.0.width() > 0.0 {
+            columns.unit.show(ui, egui::Label::new(unit).truncate());
+        }
         let automatic = setting == Setting::Auto;
         let auto = Button::selectable(automatic, RichText::new("auto").size(SMALL_PT));
         let auto = ui.put(columns.auto.0, auto);
@@ -243,9 +252,15 @@ fn illuminant(ui: &mut Ui, cx: &mut Cx) {
         cx.state.newest.as_ref().and_then(|shown| shown.analysis.illuminant).map(|light| light.direction);
     let tip =
         "The colour of the light. Found, or given: then every dichromatic plane turns to it (section 5.4).";
+    let narrow = ui.available_width() < NARROW_PT;
+    if narrow {
+        label(ui, "illuminant", tip);
+    }
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = GAP_PT;
-        label(ui, "illuminant", tip);
+        if !narrow {
+            label(ui, "illuminant", tip);
+        }
         let mut direction = typed.or(found).unwrap_or([1.0, 1.0, 1.0].map(|v: f64| v / 3f64.sqrt()));
         let mut changed = false;
         let mut rested = false;

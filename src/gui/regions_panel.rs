@@ -7,6 +7,8 @@ use crate::workbench::{Command, Item, Shown, regions_text};
 use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 
+/// Width that the accuracy needs beside the light, points.
+const ACCURACY_PT: f32 = 290.0;
 /// Height of a row, points.
 const ROW_PT: f32 = 18.0;
 
@@ -261,7 +263,10 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
                 ui.label("unknown: no highlight was found");
             }
         }
-        accuracy(ui, cx, shown);
+        // Beside it the button for copying must find its place.
+        if ui.available_width() > ACCURACY_PT {
+            accuracy(ui, cx, shown);
+        }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let copy = ui.small_button("Copy").on_hover_text("The table as text, separated by tabs.");
             if copy.clicked() {
