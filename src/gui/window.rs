@@ -106,7 +106,12 @@ struct Tenant {
 }
 
 impl eframe::App for Tenant {
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        if let Some(gpu) = frame.wgpu_render_state() {
+            // A device tells of its loss only when it is asked.
+            let _ = gpu.device.poll(wgpu::PollType::Poll);
+        }
+        // Nothing is drawn with a device that is gone: egui's painter would panic.
         if self.lost.load(Ordering::Relaxed) {
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
         } else if let Some(app) = &mut self.app {
