@@ -26,6 +26,8 @@ struct Front {
     dock: Dock,
     /// The arrangement as it was last kept.
     layout: String,
+    /// The camera as it was last kept.
+    camera: String,
     panels: Panels,
     dialogs: Dialogs,
     portraitist: Portraitist,
@@ -108,6 +110,7 @@ impl App {
         };
         self.front.show(ui, &mut cx);
         self.front.keep_layout(&mut cx);
+        self.front.keep_camera(&mut cx);
         if !out.is_empty() {
             // What a command changes is seen at once, not when the pointer next moves.
             ui.ctx().request_repaint();
@@ -134,6 +137,23 @@ impl Front {
         if now != self.layout {
             self.layout.clone_from(&now);
             cx.send(Command::Layout(now));
+        }
+    }
+
+    /// The cube's camera likewise.
+    fn keep_camera(&mut self, cx: &mut Cx) {
+        let wanted = &cx.state.view.camera;
+        if *wanted != self.camera {
+            if let Ok(camera) = serde_json::from_str(wanted) {
+                self.panels.cube.set_camera(camera);
+            }
+            self.camera.clone_from(wanted);
+            return;
+        }
+        let now = serde_json::to_string(&self.panels.cube.camera()).unwrap_or_default();
+        if now != self.camera {
+            self.camera.clone_from(&now);
+            cx.send(Command::Camera(now));
         }
     }
 

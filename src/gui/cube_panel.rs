@@ -57,6 +57,16 @@ impl CubePanel {
         }
     }
 
+    /// The camera, to be remembered.
+    pub fn camera(&self) -> Orbit {
+        self.eye.orbit
+    }
+
+    /// Puts a remembered camera back, as if a hand had.
+    pub fn set_camera(&mut self, camera: Orbit) {
+        self.eye.place(camera);
+    }
+
     /// Another panel that sees the same.
     pub fn likeness(&self) -> Self {
         Self { eye: self.eye.clone(), ..Self::default() }

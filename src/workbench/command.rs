@@ -114,6 +114,8 @@ pub enum Command {
     Theme(Theme),
     /// How panels and cameras are arranged, in words that only the window understands.
     Layout(String),
+    /// The colour space view's camera.
+    Camera(String),
 
     /// Write something.
     Export(Export),

@@ -163,6 +163,7 @@ fn look(state: &mut State, command: Command) {
         Command::Profile(line) => state.view.profile = line,
         Command::Theme(theme) => state.view.theme = theme,
         Command::Layout(layout) => state.view.layout = layout,
+        Command::Camera(camera) => state.view.camera = camera,
         other => unreachable!("handled before: {other:?}"),
     }
 }

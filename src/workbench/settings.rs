@@ -21,6 +21,7 @@ impl Settings {
     pub fn of(state: &State) -> Self {
         let mut view = state.view.clone();
         (view.image.centre_px, view.image.zoom) = (None, None);
+        view.camera.clear();
         (view.profile, view.show_pinned) = (super::ProfileLine::Row, false);
         Self { view, recent: state.recent.clone() }
     }

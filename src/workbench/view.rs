@@ -20,6 +20,8 @@ pub struct View {
     pub theme: Theme,
     /// How panels and cameras are arranged, in words that only the window understands; empty: as usual.
     pub layout: String,
+    /// The colour space view's camera, as the window writes it; empty: the usual one.
+    pub camera: String,
 }
 
 /// Dark or light.

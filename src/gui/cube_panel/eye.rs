@@ -100,6 +100,11 @@ pub struct Eye {
 }
 
 impl Eye {
+    /// Takes up a place that a hand once chose.
+    pub fn place(&mut self, orbit: Orbit) {
+        (self.orbit, self.by_hand) = (orbit.checked(), true);
+    }
+
     /// Frames the whole space in a view of another size, as long as no hand has moved the camera.
     pub fn arrive(&mut self, size: [f32; 2]) {
         if !self.by_hand && self.framed != Some(size) {

@@ -162,6 +162,22 @@ fn views_have_names() {
 }
 
 #[test]
+fn the_camera_is_kept_in_the_view_and_comes_back_from_there() {
+    let Some((mut harness, _)) = opened() else { return };
+    harness.run_steps(3);
+    let before = harness.state().state().view.camera.clone();
+    assert_eq!(serde_json::from_str::<crate::gpu::Orbit>(&before).unwrap(), panel(&harness).eye.orbit);
+    let mut turned = panel(&harness).eye.orbit;
+    turned.orbit([90.0, 20.0]);
+    harness.state_mut().apply(Command::Camera(serde_json::to_string(&turned).unwrap()));
+    harness.run_steps(3);
+    assert_eq!(panel(&harness).eye.orbit, turned);
+    harness.state_mut().apply(Command::Camera("nonsense".to_owned()));
+    harness.run_steps(3);
+    assert_eq!(panel(&harness).eye.orbit, turned, "what is no camera moves nothing");
+}
+
+#[test]
 fn a_drag_orbits_and_home_comes_back() {
     let Some((mut harness, _)) = opened() else { return };
     let home = panel(&harness).eye.orbit;
