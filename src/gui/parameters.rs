@@ -212,6 +212,7 @@ fn by_hand(ui: &mut Ui, cx: &mut Cx) {
     widgets::heading(ui, cx.tones, "By hand");
     illuminant(ui, cx);
     let (area, marked) = (&cx.state.document.area, &cx.state.document.selection.marked);
+    let narrow = ui.available_width() < NARROW_PT;
     ui.horizontal(|ui| {
         label(ui, "area", "Only these pixels are analysed; the others stay as they are.");
         match area {
@@ -219,6 +220,8 @@ fn by_hand(ui: &mut Ui, cx: &mut Cx) {
                 let pixels = area.as_slice().iter().filter(|&&inside| inside).count();
                 ui.label(format!("{} px", widgets::grouped(pixels)));
             }
+            // In a narrow panel the button alone has room.
+            None if narrow => {}
             None => {
                 ui.label(RichText::new("whole picture").color(cx.tones.quiet));
             }
