@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = cli::Arguments::parse();
+    cli::start_log();
     #[cfg(feature = "gui")]
     match arguments.command {
         None => return ended(dichroscope::gui::open(arguments.image)),

@@ -79,10 +79,14 @@ enum Outcome {
     SomeFailed,
 }
 
-/// Runs what the arguments ask for.
-pub fn run(arguments: Arguments) -> ExitCode {
+/// Logs to stderr what `DICHROSCOPE_LOG` asks for.
+pub fn start_log() {
     let filter = EnvFilter::try_from_env("DICHROSCOPE_LOG").unwrap_or_else(|_| EnvFilter::new("off"));
     tracing_subscriber::fmt().with_env_filter(filter).with_writer(io::stderr).init();
+}
+
+/// Runs what the arguments ask for.
+pub fn run(arguments: Arguments) -> ExitCode {
     let result = match (arguments.command, arguments.image) {
         (Some(Command::Analyze(arguments)), _) => analyze::run(&arguments),
         (Some(Command::Evaluate(arguments)), _) => evaluate::run(&arguments),

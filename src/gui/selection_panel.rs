@@ -99,7 +99,7 @@ fn facts(ui: &mut Ui, cx: &Cx, found: &Statistics) {
         ui.add_space(8.0);
     };
     fact(ui, "pixels", widgets::grouped(found.pixels), "How many pixels are selected.");
-    let class = found.class.map_or("\u{2013}", class_name);
+    let class = found.class.map_or("\u{2013}", Class::name);
     fact(
         ui,
         "class",
@@ -136,15 +136,6 @@ fn facts(ui: &mut Ui, cx: &Cx, found: &Statistics) {
         })
         .collect();
     fact(ui, "regions", regions.join("   "), "The regions that most of them are in.");
-}
-
-const fn class_name(class: Class) -> &'static str {
-    match class {
-        Class::Point => "point",
-        Class::Line => "line",
-        Class::Plane => "plane",
-        Class::Volume => "volume",
-    }
 }
 
 fn bands(ui: &mut Ui, cx: &Cx, found: &Statistics) {

@@ -51,6 +51,18 @@ pub enum Class {
     Volume,
 }
 
+impl Class {
+    /// Its name in tables and on the screen.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Point => "point",
+            Self::Line => "line",
+            Self::Plane => "plane",
+            Self::Volume => "volume",
+        }
+    }
+}
+
 /// What a pixel is to its region (section 6).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PixelKind {
@@ -65,6 +77,19 @@ pub enum PixelKind {
     Restored,
     /// Clipped in every band: nothing to restore it from but its surroundings.
     Lost,
+}
+
+impl PixelKind {
+    /// Its name in tables and on the screen.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Unassigned => "unassigned",
+            Self::Matte => "matte",
+            Self::Highlight => "highlight",
+            Self::Restored => "restored",
+            Self::Lost => "lost",
+        }
+    }
 }
 
 /// Three numbers of a colour or direction, as recorded.

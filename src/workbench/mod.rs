@@ -55,7 +55,7 @@ pub use jobs::{Export, Job, JobState};
 pub use layers::{ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, legend, marks, paint, pyramid};
 pub use picture::{Origin, Picture};
 pub use plane_points::{MOST_PLANE_POINTS, PlanePixel, RegionPlane, region_plane};
-pub use profile::{ProfileSample, kind_name, profile, profile_csv, profile_ends};
+pub use profile::{ProfileSample, profile, profile_csv, profile_ends};
 pub use reduce::{Effect, reduce};
 pub use runs::MaskRuns;
 pub use settings::Settings;

@@ -88,17 +88,6 @@ fn along(colour: [f32; 3], unit: [f64; 3]) -> f32 {
     (0..3).map(|band| f64::from(colour[band]) * unit[band]).sum::<f64>() as f32
 }
 
-/// A pixel's part in its region, in a word.
-pub fn kind_name(kind: PixelKind) -> &'static str {
-    match kind {
-        PixelKind::Unassigned => "unassigned",
-        PixelKind::Matte => "matte",
-        PixelKind::Highlight => "highlight",
-        PixelKind::Restored => "restored",
-        PixelKind::Lost => "lost",
-    }
-}
-
 /// The samples as comma separated values with a line of headings; `width` is the picture's. What is none is empty.
 pub fn profile_csv(samples: &[ProfileSample], width: usize) -> String {
     let mut text = String::from(
@@ -109,7 +98,7 @@ pub fn profile_csv(samples: &[ProfileSample], width: usize) -> String {
         let ProfileSample { position_px, pixel, input: [r, g, b], region, .. } = *sample;
         let (x, y) = (pixel as usize % width.max(1), pixel as usize / width.max(1));
         let [body, surface, noise] = [sample.body, sample.surface, sample.noise].map(number);
-        let kind = kind_name(sample.kind);
+        let kind = sample.kind.name();
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,

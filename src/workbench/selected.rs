@@ -2,7 +2,7 @@
 
 use super::layers::Curve;
 use super::marking::mask_of;
-use super::{Picture, Selection, Shown, kind_name};
+use super::{Picture, Selection, Shown};
 use crate::raster::Mask;
 use std::fmt::Write;
 
@@ -30,7 +30,7 @@ pub(super) fn csv(mask: &Mask, picture: &Picture, shown: Option<&Shown>) -> Stri
     for pixel in (0..mask.len()).filter(|&pixel| mask[pixel]) {
         let [r, g, b] = picture.photo.image.pixels[pixel];
         let (region, kind) = shown.map_or((0, "unassigned"), |shown| {
-            (shown.labels()[pixel], kind_name(shown.analysis.intrinsic.kinds[pixel]))
+            (shown.labels()[pixel], shown.analysis.intrinsic.kinds[pixel].name())
         });
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{},{},{r},{g},{b},{region},{kind}", pixel % width, pixel / width);

@@ -23,9 +23,8 @@ pub fn show(ui: &Ui, cx: &Cx, rect: Rect, fullest: u32) -> Rect {
 
 fn classes(painter: &Painter, cx: &Cx, corner: egui::Pos2) -> Rect {
     let mut room = Rect::from_min_size(corner, vec2(0.0, 0.0));
-    for (class, name) in
-        [(Class::Point, "point"), (Class::Line, "line"), (Class::Plane, "plane"), (Class::Volume, "volume")]
-    {
+    for class in [Class::Point, Class::Line, Class::Plane, Class::Volume] {
+        let name = class.name();
         let left = pos2(room.right(), corner.y);
         painter.rect_filled(
             Rect::from_min_size(left + vec2(0.0, 3.0), vec2(9.0, 9.0)),

@@ -158,13 +158,15 @@ impl Facts {
             *value = counts(band);
         }
         let Some(found) = &self.found else { return values };
-        found.class.map_or("", class_name).clone_into(&mut values[5]);
+        found.class.map_or("", Class::name).clone_into(&mut values[5]);
         let Some(region) = found.region else { return values };
         values[6] = region.to_string();
         values[7] = counts(found.body);
         values[8] = found.surface.map_or_else(String::new, counts);
         values[9] = format!("{:+.1}", found.noise);
-        kind_name(found.kind).clone_into(&mut values[10]);
+        // A pixel in no region is nothing to any.
+        let kind = if found.kind == PixelKind::Unassigned { "" } else { found.kind.name() };
+        kind.clone_into(&mut values[10]);
         values
     }
 }
@@ -185,24 +187,5 @@ impl Found {
                 .and_then(|region| region.surface.map(|surface| along(intrinsic.surface[pixel], surface))),
             noise: intrinsic.noise[pixel],
         }
-    }
-}
-
-const fn class_name(class: Class) -> &'static str {
-    match class {
-        Class::Point => "point",
-        Class::Line => "line",
-        Class::Plane => "plane",
-        Class::Volume => "volume",
-    }
-}
-
-const fn kind_name(kind: PixelKind) -> &'static str {
-    match kind {
-        PixelKind::Unassigned => "",
-        PixelKind::Matte => "matte",
-        PixelKind::Highlight => "highlight",
-        PixelKind::Restored => "restored",
-        PixelKind::Lost => "lost",
     }
 }
