@@ -2,7 +2,7 @@
 //!
 //! A [`Session`] keeps the output of each stage beside what it was made from, so that a changed parameter reruns only what
 //! it makes stale. The command line and the window both stand on it. An [`Observer`] hears of progress, keeps the clock and
-//! may cancel; a [`Recorder`] hears of every decision.
+//! may cancel; [`Session::run_traced`] keeps the record of every decision beside each output.
 
 mod output;
 mod resolve;
@@ -17,7 +17,7 @@ use crate::intrinsic::Intrinsic;
 use crate::photo::{LinearImage, Masks};
 use crate::raster::{Mask, Raster};
 use crate::segment::{FinalRegions, MatteRegions, Params, PlanarRegions, UsedParams, Windows};
-use crate::trace::{Recorder, Silent};
+use crate::trace::{Silent, Tape, Trace};
 use stages::{Stages, Subject};
 use std::sync::Arc;
 
@@ -112,22 +112,24 @@ impl Session {
     /// # Errors
     /// [`Cancelled`] when the observer asks for it; what had finished by then is kept.
     pub fn run(&mut self, params: &Params, observer: &mut impl Observer) -> Result<Analysis, Cancelled> {
-        self.stages.run(&self.subject(), params, observer, &mut Silent)
+        self.stages.run::<Silent>(&self.subject(), params, observer)
     }
 
-    /// Runs every stage anew and tells `recorder` of each decision.
+    /// The same, and the record of every decision. Stages that have a record from an earlier run are not run again; those
+    /// that have only an output are, and hand out the same one.
     ///
     /// # Errors
-    /// [`Cancelled`] when the observer asks for it.
-    pub fn run_recorded<R: Recorder>(
+    /// [`Cancelled`] when the observer asks for it; what had finished by then is kept.
+    pub fn run_traced(
         &mut self,
         params: &Params,
         observer: &mut impl Observer,
-        recorder: &mut R,
-    ) -> Result<Analysis, Cancelled> {
-        self.stages = Stages::default();
-        self.stages.run(&self.subject(), params, observer, recorder)
+    ) -> Result<(Analysis, Trace), Cancelled> {
+        let analysis = self.stages.run::<Tape>(&self.subject(), params, observer)?;
+        let trace = self.stages.trace(self.image.width(), self.image.height()).ok_or(Cancelled)?;
+        Ok((analysis, trace))
     }
+
     fn subject(&self) -> Subject {
         Subject { image: Arc::clone(&self.image), area: self.area.clone() }
     }

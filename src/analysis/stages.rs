@@ -10,7 +10,7 @@ use crate::segment::{
     Areas, Classifier, FinalRegions, MatteRegions, Params, PlanarRegions, Refine, Scene, Setting, UsedParams,
     Windows, classify, clipping_regions, final_regions, matte_regions, merge, planar_regions,
 };
-use crate::trace::{Event, Recorder};
+use crate::trace::{Event, MasksMade, Recorder, Reel, Trace};
 use std::sync::Arc;
 
 /// The last output of each stage.
@@ -52,74 +52,80 @@ struct MergedAreas {
     map: Arc<Raster<u32>>,
 }
 
-/// An output, what it was made from, and a number that changes whenever it does.
+/// An output, what it was made from, a number that changes whenever it does, and the record of its making, if one was kept.
 struct Slot<K, V> {
     made: Option<(K, V)>,
     generation: u64,
+    reel: Option<Arc<Reel>>,
 }
 
 impl<K, V> Default for Slot<K, V> {
     fn default() -> Self {
-        Self { made: None, generation: 0 }
+        Self { made: None, generation: 0, reel: None }
     }
 }
 
 impl<K: PartialEq, V: Clone> Slot<K, V> {
-    /// The output made from `key`: the last one, or a new one. What a cancelled `make` hands out is thrown away.
-    fn get<O: Observer>(
+    /// The output made from `key`: the last one, or a new one. What a cancelled `make` hands out is thrown away. An output
+    /// without a record, where one is wanted, is made again for it, and stays the same.
+    fn get<O: Observer, R: Recorder>(
         &mut self,
         stage: Stage,
         key: K,
         observer: &mut O,
-        make: impl FnOnce(&O) -> V,
+        make: impl FnOnce(&O, &mut R) -> V,
     ) -> Result<V, Cancelled> {
         if observer.cancelled() {
             return Err(Cancelled);
         }
         observer.started(stage);
-        if let Some((made_from, value)) = &self.made
-            && *made_from == key
-        {
-            let value = value.clone();
+        let kept =
+            self.made.as_ref().filter(|(made_from, _)| *made_from == key).map(|(_, value)| value.clone());
+        if let Some(value) = kept.clone().filter(|_| !R::KEEPS || self.reel.is_some()) {
             observer.finished(stage, true);
             return Ok(value);
         }
-        let value = make(observer);
+        let mut recorder = R::default();
+        if R::KEEPS {
+            recorder.record(Event::StageBegan { stage });
+        }
+        let value = make(observer, &mut recorder);
         if observer.cancelled() {
             return Err(Cancelled);
         }
+        self.reel = recorder.finish(stage).map(Arc::new);
+        observer.finished(stage, false);
+        if let Some(value) = kept {
+            return Ok(value);
+        }
         self.made = Some((key, value.clone()));
         self.generation += 1;
-        observer.finished(stage, false);
         Ok(value)
     }
 }
 
 impl Stages {
-    /// Runs what is stale.
+    /// Runs what is stale, and what has no record where `R` keeps one.
     pub fn run<R: Recorder>(
         &mut self,
         subject: &Subject,
         params: &Params,
         observer: &mut impl Observer,
-        recorder: &mut R,
     ) -> Result<Analysis, Cancelled> {
         let refine = params.refinements();
-        let (masks, used) = self.masks(subject, params, observer, recorder)?;
+        let (masks, used) = self.masks::<R>(subject, params, observer)?;
         let image = &subject.image;
         let scene = Scene::new(image, &masks, &used, refine);
 
         let key = |stage, before| (before, seen_up_to(stage, &used, refine));
 
         let after_masks = key(Stage::Classify, self.masks.generation);
-        let windows = self.classify.get(Stage::Classify, after_masks, observer, |_| {
-            begin(recorder, Stage::Classify);
+        let windows = self.classify.get(Stage::Classify, after_masks, observer, |_, recorder: &mut R| {
             Arc::new(classify_windows(&scene, recorder))
         })?;
         observer.made(StageOutput::Windows(windows.clone()));
         let after_classify = key(Stage::Merge, self.classify.generation);
-        let merged = self.merge.get(Stage::Merge, after_classify, observer, |_| {
-            begin(recorder, Stage::Merge);
+        let merged = self.merge.get(Stage::Merge, after_classify, observer, |_, recorder: &mut R| {
             let mut classifier = Classifier::new(used.camera_noise, refine.tail_test);
             let areas = merge(&windows, &mut classifier, recorder);
             let map = Arc::new(area_map(&areas, &windows, image.width(), image.height()));
@@ -128,34 +134,33 @@ impl Stages {
         observer.made(StageOutput::Areas(merged.map.clone()));
         let areas = &merged.areas;
         let after_merge = key(Stage::Linear, self.merge.generation);
-        let matte = self.linear.get(Stage::Linear, after_merge, observer, |observer| {
-            begin(recorder, Stage::Linear);
+        let matte = self.linear.get(Stage::Linear, after_merge, observer, |observer, recorder: &mut R| {
             let stop = || observer.cancelled();
             Arc::new(matte_regions(&scene.stopped_by(&stop), &windows, areas, recorder))
         })?;
         observer.made(StageOutput::Matte(matte.clone()));
         let after_linear = key(Stage::Planar, self.linear.generation);
-        let planar = self.planar.get(Stage::Planar, after_linear, observer, |observer| {
-            begin(recorder, Stage::Planar);
-            let stop = || observer.cancelled();
-            Arc::new(planar_regions(&scene.stopped_by(&stop), &windows, areas, &matte, recorder))
-        })?;
+        let planar =
+            self.planar.get(Stage::Planar, after_linear, observer, |observer, recorder: &mut R| {
+                let stop = || observer.cancelled();
+                Arc::new(planar_regions(&scene.stopped_by(&stop), &windows, areas, &matte, recorder))
+            })?;
         observer.made(StageOutput::Planar(planar.clone()));
         let after_planar = key(Stage::Clipping, self.planar.generation);
-        let finals = self.clipping.get(Stage::Clipping, after_planar, observer, |observer| {
-            begin(recorder, Stage::Clipping);
-            let stop = || observer.cancelled();
-            let scene = scene.stopped_by(&stop);
-            let labels = clipping_regions(&scene, &planar, recorder);
-            Arc::new(final_regions(&scene, labels, &planar, recorder))
-        })?;
+        let finals =
+            self.clipping.get(Stage::Clipping, after_planar, observer, |observer, recorder: &mut R| {
+                let stop = || observer.cancelled();
+                let scene = scene.stopped_by(&stop);
+                let labels = clipping_regions(&scene, &planar, recorder);
+                Arc::new(final_regions(&scene, labels, &planar, recorder))
+            })?;
         observer.made(StageOutput::Finals(finals.clone()));
         let after_clipping = key(Stage::Split, self.clipping.generation);
-        let intrinsic = self.split.get(Stage::Split, after_clipping, observer, |observer| {
-            begin(recorder, Stage::Split);
-            let stop = || observer.cancelled();
-            Arc::new(split(&scene.stopped_by(&stop), &finals, recorder))
-        })?;
+        let intrinsic =
+            self.split.get(Stage::Split, after_clipping, observer, |observer, recorder: &mut R| {
+                let stop = || observer.cancelled();
+                Arc::new(split(&scene.stopped_by(&stop), &finals, recorder))
+            })?;
         observer.made(StageOutput::Intrinsic(intrinsic.clone()));
         let warnings = warnings(&finals.labels, &planar, &masks, subject.area.is_some());
         let areas = merged.map.clone();
@@ -163,12 +168,26 @@ impl Stages {
         Ok(Analysis { used, masks, windows, areas, matte, planar, finals, illuminant, intrinsic, warnings })
     }
 
+    /// The record of all stages; none where one has none.
+    pub fn trace(&self, width: usize, height: usize) -> Option<Trace> {
+        let reels = [
+            &self.masks.reel,
+            &self.classify.reel,
+            &self.merge.reel,
+            &self.linear.reel,
+            &self.planar.reel,
+            &self.clipping.reel,
+            &self.split.reel,
+        ];
+        let reels: Option<Vec<Arc<Reel>>> = reels.into_iter().cloned().collect();
+        Some(Trace::new(width, height, reels?))
+    }
+
     fn masks<R: Recorder>(
         &mut self,
         Subject { image, area }: &Subject,
         params: &Params,
         observer: &mut impl Observer,
-        recorder: &mut R,
     ) -> Result<(Arc<Masks>, UsedParams), Cancelled> {
         let limits = mask_limits(params, image);
         let automatic_noise = params.camera_noise == Setting::Auto;
@@ -183,15 +202,19 @@ impl Stages {
                 None => masks,
             }
         };
-        let (masks, sigma) = self.masks.get(Stage::Masks, key, observer, |_| {
-            begin(recorder, Stage::Masks);
+        let (masks, sigma) = self.masks.get(Stage::Masks, key, observer, |_, recorder: &mut R| {
             let masks = masks_of(&limits);
             let sigma = if automatic_noise { estimate_sigma(image, &masks) } else { None };
-            if !automatic_intensity {
-                return (Arc::new(masks), sigma);
+            let masks = if automatic_intensity {
+                let min_intensity = used_params(params, image, sigma).min_intensity;
+                masks_of(&MaskLimits { min_intensity, ..limits })
+            } else {
+                masks
+            };
+            if R::KEEPS {
+                recorder.record(Event::MasksMade(Box::new(masks_made(&masks, image.pixels.len(), sigma))));
             }
-            let min_intensity = used_params(params, image, sigma).min_intensity;
-            (Arc::new(masks_of(&MaskLimits { min_intensity, ..limits })), sigma)
+            (Arc::new(masks), sigma)
         })?;
         let used = used_params(params, image, sigma);
         observer.made(StageOutput::Masks { masks: masks.clone(), used });
@@ -199,9 +222,12 @@ impl Stages {
     }
 }
 
-fn begin<R: Recorder>(recorder: &mut R, stage: Stage) {
-    if R::KEEPS {
-        recorder.record(Event::StageBegan { stage });
+fn masks_made(masks: &Masks, pixels: usize, sigma: Option<f64>) -> MasksMade {
+    let count = |test: &dyn Fn(usize) -> bool| (0..pixels).filter(|&pixel| test(pixel)).count() as u32;
+    MasksMade {
+        dark: count(&|pixel| masks.dark(pixel)),
+        distorted: count(&|pixel| !masks.dark(pixel) && masks.distorted(pixel)),
+        sigma,
     }
 }
 

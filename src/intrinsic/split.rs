@@ -9,7 +9,7 @@ use crate::reflection::{Components, ReflectionTransform};
 use crate::segment::{
     FinalRegions, HighlightTest, Members, Pixels, PlanarHypothesis, Scene, members, neighbours,
 };
-use crate::trace::{PixelKind, Recorder};
+use crate::trace::{Event, Pass, PixelKind, Recorder, VectorsFitted};
 use rayon::prelude::*;
 
 /// Below this angle body and surface reflection cannot be told apart at all, degrees.
@@ -28,17 +28,20 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
         .enumerate()
         .map(|(index, hypothesis)| Splitter::new(scene, hypothesis, members.region(index as u16 + 1)))
         .collect();
+    if R::KEEPS {
+        recorder.record(Event::PassBegan { pass: Pass::Vectors });
+        for (region, splitter) in (1..).zip(&splitters) {
+            recorder.record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(region))));
+        }
+    }
     let mut images = Images::split_undistorted(scene, regions, &splitters);
     if scene.stopped() {
         return images.with_regions(Vec::new());
     }
     images.restore(scene, regions, &splitters, &members);
     if R::KEEPS {
-        for (pixel, &kind) in images.kinds.as_slice().iter().enumerate() {
-            if kind != PixelKind::Unassigned {
-                recorder.label(pixel as u32, kind);
-            }
-        }
+        recorder.record(Event::PassBegan { pass: Pass::Labels });
+        recorder.labels(&images.kinds);
     }
     let touching = neighbours(&regions.labels, regions.hypotheses.len());
     let reflections = splitters
@@ -91,6 +94,16 @@ impl Splitter {
             return Components { body: dot(color, transform.body()), surface: 0.0, ..components };
         }
         components
+    }
+
+    fn vectors_fitted(&self, region: u16) -> VectorsFitted {
+        VectorsFitted {
+            region,
+            body: self.vectors.body,
+            surface: self.transform.and(self.vectors.surface),
+            matte: self.hypothesis.matte,
+            start: self.hypothesis.start,
+        }
     }
 
     fn kind(&self, color: [f32; 3]) -> PixelKind {

@@ -16,7 +16,9 @@ use super::merge::Areas;
 use super::scene::Scene;
 use crate::color::{Line, Moments, Vec3, closest_points};
 use crate::raster::{LabelMap, UNASSIGNED};
-use crate::trace::{CandidateSource, CandidateVerdict, Class, Event, Recorder};
+use crate::trace::{
+    CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Class, Event, Recorder,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Fewest pixels of a candidate.
@@ -158,15 +160,21 @@ impl<R: Recorder> Tests<'_, '_, R> {
             beyond: (line.mean - on_candidate).dot(&line.direction) >= 0.0,
         };
         if R::KEEPS {
-            self.recorder.record(Event::CandidateTested {
+            let percent = |position: f64| 100.0 * position / self.length.max(f64::MIN_POSITIVE);
+            self.recorder.record(Event::CandidateTested(Box::new(CandidateTest {
                 region: self.region,
                 candidate: source,
                 pixels: cluster.n as u32,
+                matte: self.matte,
+                matte_length: self.length,
+                line,
+                meeting: [on_matte, on_candidate],
                 gap: [gap, radius],
-                position_percent: 100.0 * position / self.length.max(f64::MIN_POSITIVE),
-                direction: line.direction.into(),
+                position_percent: percent(position),
+                position_limits: [100.0 * UPPER[0], 100.0 * UPPER[1] + percent(radius)],
                 verdict,
-            });
+                weight: if verdict.accepted() { cluster.n } else { 0.0 },
+            })));
         }
         verdict.accepted().then_some(Accepted {
             source,
@@ -184,11 +192,12 @@ impl<R: Recorder> Tests<'_, '_, R> {
         let away = |candidate: &Accepted| (candidate.meeting_point - start).norm();
         let chosen = accepted.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
         if R::KEEPS {
-            self.recorder.record(Event::CandidateChosen {
+            self.recorder.record(Event::CandidateChosen(Box::new(CandidateChosen {
                 region: self.region,
                 candidate: chosen.source,
-                meeting_point: start.into(),
-            });
+                meeting_point: start,
+                direction: chosen.direction,
+            })));
         }
         Some(HighlightLine { start, direction: chosen.direction, pixels })
     }
@@ -199,7 +208,7 @@ mod tests {
     use super::*;
     use crate::color::rgb;
     use crate::segment::testing::Drawing;
-    use crate::trace::{Entry, Log};
+    use crate::trace::{Stage, Step, Tape};
 
     const LENGTH: f64 = 160.0;
 
@@ -217,14 +226,16 @@ mod tests {
         let cluster: Moments =
             (1..=20).map(|step| rgb(&(start + direction * (f64::from(step) * 4.0)))).collect();
         let matte = Line::new(body() * LENGTH / 2.0, body());
-        let mut log = Log::default();
+        let mut tape = Tape::default();
         let mut tests =
-            Tests { scene: &drawing.scene(), region: 1, matte, length: LENGTH, recorder: &mut log };
+            Tests { scene: &drawing.scene(), region: 1, matte, length: LENGTH, recorder: &mut tape };
         let accepted = tests.run(CandidateSource::Region(2), &cluster);
-        let [Entry::Event(Event::CandidateTested { verdict, .. })] = log.entries.as_slice() else {
-            panic!("one test, one event: {:?}", log.entries)
+        let reel = tape.finish(Stage::Planar).unwrap();
+        let Some(Step::Event(Event::CandidateTested(test))) = reel.step(0) else {
+            panic!("one test, one event: {reel:?}")
         };
-        assert_eq!(accepted.is_some(), verdict.accepted());
+        let verdict = test.verdict;
+        assert_eq!((reel.len(), accepted.is_some()), (1, verdict.accepted()));
         [verdict.lines_meet, verdict.upper_half, verdict.positive, verdict.beyond]
     }
 

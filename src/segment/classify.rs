@@ -9,7 +9,7 @@
 
 use crate::color::{ChiSquareTest, Moments, eigenvalues};
 use crate::raster::Raster;
-use crate::trace::{Class, Event, Recorder};
+use crate::trace::{Class, Event, Recorder, WindowsLaid};
 use rayon::prelude::*;
 
 /// Share of the noise variance against which tails are tested: (0.7σ0)² = (1.4σ)².
@@ -96,9 +96,20 @@ pub fn classify<R: Recorder>(
 ) -> Windows {
     let moments = window_moments(image, valid, size_px);
     let mut classes = Raster::filled(moments.width(), moments.height(), None);
+    if R::KEEPS {
+        recorder.record(Event::WindowsLaid(Box::new(WindowsLaid {
+            size_px: size_px as u32,
+            columns: moments.width() as u32,
+            rows: moments.height() as u32,
+            least_pixels: min_valid.max(1) as u32,
+            camera_noise: classifier.camera_noise,
+            tail_test: classifier.tail_test,
+        })));
+    }
     for (window, cluster) in moments.as_slice().iter().enumerate() {
         let pixels = cluster.n as usize;
-        if !R::KEEPS && pixels < min_valid {
+        // An empty window is not worth a word.
+        if pixels < if R::KEEPS { 1 } else { min_valid } {
             continue;
         }
         let (class, eigenvalues) = classifier.classify(cluster);
@@ -106,6 +117,7 @@ pub fn classify<R: Recorder>(
         classes[window] = class;
         if R::KEEPS {
             let (window, pixels) = (window as u32, pixels as u32);
+            let eigenvalues = eigenvalues.map(|variance| variance as f32);
             recorder.record(Event::WindowClassified { window, pixels, eigenvalues, class });
         }
     }

@@ -9,7 +9,7 @@ use super::planar::{PlanarHypothesis, PlanarRegions};
 use super::scene::Scene;
 use crate::color::{Line, Vec3, dot, rgb};
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
-use crate::trace::{Event, Recorder};
+use crate::trace::{Event, Pass, Recorder};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -19,6 +19,7 @@ const SURROUNDED: f64 = 0.7;
 /// Grows the planar regions into what clipping and blooming have distorted.
 pub fn clipping_regions<R: Recorder>(scene: &Scene, planar: &PlanarRegions, recorder: &mut R) -> LabelMap {
     let mut ledger = Ledger::new(planar.labels.clone(), recorder);
+    ledger.begin(Pass::Brightness);
     let members = ledger.members(planar.hypotheses.len());
     let fronts: Vec<Vec<u32>> = planar
         .hypotheses
@@ -35,6 +36,9 @@ pub fn clipping_regions<R: Recorder>(scene: &Scene, planar: &PlanarRegions, reco
             return ledger.labels;
         }
         let start2 = hypothesis.start.norm_squared() as f32;
+        if R::KEEPS && !front.is_empty() {
+            ledger.recorder.record(Event::GrowthBegan { region: id, limit: start2.sqrt() });
+        }
         ledger.grow(
             id,
             &mut front,
@@ -45,11 +49,13 @@ pub fn clipping_regions<R: Recorder>(scene: &Scene, planar: &PlanarRegions, reco
             },
         );
     }
+    ledger.begin(Pass::ClippedHoles);
     let clipped = |pixel: usize| scene.masks.distorted(pixel) && !scene.masks.dark(pixel);
     fill(&mut ledger, clipped, |_, share| share >= SURROUNDED);
     if scene.stopped() {
         return ledger.labels;
     }
+    ledger.begin(Pass::SmallHoles);
     let largest_px = scene.used.min_area as usize;
     let lit = |pixel: usize| !scene.masks.dark(pixel);
     fill(&mut ledger, lit, |hole, share| !hole.open && share >= 1.0 && hole.pixels.len() <= largest_px);
@@ -130,8 +136,8 @@ fn fill<R: Recorder>(
             continue;
         };
         if R::KEEPS {
-            let pixels = hole.pixels.len() as u32;
-            ledger.recorder.record(Event::HoleFilled { region, pixels, border_share });
+            let (pixel, pixels) = (start as u32, hole.pixels.len() as u32);
+            ledger.recorder.record(Event::HoleFilled { region, pixel, pixels, border_share });
         }
         for pixel in hole.pixels {
             ledger.assign(pixel as usize, region);

@@ -16,6 +16,7 @@
 
 use super::candidates::HighlightLine;
 use crate::color::{Vec3, axis_angle_deg};
+use crate::trace::Contribution;
 use nalgebra::Matrix3;
 
 /// Something that the illuminant is perpendicular to.
@@ -42,13 +43,13 @@ pub struct Prior {
     pub sd_deg: f64,
 }
 
-/// The illuminant, and what each constraint said: region, residual in degrees, weight.
+/// The illuminant, and what each constraint said.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Intersection {
     /// Unit direction.
     pub direction: Vec3,
-    /// Region, residual in degrees, weight of each constraint.
-    pub contributions: Vec<(u16, f64, f64)>,
+    /// What each constraint said, in their order.
+    pub contributions: Vec<Contribution>,
 }
 
 /// The paper's estimate: the average direction of all highlight lines; `None` without one.
@@ -79,8 +80,12 @@ pub fn intersect(constraints: &[Constraint], prior: &Prior) -> Intersection {
         .map(|start| settle(constraints, prior, start))
         .max_by(|a, b| merit(constraints, prior, a).total_cmp(&merit(constraints, prior, b)))
         .unwrap_or(prior.direction);
-    let contributions =
-        constraints.iter().map(|c| (c.region, residual_deg(c, &direction), weight(c, &direction))).collect();
+    let said = |c: &Constraint| Contribution {
+        region: c.region,
+        residual_deg: residual_deg(c, &direction),
+        weight: weight(c, &direction),
+    };
+    let contributions = constraints.iter().map(said).collect();
     Intersection { direction, contributions }
 }
 

@@ -1,7 +1,7 @@
 //! Who holds which pixel. Every change of hands goes through here, so that a record of claims is complete.
 
 use crate::raster::{LabelMap, UNASSIGNED};
-use crate::trace::Recorder;
+use crate::trace::{Event, Pass, Recorder};
 
 /// So many pixels are grown from between two questions whether to stop: about a millisecond.
 const PIXELS_PER_POLL: usize = 1 << 16;
@@ -18,6 +18,13 @@ impl<'a, R: Recorder> Ledger<'a, R> {
     /// A ledger that goes on from `labels`.
     pub fn new(labels: LabelMap, recorder: &'a mut R) -> Self {
         Self { labels, recorder }
+    }
+
+    /// Says that what follows belongs to this part of the stage.
+    pub fn begin(&mut self, pass: Pass) {
+        if R::KEEPS {
+            self.recorder.record(Event::PassBegan { pass });
+        }
     }
 
     /// Gives a pixel to a region, or to none.
@@ -202,7 +209,7 @@ impl<'a> Pixels<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::Log;
+    use crate::trace::{Stage, Tape};
 
     #[test]
     fn members_are_sorted_by_region() {
@@ -222,13 +229,13 @@ mod tests {
         let labels = LabelMap::from_vec(5, 4, rows.concat()).unwrap();
         let members = Members::of(&labels, 2);
         let grown = |from_border: bool| {
-            let mut log = Log::default();
-            let mut ledger = Ledger::new(labels.clone(), &mut log);
+            let mut tape = Tape::default();
+            let mut ledger = Ledger::new(labels.clone(), &mut tape);
             let all = members.region(1);
             let mut front = if from_border { ledger.border(1, all) } else { all.iter().collect() };
             let seeds = front.clone();
             ledger.grow(1, &mut front, || false, |_, _, holder| holder == 0);
-            (log, seeds)
+            (tape.finish(Stage::Linear).unwrap(), seeds)
         };
         let (from_border, seeds) = grown(true);
         assert_eq!(seeds, [2, 7, 10, 11, 12, 19]);
@@ -237,14 +244,16 @@ mod tests {
 
     #[test]
     fn growth_goes_ring_by_ring_and_every_claim_is_recorded() {
-        let mut log = Log::default();
-        let mut ledger = Ledger::new(LabelMap::filled(3, 3, 0), &mut log);
+        let mut tape = Tape::default();
+        let mut ledger = Ledger::new(LabelMap::filled(3, 3, 0), &mut tape);
         let mut front = vec![4];
         ledger.assign(4, 1);
         ledger.grow(1, &mut front, || false, |_, pixel, _| pixel != 0);
         assert_eq!(front, [4, 1, 3, 5, 7, 2, 6, 8]);
         assert_eq!(ledger.labels.as_slice(), [0, 1, 1, 1, 1, 1, 1, 1, 1]);
         let end = ledger.labels.clone();
-        assert_eq!(log.replay(3, 3).unwrap().labels, end);
+        let mut played = LabelMap::filled(3, 3, 0);
+        let reel = tape.finish(Stage::Linear).unwrap();
+        assert_eq!((reel.play(&mut played), played), (Ok(()), end));
     }
 }

@@ -13,7 +13,10 @@ use super::merge::Areas;
 use super::scene::Scene;
 use crate::color::{Cylinder, Line, LineFit, Moments};
 use crate::raster::UNASSIGNED;
-use crate::trace::{CandidateSource, Class, Event, PassedOver, Recorder};
+use crate::trace::{
+    CandidateSource, Class, Contest, Event, HypothesisChosen, LineRefitted, Measure, Pass, PassedOver,
+    Recorder,
+};
 
 /// A linear hypothesis: an object's matte line.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,7 +60,9 @@ pub fn linear<R: Recorder>(
     hypotheses: &mut Vec<Hypothesis>,
     ledger: &mut Ledger<R>,
 ) {
+    ledger.begin(Pass::Hypotheses);
     let mut stock = Stock::new(scene, windows, areas, choice, ledger);
+    let mut rank = 0;
     while let Some(area) = stock.largest(choice.min_area_px) {
         let (pixels, colors) = stock.unclaimed(scene, area, ledger);
         stock.retire(area);
@@ -66,12 +71,17 @@ pub fn linear<R: Recorder>(
         }
         let pass_over = |ledger: &mut Ledger<R>, reason| {
             if R::KEEPS {
-                let pixels = pixels.len() as u32;
-                ledger.recorder.record(Event::HypothesisPassedOver { area: area as u32, pixels, reason });
+                let (area, pixels, least) = (area as u32, pixels.len() as u32, choice.min_area_px as u32);
+                ledger.recorder.record(Event::HypothesisPassedOver { area, pixels, least, reason });
             }
         };
-        if pixels.len() < choice.min_area_px || hypotheses.len() >= MAX_REGIONS {
-            pass_over(ledger, PassedOver::TooSmall);
+        rank += 1;
+        if pixels.len() < choice.min_area_px {
+            pass_over(ledger, PassedOver::Consumed);
+            continue;
+        }
+        if hypotheses.len() >= MAX_REGIONS {
+            pass_over(ledger, PassedOver::NoNumberLeft);
             continue;
         }
         let Some(line) = hypothesis_line(scene, areas.classes[area], &colors) else {
@@ -84,14 +94,14 @@ pub fn linear<R: Recorder>(
         }
         let region = hypotheses.len() as u16 + 1;
         if R::KEEPS {
-            ledger.recorder.record(Event::HypothesisChosen {
+            ledger.recorder.record(Event::HypothesisChosen(Box::new(HypothesisChosen {
                 region,
                 area: area as u32,
+                rank: rank - 1,
                 pixels: pixels.len() as u32,
-                mean: line.mean.into(),
-                direction: line.direction.into(),
+                line,
                 radius: scene.used.radius_counts(),
-            });
+            })));
         }
         hypotheses.push(Hypothesis::new(line));
         let claimed = exploit(scene, region, &pixels, hypotheses, ledger);
@@ -105,9 +115,9 @@ pub fn linear<R: Recorder>(
         }
     }
     if R::KEEPS {
-        for (area, pixels) in stock.remaining() {
-            let reason = PassedOver::TooSmall;
-            ledger.recorder.record(Event::HypothesisPassedOver { area, pixels, reason });
+        let least = choice.min_area_px as u32;
+        for (area, pixels, reason) in stock.remaining(least) {
+            ledger.recorder.record(Event::HypothesisPassedOver { area, pixels, least, reason });
         }
     }
 }
@@ -139,10 +149,10 @@ fn exploit<R: Recorder>(
     let index = usize::from(region) - 1;
     let mut cylinders = cylinders(scene, hypotheses);
     let mut claimed = seeds(scene, &hypotheses[index].line, cylinders[index], area_pixels);
+    if R::KEEPS {
+        ledger.recorder.record(Event::SeedsPlaced { region, pixels: claimed.len() as u32 });
+    }
     for &pixel in &claimed {
-        if R::KEEPS {
-            ledger.recorder.record(Event::Seeded { region, pixel });
-        }
         ledger.assign(pixel as usize, region);
     }
     grow_cylinder(scene, region, &cylinders, &mut claimed, ledger);
@@ -174,8 +184,7 @@ fn refit<R: Recorder>(
     let line = &mut hypotheses[usize::from(region) - 1].line;
     *line = line.refit(&colors, &line_fit(scene, 6));
     if R::KEEPS {
-        let (mean, direction) = (line.mean.into(), line.direction.into());
-        ledger.recorder.record(Event::LineRefitted { region, mean, direction });
+        ledger.recorder.record(Event::LineRefitted(Box::new(LineRefitted { region, line: *line })));
     }
 }
 
@@ -212,6 +221,10 @@ fn grow_cylinder<R: Recorder>(
     ledger: &mut Ledger<R>,
 ) {
     let own = cylinders[usize::from(region) - 1];
+    if R::KEEPS {
+        let limit = scene.used.radius_counts() as f32;
+        ledger.recorder.record(Event::GrowthBegan { region, limit });
+    }
     ledger.grow(
         region,
         claimed,
@@ -227,14 +240,9 @@ fn grow_cylinder<R: Recorder>(
             let (mine, theirs) = (own.distance2(color), cylinders[usize::from(holder) - 1].distance2(color));
             let taken = mine < theirs;
             if R::KEEPS {
-                recorder.record(Event::Conflict {
-                    pixel: pixel as u32,
-                    holder,
-                    challenger: region,
-                    holder_distance: f64::from(theirs).sqrt(),
-                    challenger_distance: f64::from(mine).sqrt(),
-                    taken,
-                });
+                let contest =
+                    Contest { measure: Measure::Axis, challenger: mine.sqrt(), holder: theirs.sqrt() };
+                recorder.contest(pixel as u32, holder, region, taken, contest);
             }
             taken
         },
@@ -247,6 +255,8 @@ struct Stock<'a> {
     windows: &'a Windows,
     unclaimed: Vec<u32>,
     members: Vec<Vec<u32>>,
+    /// Whether an area has been looked at.
+    retired: Vec<bool>,
 }
 
 impl<'a> Stock<'a> {
@@ -266,7 +276,8 @@ impl<'a> Stock<'a> {
                 unclaimed[area as usize] += windows.moments[window].n as u32;
             }
         }
-        let mut stock = Self { areas, windows, unclaimed, members };
+        let retired = vec![false; members.len()];
+        let mut stock = Self { areas, windows, unclaimed, members, retired };
         // Window moments count valid pixels; what is claimable and free may be less.
         for area in 0..stock.members.len() {
             if stock.unclaimed[area] as usize >= choice.min_area_px {
@@ -282,9 +293,15 @@ impl<'a> Stock<'a> {
         (self.unclaimed[best] as usize >= min_area_px.max(1)).then_some(best)
     }
 
-    /// Areas that were never chosen, with their unclaimed pixels.
-    fn remaining(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
-        self.unclaimed.iter().enumerate().filter(|&(_, &n)| n > 0).map(|(area, &n)| (area as u32, n))
+    /// Areas that were never looked at, with their unclaimed pixels and why: whether they ever had `least` valid ones.
+    fn remaining(&self, least: u32) -> impl Iterator<Item = (u32, u32, PassedOver)> + '_ {
+        let waiting =
+            (0..self.members.len()).filter(|&area| !self.members[area].is_empty() && !self.retired[area]);
+        waiting.map(move |area| {
+            let had = self.areas.moments[area].n >= f64::from(least);
+            let reason = if had { PassedOver::Consumed } else { PassedOver::TooSmall };
+            (area as u32, self.unclaimed[area], reason)
+        })
     }
 
     fn free_pixels<'b, R: Recorder>(
@@ -316,6 +333,7 @@ impl<'a> Stock<'a> {
     }
 
     fn retire(&mut self, area: usize) {
+        self.retired[area] = true;
         self.unclaimed[area] = 0;
     }
 
@@ -355,19 +373,19 @@ mod tests {
     use crate::color::Vec3;
     use crate::raster::LabelMap;
     use crate::segment::testing::{Drawing, check, labels};
-    use crate::trace::{Entry, Log};
+    use crate::trace::{Reel, Stage, Step, Tape};
 
     /// Grows region 1 from its pixels in `before`, with a cylinder around each axis, and returns the record.
-    fn grow(drawing: &Drawing, before: &LabelMap, axes: &[Vec3], after: &[&str]) -> Log {
+    fn grow(drawing: &Drawing, before: &LabelMap, axes: &[Vec3], after: &[&str]) -> Reel {
         let hypotheses: Vec<Hypothesis> =
             axes.iter().map(|axis| Hypothesis::new(Line::new(axis * 100.0, *axis))).collect();
-        let mut log = Log::default();
-        let mut ledger = Ledger::new(before.clone(), &mut log);
+        let mut tape = Tape::default();
+        let mut ledger = Ledger::new(before.clone(), &mut tape);
         let mut claimed: Vec<u32> = (0..before.len() as u32).filter(|&p| before[p as usize] == 1).collect();
         let scene = drawing.scene();
         grow_cylinder(&scene, 1, &cylinders(&scene, &hypotheses), &mut claimed, &mut ledger);
         check(&ledger.labels, after);
-        log
+        tape.finish(Stage::Linear).unwrap()
     }
 
     #[test]
@@ -393,12 +411,12 @@ mod tests {
             'y' => Vec3::new(100.0, 6.0, 0.0),
             _ => other * 100.0,
         });
-        let log = grow(&drawing, &labels(&["1222"]), &[one, other], &["1122"]);
-        let verdicts: Vec<(u32, bool)> = log
-            .entries
-            .iter()
-            .filter_map(|entry| match entry {
-                Entry::Event(Event::Conflict { pixel, taken, .. }) => Some((*pixel, *taken)),
+        let reel = grow(&drawing, &labels(&["1222"]), &[one, other], &["1122"]);
+        let verdicts: Vec<(u32, bool)> = reel
+            .steps()
+            .filter_map(|step| match step {
+                Step::Claim { pixel, contest: Some(_), .. } => Some((pixel, true)),
+                Step::Refusal { pixel, .. } => Some((pixel, false)),
                 _ => None,
             })
             .collect();

@@ -8,7 +8,7 @@ use super::merge::{Areas, merge};
 use super::scene::Scene;
 use super::unite::{merge_regions, vote};
 use crate::raster::{LabelMap, UNASSIGNED};
-use crate::trace::Recorder;
+use crate::trace::{Pass, Recorder};
 
 /// Windows and minimal areas of the second look, pixels.
 const SECOND_LOOKS: [(usize, usize); 2] = [(10, 150), (6, 72)];
@@ -36,6 +36,9 @@ pub fn matte_regions<R: Recorder>(
     let first = Choice { min_area_px, points: false, through_black: false };
     linear(scene, windows, areas, &first, &mut hypotheses, &mut ledger);
     for round in 0..3 {
+        if scene.refine.absorb_highlights {
+            ledger.begin(Pass::Absorbing);
+        }
         let released = scene.refine.absorb_highlights && absorb(scene, &mut hypotheses, &mut ledger);
         // Without newly released pixels another look would see what the last one saw.
         if round == 2 || (round == 1 && !released) {
@@ -46,9 +49,11 @@ pub fn matte_regions<R: Recorder>(
         }
     }
     if scene.refine.proximity_vote {
+        ledger.begin(Pass::Vote);
         vote(scene, &hypotheses, &mut ledger);
     }
     if scene.refine.merge_regions {
+        ledger.begin(Pass::Uniting);
         merge_regions(scene, &mut hypotheses, &mut ledger);
     }
     MatteRegions { labels: ledger.labels, hypotheses }
@@ -60,6 +65,7 @@ fn second_look<R: Recorder>(scene: &Scene, hypotheses: &mut Vec<Hypothesis>, led
         if scene.stopped() {
             return;
         }
+        ledger.begin(Pass::SecondLook(size_px as u16));
         let min_area_px = min_area_px.min(scene.used.min_area as usize);
         let mut classifier = Classifier::new(scene.used.camera_noise, scene.refine.tail_test);
         let labels = &ledger.labels;

@@ -95,9 +95,16 @@ impl Forest {
             return false;
         }
         let both = self.moments[into].merged(&self.moments[from]);
-        let (union, _) = classifier.classify(&both);
+        let (union, eigenvalues) = classifier.classify(&both);
         if R::KEEPS {
-            recorder.record(Event::MergeTried { into: pair.0, from: pair.1, class, union });
+            recorder.record(Event::MergeTried {
+                into: pair.0,
+                from: pair.1,
+                pixels: [into, from].map(|part| self.moments[part].n as u32),
+                eigenvalues: eigenvalues.map(|variance| variance as f32),
+                class,
+                union,
+            });
         }
         if union != class {
             self.refused.insert(pair, versions);

@@ -24,7 +24,7 @@ use super::unite::merge_regions;
 use crate::color::{Cylinder, Line, Vec3, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::reflection::{DichromaticPlane, Slice};
-use crate::trace::{Event, Recorder};
+use crate::trace::{Contest, Contribution, Event, IlluminantEstimated, Measure, Pass, Recorder, SliceMade};
 use rayon::prelude::*;
 
 /// Smallest angle between body and surface vector at which a plane means anything, degrees.
@@ -92,6 +92,9 @@ pub fn planar_regions<R: Recorder>(
         .into_par_iter()
         .map(|id| matte_length(scene, &matte.hypotheses[usize::from(id) - 1].line, members.region(id)))
         .collect();
+    if R::KEEPS {
+        recorder.record(Event::PassBegan { pass: Pass::Candidates });
+    }
     let found = Found { windows, areas, labels: &matte.labels, hypotheses: &matte.hypotheses };
     let lines = highlight_lines(scene, &found, &members, &lengths, recorder);
     let mut stage = Stage {
@@ -108,7 +111,7 @@ pub fn planar_regions<R: Recorder>(
     if !scene.refine.robust_illuminant {
         let objects = stage.lines.iter().flatten().count();
         let direction = average_direction(&stage.lines);
-        stage.announce(direction, &[]);
+        stage.announce(direction, Vec::new());
         let hypotheses = stage.slices(direction);
         return stage.finish(hypotheses, direction, objects);
     }
@@ -156,6 +159,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
 
     /// Slices that all turn to a light that is known: nothing is estimated, and one round settles it.
     fn under_given_light(mut self, direction: [f64; 3]) -> PlanarRegions {
+        self.ledger.begin(Pass::Illuminant);
         if R::KEEPS {
             self.ledger.recorder.record(Event::IlluminantGiven { direction });
         }
@@ -169,14 +173,13 @@ impl<R: Recorder> Stage<'_, '_, R> {
         PlanarRegions { labels: self.ledger.labels, hypotheses, illuminant }
     }
 
-    fn announce(&mut self, direction: Option<Vec3>, contributions: &[(u16, f64, f64)]) {
+    fn announce(&mut self, direction: Option<Vec3>, contributions: Vec<Contribution>) {
+        self.ledger.begin(Pass::Illuminant);
         if R::KEEPS
             && let Some(direction) = direction
         {
-            let contributions = contributions.to_vec();
-            self.ledger
-                .recorder
-                .record(Event::IlluminantEstimated { direction: direction.into(), contributions });
+            let estimated = IlluminantEstimated { direction: direction.into(), contributions };
+            self.ledger.recorder.record(Event::IlluminantEstimated(Box::new(estimated)));
         }
     }
 
@@ -202,7 +205,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
         }
         let sd_deg = if candidates.is_some() { 8.0 } else { 12.0 };
         let found = intersect(&constraints, &Prior { direction: start, sd_deg });
-        self.announce(Some(found.direction), &found.contributions);
+        self.announce(Some(found.direction), found.contributions);
         (Some(found.direction), constraints.len().max(self.lines.iter().flatten().count()))
     }
 
@@ -240,7 +243,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
             _ => Prior { direction: *before, sd_deg: 30.0 },
         };
         let found = intersect(&constraints, &prior);
-        self.announce(Some(found.direction), &found.contributions);
+        self.announce(Some(found.direction), found.contributions);
         (found.direction, objects)
     }
 
@@ -249,6 +252,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
         if !self.scene.refine.merge_regions {
             return;
         }
+        self.ledger.begin(Pass::Uniting);
         let into = merge_regions(self.scene, &mut self.matte, &mut self.ledger);
         if into.iter().enumerate().all(|(id, &into)| id == usize::from(into)) {
             return;
@@ -265,6 +269,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
 
     /// Takes the labels back to the matte regions.
     fn reset(&mut self) {
+        self.ledger.begin(Pass::Reset);
         for pixel in 0..self.matte_labels.len() {
             self.ledger.assign(pixel, self.matte_labels[pixel]);
         }
@@ -281,6 +286,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let hypotheses = self.hypotheses(illuminant);
         let slices: Vec<Option<Slice>> = hypotheses.iter().map(|h| self.slice(h)).collect();
         let cylinders = cylinders(self.scene, &self.matte);
+        self.ledger.begin(Pass::Slices);
         let mut order: Vec<u16> = (1..=hypotheses.len() as u16).collect();
         order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
         for id in order {
@@ -291,12 +297,14 @@ impl<R: Recorder> Stage<'_, '_, R> {
                 (&slices[usize::from(id) - 1], &hypotheses[usize::from(id) - 1].plane)
             {
                 if R::KEEPS {
-                    self.ledger.recorder.record(Event::SliceMade {
+                    self.ledger.recorder.record(Event::SliceMade(Box::new(SliceMade {
                         region: id,
-                        normal: plane.normal.into(),
-                        start: hypotheses[usize::from(id) - 1].start.into(),
+                        plane: *plane,
+                        matte_length: self.lengths[usize::from(id) - 1],
+                        start: hypotheses[usize::from(id) - 1].start,
                         half_width: self.scene.used.slice_half_width_counts(),
-                    });
+                        slice: *slice,
+                    })));
                 }
                 self.grow_slice(id, slice, (&slices, &cylinders), &members);
             }
@@ -345,6 +353,10 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let own = cylinders[usize::from(id) - 1];
         let matte_labels = &self.matte_labels;
         let mut front = self.ledger.border(id, members.region(id));
+        if R::KEEPS {
+            let limit = scene.used.slice_half_width_counts() as f32;
+            self.ledger.recorder.record(Event::GrowthBegan { region: id, limit });
+        }
         self.ledger.grow(
             id,
             &mut front,
@@ -360,25 +372,29 @@ impl<R: Recorder> Stage<'_, '_, R> {
                 let matte = matte_labels[pixel];
                 let foreign = matte != UNASSIGNED && matte != id;
                 if foreign && !own.contains(color) {
+                    if R::KEEPS {
+                        let contest = Contest {
+                            measure: Measure::ForeignMatte,
+                            challenger: own.distance2(color).sqrt(),
+                            holder: scene.used.radius_counts() as f32,
+                        };
+                        recorder.contest(pixel as u32, holder, id, false, contest);
+                    }
                     return false;
                 }
                 let theirs = &slices[usize::from(holder) - 1];
-                let (mine, held) = match theirs {
-                    Some(theirs) if !foreign => (slice.distance(color), theirs.distance(color)),
+                let (measure, mine, held) = match theirs {
+                    Some(theirs) if !foreign => {
+                        (Measure::Plane, slice.distance(color), theirs.distance(color))
+                    }
                     _ => {
                         let axis = &cylinders[usize::from(holder) - 1];
-                        (own.distance2(color).sqrt(), axis.distance2(color).sqrt())
+                        (Measure::Axis, own.distance2(color).sqrt(), axis.distance2(color).sqrt())
                     }
                 };
                 if R::KEEPS {
-                    recorder.record(Event::Conflict {
-                        pixel: pixel as u32,
-                        holder,
-                        challenger: id,
-                        holder_distance: f64::from(held),
-                        challenger_distance: f64::from(mine),
-                        taken: mine < held,
-                    });
+                    let contest = Contest { measure, challenger: mine, holder: held };
+                    recorder.contest(pixel as u32, holder, id, mine < held, contest);
                 }
                 mine < held
             },

@@ -11,7 +11,7 @@ use super::scene::Scene;
 use super::unite::{MAX_ANGLE_DEG, matte_cluster, one_line};
 use crate::color::{Moments, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
-use crate::trace::{Event, Recorder};
+use crate::trace::{Event, Pass, Recorder};
 use std::collections::BTreeMap;
 
 /// Regions and separated parts below this many pixels are dropped, or stay with their region.
@@ -44,9 +44,11 @@ pub fn final_regions<R: Recorder>(
     let mut hypotheses = planar.hypotheses.clone();
     let mut ledger = Ledger::new(labels, recorder);
     if scene.refine.merge_regions {
+        ledger.begin(Pass::Joining);
         join_across(scene, &hypotheses, &mut ledger);
     }
     if scene.refine.split_components {
+        ledger.begin(Pass::Separating);
         let members = ledger.members(hypotheses.len());
         for id in 1..=hypotheses.len() as u16 {
             if scene.stopped() {
@@ -55,6 +57,7 @@ pub fn final_regions<R: Recorder>(
             separate(id, members.region(id), &mut hypotheses, &mut ledger);
         }
     }
+    ledger.begin(Pass::Numbering);
     let members = ledger.members(hypotheses.len());
     let mut order: Vec<u16> = (1..=hypotheses.len() as u16).collect();
     order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
@@ -79,7 +82,7 @@ pub fn final_regions<R: Recorder>(
         *label = finals[usize::from(*label) - 1];
     }
     if R::KEEPS {
-        recorder.record(Event::Renumbered { finals });
+        recorder.record(Event::Renumbered { finals: finals.into() });
     }
     FinalRegions { labels, hypotheses: kept }
 }

@@ -11,7 +11,7 @@ use super::linear::{Hypothesis, cylinders};
 use super::scene::Scene;
 use crate::color::{Cylinder, Line, Moments, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
-use crate::trace::{Event, Recorder};
+use crate::trace::{Contest, Event, Measure, Recorder};
 use std::collections::BTreeMap;
 
 /// Farthest that parts of one object may lie apart, pixels.
@@ -124,6 +124,11 @@ pub fn vote<R: Recorder>(scene: &Scene, hypotheses: &[Hypothesis], ledger: &mut 
             && count * 100 >= total * MAJORITY_PERCENT
             && cylinders[usize::from(winner) - 1].contains(scene.pixels[pixel])
         {
+            if R::KEEPS {
+                let (challenger, holder) = (count as f32, total as f32);
+                let contest = Contest { measure: Measure::Vote, challenger, holder };
+                ledger.recorder.contest(pixel as u32, before[pixel], winner, true, contest);
+            }
             ledger.assign(pixel, winner);
         }
     }

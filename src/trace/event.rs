@@ -1,99 +1,11 @@
 //! The words in which decisions are recorded.
+//!
+//! Events are kept by the hundred thousand, so what is rare and large is boxed. Claims, conflicts and labels are kept by the
+//! million: they are no events, see [`super::Reel`].
 
-/// The stages in their order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Stage {
-    /// Dark, clipped and bloomed pixels; the parameters left to the image.
-    Masks,
-    /// Section 5.2.1.
-    Classify,
-    /// Section 5.2.2.
-    Merge,
-    /// Section 5.3.
-    Linear,
-    /// Section 5.4.
-    Planar,
-    /// Section 5.5.
-    Clipping,
-    /// Section 6.
-    Split,
-}
-
-impl Stage {
-    /// All of them, first to last.
-    pub const ALL: [Self; 7] =
-        [Self::Masks, Self::Classify, Self::Merge, Self::Linear, Self::Planar, Self::Clipping, Self::Split];
-
-    /// Its name in reports and traces.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Masks => "masks",
-            Self::Classify => "classify",
-            Self::Merge => "merge",
-            Self::Linear => "linear",
-            Self::Planar => "planar",
-            Self::Clipping => "clipping",
-            Self::Split => "split",
-        }
-    }
-}
-
-/// Class of a colour cluster by its number of significant eigenvalues (section 5.2.1, table 1).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Class {
-    /// None: no variation beyond the noise.
-    Point,
-    /// One: matte or highlight line.
-    Line,
-    /// Two: a dichromatic plane, or two objects.
-    Plane,
-    /// Three: clipping, or several objects.
-    Volume,
-}
-
-impl Class {
-    /// Its name in tables and on the screen.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Point => "point",
-            Self::Line => "line",
-            Self::Plane => "plane",
-            Self::Volume => "volume",
-        }
-    }
-}
-
-/// What a pixel is to its region (section 6).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum PixelKind {
-    /// In no region.
-    #[default]
-    Unassigned,
-    /// Nearer to the matte line.
-    Matte,
-    /// Nearer to the highlight line.
-    Highlight,
-    /// Clipped or bloomed, its colour restored from the bands that can be believed.
-    Restored,
-    /// Clipped in every band: nothing to restore it from but its surroundings.
-    Lost,
-}
-
-impl PixelKind {
-    /// Its name in tables and on the screen.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Unassigned => "unassigned",
-            Self::Matte => "matte",
-            Self::Highlight => "highlight",
-            Self::Restored => "restored",
-            Self::Lost => "lost",
-        }
-    }
-}
-
-/// Three numbers of a colour or direction, as recorded.
-pub type Triple = [f64; 3];
+use super::{Class, PixelKind, Stage};
+use crate::color::{Line, Vec3};
+use crate::reflection::{DichromaticPlane, Slice};
 
 /// A decision, and the numbers that it rested on. Regions are numbered from 1 in the order of their birth; the last
 /// [`Event::Renumbered`] says which number each has in the result.
@@ -104,6 +16,15 @@ pub enum Event {
         /// The stage.
         stage: Stage,
     },
+    /// What follows belongs to this part of the stage.
+    PassBegan {
+        /// The part.
+        pass: Pass,
+    },
+    /// Which pixels are believed (section 4).
+    MasksMade(Box<MasksMade>),
+    /// A grid of windows was laid over the picture; the windows that follow are its.
+    WindowsLaid(Box<WindowsLaid>),
     /// A window was classified (5.2.1).
     WindowClassified {
         /// Its index, row-major.
@@ -111,7 +32,7 @@ pub enum Event {
         /// Valid pixels in it.
         pixels: u32,
         /// Variances along the principal axes, counts², largest first.
-        eigenvalues: Triple,
+        eigenvalues: [f32; 3],
         /// Its class, unless it holds too few valid pixels.
         class: Option<Class>,
     },
@@ -121,66 +42,45 @@ pub enum Event {
         into: u32,
         /// First window of the area that would vanish.
         from: u32,
+        /// Valid pixels of both parts.
+        pixels: [u32; 2],
+        /// Variances of the union along its principal axes, counts², largest first.
+        eigenvalues: [f32; 3],
         /// Class of both.
         class: Class,
         /// Class of the union: they merge if it is the same.
         union: Class,
     },
     /// A merged area started a linear hypothesis (5.3.1).
-    HypothesisChosen {
-        /// The new region.
-        region: u16,
-        /// First window of the area.
-        area: u32,
-        /// Pixels of the area that no region had claimed.
-        pixels: u32,
-        /// A point of its axis, counts.
-        mean: Triple,
-        /// Unit direction of its axis.
-        direction: Triple,
-        /// Radius of its cylinder, counts.
-        radius: f64,
-    },
-    /// A merged area did not start a hypothesis.
+    HypothesisChosen(Box<HypothesisChosen>),
+    /// A merged area did not start a hypothesis, or the one that it started was taken back.
     HypothesisPassedOver {
         /// First window of the area.
         area: u32,
         /// Pixels of the area that no region had claimed.
         pixels: u32,
+        /// Fewest that it needs.
+        least: u32,
         /// Why.
         reason: PassedOver,
     },
+    /// The claims that follow, so many, are where a region starts to grow.
+    SeedsPlaced {
+        /// The region.
+        region: u16,
+        /// How many.
+        pixels: u32,
+    },
+    /// A region starts to grow: the claims that follow were reached from a neighbour.
+    GrowthBegan {
+        /// The region.
+        region: u16,
+        /// What bounds it, counts: the cylinder's radius (linear), half the slice's thickness (planar), the least
+        /// brightness (clipping).
+        limit: f32,
+    },
     /// A region's line was fitted again to what it had grown into.
-    LineRefitted {
-        /// The region.
-        region: u16,
-        /// A point of its axis, counts.
-        mean: Triple,
-        /// Unit direction of its axis.
-        direction: Triple,
-    },
-    /// Growth of a region started from a pixel.
-    Seeded {
-        /// The region.
-        region: u16,
-        /// The pixel, `y · width + x`.
-        pixel: u32,
-    },
-    /// Two regions wanted a pixel (the proximity heuristic).
-    Conflict {
-        /// The pixel.
-        pixel: u32,
-        /// Region that held it.
-        holder: u16,
-        /// Region that wanted it.
-        challenger: u16,
-        /// Distance from the holder's axis or plane, counts.
-        holder_distance: f64,
-        /// Distance from the challenger's, counts.
-        challenger_distance: f64,
-        /// Whether it changed hands.
-        taken: bool,
-    },
+    LineRefitted(Box<LineRefitted>),
     /// A linear region turned out to be the broad highlight of its neighbour.
     Absorbed {
         /// The highlight, a region no longer.
@@ -204,58 +104,24 @@ pub enum Event {
         rms: f64,
     },
     /// A neighbour was tested as a region's highlight (5.4.1).
-    CandidateTested {
-        /// The region.
-        region: u16,
-        /// The neighbour.
-        candidate: CandidateSource,
-        /// Pixels of the neighbour.
-        pixels: u32,
-        /// Distance between the two lines, counts, and the largest allowed.
-        gap: [f64; 2],
-        /// Where they meet on the matte line, in % of its length.
-        position_percent: f64,
-        /// Unit direction of the neighbour's line.
-        direction: Triple,
-        /// Which tests it passed.
-        verdict: CandidateVerdict,
-    },
+    CandidateTested(Box<CandidateTest>),
     /// A region's highlight line was chosen from the candidates that passed.
-    CandidateChosen {
-        /// The region.
-        region: u16,
-        /// The neighbour whose meeting point lies nearest to the mean of all.
-        candidate: CandidateSource,
-        /// Weighted mean of the meeting points, counts.
-        meeting_point: Triple,
-    },
+    CandidateChosen(Box<CandidateChosen>),
     /// The colour of the light was estimated (5.4.1).
-    IlluminantEstimated {
-        /// Unit direction.
-        direction: Triple,
-        /// Each region that had a say, with its residual in degrees and its weight.
-        contributions: Vec<(u16, f64, f64)>,
-    },
+    IlluminantEstimated(Box<IlluminantEstimated>),
     /// The colour of the light was given: none was estimated.
     IlluminantGiven {
         /// Unit direction.
-        direction: Triple,
+        direction: [f64; 3],
     },
     /// A region's dichromatic plane became a slice (5.4.2).
-    SliceMade {
-        /// The region.
-        region: u16,
-        /// Unit normal of the plane.
-        normal: Triple,
-        /// Where the highlight line leaves the matte line, counts.
-        start: Triple,
-        /// Half its thickness, counts.
-        half_width: f64,
-    },
+    SliceMade(Box<SliceMade>),
     /// A component of unassigned pixels was given to the region around it (5.5).
     HoleFilled {
         /// The region.
         region: u16,
+        /// The component's first pixel.
+        pixel: u32,
         /// Pixels of the component.
         pixels: u32,
         /// Share of its assigned border that the region holds.
@@ -280,21 +146,239 @@ pub enum Event {
     /// The regions got their final numbers.
     Renumbered {
         /// The final number of region `i + 1` at index `i`; 0 for one that is no more.
-        finals: Vec<u16>,
+        finals: Box<[u16]>,
     },
+    /// By which vectors a region's pixels are split (section 6).
+    VectorsFitted(Box<VectorsFitted>),
+}
+
+/// A part of a stage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Pass {
+    /// Areas become cylinders that grow (5.3).
+    Hypotheses,
+    /// Broad highlights go back to their objects (refines 5.3).
+    Absorbing,
+    /// Unexplained pixels are classified again in windows of this side, pixels (refines 5.3).
+    SecondLook(u16),
+    /// Contested pixels follow the majority around them (refines 5.3.2).
+    Vote,
+    /// Regions on one matte line become one (refines 5.3.2).
+    Uniting,
+    /// Neighbours are tested as highlights (5.4.1).
+    Candidates,
+    /// The light's colour is estimated (5.4.1), for the first time or once more.
+    Illuminant,
+    /// Labels go back to the matte regions, for slices that turn to another light (refines 5.4).
+    Reset,
+    /// Slices grow (5.4.2).
+    Slices,
+    /// Highlights grow into what is brighter than where they start (5.5).
+    Brightness,
+    /// Clipped components join the region around them (5.5).
+    ClippedHoles,
+    /// Small components wholly inside a region join it (5.5).
+    SmallHoles,
+    /// Regions on one matte line that an occluder parts are joined.
+    Joining,
+    /// Parts of a region that are objects of their own are separated.
+    Separating,
+    /// Regions that are too small go, the others are numbered.
+    Numbering,
+    /// Body and surface vectors of each region (section 6).
+    Vectors,
+    /// Each pixel's role (section 6).
+    Labels,
+}
+
+impl Pass {
+    /// Its name on the timeline and in traces.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Hypotheses => "hypotheses",
+            Self::Absorbing => "absorb highlights",
+            Self::SecondLook(_) => "second look",
+            Self::Vote => "proximity vote",
+            Self::Uniting => "unite regions",
+            Self::Candidates => "skewed-T tests",
+            Self::Illuminant => "illuminant",
+            Self::Reset => "back to matte",
+            Self::Slices => "slices",
+            Self::Brightness => "brighter than the start",
+            Self::ClippedHoles => "clipped holes",
+            Self::SmallHoles => "small holes",
+            Self::Joining => "join across",
+            Self::Separating => "separate parts",
+            Self::Numbering => "number",
+            Self::Vectors => "vectors",
+            Self::Labels => "labels",
+        }
+    }
+}
+
+/// What [`Event::MasksMade`] says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MasksMade {
+    /// Pixels too dark to be analysed, invalid ones and those outside the area included.
+    pub dark: u32,
+    /// Other pixels that are clipped or bloomed.
+    pub distorted: u32,
+    /// Standard deviation of a band's noise that the image told, counts; none where it was not asked or could not be told.
+    pub sigma: Option<f64>,
+}
+
+/// What [`Event::WindowsLaid`] says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WindowsLaid {
+    /// Side of a window, pixels.
+    pub size_px: u32,
+    /// Windows in a row.
+    pub columns: u32,
+    /// Rows of windows.
+    pub rows: u32,
+    /// Fewest valid pixels of a window that gets a class.
+    pub least_pixels: u32,
+    /// Camera noise σ0 that variances are held against, counts.
+    pub camera_noise: f64,
+    /// Whether by the tail test.
+    pub tail_test: bool,
+}
+
+/// What [`Event::HypothesisChosen`] says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HypothesisChosen {
+    /// The new region.
+    pub region: u16,
+    /// First window of the area.
+    pub area: u32,
+    /// How many areas had been looked at before in this pass: 0 for the largest.
+    pub rank: u32,
+    /// Pixels of the area that no region had claimed.
+    pub pixels: u32,
+    /// The axis of its cylinder.
+    pub line: Line,
+    /// Radius of its cylinder, counts.
+    pub radius: f64,
+}
+
+/// What [`Event::LineRefitted`] says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineRefitted {
+    /// The region.
+    pub region: u16,
+    /// The axis of its cylinder from now on.
+    pub line: Line,
+}
+
+/// What [`Event::CandidateTested`] says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CandidateTest {
+    /// The region.
+    pub region: u16,
+    /// The neighbour.
+    pub candidate: CandidateSource,
+    /// Pixels of the neighbour.
+    pub pixels: u32,
+    /// The region's matte line.
+    pub matte: Line,
+    /// Its length from black, counts.
+    pub matte_length: f64,
+    /// The neighbour's line.
+    pub line: Line,
+    /// The points of both lines that are nearest to one another: on the matte line, on the neighbour's.
+    pub meeting: [Vec3; 2],
+    /// Distance between the two lines, counts, and the largest allowed.
+    pub gap: [f64; 2],
+    /// Where they meet on the matte line, in % of its length.
+    pub position_percent: f64,
+    /// The lowest and highest such place allowed, in %.
+    pub position_limits: [f64; 2],
+    /// Which tests it passed.
+    pub verdict: CandidateVerdict,
+    /// Pixels of it that all candidates which passed are weighed by; 0 if it did not.
+    pub weight: f64,
+}
+
+/// What [`Event::CandidateChosen`] says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CandidateChosen {
+    /// The region.
+    pub region: u16,
+    /// The neighbour whose meeting point lies nearest to the mean of all.
+    pub candidate: CandidateSource,
+    /// Weighted mean of the meeting points, counts.
+    pub meeting_point: Vec3,
+    /// Unit direction of the highlight line.
+    pub direction: Vec3,
+}
+
+/// What [`Event::IlluminantEstimated`] says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IlluminantEstimated {
+    /// Unit direction.
+    pub direction: [f64; 3],
+    /// Each region that had a say.
+    pub contributions: Vec<Contribution>,
+}
+
+/// What one region said about the light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contribution {
+    /// The region.
+    pub region: u16,
+    /// How far the light lies from where the region puts it, degrees.
+    pub residual_deg: f64,
+    /// Its weight.
+    pub weight: f64,
+}
+
+/// What [`Event::SliceMade`] says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SliceMade {
+    /// The region.
+    pub region: u16,
+    /// Its dichromatic plane.
+    pub plane: DichromaticPlane,
+    /// Length of the matte line from black, counts.
+    pub matte_length: f64,
+    /// Where the highlight line leaves the matte line, counts.
+    pub start: Vec3,
+    /// Half its thickness, counts.
+    pub half_width: f64,
+    /// What it holds.
+    pub slice: Slice,
+}
+
+/// What [`Event::VectorsFitted`] says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VectorsFitted {
+    /// The region, by its final number.
+    pub region: u16,
+    /// Unit body reflection vector.
+    pub body: Vec3,
+    /// Unit surface reflection vector; none: everything is body reflection.
+    pub surface: Option<Vec3>,
+    /// The matte line that highlight pixels are told from.
+    pub matte: Line,
+    /// Where the highlight line leaves it, counts.
+    pub start: Vec3,
 }
 
 /// Why an area did not start a hypothesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PassedOver {
-    /// Fewer unclaimed pixels than the minimal area.
+    /// It never had the minimal area.
     TooSmall,
+    /// Regions claimed so many of its pixels that too few were left.
+    Consumed,
     /// Its line passes farther from black than the cylinder's radius.
     FarFromBlack,
     /// Its colours have no extent to fit a line to.
     NoExtent,
-    /// Growing from it claimed too few pixels.
+    /// Growing from it claimed too few pixels, which were given back.
     Barren,
+    /// There are as many regions as a label map can hold.
+    NoNumberLeft,
 }
 
 /// Where a highlight candidate came from.
@@ -327,4 +411,64 @@ impl CandidateVerdict {
     pub fn accepted(self) -> bool {
         self.lines_meet && self.upper_half && self.positive && self.beyond
     }
+}
+
+/// Two regions wanted a pixel, or a region did not take one that lay in its reach.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contest {
+    /// By what it was decided.
+    pub measure: Measure,
+    /// What the challenger had to show.
+    pub challenger: f32,
+    /// What it was held against.
+    pub holder: f32,
+}
+
+/// By what a contest was decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Measure {
+    /// Distances of the colour from both axes, counts: the nearer wins (5.3.2).
+    Axis,
+    /// Distances from both planes, counts: the nearer wins (5.4.2).
+    Plane,
+    /// The pixel is another region's matte pixel: its distance from the challenger's axis, against the radius (5.4.2).
+    ForeignMatte,
+    /// Pixels of the winner among its surroundings, against the pixels of all regions there.
+    Vote,
+}
+
+/// One entry of a trace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step<'a> {
+    /// A decision with its numbers.
+    Event(&'a Event),
+    /// A pixel changed hands.
+    Claim {
+        /// The pixel, `y · width + x`.
+        pixel: u32,
+        /// The region that had it.
+        before: u16,
+        /// The region that has it now.
+        after: u16,
+        /// Why, where two regions wanted it.
+        contest: Option<Contest>,
+    },
+    /// A pixel did not change hands.
+    Refusal {
+        /// The pixel.
+        pixel: u32,
+        /// The region that keeps it.
+        holder: u16,
+        /// The region that wanted it.
+        challenger: u16,
+        /// Why.
+        contest: Contest,
+    },
+    /// A pixel's final role (section 6).
+    Label {
+        /// The pixel.
+        pixel: u32,
+        /// Its role.
+        kind: PixelKind,
+    },
 }

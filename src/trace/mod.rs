@@ -1,10 +1,23 @@
 //! Decisions as data: what was decided, about what, on which numbers.
 //!
-//! The stages tell a [`Recorder`] what they decide; [`Silent`] listens to nothing at no cost, [`Log`] keeps everything and
-//! can be replayed from zero to the analysis's result.
+//! The stages tell a [`Recorder`] what they decide. [`Silent`] listens to nothing at no cost; [`Tape`] keeps everything, a
+//! [`Reel`] a stage. A [`Trace`] is all reels in order; a [`Replay`] is a cursor in it that goes forward and back and shows
+//! what stood at that instant.
 
 mod event;
 mod recorder;
+mod reel;
+mod replay;
+mod terms;
+mod timeline;
 
-pub use event::{CandidateSource, CandidateVerdict, Class, Event, PassedOver, PixelKind, Stage, Triple};
-pub use recorder::{Entry, Log, Recorder, Replayed, Silent};
+pub use event::{
+    CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Contest, Contribution, Event,
+    HypothesisChosen, IlluminantEstimated, LineRefitted, MasksMade, Measure, Pass, PassedOver, SliceMade,
+    Step, VectorsFitted, WindowsLaid,
+};
+pub use recorder::{Recorder, Silent, Tape};
+pub use reel::Reel;
+pub use replay::{End, Grid, Hypothesis, Replay};
+pub use terms::{Class, PixelKind, Stage};
+pub use timeline::{Block, PassSpan, Topic, Trace};

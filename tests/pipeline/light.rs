@@ -4,7 +4,7 @@ use crate::common::{METHODS, analyze, assert_valid, fingerprint, report};
 use crate::synthetic::{Scene, dot};
 use dichroscope::analysis::Session;
 use dichroscope::segment::{IlluminantSetting, Params};
-use dichroscope::trace::{Entry, Event, Log};
+use dichroscope::trace::Event;
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -65,18 +65,10 @@ fn the_true_light_serves_as_well_as_the_estimate() {
 fn the_record_says_that_it_was_given() {
     let image = Scene::grid_of_balls([140, 70], 2, 1, 5).render().image;
     let illuminant = IlluminantSetting::Given([0.0, 3.0, 4.0]);
-    let mut log = Log::default();
     let params = Params { illuminant, ..Params::default() };
-    Session::new(Arc::new(image)).run_recorded(&params, &mut (), &mut log).unwrap();
-    let lights: Vec<&Event> = log
-        .entries
-        .iter()
-        .filter_map(|entry| match entry {
-            Entry::Event(event @ (Event::IlluminantGiven { .. } | Event::IlluminantEstimated { .. })) => {
-                Some(event)
-            }
-            _ => None,
-        })
-        .collect();
+    let (_, trace) = Session::new(Arc::new(image)).run_traced(&params, &mut ()).unwrap();
+    let is_light =
+        |event: &&Event| matches!(event, Event::IlluminantGiven { .. } | Event::IlluminantEstimated(_));
+    let lights: Vec<&Event> = trace.events().map(|(_, event)| event).filter(is_light).collect();
     assert_eq!(lights, [&Event::IlluminantGiven { direction: [0.0, 0.6, 0.8] }]);
 }

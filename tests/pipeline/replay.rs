@@ -1,10 +1,11 @@
-//! A record of all decisions, played from the empty picture, ends in the result; and recording changes nothing.
+//! A trace of all decisions goes forward and back, ends in the result, and recording it changes nothing.
 
 use crate::common::{analyze, fingerprint};
 use crate::synthetic::Scene;
-use dichroscope::analysis::Session;
+use dichroscope::analysis::{Analysis, Observer, Session};
+use dichroscope::raster::UNASSIGNED;
 use dichroscope::segment::{Method, Params, Setting};
-use dichroscope::trace::{Entry, Event, Log, Stage};
+use dichroscope::trace::{Class, Event, PixelKind, Replay, Stage, Trace};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -26,39 +27,184 @@ fn random_params() -> impl Strategy<Value = Params> {
     })
 }
 
+/// The trace of a random scene, and the result.
+fn traced(seed: u64, params: &Params) -> (Analysis, Arc<Trace>) {
+    let image = Scene::grid_of_balls([140, 70], 2, 1, seed).render().image;
+    let (analysis, trace) = Session::new(Arc::new(image)).run_traced(params, &mut ()).unwrap();
+    (analysis, Arc::new(trace))
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(16))]
 
     #[test]
-    fn a_replayed_record_is_the_result(seed in any::<u64>(), params in random_params()) {
+    fn the_last_state_is_the_result(seed in any::<u64>(), params in random_params()) {
+        let (analysis, trace) = traced(seed, &params);
+        let mut replay = Replay::new(Arc::clone(&trace));
+        replay.seek(trace.len());
+        let finals = replay.labels().map(|&label| match label {
+            UNASSIGNED => UNASSIGNED,
+            region => replay.final_number(region).unwrap(),
+        });
+        prop_assert!(finals == analysis.finals.labels, "regions differ");
+        for (region, pixels) in (1..).zip(replay.hypotheses()).map(|(id, _)| (id, replay.size(id))) {
+            let held = replay.labels().as_slice().iter().filter(|&&label| label == region).count();
+            prop_assert_eq!(pixels as usize, held, "size of region {}", region);
+        }
+        let kinds: Vec<PixelKind> = (0..finals.len()).map(|pixel| replay.kind(pixel)).collect();
+        prop_assert!(kinds == analysis.intrinsic.kinds.as_slice(), "kinds differ");
+        prop_assert_eq!(replay.light(), analysis.illuminant.map(|light| light.direction));
+
+        let grid = replay.first_grid().unwrap();
+        let classes: Vec<Option<Class>> = grid.classes.as_slice().iter().map(|class| class.flatten()).collect();
+        prop_assert!(classes == analysis.windows.classes.as_slice(), "classes differ");
+        replay.seek(trace.steps_of(Stage::Merge).end);
+        let areas = replay.grid().unwrap().areas();
+        let width = finals.width();
+        let merged: Vec<u32> = (0..finals.len())
+            .map(|pixel| {
+                let window = replay.grid().unwrap().window_of(pixel, width);
+                if classes[areas[window] as usize].is_some() { areas[window] + 1 } else { 0 }
+            })
+            .collect();
+        prop_assert!(merged == analysis.areas.as_slice(), "areas differ");
+
+        replay.seek(trace.steps_of(Stage::Linear).end);
+        prop_assert!(*replay.labels() == analysis.matte.labels, "matte regions differ");
+        for (id, hypothesis) in (1..).zip(&analysis.matte.hypotheses) {
+            prop_assert_eq!(replay.hypothesis(id).unwrap().line(), Some(&hypothesis.line));
+            prop_assert_eq!(replay.hypothesis(id).unwrap().end().is_none(), hypothesis.alive);
+        }
+        replay.seek(trace.steps_of(Stage::Planar).end);
+        prop_assert!(*replay.labels() == analysis.planar.labels, "planar regions differ");
+    }
+
+    #[test]
+    fn recording_changes_nothing(seed in any::<u64>(), params in random_params()) {
         let image = Scene::grid_of_balls([140, 70], 2, 1, seed).render().image;
-        let mut log = Log::default();
-        let recorded =
-            Session::new(Arc::new(image.clone())).run_recorded(&params, &mut (), &mut log).unwrap();
-        let replayed = log.replay(image.width(), image.height());
-        let replayed = replayed.map_err(|entry| {
-            TestCaseError::fail(format!("entry {entry} contradicts the record: {:?}", log.entries[entry]))
-        })?;
-        prop_assert!(replayed.labels == recorded.finals.labels, "regions differ");
-        prop_assert!(replayed.kinds == recorded.intrinsic.kinds, "kinds differ");
-        prop_assert!(fingerprint(&recorded) == fingerprint(&analyze(&image, &params)), "recording changes the result");
+        let (recorded, _) = Session::new(Arc::new(image.clone())).run_traced(&params, &mut ()).unwrap();
+        prop_assert!(fingerprint(&recorded) == fingerprint(&analyze(&image, &params)));
+    }
+
+    #[test]
+    fn forward_then_back_is_where_one_was(
+        seed in any::<u64>(), params in random_params(), places in prop::collection::vec(0f64..1.0, 1..8),
+    ) {
+        let (_, trace) = traced(seed, &params);
+        let mut replay = Replay::new(Arc::clone(&trace));
+        for place in places {
+            replay.seek((place * trace.len() as f64) as usize);
+            let before = replay.clone();
+            if replay.forward() {
+                prop_assert!(replay.back());
+                prop_assert!(replay == before, "forward, back at {}", before.at());
+            }
+            if replay.back() {
+                prop_assert!(replay.forward());
+                prop_assert!(replay == before, "back, forward at {}", before.at());
+            }
+        }
+    }
+
+    #[test]
+    fn wherever_one_comes_from_a_place_is_the_same(
+        seed in any::<u64>(), params in random_params(), places in prop::collection::vec(0f64..1.05, 2..8),
+    ) {
+        let (_, trace) = traced(seed, &params);
+        let mut prepared = Replay::new(Arc::clone(&trace));
+        prepared.prepare();
+        for place in places {
+            let n = (place * trace.len() as f64) as usize;
+            prepared.seek(n);
+            let mut fresh = Replay::new(Arc::clone(&trace));
+            while fresh.at() < n && fresh.forward() {}
+            prop_assert!(prepared == fresh, "step {n} of {}", trace.len());
+        }
+    }
+
+    #[test]
+    fn a_step_is_the_same_by_number_and_in_order(seed in any::<u64>(), params in random_params()) {
+        let (_, trace) = traced(seed, &params);
+        let mut steps = 0;
+        for (n, step) in trace.steps() {
+            prop_assert_eq!(n, steps);
+            if n % 37 == 0 {
+                prop_assert_eq!(trace.step(n), Some(step));
+            }
+            steps += 1;
+        }
+        prop_assert_eq!(steps, trace.len());
+        prop_assert_eq!(trace.step(steps), None);
+        prop_assert!(trace.bytes() <= 48 * 140 * 70, "{} bytes a pixel", trace.bytes() / (140 * 70));
     }
 }
 
 #[test]
 fn every_stage_announces_itself_once_and_in_order() {
-    let image = Scene::grid_of_balls([140, 70], 2, 1, 5).render().image;
-    let mut log = Log::default();
-    let mut session = Session::new(Arc::new(image));
-    session.run(&Params::default(), &mut ()).unwrap();
-    session.run_recorded(&Params::default(), &mut (), &mut log).unwrap();
-    let begun: Vec<Stage> = log
-        .entries
-        .iter()
-        .filter_map(|entry| match entry {
-            Entry::Event(Event::StageBegan { stage }) => Some(*stage),
-            _ => None,
-        })
-        .collect();
-    assert_eq!(begun, Stage::ALL, "a record holds every stage, though the session had run before");
+    let (_, trace) = traced(5, &Params::default());
+    let begun = |event: &Event| match event {
+        Event::StageBegan { stage } => Some(*stage),
+        _ => None,
+    };
+    let begun: Vec<Stage> = trace.events().filter_map(|(_, event)| begun(event)).collect();
+    assert_eq!(begun, Stage::ALL);
+    for (stage, steps) in trace.stages() {
+        assert_eq!(trace.event(steps.start), Some(&Event::StageBegan { stage }));
+    }
+}
+
+/// Notes the stages that were made anew.
+#[derive(Default)]
+struct Ran(Vec<Stage>);
+
+impl Observer for Ran {
+    fn finished(&mut self, stage: Stage, reused: bool) {
+        if !reused {
+            self.0.push(stage);
+        }
+    }
+}
+
+#[test]
+fn a_record_is_kept_beside_its_output() {
+    let image = Arc::new(Scene::grid_of_balls([140, 70], 2, 1, 5).render().image);
+    let mut session = Session::new(image);
+    let params = Params::default();
+    let plain = session.run(&params, &mut ()).unwrap();
+    let ran = |session: &mut Session, params: &Params| {
+        let mut ran = Ran::default();
+        let found = session.run_traced(params, &mut ran).unwrap();
+        (ran.0, found)
+    };
+    let (stages, (analysis, first)) = ran(&mut session, &params);
+    assert_eq!(stages, Stage::ALL, "nothing had a record");
+    assert!(Arc::ptr_eq(&analysis.finals, &plain.finals), "the same output, not an equal one");
+    let (stages, (_, second)) = ran(&mut session, &params);
+    assert!(stages.is_empty(), "every stage has a record: {stages:?}");
+    assert_eq!(first.first_difference(&second), None);
+    let wider = Params { slice_width: Setting::Value(6.0), ..params };
+    let (stages, (_, third)) = ran(&mut session, &wider);
+    assert_eq!(stages, [Stage::Planar, Stage::Clipping, Stage::Split]);
+    let differs = first.first_difference(&third).unwrap();
+    assert!(first.steps_of(Stage::Planar).contains(&differs), "{differs}");
+    assert_ne!(first.step(differs), third.step(differs));
+}
+
+#[test]
+fn passes_and_blocks_lie_in_order_within_their_stages() {
+    let (_, trace) = traced(8, &Params::default());
+    let mut end = 0;
+    for span in trace.passes() {
+        assert!(span.steps.start >= end && span.steps.start < span.steps.end, "{span:?}");
+        end = span.steps.end;
+        assert_eq!(trace.pass_at(span.steps.start), Some(span.clone()));
+        assert_eq!(trace.event(span.steps.start), Some(&Event::PassBegan { pass: span.pass }));
+    }
+    let mut end = 0;
+    for block in trace.blocks() {
+        assert!(block.steps.start >= end && block.steps.start < block.steps.end, "{block:?}");
+        end = block.steps.end;
+        assert_eq!(trace.block_at(block.steps.end - 1), Some(block));
+    }
+    assert!(end > 0, "there are blocks");
 }

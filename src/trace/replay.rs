@@ -1,0 +1,544 @@
+//! A cursor in a trace: forward, back, anywhere, and what stood at that instant.
+//!
+//! Claims are played on the label map one by one, in either direction; everything else is a stack per thing, pushed forward
+//! and popped back. A long way is shortened by starting from a keyframe: labels as they were at one of a few steps.
+
+use super::{
+    CandidateChosen, Class, Event, Pass, PassedOver, PixelKind, Reel, SliceMade, Stage, Step, Trace,
+    WindowsLaid,
+};
+use crate::color::Line;
+use crate::raster::{LabelMap, Raster, UNASSIGNED};
+use std::sync::Arc;
+
+/// Changes of hands between two keyframes, as a share of the picture's pixels.
+const MOVES_PER_KEYFRAME: usize = 1;
+/// Steps nearer than this are played from where the cursor is.
+const NEAR: usize = 1 << 16;
+
+/// The state of the analysis after some steps of a trace.
+#[derive(Clone, Debug)]
+pub struct Replay {
+    trace: Arc<Trace>,
+    at: usize,
+    labels: LabelMap,
+    /// Pixels of each region, by its number of birth; the first: of none.
+    sizes: Vec<u32>,
+    standing: Standing,
+    keyframes: Vec<Keyframe>,
+}
+
+/// Labels after the first `at` steps.
+#[derive(Clone, Debug)]
+struct Keyframe {
+    at: usize,
+    labels: Arc<LabelMap>,
+    sizes: Vec<u32>,
+}
+
+/// Everything but the labels.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Standing {
+    grids: Vec<Grid>,
+    hypotheses: Vec<Hypothesis>,
+    /// Illuminants so far: reel and event.
+    lights: Vec<EventId>,
+    /// What gave the regions their final numbers.
+    finals: Option<EventId>,
+    /// Number of labels given.
+    labelled: usize,
+}
+
+type EventId = (usize, usize);
+
+/// A grid of windows, as far as it is classified and merged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// How it lies.
+    pub laid: WindowsLaid,
+    /// Class of each window, row-major: none as long as it is not known; none within where it holds too few pixels.
+    pub classes: Raster<Option<Option<Class>>>,
+    /// The area that each window has joined: the first window of it, or one that has itself joined another.
+    parents: Vec<u32>,
+}
+
+impl Grid {
+    fn new(laid: &WindowsLaid) -> Self {
+        let count = (laid.columns * laid.rows) as usize;
+        Self {
+            laid: laid.clone(),
+            classes: Raster::filled(laid.columns as usize, laid.rows as usize, None),
+            parents: (0..count as u32).collect(),
+        }
+    }
+
+    /// Index of the window that holds a pixel of a picture `width` pixels wide.
+    pub fn window_of(&self, pixel: usize, width: usize) -> usize {
+        let size = (self.laid.size_px as usize).max(1);
+        let width = width.max(1);
+        pixel / width / size * self.laid.columns as usize + pixel % width / size
+    }
+
+    /// The first window of each window's area.
+    pub fn areas(&self) -> Vec<u32> {
+        let mut roots: Vec<u32> = Vec::with_capacity(self.parents.len());
+        // An area joins one with a smaller first window, whose root is known by then.
+        for (window, &parent) in self.parents.iter().enumerate() {
+            roots.push(if parent as usize == window { parent } else { roots[parent as usize] });
+        }
+        roots
+    }
+
+    /// The first window of one window's area.
+    pub fn area_of(&self, window: usize) -> u32 {
+        let mut at = window;
+        while self.parents.get(at).is_some_and(|&parent| parent as usize != at) {
+            at = self.parents[at] as usize;
+        }
+        at as u32
+    }
+}
+
+/// A region, as far as it is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hypothesis {
+    /// First window of the area that it started from; none for a part that was separated.
+    pub area: Option<u32>,
+    /// The region that it was separated from.
+    pub parent: Option<u16>,
+    /// Radius of its cylinder, counts.
+    pub radius: f64,
+    lines: Vec<Line>,
+    slices: Vec<EventId>,
+    highlights: Vec<EventId>,
+    ends: Vec<End>,
+}
+
+/// How a region ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// It claimed too few pixels.
+    Barren,
+    /// It was the broad highlight of this region.
+    Absorbed(u16),
+    /// It became part of this region.
+    Merged(u16),
+    /// It was too small to keep.
+    Dropped,
+}
+
+impl Hypothesis {
+    /// The axis of its cylinder.
+    pub fn line(&self) -> Option<&Line> {
+        self.lines.last()
+    }
+
+    /// How it ended; none as long as it stands.
+    pub fn end(&self) -> Option<End> {
+        self.ends.last().copied()
+    }
+}
+
+impl Replay {
+    /// A cursor before the first step.
+    pub fn new(trace: Arc<Trace>) -> Self {
+        let labels = LabelMap::filled(trace.width(), trace.height(), UNASSIGNED);
+        let sizes = vec![labels.len() as u32];
+        Self { trace, at: 0, labels, sizes, standing: Standing::default(), keyframes: Vec::new() }
+    }
+
+    /// What it is a cursor in.
+    pub fn trace(&self) -> &Arc<Trace> {
+        &self.trace
+    }
+
+    /// Steps taken.
+    pub fn at(&self) -> usize {
+        self.at
+    }
+
+    /// The step taken last; none before the first.
+    pub fn last(&self) -> Option<Step<'_>> {
+        self.trace.step(self.at.checked_sub(1)?)
+    }
+
+    /// The stage of the step taken last; of the first one before it.
+    pub fn stage(&self) -> Option<Stage> {
+        self.trace.stage_at(self.at.saturating_sub(1))
+    }
+
+    /// The pass of the step taken last.
+    pub fn pass(&self) -> Option<Pass> {
+        self.trace.pass_at(self.at.checked_sub(1)?).map(|span| span.pass)
+    }
+
+    /// Region of each pixel, by its number of birth.
+    pub fn labels(&self) -> &LabelMap {
+        &self.labels
+    }
+
+    /// Pixels of a region by its number of birth; of no region: 0.
+    pub fn size(&self, region: u16) -> u32 {
+        self.sizes.get(usize::from(region)).copied().unwrap_or(0)
+    }
+
+    /// The regions so far, ended ones included; region `id` at index `id − 1`.
+    pub fn hypotheses(&self) -> &[Hypothesis] {
+        &self.standing.hypotheses
+    }
+
+    /// One region.
+    pub fn hypothesis(&self, region: u16) -> Option<&Hypothesis> {
+        self.standing.hypotheses.get(usize::from(region).checked_sub(1)?)
+    }
+
+    /// A region's slice, where it has one.
+    pub fn slice(&self, region: u16) -> Option<&SliceMade> {
+        match self.find(*self.hypothesis(region)?.slices.last()?) {
+            Event::SliceMade(made) => Some(made),
+            _ => None,
+        }
+    }
+
+    /// The highlight line chosen for a region.
+    pub fn highlight(&self, region: u16) -> Option<&CandidateChosen> {
+        match self.find(*self.hypothesis(region)?.highlights.last()?) {
+            Event::CandidateChosen(chosen) => Some(chosen),
+            _ => None,
+        }
+    }
+
+    /// The windows that the analysis looks at: of the last grid laid.
+    pub fn grid(&self) -> Option<&Grid> {
+        self.standing.grids.last()
+    }
+
+    /// The windows of the whole picture: of the first grid laid.
+    pub fn first_grid(&self) -> Option<&Grid> {
+        self.standing.grids.first()
+    }
+
+    /// Unit direction of the light as it is estimated so far.
+    pub fn light(&self) -> Option<[f64; 3]> {
+        match self.find(*self.standing.lights.last()?) {
+            Event::IlluminantEstimated(estimated) => Some(estimated.direction),
+            Event::IlluminantGiven { direction } => Some(*direction),
+            _ => None,
+        }
+    }
+
+    /// The final number of a region, once numbers are given; 0 for one that is no more.
+    pub fn final_number(&self, region: u16) -> Option<u16> {
+        match self.find(self.standing.finals?) {
+            Event::Renumbered { finals } => Some(
+                usize::from(region).checked_sub(1).and_then(|index| finals.get(index)).copied().unwrap_or(0),
+            ),
+            _ => None,
+        }
+    }
+
+    /// A pixel's role; none as long as it has none.
+    pub fn kind(&self, pixel: usize) -> PixelKind {
+        let Some(reel) = self.trace.reel(Stage::Split).filter(|_| self.standing.labelled > 0) else {
+            return PixelKind::Unassigned;
+        };
+        let kind = reel.kinds().and_then(|kinds| kinds.as_slice().get(pixel)).copied().unwrap_or_default();
+        if pixel < reel.labelled_pixel(self.standing.labelled) { kind } else { PixelKind::Unassigned }
+    }
+
+    /// All pixels before this one have their role.
+    pub fn labelled_up_to(&self) -> usize {
+        let reel = self.trace.reel(Stage::Split).filter(|_| self.standing.labelled > 0);
+        reel.map_or(0, |reel| reel.labelled_pixel(self.standing.labelled))
+    }
+
+    /// Takes a step; false at the end.
+    pub fn forward(&mut self) -> bool {
+        let more = self.at < self.trace.len();
+        self.play_to(self.at + usize::from(more));
+        more
+    }
+
+    /// Takes a step back; false at the beginning.
+    pub fn back(&mut self) -> bool {
+        let more = self.at > 0;
+        self.play_to(self.at - usize::from(more));
+        more
+    }
+
+    /// Goes to after the first `n` steps, or to the end.
+    pub fn seek(&mut self, n: usize) {
+        let n = n.min(self.trace.len());
+        let moves = |a: usize, b: usize| self.moves_before(a).abs_diff(self.moves_before(b));
+        let here = moves(self.at, n);
+        let shortcut = self.keyframes.iter().min_by_key(|frame| moves(frame.at, n));
+        if here > NEAR
+            && let Some(frame) = shortcut.filter(|frame| moves(frame.at, n) + self.labels.len() / 8 < here)
+        {
+            let frame = frame.clone();
+            self.labels.as_mut_slice().copy_from_slice(frame.labels.as_slice());
+            self.sizes = frame.sizes;
+            // Only the labels jump: all else is played, as it is little.
+            self.play_events(frame.at);
+        }
+        self.play_to(n);
+    }
+
+    /// Plays the whole trace once and keeps the labels as they are every now and then, so that later seeks are short.
+    pub fn prepare(&mut self) {
+        self.keyframes.clear();
+        self.seek(0);
+        let every = (self.labels.len() * MOVES_PER_KEYFRAME).max(NEAR);
+        let total = self.moves_before(self.trace.len());
+        self.keep();
+        for target in 1..=total / every {
+            self.play_to(self.step_of_move(target * every));
+            self.keep();
+        }
+        self.play_to(self.trace.len());
+        self.keep();
+    }
+
+    /// Memory of the labels and keyframes, bytes.
+    pub fn bytes(&self) -> usize {
+        (self.keyframes.len() + 1) * self.labels.len() * size_of::<u16>()
+    }
+
+    fn keep(&mut self) {
+        let labels = Arc::new(self.labels.clone());
+        self.keyframes.push(Keyframe { at: self.at, labels, sizes: self.sizes.clone() });
+    }
+
+    /// Changes of hands among the first `n` steps.
+    fn moves_before(&self, n: usize) -> usize {
+        let reels = self.trace.reels().iter().zip(self.trace.starts());
+        reels
+            .map(|(reel, &start)| {
+                let local = n.saturating_sub(start).min(reel.len());
+                (local - reel.events_before(local)).min(reel.moves().len())
+            })
+            .sum()
+    }
+
+    /// The step after which so many hands have changed.
+    fn step_of_move(&self, moves: usize) -> usize {
+        let mut left = moves;
+        for (reel, &start) in self.trace.reels().iter().zip(self.trace.starts()) {
+            if left < reel.moves().len() {
+                return start + reel.step_of_move(left);
+            }
+            left -= reel.moves().len();
+        }
+        self.trace.len()
+    }
+
+    /// Plays events and claims up to step `n`, forward or back.
+    fn play_to(&mut self, n: usize) {
+        let (from, to) = (self.at, n);
+        self.play_moves(from, to);
+        self.play_events(to);
+    }
+
+    fn play_moves(&mut self, from: usize, to: usize) {
+        let trace = Arc::clone(&self.trace);
+        let spans = trace.reels().iter().zip(trace.starts());
+        let range = |reel: &Reel, start: usize, n: usize| {
+            let local = n.saturating_sub(start).min(reel.len());
+            (local - reel.events_before(local)).min(reel.moves().len())
+        };
+        if from <= to {
+            for (reel, &start) in spans {
+                for change in &reel.moves()[range(reel, start, from)..range(reel, start, to)] {
+                    if let Some((before, after)) = change.hands() {
+                        self.hand_over(change.pixel(), before, after);
+                    }
+                }
+            }
+        } else {
+            for (reel, &start) in spans.rev() {
+                for change in reel.moves()[range(reel, start, to)..range(reel, start, from)].iter().rev() {
+                    if let Some((before, after)) = change.hands() {
+                        self.hand_over(change.pixel(), after, before);
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn hand_over(&mut self, pixel: usize, from: u16, to: u16) {
+        debug_assert_eq!(self.labels[pixel], from, "pixel {pixel}");
+        self.labels[pixel] = to;
+        let most = usize::from(from.max(to));
+        if most >= self.sizes.len() {
+            self.sizes.resize(most + 1, 0);
+        }
+        self.sizes[usize::from(from)] -= 1;
+        self.sizes[usize::from(to)] += 1;
+    }
+
+    fn play_events(&mut self, to: usize) {
+        let trace = Arc::clone(&self.trace);
+        let from = std::mem::replace(&mut self.at, to);
+        let spans: Vec<(usize, &Arc<Reel>, usize)> = trace
+            .reels()
+            .iter()
+            .zip(trace.starts())
+            .enumerate()
+            .map(|(i, (reel, &start))| (i, reel, start))
+            .collect();
+        let before =
+            |reel: &Reel, start: usize, n: usize| reel.events_before(n.saturating_sub(start).min(reel.len()));
+        let labels = |reel: &Reel, start: usize, n: usize| {
+            let local = n.saturating_sub(start).min(reel.len());
+            (local - reel.events_before(local)).saturating_sub(reel.moves().len())
+        };
+        self.standing.labelled = spans.iter().map(|&(_, reel, start)| labels(reel, start, to)).sum();
+        if from <= to {
+            for (index, reel, start) in spans {
+                for event in before(reel, start, from)..before(reel, start, to) {
+                    self.standing.take(reel.event(event), (index, event));
+                }
+            }
+        } else {
+            for (index, reel, start) in spans.into_iter().rev() {
+                for event in (before(reel, start, to)..before(reel, start, from)).rev() {
+                    self.standing.take_back(reel.event(event), (index, event));
+                }
+            }
+        }
+    }
+
+    fn find(&self, (reel, event): EventId) -> &Event {
+        self.trace.reels()[reel].event(event)
+    }
+}
+
+/// Whether the same instant is shown, whatever way led there.
+impl PartialEq for Replay {
+    fn eq(&self, other: &Self) -> bool {
+        let sizes = |replay: &Self| {
+            let kept = replay.sizes.iter().rposition(|&size| size > 0).map_or(0, |last| last + 1);
+            replay.sizes[..kept].to_vec()
+        };
+        self.at == other.at
+            && self.labels == other.labels
+            && sizes(self) == sizes(other)
+            && self.standing == other.standing
+    }
+}
+
+impl Standing {
+    fn of(&mut self, region: u16) -> Option<&mut Hypothesis> {
+        self.hypotheses.get_mut(usize::from(region).checked_sub(1)?)
+    }
+
+    fn take(&mut self, event: &Event, id: EventId) {
+        match event {
+            Event::WindowsLaid(laid) => self.grids.push(Grid::new(laid)),
+            Event::WindowClassified { window, class, .. } => self.classify(*window, Some(*class)),
+            Event::MergeTried { into, from, class, union, .. } if class == union => self.join(*from, *into),
+            Event::HypothesisChosen(chosen) => self.hypotheses.push(Hypothesis {
+                area: Some(chosen.area),
+                parent: None,
+                radius: chosen.radius,
+                lines: vec![chosen.line],
+                slices: Vec::new(),
+                highlights: Vec::new(),
+                ends: Vec::new(),
+            }),
+            Event::ComponentSplit { region, .. } => {
+                let mut part = self.of(*region).cloned();
+                if let Some(part) = &mut part {
+                    (part.area, part.parent) = (None, Some(*region));
+                    part.ends.clear();
+                }
+                self.hypotheses.extend(part);
+            }
+            Event::LineRefitted(refitted) => {
+                if let Some(hypothesis) = self.of(refitted.region) {
+                    hypothesis.lines.push(refitted.line);
+                }
+            }
+            Event::SliceMade(made) => {
+                if let Some(hypothesis) = self.of(made.region) {
+                    hypothesis.slices.push(id);
+                }
+            }
+            Event::CandidateChosen(chosen) => {
+                if let Some(hypothesis) = self.of(chosen.region) {
+                    hypothesis.highlights.push(id);
+                }
+            }
+            Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } => self.lights.push(id),
+            Event::Renumbered { .. } => self.finals = Some(id),
+            other => {
+                if let Some((region, end)) = self.ending(other)
+                    && let Some(hypothesis) = self.of(region)
+                {
+                    hypothesis.ends.push(end);
+                }
+            }
+        }
+    }
+
+    fn take_back(&mut self, event: &Event, _id: EventId) {
+        match event {
+            Event::WindowsLaid(_) => {
+                self.grids.pop();
+            }
+            Event::WindowClassified { window, .. } => self.classify(*window, None),
+            Event::MergeTried { from, class, union, .. } if class == union => self.join(*from, *from),
+            Event::HypothesisChosen(_) | Event::ComponentSplit { .. } => {
+                self.hypotheses.pop();
+            }
+            Event::LineRefitted(refitted) => {
+                self.of(refitted.region).and_then(|hypothesis| hypothesis.lines.pop());
+            }
+            Event::SliceMade(made) => {
+                self.of(made.region).and_then(|hypothesis| hypothesis.slices.pop());
+            }
+            Event::CandidateChosen(chosen) => {
+                self.of(chosen.region).and_then(|hypothesis| hypothesis.highlights.pop());
+            }
+            Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } => {
+                self.lights.pop();
+            }
+            Event::Renumbered { .. } => self.finals = None,
+            other => {
+                if let Some((region, _)) = self.ending(other) {
+                    self.of(region).and_then(|hypothesis| hypothesis.ends.pop());
+                }
+            }
+        }
+    }
+
+    /// The region that an event ends, and how.
+    fn ending(&self, event: &Event) -> Option<(u16, End)> {
+        match event {
+            Event::HypothesisPassedOver { reason: PassedOver::Barren, .. } => {
+                Some((self.hypotheses.len() as u16, End::Barren))
+            }
+            Event::Absorbed { region, by, .. } => Some((*region, End::Absorbed(*by))),
+            Event::RegionsMerged { region, into, .. } => Some((*region, End::Merged(*into))),
+            Event::Dropped { region, .. } => Some((*region, End::Dropped)),
+            _ => None,
+        }
+    }
+
+    fn classify(&mut self, window: u32, class: Option<Option<Class>>) {
+        if let Some(grid) = self.grids.last_mut()
+            && let Some(place) = grid.classes.as_mut_slice().get_mut(window as usize)
+        {
+            *place = class;
+        }
+    }
+
+    fn join(&mut self, from: u32, into: u32) {
+        if let Some(grid) = self.grids.last_mut()
+            && let Some(parent) = grid.parents.get_mut(from as usize)
+        {
+            *parent = into;
+        }
+    }
+}

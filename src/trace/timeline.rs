@@ -1,0 +1,307 @@
+//! Stages, passes and blocks: the stretches into which a trace divides.
+
+use super::{Event, Pass, PassedOver, Reel, Stage, Step};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// All decisions of a run, stage after stage. Steps are counted through all stages.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    width: usize,
+    height: usize,
+    reels: Vec<Arc<Reel>>,
+    /// First step of each reel, and the end.
+    starts: Vec<usize>,
+}
+
+/// A part of a stage.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PassSpan {
+    /// Its steps.
+    pub steps: Range<usize>,
+    /// Which one.
+    pub pass: Pass,
+}
+
+/// A stretch of steps about one thing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// Its steps.
+    pub steps: Range<usize>,
+    /// What they are about.
+    pub topic: Topic,
+}
+
+/// What a block is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Topic {
+    /// A linear hypothesis is chosen and grows (5.3).
+    Hypothesis(u16),
+    /// A broad highlight goes back to its object.
+    Absorption(u16),
+    /// The neighbours of a region are tested as its highlight (5.4.1).
+    Candidates(u16),
+    /// A region's slice is made and grows (5.4.2).
+    Slice(u16),
+    /// A region's highlight grows by brightness (5.5).
+    Brightness(u16),
+    /// A hole is given to a region (5.5).
+    Hole(u16),
+    /// A part becomes a region of its own.
+    Part(u16),
+}
+
+impl Topic {
+    /// The region that it is about.
+    pub fn region(self) -> u16 {
+        match self {
+            Self::Hypothesis(region)
+            | Self::Absorption(region)
+            | Self::Candidates(region)
+            | Self::Slice(region)
+            | Self::Brightness(region)
+            | Self::Hole(region)
+            | Self::Part(region) => region,
+        }
+    }
+}
+
+impl Trace {
+    /// The reels of a picture of `width × height` pixels, in the order of the stages.
+    pub fn new(width: usize, height: usize, reels: Vec<Arc<Reel>>) -> Self {
+        let mut starts = vec![0];
+        let mut end = 0;
+        for reel in &reels {
+            end += reel.len();
+            starts.push(end);
+        }
+        Self { width, height, reels, starts }
+    }
+
+    /// Columns of the picture.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows of the picture.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Number of steps.
+    pub fn len(&self) -> usize {
+        self.starts.last().copied().unwrap_or(0)
+    }
+
+    /// Whether nothing was decided.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Memory that it takes, bytes.
+    pub fn bytes(&self) -> usize {
+        self.reels.iter().map(|reel| reel.bytes()).sum()
+    }
+
+    /// What happened at step `n`; none from [`Trace::len`] on.
+    pub fn step(&self, n: usize) -> Option<Step<'_>> {
+        let (index, local) = self.locate(n)?;
+        self.reels[index].step(local)
+    }
+
+    /// All steps, numbered.
+    pub fn steps(&self) -> impl Iterator<Item = (usize, Step<'_>)> {
+        self.reels.iter().flat_map(|reel| reel.steps()).enumerate()
+    }
+
+    /// All events, with their steps.
+    pub fn events(&self) -> impl DoubleEndedIterator<Item = (usize, &Event)> {
+        self.numbered()
+            .flat_map(|(start, reel)| reel.events().map(move |(step, event)| (start + step, event)))
+    }
+
+    /// The event at step `n`; none where it is something else.
+    pub fn event(&self, n: usize) -> Option<&Event> {
+        match self.step(n)? {
+            Step::Event(event) => Some(event),
+            _ => None,
+        }
+    }
+
+    /// The stages with their steps.
+    pub fn stages(&self) -> impl Iterator<Item = (Stage, Range<usize>)> + '_ {
+        let spans = self.starts.windows(2).map(|pair| pair[0]..pair[1]);
+        self.reels.iter().zip(spans).filter_map(|(reel, span)| Some((reel.stage()?, span)))
+    }
+
+    /// The stage in which step `n` lies; none outside.
+    pub fn stage_at(&self, n: usize) -> Option<Stage> {
+        self.locate(n).and_then(|(index, _)| self.reels[index].stage())
+    }
+
+    /// One stage's steps; empty where it is not there.
+    pub fn steps_of(&self, stage: Stage) -> Range<usize> {
+        self.stages().find(|(found, _)| *found == stage).map_or(0..0, |(_, span)| span)
+    }
+
+    /// One stage's decisions.
+    pub fn reel(&self, stage: Stage) -> Option<&Arc<Reel>> {
+        self.reels.iter().find(|reel| reel.stage() == Some(stage))
+    }
+
+    /// The passes, in order.
+    pub fn passes(&self) -> impl DoubleEndedIterator<Item = PassSpan> + '_ {
+        self.numbered().flat_map(|(start, reel)| {
+            reel.passes()
+                .iter()
+                .map(move |span| PassSpan { steps: shifted(&span.steps, start), pass: span.pass })
+        })
+    }
+
+    /// The blocks, in order.
+    pub fn blocks(&self) -> impl DoubleEndedIterator<Item = Block> + '_ {
+        self.numbered().flat_map(|(start, reel)| {
+            reel.blocks()
+                .iter()
+                .map(move |block| Block { steps: shifted(&block.steps, start), topic: block.topic })
+        })
+    }
+
+    /// The pass in which step `n` lies.
+    pub fn pass_at(&self, n: usize) -> Option<PassSpan> {
+        let (index, local) = self.locate(n)?;
+        let passes = self.reels[index].passes();
+        let last = passes.partition_point(|span| span.steps.start <= local).checked_sub(1)?;
+        let PassSpan { steps, pass } = &passes[last];
+        steps.contains(&local).then(|| PassSpan { steps: shifted(steps, self.starts[index]), pass: *pass })
+    }
+
+    /// The block in which step `n` lies.
+    pub fn block_at(&self, n: usize) -> Option<Block> {
+        let (index, local) = self.locate(n)?;
+        let blocks = self.reels[index].blocks();
+        let last = blocks.partition_point(|block| block.steps.start <= local).checked_sub(1)?;
+        let Block { steps, topic } = &blocks[last];
+        steps.contains(&local).then(|| Block { steps: shifted(steps, self.starts[index]), topic: *topic })
+    }
+
+    /// Contested claims, refusals and events among these steps: what is more than one pixel joining without a word.
+    pub fn decisions_in(&self, steps: Range<usize>) -> usize {
+        let within = |start: usize, reel: &Reel| {
+            let (from, to) =
+                (steps.start.max(start) - start, steps.end.min(start + reel.len()).saturating_sub(start));
+            if from < to { reel.decisions_before(to) - reel.decisions_before(from) } else { 0 }
+        };
+        self.numbered().map(|(start, reel)| within(start, reel)).sum()
+    }
+
+    /// The first step at which two traces differ; none where they are the same. Reels that both share are not looked at.
+    pub fn first_difference(&self, other: &Self) -> Option<usize> {
+        for (index, (one, two)) in self.reels.iter().zip(&other.reels).enumerate() {
+            if Arc::ptr_eq(one, two) || one == two {
+                continue;
+            }
+            let (mut a, mut b) = (one.steps(), two.steps());
+            let same = std::iter::from_fn(|| match (a.next(), b.next()) {
+                (Some(a), Some(b)) if a == b => Some(()),
+                _ => None,
+            });
+            return Some(self.starts[index] + same.count());
+        }
+        (self.reels.len() != other.reels.len()).then(|| self.len().min(other.len()))
+    }
+
+    pub(super) fn reels(&self) -> &[Arc<Reel>] {
+        &self.reels
+    }
+
+    pub(super) fn starts(&self) -> &[usize] {
+        &self.starts
+    }
+
+    /// The reel in which step `n` lies, and its number there.
+    pub(super) fn locate(&self, n: usize) -> Option<(usize, usize)> {
+        if n >= self.len() {
+            return None;
+        }
+        let index = self.starts.partition_point(|&start| start <= n) - 1;
+        Some((index, n - self.starts[index]))
+    }
+
+    fn numbered(&self) -> impl DoubleEndedIterator<Item = (usize, &Reel)> + '_ {
+        self.reels.iter().enumerate().map(|(index, reel)| (self.starts[index], &**reel))
+    }
+}
+
+fn shifted(steps: &Range<usize>, by: usize) -> Range<usize> {
+    steps.start + by..steps.end + by
+}
+
+/// Where the passes and blocks of one stage begin and end.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Contents {
+    pub(super) passes: Vec<PassSpan>,
+    pub(super) blocks: Vec<Block>,
+    open: bool,
+}
+
+impl Contents {
+    /// The contents of a stage of `len` steps.
+    pub(super) fn of<'a>(events: impl Iterator<Item = (usize, &'a Event)>, len: usize) -> Self {
+        let mut contents = Self::default();
+        for (step, event) in events {
+            contents.hear(step, event);
+        }
+        contents.close(len);
+        if let Some(last) = contents.passes.last_mut() {
+            last.steps.end = len;
+        }
+        contents
+    }
+
+    fn hear(&mut self, step: usize, event: &Event) {
+        let topic = match event {
+            Event::PassBegan { pass } => {
+                self.close(step);
+                if let Some(last) = self.passes.last_mut() {
+                    last.steps.end = step;
+                }
+                self.passes.push(PassSpan { steps: step..step, pass: *pass });
+                return;
+            }
+            Event::HypothesisPassedOver { reason: PassedOver::Barren, .. } => return self.close(step + 1),
+            Event::HypothesisPassedOver { .. } => return self.close(step),
+            Event::HypothesisChosen(chosen) => Topic::Hypothesis(chosen.region),
+            Event::Absorbed { region, .. } => Topic::Absorption(*region),
+            Event::CandidateTested(test) => Topic::Candidates(test.region),
+            Event::SliceMade(made) => Topic::Slice(made.region),
+            // The growth of hypotheses and slices lies within their blocks.
+            Event::GrowthBegan { region, .. } if self.pass() == Some(Pass::Brightness) => {
+                Topic::Brightness(*region)
+            }
+            Event::HoleFilled { region, .. } => Topic::Hole(*region),
+            Event::ComponentSplit { part, .. } => Topic::Part(*part),
+            _ => return,
+        };
+        let goes_on = matches!(topic, Topic::Candidates(_))
+            && self.open
+            && self.blocks.last().is_some_and(|last| last.topic == topic);
+        if !goes_on {
+            self.close(step);
+            self.blocks.push(Block { steps: step..step, topic });
+            self.open = true;
+        }
+    }
+
+    fn pass(&self) -> Option<Pass> {
+        self.passes.last().map(|last| last.pass)
+    }
+
+    fn close(&mut self, step: usize) {
+        if std::mem::take(&mut self.open)
+            && let Some(last) = self.blocks.last_mut()
+        {
+            last.steps.end = step;
+        }
+    }
+}
