@@ -5,6 +5,8 @@
 //! what stood at that instant.
 
 mod event;
+mod history;
+mod lineage;
 mod recorder;
 mod reel;
 mod replay;
@@ -16,6 +18,11 @@ pub use event::{
     HypothesisChosen, IlluminantEstimated, LineRefitted, MasksMade, Measure, Pass, PassedOver, SliceMade,
     Step, VectorsFitted, WindowsLaid,
 };
+pub use history::{
+    Barrier, Happening, MaskVerdict, MergeRefusal, MergeStory, Reach, Release, SplitStory, What, WindowStory,
+    pixel_history,
+};
+pub use lineage::{Ancestor, Birth, HypothesisStory, Joined, JoinedHow, final_numbers, lineage, story};
 pub use recorder::{Recorder, Silent, Tape};
 pub use reel::Reel;
 pub use replay::{End, Grid, Hypothesis, Replay};
