@@ -7,7 +7,6 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::photo::{self, LinearImage};
-use dichroscope::segment::Params;
 use dichroscope::trace::Trace;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -17,6 +16,7 @@ use std::sync::Arc;
 #[derive(Debug, Args)]
 pub(super) struct Subject {
     /// Photograph to analyse
+    #[arg(index = 1)]
     pub(super) image: PathBuf,
     /// Analyse only the pixels of the photograph that this picture of the same size shows as not black
     #[arg(long, value_name = "MASK")]
@@ -33,8 +33,6 @@ pub(super) struct Subject {
 /// A photograph that has been read and analysed, and the record of it.
 pub(super) struct Traced {
     pub(super) image: Arc<LinearImage>,
-    pub(super) params: Params,
-    pub(super) session: Session,
     pub(super) analysis: Analysis,
     pub(super) trace: Trace,
 }
@@ -62,7 +60,7 @@ impl Subject {
         }
         let (analysis, trace) =
             session.run_traced(&params, &mut ()).map_err(|error| Trouble::File(error.into()))?;
-        Ok(Traced { image, params, session, analysis, trace })
+        Ok(Traced { image, analysis, trace })
     }
 
     /// Runs `work` with the number of threads that was asked for.

@@ -15,8 +15,6 @@ use std::path::{Path, PathBuf};
 /// Write every decision of an analysis as JSON lines: windows, merges, hypotheses, claims, skewed-T tests, labels
 #[derive(Debug, Args)]
 pub struct Arguments {
-    #[command(flatten)]
-    subject: Subject,
     /// File to write; - for standard output
     #[arg(long, value_name = "FILE.jsonl")]
     out: PathBuf,
@@ -29,6 +27,9 @@ pub struct Arguments {
     /// Only steps about one region of the result, and the hypotheses that it was made of
     #[arg(long, value_name = "N")]
     region: Option<u16>,
+    // Last, as the headings of its flags would hold for what follows them.
+    #[command(flatten)]
+    subject: Subject,
 }
 
 fn stage_parser() -> impl TypedValueParser<Value = Stage> {

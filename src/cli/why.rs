@@ -13,11 +13,12 @@ use std::fmt::Write;
 /// Say why a pixel is what it is: its history, newest first, each decision with its numbers
 #[derive(Debug, Args)]
 pub struct Arguments {
+    /// The pixel: column and row, counted from 0
+    #[arg(index = 2, value_name = "X,Y", value_parser = parse_pixel)]
+    pixel: [usize; 2],
+    // Last, as the headings of its flags would hold for what follows them.
     #[command(flatten)]
     subject: Subject,
-    /// The pixel: column and row, counted from 0
-    #[arg(value_name = "X,Y", value_parser = parse_pixel)]
-    pixel: [usize; 2],
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {

@@ -115,12 +115,17 @@ pub fn final_numbers(trace: &Trace) -> Option<&[u16]> {
 }
 
 fn births(trace: &Trace) -> Vec<Birth<'_>> {
-    let birth = |(step, event)| match event {
-        &Event::HypothesisChosen(ref chosen) => Some(Birth::Area { step, chosen }),
-        &Event::ComponentSplit { region, pixels, .. } => Some(Birth::Part { step, of: region, pixels }),
-        _ => None,
-    };
-    trace.events().filter_map(birth).collect()
+    let mut births = Vec::new();
+    for (step, event) in trace.events() {
+        match event {
+            Event::HypothesisChosen(chosen) => births.push(Birth::Area { step, chosen }),
+            Event::ComponentSplit { region, pixels, .. } => {
+                births.push(Birth::Part { step, of: *region, pixels: *pixels });
+            }
+            _ => {}
+        }
+    }
+    births
 }
 
 fn joins(trace: &Trace) -> Vec<(u16, Joined)> {

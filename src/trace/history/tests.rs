@@ -75,7 +75,9 @@ fn chosen(tape: &mut Tape, region: u16, line: Line) {
 
 fn grows(tape: &mut Tape, region: u16, claims: &[(u32, u16)]) {
     tape.record(Event::GrowthBegan { region, limit: RADIUS as f32 });
-    claims.iter().for_each(|&(pixel, before)| tape.claim(pixel, before, region));
+    for &(pixel, before) in claims {
+        tape.claim(pixel, before, region);
+    }
 }
 
 #[test]
