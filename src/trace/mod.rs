@@ -5,6 +5,7 @@
 //! what stood at that instant.
 
 mod event;
+mod kind;
 mod recorder;
 mod reel;
 mod replay;
@@ -16,8 +17,9 @@ pub use event::{
     HypothesisChosen, IlluminantEstimated, LineRefitted, MasksMade, Measure, Pass, PassedOver, SliceMade,
     Step, VectorsFitted, WindowsLaid,
 };
+pub use kind::Kind;
 pub use recorder::{Recorder, Silent, Tape};
-pub use reel::Reel;
+pub use reel::{Reel, Steps};
 pub use replay::{End, Grid, Hypothesis, Replay};
 pub use terms::{Class, PixelKind, Stage};
 pub use timeline::{Block, PassSpan, Topic, Trace};
