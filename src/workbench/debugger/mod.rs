@@ -16,6 +16,8 @@ pub use names::RegionNames;
 pub use watch::{AxisDistance, Current, Watch, WatchedPixel, watch};
 
 pub(super) use reduce::reduce;
+#[cfg(test)]
+mod tests;
 
 use crate::segment::FinalRegions;
 use crate::trace::{Replay, Trace};
