@@ -73,7 +73,7 @@ fn a_trace_is_every_step_in_order_after_a_schema_line() {
         let first = usize::try_from(range[0].as_u64().unwrap()).unwrap();
         assert_eq!(
             (&steps[first]["stage"], &steps[first]["kind"]),
-            (&Value::from(&**stage), &"stage_began".into())
+            (&Value::from(&**stage), &"stage".into())
         );
     }
     assert_eq!(succeeds("trace TINY --out -"), text, "the same on standard output");
@@ -91,21 +91,18 @@ fn a_trace_can_be_narrowed_to_a_stage_a_region_and_a_pixel() {
     let told: Vec<&Value> = about.iter().filter(|line| pixel_of(line).is_some()).collect();
     // A refusal happened when a neighbour was claimed.
     let beside = |[u, v]: [u64; 2]| u.abs_diff(x) + v.abs_diff(y) <= 1;
-    assert!(told.iter().all(|line| line["kind"] == "hole_filled" || pixel_of(line).is_some_and(beside)));
+    assert!(told.iter().all(|line| line["kind"] == "hole filled" || pixel_of(line).is_some_and(beside)));
     let own = |line: &&Value| pixel_of(line) == Some([x, y]);
     assert_eq!(about.iter().filter(own).count(), all.iter().filter(own).count());
-    assert!(about.iter().any(|line| line["kind"] == "window_classified"), "its window's class");
+    assert!(about.iter().any(|line| line["kind"] == "window"), "its window's class");
     assert!(about.len() < all.len() / 100);
 
     let births = schema["regions"].as_array().unwrap();
     let birth = births.iter().position(|number| *number == 1).unwrap() + 1;
     let (_, region) = lines(&succeeds("trace TINY --out - --region 1"));
     let kinds: BTreeSet<&str> = region.iter().map(|line| line["kind"].as_str().unwrap()).collect();
-    assert!(
-        kinds.is_superset(&["hypothesis_chosen", "slice_made", "claim", "vectors_fitted"].into()),
-        "{kinds:?}"
-    );
-    assert!(region.iter().any(|line| line["kind"] == "hypothesis_chosen" && line["ids"]["region"] == birth));
+    assert!(kinds.is_superset(&["hypothesis", "slice", "claim", "vectors"].into()), "{kinds:?}");
+    assert!(region.iter().any(|line| line["kind"] == "hypothesis" && line["ids"]["region"] == birth));
     let (_, both) = lines(&succeeds("trace TINY --out - --region 1 --stage linear"));
     assert!(both.iter().all(|line| line["stage"] == "linear") && both.len() < region.len());
 }

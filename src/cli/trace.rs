@@ -123,39 +123,14 @@ impl Wanted {
         if self.stage.is_some_and(|wanted| wanted != stage) {
             return false;
         }
-        let (pixel, regions) = match *step {
-            Step::Event(event) => (None, regions_of(event)),
-            Step::Claim { pixel, before, after, .. } => (Some(pixel), vec![before, after]),
-            Step::Refusal { pixel, holder, challenger, .. } => (Some(pixel), vec![holder, challenger]),
-            Step::Label { pixel, .. } => (Some(pixel), Vec::new()),
-        };
         let about_pixel = self
             .pixel
             .as_ref()
-            .is_none_or(|(wanted, history)| pixel == Some(*wanted) || history.contains(&seq));
+            .is_none_or(|(wanted, history)| step.pixel() == Some(*wanted) || history.contains(&seq));
         about_pixel
             && self.regions.as_ref().is_none_or(|(wanted, number)| match step {
                 Step::Event(Event::VectorsFitted(fitted)) => fitted.region == *number,
-                _ => regions.iter().any(|region| wanted.contains(region)),
+                _ => wanted.iter().any(|&region| step.concerns(region)),
             })
-    }
-}
-
-/// The regions that an event is about, by their numbers of birth.
-fn regions_of(event: &Event) -> Vec<u16> {
-    match event {
-        Event::HypothesisChosen(chosen) => vec![chosen.region],
-        Event::LineRefitted(refitted) => vec![refitted.region],
-        Event::CandidateTested(test) => vec![test.region],
-        Event::CandidateChosen(chosen) => vec![chosen.region],
-        Event::SliceMade(made) => vec![made.region],
-        Event::SeedsPlaced { region, .. }
-        | Event::GrowthBegan { region, .. }
-        | Event::HoleFilled { region, .. }
-        | Event::Dropped { region, .. } => vec![*region],
-        Event::Absorbed { region, by, .. } => vec![*region, *by],
-        Event::RegionsMerged { region, into, .. } => vec![*region, *into],
-        Event::ComponentSplit { region, part, .. } => vec![*region, *part],
-        _ => Vec::new(),
     }
 }

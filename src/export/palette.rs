@@ -54,6 +54,11 @@ impl Palette {
         }
     }
 
+    /// All colours as 8-bit sRGB.
+    pub fn colours(&self) -> &[[u8; 3]] {
+        &self.colours
+    }
+
     /// One of the colours as 8-bit sRGB.
     pub fn colour(&self, index: u8) -> [u8; 3] {
         self.colours[usize::from(index)]

@@ -13,7 +13,7 @@ pub use facts::{
     SCHEMA, Timings,
 };
 pub use scores::Scores;
-pub use trace_line::{TRACE_SCHEMA, kind_of, schema_line, trace_line};
+pub use trace_line::{TRACE_SCHEMA, schema_line, trace_line};
 pub use words::{Condensed, Names, condense};
 
 /// Name of the report in a result folder.

@@ -18,6 +18,14 @@ pub struct Ancestor<'a> {
     pub joined: Option<Joined>,
 }
 
+impl Ancestor<'_> {
+    /// The step at which it became part of what it precedes; of the final region itself, that of its birth.
+    pub fn step(&self) -> usize {
+        let (Birth::Area { step: born, .. } | Birth::Part { step: born, .. }) = self.birth;
+        self.joined.map_or(born, |joined| joined.step)
+    }
+}
+
 /// How a region began.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Birth<'a> {

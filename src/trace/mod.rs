@@ -6,6 +6,7 @@
 
 mod event;
 mod history;
+mod kind;
 mod lineage;
 mod recorder;
 mod reel;
@@ -22,9 +23,10 @@ pub use history::{
     Barrier, Happening, MaskVerdict, MergeRefusal, MergeStory, Reach, Release, SplitStory, What, WindowStory,
     pixel_history,
 };
+pub use kind::Kind;
 pub use lineage::{Ancestor, Birth, HypothesisStory, Joined, JoinedHow, final_numbers, lineage, story};
 pub use recorder::{Recorder, Silent, Tape};
-pub use reel::Reel;
+pub use reel::{Reel, Steps};
 pub use replay::{End, Grid, Hypothesis, Replay};
 pub use terms::{Class, PixelKind, Stage};
 pub use timeline::{Block, PassSpan, Topic, Trace};

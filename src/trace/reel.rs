@@ -7,6 +7,7 @@
 use super::timeline::Contents;
 use super::{Block, Contest, Event, Measure, PassSpan, PixelKind, Stage, Step};
 use crate::raster::{LabelMap, Raster};
+use std::ops::Range;
 
 /// Set in a move's pixel where the pixel did not change hands.
 const REFUSED: u32 = 1 << 31;
@@ -131,25 +132,21 @@ impl Reel {
         }
     }
 
-    /// All steps.
-    pub fn steps(&self) -> impl Iterator<Item = Step<'_>> {
-        let mut next_event = 0;
-        let mut next_contest = 0;
-        (0..self.len()).filter_map(move |n| {
-            if self.event_steps.get(next_event) == Some(&(n as u32)) {
-                next_event += 1;
-                return Some(Step::Event(&self.events[next_event - 1]));
-            }
-            let index = n - next_event;
-            if index >= self.moves.len() {
-                return self.label(index - self.moves.len());
-            }
-            let contest = (self.contested.get(next_contest) == Some(&(index as u32))).then(|| {
-                next_contest += 1;
-                self.contest(next_contest - 1)
-            });
-            Some(self.moves[index].step(contest))
-        })
+    /// All steps, from either end.
+    pub fn steps(&self) -> Steps<'_> {
+        self.steps_in(0..self.len())
+    }
+
+    /// The steps in a range, from either end.
+    pub fn steps_in(&self, range: Range<usize>) -> Steps<'_> {
+        let place = |n: usize| {
+            let n = n.min(self.len());
+            let event = self.events_before(n);
+            let contest = self.contested.partition_point(|&contested| (contested as usize) < n - event);
+            Place { n, event, contest }
+        };
+        let (front, back) = (place(range.start), place(range.end.max(range.start)));
+        Steps { reel: self, front, back }
     }
 
     /// The events, each with the step at which it lies.
@@ -280,6 +277,75 @@ impl Reel {
     }
 }
 
+/// The steps of a reel, in order.
+#[derive(Clone, Debug)]
+pub struct Steps<'a> {
+    reel: &'a Reel,
+    front: Place,
+    back: Place,
+}
+
+/// Steps, events and contests before a place.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    n: usize,
+    event: usize,
+    contest: usize,
+}
+
+impl<'a> Iterator for Steps<'a> {
+    type Item = Step<'a>;
+
+    fn next(&mut self) -> Option<Step<'a>> {
+        if self.front.n >= self.back.n {
+            return None;
+        }
+        let (reel, at) = (self.reel, &mut self.front);
+        let n = at.n;
+        at.n += 1;
+        if reel.event_steps.get(at.event) == Some(&(n as u32)) {
+            at.event += 1;
+            return Some(Step::Event(&reel.events[at.event - 1]));
+        }
+        let index = n - at.event;
+        if index >= reel.moves.len() {
+            return reel.label(index - reel.moves.len());
+        }
+        let contested = reel.contested.get(at.contest) == Some(&(index as u32));
+        let contest = contested.then(|| reel.contest(at.contest));
+        at.contest += usize::from(contested);
+        Some(reel.moves[index].step(contest))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let left = self.back.n.saturating_sub(self.front.n);
+        (left, Some(left))
+    }
+}
+
+impl DoubleEndedIterator for Steps<'_> {
+    fn next_back(&mut self) -> Option<Self::Item> {
+        if self.front.n >= self.back.n {
+            return None;
+        }
+        let (reel, at) = (self.reel, &mut self.back);
+        at.n -= 1;
+        if at.event > 0 && reel.event_steps[at.event - 1] == at.n as u32 {
+            at.event -= 1;
+            return Some(Step::Event(&reel.events[at.event]));
+        }
+        let index = at.n - at.event;
+        if index >= reel.moves.len() {
+            return reel.label(index - reel.moves.len());
+        }
+        let contested = at.contest > 0 && reel.contested[at.contest - 1] == index as u32;
+        at.contest -= usize::from(contested);
+        Some(reel.moves[index].step(contested.then(|| reel.contest(at.contest))))
+    }
+}
+
+impl ExactSizeIterator for Steps<'_> {}
+
 impl Move {
     fn step<'a>(self, contest: Option<Contest>) -> Step<'a> {
         let pixel = self.pixel() as u32;
@@ -352,6 +418,9 @@ mod tests {
         ];
         assert_eq!(reel.len(), expected.len());
         assert_eq!(reel.steps().collect::<Vec<_>>(), expected);
+        let back: Vec<Step> = reel.steps().rev().collect();
+        assert!(back.iter().eq(expected.iter().rev()));
+        assert_eq!(reel.steps_in(2..5).collect::<Vec<_>>(), expected[2..5]);
         for (n, step) in expected.iter().enumerate() {
             assert_eq!(reel.step(n).as_ref(), Some(step), "step {n}");
         }

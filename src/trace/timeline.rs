@@ -109,9 +109,18 @@ impl Trace {
         self.reels[index].step(local)
     }
 
-    /// All steps, numbered.
-    pub fn steps(&self) -> impl Iterator<Item = (usize, Step<'_>)> {
-        self.reels.iter().flat_map(|reel| reel.steps()).enumerate()
+    /// All steps, numbered, from either end.
+    pub fn steps(&self) -> impl DoubleEndedIterator<Item = (usize, Step<'_>)> {
+        self.steps_in(0..self.len())
+    }
+
+    /// The steps in a range, numbered, from either end.
+    pub fn steps_in(&self, range: Range<usize>) -> impl DoubleEndedIterator<Item = (usize, Step<'_>)> {
+        self.numbered().flat_map(move |(start, reel)| {
+            let from = range.start.saturating_sub(start).min(reel.len());
+            let to = range.end.saturating_sub(start).min(reel.len());
+            (start + from..start + to).zip(reel.steps_in(from..to))
+        })
     }
 
     /// All events, with their steps.

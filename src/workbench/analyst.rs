@@ -1,9 +1,10 @@
 //! The worker that analyses. The newest request wins.
 
-use super::{Command, Picture, Shown};
+use super::{Command, DebugCommand, Picture, Shown};
 use crate::analysis::{Analysis, Observer, Session, Stage, StageOutput};
 use crate::raster::Mask;
 use crate::segment::Params;
+use crate::trace::Replay;
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
@@ -19,6 +20,19 @@ pub struct Request {
     pub params: Params,
     /// The pixels that it is restricted to.
     pub area: Option<Arc<Mask>>,
+    /// Whether its decisions are recorded.
+    pub tracing: Tracing,
+}
+
+/// When decisions are recorded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tracing {
+    /// Never: nobody asks for them.
+    Never,
+    /// When no slider moves.
+    AtRest,
+    /// With the result: a cursor stands in the middle of them.
+    AtOnce,
 }
 
 /// Where one request waits for the worker; a newer one takes its place.
@@ -93,10 +107,19 @@ pub(super) fn work(desk: &Desk, report: &Sender<Command>, wake: &(dyn Fn() + Sen
         };
         if let Some(shown) = analyst.analyse(&request, &tell, &|| desk.is_overtaken()) {
             tell(Command::Analysed(Arc::clone(&shown)));
-            // Scoring takes as long as the analysis: it waits until no slider moves.
-            if shown.picture.truth.is_some() && desk.rests(QUIET) {
-                shown.measure();
-                wake();
+            if request.tracing == Tracing::AtOnce {
+                analyst.trace(&request, &shown, &tell, &|| desk.is_overtaken());
+            }
+            // Scoring and recording take as long as the analysis: they wait until no slider moves.
+            let records = request.tracing == Tracing::AtRest;
+            if (records || shown.picture.truth.is_some()) && desk.rests(QUIET) {
+                if records {
+                    analyst.trace(&request, &shown, &tell, &|| desk.is_overtaken());
+                }
+                if shown.picture.truth.is_some() {
+                    shown.measure();
+                    wake();
+                }
             }
         }
     }
@@ -139,11 +162,50 @@ impl Analyst {
             tell,
             overtaken,
         };
-        let analysis = session.run(&request.params, &mut watch).ok()?;
+        let (analysis, trace) = if request.tracing == Tracing::AtOnce {
+            let (analysis, trace) = session.run_traced(&request.params, &mut watch).ok()?;
+            (analysis, Some(Arc::new(trace)))
+        } else {
+            (session.run(&request.params, &mut watch).ok()?, None)
+        };
         let took_ms = watch.took_ms;
         let shown = Arc::new(show(request, analysis, took_ms, self.last.as_deref()));
+        if let Some(trace) = trace {
+            shown.trace.get_or_init(|| trace);
+        }
         self.last = Some(Arc::clone(&shown));
         Some(shown)
+    }
+
+    /// Records the decisions that led to a result, where that is wanted and has not been done, and hands a cursor out.
+    pub(super) fn trace(
+        &mut self,
+        request: &Request,
+        shown: &Shown,
+        tell: &(dyn Fn(Command) + Sync),
+        overtaken: &(dyn Fn() -> bool + Sync),
+    ) {
+        let Some((_, session)) = self.session.as_mut().filter(|_| request.tracing != Tracing::Never) else {
+            return;
+        };
+        if shown.trace.get().is_none() {
+            let Ok((_, trace)) = session.run_traced(&request.params, &mut Quietly(overtaken)) else { return };
+            shown.trace.get_or_init(|| Arc::new(trace));
+        }
+        let Some(trace) = shown.trace.get() else { return };
+        let mut replay = Replay::new(Arc::clone(trace));
+        replay.prepare();
+        let traced = DebugCommand::Traced { generation: request.generation, replay: Box::new(replay) };
+        tell(Command::Debug(traced));
+    }
+}
+
+/// Watches for a newer request, and nothing else.
+struct Quietly<'a>(&'a (dyn Fn() -> bool + Sync));
+
+impl Observer for Quietly<'_> {
+    fn cancelled(&self) -> bool {
+        (self.0)()
     }
 }
 
@@ -161,6 +223,7 @@ fn show(request: &Request, analysis: Analysis, took_ms: [Option<f64>; 7], last: 
         coverage,
         region_colours,
         took_ms,
+        trace: OnceLock::new(),
         accuracy: OnceLock::new(),
     }
 }
@@ -230,6 +293,7 @@ impl Observer for Watch<'_> {
             coverage: base.coverage,
             region_colours: base.region_colours.clone(),
             took_ms: self.took_ms,
+            trace: OnceLock::new(),
             accuracy: OnceLock::new(),
         })));
         self.owes = false;

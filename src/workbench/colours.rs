@@ -17,6 +17,15 @@ pub(super) fn region_colours(analysis: &Analysis, before: Option<(&LabelMap, &[[
     colours(&analysis.finals.labels, &neighbours, before)
 }
 
+/// Colours for so many regions that became none: such as no final region has as long as there are any, in a fixed order.
+pub(super) fn orphan_colours(taken: &[[u8; 3]], count: usize) -> Vec<[u8; 3]> {
+    let palette = Palette::new();
+    let all = palette.colours();
+    let free: Vec<[u8; 3]> = all.iter().copied().filter(|colour| !taken.contains(colour)).collect();
+    let from = if free.is_empty() { all } else { &free };
+    from.iter().copied().cycle().take(count).collect()
+}
+
 /// Region `id` is at index `id − 1` of `neighbours`, of the former colours and of the result.
 fn colours(
     labels: &LabelMap,

@@ -1,8 +1,8 @@
 //! The only ways to change a [`super::State`].
 
 use super::{
-    CubeSettings, Export, ImageSettings, Item, Origin, Picture, PlaneSettings, ProfileLine, Severity, Shown,
-    Theme, Workspace,
+    CubeSettings, DebugCommand, Export, ImageSettings, Item, Origin, Picture, PlaneSettings, ProfileLine,
+    Severity, Shown, Theme, Workspace,
 };
 use crate::analysis::Stage;
 use crate::photo::ReadOptions;
@@ -116,6 +116,9 @@ pub enum Command {
     Layout(String),
     /// The colour space view's camera.
     Camera(String),
+
+    /// Change the debugger.
+    Debug(DebugCommand),
 
     /// Write something.
     Export(Export),

@@ -1,6 +1,6 @@
 //! Carries the effects of commands out, on threads or inline.
 
-use super::analyst::{self, Analyst, Desk};
+use super::analyst::{self, Analyst, Desk, Tracing};
 use super::{Command, Effect, Job, Request, State, jobs, read, reduce, write};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -83,7 +83,8 @@ impl Workbench {
 
     fn carry_out(&mut self, effect: Effect) {
         match effect {
-            Effect::Analyse => self.analyse(),
+            Effect::Analyse => self.analyse(self.tracing()),
+            Effect::Trace => self.analyse(Tracing::AtOnce),
             Effect::Read(origin, options) => {
                 self.state.jobs.reading = Some(Job::now());
                 self.run("reader", move || match read::picture(origin, options) {
@@ -109,13 +110,23 @@ impl Workbench {
         }
     }
 
-    fn analyse(&mut self) {
+    /// Decisions are recorded while somebody stands among them; otherwise when there is time for it.
+    fn tracing(&self) -> Tracing {
+        match (self.state.view.debug.open, self.state.debugger.stopped().is_some(), &self.hands) {
+            (false, ..) => Tracing::Never,
+            (true, false, Hands::Threads { .. }) => Tracing::AtRest,
+            (true, ..) => Tracing::AtOnce,
+        }
+    }
+
+    fn analyse(&mut self, tracing: Tracing) {
         let Some(picture) = &self.state.picture else { return };
         let request = Request {
             generation: self.state.generation,
             picture: Arc::clone(picture),
             params: self.state.document.params,
             area: self.state.document.area.clone(),
+            tracing,
         };
         // A queue of slider positions is one piece of work: the spinner tells of the wait, not of each position.
         let begun = self.state.jobs.analysis.unwrap_or_else(Job::now);
@@ -129,7 +140,8 @@ impl Workbench {
                 };
                 if let Some(shown) = analyst.analyse(&request, &tell, &|| false) {
                     shown.measure();
-                    tell(Command::Analysed(shown));
+                    tell(Command::Analysed(Arc::clone(&shown)));
+                    analyst.trace(&request, &shown, &tell, &|| false);
                 }
             }
         }

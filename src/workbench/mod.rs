@@ -12,6 +12,7 @@ mod command;
 mod command_line;
 mod compare;
 mod curves;
+mod debugger;
 mod desk;
 mod document;
 mod histogram;
@@ -47,6 +48,10 @@ pub use axes::{Axis, Tick};
 pub use command::{Combine, Command, Gesture};
 pub use command_line::analyze_call;
 pub use compare::{BodyChange, Comparison, Fate, Figure, PixelFates, RegionFate, SettingChange, compare};
+pub use debugger::{
+    AxisDistance, Breakpoint, CandidateCheck, Condition, Current, DebugCommand, DebugSettings, Debugger,
+    Difference, Direction, Goal, Grain, Growth, RegionNames, SavedClass, Watch, WatchedPixel, growth, watch,
+};
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};
 pub use histogram::{BINS_PER_BAND, ColourBin, Histogram, UniqueColour};

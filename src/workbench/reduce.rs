@@ -2,8 +2,8 @@
 
 use super::state::AfterPin;
 use super::{
-    Combine, Command, Document, Export, Gesture, MaskRuns, Notice, Origin, Picture, Selection, Severity,
-    Shown, State, View, Workspace,
+    Combine, Command, Debugger, Document, Export, Gesture, MaskRuns, Notice, Origin, Picture, Selection,
+    Severity, Shown, State, View, Workspace,
 };
 use crate::photo::ReadOptions;
 use crate::raster::{Mask, Raster};
@@ -16,6 +16,8 @@ use std::sync::Arc;
 pub enum Effect {
     /// Analyse the picture with the document as it is now.
     Analyse,
+    /// Record the decisions of that analysis.
+    Trace,
     /// Read a photograph in this way.
     Read(Origin, ReadOptions),
     /// Read parameters.
@@ -87,6 +89,7 @@ pub fn reduce(state: &mut State, command: Command) -> Vec<Effect> {
             state.history.end_gesture();
             Vec::new()
         }
+        Command::Debug(command) => super::debugger::reduce(state, command),
         Command::Export(_) if state.jobs.export.is_some() => {
             let text = "an export is still under way: wait for its end, or cancel it first";
             notify(state, Severity::Warning, text.to_owned())
@@ -180,6 +183,7 @@ fn opened(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     let warnings: Vec<String> = warnings.collect();
     let restored = state.restoring.take().filter(|workspace| workspace.origin == picture.origin);
     state.picture = Some(picture);
+    state.debugger = Debugger::default();
     // Masks of another picture mean nothing here; parameters stay.
     state.document = Document { params: state.document.params, ..Document::default() };
     state.history.forget();

@@ -4,7 +4,7 @@ use super::{Accuracy, Picture};
 use crate::analysis::{Analysis, Stage};
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 use crate::segment::Params;
-use crate::trace::Class;
+use crate::trace::{Class, Trace};
 use std::cmp::Reverse;
 use std::sync::{Arc, OnceLock};
 
@@ -29,6 +29,8 @@ pub struct Shown {
     pub coverage: f64,
     /// Time of each stage that ran, in the order of [`Stage::ALL`], milliseconds; none: its earlier output still stood.
     pub took_ms: [Option<f64>; Stage::ALL.len()],
+    /// Every decision that led to it, once they have been recorded.
+    pub(super) trace: OnceLock<Arc<Trace>>,
     /// How near it is to the ground truth, once that has been measured.
     pub(super) accuracy: OnceLock<Option<Accuracy>>,
 }
@@ -57,6 +59,11 @@ impl Shown {
     /// Merged area of each pixel, from 1; 0 where its window has no class.
     pub fn areas(&self) -> &Raster<u32> {
         &self.analysis.areas
+    }
+
+    /// Every decision that led to it; none until they have been recorded.
+    pub fn trace(&self) -> Option<&Arc<Trace>> {
+        self.trace.get()
     }
 
     /// How near it is to the ground truth; none where there is no truth, and until the worker has measured it.

@@ -1,6 +1,6 @@
 //! All there is to show.
 
-use super::{Document, History, Item, JobState, Picture, Shown, View, Workspace};
+use super::{Debugger, Document, History, Item, JobState, Picture, Shown, View, Workspace};
 use crate::segment::Params;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -22,6 +22,8 @@ pub struct State {
     pub hover: Option<Item>,
     /// How things are shown.
     pub view: View,
+    /// The step debugger.
+    pub debugger: Debugger,
     /// What goes on in the background.
     pub jobs: JobState,
     /// What a person should know, oldest first.

@@ -55,6 +55,7 @@ pub(super) fn shown(picture: &Arc<Picture>) -> Shown {
         coverage: 0.0,
         region_colours: (0..count).map(|id| [id as u8; 3]).collect(),
         took_ms: [None; 7],
+        trace: OnceLock::new(),
         accuracy: OnceLock::new(),
     }
 }

@@ -1,5 +1,6 @@
 //! How the panels show what there is. Part of a workspace, not of the undo history.
 
+use super::DebugSettings;
 use serde::{Deserialize, Serialize};
 
 /// The settings of every view.
@@ -14,6 +15,8 @@ pub struct View {
     pub plane: PlaneSettings,
     /// Where the profile runs.
     pub profile: ProfileLine,
+    /// The step debugger.
+    pub debug: DebugSettings,
     /// Whether the pinned result is shown in place of the newest (A/B).
     pub show_pinned: bool,
     /// Dark or light.

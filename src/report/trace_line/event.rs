@@ -62,9 +62,15 @@ pub(super) fn parts(names: &Names, event: &Event) -> (Value, Value, Value) {
         Event::IlluminantEstimated(estimated) => {
             let contribution = |c: &crate::trace::Contribution| json!({"region": c.region, "residual_deg": c.residual_deg, "weight": c.weight});
             let contributions: Vec<Value> = estimated.contributions.iter().map(contribution).collect();
-            (none(), json!({"direction": estimated.direction, "contributions": contributions}), none())
+            (
+                none(),
+                json!({"given": false, "direction": estimated.direction, "contributions": contributions}),
+                none(),
+            )
         }
-        Event::IlluminantGiven { direction } => (none(), json!({"direction": direction}), none()),
+        Event::IlluminantGiven { direction } => {
+            (none(), json!({"given": true, "direction": direction}), none())
+        }
         Event::SliceMade(made) => slice(made),
         Event::VectorsFitted(fitted) => vectors(fitted),
         other => change(names, other),

@@ -8,7 +8,7 @@
 mod event;
 
 use super::Names;
-use crate::trace::{Contest, Event, Measure, Stage, Step, Trace};
+use crate::trace::{Contest, Measure, Stage, Step, Trace};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -42,7 +42,7 @@ pub fn trace_line(names: &Names, seq: usize, stage: Stage, step: &Step, out: &mu
     let begin = |out: &mut String, kind: &str| {
         let _ = write!(out, "{{\"seq\":{seq},\"stage\":\"{}\",\"kind\":\"{kind}\",", stage.name());
     };
-    begin(out, kind_of(step));
+    begin(out, step.kind().name());
     let pixel = |pixel: u32| {
         let (x, y) = names.place(pixel);
         format!("\"pixel\":[{x},{y}]")
@@ -102,48 +102,10 @@ fn short(number: f32) -> Value {
     number.to_string().parse::<f64>().map_or(Value::Null, Value::from)
 }
 
-/// The stable name of a kind of step.
-pub fn kind_of(step: &Step) -> &'static str {
-    match step {
-        Step::Claim { .. } => "claim",
-        Step::Refusal { .. } => "refusal",
-        Step::Label { .. } => "label",
-        Step::Event(event) => event_kind(event),
-    }
-}
-
-fn event_kind(event: &Event) -> &'static str {
-    match event {
-        Event::StageBegan { .. } => "stage_began",
-        Event::PassBegan { .. } => "pass_began",
-        Event::MasksMade(_) => "masks_made",
-        Event::WindowsLaid(_) => "windows_laid",
-        Event::WindowClassified { .. } => "window_classified",
-        Event::MergeTried { .. } => "merge_tried",
-        Event::HypothesisChosen(_) => "hypothesis_chosen",
-        Event::HypothesisPassedOver { .. } => "hypothesis_passed_over",
-        Event::SeedsPlaced { .. } => "seeds_placed",
-        Event::GrowthBegan { .. } => "growth_began",
-        Event::LineRefitted(_) => "line_refitted",
-        Event::Absorbed { .. } => "absorbed",
-        Event::RegionsMerged { .. } => "regions_merged",
-        Event::CandidateTested(_) => "candidate_tested",
-        Event::CandidateChosen(_) => "candidate_chosen",
-        Event::IlluminantEstimated(_) => "illuminant_estimated",
-        Event::IlluminantGiven { .. } => "illuminant_given",
-        Event::SliceMade(_) => "slice_made",
-        Event::HoleFilled { .. } => "hole_filled",
-        Event::Dropped { .. } => "dropped",
-        Event::ComponentSplit { .. } => "component_split",
-        Event::Renumbered { .. } => "renumbered",
-        Event::VectorsFitted(_) => "vectors_fitted",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::{Pass, PixelKind};
+    use crate::trace::{Event, Pass, PixelKind};
 
     fn line(step: &Step) -> Value {
         let mut text = String::new();

@@ -1,0 +1,198 @@
+//! What stops the cursor.
+
+use super::Direction;
+use crate::trace::{CandidateVerdict, Class, Event, PassedOver, Replay, Step};
+use serde::{Deserialize, Serialize};
+
+/// A condition that may be switched off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Breakpoint {
+    /// Whether it stops anything.
+    pub enabled: bool,
+    /// When.
+    pub condition: Condition,
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Condition {
+    /// A pixel changes hands.
+    PixelChangesOwner(u32),
+    /// A region, by its number of birth, or any, grows beyond so many pixels.
+    RegionExceeds {
+        /// The region; none: any.
+        region: Option<u16>,
+        /// The pixels.
+        pixels: u32,
+    },
+    /// A hypothesis is rejected: passed over although it was large enough, given up, absorbed or dropped.
+    HypothesisRejected,
+    /// A highlight candidate fails a test.
+    CandidateFails(CandidateCheck),
+    /// A window is of this class.
+    ClassIs(SavedClass),
+    /// Two regions, by their numbers of birth, want the same pixel; none: any region.
+    Conflict(Option<u16>, Option<u16>),
+}
+
+/// A test of a highlight candidate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum CandidateCheck {
+    /// Any of them.
+    Any,
+    /// The lines meet.
+    LinesMeet,
+    /// In the upper half of the matte line.
+    UpperHalf,
+    /// The direction is positive.
+    Positive,
+    /// The cluster lies beyond the meeting point.
+    Beyond,
+}
+
+impl CandidateCheck {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Any, Self::LinesMeet, Self::UpperHalf, Self::Positive, Self::Beyond];
+
+    /// Its name in lists.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Any => "any test",
+            Self::LinesMeet => "lines meet",
+            Self::UpperHalf => "upper 50 %",
+            Self::Positive => "positive direction",
+            Self::Beyond => "beyond the meeting point",
+        }
+    }
+
+    fn fails(self, verdict: CandidateVerdict) -> bool {
+        match self {
+            Self::Any => !verdict.accepted(),
+            Self::LinesMeet => !verdict.lines_meet,
+            Self::UpperHalf => !verdict.upper_half,
+            Self::Positive => !verdict.positive,
+            Self::Beyond => !verdict.beyond,
+        }
+    }
+}
+
+/// A class as it is written into workspaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[allow(missing_docs, reason = "as Class")]
+pub enum SavedClass {
+    Point,
+    Line,
+    Plane,
+    Volume,
+}
+
+impl From<Class> for SavedClass {
+    fn from(class: Class) -> Self {
+        match class {
+            Class::Point => Self::Point,
+            Class::Line => Self::Line,
+            Class::Plane => Self::Plane,
+            Class::Volume => Self::Volume,
+        }
+    }
+}
+
+impl From<SavedClass> for Class {
+    fn from(class: SavedClass) -> Self {
+        match class {
+            SavedClass::Point => Self::Point,
+            SavedClass::Line => Self::Line,
+            SavedClass::Plane => Self::Plane,
+            SavedClass::Volume => Self::Volume,
+        }
+    }
+}
+
+/// Where the cursor stops next on its way from where it is to `goal`, and which breakpoint stops it; none where it arrives.
+pub fn hit(replay: &Replay, goal: usize, breakpoints: &[Breakpoint]) -> Option<(usize, usize)> {
+    if !breakpoints.iter().any(|breakpoint| breakpoint.enabled) {
+        return None;
+    }
+    let (trace, at) = (replay.trace(), replay.at());
+    let mut sizes = Sizes { replay, gained: Vec::new() };
+    let stops = |step: &Step, sizes: &Sizes| {
+        breakpoints
+            .iter()
+            .position(|breakpoint| breakpoint.enabled && breakpoint.condition.holds(step, |r| sizes.of(r)))
+    };
+    if goal >= at {
+        trace.steps_in(at..goal).find_map(|(n, step)| {
+            sizes.take(&step, Direction::Forward);
+            stops(&step, &sizes).map(|index| (n + 1, index))
+        })
+    } else {
+        // The step taken last is where the cursor stands, not on its way.
+        trace.steps_in(goal..at).rev().find_map(|(n, step)| {
+            let stop = (n + 1 < at).then(|| stops(&step, &sizes)).flatten();
+            sizes.take(&step, Direction::Back);
+            stop.map(|index| (n + 1, index))
+        })
+    }
+}
+
+impl Condition {
+    /// Whether it holds right after a step, when regions have `size` pixels.
+    fn holds(self, step: &Step, size: impl Fn(u16) -> i64) -> bool {
+        match (self, step) {
+            (Self::PixelChangesOwner(wanted), Step::Claim { pixel, .. }) => *pixel == wanted,
+            (Self::RegionExceeds { region, pixels }, Step::Claim { after, .. }) => {
+                *after != 0
+                    && region.is_none_or(|wanted| wanted == *after)
+                    && size(*after) == i64::from(pixels) + 1
+            }
+            (Self::HypothesisRejected, Step::Event(event)) => rejects(event),
+            (Self::CandidateFails(check), Step::Event(Event::CandidateTested(test))) => {
+                check.fails(test.verdict)
+            }
+            (Self::ClassIs(class), Step::Event(Event::WindowClassified { class: found, .. })) => {
+                *found == Some(class.into())
+            }
+            (
+                Self::Conflict(one, other),
+                Step::Refusal { holder: a, challenger: b, .. }
+                | Step::Claim { before: a, after: b, contest: Some(_), .. },
+            ) => {
+                let is = |wanted: Option<u16>, found: u16| wanted.is_none_or(|wanted| wanted == found);
+                (is(one, *a) && is(other, *b)) || (is(one, *b) && is(other, *a))
+            }
+            _ => false,
+        }
+    }
+}
+
+fn rejects(event: &Event) -> bool {
+    match event {
+        Event::HypothesisPassedOver { reason, .. } => *reason != PassedOver::TooSmall,
+        Event::Absorbed { .. } | Event::Dropped { .. } => true,
+        _ => false,
+    }
+}
+
+/// Sizes of regions on the way, without moving the cursor.
+struct Sizes<'a> {
+    replay: &'a Replay,
+    gained: Vec<i64>,
+}
+
+impl Sizes<'_> {
+    fn of(&self, region: u16) -> i64 {
+        i64::from(self.replay.size(region)) + self.gained.get(usize::from(region)).copied().unwrap_or(0)
+    }
+
+    fn take(&mut self, step: &Step, direction: Direction) {
+        let Step::Claim { before, after, .. } = step else { return };
+        let most = usize::from(*before.max(after));
+        if self.gained.len() <= most {
+            self.gained.resize(most + 1, 0);
+        }
+        let gain = if direction == Direction::Forward { 1 } else { -1 };
+        self.gained[usize::from(*before)] -= gain;
+        self.gained[usize::from(*after)] += gain;
+    }
+}
