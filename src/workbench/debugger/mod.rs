@@ -8,12 +8,15 @@ mod growth;
 mod names;
 mod reduce;
 mod watch;
+mod why;
 
 pub use breakpoint::{Breakpoint, CandidateCheck, Condition, SavedClass};
 pub use cursor::{Direction, Goal, Grain};
 pub use growth::{Growth, growth, rings};
 pub use names::RegionNames;
 pub use watch::{AxisDistance, Current, Watch, WatchedPixel, watch};
+
+pub use why::{Account, Why, why};
 
 pub(super) use reduce::reduce;
 #[cfg(test)]
