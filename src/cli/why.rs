@@ -92,7 +92,7 @@ fn history(traced: &Traced, pixel: usize) -> String {
     let condensed = condense(&happened);
     let digits = traced.trace.len().to_string().len();
     for Condensed { last, times } in condensed.iter().rev() {
-        let again = if *times > 1 { format!(" ({times} times, the last one)") } else { String::new() };
+        let again = if *times > 1 { format!(" ({times} times, this is the last)") } else { String::new() };
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,

@@ -179,7 +179,7 @@ impl Search<'_> {
     ) -> Result<Option<WhatIf>, Cancelled> {
         let now = self.unchanged.used.get(parameter);
         let ladder = Ladder::new(parameter, direction, now, &self.session.image);
-        let mut seen = Seen::new();
+        let mut seen = Seen::from([(now.to_bits(), self.before)]);
         let mut guessed: Vec<f64> = guesses.filter_map(|guess| ladder.beyond(guess.value)).collect();
         guessed.sort_by(|a, b| (a - now).abs().total_cmp(&(b - now).abs()));
         guessed.dedup();
@@ -191,7 +191,7 @@ impl Search<'_> {
             }
             // Right if nothing changes one step before.
             let near = ladder.step_back(value);
-            if near == now || self.fate(parameter, near, &mut seen, observer)? == self.before {
+            if self.fate(parameter, near, &mut seen, observer)? == self.before {
                 return Ok(Some(self.told((parameter, direction), [near, value], after, true)));
             }
             bracket = Some([now, near]);
