@@ -49,8 +49,9 @@ pub use command::{Combine, Command, Gesture};
 pub use command_line::analyze_call;
 pub use compare::{BodyChange, Comparison, Fate, Figure, PixelFates, RegionFate, SettingChange, compare};
 pub use debugger::{
-    AxisDistance, Breakpoint, CandidateCheck, Condition, Current, DebugCommand, DebugSettings, Debugger,
-    Difference, Direction, Goal, Grain, Growth, RegionNames, SavedClass, Watch, WatchedPixel, growth, watch,
+    Account, AxisDistance, Breakpoint, CandidateCheck, Condition, Current, DebugCommand, DebugSettings,
+    Debugger, Difference, Direction, Goal, Grain, Growth, RegionNames, SavedClass, Watch, WatchedPixel, Why,
+    growth, watch, why,
 };
 pub use debugger::{
     Check, HypothesisRow, Instant, InstantView, LookedAt, Role, Status, Tee, WindowCounts, candidate_name,

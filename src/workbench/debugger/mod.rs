@@ -13,6 +13,7 @@ mod rows;
 mod tee;
 mod tracks;
 mod watch;
+mod why;
 
 pub use breakpoint::{Breakpoint, CandidateCheck, Condition, SavedClass};
 pub use cursor::{Direction, Goal, Grain};
@@ -24,6 +25,8 @@ pub use rows::{HypothesisRow, Status, WindowCounts, hypothesis_rows, window_coun
 pub use tee::{Check, Tee, candidate_name, candidate_reach, tee};
 pub use tracks::{candidate_pixels, measured_and_ignored, pixels_of_region, sampled, test_at_cursor, tracks};
 pub use watch::{AxisDistance, Current, Watch, WatchedPixel, watch};
+
+pub use why::{Account, Why, why};
 
 pub(super) use reduce::reduce;
 #[cfg(test)]
