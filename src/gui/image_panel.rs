@@ -8,6 +8,7 @@ mod readout;
 mod sheets;
 #[cfg(test)]
 mod tests;
+mod tiles;
 mod toolbar;
 mod tools;
 

@@ -47,8 +47,8 @@ pub struct WindowsView {
     pub size_px: usize,
     /// Windows in a row.
     pub columns: usize,
-    /// Class of each window; none as long as it is not known, and within where it has none.
-    pub classes: Vec<Option<Option<Class>>>,
+    /// Class of each window; none as long as it is not known, and where it has none.
+    pub classes: Vec<Option<Class>>,
     /// The first window of each window's area.
     pub areas: Vec<u32>,
     /// The areas of the merge that was just tried: one where they were joined.
@@ -96,7 +96,7 @@ impl WindowsView {
         Self {
             size_px: (grid.laid.size_px as usize).max(1),
             columns: grid.laid.columns as usize,
-            classes: grid.classes.as_slice().to_vec(),
+            classes: grid.classes.as_slice().iter().map(|class| class.flatten()).collect(),
             areas,
             tried,
         }
@@ -204,3 +204,6 @@ pub fn cursor_place(replay: &Replay) -> String {
     let pass = replay.pass().map(|pass| pass.name().to_owned());
     [Some(stage.name().to_owned()), topic.or(pass)].into_iter().flatten().collect::<Vec<_>>().join(" \u{b7} ")
 }
+
+#[cfg(test)]
+mod tests;

@@ -87,13 +87,14 @@ fn rows(painted: &mut Raster<[u8; 4]>, paint: impl Fn(usize, &mut [[u8; 4]]) + S
     rows.with_min_len(16).for_each(|(y, row)| paint(y, row));
 }
 
-const fn number(class: Option<Option<Class>>) -> usize {
+/// 0 for no class.
+const fn number(class: Option<Class>) -> usize {
     match class {
-        Some(Some(Class::Point)) => 1,
-        Some(Some(Class::Line)) => 2,
-        Some(Some(Class::Plane)) => 3,
-        Some(Some(Class::Volume)) => 4,
-        None | Some(None) => 0,
+        None => 0,
+        Some(Class::Point) => 1,
+        Some(Class::Line) => 2,
+        Some(Class::Plane) => 3,
+        Some(Class::Volume) => 4,
     }
 }
 
@@ -119,7 +120,7 @@ impl WindowsView {
     fn row(&self, y: usize, row: &mut [[u8; 4]], styles: &[[u8; 4]], seams: bool) {
         let (side, columns) = (self.size_px, self.columns.max(1));
         let first = y / side * columns;
-        let edge = y % side == 0;
+        let edge = y.is_multiple_of(side);
         for (column, pixels) in row.chunks_mut(side).enumerate() {
             let window = first + column;
             let Some(&style) = styles.get(window) else { continue };
@@ -152,15 +153,15 @@ impl WindowsView {
         rows(painted, |y, row| {
             for (column, pixels) in row.chunks_mut(side).enumerate() {
                 let window = y / side * columns + column;
-                let class = self.classes.get(window).copied().flatten().flatten();
+                let class = self.classes.get(window).copied().flatten();
                 let Some(class) = class else { continue };
                 let colour = self.part(window).map_or_else(
-                    || CLASSES[number(Some(Some(class))) - 1].colour,
+                    || CLASSES[number(Some(class)) - 1].colour,
                     |part| if part == 0 { ACCENT } else { OTHER_PART },
                 );
                 let colour = with_alpha(colour, 230);
                 let last = pixels.len() - 1;
-                if y % side == 0 || y % side == side - 1 {
+                if y.is_multiple_of(side) || (y + 1).is_multiple_of(side) {
                     pixels.fill(colour);
                 }
                 if width > side {
@@ -307,7 +308,7 @@ mod tests {
 
     #[test]
     fn windows_have_their_class_as_far_as_it_is_known_and_a_pair_that_is_tried_stands_out() {
-        let known = [Some(Some(Class::Line)), Some(Some(Class::Line)), Some(None), None];
+        let known = [Some(Class::Line), Some(Class::Line), None, None];
         let view = WindowsView {
             size_px: 2,
             columns: 2,
