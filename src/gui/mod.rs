@@ -27,6 +27,7 @@ mod status;
 #[cfg(test)]
 mod testing;
 mod theme;
+mod verdict;
 mod widgets;
 mod window;
 

@@ -9,6 +9,7 @@
 mod accessibility;
 mod colours;
 mod compare;
+mod cursor;
 mod exports;
 mod images;
 mod keyboard;
