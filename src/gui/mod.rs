@@ -28,6 +28,7 @@ mod status;
 mod testing;
 mod theme;
 mod verdict;
+mod why_panel;
 mod widgets;
 mod window;
 

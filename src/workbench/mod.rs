@@ -16,6 +16,7 @@ mod debugger;
 mod desk;
 mod document;
 mod histogram;
+mod inquiry;
 mod item;
 mod jobs;
 mod layers;
@@ -61,6 +62,7 @@ pub use debugger::{
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};
 pub use histogram::{BINS_PER_BAND, ColourBin, Histogram, UniqueColour};
+pub use inquiry::{Asked, Inquiry, InquiryNews};
 pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
 pub use layers::{

@@ -2,8 +2,8 @@
 
 use super::state::AfterPin;
 use super::{
-    Combine, Command, Debugger, Document, Export, Gesture, MaskRuns, Notice, Origin, Picture, Selection,
-    Severity, Shown, State, View, Workspace,
+    Asked, Combine, Command, Debugger, Document, Export, Gesture, Inquiry, InquiryNews, MaskRuns, Notice,
+    Origin, Picture, Selection, Severity, Shown, State, View, Workspace,
 };
 use crate::photo::ReadOptions;
 use crate::raster::{Mask, Raster};
@@ -18,6 +18,10 @@ pub enum Effect {
     Analyse,
     /// Record the decisions of that analysis.
     Trace,
+    /// Find what would change a pixel's fate.
+    Inquire(Asked),
+    /// Stop that.
+    StopInquiring,
     /// Read a photograph in this way.
     Read(Origin, ReadOptions),
     /// Read parameters.
@@ -87,6 +91,11 @@ pub fn reduce(state: &mut State, command: Command) -> Vec<Effect> {
         }
         Command::EndGesture => {
             state.history.end_gesture();
+            Vec::new()
+        }
+        Command::AskWhatIf(pixel) => ask_what_if(state, pixel),
+        Command::Inquired(asked, news) => {
+            inquired(state, asked, news);
             Vec::new()
         }
         Command::Debug(command) => super::debugger::reduce(state, command),
@@ -302,7 +311,31 @@ fn analyse(state: &mut State) -> Vec<Effect> {
         return Vec::new();
     }
     state.generation += 1;
-    vec![Effect::Analyse]
+    // What was asked, was asked of the result before.
+    let inquiring = state.inquiry.take().is_some_and(|inquiry| inquiry.found.is_none());
+    let stop = inquiring.then_some(Effect::StopInquiring);
+    stop.into_iter().chain([Effect::Analyse]).collect()
+}
+
+/// Asks anew, or stops asking.
+fn ask_what_if(state: &mut State, pixel: Option<u32>) -> Vec<Effect> {
+    let inside = |pixel: &u32| {
+        state.picture.as_ref().is_some_and(|picture| (*pixel as usize) < picture.photo.image.pixels.len())
+    };
+    let asked = pixel.filter(inside).map(|pixel| Asked { pixel, generation: state.generation });
+    state.inquiry = asked.map(Inquiry::new);
+    [Effect::StopInquiring].into_iter().chain(asked.map(Effect::Inquire)).collect()
+}
+
+/// News of an inquiry, unless something else has been asked since.
+fn inquired(state: &mut State, asked: Asked, news: InquiryNews) {
+    let Some(inquiry) = state.inquiry.as_mut().filter(|inquiry| inquiry.asked == asked) else { return };
+    match news {
+        InquiryNews::Progress(done, total) => (inquiry.done, inquiry.total) = (done, total),
+        InquiryNews::Found(found) => inquiry.found = Some(Arc::new(found)),
+        // Who stopped it, has asked for something else or for nothing.
+        InquiryNews::Stopped => {}
+    }
 }
 
 fn pin_illuminant(state: &mut State, direction: Option<[f64; 3]>, gesture: Option<Gesture>) -> Vec<Effect> {

@@ -1,6 +1,6 @@
 //! All there is to show.
 
-use super::{Debugger, Document, History, Item, JobState, Picture, Shown, View, Workspace};
+use super::{Debugger, Document, History, Inquiry, Item, JobState, Picture, Shown, View, Workspace};
 use crate::segment::Params;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,6 +24,8 @@ pub struct State {
     pub view: View,
     /// The step debugger.
     pub debugger: Debugger,
+    /// What would change a pixel's fate, as far as that has been asked.
+    pub inquiry: Option<Inquiry>,
     /// What goes on in the background.
     pub jobs: JobState,
     /// What a person should know, oldest first.
