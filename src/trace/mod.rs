@@ -11,6 +11,7 @@ mod lineage;
 mod recorder;
 mod reel;
 mod replay;
+mod standing;
 mod terms;
 mod timeline;
 
@@ -27,6 +28,7 @@ pub use kind::Kind;
 pub use lineage::{Ancestor, Birth, HypothesisStory, Joined, JoinedHow, final_numbers, lineage, story};
 pub use recorder::{Recorder, Silent, Tape};
 pub use reel::{Reel, Steps};
-pub use replay::{End, Grid, Hypothesis, Replay};
+pub use replay::Replay;
+pub use standing::{End, Grid, Hypothesis};
 pub use terms::{Class, PixelKind, Stage};
 pub use timeline::{Block, PassSpan, Topic, Trace};

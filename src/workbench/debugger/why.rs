@@ -2,7 +2,7 @@
 
 use super::RegionNames;
 use crate::report::{Names, condense};
-use crate::trace::{Ancestor, Birth, Stage, Trace, lineage, pixel_history, story};
+use crate::trace::{Stage, Trace, lineage, pixel_history, story};
 use crate::workbench::Shown;
 use std::sync::Arc;
 
@@ -45,10 +45,8 @@ pub fn why(
     let pixel = pixel.filter(|&pixel| (pixel as usize) < image.pixels.len()).map(|pixel| {
         let history = condense(&pixel_history(trace, image, &shown.analysis.masks, pixel as usize));
         let told = history.iter().rev().map(|condensed| {
-            let mut text = words.happening(&condensed.last);
-            if condensed.times > 1 {
-                text += &format!(" ({} times)", condensed.times);
-            }
+            let text = words.happening(&condensed.last);
+            let text = if condensed.times > 1 { format!("{text} ({} times)", condensed.times) } else { text };
             account(condensed.last.step, 0, text)
         });
         (pixel, told.collect())
@@ -67,16 +65,8 @@ pub fn why(
     let region = number.map(|number| {
         let told = lineage(trace, number);
         let told =
-            told.iter().map(|ancestor| account(step_of(ancestor), ancestor.depth, words.ancestor(ancestor)));
+            told.iter().map(|ancestor| account(ancestor.step(), ancestor.depth, words.ancestor(ancestor)));
         (number, told.collect())
     });
     Why { pixel, hypothesis, region }
-}
-
-/// The step at which a hypothesis became part of another; at which it began, where it did not.
-fn step_of(ancestor: &Ancestor) -> usize {
-    match (ancestor.joined, ancestor.birth) {
-        (Some(joined), _) => joined.step,
-        (None, Birth::Area { step, .. } | Birth::Part { step, .. }) => step,
-    }
 }
