@@ -50,7 +50,8 @@ pub use command_line::analyze_call;
 pub use compare::{BodyChange, Comparison, Fate, Figure, PixelFates, RegionFate, SettingChange, compare};
 pub use debugger::{
     AxisDistance, Breakpoint, CandidateCheck, Condition, Current, DebugCommand, DebugSettings, Debugger,
-    Difference, Direction, Goal, Grain, Growth, RegionNames, SavedClass, Watch, WatchedPixel, growth, watch,
+    Difference, Direction, Goal, Grain, Growth, RegionNames, SavedClass, TimelineAxis, TimelineSection,
+    Watch, WatchedPixel, growth, timeline_density, watch,
 };
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};

@@ -7,12 +7,14 @@ mod cursor;
 mod growth;
 mod names;
 mod reduce;
+mod timeline_axis;
 mod watch;
 
 pub use breakpoint::{Breakpoint, CandidateCheck, Condition, SavedClass};
 pub use cursor::{Direction, Goal, Grain};
 pub use growth::{Growth, growth, rings};
 pub use names::RegionNames;
+pub use timeline_axis::{TimelineAxis, TimelineSection, timeline_density};
 pub use watch::{AxisDistance, Current, Watch, WatchedPixel, watch};
 
 pub(super) use reduce::reduce;
