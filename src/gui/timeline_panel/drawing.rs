@@ -8,6 +8,8 @@ use egui::{Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind
 
 /// Single steps are drawn from this width on, points.
 const TICK_PT: f32 = 4.0;
+/// A stretch of this height has room for its name, points.
+const NAMED_PT: f32 = 12.0;
 
 /// Draws the track: density, stages, passes, blocks, single steps where there is room for them, and the cursor.
 pub fn draw(painter: &Painter, cx: &Cx, scale: &Scale, lanes: &Lanes, replay: &Replay, density: &[usize]) {
@@ -23,6 +25,10 @@ pub fn draw(painter: &Painter, cx: &Cx, scale: &Scale, lanes: &Lanes, replay: &R
         let fill = tones.quiet.gamma_multiply(if index % 2 == 0 { 0.18 } else { 0.30 });
         span(painter, scale.part(lanes.passes, &pass.steps), fill, tones.quiet, pass.pass.name());
     }
+    painter.rect_filled(lanes.blocks, 0.0, tones.well.gamma_multiply(0.6));
+    if lanes.passes.height() < NAMED_PT {
+        names_of_empty(painter, tones, scale, lanes.blocks, trace);
+    }
     blocks(painter, cx, scale, lanes.blocks, trace);
     ticks(painter, tones, scale, lanes.density, trace);
     cursor(painter, tones, scale, lanes, replay.at());
@@ -33,9 +39,13 @@ fn span(painter: &Painter, rect: Option<Rect>, fill: Color32, ink: Color32, name
     let Some(rect) = rect else { return };
     let right = (rect.right() - 1.0).max(rect.left() + 0.5);
     painter.rect_filled(rect.with_max_x(right), 0.0, fill);
-    if rect.height() < 12.0 {
-        return;
+    if rect.height() >= NAMED_PT {
+        label(painter, rect, ink, name);
     }
+}
+
+/// Words in a stretch, if it is wide enough for them.
+fn label(painter: &Painter, rect: Rect, ink: Color32, name: &str) {
     let galley = painter.layout_no_wrap(name.to_owned(), FontId::proportional(SMALL_PT), ink);
     if galley.size().x + 8.0 <= rect.width() {
         let at = pos2(rect.left() + 4.0, rect.center().y - galley.size().y / 2.0);
@@ -58,11 +68,21 @@ fn bars(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, density: &[
     painter.add(mesh);
 }
 
+/// Passes without blocks say in their empty place what they are.
+fn names_of_empty(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, trace: &Trace) {
+    for pass in trace.passes() {
+        let block = trace.blocks().find(|block| block.steps.start >= pass.steps.start);
+        let empty = block.is_none_or(|block| block.steps.start >= pass.steps.end);
+        if let Some(rect) = scale.part(lane, &pass.steps).filter(|_| empty) {
+            label(painter, rect, tones.quiet.gamma_multiply(0.8), pass.pass.name());
+        }
+    }
+}
+
 /// Hypotheses, slices, candidates and holes in the colours of their regions.
 fn blocks(painter: &Painter, cx: &Cx, scale: &Scale, lane: Rect, trace: &Trace) {
     let (state, names) = (cx.state, &cx.state.debugger.names);
     let (selected, hovered) = (state.selected_region(), state.hover.and_then(|item| state.region_of(item)));
-    painter.rect_filled(lane, 0.0, cx.tones.well.gamma_multiply(0.6));
     // Where blocks are thinner than a column, one is drawn for all that begin in it.
     let mut drawn = f32::NEG_INFINITY;
     let mut outlined = Vec::new();
@@ -76,7 +96,7 @@ fn blocks(painter: &Painter, cx: &Cx, scale: &Scale, lane: Rect, trace: &Trace) 
         let number = Some(names.final_number(region)).filter(|&number| number > 0);
         let mut fill = widgets::colour(names.colour(region));
         if selected.is_some() && number != selected {
-            fill = fill.gamma_multiply(0.4);
+            fill = fill.gamma_multiply(0.55);
         }
         let gap = if rect.width() > 3.0 { 1.0 } else { 0.0 };
         let rect = rect.with_max_x((rect.right() - gap).max(rect.left() + 1.0));
@@ -104,13 +124,14 @@ fn ticks(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, trace: &Tr
             let foot = pos2(x, lane.bottom());
             match step {
                 Step::Event(_) => {
-                    painter.vline(x, lane.y_range(), (1.5, tones.text));
+                    let range = egui::Rangef::new(lane.center().y, lane.bottom());
+                    painter.vline(x, range, (1.0, tones.quiet));
                 }
                 Step::Refusal { .. } => {
-                    painter.circle_stroke(foot - vec2(0.0, 3.0), 1.6, Stroke::new(1.0, tones.text));
+                    painter.circle_stroke(foot - vec2(0.0, 3.0), 1.6, Stroke::new(1.0, tones.quiet));
                 }
                 Step::Claim { .. } | Step::Label { .. } => {
-                    painter.circle_filled(foot - vec2(0.0, 3.0), 1.6, tones.text.gamma_multiply(0.8));
+                    painter.circle_filled(foot - vec2(0.0, 3.0), 1.6, tones.quiet);
                 }
             }
         }
@@ -122,7 +143,7 @@ fn cursor(painter: &Painter, tones: &Tones, scale: &Scale, lanes: &Lanes, at: us
     let rect = scale.rect;
     let x = scale.x(at);
     let ahead = Rect::from_min_max(pos2(x.clamp(rect.left(), rect.right()), lanes.stages.top()), rect.max);
-    painter.rect_filled(ahead, 0.0, tones.panel.gamma_multiply(0.45));
+    painter.rect_filled(ahead, 0.0, tones.panel.gamma_multiply(0.4));
     // At either end half of the handle would lie outside.
     let x = if (rect.left()..=rect.right()).contains(&x) {
         x.clamp(rect.left() + 1.0, rect.right() - 1.0)

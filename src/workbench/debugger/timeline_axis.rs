@@ -4,11 +4,13 @@
 //! than a hair: so stages, and passes within a stage, get a share that grows slowly with their steps and has a floor; within
 //! a pass, places are proportional to steps.
 
-use crate::trace::Trace;
+use crate::trace::{Pass, PassSpan, Trace};
 use std::ops::Range;
 
 /// A stretch of `n` steps weighs `n` to this power.
 const COMPRESSION: f64 = 0.3;
+/// What labels weigh, of what other steps would: there is one a pixel, each decided like the one before (6).
+const LABELS: f64 = 0.02;
 /// The least share of a stage in the line.
 const LEAST_STAGE: f64 = 0.045;
 /// The least share of a pass in its stage.
@@ -35,14 +37,15 @@ pub struct TimelineSection {
 impl TimelineAxis {
     /// The line of a trace.
     pub fn of(trace: &Trace) -> Self {
-        let stages: Vec<Range<usize>> =
-            trace.stages().map(|(_, steps)| steps).filter(|steps| !steps.is_empty()).collect();
-        let passes: Vec<Range<usize>> = trace.passes().map(|pass| pass.steps).collect();
+        let passes: Vec<PassSpan> = trace.passes().collect();
+        let spans = trace.stages().map(|(_, steps)| steps).filter(|steps| !steps.is_empty());
+        let stages: Vec<Vec<(Range<usize>, f64)>> = spans.map(|stage| parted(&stage, &passes)).collect();
+        let weights = stages.iter().map(|parts| compressed(parts.iter().map(measure).sum())).collect();
         let mut axis = Self { knots: vec![(0, 0.0)] };
         let mut place = 0.0;
-        for (stage, share) in stages.iter().zip(shares(&stages, LEAST_STAGE)) {
-            let parts = parted(stage, &passes);
-            for (part, of_stage) in parts.iter().zip(shares(&parts, LEAST_PASS)) {
+        for (parts, share) in stages.iter().zip(shares(weights, LEAST_STAGE)) {
+            let weights = parts.iter().map(|part| compressed(measure(part))).collect();
+            for ((part, _), of_stage) in parts.iter().zip(shares(weights, LEAST_PASS)) {
                 place += share * of_stage;
                 axis.knots.push((part.end, place));
             }
@@ -166,24 +169,34 @@ pub fn timeline_density(
         .collect()
 }
 
-/// The passes in a stage, and what lies between them.
-fn parted(stage: &Range<usize>, passes: &[Range<usize>]) -> Vec<Range<usize>> {
+/// The passes in a stage and what lies between them, with what a step of each weighs.
+fn parted(stage: &Range<usize>, passes: &[PassSpan]) -> Vec<(Range<usize>, f64)> {
     let mut parts = Vec::new();
     let mut at = stage.start;
-    for pass in passes.iter().filter(|pass| pass.start >= stage.start && pass.end <= stage.end) {
-        parts.extend([at..pass.start, pass.clone()]);
-        at = pass.end;
+    for PassSpan { steps, pass } in passes {
+        if steps.start >= stage.start && steps.end <= stage.end {
+            let weight = if *pass == Pass::Labels { LABELS } else { 1.0 };
+            parts.extend([(at..steps.start, 1.0), (steps.clone(), weight)]);
+            at = steps.end;
+        }
     }
-    parts.push(at..stage.end);
-    parts.retain(|part| !part.is_empty());
+    parts.push((at..stage.end, 1.0));
+    parts.retain(|(part, _)| !part.is_empty());
     parts
 }
 
-/// The share of each stretch, in all 1.
-fn shares(stretches: &[Range<usize>], least: f64) -> Vec<f64> {
-    let weights: Vec<f64> = stretches.iter().map(|steps| (steps.len() as f64).powf(COMPRESSION)).collect();
+fn measure((steps, weight): &(Range<usize>, f64)) -> f64 {
+    weight * steps.len() as f64
+}
+
+fn compressed(measure: f64) -> f64 {
+    measure.powf(COMPRESSION)
+}
+
+/// Weights as shares, in all 1.
+fn shares(weights: Vec<f64>, least: f64) -> Vec<f64> {
     let total: f64 = weights.iter().sum();
-    let floored: Vec<f64> = weights.iter().map(|weight| (weight / total).max(least)).collect();
+    let floored: Vec<f64> = weights.into_iter().map(|weight| (weight / total).max(least)).collect();
     let total: f64 = floored.iter().sum();
     floored.iter().map(|share| share / total).collect()
 }
@@ -191,7 +204,7 @@ fn shares(stretches: &[Range<usize>], least: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::{Event, Pass, Recorder, Stage, Tape};
+    use crate::trace::{Event, Recorder, Stage, Tape};
     use std::sync::Arc;
 
     /// Stages of few and of many steps; the second has passes.
