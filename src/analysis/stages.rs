@@ -205,14 +205,16 @@ impl Stages {
         let (masks, sigma) = self.masks.get(Stage::Masks, key, observer, |_, recorder: &mut R| {
             let masks = masks_of(&limits);
             let sigma = if automatic_noise { estimate_sigma(image, &masks) } else { None };
-            let masks = if automatic_intensity {
+            let (masks, limits) = if automatic_intensity {
                 let min_intensity = used_params(params, image, sigma).min_intensity;
-                masks_of(&MaskLimits { min_intensity, ..limits })
+                let limits = MaskLimits { min_intensity, ..limits };
+                (masks_of(&limits), limits)
             } else {
-                masks
+                (masks, limits)
             };
             if R::KEEPS {
-                recorder.record(Event::MasksMade(Box::new(masks_made(&masks, image.pixels.len(), sigma))));
+                let made = masks_made(&masks, limits, image.pixels.len(), sigma);
+                recorder.record(Event::MasksMade(Box::new(made)));
             }
             (Arc::new(masks), sigma)
         })?;
@@ -222,9 +224,10 @@ impl Stages {
     }
 }
 
-fn masks_made(masks: &Masks, pixels: usize, sigma: Option<f64>) -> MasksMade {
+fn masks_made(masks: &Masks, limits: MaskLimits, pixels: usize, sigma: Option<f64>) -> MasksMade {
     let count = |test: &dyn Fn(usize) -> bool| (0..pixels).filter(|&pixel| test(pixel)).count() as u32;
     MasksMade {
+        limits,
         dark: count(&|pixel| masks.dark(pixel)),
         distorted: count(&|pixel| !masks.dark(pixel) && masks.distorted(pixel)),
         sigma,

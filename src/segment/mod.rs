@@ -24,7 +24,7 @@ mod testing;
 mod unite;
 
 pub use classify::{Classifier, Windows, classify};
-pub use clipping::{HighlightTest, clipping_regions};
+pub use clipping::clipping_regions;
 pub use ledger::{Members, Pixels};
 pub use linear::Hypothesis;
 pub use matte::{MatteRegions, matte_regions};

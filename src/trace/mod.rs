@@ -5,7 +5,9 @@
 //! what stood at that instant.
 
 mod event;
+mod history;
 mod kind;
+mod lineage;
 mod recorder;
 mod reel;
 mod replay;
@@ -17,7 +19,12 @@ pub use event::{
     HypothesisChosen, IlluminantEstimated, LineRefitted, MasksMade, Measure, Pass, PassedOver, SliceMade,
     Step, VectorsFitted, WindowsLaid,
 };
+pub use history::{
+    Barrier, Happening, MaskVerdict, MergeRefusal, MergeStory, Reach, Release, SplitStory, What, WindowStory,
+    pixel_history,
+};
 pub use kind::Kind;
+pub use lineage::{Ancestor, Birth, HypothesisStory, Joined, JoinedHow, final_numbers, lineage, story};
 pub use recorder::{Recorder, Silent, Tape};
 pub use reel::{Reel, Steps};
 pub use replay::{End, Grid, Hypothesis, Replay};

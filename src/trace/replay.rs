@@ -74,9 +74,7 @@ impl Grid {
 
     /// Index of the window that holds a pixel of a picture `width` pixels wide.
     pub fn window_of(&self, pixel: usize, width: usize) -> usize {
-        let size = (self.laid.size_px as usize).max(1);
-        let width = width.max(1);
-        pixel / width / size * self.laid.columns as usize + pixel % width / size
+        self.laid.window_of(pixel, width)
     }
 
     /// The first window of each window's area.

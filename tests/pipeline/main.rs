@@ -8,6 +8,7 @@ mod cache;
 mod common;
 mod degenerate;
 mod files;
+mod history;
 mod identities;
 mod light;
 mod methods;
