@@ -124,6 +124,9 @@ const GENERAL: &[Shortcut] = &[
     plain("Window", Key::F1, Deed::Help, "This list"),
 ];
 
+/// A window of this width has room for four columns of keys, points.
+const FOUR_COLUMNS_PT: f32 = 1200.0;
+
 /// Habits of the pointer, listed with the keys.
 const POINTER: &[(&str, &str)] = &[
     ("Scroll", "zoom at the pointer"),
@@ -146,7 +149,12 @@ pub fn keys_of(ctx: &egui::Context, deed: Deed) -> String {
 /// Keys as they are printed on a keyboard.
 fn written(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
     let all = ctx.format_shortcut(&keys);
-    let symbol = keys.logical_key.symbol_or_name();
+    let symbol = match keys.logical_key {
+        // Of these the bundled fonts have no other sign.
+        Key::ArrowLeft => "\u{2190}",
+        Key::ArrowRight => "\u{2192}",
+        key => key.symbol_or_name(),
+    };
     all.strip_suffix(keys.logical_key.name()).map_or_else(|| all.clone(), |held| format!("{held}{symbol}"))
 }
 
@@ -254,20 +262,21 @@ fn step_region(cx: &mut Cx, next: bool) {
 /// The list, in a window that stays until it is closed.
 pub fn show_help(ui: &mut Ui, cx: &Cx, open: &mut bool) {
     let ctx = ui.ctx().clone();
+    let columns: &[&[&str]] = if ctx.content_rect().width() >= FOUR_COLUMNS_PT {
+        &[&["File", "Edit", "Compare", "Window"], &["Image"], &["Decisions"], &["Tools", "Pointer"]]
+    } else {
+        &[&["File", "Edit", "Compare", "Window"], &["Image", "Decisions"], &["Tools", "Pointer"]]
+    };
     egui::Window::new("Keyboard and pointer")
         .open(open)
         .collapsible(false)
         .resizable(false)
+        .vscroll(true)
         .min_width(880.0)
         .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
         .show(&ctx, |ui| {
             ui.horizontal_top(|ui| {
-                for groups in [
-                    &["File", "Edit", "Compare", "Window"][..],
-                    &["Image"],
-                    &["Tools", "Pointer"],
-                    &["Decisions"],
-                ] {
+                for groups in columns {
                     ui.vertical(|ui| groups.iter().for_each(|group| list(ui, cx, group)));
                     ui.add_space(12.0);
                 }

@@ -6,16 +6,15 @@ mod icons;
 mod run_to;
 mod track;
 mod transport;
-mod words;
 
 pub use track::track_id;
 
 use super::{Cx, widgets};
+use crate::report::Names;
 use crate::trace::Trace;
 use crate::workbench::{Command, DebugCommand, DebugSettings};
 use egui::{Frame, Margin, RichText, Ui};
 use track::Track;
-use words::Names;
 
 /// The panel: which part of the track is seen, and what was made for it.
 #[derive(Default)]

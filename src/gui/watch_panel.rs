@@ -248,7 +248,11 @@ fn row(ui: &mut Ui, cx: &Cx, distance: &AxisDistance) {
         RichText::new(format!("{value:.1} / {limit:.1}")).color(ink)
     };
     cell(ui, DISTANCE_PT, against(distance.axis));
-    cell(ui, DISTANCE_PT, distance.plane.map_or_else(|| RichText::new("\u{2013}").color(tones.quiet), against));
+    cell(
+        ui,
+        DISTANCE_PT,
+        distance.plane.map_or_else(|| RichText::new("\u{2013}").color(tones.quiet), against),
+    );
     cell(ui, DISTANCE_PT, RichText::new(format!("{:.0}", distance.along)).color(tones.quiet));
     let inside = |[value, limit]: [f64; 2]| value <= limit;
     let words = match (inside(distance.axis), distance.plane.is_some_and(inside)) {

@@ -1,7 +1,7 @@
 //! What is said of the place under the pointer.
 
-use super::words::Names;
 use crate::gui::widgets::grouped;
+use crate::report::Names;
 use crate::trace::{Topic, Trace};
 use crate::workbench::RegionNames;
 

@@ -2,8 +2,8 @@
 
 use super::drawing::draw;
 use super::hint;
-use super::words::Names;
 use crate::gui::Cx;
+use crate::report::Names;
 use crate::trace::{Block, Replay};
 use crate::workbench::{Command, DebugCommand, Item, TimelineAxis, TimelineSection, timeline_density};
 use egui::accesskit::{Action, ActionData};

@@ -2,10 +2,10 @@
 
 use super::icons::{self, Sign};
 use super::run_to;
-use super::words::Names;
 use crate::gui::shortcuts::{self, DebugDeed, Deed, keys_of};
 use crate::gui::widgets::grouped;
 use crate::gui::{Cx, theme::SMALL_PT};
+use crate::report::Names;
 use crate::trace::Replay;
 use crate::workbench::{Command, DebugCommand, DebugSettings, Direction, Grain};
 use Direction::{Back, Forward};
