@@ -49,9 +49,9 @@ pub use command::{Combine, Command, Gesture};
 pub use command_line::analyze_call;
 pub use compare::{BodyChange, Comparison, Fate, Figure, PixelFates, RegionFate, SettingChange, compare};
 pub use debugger::{
-    AxisDistance, Breakpoint, CandidateCheck, Condition, Current, DebugCommand, DebugSettings, Debugger,
-    Difference, Direction, Goal, Grain, Growth, RegionNames, SavedClass, TimelineAxis, TimelineSection,
-    Watch, WatchedPixel, growth, timeline_density, watch,
+    Account, AxisDistance, Breakpoint, CandidateCheck, Condition, Current, DebugCommand, DebugSettings,
+    Debugger, Difference, Direction, Goal, Grain, Growth, RegionNames, SavedClass, TimelineAxis,
+    TimelineSection, Watch, WatchedPixel, Why, growth, timeline_density, watch, why,
 };
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};

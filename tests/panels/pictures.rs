@@ -6,7 +6,8 @@ use crate::window::{Window, apply, named, tiny, with_software_driver};
 use dichroscope::gui::Pane;
 use dichroscope::segment::{Parameter, Setting};
 use dichroscope::workbench::{
-    Arrangement, ColourBy, Command, DebugCommand, Fill, ImageSettings, Item, Layer, Origin, ProfileLine, Theme,
+    Arrangement, ColourBy, Command, DebugCommand, Fill, ImageSettings, Item, Layer, Origin, ProfileLine,
+    Theme,
 };
 use egui::accesskit::Role;
 use egui::{Rect, Vec2, pos2, vec2};

@@ -80,7 +80,8 @@ pub fn show(ui: &mut Ui, cx: &mut Cx, replay: &Replay, names: &Names) {
             ui.add_space(4.0);
             pace(ui, cx);
             run_to::show(ui, cx);
-            counter(ui, cx, replay);
+            // In one piece, where the row wraps.
+            ui.horizontal(|ui| counter(ui, cx, replay));
             let beside = ui.available_size_before_wrap().x >= SENTENCE_PT;
             if beside {
                 sentence(ui, cx, replay, names);

@@ -9,6 +9,7 @@ mod names;
 mod reduce;
 mod timeline_axis;
 mod watch;
+mod why;
 
 pub use breakpoint::{Breakpoint, CandidateCheck, Condition, SavedClass};
 pub use cursor::{Direction, Goal, Grain};
@@ -16,6 +17,8 @@ pub use growth::{Growth, growth, rings};
 pub use names::RegionNames;
 pub use timeline_axis::{TimelineAxis, TimelineSection, timeline_density};
 pub use watch::{AxisDistance, Current, Watch, WatchedPixel, watch};
+
+pub use why::{Account, Why, why};
 
 pub(super) use reduce::reduce;
 #[cfg(test)]
