@@ -29,6 +29,7 @@ mod status;
 mod testing;
 mod theme;
 mod timeline_panel;
+mod verdict;
 mod watch_panel;
 mod widgets;
 mod window;

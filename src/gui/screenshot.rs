@@ -3,9 +3,10 @@
 use super::dock::Pane;
 use super::offscreen::{Offscreen, OffscreenError};
 use crate::export::png_of_rgba;
+use crate::trace::{Event, Topic};
 use crate::workbench::{
-    Arrangement, ColourBy, Command, CubeSettings, Fill, ImageSettings, Item, Layer, Origin, ProfileLine,
-    Severity, Theme,
+    Arrangement, ColourBy, Command, CubeSettings, DebugCommand, Fill, ImageSettings, Item, Layer, Origin,
+    ProfileLine, Severity, State, Theme,
 };
 use std::path::{Path, PathBuf};
 
@@ -37,6 +38,40 @@ struct Shot {
     region: Option<u16>,
     image: ImageSettings,
     cube: CubeSettings,
+    /// Where the debugger's cursor stands; none: at the end.
+    moment: Option<Moment>,
+}
+
+/// A place in the trace that is worth a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Moment {
+    /// The slice of the largest region has grown to three fifths (5.4.2).
+    Slice,
+    /// The candidate with the most pixels has passed as a highlight (5.4.1).
+    Test,
+}
+
+impl Moment {
+    /// The number of steps after which it comes; none where the photograph has no highlight.
+    fn steps(self, state: &State) -> Option<usize> {
+        let (trace, names) = (state.debugger.trace()?, &state.debugger.names);
+        match self {
+            Self::Slice => {
+                let regions = &state.shown()?.analysis.intrinsic.regions;
+                let largest = regions.iter().max_by_key(|region| region.pixels)?.id;
+                let mut slices = trace.blocks().filter(|block| matches!(block.topic, Topic::Slice(_)));
+                let block = slices.find(|block| names.final_number(block.topic.region()) == largest)?;
+                Some(block.steps.start + block.steps.len() * 3 / 5)
+            }
+            Self::Test => {
+                let passed = trace.events().filter_map(|(n, event)| match event {
+                    Event::CandidateTested(test) if test.verdict.accepted() => Some((n + 1, test.pixels)),
+                    _ => None,
+                });
+                passed.max_by_key(|(_, pixels)| *pixels).map(|(n, _)| n)
+            }
+        }
+    }
 }
 
 fn whole(name: &'static str) -> Shot {
@@ -47,7 +82,12 @@ fn whole(name: &'static str) -> Shot {
         region: Some(1),
         image: ImageSettings { layer: Layer::Regions, fill: Fill::Outline, ..ImageSettings::default() },
         cube: CubeSettings::default(),
+        moment: None,
     }
+}
+
+fn stopped(name: &'static str, moment: Moment) -> Shot {
+    Shot { moment: Some(moment), image: ImageSettings::default(), ..whole(name) }
 }
 
 fn image(name: &'static str, layer: Layer) -> Shot {
@@ -78,6 +118,8 @@ fn gallery() -> Vec<Shot> {
         colours("colours-region", Some(1), ColourBy::Region),
         Shot { pane: Some(Pane::Plane), ..whole("plane") },
         Shot { pane: Some(Pane::Profile), ..whole("profile") },
+        stopped("debugger-slice", Moment::Slice),
+        stopped("debugger-skewed-t", Moment::Test),
     ]
 }
 
@@ -118,6 +160,9 @@ fn prepare(stage: &mut Offscreen, shot: &Shot, size_px: [u32; 2]) {
     app.apply(Command::Image(shot.image.clone()));
     app.apply(Command::Cube(shot.cube.clone()));
     app.apply(Command::Profile(ProfileLine::Row));
+    let end = app.state().debugger.trace().map_or(0, |trace| trace.len());
+    let steps = shot.moment.and_then(|moment| moment.steps(app.state())).unwrap_or(end);
+    app.apply(Command::Debug(DebugCommand::Seek(steps)));
     app.show_alone(shot.pane);
     stage.resize(size_px);
 }
