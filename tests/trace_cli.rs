@@ -128,6 +128,24 @@ fn why_tells_newest_first_with_value_and_threshold() {
 }
 
 #[test]
+fn what_if_tells_a_value_at_which_the_pixel_is_something_else() {
+    let (_, all) = lines(&succeeds("trace TINY --out -"));
+    let [x, y] = pixel_with(&all, "matte");
+    let text = succeeds(&format!("why TINY {x},{y} --what-if"));
+    let (history, changes) = text.split_once("\nwhat if\n").unwrap();
+    assert_eq!(history, succeeds(&format!("why TINY {x},{y}")).trim_end_matches('\n').to_owned() + "\n");
+    let dark = changes.lines().find(|line| line.contains("min intensity \u{2265}")).unwrap();
+    assert!(
+        dark.contains("is in no region at min intensity \u{2265} ") && dark.ends_with("counts (now 23)"),
+        "{dark}"
+    );
+    // Taken at its word.
+    let value = dark.split(['\u{2265}', 'c']).nth(1).unwrap().trim();
+    let moved = succeeds(&format!("why TINY {x},{y} --min-intensity {value}"));
+    assert!(moved.lines().next().unwrap().ends_with("in no region"), "{moved}");
+}
+
+#[test]
 fn wrong_calls_are_refused_in_a_sentence() {
     let outside = "there is no pixel (178, 0): the picture has 178 \u{d7} 150 pixels";
     fails(2, "why TINY 178,0", outside);

@@ -7,6 +7,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::photo::{self, LinearImage};
+use dichroscope::segment::Params;
 use dichroscope::trace::Trace;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -33,6 +34,8 @@ pub(super) struct Subject {
 /// A photograph that has been read and analysed, and the record of it.
 pub(super) struct Traced {
     pub(super) image: Arc<LinearImage>,
+    pub(super) params: Params,
+    pub(super) session: Session,
     pub(super) analysis: Analysis,
     pub(super) trace: Trace,
 }
@@ -60,7 +63,7 @@ impl Subject {
         }
         let (analysis, trace) =
             session.run_traced(&params, &mut ()).map_err(|error| Trouble::File(error.into()))?;
-        Ok(Traced { image, analysis, trace })
+        Ok(Traced { image, params, session, analysis, trace })
     }
 
     /// Runs `work` with the number of threads that was asked for.

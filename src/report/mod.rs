@@ -14,7 +14,7 @@ pub use facts::{
 };
 pub use scores::Scores;
 pub use trace_line::{TRACE_SCHEMA, schema_line, trace_line};
-pub use words::{Condensed, Names, condense};
+pub use words::{Condensed, Names, condense, what_if_sentence};
 
 /// Name of the report in a result folder.
 pub const FILE_NAME: &str = "report.json";

@@ -18,13 +18,15 @@ pub struct Condensed {
     pub times: usize,
 }
 
-/// Takes refusals by one region within one stage together: slices that turn to a better light refuse a pixel once in each
-/// round. The last one stands for all. Oldest first, as given.
+/// Takes claims and refusals by one region within one stage together: a pixel is taken, given back and refused once in each
+/// round of slices that turn to a better light. The last one stands for all. Oldest first, as given.
 pub fn condense(history: &[Happening]) -> Vec<Condensed> {
     let mut condensed: Vec<Condensed> = Vec::new();
     let key = |happening: &Happening| match happening.what {
-        What::Refused { region, .. } => Some((happening.stage, region, 0)),
-        What::Kept { holder, challenger, .. } => Some((happening.stage, challenger, holder)),
+        What::Refused { region, .. } => Some((happening.stage, 0, region, 0)),
+        What::Kept { holder, challenger, .. } => Some((happening.stage, 1, challenger, holder)),
+        What::Claimed { region, from, .. } => Some((happening.stage, 2, region, from)),
+        What::Reset { from, to } => Some((happening.stage, 3, from, to)),
         _ => None,
     };
     for happening in history {

@@ -4,7 +4,7 @@ use super::{Names, count};
 use crate::trace::{Ancestor, Birth, HypothesisStory, JoinedHow};
 
 impl Names {
-    /// How a hypothesis began, and how it became part of what it precedes in its [`crate::trace::lineage`].
+    /// How a hypothesis began, and how it became part of what it precedes in its [`crate::trace::lineage()`].
     pub fn ancestor(&self, ancestor: &Ancestor) -> String {
         let born = match ancestor.birth {
             Birth::Area { chosen, .. } => format!("from area {} of {} pixels", chosen.area, chosen.pixels),

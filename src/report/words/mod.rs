@@ -6,8 +6,10 @@ mod happening;
 mod lineage;
 #[cfg(test)]
 mod tests;
+mod what_if;
 
 pub use happening::{Condensed, condense};
+pub use what_if::what_if_sentence;
 
 use crate::trace::{Contest, Measure, Step, Trace, final_numbers};
 

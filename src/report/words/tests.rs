@@ -99,24 +99,28 @@ fn a_failed_skewed_t_names_the_test_and_its_limit() {
 }
 
 #[test]
-fn refusals_of_one_region_in_one_stage_are_one_line_in_which_the_last_stands_for_all() {
+fn rounds_of_one_stage_are_one_line_in_which_the_last_stands_for_all() {
     let refused = |step, stage, region, distance| Happening {
         step,
         stage,
         what: What::Refused { region, barrier: Barrier::Cylinder { distance, radius: 8.0 } },
     };
-    let numbered =
-        Happening { step: 9, stage: Stage::Clipping, what: What::Numbered { region: 1, number: 1 } };
+    let happened = |step, what| Happening { step, stage: Stage::Planar, what };
+    let reach = Reach::Plane { distance: 1.0, half_width: 8.0 };
+    let taken = |step| happened(step, What::Claimed { region: 1, from: 0, reach, contest: None });
     let history = [
         refused(1, Stage::Linear, 1, 9.0),
         refused(2, Stage::Linear, 2, 12.0),
         refused(3, Stage::Linear, 1, 8.5),
-        refused(4, Stage::Planar, 1, 8.4),
-        numbered,
+        refused(4, Stage::Planar, 2, 8.4),
+        taken(5),
+        happened(6, What::Reset { from: 1, to: 0 }),
+        taken(7),
+        happened(8, What::Numbered { region: 1, number: 1 }),
     ];
     let told: Vec<(usize, usize)> =
         condense(&history).into_iter().map(|line| (line.last.step, line.times)).collect();
-    assert_eq!(told, [(2, 1), (3, 2), (4, 1), (9, 1)]);
+    assert_eq!(told, [(2, 1), (3, 2), (4, 1), (6, 1), (7, 2), (8, 1)]);
 }
 
 #[test]

@@ -7,6 +7,7 @@
 //!
 //! One pass over the trace suffices: the changes of hands of the pixel and of its four neighbours, and the events.
 
+mod facts;
 mod growth;
 mod patch;
 mod teller;
