@@ -106,3 +106,57 @@ pub fn slice_plane(
     let highlight_length = plane.extent[1][1].max(0.0);
     Some(RegionPlane { matte_length, meeting_point: Some(meeting), highlight_length, ..plane })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::{Event, Topic};
+    use crate::workbench::{Command, DebugCommand, Executor, Origin, Workbench, test_at_cursor};
+
+    fn bench() -> Workbench {
+        let mut bench = Workbench::new(Executor::Inline, || ()).unwrap();
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
+        bench.apply(Command::Open(Origin::File(path.into())));
+        bench
+    }
+
+    #[test]
+    fn a_test_meets_where_it_says_and_its_clusters_lie_along_both_lines() {
+        let mut bench = bench();
+        let trace = bench.state().debugger.trace().unwrap().clone();
+        let passed = trace
+            .events()
+            .find(|(_, event)| matches!(event, Event::CandidateTested(test) if test.verdict.accepted()));
+        bench.apply(Command::Debug(DebugCommand::Seek(passed.unwrap().0 + 1)));
+        let state = bench.state();
+        let (replay, picture) = (state.followed().unwrap(), state.picture.as_ref().unwrap());
+        let (test, masks) = (test_at_cursor(replay).unwrap(), &state.newest.as_ref().unwrap().analysis.masks);
+        let plane = test_plane(replay, test, 3, picture, masks).unwrap();
+        assert_eq!((plane.region, plane.has_plane), (3, true));
+        let percent = 100.0 * f64::from(plane.meeting_point.unwrap() / plane.matte_length);
+        assert!((percent - test.position_percent).abs() < 8.0, "{percent} {}", test.position_percent);
+        let near = |kind: PixelKind, of: fn(&PlanePixel) -> f32| {
+            let all: Vec<f32> = plane.points.iter().filter(|p| p.kind == kind).map(of).collect();
+            all.iter().sum::<f32>() / all.len() as f32
+        };
+        assert!(near(PixelKind::Matte, |p| p.surface).abs() < plane.radius);
+        assert!(near(PixelKind::Highlight, |p| p.surface) > 0.0, "light was added");
+        assert!(near(PixelKind::Lost, |p| p.surface) > near(PixelKind::Matte, |p| p.surface));
+    }
+
+    #[test]
+    fn a_slice_has_its_plane_once_it_is_made() {
+        let mut bench = bench();
+        let trace = bench.state().debugger.trace().unwrap().clone();
+        let block = trace.blocks().find(|block| matches!(block.topic, Topic::Slice(_))).unwrap();
+        let region = block.topic.region();
+        for (steps, there) in [(block.steps.start, false), (block.steps.start + 1, true)] {
+            bench.apply(Command::Debug(DebugCommand::Seek(steps)));
+            let state = bench.state();
+            let masks = &state.newest.as_ref().unwrap().analysis.masks;
+            let picture = state.picture.as_ref().unwrap();
+            let plane = slice_plane(state.followed().unwrap(), region, 1, picture, masks);
+            assert_eq!(plane.is_some(), there);
+        }
+    }
+}
