@@ -182,7 +182,7 @@ impl CubePanel {
         occupied.push(self.readout(ui, cx, rect, picture));
         if let Some(test) = cx.state.followed().and_then(crate::workbench::test_at_cursor) {
             let below = occupied[0].left_bottom() + vec2(0.0, 4.0);
-            occupied.push(crate::gui::verdict::show(ui, cx.tones, below, test));
+            occupied.push(crate::gui::verdict::show(ui, cx.tones, cx.tones.background, below, test));
         }
         let mut labels = self.figure.labels(ui, projector, rect, cx.tones);
         labels.extend(self.frame.labels(ui, projector, rect, cx.tones));
@@ -207,14 +207,16 @@ impl CubePanel {
     /// Colour, number of pixels and region of the pixel or bin that is hovered.
     fn hovered(&self, cx: &Cx, picture: &Picture) -> Option<([f32; 3], u32, Option<u16>)> {
         let item = cx.state.hover?;
+        // Where the debugger's cursor is followed, the result's regions are not there yet.
+        let region = |region: Option<u16>| region.filter(|_| cx.state.followed().is_none());
         match item {
             Item::Pixel(pixel) => {
                 let colour = *picture.photo.image.pixels.as_slice().get(pixel as usize)?;
-                Some((colour, 1, cx.state.region_of(item)))
+                Some((colour, 1, region(cx.state.region_of(item))))
             }
             Item::Bin(bin) => {
                 let of = picture.histogram.bins.get(bin as usize)?;
-                Some((of.mean, of.count, self.cloud.region_of(bin)))
+                Some((of.mean, of.count, region(self.cloud.region_of(bin))))
             }
             Item::Window(_) | Item::Region(_) => None,
         }

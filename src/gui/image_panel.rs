@@ -39,6 +39,8 @@ pub struct ImagePanel {
     hand: Hand,
     /// The pixel that this panel last said the pointer is over.
     pointed: Option<u32>,
+    /// The layer of the last frame, where the cursor was followed instead of it.
+    unseen: Option<Layer>,
     /// The zoom of the last frame, screen points a pixel.
     zoom: f32,
     /// The toolbar's height in the last frame, points.
@@ -63,6 +65,12 @@ impl ImagePanel {
         let mut settings = before.clone();
         let mut debug = cx.state.view.debug.clone();
         let (tones, state) = (cx.tones, cx.state);
+        let unseen = state.followed().map(|_| settings.layer);
+        let before_key = std::mem::replace(&mut self.unseen, unseen);
+        if before_key.zip(unseen).is_some_and(|(before, now)| before != now) {
+            // A key or the menu asks for a layer of the result.
+            debug.follow = false;
+        }
         let bar = Frame::new().fill(tones.panel);
         let top = Panel::top("image toolbar").frame(bar.inner_margin(Margin::symmetric(6, 3)));
         let top = top.show(ui, |ui| toolbar::row(ui, state, tones, &mut settings, &mut debug, self.zoom));

@@ -1,16 +1,14 @@
 //! The plane view: the selected region's pixels in its dichromatic plane, the skewed T of figure 2.
 
 mod chart;
+mod cursor;
 mod kinds;
-mod test;
 #[cfg(test)]
 mod tests;
 
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
-use crate::workbench::{
-    Command, Item, Picture, Point, RegionPlane, Shown, Theme, region_plane, test_at_cursor,
-};
+use crate::workbench::{Command, Item, Picture, Point, RegionPlane, Shown, Theme, region_plane};
 use chart::Chart;
 use egui::{Align2, Color32, FontId, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
 use std::sync::Arc;
@@ -25,8 +23,8 @@ const SCROLL_PT: f32 = 260.0;
 #[derive(Default)]
 pub struct PlanePanel {
     of: Option<(Arc<Shown>, u16)>,
-    /// The test at the debugger's cursor that is shown in place of the region: the trace, and the place in it.
-    test: Option<(u64, usize)>,
+    /// What of the debugger's cursor is shown in place of the result's region.
+    frame: Option<cursor::Frame>,
     plane: Option<RegionPlane>,
     chart: Option<Chart>,
     cloud: Option<Cloud>,
@@ -43,10 +41,8 @@ impl PlanePanel {
     /// Shows it.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let state = cx.state;
-        if let Some(replay) = state.followed()
-            && let Some(test) = test_at_cursor(replay)
-        {
-            return self.show_test(ui, cx, replay, test);
+        if let Some((replay, frame)) = state.followed().zip(cursor::frame(state)) {
+            return self.show_instant(ui, cx, replay, frame);
         }
         let Some((shown, region)) = cx.state.shown().cloned().zip(cx.state.selected_region()) else {
             widgets::nothing(ui, cx.tones, "Select a region to see its dichromatic plane.");
@@ -83,8 +79,8 @@ impl PlanePanel {
     }
 
     fn update(&mut self, shown: &Arc<Shown>, region: u16) {
-        if self.test.take().is_some() {
-            self.of = None;
+        if self.frame.take().is_some() {
+            (self.of, self.chart) = (None, None);
         }
         let known = self.of.as_ref().map(|(shown, region)| (Arc::as_ptr(shown), *region));
         if known == Some((Arc::as_ptr(shown), region)) {

@@ -45,7 +45,7 @@ struct Shot {
 /// A place in the trace that is worth a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Moment {
-    /// The slice of the largest region has grown to three fifths (5.4.2).
+    /// The slice that takes most pixels has grown to three fifths (5.4.2).
     Slice,
     /// The candidate with the most pixels has passed as a highlight (5.4.1).
     Test,
@@ -54,14 +54,12 @@ enum Moment {
 impl Moment {
     /// The number of steps after which it comes; none where the photograph has no highlight.
     fn steps(self, state: &State) -> Option<usize> {
-        let (trace, names) = (state.debugger.trace()?, &state.debugger.names);
+        let trace = state.debugger.trace()?;
         match self {
             Self::Slice => {
-                let regions = &state.shown()?.analysis.intrinsic.regions;
-                let largest = regions.iter().max_by_key(|region| region.pixels)?.id;
-                let mut slices = trace.blocks().filter(|block| matches!(block.topic, Topic::Slice(_)));
-                let block = slices.find(|block| names.final_number(block.topic.region()) == largest)?;
-                Some(block.steps.start + block.steps.len() * 3 / 5)
+                let slices = trace.blocks().filter(|block| matches!(block.topic, Topic::Slice(_)));
+                let longest = slices.max_by_key(|block| block.steps.len())?;
+                Some(longest.steps.start + longest.steps.len() * 3 / 5)
             }
             Self::Test => {
                 let passed = trace.events().filter_map(|(n, event)| match event {

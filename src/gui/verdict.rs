@@ -4,31 +4,39 @@ use super::theme::{SMALL_PT, Tones};
 use crate::trace::CandidateTest;
 use crate::workbench::{Check, candidate_name, tee};
 use egui::accesskit::Role;
-use egui::{FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 /// Room for a mark before a line, points.
 const MARK_PT: f32 = 12.0;
 
-/// Shows it with its upper left corner at `corner`; returns the room that it takes.
-pub fn show(ui: &Ui, tones: &Tones, corner: Pos2, test: &CandidateTest) -> Rect {
+/// Shows it with its upper left corner at `corner`, over `ground`; returns the room that it takes.
+pub fn show(ui: &Ui, tones: &Tones, ground: Color32, corner: Pos2, test: &CandidateTest) -> Rect {
+    let halo = ground.gamma_multiply(0.8);
     let head = format!("highlight of {}: {}?", test.region, candidate_name(test.candidate));
     let tip =
         "A neighbouring cluster is the region's highlight if both lines form a skewed T (section 5.4.1).";
-    let mut room = line(ui, tones, corner, &head, None, tip);
+    let mut room = line(ui, (tones, halo), corner, &head, None, tip);
     for Check { passed, text, tip } in tee(test, None).checks {
         let below = room.left_bottom() + vec2(0.0, 1.0);
-        room = room.union(line(ui, tones, below, &text, Some(passed), tip));
+        room = room.union(line(ui, (tones, halo), below, &text, Some(passed), tip));
     }
     room
 }
 
 /// What failed is in full tone after a cross, what passed is quiet after a tick.
-fn line(ui: &Ui, tones: &Tones, at: Pos2, text: &str, passed: Option<bool>, tip: &str) -> Rect {
+fn line(
+    ui: &Ui,
+    (tones, halo): (&Tones, Color32),
+    at: Pos2,
+    text: &str,
+    passed: Option<bool>,
+    tip: &str,
+) -> Rect {
     let tone = if passed == Some(true) { tones.quiet } else { tones.text };
     let galley = ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(SMALL_PT), tone);
     let aside = if passed.is_some() { MARK_PT } else { 0.0 };
     let area = Rect::from_min_size(at, galley.size() + vec2(aside, 0.0));
-    ui.painter().rect_filled(area.expand2(vec2(2.0, 0.0)), 2.0, tones.background.gamma_multiply(0.72));
+    ui.painter().rect_filled(area.expand2(vec2(2.0, 0.0)), 2.0, halo);
     ui.painter().galley(at + vec2(aside, 0.0), galley, tone);
     if let Some(passed) = passed {
         let middle = pos2(at.x + 4.0, area.center().y);

@@ -66,13 +66,11 @@ impl WatchPanel {
             egui::Frame::new().inner_margin(8).show(ui, |ui| {
                 ui.spacing_mut().item_spacing = vec2(4.0, 1.0);
                 table(ui, cx.tones, &now.groups, |line| self.has_changed(line));
-                match &found.pixel {
-                    Some(pixel) => distances(ui, cx, pixel),
-                    None => {
-                        let text =
-                            "Select a pixel (Alt + click) to see its distances to every axis and plane.";
-                        ui.label(RichText::new(text).size(SMALL_PT).color(cx.tones.quiet));
-                    }
+                if let Some(pixel) = &found.pixel {
+                    distances(ui, cx, pixel);
+                } else {
+                    let text = "Select a pixel (Alt + click) to see its distances to every axis and plane.";
+                    ui.label(RichText::new(text).size(SMALL_PT).color(cx.tones.quiet));
                 }
             });
         });
@@ -171,7 +169,9 @@ fn table(ui: &mut Ui, tones: &Tones, groups: &[Vec<Line>], changed: impl Fn(&Lin
             for group in row {
                 ui.vertical(|ui| {
                     ui.set_width(GROUP_PT);
-                    group.iter().for_each(|line| show_line(ui, tones, line, changed(line)));
+                    for line in group {
+                        show_line(ui, tones, line, changed(line));
+                    }
                 });
             }
         });

@@ -1,8 +1,8 @@
 //! The plane view: a region's pixels by their amounts of body and surface reflection, the skewed T of figure 2.
 
-mod test;
+mod cursor;
 
-pub use test::test_plane;
+pub use cursor::{slice_plane, test_plane};
 
 use super::shapes::{across, hypothesis};
 use super::{Point, Shown};

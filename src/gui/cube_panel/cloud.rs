@@ -79,7 +79,8 @@ impl Inputs {
         detail: Option<&Arc<[UniqueColour]>>,
         ghostly: bool,
     ) -> Self {
-        let CubeSettings { space, colour_by, size_by_count, ghost_rest, .. } = state.view.cube;
+        let CubeSettings { space, size_by_count, ghost_rest, .. } = state.view.cube;
+        let colour_by = colour_by(state);
         let selection = &state.document.selection;
         Self {
             picture: Arc::clone(picture),
@@ -99,6 +100,15 @@ impl Inputs {
             && same_arc(self.marked.as_ref(), other.marked.as_ref())
             && same_arc(self.detail.as_ref(), other.detail.as_ref())
             && (self.item, self.look, self.ghostly) == (other.item, other.look, other.ghostly)
+    }
+}
+
+/// What gives the points their colour: regions and classes are the result's, which is not there yet where the debugger's
+/// cursor is followed.
+pub fn colour_by(state: &State) -> ColourBy {
+    match state.view.cube.colour_by {
+        ColourBy::Region | ColourBy::Class if state.followed().is_some() => ColourBy::Own,
+        colour_by => colour_by,
     }
 }
 

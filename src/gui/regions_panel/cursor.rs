@@ -213,9 +213,15 @@ fn windows(ui: &mut Ui, tones: &Tones, counts: &WindowCounts) {
         }
         let tip = "Windows with too few pixels to be believed for a class (section 5.2.1).";
         row(ui, None, "without a class", tip, counts.unclassed);
-        let looked_at = counts.classes.iter().sum::<usize>() + counts.unclassed;
-        let waiting = counts.windows.saturating_sub(looked_at);
-        row(ui, None, "not looked at yet", "Windows that come after the cursor (section 5.2.1).", waiting);
+        let tip = "Windows without a single pixel to be believed: background and shadow (section 4).";
+        row(ui, None, "empty", tip, counts.empty);
+        row(
+            ui,
+            None,
+            "not looked at yet",
+            "Windows that come after the cursor (section 5.2.1).",
+            counts.waiting,
+        );
         let tip = "Neighbouring windows of one class whose union is of that class too (section 5.2.2).";
         row(ui, None, "areas so far", tip, counts.areas);
     });

@@ -153,13 +153,13 @@ pub fn move_cursor(deed: DebugDeed, cx: &mut Cx) {
         DebugDeed::End => DebugCommand::Seek(usize::MAX),
         DebugDeed::Into => DebugCommand::Into,
         DebugDeed::Breakpoint(direction) => DebugCommand::RunTo(Goal::Breakpoint, direction),
-        DebugDeed::Change(direction) => match selected(state) {
-            Some(goal) => DebugCommand::RunTo(goal, direction),
-            None => {
+        DebugDeed::Change(direction) => {
+            let Some(goal) = selected(state) else {
                 let text = "changes of what: select a region, or with Alt + click a pixel".to_owned();
                 return cx.send(Command::Notify(Severity::Warning, text));
-            }
-        },
+            };
+            DebugCommand::RunTo(goal, direction)
+        }
         DebugDeed::Record => {
             let open = !state.view.debug.open;
             DebugCommand::Settings(DebugSettings { open, ..state.view.debug.clone() })

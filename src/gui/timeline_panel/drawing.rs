@@ -120,7 +120,7 @@ fn ticks(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, trace: &Tr
         let first = scale.step_at(lane.left()).map_or(steps.start, |step| step.max(steps.start));
         let last = scale.step_at(lane.right()).map_or(steps.end, |step| (step + 1).min(steps.end));
         for (n, step) in trace.steps_in(first..last.max(first)) {
-            let x = (scale.x(n) + scale.x(n + 1)) / 2.0;
+            let x = f32::midpoint(scale.x(n), scale.x(n + 1));
             let foot = pos2(x, lane.bottom());
             match step {
                 Step::Event(_) => {

@@ -16,15 +16,10 @@ pub fn lines(trace: &Trace, regions: &RegionNames, names: &Names, step: usize) -
     if let Some(block) = trace.block_at(step) {
         let decisions = trace.decisions_in(block.steps.clone());
         let claims = block.steps.len().saturating_sub(decisions);
-        let mut line = topic(block.topic);
         let number = regions.final_number(block.topic.region());
-        if number > 0 {
-            line += &format!(", in the result region {number}");
-        }
-        if claims > 0 {
-            line += &format!(": {} claims", grouped(claims));
-        }
-        lines.push(line);
+        let region = if number > 0 { format!(", in the result region {number}") } else { String::new() };
+        let claims = if claims > 0 { format!(": {} claims", grouped(claims)) } else { String::new() };
+        lines.push(format!("{}{region}{claims}", topic(block.topic)));
     }
     if let Some(taken) = trace.step(step) {
         lines.push(format!("step {}: {}", grouped(step + 1), names.step(&taken)));

@@ -74,8 +74,15 @@ fn groups(replay: &Replay, focus: Option<u16>, colors: &Raster<[f32; 3]>, masks:
     }
 }
 
-/// The pixels of some windows, ascending.
+/// The pixels of some windows, window by window.
 fn pixels_in(grid: &Grid, width: usize, height: usize, wanted: impl Fn(usize) -> bool) -> Vec<u32> {
-    let inside = |&pixel: &usize| wanted(grid.window_of(pixel, width));
-    (0..width * height).filter(inside).map(|pixel| pixel as u32).collect()
+    let (side, columns) = ((grid.laid.size_px as usize).max(1), (grid.laid.columns as usize).max(1));
+    let mut pixels = Vec::new();
+    for window in (0..grid.classes.len()).filter(|&window| wanted(window)) {
+        let (left, top) = (window % columns * side, window / columns * side);
+        for y in top..(top + side).min(height) {
+            pixels.extend((left..(left + side).min(width)).map(|x| (y * width + x) as u32));
+        }
+    }
+    pixels
 }

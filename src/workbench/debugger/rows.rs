@@ -1,7 +1,7 @@
 //! The regions table at an instant: the hypotheses so far, and before there are any the windows and areas.
 
 use super::RegionNames;
-use crate::trace::{Class, End, Replay};
+use crate::trace::{Class, End, Event, Replay, Step};
 
 /// A hypothesis, as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +82,10 @@ pub struct WindowCounts {
     pub classes: [usize; 4],
     /// Looked at, but with too few pixels for a class.
     pub unclassed: usize,
+    /// Looked at, without a pixel to be believed.
+    pub empty: usize,
+    /// Not looked at yet.
+    pub waiting: usize,
     /// Areas that the classified windows form so far.
     pub areas: usize,
 }
@@ -90,9 +94,16 @@ pub struct WindowCounts {
 pub fn window_counts(replay: &Replay) -> Option<WindowCounts> {
     let grid = replay.grid()?;
     let mut counts = WindowCounts { windows: grid.classes.len(), ..WindowCounts::default() };
+    // Nothing is recorded of an empty window: those before the cursor's are such.
+    let looked_at = match replay.last()? {
+        Step::Event(Event::WindowClassified { window, .. }) => *window as usize,
+        Step::Event(Event::WindowsLaid(_)) => 0,
+        _ => counts.windows,
+    };
     for (window, (class, area)) in grid.classes.as_slice().iter().zip(grid.areas()).enumerate() {
         match class {
-            None => {}
+            None if window < looked_at => counts.empty += 1,
+            None => counts.waiting += 1,
             Some(None) => counts.unclassed += 1,
             Some(Some(class)) => {
                 counts.classes[match class {

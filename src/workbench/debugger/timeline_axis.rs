@@ -233,8 +233,8 @@ mod tests {
             let (place, next) = (axis.place_of(step), axis.place_of(step + 1));
             assert!(place < next, "step {step}");
             assert_eq!(axis.step_at(place), Some(step));
-            assert_eq!(axis.step_at((place + next) / 2.0), Some(step));
-            assert_eq!(axis.taken_at((place + next) / 2.0), step + 1);
+            assert_eq!(axis.step_at(f64::midpoint(place, next)), Some(step));
+            assert_eq!(axis.taken_at(f64::midpoint(place, next)), step + 1);
         }
         assert_eq!((axis.step_at(-0.1), axis.step_at(1.0)), (None, None));
         assert_eq!((axis.taken_at(0.0), axis.taken_at(1.5)), (0, trace.len()));

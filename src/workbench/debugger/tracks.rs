@@ -3,7 +3,7 @@
 use super::growth;
 use crate::color::{Cylinder, dot, rgb};
 use crate::photo::Masks;
-use crate::raster::{Raster, UNASSIGNED};
+use crate::raster::{LabelMap, Raster, UNASSIGNED};
 use crate::reflection::Slice;
 use crate::trace::{CandidateSource, CandidateTest, Event, Replay, Step, Topic};
 
@@ -88,26 +88,33 @@ fn newest_ring(replay: &Replay, from: usize, region: u16) -> Vec<u32> {
         }),
         Some(Event::SeedsPlaced { .. })
     );
-    let mut start = 0;
-    if !seeds {
-        let mut ring_of = vec![0u32; labels.len()];
-        let mut ring = 1;
-        for (index, &pixel) in claims.iter().enumerate() {
-            let mut nearest = u32::MAX;
-            labels.for_each_neighbour(pixel as usize, |near| {
-                if ring_of[near] > 0 {
-                    nearest = nearest.min(ring_of[near]);
-                }
-            });
-            if nearest == ring {
-                (ring, start) = (ring + 1, index);
-            }
-            ring_of[pixel as usize] = ring;
-        }
-    }
+    let start = if seeds { 0 } else { start_of_ring(&claims, labels) };
     claims.drain(..start);
     claims.retain(|&pixel| labels[pixel as usize] == region);
     claims
+}
+
+/// Where among the claims of a growth its last ring begins: at a pixel all of whose neighbours so far are of one ring.
+fn start_of_ring(claims: &[u32], labels: &LabelMap) -> usize {
+    const EARLIER: u8 = 1;
+    const CURRENT: u8 = 2;
+    let mut seen = vec![0u8; labels.len()];
+    let mut start = 0;
+    for (index, &pixel) in claims.iter().enumerate() {
+        let (mut earlier, mut current) = (false, false);
+        labels.for_each_neighbour(pixel as usize, |near| {
+            earlier |= seen[near] == EARLIER;
+            current |= seen[near] == CURRENT;
+        });
+        if current && !earlier {
+            for &before in &claims[start..index] {
+                seen[before as usize] = EARLIER;
+            }
+            start = index;
+        }
+        seen[pixel as usize] = CURRENT;
+    }
+    start
 }
 
 /// The highlight test at the cursor: the one made last, or the one that the chosen candidate had passed.

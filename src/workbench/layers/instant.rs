@@ -10,8 +10,6 @@ use rayon::prelude::*;
 const CLEAR: [u8; 4] = [0; 4];
 /// Between areas.
 const SEAM: [u8; 4] = [0, 0, 0, 200];
-/// The part of an area that was refused.
-const OTHER_PART: [u8; 3] = [255, 255, 255];
 /// What a region did not take has one of these colours: the one that is less like the region's own.
 const BESIDE: [[u8; 3]; 2] = [[0x2E, 0xC4, 0xF2], [0xF2, 0x55, 0xC2]];
 const BESIDE_ALPHA: u8 = 210;
@@ -38,7 +36,20 @@ pub fn beside_colour(region: [u8; 3]) -> [u8; 3] {
 pub fn instant_legend(instant: &Instant) -> Vec<LegendEntry> {
     match &instant.view {
         InstantView::Nothing => Vec::new(),
-        InstantView::Windows(_) => CLASSES.to_vec(),
+        InstantView::Windows(windows) => {
+            let mut legend = CLASSES.to_vec();
+            let joined = "5.2.2: the union of both areas is of their class, and they are one from now on";
+            let refused = "5.2.2: the union of both areas is of another class, and they stay apart";
+            match windows.tried.len() {
+                0 => {}
+                1 => legend.push(LegendEntry::new("joined", ACCENT, joined)),
+                _ => {
+                    legend.push(LegendEntry::new("stays apart", ACCENT, refused));
+                    legend.push(LegendEntry::new("from this", BESIDE[0], refused));
+                }
+            }
+            legend
+        }
         InstantView::Roles(_) => ROLES.to_vec(),
         InstantView::Regions(regions) => {
             let own = regions.own_colour();
@@ -109,7 +120,7 @@ impl WindowsView {
         let styles: Vec<[u8; 4]> = (0..self.classes.len())
             .map(|window| match self.part(window) {
                 Some(0) => with_alpha(ACCENT, 235),
-                Some(_) => with_alpha(OTHER_PART, 235),
+                Some(_) => with_alpha(BESIDE[0], 235),
                 None if look.fill == Fill::Outline => CLEAR,
                 None => styles[number(self.classes[window])],
             })
@@ -157,7 +168,7 @@ impl WindowsView {
                 let Some(class) = class else { continue };
                 let colour = self.part(window).map_or_else(
                     || CLASSES[number(Some(class)) - 1].colour,
-                    |part| if part == 0 { ACCENT } else { OTHER_PART },
+                    |part| if part == 0 { ACCENT } else { BESIDE[0] },
                 );
                 let colour = with_alpha(colour, 230);
                 let last = pixels.len() - 1;
@@ -320,7 +331,7 @@ mod tests {
             ('.', CLEAR),
             ('L', [255, 0, 0, 255]),
             ('a', with_alpha(ACCENT, 235)),
-            ('b', with_alpha(OTHER_PART, 235)),
+            ('b', with_alpha(BESIDE[0], 235)),
             ('|', SEAM),
         ];
         let found = painted(InstantView::Windows(view.clone()), 4, 4, &look());

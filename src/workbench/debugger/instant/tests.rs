@@ -112,6 +112,8 @@ fn windows_appear_one_by_one_and_a_pair_that_is_joined_is_one() {
     assert!(windows.classes[last + 1..].iter().all(Option::is_none));
     let counts = window_counts(bench.state().followed().unwrap()).unwrap();
     assert_eq!(counts.classes.iter().sum::<usize>() + counts.unclassed, 5);
+    assert_eq!(5 + counts.empty + counts.waiting, counts.windows);
+    assert_eq!(counts.waiting, counts.windows - last - 1);
     let joined = |event: &Event| matches!(event, Event::MergeTried { class, union, .. } if class == union);
     let refused = |event: &Event| matches!(event, Event::MergeTried { class, union, .. } if class != union);
     for (n, parts) in [(events(&trace, joined).next(), 1), (events(&trace, refused).next(), 2)] {
