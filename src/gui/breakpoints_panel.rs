@@ -52,7 +52,7 @@ impl About {
     fn usual(self, state: &State) -> Condition {
         let region = chosen_region(state);
         match self {
-            Self::Pixel => Condition::PixelChangesOwner(selected_pixel(state).unwrap_or(0)),
+            Self::Pixel => Condition::PixelChangesOwner(state.asked_pixel().unwrap_or(0)),
             Self::Size => Condition::RegionExceeds { region, pixels: USUAL_PIXELS },
             Self::Rejected => Condition::HypothesisRejected,
             Self::Candidate => Condition::CandidateFails(CandidateCheck::Any),
@@ -208,7 +208,7 @@ fn pixel_controls(ui: &mut Ui, state: &State, number: usize, pixel: &mut u32) {
         named(&field, Role::SpinButton, format!("{name} of breakpoint {number}"));
     }
     *pixel = (y * width + x) as u32;
-    let selected = selected_pixel(state);
+    let selected = state.asked_pixel();
     let button = ui.add_enabled(selected.is_some(), egui::Button::new("selected pixel").small());
     named(&button, Role::Button, format!("Selected pixel for breakpoint {number}"));
     let button = button.on_hover_text("Take the pixel that is selected.");
@@ -250,13 +250,6 @@ fn about_selection(state: &State) -> About {
         Some(Item::Pixel(_)) => About::Pixel,
         Some(Item::Region(_)) => About::Size,
         _ => About::Rejected,
-    }
-}
-
-fn selected_pixel(state: &State) -> Option<u32> {
-    match state.document.selection.item {
-        Some(Item::Pixel(pixel)) => Some(pixel),
-        _ => None,
     }
 }
 

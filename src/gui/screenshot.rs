@@ -3,7 +3,7 @@
 use super::dock::Pane;
 use super::offscreen::{Offscreen, OffscreenError};
 use crate::export::png_of_rgba;
-use crate::trace::{Event, Topic};
+use crate::trace::{Event, Step, Topic};
 use crate::workbench::{
     Arrangement, ColourBy, Command, CubeSettings, DebugCommand, Fill, ImageSettings, Item, Layer, Origin,
     ProfileLine, Severity, State, Theme,
@@ -40,6 +40,8 @@ struct Shot {
     cube: CubeSettings,
     /// Where the debugger's cursor stands; none: at the end.
     moment: Option<Moment>,
+    /// Whether a pixel is asked why it is what it is, and what would change that.
+    asks: bool,
 }
 
 /// A place in the trace that is worth a picture.
@@ -81,6 +83,7 @@ fn whole(name: &'static str) -> Shot {
         image: ImageSettings { layer: Layer::Regions, fill: Fill::Outline, ..ImageSettings::default() },
         cube: CubeSettings::default(),
         moment: None,
+        asks: false,
     }
 }
 
@@ -118,6 +121,7 @@ fn gallery() -> Vec<Shot> {
         Shot { pane: Some(Pane::Profile), ..whole("profile") },
         stopped("debugger-slice", Moment::Slice),
         stopped("debugger-skewed-t", Moment::Test),
+        Shot { asks: true, region: None, ..whole("debugger-why") },
     ]
 }
 
@@ -147,6 +151,15 @@ pub fn screenshot(folder: &Path, size_px: [u32; 2], origin: Origin) -> Result<Ve
     Ok(written)
 }
 
+/// The pixel that two regions wanted last; none where none was.
+fn contested(state: &State) -> Option<u32> {
+    let mut steps = state.debugger.trace()?.steps().rev();
+    steps.find_map(|(_, step)| match step {
+        Step::Claim { pixel, contest: Some(_), .. } => Some(pixel),
+        _ => None,
+    })
+}
+
 fn prepare(stage: &mut Offscreen, shot: &Shot, size_px: [u32; 2]) {
     let app = &mut stage.app;
     let notices: Vec<u64> = app.state().notices.iter().map(|notice| notice.id).collect();
@@ -161,6 +174,11 @@ fn prepare(stage: &mut Offscreen, shot: &Shot, size_px: [u32; 2]) {
     let end = app.state().debugger.trace().map_or(0, |trace| trace.len());
     let steps = shot.moment.and_then(|moment| moment.steps(app.state())).unwrap_or(end);
     app.apply(Command::Debug(DebugCommand::Seek(steps)));
+    if let Some(pixel) = contested(app.state()).filter(|_| shot.asks) {
+        app.apply(Command::Select(app.state().region_of(Item::Pixel(pixel)).map(Item::Region)));
+        app.apply(Command::AskWhy(pixel));
+        app.apply(Command::AskWhatIf(Some(pixel)));
+    }
     app.show_alone(shot.pane);
     stage.resize(size_px);
 }

@@ -3,7 +3,7 @@
 use super::theme::{SMALL_PT, Tones};
 use super::{Cx, widgets};
 use crate::color::Vec3;
-use crate::workbench::{AxisDistance, Current, Item, Watch, WatchedPixel, watch};
+use crate::workbench::{AxisDistance, Current, Watch, WatchedPixel, watch};
 use egui::{Align, Color32, Label, Layout, RichText, ScrollArea, Ui, vec2};
 
 /// Width of the names, points.
@@ -52,10 +52,7 @@ impl WatchPanel {
             let text = "Values at the cursor appear when the decisions of an analysis are recorded (D).";
             return widgets::nothing(ui, cx.tones, text);
         };
-        let pixel = match state.document.selection.item {
-            Some(Item::Pixel(pixel)) => Some(pixel),
-            _ => None,
-        };
+        let pixel = state.asked_pixel();
         let found = watch(replay, &debugger.names, &picture.photo.image.pixels, pixel);
         let mut groups = vec![of_run(&found)];
         groups.extend(found.current.as_ref().map(of_current));

@@ -6,7 +6,7 @@ use super::{Cx, widgets};
 use crate::analysis::WhatIf;
 use crate::report::what_if_sentence;
 use crate::segment::Setting;
-use crate::workbench::{Account, Command, DebugCommand, Inquiry, Item, Why, why};
+use crate::workbench::{Account, Command, DebugCommand, Inquiry, Why, why};
 use egui::{FontId, Response, RichText, ScrollArea, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
@@ -26,17 +26,16 @@ impl WhyPanel {
         let (Some(trace), Some(shown)) = (debugger.trace().cloned(), cx.state.newest.clone()) else {
             return unrecorded(ui, cx);
         };
-        let pixel = match cx.state.document.selection.item {
-            Some(Item::Pixel(pixel)) => Some(pixel),
-            _ => None,
-        };
+        let pixel = cx.state.asked_pixel();
         let selected = cx.state.selected_region().filter(|_| pixel.is_none());
         let of_region = selected.and_then(|region| debugger.names.births_of(region).next());
         let birth = debugger.chosen.filter(|_| pixel.is_none()).or(of_region);
         if pixel.is_none() && birth.is_none() {
             let text =
                 "Click a pixel or a region: its history appears here, and the reason for every refusal.";
-            return widgets::nothing(ui, cx.tones, text);
+            let inset = egui::Frame::new().inner_margin(12);
+            inset.show(ui, |ui| widgets::nothing(ui, cx.tones, text));
+            return;
         }
         let (names, generation) = (Arc::clone(&debugger.names), debugger.generation);
         let at_once = shown.labels().len() <= AT_ONCE_PX;

@@ -117,6 +117,8 @@ pub enum Command {
     /// The colour space view's camera.
     Camera(String),
 
+    /// Ask why this pixel is what it is.
+    AskWhy(u32),
     /// Ask how far each parameter would have to move for a pixel to end otherwise, or stop asking.
     AskWhatIf(Option<u32>),
     /// The analysis has something to say to that.

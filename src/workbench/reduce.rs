@@ -93,6 +93,10 @@ pub fn reduce(state: &mut State, command: Command) -> Vec<Effect> {
             state.history.end_gesture();
             Vec::new()
         }
+        Command::AskWhy(pixel) => {
+            state.asked_pixel = Some(pixel).filter(|&pixel| is_inside(state, pixel));
+            Vec::new()
+        }
         Command::AskWhatIf(pixel) => ask_what_if(state, pixel),
         Command::Inquired(asked, news) => {
             inquired(state, asked, news);
@@ -138,7 +142,10 @@ fn edit_or_look(state: &mut State, command: Command) -> Vec<Effect> {
         Command::SetParams(params) => edit_params(state, None, |old| *old = *params),
         Command::PinIlluminant(direction, gesture) => pin_illuminant(state, direction, gesture),
         Command::RestrictTo(area) => edit(state, None, |document| document.area = area),
-        Command::Select(item) => edit(state, None, |document| document.selection.item = item),
+        Command::Select(item) => {
+            state.asked_pixel = None;
+            edit(state, None, |document| document.selection.item = item)
+        }
         Command::Mark(mask, combine, gesture) => edit(state, gesture, |document| {
             document.selection.marked = combined(document.selection.marked.take(), mask, combine);
         }),
@@ -152,7 +159,10 @@ fn edit_or_look(state: &mut State, command: Command) -> Vec<Effect> {
                 };
             })
         }
-        Command::ClearSelection => edit(state, None, |document| document.selection = Selection::default()),
+        Command::ClearSelection => {
+            state.asked_pixel = None;
+            edit(state, None, |document| document.selection = Selection::default())
+        }
         other => {
             look(state, other);
             Vec::new()
@@ -196,7 +206,7 @@ fn opened(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     // Masks of another picture mean nothing here; parameters stay.
     state.document = Document { params: state.document.params, ..Document::default() };
     state.history.forget();
-    (state.newest, state.pinned, state.hover) = (None, None, None);
+    (state.newest, state.pinned, state.hover, state.asked_pixel) = (None, None, None, None);
     state.view.show_pinned = false;
     (state.view.image.centre_px, state.view.image.zoom) = (None, None);
     (state.view.profile, state.after_pin) = (super::ProfileLine::Row, None);
@@ -317,12 +327,15 @@ fn analyse(state: &mut State) -> Vec<Effect> {
     stop.into_iter().chain([Effect::Analyse]).collect()
 }
 
+fn is_inside(state: &State, pixel: u32) -> bool {
+    state.picture.as_ref().is_some_and(|picture| (pixel as usize) < picture.photo.image.pixels.len())
+}
+
 /// Asks anew, or stops asking.
 fn ask_what_if(state: &mut State, pixel: Option<u32>) -> Vec<Effect> {
-    let inside = |pixel: &u32| {
-        state.picture.as_ref().is_some_and(|picture| (*pixel as usize) < picture.photo.image.pixels.len())
-    };
-    let asked = pixel.filter(inside).map(|pixel| Asked { pixel, generation: state.generation });
+    let asked = pixel
+        .filter(|&pixel| is_inside(state, pixel))
+        .map(|pixel| Asked { pixel, generation: state.generation });
     state.inquiry = asked.map(Inquiry::new);
     [Effect::StopInquiring].into_iter().chain(asked.map(Effect::Inquire)).collect()
 }

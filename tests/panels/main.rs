@@ -18,4 +18,5 @@ mod opening;
 mod pictures;
 mod regions;
 mod sliders;
+mod why;
 mod window;

@@ -173,7 +173,7 @@ pub fn pixels(painter: &Painter, place: &Placement, state: &State, pointer_here:
             cross(painter, square.center(), colour);
         }
     };
-    show(state.document.selection.item, MARK, true);
+    show(state.asked_pixel().map(Item::Pixel), MARK, true);
     show(state.hover, Color32::WHITE, !pointer_here);
 }
 

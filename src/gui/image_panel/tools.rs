@@ -264,6 +264,7 @@ fn point(spot: &Spot, cx: &mut Cx, settings: &mut ImageSettings, modifiers: Modi
         if item != cx.state.document.selection.item {
             cx.send(Command::Select(item));
         }
+        cx.out.extend(pixel.map(Command::AskWhy));
     }
 }
 

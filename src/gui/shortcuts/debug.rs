@@ -171,8 +171,10 @@ pub fn move_cursor(deed: DebugDeed, cx: &mut Cx) {
 /// What is selected, as something to run to.
 pub fn selected(state: &State) -> Option<Goal> {
     let names = &state.debugger.names;
+    if let Some(pixel) = state.asked_pixel() {
+        return Some(Goal::Pixel(pixel));
+    }
     match state.document.selection.item {
-        Some(Item::Pixel(pixel)) => Some(Goal::Pixel(pixel)),
         Some(Item::Region(region)) => names.births_of(region).next().map(Goal::Region),
         _ => state.debugger.chosen.map(Goal::Region),
     }
