@@ -50,8 +50,8 @@ pub use command_line::analyze_call;
 pub use compare::{BodyChange, Comparison, Fate, Figure, PixelFates, RegionFate, SettingChange, compare};
 pub use debugger::{
     Account, AxisDistance, Breakpoint, CandidateCheck, Condition, Current, DebugCommand, DebugSettings,
-    Debugger, Difference, Direction, Goal, Grain, Growth, RegionNames, SavedClass, Watch, WatchedPixel, Why,
-    growth, watch, why,
+    Debugger, Difference, Direction, Goal, Grain, Growth, RegionNames, SavedClass, TimelineAxis,
+    TimelineSection, Watch, WatchedPixel, Why, growth, timeline_density, watch, why,
 };
 pub use debugger::{
     Check, HypothesisRow, Instant, InstantView, LookedAt, Role, Status, Tee, WindowCounts, candidate_name,

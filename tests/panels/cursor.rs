@@ -42,7 +42,7 @@ fn the_picture_tells_where_the_cursor_stands_and_can_turn_back_to_the_result() {
     seek(&mut window, block.steps.start + 200);
     assert!(says(&window, "linear \u{b7} hypothesis 1"));
     click(&mut window, Role::Button, "Follow");
-    assert!(!state(&window).view.debug.follow && !says(&window, "hypothesis 1"));
+    assert!(!state(&window).view.debug.follow && !says(&window, "linear \u{b7} hypothesis 1"));
     click(&mut window, Role::Button, "Follow");
     assert!(says(&window, "linear \u{b7} hypothesis 1"));
     click(&mut window, Role::ComboBox, "Layer");

@@ -10,6 +10,7 @@ mod accessibility;
 mod colours;
 mod compare;
 mod cursor;
+mod debugger;
 mod exports;
 mod images;
 mod keyboard;

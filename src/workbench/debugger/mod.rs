@@ -11,6 +11,7 @@ mod names;
 mod reduce;
 mod rows;
 mod tee;
+mod timeline_axis;
 mod tracks;
 mod watch;
 mod why;
@@ -23,6 +24,7 @@ pub use looked_at::{LookedAt, Role, looked_at};
 pub use names::RegionNames;
 pub use rows::{HypothesisRow, Status, WindowCounts, hypothesis_rows, window_counts};
 pub use tee::{Check, Tee, candidate_name, candidate_reach, tee};
+pub use timeline_axis::{TimelineAxis, TimelineSection, timeline_density};
 pub use tracks::{candidate_pixels, measured_and_ignored, pixels_of_region, sampled, test_at_cursor, tracks};
 pub use watch::{AxisDistance, Current, Watch, WatchedPixel, watch};
 
