@@ -271,7 +271,7 @@ pub fn show_help(ui: &mut Ui, cx: &Cx, open: &mut bool) {
         .open(open)
         .collapsible(false)
         .resizable(false)
-        .vscroll(true)
+        .scroll(true)
         .min_width(880.0)
         .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
         .show(&ctx, |ui| {

@@ -387,7 +387,7 @@ fn a_narrow_window_clips_nothing() {
             assert!(rect.bottom() <= height, "{name} at {rect}");
         }
         let track = named(&window, Role::Slider, "Timeline").rect();
-        assert!(track.height() > 14.0 && track.bottom() <= height, "{track} at {width}");
+        assert!(track.height() > 20.0 && track.bottom() <= height, "{track} at {width}");
     }
 }
 

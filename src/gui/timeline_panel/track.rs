@@ -85,7 +85,7 @@ impl Track {
         };
         draw(&ui.painter_at(rect), cx, &scale, &lanes, replay, &density);
         if response.has_focus() {
-            let stroke = Stroke::new(1.0, cx.tones.quiet);
+            let stroke = Stroke::new(1.0, cx.tones.quiet.gamma_multiply(0.5));
             ui.painter().rect_stroke(rect.expand(2.0), 2.0, stroke, StrokeKind::Inside);
         }
         tell(&response, cx, &scale, replay, names);

@@ -14,6 +14,8 @@ use egui::{ComboBox, DragValue, Label, RichText, Slider, Ui, WidgetInfo, vec2};
 
 /// Width that the sentence needs beside the controls, points; else it stands below them.
 const SENTENCE_PT: f32 = 130.0;
+/// A panel of this height has room for a second row over the track, points.
+const TWO_ROWS_PT: f32 = 88.0;
 
 /// A button: its sign, name, deed and tooltip.
 type Control = (Sign, &'static str, DebugDeed, &'static str);
@@ -72,6 +74,7 @@ const RIGHT: [Control; 5] = [
 pub fn show(ui: &mut Ui, cx: &mut Cx, replay: &Replay, names: &Names) {
     ui.spacing_mut().item_spacing = vec2(2.0, 3.0);
     ui.spacing_mut().interact_size.y = icons::SIDE_PT;
+    let tall = ui.available_height() >= TWO_ROWS_PT;
     let beside = ui
         .horizontal_wrapped(|ui| {
             controls(ui, cx, &LEFT);
@@ -82,7 +85,7 @@ pub fn show(ui: &mut Ui, cx: &mut Cx, replay: &Replay, names: &Names) {
             run_to::show(ui, cx);
             // In one piece, where the row wraps.
             ui.horizontal(|ui| counter(ui, cx, replay));
-            let beside = ui.available_size_before_wrap().x >= SENTENCE_PT;
+            let beside = !tall || ui.available_size_before_wrap().x >= SENTENCE_PT;
             if beside {
                 sentence(ui, cx, replay, names);
             }
@@ -240,15 +243,15 @@ fn sentence(ui: &mut Ui, cx: &Cx, replay: &Replay, names: &Names) {
         (None, None) if debugger.stopped().is_none() => ("result".to_owned(), cx.tones.quiet),
         (None, None) => ("stopped".to_owned(), cx.tones.quiet),
     };
-    ui.add(Label::new(RichText::new(word).size(SMALL_PT).color(tone)).extend());
-    ui.add_space(6.0);
     let text = match replay.last() {
         Some(step) => names.step(&step),
         None => "nothing is decided yet".to_owned(),
     };
-    let height = ui.spacing().interact_size.y;
-    let width = ui.available_size_before_wrap().x;
-    ui.allocate_ui_with_layout(vec2(width, height), egui::Layout::left_to_right(egui::Align::Center), |ui| {
+    // What does not fit is cut: the row below belongs to the track.
+    let size = vec2(ui.available_size_before_wrap().x.max(1.0), ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+        ui.add(Label::new(RichText::new(word).size(SMALL_PT).color(tone)).truncate());
+        ui.add_space(6.0);
         ui.add(Label::new(&text).truncate()).on_hover_text(&text)
     });
 }
