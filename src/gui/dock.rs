@@ -217,7 +217,7 @@ fn arranged() -> Tree<Pane> {
     let timeline = tabs(&[Pane::Timeline]);
     let left = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(image, 0.68), (tables, 0.32)]);
     let middle = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(colours, 0.60), (plots, 0.40)]);
-    let right = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(parameters, 0.58), (questions, 0.42)]);
+    let right = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(parameters, 0.52), (questions, 0.48)]);
     let views =
         split(&mut tiles, egui_tiles::LinearDir::Horizontal, &[(left, 0.39), (middle, 0.38), (right, 0.23)]);
     let root = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(views, 0.86), (timeline, 0.14)]);

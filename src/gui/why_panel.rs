@@ -61,7 +61,7 @@ fn unrecorded(ui: &mut Ui, cx: &mut Cx) {
         return widgets::nothing(ui, cx.tones, "The decisions are being recorded\u{2026}");
     }
     ui.centered_and_justified(|ui| {
-        let record = egui::Button::new("Record decisions").ui(ui);
+        let record = egui::Button::new("Record the decisions").ui(ui);
         if record
             .on_hover_text("Keeps every decision of the analysis, so that each can be asked for.")
             .clicked()

@@ -1,6 +1,7 @@
 //! Why a pixel is what it is: its history as links, and what would change it.
 
 use crate::window::{Window, apply, click, named, says, state, tiny_window};
+use dichroscope::gui::Pane;
 use dichroscope::trace::Stage;
 use dichroscope::workbench::{Command, Item, why};
 use egui::accesskit::Role;
@@ -11,6 +12,12 @@ fn pixel(window: &Window) -> u32 {
     labels.as_slice().iter().position(|&label| label == 1).unwrap() as u32
 }
 
+/// The panel in all of the window, so that nothing has to be scrolled to.
+fn alone(window: &mut Window) {
+    window.state_mut().show_alone(Some(Pane::Why));
+    window.run_steps(3);
+}
+
 #[test]
 fn a_clicked_region_tells_the_pixels_history_and_each_sentence_leads_to_its_step() {
     let mut window = tiny_window();
@@ -19,6 +26,7 @@ fn a_clicked_region_tells_the_pixels_history_and_each_sentence_leads_to_its_step
     apply(&mut window, Command::Select(Some(Item::Region(1))));
     assert!(says(&window, "Region 1 is made of"), "a region has a story too");
     apply(&mut window, Command::AskWhy(pixel));
+    alone(&mut window);
     let debugger = &state(&window).debugger;
     let (trace, shown) = (debugger.trace().unwrap(), state(&window).newest.as_ref().unwrap());
     let (_, history) = why(shown, trace, &debugger.names, Some(pixel), None).pixel.unwrap();
@@ -38,6 +46,7 @@ fn what_would_change_a_pixel_is_found_and_a_click_sets_it() {
     let mut window = tiny_window();
     let pixel = pixel(&window);
     apply(&mut window, Command::Select(Some(Item::Pixel(pixel))));
+    alone(&mut window);
     click(&mut window, Role::Button, "Find what would change it");
     let found = state(&window).inquiry.as_ref().unwrap().found.clone().unwrap();
     let first = found[0];
