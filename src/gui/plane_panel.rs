@@ -41,8 +41,11 @@ impl PlanePanel {
     /// Shows it.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let state = cx.state;
-        if let Some((replay, frame)) = state.followed().zip(cursor::frame(state)) {
-            return self.show_instant(ui, cx, replay, frame);
+        if let Some(replay) = state.followed() {
+            return match cursor::frame(state) {
+                Some(frame) => self.show_instant(ui, cx, replay, frame),
+                None => widgets::nothing(ui, cx.tones, "At the cursor no region is at work."),
+            };
         }
         let Some((shown, region)) = cx.state.shown().cloned().zip(cx.state.selected_region()) else {
             widgets::nothing(ui, cx.tones, "Select a region to see its dichromatic plane.");

@@ -2,7 +2,7 @@
 
 mod cursor;
 
-pub use cursor::{slice_plane, test_plane};
+pub use cursor::{growing_plane, test_plane};
 
 use super::shapes::{across, hypothesis};
 use super::{Point, Shown};

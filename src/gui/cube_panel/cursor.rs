@@ -10,6 +10,7 @@ use crate::workbench::{
     test_at_cursor,
 };
 use egui::Color32;
+use std::time::{Duration, Instant};
 
 /// Points of each kind, at most.
 const MOST: usize = 20_000;
@@ -18,6 +19,10 @@ const OWN_PT: f32 = 3.0;
 const BESIDE_PT: f32 = 3.4;
 /// Of what a test ignores.
 const QUIET_PT: f32 = 2.4;
+
+/// Of larger pictures, pixels, points are looked for only so often while the cursor plays.
+const LARGE_PX: usize = 1 << 22;
+const PATIENCE: Duration = Duration::from_millis(120);
 
 const THIN_PT: f32 = 1.0;
 const THICK_PT: f32 = 2.0;
@@ -36,6 +41,7 @@ pub fn frame(state: &State) -> Option<Frame> {
 #[derive(Default)]
 pub struct Track {
     of: Option<(Frame, CubeSettings, Theme)>,
+    made: Option<Instant>,
     /// One batch for each of what they are to the step.
     pub drawn: Vec<Batch<Point>>,
 }
@@ -44,10 +50,11 @@ impl Track {
     /// Brings the points up to date.
     pub fn update(&mut self, state: &State, tones: &Tones, picture: &Picture) {
         let of = frame(state).map(|frame| (frame, state.view.cube.clone(), state.view.theme));
-        if self.of == of {
+        if self.of == of || (of.is_some() && self.rests(state, picture)) {
             return;
         }
         self.of = of;
+        self.made = Some(Instant::now());
         self.drawn.clear();
         let (Some(replay), Some(shown)) = (state.followed(), &state.newest) else { return };
         let colors = &picture.photo.image.pixels;
@@ -63,6 +70,12 @@ impl Track {
             };
             self.drawn.push(Batch::new(pixels.iter().map(point).collect::<Vec<_>>()));
         }
+    }
+
+    /// Whether the points of an instant before may stay: of a large picture, while it plays, for a moment.
+    fn rests(&self, state: &State, picture: &Picture) -> bool {
+        let large = picture.photo.image.pixels.len() > LARGE_PX && state.debugger.playing.is_some();
+        large && self.of.is_some() && self.made.is_some_and(|made| made.elapsed() < PATIENCE)
     }
 
     /// Whether there is something that all else is to be the ghost of.

@@ -4,7 +4,7 @@
 use super::{PlanePanel, cloud, hovered, kinds, navigate, quiet};
 use crate::gui::{Cx, verdict, widgets};
 use crate::trace::{PixelKind, Replay};
-use crate::workbench::{State, slice_plane, test_at_cursor, test_plane};
+use crate::workbench::{State, growing_plane, test_at_cursor, test_plane};
 use egui::{Sense, Stroke, Ui, vec2};
 
 /// A kind, its name and what it means.
@@ -31,9 +31,13 @@ const TESTED: [Name; 3] = [
 
 /// What the points of a growing region are.
 const GROWING: [Name; 3] = [
-    (PixelKind::Matte, "its pixels", "What the region holds at the cursor (section 5.4.2)."),
-    (PixelKind::Highlight, "just taken", "What it took in the ring at work (section 5.4.2)."),
-    (PixelKind::Lost, "not taken", "Neighbours whose colours lie outside of its slice (section 5.4.2)."),
+    (PixelKind::Matte, "its pixels", "What the region holds at the cursor (section 5.3.2, 5.4.2)."),
+    (PixelKind::Highlight, "just taken", "What it took in the ring at work (section 5.3.2, 5.4.2)."),
+    (
+        PixelKind::Lost,
+        "not taken",
+        "Neighbours whose colours lie outside of its cylinder or slice (section 5.3.2, 5.4.2).",
+    ),
 ];
 
 /// What is shown of the cursor: the trace, the place in it, and the region by its number of birth.
@@ -44,7 +48,7 @@ pub fn frame(state: &State) -> Option<Frame> {
     let replay = state.followed()?;
     let region = match test_at_cursor(replay) {
         Some(test) => test.region,
-        None => state.debugger.focus().filter(|&focus| replay.slice(focus).is_some())?,
+        None => state.debugger.focus().filter(|&focus| replay.hypothesis(focus).is_some())?,
     };
     Some((state.debugger.generation, replay.at(), region))
 }
@@ -56,7 +60,7 @@ impl PlanePanel {
         let Some(picture) = &state.picture else { return };
         self.update_instant(state, replay, frame);
         let Some(plane) = &self.plane else {
-            let text = "The candidate's line runs along the matte line: they span no plane.";
+            let text = "At the cursor there is no plane: a line is missing, or both have one direction.";
             return widgets::nothing(ui, cx.tones, text);
         };
         let test = test_at_cursor(replay);
@@ -70,7 +74,7 @@ impl PlanePanel {
             return;
         }
         response.widget_info(|| {
-            let what = if test.is_some() { "Skewed-T test" } else { "Slice" };
+            let what = if test.is_some() { "Skewed-T test" } else { "Growth" };
             let name = format!("{what} of hypothesis {}", frame.2);
             egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, name)
         });
@@ -103,7 +107,7 @@ impl PlanePanel {
         let test = test_at_cursor(replay);
         self.plane = match test {
             Some(test) => test_plane(replay, test, region, picture, masks),
-            None => slice_plane(replay, frame.2, region, picture, masks),
+            None => growing_plane(replay, frame.2, region, picture, masks),
         };
         // A region that grows keeps its place under the eye.
         if test.is_some() || self.frame.is_none_or(|(_, _, before)| before != frame.2) {

@@ -13,7 +13,7 @@ use egui_extras::{Column, TableBuilder, TableRow};
 
 /// What the rows are sorted by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Key {
+enum Key {
     #[default]
     Birth,
     Pixels,

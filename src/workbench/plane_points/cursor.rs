@@ -79,32 +79,43 @@ pub fn test_plane(
     Some(RegionPlane { matte_length, meeting_point: Some(meeting), ..plane })
 }
 
-/// A region that has a slice at the cursor, in its dichromatic plane: its pixels are matte, those that it took last
-/// highlight, those that it did not take lost. `focus` is its number of birth, `region` the final one. None as long as it
-/// has no slice.
-pub fn slice_plane(
+/// A region as it stands at the cursor: its pixels are matte, those that it took last highlight, those that it did not take
+/// lost. In its dichromatic plane once it has a slice, before that across its line. `focus` is its number of birth, `region`
+/// the final one. None where it has no line.
+pub fn growing_plane(
     replay: &Replay,
     focus: u16,
     region: u16,
     picture: &Picture,
     masks: &Masks,
 ) -> Option<RegionPlane> {
-    let made = replay.slice(focus)?;
-    let transform = ReflectionTransform::new(&made.plane.matte.direction, &made.plane.surface)?;
+    let hypothesis = replay.hypothesis(focus)?;
+    let made = replay.slice(focus);
+    let line = made.map_or(hypothesis.line()?, |made| &made.plane.matte);
+    let across = || {
+        let aside = line.inward().try_normalize(1e-6);
+        let square = aside.unwrap_or_else(|| line.direction.cross(&Vec3::x()).normalize());
+        ReflectionTransform::new(&line.direction, &square)
+    };
+    let in_plane = made.and_then(|made| ReflectionTransform::new(&line.direction, &made.plane.surface));
+    let has_plane = in_plane.is_some();
     let colors = &picture.photo.image.pixels;
-    let sheet = Sheet { colors: colors.as_slice(), transform };
+    let sheet = Sheet { colors: colors.as_slice(), transform: in_plane.or_else(across)? };
     let tracks = tracks(replay, colors, masks).filter(|tracks| tracks.region == focus).unwrap_or_default();
     let points = sheet.points(&[
         (pixels_of_region(replay, focus), PixelKind::Matte),
         (tracks.outside, PixelKind::Lost),
         (tracks.newest, PixelKind::Highlight),
     ]);
-    let brightest = made.plane.matte.foot() + made.plane.matte.direction * made.matte_length;
-    let (matte_length, meeting) = (sheet.amount(brightest), sheet.amount(made.start));
-    let radius = replay.hypothesis(focus).map_or(0.0, |hypothesis| hypothesis.radius);
-    let plane = sheet.plane(region, [made.half_width, radius], points);
-    let highlight_length = plane.extent[1][1].max(0.0);
-    Some(RegionPlane { matte_length, meeting_point: Some(meeting), highlight_length, ..plane })
+    let brightest = made.map(|made| line.foot() + line.direction * made.matte_length);
+    let held = points.iter().filter(|point| point.kind == PixelKind::Matte);
+    let longest = held.fold(0.0f32, |most, point| most.max(point.body));
+    let matte_length = brightest.map_or(longest, |brightest| sheet.amount(brightest));
+    let meeting_point = made.map(|made| sheet.amount(made.start)).filter(|_| has_plane);
+    let radius = hypothesis.radius;
+    let plane = sheet.plane(region, [made.map_or(radius, |made| made.half_width), radius], points);
+    let highlight_length = if has_plane { plane.extent[1][1].max(0.0) } else { 0.0 };
+    Some(RegionPlane { has_plane, matte_length, meeting_point, highlight_length, ..plane })
 }
 
 #[cfg(test)]
@@ -145,18 +156,24 @@ mod tests {
     }
 
     #[test]
-    fn a_slice_has_its_plane_once_it_is_made() {
+    fn a_region_lies_across_its_line_until_it_has_a_slice() {
         let mut bench = bench();
         let trace = bench.state().debugger.trace().unwrap().clone();
         let block = trace.blocks().find(|block| matches!(block.topic, Topic::Slice(_))).unwrap();
         let region = block.topic.region();
-        for (steps, there) in [(block.steps.start, false), (block.steps.start + 1, true)] {
+        for (steps, has_plane) in [(block.steps.start, false), (block.steps.start + 1, true)] {
             bench.apply(Command::Debug(DebugCommand::Seek(steps)));
-            let state = bench.state();
+            let (state, replay) = (bench.state(), bench.state().followed().unwrap());
             let masks = &state.newest.as_ref().unwrap().analysis.masks;
             let picture = state.picture.as_ref().unwrap();
-            let plane = slice_plane(state.followed().unwrap(), region, 1, picture, masks);
-            assert_eq!(plane.is_some(), there);
+            let plane = growing_plane(replay, region, 1, picture, masks).unwrap();
+            assert_eq!((plane.has_plane, plane.meeting_point.is_some()), (has_plane, has_plane));
+            assert!(plane.matte_length > 20.0 && plane.points.len() > 100);
         }
+        bench.apply(Command::Debug(DebugCommand::Seek(1)));
+        let state = bench.state();
+        let masks = &state.newest.as_ref().unwrap().analysis.masks;
+        let picture = state.picture.as_ref().unwrap();
+        assert!(growing_plane(state.followed().unwrap(), 1, 1, picture, masks).is_none());
     }
 }
