@@ -5,8 +5,8 @@ use super::offscreen::{Offscreen, OffscreenError};
 use crate::export::png_of_rgba;
 use crate::trace::{Event, Step, Topic};
 use crate::workbench::{
-    Arrangement, ColourBy, Command, CubeSettings, DebugCommand, Fill, ImageSettings, Item, Layer, Origin,
-    ProfileLine, Severity, State, Theme,
+    Arrangement, Ask, ColourBy, Command, CubeSettings, DebugCommand, Fill, ImageSettings, Item, Layer,
+    Origin, ProfileLine, Severity, State, Theme,
 };
 use std::path::{Path, PathBuf};
 
@@ -176,8 +176,8 @@ fn prepare(stage: &mut Offscreen, shot: &Shot, size_px: [u32; 2]) {
     app.apply(Command::Debug(DebugCommand::Seek(steps)));
     if let Some(pixel) = contested(app.state()).filter(|_| shot.asks) {
         app.apply(Command::Select(app.state().region_of(Item::Pixel(pixel)).map(Item::Region)));
-        app.apply(Command::AskWhy(pixel));
-        app.apply(Command::AskWhatIf(Some(pixel)));
+        app.apply(Command::Ask(Ask::Why(pixel)));
+        app.apply(Command::Ask(Ask::WhatIf(Some(pixel))));
     }
     app.show_alone(shot.pane);
     stage.resize(size_px);

@@ -6,7 +6,7 @@ use super::{Cx, widgets};
 use crate::analysis::WhatIf;
 use crate::report::what_if_sentence;
 use crate::segment::Setting;
-use crate::workbench::{Account, Command, DebugCommand, Inquiry, Why, why};
+use crate::workbench::{Account, Ask, Command, DebugCommand, Inquiry, Why, why};
 use egui::{FontId, Response, RichText, ScrollArea, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
@@ -169,7 +169,7 @@ fn what_if(ui: &mut Ui, cx: &mut Cx, pixel: u32) {
             let ask =
                 ask.on_hover_text("Analyses the picture again and again, each parameter moved up and down.");
             if ask.clicked() {
-                cx.send(Command::AskWhatIf(Some(pixel)));
+                cx.send(Command::Ask(Ask::WhatIf(Some(pixel))));
             }
         }
         Some(Inquiry { found: None, done, total, .. }) => {
@@ -177,7 +177,7 @@ fn what_if(ui: &mut Ui, cx: &mut Cx, pixel: u32) {
             ui.horizontal(|ui| {
                 ui.add(egui::ProgressBar::new(share).desired_width(160.0));
                 if ui.button("Stop").clicked() {
-                    cx.send(Command::AskWhatIf(None));
+                    cx.send(Command::Ask(Ask::WhatIf(None)));
                 }
             });
         }

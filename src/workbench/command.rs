@@ -1,8 +1,8 @@
 //! The only ways to change a [`super::State`].
 
 use super::{
-    Asked, CubeSettings, DebugCommand, Export, ImageSettings, InquiryNews, Item, Origin, Picture,
-    PlaneSettings, ProfileLine, Severity, Shown, Theme, Workspace,
+    Ask, CubeSettings, DebugCommand, Export, ImageSettings, Item, Origin, Picture, PlaneSettings,
+    ProfileLine, Severity, Shown, Theme, Workspace,
 };
 use crate::analysis::Stage;
 use crate::photo::ReadOptions;
@@ -117,12 +117,8 @@ pub enum Command {
     /// The colour space view's camera.
     Camera(String),
 
-    /// Ask why this pixel is what it is.
-    AskWhy(u32),
-    /// Ask how far each parameter would have to move for a pixel to end otherwise, or stop asking.
-    AskWhatIf(Option<u32>),
-    /// The analysis has something to say to that.
-    Inquired(Asked, InquiryNews),
+    /// Ask why, or what if.
+    Ask(Ask),
     /// Change the debugger.
     Debug(DebugCommand),
 

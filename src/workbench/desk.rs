@@ -1,7 +1,7 @@
 //! Carries the effects of commands out, on threads or inline.
 
 use super::analyst::{self, Analyst, Desk, Tracing};
-use super::{Asked, Command, Effect, InquiryNews, Job, Request, State, jobs, read, reduce, write};
+use super::{Ask, Asked, Command, Effect, InquiryNews, Job, Request, State, jobs, read, reduce, write};
 use crate::analysis::{Session, WhatIfObserver, what_if};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -171,7 +171,7 @@ impl Workbench {
             // An area of another picture restricts nothing.
             let _ = session.restrict(area);
             let found = what_if(&mut session, &params, asked.pixel as usize, &mut asking);
-            Command::Inquired(asked, found.map_or(InquiryNews::Stopped, InquiryNews::Found))
+            Command::Ask(Ask::News(asked, found.map_or(InquiryNews::Stopped, InquiryNews::Found)))
         });
     }
 
@@ -201,7 +201,7 @@ struct Asking {
 
 impl WhatIfObserver for Asking {
     fn progress(&mut self, done: usize, of: usize) {
-        let _ = self.outbox.send(Command::Inquired(self.asked, InquiryNews::Progress(done, of)));
+        let _ = self.outbox.send(Command::Ask(Ask::News(self.asked, InquiryNews::Progress(done, of))));
         (self.wake)();
     }
 

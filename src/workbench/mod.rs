@@ -62,7 +62,7 @@ pub use debugger::{
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};
 pub use histogram::{BINS_PER_BAND, ColourBin, Histogram, UniqueColour};
-pub use inquiry::{Asked, Inquiry, InquiryNews};
+pub use inquiry::{Ask, Asked, Inquiry, InquiryNews};
 pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
 pub use layers::{

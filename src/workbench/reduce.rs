@@ -2,8 +2,8 @@
 
 use super::state::AfterPin;
 use super::{
-    Asked, Combine, Command, Debugger, Document, Export, Gesture, Inquiry, InquiryNews, MaskRuns, Notice,
-    Origin, Picture, Selection, Severity, Shown, State, View, Workspace,
+    Asked, Combine, Command, Debugger, Document, Export, Gesture, MaskRuns, Notice, Origin, Picture,
+    Selection, Severity, Shown, State, View, Workspace,
 };
 use crate::photo::ReadOptions;
 use crate::raster::{Mask, Raster};
@@ -93,15 +93,7 @@ pub fn reduce(state: &mut State, command: Command) -> Vec<Effect> {
             state.history.end_gesture();
             Vec::new()
         }
-        Command::AskWhy(pixel) => {
-            state.asked_pixel = Some(pixel).filter(|&pixel| is_inside(state, pixel));
-            Vec::new()
-        }
-        Command::AskWhatIf(pixel) => ask_what_if(state, pixel),
-        Command::Inquired(asked, news) => {
-            inquired(state, asked, news);
-            Vec::new()
-        }
+        Command::Ask(ask) => super::inquiry::reduce(state, ask),
         Command::Debug(command) => super::debugger::reduce(state, command),
         Command::Export(_) if state.jobs.export.is_some() => {
             let text = "an export is still under way: wait for its end, or cancel it first";
@@ -325,30 +317,6 @@ fn analyse(state: &mut State) -> Vec<Effect> {
     let inquiring = state.inquiry.take().is_some_and(|inquiry| inquiry.found.is_none());
     let stop = inquiring.then_some(Effect::StopInquiring);
     stop.into_iter().chain([Effect::Analyse]).collect()
-}
-
-fn is_inside(state: &State, pixel: u32) -> bool {
-    state.picture.as_ref().is_some_and(|picture| (pixel as usize) < picture.photo.image.pixels.len())
-}
-
-/// Asks anew, or stops asking.
-fn ask_what_if(state: &mut State, pixel: Option<u32>) -> Vec<Effect> {
-    let asked = pixel
-        .filter(|&pixel| is_inside(state, pixel))
-        .map(|pixel| Asked { pixel, generation: state.generation });
-    state.inquiry = asked.map(Inquiry::new);
-    [Effect::StopInquiring].into_iter().chain(asked.map(Effect::Inquire)).collect()
-}
-
-/// News of an inquiry, unless something else has been asked since.
-fn inquired(state: &mut State, asked: Asked, news: InquiryNews) {
-    let Some(inquiry) = state.inquiry.as_mut().filter(|inquiry| inquiry.asked == asked) else { return };
-    match news {
-        InquiryNews::Progress(done, total) => (inquiry.done, inquiry.total) = (done, total),
-        InquiryNews::Found(found) => inquiry.found = Some(Arc::new(found)),
-        // Who stopped it, has asked for something else or for nothing.
-        InquiryNews::Stopped => {}
-    }
 }
 
 fn pin_illuminant(state: &mut State, direction: Option<[f64; 3]>, gesture: Option<Gesture>) -> Vec<Effect> {

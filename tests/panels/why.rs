@@ -3,7 +3,7 @@
 use crate::window::{Window, apply, click, named, says, state, tiny_window};
 use dichroscope::gui::Pane;
 use dichroscope::trace::Stage;
-use dichroscope::workbench::{Command, Item, why};
+use dichroscope::workbench::{Ask, Command, Item, why};
 use egui::accesskit::Role;
 
 /// A pixel of the largest region.
@@ -25,7 +25,7 @@ fn a_clicked_region_tells_the_pixels_history_and_each_sentence_leads_to_its_step
     let pixel = pixel(&window);
     apply(&mut window, Command::Select(Some(Item::Region(1))));
     assert!(says(&window, "Region 1 is made of"), "a region has a story too");
-    apply(&mut window, Command::AskWhy(pixel));
+    apply(&mut window, Command::Ask(Ask::Why(pixel)));
     alone(&mut window);
     let debugger = &state(&window).debugger;
     let (trace, shown) = (debugger.trace().unwrap(), state(&window).newest.as_ref().unwrap());

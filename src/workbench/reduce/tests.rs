@@ -1,7 +1,7 @@
 use super::*;
 use crate::segment::Setting;
 use crate::truth::sample;
-use crate::workbench::{Executor, Item, Workbench};
+use crate::workbench::{Ask, Executor, Item, Workbench};
 use std::sync::mpsc::{self, Receiver};
 use std::time::Duration;
 
@@ -296,7 +296,7 @@ fn what_would_change_a_pixel_is_asked_in_the_background_and_forgotten_with_the_r
     let mut bench = opened_tiny();
     let labels = bench.state().shown().unwrap().labels().clone();
     let pixel = labels.as_slice().iter().position(|&label| label == 1).unwrap() as u32;
-    bench.apply(Command::AskWhatIf(Some(pixel)));
+    bench.apply(Command::Ask(Ask::WhatIf(Some(pixel))));
     let inquiry = bench.state().inquiry.clone().unwrap();
     let found = inquiry.found.expect("inline it has ended");
     assert!(inquiry.done == inquiry.total && !found.is_empty());
@@ -307,6 +307,6 @@ fn what_would_change_a_pixel_is_asked_in_the_background_and_forgotten_with_the_r
     let (home, kind) = (fate.labels()[pixel as usize], fate.analysis.intrinsic.kinds[pixel as usize]);
     let same = crate::workbench::shown::heirs(&labels, fate.labels())[1] == home;
     assert!(!same || kind == first.after.kind, "what was foretold has come");
-    bench.apply(Command::AskWhatIf(Some(u32::MAX)));
+    bench.apply(Command::Ask(Ask::WhatIf(Some(u32::MAX))));
     assert!(bench.state().inquiry.is_none(), "no such pixel");
 }
