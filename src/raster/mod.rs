@@ -2,8 +2,10 @@
 //!
 //! Everything is row-major: the value of column `x`, row `y` is at index `y * width + x`.
 
+mod blur;
 mod grid;
 mod morphology;
 
+pub use blur::blur;
 pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};
 pub use morphology::dilate;

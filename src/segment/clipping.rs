@@ -171,6 +171,7 @@ fn hole_at(start: usize, labels: &LabelMap, member: impl Fn(usize) -> bool, seen
 
 #[cfg(test)]
 mod tests {
+    use crate::segment::LightFindings;
     use super::*;
     use crate::reflection::DichromaticPlane;
     use crate::segment::testing::{Drawing, check, labels};
@@ -203,7 +204,7 @@ mod tests {
             alive: true,
         };
         let planar =
-            PlanarRegions { labels: labels(before), hypotheses: vec![hypothesis; 2], illuminant: None };
+            PlanarRegions { labels: labels(before), hypotheses: vec![hypothesis; 2], illuminant: None, light: LightFindings::default() };
         check(&clipping_regions(&drawing.scene(), &planar, &mut Silent), after);
     }
 

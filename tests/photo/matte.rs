@@ -28,6 +28,7 @@ fn split(body: &Raster<[f32; 3]>, surface: [f32; 3]) -> Intrinsic {
         surface: Raster::filled(width, height, surface),
         noise: Raster::filled(width, height, 0.0),
         kinds: Raster::filled(width, height, PixelKind::Matte),
+        confidence: Raster::filled(width, height, 1.0),
         regions: Vec::new(),
     }
 }

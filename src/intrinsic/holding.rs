@@ -1,0 +1,39 @@
+//! Which pixels the planar split is to be believed for (refinement `region_holds`).
+//!
+//! A region that does not hold (see [`RegionFit`]) is not split by its plane. Nor is a part of a region that lies apart and
+//! holds hardly a matte pixel: clipped highlights of a white cup fit the plane of a teal jug (21.8 → 34.4 dB on the jug's
+//! region), but no object is nothing but highlight.
+
+use crate::raster::{Mask, Raster, UNASSIGNED};
+use crate::segment::{FinalRegions, Members, RegionFit, Scene, parts};
+use crate::trace::PixelKind;
+
+/// A part of a region with a smaller share of matte pixels is no object's.
+const LEAST_MATTE: f64 = 0.1;
+
+/// Assigned pixels whose region, or part of a region, explains them.
+pub fn holding(
+    scene: &Scene,
+    regions: &FinalRegions,
+    members: &Members,
+    fits: &[RegionFit],
+    kinds: &Raster<PixelKind>,
+) -> Mask {
+    let every = !scene.refine.region_holds;
+    let holds: Vec<bool> = fits.iter().map(|fit| every || fit.holds(scene.sigma())).collect();
+    let mut mask =
+        regions.labels.map(|&label| label != UNASSIGNED && holds[usize::from(label) - 1]);
+    if every {
+        return mask;
+    }
+    let width = regions.labels.width();
+    for id in (1..=fits.len() as u16).filter(|&id| holds[usize::from(id) - 1]) {
+        for part in parts(width, members.region(id)) {
+            let matte = part.iter().filter(|&&pixel| kinds[pixel as usize] == PixelKind::Matte).count();
+            if (matte as f64) < LEAST_MATTE * part.len() as f64 {
+                part.iter().for_each(|&pixel| mask[pixel as usize] = false);
+            }
+        }
+    }
+    mask
+}
