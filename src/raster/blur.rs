@@ -33,24 +33,25 @@ fn radii(sigma_px: f64) -> [usize; 3] {
 
 fn mean_along_rows<const N: usize>(from: &Raster<[f32; N]>, to: &mut Raster<[f32; N]>, radius_px: usize) {
     let width = from.width();
+    let shares: Vec<f32> = (0..=2 * radius_px + 1).map(|count| 1.0 / count.max(1) as f32).collect();
     to.as_mut_slice().par_chunks_mut(width).enumerate().for_each(|(y, to)| {
         let row = from.row(y);
         let mut sum = [0.0f32; N];
-        let mut count = 0.0f32;
+        let mut count = 0;
         for value in &row[..radius_px.min(width)] {
             add(&mut sum, value);
-            count += 1.0;
+            count += 1;
         }
         for x in 0..width {
             if let Some(value) = row.get(x + radius_px) {
                 add(&mut sum, value);
-                count += 1.0;
+                count += 1;
             }
             if x > radius_px {
                 subtract(&mut sum, &row[x - radius_px - 1]);
-                count -= 1.0;
+                count -= 1;
             }
-            to[x] = sum.map(|sum| sum / count);
+            to[x] = sum.map(|sum| sum * shares[count]);
         }
     });
 }

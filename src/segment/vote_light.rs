@@ -15,7 +15,7 @@
 use super::illuminant::unusualness;
 use super::scene::Scene;
 use crate::color::{Vec3, vec3};
-use crate::raster::{Mask, Raster, blur, dilate};
+use crate::raster::{Mask, Raster, Window, blur, dilate};
 use rayon::prelude::*;
 
 /// Widths of the two Gaussians, pixels.
@@ -42,6 +42,8 @@ const CONE_DEG: f64 = 32.0;
 const STEPS_DEG: [f64; 4] = [2.0, 1.0, 0.5, 0.25];
 /// A light has at least this much of every band.
 const LEAST_BAND: f64 = 0.02;
+/// Votes of less than e to minus this are none.
+const NEGLIGIBLE: f64 = 8.0;
 /// Parts of the votes of which each is left out once, to see what they are worth.
 const PARTS: usize = 8;
 
@@ -57,6 +59,8 @@ struct Voter {
     angle_deg: f64,
     /// v, degrees².
     variance_deg2: f64,
+    /// Sine of the angle from the plane from which on a light gets no vote.
+    reach: f64,
     weight: f64,
     blob: usize,
 }
@@ -73,43 +77,45 @@ pub struct Votes {
 impl Votes {
     /// Asks the picture; none where too few pixels have anything to say.
     pub fn cast(scene: &Scene) -> Option<Self> {
-        let (width, height) = (scene.pixels.width(), scene.pixels.height());
+        let size = (scene.pixels.width(), scene.pixels.height());
+        let margin_px = (4.0 * COARSE_PX) as usize;
+        let window = Window::around(size, margin_px, |pixel| !scene.masks.dark(pixel))?;
         let clipped = dilate(&scene.masks.mask(crate::photo::Masks::clipped), CLIP_MARGIN_PX);
         let valid = |pixel: usize| !clipped[pixel] && !scene.masks.invalid(pixel);
-        let mut weighted = Raster::filled(width, height, [0.0f32; 4]);
-        weighted.as_mut_slice().par_iter_mut().enumerate().with_min_len(1 << 12).for_each(|(pixel, to)| {
-            if valid(pixel) {
-                let [r, g, b] = scene.pixels[pixel];
-                *to = [r, g, b, 1.0];
-            }
+        let weighted = window.raster(|pixel| {
+            let [r, g, b] = scene.pixels[pixel];
+            if valid(pixel) { [r, g, b, 1.0] } else { [0.0; 4] }
         });
         let coarse = blur(&weighted, COARSE_PX);
         let fine = blur(&weighted, FINE_PX);
-        let lit = |pixel: usize| valid(pixel) && !scene.masks.dark(pixel);
+        let lit = |index: usize| {
+            let pixel = window.pixel(index);
+            !scene.masks.dark(pixel) && valid(pixel)
+        };
         let (fine, coarse) = (fine.as_slice(), coarse.as_slice());
-        let rise = |pixel: usize| {
-            let (fine, coarse) = (normalised(fine[pixel]), normalised(coarse[pixel]));
+        let rise = |index: usize| {
+            let (fine, coarse) = (normalised(fine[index]), normalised(coarse[index]));
             std::array::from_fn::<f32, 3, _>(|band| fine[band] - coarse[band])
         };
-        let sums: Vec<f32> = (0..width * height)
+        let sums: Vec<f32> = (0..window.len())
             .into_par_iter()
             .with_min_len(1 << 12)
-            .map(|pixel| if lit(pixel) { rise(pixel).iter().sum() } else { f32::NEG_INFINITY })
+            .map(|index| if lit(index) { rise(index).iter().sum() } else { f32::NEG_INFINITY })
             .collect();
         let least = least_rise(&sums)?.max(LEAST_RISE * scene.sigma() as f32);
-        let votes = |pixel: usize| {
-            let (d, b) = (rise(pixel), normalised(coarse[pixel]));
+        let votes = |index: usize| {
+            let (d, b) = (rise(index), normalised(coarse[index]));
             (d.iter().chain(&b).all(|band| *band > 0.0)).then(|| Voter::new(d, b, scene.sigma())).flatten()
         };
-        let found: Vec<(usize, Voter)> = (0..width * height)
-            .filter(|&pixel| sums[pixel] > least)
-            .filter_map(|pixel| Some((pixel, votes(pixel)?)))
+        let found: Vec<(usize, Voter)> = (0..window.len())
+            .filter(|&index| sums[index] > least)
+            .filter_map(|index| Some((index, votes(index)?)))
             .collect();
-        Self::counted(found, width, height)
+        Self::counted(&found, window.width, window.height)
     }
 
     /// Weighs voters by their blobs, and chooses those that are heard.
-    fn counted(found: Vec<(usize, Voter)>, width: usize, height: usize) -> Option<Self> {
+    fn counted(found: &[(usize, Voter)], width: usize, height: usize) -> Option<Self> {
         if found.len() < LEAST_VOTERS {
             return None;
         }
@@ -190,17 +196,18 @@ impl Voter {
         let error_deg = (sigma / 2.0 / (rise * sine)).to_degrees();
         let across = body.cross(&normal);
         let variance_deg2 = 1.0 + error_deg * error_deg;
-        Some(Self { normal, body, across, angle_deg, variance_deg2, weight: 1.0, blob: 0 })
+        let reach = (2.0 * NEGLIGIBLE * variance_deg2).sqrt().min(90.0).to_radians().sin();
+        Some(Self { normal, body, across, angle_deg, variance_deg2, reach, weight: 1.0, blob: 0 })
     }
 
     #[inline]
     fn votes_for(&self, light: &Vec3) -> f64 {
-        const NEGLIGIBLE: f64 = 12.0;
-        let off_deg = self.normal.dot(light).clamp(-1.0, 1.0).asin().to_degrees();
-        let miss = off_deg * off_deg / (2.0 * self.variance_deg2);
-        if miss > NEGLIGIBLE {
+        let sine = self.normal.dot(light);
+        if sine.abs() > self.reach {
             return 0.0;
         }
+        let off_deg = sine.clamp(-1.0, 1.0).asin().to_degrees();
+        let miss = off_deg * off_deg / (2.0 * self.variance_deg2);
         let from_body_deg = self.across.dot(light).atan2(self.body.dot(light)).to_degrees();
         let beyond_deg = from_body_deg - self.angle_deg;
         let tolerance_deg = if beyond_deg >= 0.0 { BEYOND_DEG } else { BEFORE_DEG };

@@ -48,13 +48,16 @@ impl Doubt {
         }
         let (mut surface, mut total) = (0.0f64, 0.0f64);
         let (mut strong, mut outshining) = (0usize, 0usize);
-        for pixel in (0..outside.len()).filter(|&pixel| outside[pixel]) {
-            let point = shades.points[pixel];
-            total += f64::from(scene.pixels[pixel].iter().sum::<f32>()) / 3.0;
-            if weights[pixel] <= 0.0 {
+        for (index, point) in shades.points.as_slice().iter().enumerate() {
+            let pixel = shades.window.pixel(index);
+            if !outside[pixel] {
                 continue;
             }
-            surface += f64::from(weights[pixel] * point.surface);
+            total += f64::from(scene.pixels[pixel].iter().sum::<f32>()) / 3.0;
+            if weights[index] <= 0.0 {
+                continue;
+            }
+            surface += f64::from(weights[index] * point.surface);
             if point.surface > point.high {
                 strong += usize::from(point.surface > 0.3 * point.body);
                 outshining += usize::from(point.surface > point.body);

@@ -14,27 +14,32 @@ const CORE_TEXTURE: f32 = 0.15;
 /// Fewest pixels of a blob.
 const LEAST_PX: usize = 8;
 
-/// The share of ms that is surface reflection, 0…1, at each pixel of `outside`; 0 elsewhere.
+/// The share of ms that is surface reflection, 0…1, at each pixel of the window that lies in `outside`; 0 elsewhere.
 pub fn weights(scene: &Scene, shades: &Shades, texture: Option<&Raster<f32>>, outside: &Mask) -> Raster<f32> {
     let points = &shades.points;
     let texture_at = |pixel: usize| texture.map_or(0.0, |texture| texture[pixel]);
     let weight = |pixel: usize| 1.0 - ((texture_at(pixel) - TEXTURE.0) / TEXTURE.1).clamp(0.0, 1.0);
-    let mask_of = |test: &dyn Fn(usize) -> bool| {
-        let data = (0..points.len()).map(test).collect();
-        Mask::from_vec(points.width(), points.height(), data).unwrap_or_default()
-    };
+    let window = shades.window;
+    let size = (points.width(), points.height());
     let strong = |pixel: usize| points[pixel].surface > points[pixel].high && points[pixel].high > 0.0;
     let kept = if scene.refine.hysteresis {
-        let faint = opened(&mask_of(&|pixel| {
+        let faint = opened(&mask(size, |pixel| {
             points[pixel].surface > points[pixel].low && points[pixel].low > 0.0 && weight(pixel) > 0.0
         }));
-        let core = opened(&mask_of(&|pixel| strong(pixel) && texture_at(pixel) < CORE_TEXTURE));
-        with_core(&faint, &core, &mask_of(&|pixel| scene.masks.clipped(pixel)))
+        let core = opened(&mask(size, |pixel| strong(pixel) && texture_at(pixel) < CORE_TEXTURE));
+        with_core(&faint, &core, &window.raster(|pixel| scene.masks.clipped(pixel)))
     } else {
-        mask_of(&strong)
+        mask(size, strong)
     };
-    let data = (0..points.len()).map(|p| if kept[p] && outside[p] { weight(p) } else { 0.0 }).collect();
+    let share = |pixel: usize| if kept[pixel] && outside[window.pixel(pixel)] { weight(pixel) } else { 0.0 };
+    let data = (0..points.len()).map(share).collect();
     Raster::from_vec(points.width(), points.height(), data).unwrap_or_default()
+}
+
+/// A mask of the pixels for which `test` holds.
+fn mask((width, height): (usize, usize), test: impl Fn(usize) -> bool) -> Mask {
+    let data = (0..width * height).map(test).collect();
+    Mask::from_vec(width, height, data).unwrap_or_default()
 }
 
 /// What a square of 3 × 3 fits into.
@@ -78,7 +83,7 @@ fn with_core(faint: &Mask, core: &Mask, clipped: &Mask) -> Mask {
 mod tests {
     use super::*;
 
-    fn mask(rows: &[&str], which: &str) -> Mask {
+    fn drawn(rows: &[&str], which: &str) -> Mask {
         let data = rows.iter().flat_map(|row| row.chars().map(|c| which.contains(c))).collect();
         Raster::from_vec(rows[0].len(), rows.len(), data).unwrap()
     }
@@ -87,18 +92,18 @@ mod tests {
     fn opening_takes_threads_and_leaves_blobs() {
         let rows = ["###....", "###.#..", "###.###", "....#.."];
         let left = ["###....", "###....", "###....", "......."];
-        assert_eq!(opened(&mask(&rows, "#")), mask(&left, "#"));
+        assert_eq!(opened(&drawn(&rows, "#")), drawn(&left, "#"));
     }
 
     #[test]
     fn a_blob_needs_a_core_and_a_clipped_one_is_a_core() {
         // o faint, # core, X clipped.
         let rows = ["oooo.oooo.oooX", "oo#o.oooo.oooX", "oooo.oooo.oooX"];
-        let faint = mask(&rows, "o#");
-        let kept = with_core(&faint, &mask(&rows, "#"), &mask(&rows, "X"));
-        assert_eq!(kept.row(0), mask(&["oooo......ooo."], "o").row(0));
+        let faint = drawn(&rows, "o#");
+        let kept = with_core(&faint, &drawn(&rows, "#"), &drawn(&rows, "X"));
+        assert_eq!(kept.row(0), drawn(&["oooo......ooo."], "o").row(0));
         let small = ["o#o..", "oXo.."];
-        let none = with_core(&mask(&small, "o#"), &mask(&small, "#"), &mask(&small, "X"));
+        let none = with_core(&drawn(&small, "o#"), &drawn(&small, "#"), &drawn(&small, "X"));
         assert!(none.as_slice().iter().all(|kept| !kept), "five pixels are no blob");
     }
 }

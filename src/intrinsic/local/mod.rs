@@ -17,14 +17,17 @@ mod texture;
 use super::confidence::LOCAL;
 use super::split::Images;
 use crate::color::Vec3;
-use crate::raster::{Mask, Raster};
+use crate::raster::{Mask, Raster, Window};
 use crate::segment::{FinalRegions, Scene};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 use shade::Shades;
 
-/// Fewest lit pixels that are worth a look.
+/// Fewest lit pixels that are worth a look, and the least share of all that are lit.
 const LEAST_PIXELS: usize = 64;
+const LEAST_SHARE: f64 = 0.01;
+/// How far around them the surroundings matter, pixels.
+const MARGIN_PX: usize = 24;
 
 /// Takes the planes' split back where it does not hold, and splits locally there. Returns the confidence of the pixels that
 /// were split so, 0 elsewhere; none where no pixel was.
@@ -36,11 +39,15 @@ pub fn split_locally(
 ) -> Option<Raster<f32>> {
     let outside = take_back(scene, holding, images);
     let pixels = outside.as_slice().iter().filter(|&&outside| outside).count();
+    let lit = (0..outside.len()).filter(|&pixel| !scene.masks.dark(pixel)).count();
+    let few = pixels < LEAST_PIXELS || (pixels as f64) < LEAST_SHARE * lit as f64;
     let light = Vec3::from(regions.light.direction?);
-    if !scene.refine.local_split || pixels < LEAST_PIXELS || scene.stopped() {
+    if !scene.refine.local_split || few || scene.stopped() {
         return None;
     }
-    let shades = Shades::new(scene, &light)?;
+    let window =
+        Window::around((outside.width(), outside.height()), MARGIN_PX, |pixel| outside[pixel])?;
+    let shades = Shades::new(scene, &light, window)?;
     let texture = scene.refine.texture_test.then(|| texture::texture(&shades, scene.sigma()));
     let weights = blobs::weights(scene, &shades, texture.as_ref(), &outside);
     if scene.refine.belief
@@ -73,6 +80,9 @@ fn take_back(scene: &Scene, holding: &Mask, images: &mut Images) -> Mask {
                 continue;
             }
             outside[x] = !scene.masks.dark(pixel);
+            if kinds[x] == PixelKind::Unassigned {
+                continue;
+            }
             (body[x], surface[x], noise[x]) = (scene.pixels[pixel], [0.0; 3], 0.0);
             // Nothing was restored there.
             if kinds[x] == PixelKind::Restored {
@@ -85,8 +95,9 @@ fn take_back(scene: &Scene, holding: &Mask, images: &mut Images) -> Mask {
 
 /// Moves surface reflection from body to surface. Returns the confidence of each pixel.
 fn apply(light: &Vec3, shades: &Shades, weights: &Raster<f32>, images: &mut Images) -> Raster<f32> {
-    let width = weights.width();
-    let mut confidence = Raster::filled(width, weights.height(), 0.0);
+    let width = images.body.width();
+    let mut confidence = Raster::filled(width, images.body.height(), 0.0);
+    let window = shades.window;
     let per_amount: [f32; 3] = std::array::from_fn(|band| (3f64.sqrt() * light[band]) as f32);
     let rows = (
         images.body.as_mut_slice().par_chunks_mut(width.max(1)),
@@ -94,9 +105,11 @@ fn apply(light: &Vec3, shades: &Shades, weights: &Raster<f32>, images: &mut Imag
         images.kinds.as_mut_slice().par_chunks_mut(width.max(1)),
         confidence.as_mut_slice().par_chunks_mut(width.max(1)),
     );
-    rows.into_par_iter().enumerate().for_each(|(y, (body, surface, kinds, confidence))| {
-        for (x, &weight) in weights.row(y).iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
-            let amount = weight * shades.points[y * width + x].surface;
+    let rows = rows.into_par_iter().skip(window.top).take(window.height);
+    rows.enumerate().for_each(|(row, (body, surface, kinds, confidence))| {
+        let found = weights.row(row).iter().zip(shades.points.row(row));
+        for (x, (&weight, point)) in (window.left..).zip(found).filter(|(_, (weight, _))| **weight > 0.0) {
+            let amount = weight * point.surface;
             // Never more than there is in any band.
             surface[x] = std::array::from_fn(|band| (amount * per_amount[band]).min(body[x][band]));
             body[x] = std::array::from_fn(|band| body[x][band] - surface[x][band]);

@@ -10,7 +10,7 @@
 //! and more; with one κ for all hues of a cell 10 dB.
 
 use crate::color::Vec3;
-use crate::raster::Raster;
+use crate::raster::{Raster, Window};
 use crate::segment::Scene;
 use rayon::prelude::*;
 
@@ -45,31 +45,36 @@ pub struct Shade {
     pub high: f32,
 }
 
-/// The shade of each pixel.
+/// The shade of each pixel of a window.
 pub struct Shades {
-    /// In row order.
+    /// Which.
+    pub window: Window,
+    /// Dark pixels have none.
     pub points: Raster<Shade>,
 }
 
 impl Shades {
     /// Under a light; none where the light lacks a band.
-    pub fn new(scene: &Scene, light: &Vec3) -> Option<Self> {
+    pub fn new(scene: &Scene, light: &Vec3, window: Window) -> Option<Self> {
         let axes = Axes::new(light)?;
         let histogram = Histogram::new(scene, &axes).smoothed();
         let ratios = histogram.ratios();
-        let (width, height) = (scene.pixels.width(), scene.pixels.height());
-        let mut points = Raster::filled(width, height, Shade::default());
+        let mut points = Raster::filled(window.width, window.height, Shade::default());
         let sigma = scene.sigma() as f32;
-        points.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, points)| {
+        points.as_mut_slice().par_chunks_mut(window.width).enumerate().for_each(|(row, points)| {
             if scene.stopped() {
                 return;
             }
-            for (x, (point, &color)) in points.iter_mut().zip(scene.pixels.row(y)).enumerate() {
-                let seen = axes.of(color);
-                let Some([ratio, median]) = ratios.read(x, y, seen.hue) else { continue };
+            for (column, point) in points.iter_mut().enumerate() {
+                let pixel = window.at(column, row);
+                if scene.masks.dark(pixel) {
+                    continue;
+                }
+                let seen = axes.of(scene.pixels[pixel]);
+                let place = (window.left + column, window.top + row);
+                let Some([ratio, median]) = ratios.read(place, seen.hue) else { continue };
                 point.body = ratio * seen.chroma;
-                let valid = seen.has_hue(sigma) && !scene.masks.clipped(y * width + x);
-                if valid && !scene.masks.dark(y * width + x) {
+                if seen.has_hue(sigma) && !scene.masks.clipped(pixel) {
                     let noise = NOISE * sigma * (1.0 / 3.0 + ratio * ratio).sqrt();
                     point.surface = (seen.mean - point.body).max(0.0);
                     point.low = 3.0 * noise;
@@ -77,7 +82,7 @@ impl Shades {
                 }
             }
         });
-        Some(Self { points })
+        Some(Self { window, points })
     }
 }
 
@@ -207,9 +212,12 @@ impl Histogram {
         let mut of = vec![None; self.columns * self.rows * HUES];
         of.par_chunks_mut(HUES).enumerate().for_each(|(cell, of)| {
             for (hue, of) in of.iter_mut().enumerate() {
+                let places = [hue + HUES - 1, hue, hue + 1].map(|hue| cell * HUES + hue % HUES);
+                if places.iter().all(|&place| !self.used[place]) {
+                    continue;
+                }
                 let mut bins = [0.0f32; BINS];
-                for (near, weight) in [(hue + HUES - 1, 1.0), (hue, 2.0), (hue + 1, 1.0)] {
-                    let place = cell * HUES + near % HUES;
+                for (place, weight) in places.into_iter().zip([1.0, 2.0, 1.0]) {
                     if self.used[place] {
                         let counts = &self.counts[place * BINS..(place + 1) * BINS];
                         bins.iter_mut().zip(counts).for_each(|(sum, count)| *sum += weight * count);
@@ -247,7 +255,7 @@ struct Ratios {
 
 impl Ratios {
     /// κ and median at a pixel, between the nearest cells and hues.
-    fn read(&self, x: usize, y: usize, hue: f32) -> Option<[f32; 2]> {
+    fn read(&self, (x, y): (usize, usize), hue: f32) -> Option<[f32; 2]> {
         let place = |at: f32, last: usize| {
             let at = at.clamp(0.0, (last - 1) as f32);
             let first = (at as usize).min(last.saturating_sub(2));
