@@ -26,9 +26,8 @@ pub fn of_region(fit: &RegionFit, holds: bool, angle_deg: Option<f64>, sigma: f6
         return 0.0;
     }
     let fitting = ((HOPELESS - fit.rms_counts / sigma.max(1e-9)) / (HOPELESS - 1.0)).clamp(0.0, 1.0);
-    let apart = angle_deg.map_or(1.0, |angle| {
-        (angle.to_radians().sin() / WIDE_DEG.to_radians().sin()).clamp(0.0, 1.0)
-    });
+    let apart = angle_deg
+        .map_or(1.0, |angle| (angle.to_radians().sin() / WIDE_DEG.to_radians().sin()).clamp(0.0, 1.0));
     // The maximum of a number and none is the number.
     (fitting * apart * (1.0 - fit.texture.clamp(0.0, 1.0))).max(0.0)
 }

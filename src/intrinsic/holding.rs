@@ -24,8 +24,7 @@ pub fn holding(
 ) -> Mask {
     let every = !scene.refine.region_holds;
     let holds: Vec<bool> = fits.iter().map(|fit| every || fit.holds(scene.sigma())).collect();
-    let mut mask =
-        regions.labels.map(|&label| label != UNASSIGNED && holds[usize::from(label) - 1]);
+    let mut mask = regions.labels.map(|&label| label != UNASSIGNED && holds[usize::from(label) - 1]);
     if every {
         return mask;
     }

@@ -3,11 +3,13 @@
 mod confidence;
 mod holding;
 mod local;
+mod reason;
 mod region;
 mod restore;
 mod split;
 mod vectors;
 
+pub use reason::Reason;
 pub use split::split;
 
 use crate::raster::Raster;
@@ -27,6 +29,8 @@ pub struct Intrinsic {
     pub kinds: Raster<PixelKind>,
     /// How far the split of each pixel is to be believed, 0…1.
     pub confidence: Raster<f32>,
+    /// Why a pixel is not explained by one region's skewed T.
+    pub reasons: Raster<Reason>,
     /// The regions; region `id` is at index `id − 1`.
     pub regions: Vec<RegionReflection>,
 }

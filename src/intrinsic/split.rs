@@ -3,6 +3,7 @@
 use super::confidence::Grounds;
 use super::holding::holding;
 use super::local::split_locally;
+use super::reason::{Case, Reason};
 use super::region::{Known, MIN_ANGLE_DEG};
 use super::restore::Distorted;
 use super::vectors::{Vectors, fit_vectors};
@@ -71,8 +72,19 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
         sigma: scene.sigma() as f32,
     };
     let confidence = grounds.confidence(local.as_ref());
+    let case = Case {
+        masks: scene.masks,
+        labels: &regions.labels,
+        holding: &holding,
+        kinds: &images.kinds,
+        noise: &images.noise,
+        regions: &reflections,
+        light: regions.light.direction,
+        sigma: scene.sigma() as f32,
+    };
+    let reasons = case.reasons();
     let Images { body, surface, noise, kinds } = images;
-    Intrinsic { body, surface, noise, kinds, confidence, regions: reflections }
+    Intrinsic { body, surface, noise, kinds, confidence, reasons, regions: reflections }
 }
 
 /// How one region's pixels are split.
@@ -186,7 +198,8 @@ impl Images {
     fn unfinished(self) -> Intrinsic {
         let Self { body, surface, noise, kinds } = self;
         let confidence = Raster::filled(body.width(), body.height(), 0.0);
-        Intrinsic { body, surface, noise, kinds, confidence, regions: Vec::new() }
+        let reasons = confidence.map(|_| Reason::default());
+        Intrinsic { body, surface, noise, kinds, confidence, reasons, regions: Vec::new() }
     }
 
     /// Restores distorted pixels from their good bands and their surroundings.

@@ -124,7 +124,7 @@ mod tests {
     use crate::intrinsic::split;
     use crate::photo::{LinearImage, MaskLimits};
     use crate::raster::{LabelMap, Raster};
-    use crate::segment::{LightFindings, FinalRegions, Parameter, Params, UsedParams};
+    use crate::segment::{FinalRegions, LightFindings, Parameter, Params, UsedParams};
     use crate::trace::Silent;
     use proptest::prelude::*;
 

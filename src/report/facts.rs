@@ -2,11 +2,12 @@
 
 use super::scores::Scores;
 use crate::analysis::{Analysis, Stage};
-use crate::intrinsic::RegionReflection;
+use crate::intrinsic::{Reason, RegionReflection};
 use crate::photo::Photo;
 use crate::raster::UNASSIGNED;
 use crate::segment::{IlluminantSetting, Method, Parameter, Params, Refine, Setting};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Version of the schema; it rises when a field changes its name or its meaning.
@@ -32,6 +33,9 @@ pub struct Report {
     pub regions: Vec<RegionFacts>,
     /// Pixels in no region; of an area only those inside.
     pub unassigned_pixels: usize,
+    /// Pixels by what keeps them from being explained, by name; of an area only those inside.
+    #[serde(default)]
+    pub reasons: BTreeMap<String, usize>,
     /// What to beware of, in words: of the file first, then of the analysis.
     pub warnings: Vec<String>,
     /// How it compares with a ground truth, when there was one.
@@ -57,11 +61,22 @@ impl Report {
             illuminant: IlluminantFacts::new(analysis),
             regions: analysis.intrinsic.regions.iter().map(RegionFacts::from).collect(),
             unassigned_pixels: unassigned,
+            reasons: reasons(analysis),
             warnings: file_warnings.iter().chain(&analysis.warnings).cloned().collect(),
             scores: None,
             timings_ms: Timings::default(),
         }
     }
+}
+
+/// How many pixels have which reason; reasons that none has are left out.
+fn reasons(analysis: &Analysis) -> BTreeMap<String, usize> {
+    let mut counts = [0usize; Reason::ALL.len()];
+    for (pixel, &reason) in analysis.intrinsic.reasons.as_slice().iter().enumerate() {
+        counts[reason as usize] += usize::from(!analysis.masks.outside(pixel));
+    }
+    let named = Reason::ALL.iter().zip(counts).filter(|(_, count)| *count > 0);
+    named.map(|(reason, count)| (reason.name().to_owned(), count)).collect()
 }
 
 /// The file and how it was read.

@@ -171,9 +171,9 @@ fn hole_at(start: usize, labels: &LabelMap, member: impl Fn(usize) -> bool, seen
 
 #[cfg(test)]
 mod tests {
-    use crate::segment::LightFindings;
     use super::*;
     use crate::reflection::DichromaticPlane;
+    use crate::segment::LightFindings;
     use crate::segment::testing::{Drawing, check, labels};
     use crate::trace::Silent;
 
@@ -203,8 +203,12 @@ mod tests {
             highlight: None,
             alive: true,
         };
-        let planar =
-            PlanarRegions { labels: labels(before), hypotheses: vec![hypothesis; 2], illuminant: None, light: LightFindings::default() };
+        let planar = PlanarRegions {
+            labels: labels(before),
+            hypotheses: vec![hypothesis; 2],
+            illuminant: None,
+            light: LightFindings::default(),
+        };
         check(&clipping_regions(&drawing.scene(), &planar, &mut Silent), after);
     }
 

@@ -144,8 +144,12 @@ impl Refine {
             }
             "split_components" => "Parts of a region that lie apart become regions of their own (5.5).",
             "vote_light" => "Small highlights vote for the light; where few regions hold, they decide (5.4).",
-            "region_holds" => "Where a region's pixels do not fit its plane, or vary like a print, the plane is not used (3).",
-            "local_split" => "Where no region holds, what is paler than its hue around it is taken for a highlight (6).",
+            "region_holds" => {
+                "Where a region's pixels do not fit its plane, or vary like a print, the plane is not used (3)."
+            }
+            "local_split" => {
+                "Where no region holds, what is paler than its hue around it is taken for a highlight (6)."
+            }
             "texture_test" => "The local split passes over what varies against the body like a print (6).",
             "hysteresis" => "The local split takes faint blobs that have a strong core, and no others (6).",
             "belief" => "Where highlights or light are not believable, nothing is split locally (6).",

@@ -18,7 +18,8 @@ const CONFIDENCE: f32 = 0.3;
 
 /// Fills the clipped blobs of `outside` that are highlights.
 pub fn repair(scene: &Scene, outside: &Mask, images: &mut Images, confidence: &mut Raster<f32>) {
-    let mut blobs = Blobs { scene, mark: vec![0; outside.len()], width: outside.width(), height: outside.height() };
+    let mut blobs =
+        Blobs { scene, mark: vec![0; outside.len()], width: outside.width(), height: outside.height() };
     for start in 0..outside.len() {
         let wanted = |pixel: usize| outside[pixel] && scene.masks.clipped(pixel);
         if !wanted(start) || blobs.mark[start] != 0 || scene.stopped() {
