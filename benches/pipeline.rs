@@ -11,6 +11,9 @@
 //! Then, for the embedded sample and for a tiling of it, what one movement of a slider costs: a session that holds the
 //! result of the default parameters runs again after one parameter or switch has changed. Best and median of several runs,
 //! and the best as a multiple of (b). For the largest tiling, the stages of a first run.
+//!
+//! Last, what recording every decision costs: time of a recorded run as a multiple of an unrecorded one, bytes a pixel, and
+//! how long it takes to show the state at any step.
 
 #[path = "../tests/synthetic/mod.rs"]
 mod synthetic;
@@ -19,6 +22,7 @@ use dichroscope::analysis::{Observer, Session, Stage};
 use dichroscope::photo::{LinearImage, ReadOptions, read};
 use dichroscope::raster::Raster;
 use dichroscope::segment::{IlluminantSetting, Parameter, Params, Refine, Setting};
+use dichroscope::trace::Replay;
 use std::hint::black_box;
 use std::path::Path;
 use std::sync::Arc;
@@ -50,6 +54,13 @@ fn main() {
     sliders(1, runs);
     sliders(2, runs);
     stages(7, runs.min(3));
+    println!(
+        "\n{:>10}  {:>9}  {:>7}  {:>8}  {:>9}  {:>9}",
+        "trace", "recorded", "ratio", "bytes/px", "seek", "worst"
+    );
+    for tiles in [1, 2, 7] {
+        traces(tiles, if tiles > 2 { runs.min(3) } else { runs });
+    }
 }
 
 /// The sample, repeated this often to either side.
@@ -136,6 +147,31 @@ fn stages(tiles: usize, runs: usize) {
     for stage in Stage::ALL {
         println!("{:>31}  {}", stage.name(), milliseconds(times.best[stage as usize].unwrap_or_default()));
     }
+}
+
+fn traces(tiles: usize, runs: usize) {
+    let (image, params) = (sample(tiles), Params::default());
+    let plain = best_of(runs, || Session::new(image.clone()).run(&params, &mut ()));
+    let recorded = best_of(runs, || Session::new(image.clone()).run_traced(&params, &mut ()));
+    let (_, trace) =
+        Session::new(image.clone()).run_traced(&params, &mut ()).expect("invariant: nobody cancels");
+    let trace = Arc::new(trace);
+    let mut replay = Replay::new(Arc::clone(&trace));
+    replay.prepare();
+    // A multiplicative walk through the trace: every place is as likely as any other, and the same on every run.
+    let places = (1..=100u64).map(|i| (i.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 11) as usize % trace.len());
+    let mut seeks: Vec<Duration> = places.map(|place| best_of(1, || replay.seek(place))).collect();
+    seeks.sort_unstable();
+    let pixels = image.pixels.len() as f64;
+    println!(
+        "{:>7.2} MP  {}  {:>6.2}\u{d7}  {:>8.1}  {}  {}",
+        pixels / 1e6,
+        milliseconds(recorded),
+        recorded.as_secs_f64() / plain.as_secs_f64(),
+        (trace.bytes() + replay.bytes()) as f64 / pixels,
+        milliseconds(seeks[seeks.len() / 2]),
+        milliseconds(seeks[seeks.len() - 1]),
+    );
 }
 
 fn milliseconds(time: Duration) -> String {

@@ -8,10 +8,12 @@ mod output;
 mod resolve;
 mod stages;
 mod stale;
+mod what_if;
 
 pub use crate::segment::Illuminant;
 pub use crate::trace::Stage;
 pub use output::StageOutput;
+pub use what_if::{Direction, Fate, Home, WhatIf, WhatIfObserver, what_if};
 
 use crate::intrinsic::Intrinsic;
 use crate::photo::{LinearImage, Masks};

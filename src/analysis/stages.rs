@@ -7,8 +7,9 @@ use crate::intrinsic::{Intrinsic, split};
 use crate::photo::{LinearImage, MaskLimits, Masks, estimate_sigma};
 use crate::raster::{LabelMap, Mask, Raster};
 use crate::segment::{
-    Areas, Classifier, FinalRegions, MatteRegions, Params, PlanarRegions, Refine, Scene, Setting, UsedParams,
-    Windows, classify, clipping_regions, final_regions, matte_regions, merge, planar_regions,
+    Areas, Classifier, FinalRegions, LightFindings, MatteRegions, Params, PlanarRegions, Refine, Scene,
+    Setting, UsedParams, Windows, classify, clipping_regions, final_regions, matte_regions, merge,
+    planar_regions,
 };
 use crate::trace::{Event, MasksMade, Recorder, Reel, Trace};
 use std::sync::Arc;
@@ -205,14 +206,16 @@ impl Stages {
         let (masks, sigma) = self.masks.get(Stage::Masks, key, observer, |_, recorder: &mut R| {
             let masks = masks_of(&limits);
             let sigma = if automatic_noise { estimate_sigma(image, &masks) } else { None };
-            let masks = if automatic_intensity {
+            let (masks, limits) = if automatic_intensity {
                 let min_intensity = used_params(params, image, sigma).min_intensity;
-                masks_of(&MaskLimits { min_intensity, ..limits })
+                let limits = MaskLimits { min_intensity, ..limits };
+                (masks_of(&limits), limits)
             } else {
-                masks
+                (masks, limits)
             };
             if R::KEEPS {
-                recorder.record(Event::MasksMade(Box::new(masks_made(&masks, image.pixels.len(), sigma))));
+                let made = masks_made(&masks, limits, image.pixels.len(), sigma);
+                recorder.record(Event::MasksMade(Box::new(made)));
             }
             (Arc::new(masks), sigma)
         })?;
@@ -222,9 +225,10 @@ impl Stages {
     }
 }
 
-fn masks_made(masks: &Masks, pixels: usize, sigma: Option<f64>) -> MasksMade {
+fn masks_made(masks: &Masks, limits: MaskLimits, pixels: usize, sigma: Option<f64>) -> MasksMade {
     let count = |test: &dyn Fn(usize) -> bool| (0..pixels).filter(|&pixel| test(pixel)).count() as u32;
     MasksMade {
+        limits,
         dark: count(&|pixel| masks.dark(pixel)),
         distorted: count(&|pixel| !masks.dark(pixel) && masks.distorted(pixel)),
         sigma,
@@ -274,9 +278,11 @@ fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks, restricted
             "no linear area was found: no window varies along one direction beyond the noise".to_owned(),
         );
     } else if planar.illuminant.is_none() {
-        warnings.push(
-            "no highlight was found: the light's colour is unknown and all is body reflection".to_owned(),
-        );
+        let why = match planar.light {
+            LightFindings { planes: None, votes: None, .. } => "no highlight was found".to_owned(),
+            light => light.reason(),
+        };
+        warnings.push(format!("{why}: the light's colour is unknown and all is body reflection"));
     }
     warnings
 }

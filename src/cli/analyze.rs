@@ -2,13 +2,14 @@
 
 use super::inputs::{self, Job, parent_name};
 use super::one::{self, Area, Finished, Plan, Reference, Shot};
+use super::reading::Reading;
 use super::settings::Settings;
 use super::{Outcome, note};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use dichroscope::export::check_target;
 use dichroscope::intrinsic::POOR_FIT;
-use dichroscope::photo::{EncodingChoice, ReadOptions};
+use dichroscope::photo::ReadOptions;
 use dichroscope::segment::Params;
 use dichroscope::truth::find_truth;
 use globset::GlobMatcher;
@@ -54,22 +55,6 @@ pub struct Arguments {
     reading: Reading,
 }
 
-/// How to read files.
-#[derive(Clone, Copy, Debug, Args)]
-#[command(next_help_heading = "Reading")]
-struct Reading {
-    /// What the file's values mean: auto (believe the file), linear, srgb or gamma:G
-    #[arg(long, value_name = "ENCODING", default_value_t)]
-    encoding: EncodingChoice,
-    /// Counts that the file's full scale stands for [default: 255]
-    #[arg(long, value_name = "COUNTS", value_parser = positive)]
-    full_scale: Option<f64>,
-    /// Refuse larger pictures before memory is taken for them
-    #[arg(long, value_name = "N", value_parser = positive,
-          default_value_t = ReadOptions::default().max_megapixels)]
-    max_megapixels: f64,
-}
-
 /// What all photographs of one call have in common.
 struct Work<'a> {
     arguments: &'a Arguments,
@@ -79,8 +64,7 @@ struct Work<'a> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
-    let Reading { encoding, full_scale, max_megapixels } = arguments.reading;
-    let reading = ReadOptions { encoding, full_scale, max_megapixels };
+    let reading = arguments.reading.options();
     let params = arguments.settings.params()?;
     let area = arguments.area.as_deref().map(|path| Area::read(path, &reading)).transpose()?;
     let work = Work { arguments, params, area, reading };
@@ -187,12 +171,5 @@ fn share(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if (0.0..=1.0).contains(&number) => Ok(number),
         _ => Err("expected a number from 0 to 1".to_owned()),
-    }
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
-        _ => Err("expected a number above 0".to_owned()),
     }
 }

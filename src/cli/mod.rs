@@ -7,9 +7,13 @@ mod analyze;
 mod evaluate;
 mod inputs;
 mod one;
+mod reading;
 mod sample;
 mod settings;
+mod subject;
 mod table;
+mod trace;
+mod why;
 
 use anyhow::{Result, bail};
 use clap::builder::PossibleValuesParser;
@@ -39,6 +43,8 @@ pub struct Arguments {
 pub enum Command {
     Analyze(Box<analyze::Arguments>),
     Evaluate(evaluate::Arguments),
+    Trace(Box<trace::Arguments>),
+    Why(Box<why::Arguments>),
     Screenshot(ScreenshotArguments),
 }
 
@@ -90,6 +96,8 @@ pub fn run(arguments: Arguments) -> ExitCode {
     let result = match (arguments.command, arguments.image) {
         (Some(Command::Analyze(arguments)), _) => analyze::run(&arguments),
         (Some(Command::Evaluate(arguments)), _) => evaluate::run(&arguments),
+        (Some(Command::Trace(arguments)), _) => trace::run(&arguments),
+        (Some(Command::Why(arguments)), _) => why::run(&arguments),
         (Some(Command::Screenshot(_)), _) => no_screenshot(),
         (None, None) => sample::run(),
         (None, Some(image)) => no_window(&image),

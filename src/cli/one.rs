@@ -70,6 +70,11 @@ impl Area {
         Ok(Self { name, mask: Arc::new(photo::read_mask(path, options)?) })
     }
 
+    /// The mask itself.
+    pub(super) fn mask(&self) -> Arc<Mask> {
+        Arc::clone(&self.mask)
+    }
+
     fn facts(&self) -> AreaFacts {
         let pixels = self.mask.as_slice().iter().filter(|&&inside| inside).count();
         AreaFacts { file: self.name.clone(), pixels }

@@ -3,11 +3,13 @@
 //! Colours are `[f32; 3]` in linear counts; what is fitted to them is computed and kept in `f64`.
 
 mod chi_square;
+mod cluster;
 mod eigen;
 mod line;
 mod moments;
 
 pub use chi_square::ChiSquareTest;
+pub use cluster::{ClusterTest, Trial};
 pub use eigen::{eigenvalues, principal_axes};
 pub use line::{Cylinder, Line, LineFit, closest_points};
 pub use moments::Moments;

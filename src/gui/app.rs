@@ -5,7 +5,7 @@ use super::files::{Dialogs, is_workspace};
 use super::portrait::Portraitist;
 use super::theme::{self, Tones};
 use super::{Cx, menu, notices, shortcuts};
-use crate::workbench::{Command, Executor, Origin, Settings, State, Theme, Workbench};
+use crate::workbench::{Command, DebugCommand, Executor, Origin, Settings, State, Theme, Workbench};
 use egui::{Event, Ui};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -32,6 +32,7 @@ struct Front {
     dialogs: Dialogs,
     portraitist: Portraitist,
     help: bool,
+    tap: shortcuts::SpaceTap,
     /// Whether somebody typed in the last frame.
     typing: bool,
     /// The one panel that is shown, if not all.
@@ -94,6 +95,7 @@ impl App {
     /// Shows everything, and obeys.
     pub fn show(&mut self, ui: &mut Ui) {
         self.bench.poll();
+        self.play(ui);
         let theme = self.bench.state().view.theme;
         if self.dressed != Some(theme) {
             theme::apply(ui.ctx(), theme);
@@ -119,6 +121,15 @@ impl App {
             self.bench.apply(command);
         }
         title(ui, self.bench.state());
+    }
+
+    /// Playing goes on with the time that has passed; nothing else moves by itself.
+    fn play(&mut self, ui: &Ui) {
+        if self.bench.state().debugger.playing.is_some() {
+            let seconds = f64::from(ui.input(|input| input.stable_dt));
+            self.bench.apply(Command::Debug(DebugCommand::Tick(seconds)));
+            ui.ctx().request_repaint();
+        }
     }
 }
 
@@ -165,7 +176,8 @@ impl Front {
         // egui takes the focus from what is typed in when Escape comes: the frame before tells who had it.
         let typed = std::mem::replace(&mut self.typing, false);
         let escape_is_meant = !typed && !egui::Popup::is_any_open(ui.ctx());
-        for deed in shortcuts::pressed(ui.ctx(), escape_is_meant) {
+        let listeners = shortcuts::Listeners::of(cx.state, self.panels.colours.take());
+        for deed in shortcuts::pressed(ui.ctx(), escape_is_meant, listeners, &mut self.tap) {
             // A window that opens is measured unseen in its first frame.
             ui.ctx().request_repaint();
             shortcuts::carry_out(deed, cx, &mut self.dialogs, &mut self.help);

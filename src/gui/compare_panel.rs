@@ -3,7 +3,10 @@
 use super::later::{AT_ONCE_PX, Later};
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
-use crate::workbench::{Command, Comparison, Fate, ImageSettings, Item, Layer, compare};
+use crate::report::Names;
+use crate::workbench::{
+    Command, Comparison, DebugCommand, Difference, Fate, ImageSettings, Item, Layer, compare,
+};
 use egui::{Grid, RichText, ScrollArea, Ui};
 
 /// The comparison.
@@ -75,6 +78,46 @@ fn verbs(ui: &mut Ui, cx: &mut Cx) {
         }
         if ui.button("Let go").clicked() {
             cx.send(Command::Pin(false));
+        }
+    });
+    decisions(ui, cx);
+}
+
+/// Where the two analyses part.
+fn decisions(ui: &mut Ui, cx: &mut Cx) {
+    ui.horizontal(|ui| {
+        let find = egui::Button::new("First decision that differs");
+        let find = ui.add_enabled(cx.state.debugger.replay.is_some(), find).on_hover_text(
+            "Go to the first step of the newest analysis at which the pinned one went another way.",
+        );
+        if find.clicked() {
+            cx.send(Command::Debug(DebugCommand::Compare));
+        }
+        match cx.state.debugger.difference {
+            None => {}
+            Some(Difference::None) => {
+                ui.label(quiet(cx, "both took the same decisions"));
+            }
+            Some(Difference::NotRecorded) => {
+                ui.label(quiet(cx, "the pinned result's decisions were not recorded: pin it anew"));
+            }
+            Some(Difference::At(step)) => parting(ui, cx, step),
+        }
+    });
+}
+
+/// What was decided at the step, there and here.
+fn parting(ui: &mut Ui, cx: &Cx, step: usize) {
+    let pinned = cx.state.pinned.as_ref().and_then(|pinned| pinned.trace());
+    ui.vertical(|ui| {
+        for (name, trace) in [("A", pinned), ("B", cx.state.debugger.trace())] {
+            let Some(trace) = trace else { continue };
+            let told = trace.step(step).map_or_else(|| "has ended".to_owned(), |n| Names::of(trace).step(&n));
+            let stage = trace.stage_at(step).map_or("", crate::trace::Stage::name);
+            ui.label(
+                RichText::new(format!("{name}  step {}, {stage}: {told}", widgets::grouped(step + 1)))
+                    .size(SMALL_PT),
+            );
         }
     });
 }

@@ -3,6 +3,7 @@
 mod bar;
 mod canvas;
 mod cloud;
+mod cursor;
 mod detail;
 mod eye;
 mod figure;
@@ -18,6 +19,7 @@ use crate::gpu::{Batch, Line, Orbit, Projector, Scene, pick};
 use crate::workbench::{Combine, Command, Item, Picture, Tool};
 use canvas::Canvas;
 use cloud::Cloud;
+use cursor::Track;
 use detail::Detail;
 use egui::{Color32, EventFilter, Rect, Response, Sense, Stroke, Ui, vec2};
 use eye::{Eye, Plane};
@@ -36,6 +38,7 @@ const RING_PT: f32 = 7.0;
 pub struct CubePanel {
     eye: Eye,
     cloud: Cloud,
+    track: Track,
     detail: Detail,
     figure: Figure,
     frame: Frame,
@@ -145,8 +148,11 @@ impl CubePanel {
             let swift = gpu.adapter.get_info().device_type != wgpu::DeviceType::Cpu;
             self.detail.get(ui.ctx(), picture, swift)
         });
-        self.cloud.update(cx.state, cx.tones, picture, detail.flatten().as_ref());
+        self.track.update(cx.state, cx.tones, picture);
+        let ghostly = self.track.is_shown();
+        self.cloud.update(cx.state, cx.tones, picture, detail.flatten().as_ref(), ghostly);
         self.scene.points = self.cloud.drawn.to_vec();
+        self.scene.points.extend_from_slice(&self.track.drawn);
         self.scene.background = cx.tones.background.to_array();
         let other_figure = self.figure.update(cx.state, picture);
         if other_figure {
@@ -174,6 +180,10 @@ impl CubePanel {
             occupied.push(frame::gizmo(ui, axes, rect, ["R", "G", "B"], cx.tones));
         }
         occupied.push(self.readout(ui, cx, rect, picture));
+        if let Some(test) = cx.state.followed().and_then(crate::workbench::test_at_cursor) {
+            let below = occupied[0].left_bottom() + vec2(0.0, 4.0);
+            occupied.push(crate::gui::verdict::show(ui, cx.tones, cx.tones.background, below, test));
+        }
         let mut labels = self.figure.labels(ui, projector, rect, cx.tones);
         labels.extend(self.frame.labels(ui, projector, rect, cx.tones));
         let halo = cx.tones.background.gamma_multiply(0.72);
@@ -197,14 +207,16 @@ impl CubePanel {
     /// Colour, number of pixels and region of the pixel or bin that is hovered.
     fn hovered(&self, cx: &Cx, picture: &Picture) -> Option<([f32; 3], u32, Option<u16>)> {
         let item = cx.state.hover?;
+        // Where the debugger's cursor is followed, the result's regions are not there yet.
+        let region = |region: Option<u16>| region.filter(|_| cx.state.followed().is_none());
         match item {
             Item::Pixel(pixel) => {
                 let colour = *picture.photo.image.pixels.as_slice().get(pixel as usize)?;
-                Some((colour, 1, cx.state.region_of(item)))
+                Some((colour, 1, region(cx.state.region_of(item))))
             }
             Item::Bin(bin) => {
                 let of = picture.histogram.bins.get(bin as usize)?;
-                Some((of.mean, of.count, self.cloud.region_of(bin)))
+                Some((of.mean, of.count, region(self.cloud.region_of(bin))))
             }
             Item::Window(_) | Item::Region(_) => None,
         }

@@ -1,5 +1,6 @@
 //! Which panels lie where: docked, resized and torn apart by hand, remembered with the workspace.
 
+use super::breakpoints_panel::BreakpointsPanel;
 use super::compare_panel::ComparePanel;
 use super::cube_panel::CubePanel;
 use super::image_panel::ImagePanel;
@@ -7,8 +8,11 @@ use super::plane_panel::PlanePanel;
 use super::profile_panel::ProfilePanel;
 use super::regions_panel::RegionsPanel;
 use super::selection_panel::SelectionPanel;
+use super::timeline_panel::TimelinePanel;
+use super::watch_panel::WatchPanel;
+use super::why_panel::WhyPanel;
 use super::{Cx, parameters};
-use egui::{Color32, Stroke, Ui, Visuals, WidgetText};
+use egui::{Color32, Rect, Stroke, Ui, Visuals, WidgetText};
 use egui_tiles::{Behavior, SimplificationOptions, TabState, Tile, TileId, Tiles, Tree, UiResponse};
 use serde::{Deserialize, Serialize};
 
@@ -31,11 +35,19 @@ pub enum Pane {
     Selection,
     /// Pinned and newest result.
     Compare,
+    /// The decisions in their order, and the cursor among them.
+    Timeline,
+    /// What stands at the cursor.
+    Watch,
+    /// What stops the cursor.
+    Breakpoints,
+    /// Why a pixel or a region is what it is.
+    Why,
 }
 
 impl Pane {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 12] = [
         Self::Image,
         Self::Colours,
         Self::Plane,
@@ -44,6 +56,10 @@ impl Pane {
         Self::Regions,
         Self::Selection,
         Self::Compare,
+        Self::Timeline,
+        Self::Watch,
+        Self::Breakpoints,
+        Self::Why,
     ];
 
     /// Its name on its tab.
@@ -57,6 +73,10 @@ impl Pane {
             Self::Regions => "Regions",
             Self::Selection => "Selection",
             Self::Compare => "Compare",
+            Self::Timeline => "Timeline",
+            Self::Watch => "Watch",
+            Self::Breakpoints => "Breakpoints",
+            Self::Why => "Why",
         }
     }
 }
@@ -78,6 +98,16 @@ pub struct Panels {
     pub selection: SelectionPanel,
     /// Comparison.
     pub compare: ComparePanel,
+    /// The timeline.
+    pub timeline: TimelinePanel,
+    /// Values at the cursor.
+    pub watch: WatchPanel,
+    /// Why.
+    pub why: WhyPanel,
+    /// Breakpoints.
+    pub breakpoints: BreakpointsPanel,
+    /// Where the colour space was in the last frame; nowhere if it was not shown.
+    pub colours: Option<Rect>,
 }
 
 impl Panels {
@@ -90,13 +120,20 @@ impl Panels {
         ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
         match pane {
             Pane::Image => self.image.show(ui, cx),
-            Pane::Colours => self.cube.show(ui, cx),
+            Pane::Colours => {
+                self.colours = Some(ui.max_rect());
+                self.cube.show(ui, cx);
+            }
             Pane::Plane => self.plane.show(ui, cx),
             Pane::Profile => self.profile.show(ui, cx),
             Pane::Parameters => parameters::show(ui, cx),
             Pane::Regions => self.regions.show(ui, cx),
             Pane::Selection => self.selection.show(ui, cx),
             Pane::Compare => self.compare.show(ui, cx),
+            Pane::Timeline => self.timeline.show(ui, cx),
+            Pane::Watch => self.watch.show(ui, cx),
+            Pane::Breakpoints => self.breakpoints.show(ui, cx),
+            Pane::Why => self.why.show(ui, cx),
         }
     }
 }
@@ -164,7 +201,7 @@ impl Dock {
     }
 }
 
-/// Image over tables; colour space over plane and profile; parameters.
+/// Image over tables; colour space over plane and profile; parameters over questions; below them all the timeline.
 fn arranged() -> Tree<Pane> {
     let mut tiles = Tiles::default();
     let mut tabs = |panes: &[Pane]| {
@@ -173,16 +210,17 @@ fn arranged() -> Tree<Pane> {
     };
     let image = tabs(&[Pane::Image]);
     let tables = tabs(&[Pane::Regions, Pane::Selection, Pane::Compare]);
+    let questions = tabs(&[Pane::Why, Pane::Watch, Pane::Breakpoints]);
     let colours = tabs(&[Pane::Colours]);
     let plots = tabs(&[Pane::Plane, Pane::Profile]);
     let parameters = tabs(&[Pane::Parameters]);
+    let timeline = tabs(&[Pane::Timeline]);
     let left = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(image, 0.68), (tables, 0.32)]);
     let middle = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(colours, 0.60), (plots, 0.40)]);
-    let root = split(
-        &mut tiles,
-        egui_tiles::LinearDir::Horizontal,
-        &[(left, 0.39), (middle, 0.38), (parameters, 0.23)],
-    );
+    let right = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(parameters, 0.52), (questions, 0.48)]);
+    let views =
+        split(&mut tiles, egui_tiles::LinearDir::Horizontal, &[(left, 0.39), (middle, 0.38), (right, 0.23)]);
+    let root = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(views, 0.86), (timeline, 0.14)]);
     Tree::new(egui::Id::unique("dock"), root, tiles)
 }
 

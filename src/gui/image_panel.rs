@@ -1,5 +1,6 @@
 //! The photograph and the layers over it: seen from any distance, pointed at, marked and measured.
 
+mod cursor;
 mod geometry;
 mod icons;
 mod overlay;
@@ -7,12 +8,14 @@ mod readout;
 mod sheets;
 #[cfg(test)]
 mod tests;
+mod tiles;
 mod toolbar;
 mod tools;
 
 use super::status::PATIENCE;
 use super::{Cx, widgets};
-use crate::workbench::{Arrangement, Command, ImageSettings, Item, Layer, Tool};
+use crate::workbench::{Arrangement, Command, ImageSettings, Instant, Item, Layer, Tool};
+use cursor::Film;
 use egui::accesskit::Role;
 use egui::{
     Align2, CentralPanel, Color32, CursorIcon, EventFilter, Frame, Key, Margin, Modifiers, Panel, Rect,
@@ -20,6 +23,7 @@ use egui::{
 };
 use geometry::Placement;
 use sheets::{Order, Sheets, Slot};
+use std::sync::Arc;
 use tools::{Hand, Spot};
 
 /// Half the width of the wipe's handle, points.
@@ -31,9 +35,12 @@ const STEP_PT: f32 = 40.0;
 #[derive(Default)]
 pub struct ImagePanel {
     sheets: Sheets,
+    film: Film,
     hand: Hand,
     /// The pixel that this panel last said the pointer is over.
     pointed: Option<u32>,
+    /// The layer of the last frame, where the cursor was followed instead of it.
+    unseen: Option<Layer>,
     /// The zoom of the last frame, screen points a pixel.
     zoom: f32,
     /// The toolbar's height in the last frame, points.
@@ -56,10 +63,17 @@ impl ImagePanel {
         };
         let before = &cx.state.view.image;
         let mut settings = before.clone();
+        let mut debug = cx.state.view.debug.clone();
         let (tones, state) = (cx.tones, cx.state);
+        let unseen = state.followed().map(|_| settings.layer);
+        let before_key = std::mem::replace(&mut self.unseen, unseen);
+        if before_key.zip(unseen).is_some_and(|(before, now)| before != now) {
+            // A key or the menu asks for a layer of the result.
+            debug.follow = false;
+        }
         let bar = Frame::new().fill(tones.panel);
         let top = Panel::top("image toolbar").frame(bar.inner_margin(Margin::symmetric(6, 3)));
-        let top = top.show(ui, |ui| toolbar::row(ui, state, tones, &mut settings, self.zoom));
+        let top = top.show(ui, |ui| toolbar::row(ui, state, tones, &mut settings, &mut debug, self.zoom));
         // A row that wraps is as high as it needs to be from the next frame on.
         let height = top.response.rect.height();
         if (height - std::mem::replace(&mut self.bar_pt, height)).abs() > 0.5 {
@@ -80,6 +94,7 @@ impl ImagePanel {
         if settings != cx.state.view.image {
             cx.send(Command::Image(settings));
         }
+        cursor::send(cx, debug);
     }
 
     /// One view, or two of them.
@@ -164,8 +179,14 @@ impl ImagePanel {
                 Rect::from_min_max(pos2(x, place.view.top()), place.view.max),
             ));
         }
+        let large = place.size.x * place.size.y > sheets::LARGE_PX as f32;
+        let instant = self.film.instant(state, large && self.sheets.is_painting());
         for &(layer, slot, part) in &parts {
             let painter = painter.with_clip_rect(part);
+            if let Some(instant) = instant.as_ref().filter(|_| slot == Slot::Layer) {
+                self.instant(ui, &painter, spot, state, instant);
+                continue;
+            }
             let order = Order::layer(state, layer, settings);
             let sheet = order.and_then(|order| self.sheets.get(ui.ctx(), slot, &order));
             if let Some(sheet) = sheet {
@@ -189,7 +210,30 @@ impl ImagePanel {
         if let Some(x) = wiped {
             handle(&painter, cx, place.view, x);
         }
-        words(&painter, cx, &parts);
+        words(ui, &painter, cx, &parts, instant.as_deref());
+    }
+
+    /// The instant at the debugger's cursor, over the photograph.
+    fn instant(
+        &mut self,
+        ui: &Ui,
+        painter: &egui::Painter,
+        spot: &Spot,
+        state: &crate::workbench::State,
+        instant: &Arc<Instant>,
+    ) {
+        let settings = &state.view.image;
+        let photograph = Order::layer(state, Layer::Input, settings).map(|order| (Slot::Layer, order));
+        let over = Order::instant(state, instant).map(|order| (Slot::Instant, order));
+        for (slot, order) in photograph.into_iter().chain(over) {
+            if let Some(sheet) = self.sheets.get(ui.ctx(), slot, &order) {
+                sheet.draw(painter, &spot.place, Color32::WHITE);
+                if slot == Slot::Layer {
+                    overlay::values(painter, &spot.place, state, Layer::Input, sheet);
+                }
+            }
+        }
+        cursor::spot(painter, &spot.place, instant);
     }
 
     /// Tells what the pointer is over, when that has changed.
@@ -207,10 +251,20 @@ impl ImagePanel {
 }
 
 /// Names of the layers where there are two, what their colours mean, and what the analysis warns of.
-fn words(painter: &egui::Painter, cx: &Cx, parts: &[(Layer, Slot, Rect)]) {
+fn words(
+    ui: &Ui,
+    painter: &egui::Painter,
+    cx: &Cx,
+    parts: &[(Layer, Slot, Rect)],
+    instant: Option<&Instant>,
+) {
     let two = cx.state.view.image.arrangement != Arrangement::Single;
     for &(layer, slot, part) in parts {
         let painter = painter.with_clip_rect(part);
+        if let Some(instant) = instant.filter(|_| slot == Slot::Layer) {
+            cursor::words(ui, &painter, cx.tones, part, cx.state, instant);
+            continue;
+        }
         if two {
             let right = parts.len() == 2 && slot == Slot::Other;
             let (corner, align) = if right {
@@ -221,6 +275,9 @@ fn words(painter: &egui::Painter, cx: &Cx, parts: &[(Layer, Slot, Rect)]) {
             overlay::tag(&painter, cx.tones, corner, align, layer.name());
         }
         overlay::key(&painter, cx.tones, part, layer);
+    }
+    if instant.is_some() {
+        return;
     }
     let view = painter.clip_rect();
     let below = if two { vec2(0.0, 22.0) } else { Vec2::ZERO };

@@ -2,12 +2,12 @@
 
 use super::dock::{Dock, Pane};
 use super::files::{Dialogs, Question};
-use super::shortcuts::{Deed, keys_of};
+use super::shortcuts::{DebugDeed, Deed, keys_of, move_cursor, selected};
 use super::{Cx, status};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::segment::{Method, Preset};
 use crate::truth::sample::SAMPLES;
-use crate::workbench::{Command, Origin, Theme, analyze_call};
+use crate::workbench::{Command, Grain, Origin, Theme, analyze_call};
 use egui::{Button, RadioButton, Ui};
 
 /// Shows the bar.
@@ -17,6 +17,7 @@ pub fn show(ui: &mut Ui, cx: &mut Cx, dock: &mut Dock, dialogs: &mut Dialogs, he
         ui.menu_button("Edit", |ui| edit(ui, cx));
         ui.menu_button("View", |ui| view(ui, cx, dock));
         ui.menu_button("Analyse", |ui| analyse(ui, cx, dialogs));
+        ui.menu_button("Decisions", |ui| decisions(ui, cx));
         ui.menu_button("Help", |ui| {
             if item(ui, "Keyboard and pointer", Deed::Help, true) {
                 *help = true;
@@ -154,6 +155,47 @@ fn view(ui: &mut Ui, cx: &mut Cx, dock: &mut Dock) {
             cx.send(Command::Theme(theme));
         }
     }
+}
+
+/// What moves the cursor in the recorded decisions, and what stops it.
+fn decisions(ui: &mut Ui, cx: &mut Cx) {
+    use crate::workbench::Direction::{Back, Forward};
+    let (traced, playing) = (cx.state.debugger.replay.is_some(), cx.state.debugger.playing);
+    let any = cx.state.view.debug.breakpoints.iter().any(|breakpoint| breakpoint.enabled);
+    let goal = traced && selected(cx.state).is_some();
+    let record = if cx.state.view.debug.open { "Stop recording" } else { "Record" };
+    let play = if playing.is_some() { "Pause" } else { "Play" };
+    let back = if playing == Some(Back) { "Pause" } else { "Play backwards" };
+    let mut row = |ui: &mut Ui, words: &str, deed: DebugDeed, enabled: bool| {
+        if item(ui, words, Deed::Debug(deed), enabled) {
+            move_cursor(deed, cx);
+        }
+    };
+    row(ui, record, DebugDeed::Record, true);
+    ui.separator();
+    row(ui, play, DebugDeed::Play(Forward), traced);
+    row(ui, back, DebugDeed::Play(Back), traced);
+    row(ui, "Into the next hypothesis", DebugDeed::Into, traced);
+    ui.separator();
+    for grain in [Grain::Stage, Grain::Hypothesis, Grain::Event, Grain::Claim] {
+        for (way, words) in [(Forward, "forward"), (Back, "back")] {
+            let words = format!("{} {words}", in_capitals(grain.name()));
+            row(ui, &words, DebugDeed::Step(grain, way), traced);
+        }
+    }
+    row(ui, "To the beginning", DebugDeed::Start, traced);
+    row(ui, "To the result", DebugDeed::End, traced);
+    ui.separator();
+    row(ui, "Next breakpoint", DebugDeed::Breakpoint(Forward), traced && any);
+    row(ui, "Breakpoint before", DebugDeed::Breakpoint(Back), traced && any);
+    row(ui, "Next change of what is selected", DebugDeed::Change(Forward), goal);
+    row(ui, "Change before, of what is selected", DebugDeed::Change(Back), goal);
+}
+
+/// Its first letter large.
+fn in_capitals(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn analyse(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {

@@ -4,6 +4,7 @@
 //! gesture that the pointer is in the middle of.
 
 mod app;
+mod breakpoints_panel;
 mod compare_panel;
 mod cube_panel;
 mod cx;
@@ -27,6 +28,10 @@ mod status;
 #[cfg(test)]
 mod testing;
 mod theme;
+mod timeline_panel;
+mod verdict;
+mod watch_panel;
+mod why_panel;
 mod widgets;
 mod window;
 

@@ -1,13 +1,14 @@
 //! The plane view: the selected region's pixels in its dichromatic plane, the skewed T of figure 2.
 
 mod chart;
+mod cursor;
 mod kinds;
 #[cfg(test)]
 mod tests;
 
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
-use crate::workbench::{Command, Item, Point, RegionPlane, Shown, Theme, region_plane};
+use crate::workbench::{Command, Item, Picture, Point, RegionPlane, Shown, Theme, region_plane};
 use chart::Chart;
 use egui::{Align2, Color32, FontId, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
 use std::sync::Arc;
@@ -22,6 +23,8 @@ const SCROLL_PT: f32 = 260.0;
 #[derive(Default)]
 pub struct PlanePanel {
     of: Option<(Arc<Shown>, u16)>,
+    /// What of the debugger's cursor is shown in place of the result's region.
+    frame: Option<cursor::Frame>,
     plane: Option<RegionPlane>,
     chart: Option<Chart>,
     cloud: Option<Cloud>,
@@ -37,6 +40,13 @@ struct Cloud {
 impl PlanePanel {
     /// Shows it.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+        let state = cx.state;
+        if let Some(replay) = state.followed() {
+            return match cursor::frame(state) {
+                Some(frame) => self.show_instant(ui, cx, replay, frame),
+                None => widgets::nothing(ui, cx.tones, "At the cursor no region is at work."),
+            };
+        }
         let Some((shown, region)) = cx.state.shown().cloned().zip(cx.state.selected_region()) else {
             widgets::nothing(ui, cx.tones, "Select a region to see its dichromatic plane.");
             return;
@@ -67,11 +77,14 @@ impl PlanePanel {
         painter.add(Shape::Mesh(mesh));
         chart.skewed_t(ui, &response, plane, rect, cx.tones);
         edge_notes(&painter, cx, plane, &shown, rect);
-        hovered(&painter, cx, plane, chart, &shown, rect);
+        hovered(&painter, cx, plane, chart, &shown.picture, rect);
         self.point(cx, &response, chart, rect);
     }
 
     fn update(&mut self, shown: &Arc<Shown>, region: u16) {
+        if self.frame.take().is_some() {
+            (self.of, self.chart) = (None, None);
+        }
         let known = self.of.as_ref().map(|(shown, region)| (Arc::as_ptr(shown), *region));
         if known == Some((Arc::as_ptr(shown), region)) {
             return;
@@ -171,10 +184,17 @@ fn edge_notes(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, shown: &Sho
 }
 
 /// Rings the colour that is hovered anywhere, and tells its amounts.
-fn hovered(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, chart: Chart, shown: &Shown, rect: Rect) {
+fn hovered(
+    painter: &egui::Painter,
+    cx: &Cx,
+    plane: &RegionPlane,
+    chart: Chart,
+    picture: &Picture,
+    rect: Rect,
+) {
     let colour: Option<Point> = match cx.state.hover {
-        Some(Item::Pixel(pixel)) => shown.picture.photo.image.pixels.as_slice().get(pixel as usize).copied(),
-        Some(Item::Bin(bin)) => shown.picture.histogram.bins.get(bin as usize).map(|bin| bin.mean),
+        Some(Item::Pixel(pixel)) => picture.photo.image.pixels.as_slice().get(pixel as usize).copied(),
+        Some(Item::Bin(bin)) => picture.histogram.bins.get(bin as usize).map(|bin| bin.mean),
         _ => None,
     };
     let Some(amounts) = colour.map(|colour| plane.amounts(colour)) else { return };

@@ -1,5 +1,7 @@
 //! The regions as a table, and the light beside it.
 
+mod cursor;
+
 use super::theme::{SMALL_PT, Tones};
 use super::{Cx, widgets};
 use crate::intrinsic::RegionReflection;
@@ -68,6 +70,8 @@ const COLUMNS: [(Key, &str, f32, &str); 8] = [
 pub struct RegionsPanel {
     key: Key,
     descending: bool,
+    /// Of the hypotheses at the debugger's cursor.
+    so_far: cursor::Sorting,
 }
 
 impl RegionsPanel {
@@ -76,7 +80,11 @@ impl RegionsPanel {
         let Some(shown) = cx.state.shown().cloned() else {
             return widgets::nothing(ui, cx.tones, "Regions appear when a photograph has been analysed.");
         };
+        let state = cx.state;
         egui::Frame::new().inner_margin(egui::Margin::symmetric(8, 4)).show(ui, |ui| {
+            if let Some(replay) = state.followed() {
+                return self.so_far.show(ui, cx, replay);
+            }
             light(ui, cx, &shown);
             if shown.analysis.intrinsic.regions.is_empty() {
                 let reason = shown.analysis.warnings.first().map_or("No region was found.", String::as_str);

@@ -3,9 +3,10 @@
 use super::dock::Pane;
 use super::offscreen::{Offscreen, OffscreenError};
 use crate::export::png_of_rgba;
+use crate::trace::{Event, Step, Topic};
 use crate::workbench::{
-    Arrangement, ColourBy, Command, CubeSettings, Fill, ImageSettings, Item, Layer, Origin, ProfileLine,
-    Severity, Theme,
+    Arrangement, Ask, ColourBy, Command, CubeSettings, DebugCommand, Fill, ImageSettings, Item, Layer,
+    Origin, ProfileLine, Severity, State, Theme,
 };
 use std::path::{Path, PathBuf};
 
@@ -37,6 +38,40 @@ struct Shot {
     region: Option<u16>,
     image: ImageSettings,
     cube: CubeSettings,
+    /// Where the debugger's cursor stands; none: at the end.
+    moment: Option<Moment>,
+    /// Whether a pixel is asked why it is what it is, and what would change that.
+    asks: bool,
+}
+
+/// A place in the trace that is worth a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Moment {
+    /// The slice that takes most pixels has grown to three fifths (5.4.2).
+    Slice,
+    /// The candidate with the most pixels has passed as a highlight (5.4.1).
+    Test,
+}
+
+impl Moment {
+    /// The number of steps after which it comes; none where the photograph has no highlight.
+    fn steps(self, state: &State) -> Option<usize> {
+        let trace = state.debugger.trace()?;
+        match self {
+            Self::Slice => {
+                let slices = trace.blocks().filter(|block| matches!(block.topic, Topic::Slice(_)));
+                let longest = slices.max_by_key(|block| block.steps.len())?;
+                Some(longest.steps.start + longest.steps.len() * 3 / 5)
+            }
+            Self::Test => {
+                let passed = trace.events().filter_map(|(n, event)| match event {
+                    Event::CandidateTested(test) if test.verdict.accepted() => Some((n + 1, test.pixels)),
+                    _ => None,
+                });
+                passed.max_by_key(|(_, pixels)| *pixels).map(|(n, _)| n)
+            }
+        }
+    }
 }
 
 fn whole(name: &'static str) -> Shot {
@@ -47,7 +82,13 @@ fn whole(name: &'static str) -> Shot {
         region: Some(1),
         image: ImageSettings { layer: Layer::Regions, fill: Fill::Outline, ..ImageSettings::default() },
         cube: CubeSettings::default(),
+        moment: None,
+        asks: false,
     }
+}
+
+fn stopped(name: &'static str, moment: Moment) -> Shot {
+    Shot { moment: Some(moment), image: ImageSettings::default(), ..whole(name) }
 }
 
 fn image(name: &'static str, layer: Layer) -> Shot {
@@ -78,6 +119,9 @@ fn gallery() -> Vec<Shot> {
         colours("colours-region", Some(1), ColourBy::Region),
         Shot { pane: Some(Pane::Plane), ..whole("plane") },
         Shot { pane: Some(Pane::Profile), ..whole("profile") },
+        stopped("debugger-slice", Moment::Slice),
+        stopped("debugger-skewed-t", Moment::Test),
+        Shot { asks: true, region: None, ..whole("debugger-why") },
     ]
 }
 
@@ -107,6 +151,15 @@ pub fn screenshot(folder: &Path, size_px: [u32; 2], origin: Origin) -> Result<Ve
     Ok(written)
 }
 
+/// The pixel that two regions wanted last; none where none was.
+fn contested(state: &State) -> Option<u32> {
+    let mut steps = state.debugger.trace()?.steps().rev();
+    steps.find_map(|(_, step)| match step {
+        Step::Claim { pixel, contest: Some(_), .. } => Some(pixel),
+        _ => None,
+    })
+}
+
 fn prepare(stage: &mut Offscreen, shot: &Shot, size_px: [u32; 2]) {
     let app = &mut stage.app;
     let notices: Vec<u64> = app.state().notices.iter().map(|notice| notice.id).collect();
@@ -118,6 +171,14 @@ fn prepare(stage: &mut Offscreen, shot: &Shot, size_px: [u32; 2]) {
     app.apply(Command::Image(shot.image.clone()));
     app.apply(Command::Cube(shot.cube.clone()));
     app.apply(Command::Profile(ProfileLine::Row));
+    let end = app.state().debugger.trace().map_or(0, |trace| trace.len());
+    let steps = shot.moment.and_then(|moment| moment.steps(app.state())).unwrap_or(end);
+    app.apply(Command::Debug(DebugCommand::Seek(steps)));
+    if let Some(pixel) = contested(app.state()).filter(|_| shot.asks) {
+        app.apply(Command::Select(app.state().region_of(Item::Pixel(pixel)).map(Item::Region)));
+        app.apply(Command::Ask(Ask::Why(pixel)));
+        app.apply(Command::Ask(Ask::WhatIf(Some(pixel))));
+    }
     app.show_alone(shot.pane);
     stage.resize(size_px);
 }

@@ -1,5 +1,9 @@
 //! The keyboard: one list that is obeyed and shown.
 
+mod debug;
+
+pub use debug::{DebugDeed, Listeners, SpaceTap, move_cursor, selected};
+
 use super::theme::SMALL_PT;
 use super::{Cx, files};
 use crate::workbench::{Combine, Command, Item, Layer, Tool};
@@ -42,6 +46,8 @@ pub enum Deed {
     Outline,
     /// Light or dark.
     Theme,
+    /// Move in the decisions.
+    Debug(DebugDeed),
     /// This list.
     Help,
 }
@@ -68,8 +74,13 @@ const fn command(group: &'static str, key: Key, deed: Deed, words: &'static str)
 
 const SHIFT_COMMAND: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
-/// All of them. Those with more modifiers come first: egui lets `Ctrl+Shift+Z` pass for `Ctrl+Z`.
-pub const ALL: &[Shortcut] = &[
+/// All of them.
+fn all() -> impl Iterator<Item = &'static Shortcut> {
+    GENERAL.iter().chain(debug::KEYS)
+}
+
+/// All but the debugger's. Those with more modifiers come first: egui lets `Ctrl+Shift+Z` pass for `Ctrl+Z`.
+const GENERAL: &[Shortcut] = &[
     Shortcut {
         group: "Edit",
         keys: KeyboardShortcut::new(SHIFT_COMMAND, Key::Z),
@@ -113,6 +124,9 @@ pub const ALL: &[Shortcut] = &[
     plain("Window", Key::F1, Deed::Help, "This list"),
 ];
 
+/// A window of this width has room for four columns of keys, points.
+const FOUR_COLUMNS_PT: f32 = 1200.0;
+
 /// Habits of the pointer, listed with the keys.
 const POINTER: &[(&str, &str)] = &[
     ("Scroll", "zoom at the pointer"),
@@ -128,30 +142,48 @@ const POINTER: &[(&str, &str)] = &[
 
 /// The words for the keys of a deed, for menus and tooltips.
 pub fn keys_of(ctx: &egui::Context, deed: Deed) -> String {
-    let found = ALL.iter().find(|shortcut| shortcut.deed == deed);
+    let found = all().find(|shortcut| shortcut.deed == deed);
     found.map_or_else(String::new, |shortcut| written(ctx, shortcut.keys))
 }
 
 /// Keys as they are printed on a keyboard.
 fn written(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
     let all = ctx.format_shortcut(&keys);
-    let symbol = keys.logical_key.symbol_or_name();
+    let symbol = match keys.logical_key {
+        // Of these the bundled fonts have no other sign.
+        Key::ArrowLeft => "\u{2190}",
+        Key::ArrowRight => "\u{2192}",
+        key => key.symbol_or_name(),
+    };
     all.strip_suffix(keys.logical_key.name()).map_or_else(|| all.clone(), |held| format!("{held}{symbol}"))
 }
 
 /// The deeds whose keys were pressed, unless somebody is typing. `escape_is_meant` says whether Escape is not what closes
 /// something that is open over the panels.
-pub fn pressed(ctx: &egui::Context, escape_is_meant: bool) -> Vec<Deed> {
+pub fn pressed(
+    ctx: &egui::Context,
+    escape_is_meant: bool,
+    listeners: Listeners,
+    tap: &mut SpaceTap,
+) -> Vec<Deed> {
     if ctx.text_edit_focused() {
         return Vec::new();
     }
-    ctx.input_mut(|input| {
-        ALL.iter()
-            .filter(|shortcut| escape_is_meant || shortcut.deed != Deed::Escape)
+    let meant: Vec<&Shortcut> = all()
+        .filter(|shortcut| escape_is_meant || shortcut.deed != Deed::Escape)
+        .filter(|shortcut| listeners.leave(ctx, shortcut))
+        .collect();
+    let (taps, keys): (Vec<&Shortcut>, Vec<&Shortcut>) =
+        meant.into_iter().partition(|shortcut| shortcut.keys.logical_key == Key::Space);
+    let tapped = tap.heard(ctx, !taps.is_empty());
+    let mut deeds: Vec<Deed> = ctx.input_mut(|input| {
+        keys.iter()
             .filter(|shortcut| input.consume_shortcut(&shortcut.keys))
             .map(|shortcut| shortcut.deed)
             .collect()
-    })
+    });
+    deeds.extend(tapped.map(|direction| Deed::Debug(DebugDeed::Play(direction))));
+    deeds
 }
 
 /// Carries a deed out, as far as it is a matter of the state.
@@ -179,6 +211,7 @@ pub fn carry_out(deed: Deed, cx: &mut Cx, dialogs: &mut files::Dialogs, help: &m
             use crate::workbench::Theme::{Dark, Light};
             cx.send(Command::Theme(if cx.state.view.theme == Dark { Light } else { Dark }));
         }
+        Deed::Debug(deed) => move_cursor(deed, cx),
         Deed::Layer(_) | Deed::Tool(_) | Deed::Fit | Deed::OneToOne | Deed::Outline => look(deed, cx),
     }
 }
@@ -229,16 +262,21 @@ fn step_region(cx: &mut Cx, next: bool) {
 /// The list, in a window that stays until it is closed.
 pub fn show_help(ui: &mut Ui, cx: &Cx, open: &mut bool) {
     let ctx = ui.ctx().clone();
+    let columns: &[&[&str]] = if ctx.content_rect().width() >= FOUR_COLUMNS_PT {
+        &[&["File", "Edit", "Compare", "Window"], &["Image"], &["Decisions"], &["Tools", "Pointer"]]
+    } else {
+        &[&["File", "Edit", "Compare", "Window"], &["Image", "Decisions"], &["Tools", "Pointer"]]
+    };
     egui::Window::new("Keyboard and pointer")
         .open(open)
         .collapsible(false)
         .resizable(false)
+        .scroll(true)
         .min_width(880.0)
         .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
         .show(&ctx, |ui| {
             ui.horizontal_top(|ui| {
-                for groups in [&["File", "Edit", "Compare", "Window"][..], &["Image"], &["Tools", "Pointer"]]
-                {
+                for groups in columns {
                     ui.vertical(|ui| groups.iter().for_each(|group| list(ui, cx, group)));
                     ui.add_space(12.0);
                 }
@@ -251,7 +289,7 @@ fn list(ui: &mut Ui, cx: &Cx, group: &str) {
     let rows: Vec<(String, &str)> = if group == "Pointer" {
         POINTER.iter().map(|&(keys, words)| (keys.to_owned(), words)).collect()
     } else {
-        let of_group = ALL.iter().filter(|shortcut| shortcut.group == group);
+        let of_group = all().filter(|shortcut| shortcut.group == group);
         of_group.map(|shortcut| (written(ui.ctx(), shortcut.keys), shortcut.words)).collect()
     };
     egui::Grid::new(group).num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| {

@@ -33,7 +33,9 @@ pub fn holding(
         for part in parts(width, members.region(id)) {
             let matte = part.iter().filter(|&&pixel| kinds[pixel as usize] == PixelKind::Matte).count();
             if (matte as f64) < LEAST_MATTE * part.len() as f64 {
-                part.iter().for_each(|&pixel| mask[pixel as usize] = false);
+                for &pixel in &part {
+                    mask[pixel as usize] = false;
+                }
             }
         }
     }
@@ -69,7 +71,9 @@ fn give_up_strangers(scene: &Scene, regions: &FinalRegions, mask: &mut Mask) {
             });
         }
         if (own as f64) < LEAST_OWN * (own + others) as f64 {
-            blob.iter().for_each(|&pixel| mask[pixel] = false);
+            for &pixel in &blob {
+                mask[pixel] = false;
+            }
         }
     }
 }

@@ -153,6 +153,7 @@ impl Case<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::Reason::{ClippedAllBands, Explained, MixedBoundary, NoMatteLine, Shadow};
     use super::*;
     use crate::photo::{LinearImage, MaskLimits};
 
@@ -174,7 +175,6 @@ mod tests {
             sigma: 1.25,
         }
         .reasons();
-        use Reason::{ClippedAllBands, Explained, MixedBoundary, NoMatteLine, Shadow};
         assert_eq!(
             found.as_slice(),
             [Shadow, MixedBoundary, Explained, ClippedAllBands, MixedBoundary, NoMatteLine, NoMatteLine]

@@ -9,8 +9,7 @@
 
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Raster};
-use crate::reflection::{Components, ReflectionTransform};
-use crate::segment::HighlightTest;
+use crate::reflection::{Components, HighlightTest, ReflectionTransform};
 
 /// Relative standard deviation of the prior for body reflection.
 const PRIOR_SD: f32 = 0.1;
@@ -98,7 +97,7 @@ impl Distorted<'_> {
     /// Bands in which neither the pixel nor any of its 8 neighbours clips; without one, those in which the pixel does not.
     fn good_bands(&self, pixel: usize) -> [bool; 3] {
         let mut good = [true; 3];
-        for near in self.around(pixel) {
+        for near in self.pixels.around(pixel) {
             for (good, band) in good.iter_mut().zip(self.pixels[near]) {
                 *good &= band < self.clip_threshold;
             }
@@ -138,7 +137,7 @@ impl Distorted<'_> {
             }
             waiting.clear();
             for &(index, _) in ring.iter().filter(|(_, mean)| !mean.is_nan()) {
-                for near in self.around(distorted[index as usize] as usize) {
+                for near in self.pixels.around(distorted[index as usize] as usize) {
                     let place = near.checked_sub(top).and_then(|i| place.get(i)).copied().unwrap_or(0);
                     if place > 0 && priors[place as usize - 1].is_nan() && !queued[place as usize - 1] {
                         queued[place as usize - 1] = true;
@@ -153,22 +152,13 @@ impl Distorted<'_> {
     /// Mean of what is known of the pixels around one, in its region; NaN where nothing is.
     fn mean_around(&self, pixel: usize, known: impl Fn(usize) -> f32) -> f32 {
         let region = self.labels[pixel];
-        let inside = self.around(pixel).filter(|&near| near != pixel && self.labels[near] == region);
+        let inside = self.pixels.around(pixel).filter(|&near| near != pixel && self.labels[near] == region);
         let (sum, count) = inside
             .map(known)
             .filter(|value| !value.is_nan())
             .fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
         // 0 / 0 is NaN, as promised.
         sum / count
-    }
-
-    /// A pixel and its 8 neighbours.
-    fn around(&self, pixel: usize) -> impl Iterator<Item = usize> + use<> {
-        let (width, height) = (self.pixels.width(), self.pixels.height());
-        let (x, y) = (pixel % width, pixel / width);
-        let columns = x.saturating_sub(1)..(x + 2).min(width);
-        (y.saturating_sub(1)..(y + 2).min(height))
-            .flat_map(move |v| columns.clone().map(move |u| v * width + u))
     }
 }
 

@@ -10,9 +10,9 @@ use super::vectors::{Vectors, fit_vectors};
 use super::{Intrinsic, RegionReflection};
 use crate::color::{Vec3, dot, rgb};
 use crate::raster::{Raster, UNASSIGNED};
-use crate::reflection::{Components, ReflectionTransform};
+use crate::reflection::{Components, HighlightTest, ReflectionTransform};
 use crate::segment::{
-    FinalRegions, HighlightTest, Members, Pixels, PlanarHypothesis, RegionFit, Scene, members, neighbours,
+    FinalRegions, Members, Pixels, PlanarHypothesis, RegionFit, Scene, members, neighbours,
 };
 use crate::trace::{Event, Pass, PixelKind, Recorder, VectorsFitted};
 use rayon::prelude::*;
@@ -110,7 +110,7 @@ impl Splitter {
         let start_body = transform.map_or(0.0, |t| t.split(rgb(&hypothesis.start)).body.max(0.0));
         let least_offset =
             if scene.refine.no_negative_surface { scene.used.camera_noise as f32 } else { f32::NEG_INFINITY };
-        let test = HighlightTest::new(hypothesis).filter(|_| transform.is_some());
+        let test = hypothesis.highlight_test().filter(|_| transform.is_some());
         Self { hypothesis: *hypothesis, vectors, transform, test, start_body, least_offset }
     }
 
@@ -134,6 +134,8 @@ impl Splitter {
             surface: self.transform.and(self.vectors.surface),
             matte: self.hypothesis.matte,
             start: self.hypothesis.start,
+            highlight: self.hypothesis.plane.map(|plane| plane.surface),
+            least_offset: self.least_offset,
         }
     }
 

@@ -10,7 +10,7 @@
 use crate::color::{Line, Moments, Vec3, dot, rgb};
 use crate::photo::Masks;
 use crate::reflection::DichromaticPlane;
-use crate::segment::{HighlightTest, Pixels, PlanarHypothesis, Scene};
+use crate::segment::{Pixels, PlanarHypothesis, Scene};
 
 /// Reflection vectors of one region.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ const FIT_SAMPLES: usize = 6000;
 /// Fits body and surface vector to the region's undistorted pixels.
 pub fn fit_vectors(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: Pixels) -> Vectors {
     let colors = undistorted(scene.pixels.as_slice(), scene.masks, pixels);
-    let test = HighlightTest::new(hypothesis);
+    let test = hypothesis.highlight_test();
     let is_highlight = |&color: &[f32; 3]| test.is_some_and(|test| test.is_highlight(color));
     let (highlight, matte): (Vec<_>, Vec<_>) = colors.iter().copied().partition(is_highlight);
     let matte_moments: Moments = matte.iter().copied().collect();

@@ -63,6 +63,11 @@ impl Masks {
         self
     }
 
+    /// Columns and rows of the picture.
+    pub fn shape(&self) -> (usize, usize) {
+        (self.flags.width(), self.flags.height())
+    }
+
     /// Whether the colour can be believed: inside the area, and neither dark nor distorted.
     #[inline]
     pub fn usable(&self, pixel: usize) -> bool {

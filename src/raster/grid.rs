@@ -80,6 +80,15 @@ impl<T> Raster<T> {
         Raster { width: self.width, height: self.height, data: self.data.iter().map(f).collect() }
     }
 
+    /// Pixel `index` and its 8 neighbours, row-major.
+    pub fn around(&self, index: usize) -> impl Iterator<Item = usize> + use<T> {
+        let (width, height) = (self.width, self.height);
+        let (x, y) = (index % width.max(1), index / width.max(1));
+        let columns = x.saturating_sub(1)..(x + 2).min(width);
+        (y.saturating_sub(1)..(y + 2).min(height))
+            .flat_map(move |v| columns.clone().map(move |u| v * width + u))
+    }
+
     /// Calls `visit` with the indices of the 4-neighbours of pixel `index`, in the order up, left, right, down.
     #[inline]
     pub fn for_each_neighbour(&self, index: usize, visit: impl FnMut(usize)) {

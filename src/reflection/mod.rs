@@ -1,8 +1,10 @@
 //! The Dichromatic Reflection Model itself (sections 2, 3 and 6).
 
+mod highlight;
 pub mod photometry;
 mod plane;
 mod transform;
 
-pub use plane::{DichromaticPlane, PlaneAxes, PlanePoint, Slice};
+pub use highlight::HighlightTest;
+pub use plane::{DichromaticPlane, PlaneAxes, PlanePoint, Slice, SliceBound, SliceMiss};
 pub use transform::{Components, ReflectionTransform};

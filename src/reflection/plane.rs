@@ -97,6 +97,30 @@ pub struct Slice {
     bounds: Option<Bounds>,
 }
 
+/// A side of a slice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SliceBound {
+    /// Its faces: distance from the plane.
+    Height,
+    /// The far side of the matte line, where surface reflection would be negative: signed distance from that line.
+    Surface,
+    /// Black, below which body reflection would be negative: amount of body reflection.
+    Black,
+    /// The end of the matte line: amount of body reflection.
+    MatteEnd,
+}
+
+/// What keeps a colour out of a slice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliceMiss {
+    /// The side on which it lies outside.
+    pub bound: SliceBound,
+    /// Where it lies, counts.
+    pub value: f32,
+    /// Where the slice ends on that side, counts.
+    pub limit: f32,
+}
+
 /// Where body and surface reflection stay within reason.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Bounds {
@@ -140,6 +164,28 @@ impl Slice {
             })
     }
 
+    /// Which bound keeps a colour out, and by what; none where it lies inside.
+    pub fn miss(&self, color: [f32; 3]) -> Option<SliceMiss> {
+        let point = self.axes.of(color);
+        let miss = |bound, value, limit| Some(SliceMiss { bound, value, limit });
+        if point.height.abs() > self.half_width {
+            return miss(SliceBound::Height, point.height.abs(), self.half_width);
+        }
+        let b = self.bounds?;
+        let body = point.along - b.cotangent * point.offset;
+        if point.offset < b.least_offset {
+            return miss(SliceBound::Surface, point.offset, b.least_offset);
+        }
+        if body < -b.slack {
+            return miss(SliceBound::Black, body, -b.slack);
+        }
+        (body > b.most_body + b.slack).then_some(SliceMiss {
+            bound: SliceBound::MatteEnd,
+            value: body,
+            limit: b.most_body + b.slack,
+        })
+    }
+
     /// Distance of a colour from the plane, counts.
     #[inline]
     pub fn distance(&self, color: [f32; 3]) -> f32 {
@@ -171,9 +217,39 @@ mod tests {
             prop_assert!((f64::from(point.height) - height).abs() < 1e-3);
             prop_assert!((plane.normal.dot(&vec3(rgb(&s)))).abs() < 1e-6);
             let slice = Slice::bounded(&plane, 6.0, 8.0, 200.0);
-            prop_assert!(slice.contains(color));
+            prop_assert!(slice.contains(color) && slice.miss(color).is_none());
             prop_assert!(!Slice::bounded(&plane, 6.0, 8.0, body / 2.0 - 40.0 / sine).contains(color));
         }
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_not_inside_misses_by_some_bound(c in prop::array::uniform3(0f32..255.0), s in prop::array::uniform3(0.3f64..1.0)) {
+            let (d, s) = (Vec3::new(0.9, 0.3, 0.2).normalize(), Vec3::from(s).normalize());
+            let plane = DichromaticPlane::new(&Line::new(d * 90.0, d), &s).unwrap();
+            for slice in [Slice::bounded(&plane, 6.0, 8.0, 120.0), Slice::unbounded(&plane, 6.0)] {
+                let miss = slice.miss(c);
+                prop_assert_eq!(slice.contains(c), miss.is_none());
+                if let Some(SliceMiss { bound, value, limit }) = miss {
+                    let below = matches!(bound, SliceBound::Surface | SliceBound::Black);
+                    prop_assert!(if below { value < limit } else { value > limit }, "{:?}", miss);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn each_side_of_a_slice_can_keep_a_colour_out() {
+        // Body along red, light along green: coordinates are the bands themselves.
+        let plane = DichromaticPlane::new(&Line::new(Vec3::x() * 50.0, Vec3::x()), &Vec3::y()).unwrap();
+        let slice = Slice::bounded(&plane, 6.0, 8.0, 100.0);
+        let miss = |color| slice.miss(color).map(|miss| (miss.bound, miss.value.round(), miss.limit.round()));
+        assert_eq!(miss([50.0, 90.0, 3.0]), None);
+        assert_eq!(miss([50.0, 90.0, 9.0]), Some((SliceBound::Height, 9.0, 6.0)));
+        assert_eq!(miss([50.0, -9.0, 0.0]), Some((SliceBound::Surface, -9.0, -8.0)));
+        assert_eq!(miss([-9.0, 20.0, 0.0]), Some((SliceBound::Black, -9.0, -8.0)));
+        // 15 % beyond the matte line, and twice the radius.
+        assert_eq!(miss([140.0, 20.0, 0.0]), Some((SliceBound::MatteEnd, 140.0, 131.0)));
     }
 
     #[test]

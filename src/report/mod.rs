@@ -1,16 +1,20 @@
-//! `report.json`: what was analysed, with which numbers, and what was found.
+//! What is told of a run: `report.json`, trace lines, and decisions in words.
 //!
-//! The types are the schema: their fields, in their order, are what the file holds, and a written report reads
+//! The types of the report are its schema: their fields, in their order, are what the file holds, and a written report reads
 //! back as the same value. Colours and distances are in counts (255 = full scale), directions are unit vectors.
 
 mod facts;
 mod scores;
+mod trace_line;
+mod words;
 
 pub use facts::{
     AreaFacts, IlluminantFacts, ImageFacts, LightFacts, ParameterFacts, ParamsFacts, RegionFacts, Report,
     SCHEMA, Timings,
 };
 pub use scores::Scores;
+pub use trace_line::{TRACE_SCHEMA, schema_line, trace_line};
+pub use words::{Condensed, Names, condense, what_if_sentence};
 
 /// Name of the report in a result folder.
 pub const FILE_NAME: &str = "report.json";

@@ -6,7 +6,6 @@
 //! that is not unusual. Where neither speaks, no light is known and nothing is split by planes: a picture without highlights
 //! stays as it is.
 
-use super::clipping::HighlightTest;
 use super::holds::RegionFit;
 use super::ledger::Members;
 use super::light::{Illuminant, LightBasis, LightFindings, white_offsets_deg};
@@ -108,7 +107,7 @@ fn support(scene: &Scene, labels: &LabelMap, hypotheses: &[PlanarHypothesis]) ->
         .map(|id| {
             let hypothesis = &hypotheses[usize::from(id) - 1];
             let pixels = members.region(id);
-            let Some((plane, test)) = hypothesis.plane.zip(HighlightTest::new(hypothesis)) else { return 0 };
+            let Some((plane, test)) = hypothesis.plane.zip(hypothesis.highlight_test()) else { return 0 };
             if scene.stopped() || pixels.len() < HIGHLIGHT_PX {
                 return 0;
             }

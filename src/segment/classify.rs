@@ -1,63 +1,29 @@
 //! Section 5.2.1: local colour variation in windows, in four classes.
 //!
-//! The paper tests each eigenvalue alone: (N−1)·λ/σ0² against χ²(N−1). The largest eigenvalue of pure noise exceeds σ²
-//! systematically, but as σ0 = 2σ there is a fourfold margin. Dark and clipped pixels count.
+//! The test is [`crate::color::ClusterTest`]. In the paper dark and clipped pixels count.
 //!
-//! Refined (`tail_test`): the statistic (N−1)·Σ_{i>k} λ_i / (0.7σ0)² ~ χ²((3−k)(N−1−k)) of *all* variances beyond the
-//! k-th says whether k directions are enough; only believable pixels count, and a window needs half of its pixels.
-//! With σ 3 and σ0 = 2.5 the paper's test loses half of the coverage.
+//! Refined (`tail_test`): only believable pixels count, and a window needs half of its pixels.
 
-use crate::color::{ChiSquareTest, Moments, eigenvalues};
+use crate::color::{ClusterTest, Moments, eigenvalues};
 use crate::raster::Raster;
 use crate::trace::{Class, Event, Recorder, WindowsLaid};
 use rayon::prelude::*;
 
-/// Share of the noise variance against which tails are tested: (0.7σ0)² = (1.4σ)².
-const TAIL_SCALE: f64 = 0.7;
-/// Significance level of every χ² test; the results hardly depend on it.
-const LEVEL: f64 = 0.05;
-
 /// How clusters are told apart from noise.
 #[derive(Clone, Debug)]
-pub struct Classifier {
-    chi_square: ChiSquareTest,
-    camera_noise: f64,
-    tail_test: bool,
-}
+pub struct Classifier(ClusterTest);
 
 impl Classifier {
     /// A classifier for camera noise σ0 (counts), by the paper's test or the tail test.
     pub fn new(camera_noise: f64, tail_test: bool) -> Self {
-        Self { chi_square: ChiSquareTest::new(LEVEL), camera_noise, tail_test }
+        Self(ClusterTest::new(camera_noise, tail_test))
     }
 
     /// Class of a cluster, and its eigenvalues.
     pub fn classify(&mut self, cluster: &Moments) -> (Class, [f64; 3]) {
         let lambda = eigenvalues(&cluster.covariance());
-        let significant = if self.tail_test {
-            self.directions_by_tail(cluster.n, lambda)
-        } else {
-            self.directions_one_by_one(cluster.n, lambda)
-        };
+        let significant = self.0.directions(cluster.n, lambda);
         ([Class::Point, Class::Line, Class::Plane, Class::Volume][significant], lambda)
-    }
-
-    fn directions_one_by_one(&mut self, n: f64, lambda: [f64; 3]) -> usize {
-        let freedom = (n - 1.0).max(0.0);
-        let limit = self.chi_square.threshold(freedom as usize) * self.camera_noise.powi(2);
-        lambda.iter().filter(|&&l| freedom * l > limit).count()
-    }
-
-    fn directions_by_tail(&mut self, n: f64, lambda: [f64; 3]) -> usize {
-        let variance = (TAIL_SCALE * self.camera_noise).powi(2);
-        let freedom = (n - 1.0).max(0.0);
-        (0..3)
-            .find(|&k| {
-                let tail: f64 = lambda[k..].iter().sum();
-                let degrees = (3 - k) * (freedom as usize).saturating_sub(k);
-                freedom * tail <= variance * self.chi_square.threshold(degrees)
-            })
-            .unwrap_or(3)
     }
 }
 
@@ -102,8 +68,8 @@ pub fn classify<R: Recorder>(
             columns: moments.width() as u32,
             rows: moments.height() as u32,
             least_pixels: min_valid.max(1) as u32,
-            camera_noise: classifier.camera_noise,
-            tail_test: classifier.tail_test,
+            camera_noise: classifier.0.camera_noise(),
+            tail_test: classifier.0.is_tail_test(),
         })));
     }
     for (window, cluster) in moments.as_slice().iter().enumerate() {

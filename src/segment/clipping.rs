@@ -5,9 +5,9 @@
 //! filled: clipped components that a region nearly surrounds, and unassigned ones that lie wholly inside it.
 
 use super::ledger::Ledger;
-use super::planar::{PlanarHypothesis, PlanarRegions};
+use super::planar::PlanarRegions;
 use super::scene::Scene;
-use crate::color::{Line, Vec3, dot, rgb};
+use crate::color::dot;
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 use crate::trace::{Event, Pass, Recorder};
 use rayon::prelude::*;
@@ -26,7 +26,7 @@ pub fn clipping_regions<R: Recorder>(scene: &Scene, planar: &PlanarRegions, reco
         .par_iter()
         .enumerate()
         .map(|(index, hypothesis)| {
-            let Some(highlight) = HighlightTest::new(hypothesis) else { return Vec::new() };
+            let Some(highlight) = hypothesis.highlight_test() else { return Vec::new() };
             let is_highlight = |&pixel: &u32| highlight.is_highlight(scene.pixels[pixel as usize]);
             members.region(index as u16 + 1).iter().filter(is_highlight).collect()
         })
@@ -60,44 +60,6 @@ pub fn clipping_regions<R: Recorder>(scene: &Scene, planar: &PlanarRegions, reco
     let lit = |pixel: usize| !scene.masks.dark(pixel);
     fill(&mut ledger, lit, |hole, share| !hole.open && share >= 1.0 && hole.pixels.len() <= largest_px);
     ledger.labels
-}
-
-/// Tells highlight from matte pixels: which of the two lines is nearer? (section 6)
-#[derive(Clone, Copy, Debug)]
-pub struct HighlightTest {
-    mean: [f32; 3],
-    direction: [f32; 3],
-    start: [f32; 3],
-    surface: [f32; 3],
-}
-
-impl HighlightTest {
-    /// The test of a region; `None` when it has no plane.
-    pub fn new(hypothesis: &PlanarHypothesis) -> Option<Self> {
-        let plane = hypothesis.plane.as_ref()?;
-        Some(Self::of_lines(&hypothesis.matte, &hypothesis.start, &plane.surface))
-    }
-
-    /// The test of a matte line and a highlight line from `start` on.
-    pub fn of_lines(matte: &Line, start: &Vec3, surface: &Vec3) -> Self {
-        Self {
-            mean: rgb(&matte.mean),
-            direction: rgb(&matte.direction),
-            start: rgb(start),
-            surface: rgb(surface),
-        }
-    }
-
-    /// Whether a colour is nearer to the highlight line.
-    #[inline]
-    pub fn is_highlight(&self, color: [f32; 3]) -> bool {
-        let from = |point: [f32; 3]| [color[0] - point[0], color[1] - point[1], color[2] - point[2]];
-        let v = from(self.mean);
-        let matte2 = dot(v, v) - dot(v, self.direction).powi(2);
-        let w = from(self.start);
-        let highlight2 = dot(w, w) - dot(w, self.surface).max(0.0).powi(2);
-        highlight2 < matte2
-    }
 }
 
 /// A component of unassigned pixels, and who holds its border.
@@ -172,9 +134,10 @@ fn hole_at(start: usize, labels: &LabelMap, member: impl Fn(usize) -> bool, seen
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::{Line, Vec3};
     use crate::reflection::DichromaticPlane;
-    use crate::segment::LightFindings;
     use crate::segment::testing::{Drawing, check, labels};
+    use crate::segment::{LightFindings, PlanarHypothesis};
     use crate::trace::Silent;
 
     fn body() -> Vec3 {

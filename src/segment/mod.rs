@@ -28,7 +28,7 @@ mod unite;
 mod vote_light;
 
 pub use classify::{Classifier, Windows, classify};
-pub use clipping::{HighlightTest, clipping_regions};
+pub use clipping::clipping_regions;
 pub use holds::{POOR_FIT, RegionFit};
 pub use ledger::{Members, Pixels};
 pub use light::{Illuminant, LightBasis, LightFindings, white_offsets_deg};

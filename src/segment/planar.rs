@@ -25,7 +25,7 @@ use super::scene::Scene;
 use super::unite::merge_regions;
 use crate::color::{Cylinder, Line, Vec3, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
-use crate::reflection::{DichromaticPlane, Slice};
+use crate::reflection::{DichromaticPlane, HighlightTest, Slice};
 use crate::trace::{Contest, Contribution, Event, IlluminantEstimated, Measure, Pass, Recorder, SliceMade};
 use rayon::prelude::*;
 
@@ -57,6 +57,14 @@ pub struct PlanarHypothesis {
     pub highlight: Option<Vec3>,
     /// Whether the region still stands.
     pub alive: bool,
+}
+
+impl PlanarHypothesis {
+    /// What tells its highlight pixels from its matte ones (section 6); `None` without a plane.
+    pub fn highlight_test(&self) -> Option<HighlightTest> {
+        let plane = self.plane.as_ref()?;
+        Some(HighlightTest::of_lines(&self.matte, &self.start, &plane.surface))
+    }
 }
 
 /// What the planar stage found.

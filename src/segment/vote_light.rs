@@ -124,7 +124,9 @@ impl Votes {
             return None;
         }
         let mut mask: Mask = Raster::filled(width, height, false);
-        found.iter().for_each(|&(pixel, _)| mask[pixel] = true);
+        for &(index, _) in found {
+            mask[index] = true;
+        }
         let sizes_of = blobs(&mask);
         let step = found.len().div_ceil(MOST_VOTERS);
         let voters: Vec<Voter> = found

@@ -5,6 +5,7 @@
 
 use super::{Class, PixelKind, Stage};
 use crate::color::{Line, Vec3};
+use crate::photo::MaskLimits;
 use crate::reflection::{DichromaticPlane, Slice};
 
 /// A decision, and the numbers that it rested on. Regions are numbered from 1 in the order of their birth; the last
@@ -219,6 +220,8 @@ impl Pass {
 /// What [`Event::MasksMade`] says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MasksMade {
+    /// The limits that pixels were held against.
+    pub limits: MaskLimits,
     /// Pixels too dark to be analysed, invalid ones and those outside the area included.
     pub dark: u32,
     /// Other pixels that are clipped or bloomed.
@@ -242,6 +245,15 @@ pub struct WindowsLaid {
     pub camera_noise: f64,
     /// Whether by the tail test.
     pub tail_test: bool,
+}
+
+impl WindowsLaid {
+    /// Index of the window that holds a pixel of a picture `width` pixels wide.
+    pub fn window_of(&self, pixel: usize, width: usize) -> usize {
+        let size = (self.size_px as usize).max(1);
+        let width = width.max(1);
+        pixel / width / size * self.columns as usize + pixel % width / size
+    }
 }
 
 /// What [`Event::HypothesisChosen`] says.
@@ -362,6 +374,10 @@ pub struct VectorsFitted {
     pub matte: Line,
     /// Where the highlight line leaves it, counts.
     pub start: Vec3,
+    /// Unit direction of the highlight line, by which pixels are told apart: the plane's. None without a plane.
+    pub highlight: Option<Vec3>,
+    /// Surface reflection that lies less than this off the body line is none, counts; negative infinity: any is some.
+    pub least_offset: f32,
 }
 
 /// Why an area did not start a hypothesis.

@@ -5,10 +5,13 @@
 //! what stood at that instant.
 
 mod event;
+mod history;
 mod kind;
+mod lineage;
 mod recorder;
 mod reel;
 mod replay;
+mod standing;
 mod terms;
 mod timeline;
 
@@ -17,9 +20,15 @@ pub use event::{
     HypothesisChosen, IlluminantEstimated, LineRefitted, MasksMade, Measure, Pass, PassedOver, SliceMade,
     Step, VectorsFitted, WindowsLaid,
 };
+pub use history::{
+    Barrier, Happening, MaskVerdict, MergeRefusal, MergeStory, Reach, Release, SplitStory, What, WindowStory,
+    pixel_history,
+};
 pub use kind::Kind;
+pub use lineage::{Ancestor, Birth, HypothesisStory, Joined, JoinedHow, final_numbers, lineage, story};
 pub use recorder::{Recorder, Silent, Tape};
 pub use reel::{Reel, Steps};
-pub use replay::{End, Grid, Hypothesis, Replay};
+pub use replay::Replay;
+pub use standing::{End, Grid, Hypothesis};
 pub use terms::{Class, PixelKind, Stage};
 pub use timeline::{Block, PassSpan, Topic, Trace};

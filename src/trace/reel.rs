@@ -4,6 +4,10 @@
 //! what it was decided by (13 bytes), an event its numbers; labels are a byte a pixel. What can be computed again exactly,
 //! like the refusal of a colour outside a cylinder, is not kept (see `history`).
 
+mod steps;
+
+pub use steps::Steps;
+
 use super::timeline::Contents;
 use super::{Block, Contest, Event, Measure, PassSpan, PixelKind, Stage, Step};
 use crate::raster::{LabelMap, Raster};
@@ -139,14 +143,7 @@ impl Reel {
 
     /// The steps in a range, from either end.
     pub fn steps_in(&self, range: Range<usize>) -> Steps<'_> {
-        let place = |n: usize| {
-            let n = n.min(self.len());
-            let event = self.events_before(n);
-            let contest = self.contested.partition_point(|&contested| (contested as usize) < n - event);
-            Place { n, event, contest }
-        };
-        let (front, back) = (place(range.start), place(range.end.max(range.start)));
-        Steps { reel: self, front, back }
+        Steps::new(self, &range)
     }
 
     /// The events, each with the step at which it lies.
@@ -277,75 +274,6 @@ impl Reel {
     }
 }
 
-/// The steps of a reel, in order.
-#[derive(Clone, Debug)]
-pub struct Steps<'a> {
-    reel: &'a Reel,
-    front: Place,
-    back: Place,
-}
-
-/// Steps, events and contests before a place.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    n: usize,
-    event: usize,
-    contest: usize,
-}
-
-impl<'a> Iterator for Steps<'a> {
-    type Item = Step<'a>;
-
-    fn next(&mut self) -> Option<Step<'a>> {
-        if self.front.n >= self.back.n {
-            return None;
-        }
-        let (reel, at) = (self.reel, &mut self.front);
-        let n = at.n;
-        at.n += 1;
-        if reel.event_steps.get(at.event) == Some(&(n as u32)) {
-            at.event += 1;
-            return Some(Step::Event(&reel.events[at.event - 1]));
-        }
-        let index = n - at.event;
-        if index >= reel.moves.len() {
-            return reel.label(index - reel.moves.len());
-        }
-        let contested = reel.contested.get(at.contest) == Some(&(index as u32));
-        let contest = contested.then(|| reel.contest(at.contest));
-        at.contest += usize::from(contested);
-        Some(reel.moves[index].step(contest))
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        let left = self.back.n.saturating_sub(self.front.n);
-        (left, Some(left))
-    }
-}
-
-impl DoubleEndedIterator for Steps<'_> {
-    fn next_back(&mut self) -> Option<Self::Item> {
-        if self.front.n >= self.back.n {
-            return None;
-        }
-        let (reel, at) = (self.reel, &mut self.back);
-        at.n -= 1;
-        if at.event > 0 && reel.event_steps[at.event - 1] == at.n as u32 {
-            at.event -= 1;
-            return Some(Step::Event(&reel.events[at.event]));
-        }
-        let index = at.n - at.event;
-        if index >= reel.moves.len() {
-            return reel.label(index - reel.moves.len());
-        }
-        let contested = at.contest > 0 && reel.contested[at.contest - 1] == index as u32;
-        at.contest -= usize::from(contested);
-        Some(reel.moves[index].step(contested.then(|| reel.contest(at.contest))))
-    }
-}
-
-impl ExactSizeIterator for Steps<'_> {}
-
 impl Move {
     fn step<'a>(self, contest: Option<Contest>) -> Step<'a> {
         let pixel = self.pixel() as u32;
@@ -434,7 +362,9 @@ mod tests {
     fn a_record_that_contradicts_itself_is_found_out() {
         let play = |claims: &[(u32, u16, u16)]| {
             let mut tape = Tape::default();
-            claims.iter().for_each(|&(pixel, before, after)| tape.claim(pixel, before, after));
+            for &(pixel, before, after) in claims {
+                tape.claim(pixel, before, after);
+            }
             tape.finish(Stage::Linear).unwrap().play(&mut LabelMap::filled(1, 1, 0))
         };
         assert_eq!(play(&[(0, 0, 1), (0, 1, 2)]), Ok(()));

@@ -1,8 +1,8 @@
 //! The only ways to change a [`super::State`].
 
 use super::{
-    CubeSettings, DebugCommand, Export, ImageSettings, Item, Origin, Picture, PlaneSettings, ProfileLine,
-    Severity, Shown, Theme, Workspace,
+    Ask, CubeSettings, DebugCommand, Export, ImageSettings, Item, Origin, Picture, PlaneSettings,
+    ProfileLine, Severity, Shown, Theme, Workspace,
 };
 use crate::analysis::Stage;
 use crate::photo::ReadOptions;
@@ -117,6 +117,8 @@ pub enum Command {
     /// The colour space view's camera.
     Camera(String),
 
+    /// Ask why, or what if.
+    Ask(Ask),
     /// Change the debugger.
     Debug(DebugCommand),
 

@@ -1,7 +1,8 @@
 //! Carries the effects of commands out, on threads or inline.
 
 use super::analyst::{self, Analyst, Desk, Tracing};
-use super::{Command, Effect, Job, Request, State, jobs, read, reduce, write};
+use super::{Ask, Asked, Command, Effect, InquiryNews, Job, Request, State, jobs, read, reduce, write};
+use crate::analysis::{Session, WhatIfObserver, what_if};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -23,6 +24,7 @@ pub struct Workbench {
     wake: Arc<dyn Fn() + Send + Sync>,
     hands: Hands,
     writing: Arc<jobs::Stop>,
+    inquiring: Arc<jobs::Stop>,
 }
 
 enum Hands {
@@ -49,7 +51,15 @@ impl Workbench {
                 Hands::Threads { desk, worker: Some(worker) }
             }
         };
-        Ok(Self { state: State::default(), outbox, inbox, wake, hands, writing: Arc::default() })
+        Ok(Self {
+            state: State::default(),
+            outbox,
+            inbox,
+            wake,
+            hands,
+            writing: Arc::default(),
+            inquiring: Arc::default(),
+        })
     }
 
     /// All there is to show.
@@ -107,6 +117,8 @@ impl Workbench {
                 self.run("writer", move || Command::Exported(write::write(&export, &bench, &stop, &tell)));
             }
             Effect::StopWriting => self.writing.stop(),
+            Effect::Inquire(asked) => self.inquire(asked),
+            Effect::StopInquiring => self.inquiring.stop(),
         }
     }
 
@@ -147,6 +159,22 @@ impl Workbench {
         }
     }
 
+    /// Asks in a session of its own: the analyst's keeps the result that is shown.
+    fn inquire(&mut self, asked: Asked) {
+        let Some(picture) = self.state.picture.clone() else { return };
+        let (params, area) = (self.state.document.params, self.state.document.area.clone());
+        self.inquiring = Arc::default();
+        let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
+        let mut asking = Asking { asked, stop: Arc::clone(&self.inquiring), outbox, wake };
+        self.run("what if", move || {
+            let mut session = Session::new(Arc::new(picture.photo.image.clone()));
+            // An area of another picture restricts nothing.
+            let _ = session.restrict(area);
+            let found = what_if(&mut session, &params, asked.pixel as usize, &mut asking);
+            Command::Ask(Ask::News(asked, found.map_or(InquiryNews::Stopped, InquiryNews::Found)))
+        });
+    }
+
     /// Runs `job` where work is done; its command arrives by the inbox.
     fn run(&self, name: &str, job: impl FnOnce() -> Command + Send + 'static) {
         let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
@@ -163,9 +191,29 @@ impl Workbench {
     }
 }
 
+/// Tells how far an inquiry is, and stops it.
+struct Asking {
+    asked: Asked,
+    stop: Arc<jobs::Stop>,
+    outbox: Sender<Command>,
+    wake: Arc<dyn Fn() + Send + Sync>,
+}
+
+impl WhatIfObserver for Asking {
+    fn progress(&mut self, done: usize, of: usize) {
+        let _ = self.outbox.send(Command::Ask(Ask::News(self.asked, InquiryNews::Progress(done, of))));
+        (self.wake)();
+    }
+
+    fn cancelled(&self) -> bool {
+        self.stop.stopped()
+    }
+}
+
 impl Drop for Workbench {
     fn drop(&mut self) {
         self.writing.stop();
+        self.inquiring.stop();
         if let Hands::Threads { desk, worker } = &mut self.hands {
             desk.close();
             if let Some(worker) = worker.take() {

@@ -4,9 +4,11 @@
 //! found about it ([`Layer::is_overlay`]) is drawn over it, as fills or as outlines one pixel wide inside each area.
 
 mod curve;
+mod instant;
 mod marks;
 mod pyramid;
 
+pub use instant::{beside_colour, instant_legend, paint_instant};
 pub use marks::{ACCENT, marks};
 pub use pyramid::pyramid;
 
@@ -95,6 +97,11 @@ pub fn legend(layer: Layer) -> Vec<LegendEntry> {
         | Layer::Body
         | Layer::Surface => Vec::new(),
     }
+}
+
+/// The classes in their order: point, line, plane, volume.
+pub fn class_entries() -> [LegendEntry; 4] {
+    CLASSES
 }
 
 /// How layers are drawn.

@@ -16,6 +16,7 @@ mod debugger;
 mod desk;
 mod document;
 mod histogram;
+mod inquiry;
 mod item;
 mod jobs;
 mod layers;
@@ -49,24 +50,34 @@ pub use command::{Combine, Command, Gesture};
 pub use command_line::analyze_call;
 pub use compare::{BodyChange, Comparison, Fate, Figure, PixelFates, RegionFate, SettingChange, compare};
 pub use debugger::{
-    AxisDistance, Breakpoint, CandidateCheck, Condition, Current, DebugCommand, DebugSettings, Debugger,
-    Difference, Direction, Goal, Grain, Growth, RegionNames, SavedClass, Watch, WatchedPixel, growth, watch,
+    Account, AxisDistance, Breakpoint, CandidateCheck, Condition, Current, DebugCommand, DebugSettings,
+    Debugger, Difference, Direction, Goal, Grain, Growth, RegionNames, SavedClass, TimelineAxis,
+    TimelineSection, Watch, WatchedPixel, Why, growth, timeline_density, watch, why,
+};
+pub use debugger::{
+    Check, HypothesisRow, Instant, InstantView, LookedAt, Role, Status, Tee, WindowCounts, candidate_name,
+    candidate_pixels, candidate_reach, cursor_place, hypothesis_rows, looked_at, measured_and_ignored,
+    pixels_of_region, sampled, tee, test_at_cursor, tracks, window_counts,
 };
 pub use desk::{Executor, Workbench};
 pub use document::{Document, History};
 pub use histogram::{BINS_PER_BAND, ColourBin, Histogram, UniqueColour};
+pub use inquiry::{Ask, Asked, Inquiry, InquiryNews};
 pub use item::{Item, Selection};
 pub use jobs::{Export, Job, JobState};
-pub use layers::{ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, legend, marks, paint, pyramid};
+pub use layers::{
+    ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, beside_colour, class_entries, instant_legend, legend,
+    marks, paint, paint_instant, pyramid,
+};
 pub use picture::{Origin, Picture};
-pub use plane_points::{MOST_PLANE_POINTS, PlanePixel, RegionPlane, region_plane};
+pub use plane_points::{MOST_PLANE_POINTS, PlanePixel, RegionPlane, growing_plane, region_plane, test_plane};
 pub use profile::{ProfileSample, profile, profile_csv, profile_ends};
 pub use reduce::{Effect, reduce};
 pub use runs::MaskRuns;
 pub use settings::Settings;
 pub use shapes::{
-    PlaneDirections, RegionShapes, dark_sphere, illuminant_line, plane_directions, region_shapes,
-    window_ellipsoid,
+    CursorShapes, PlaneDirections, RegionShapes, cluster_ellipsoid, cursor_shapes, dark_sphere,
+    illuminant_line, plane_directions, region_shapes, window_ellipsoid,
 };
 pub use shown::Shown;
 pub use solid::{Mesh, Solid};

@@ -1,5 +1,9 @@
 //! The plane view: a region's pixels by their amounts of body and surface reflection, the skewed T of figure 2.
 
+mod cursor;
+
+pub use cursor::{growing_plane, test_plane};
+
 use super::shapes::{across, hypothesis};
 use super::{Point, Shown};
 use crate::color::{Vec3, rgb};
@@ -81,30 +85,36 @@ pub fn region_plane(shown: &Shown, region: u16) -> Option<RegionPlane> {
     let amount = |colour: Vec3| transform.split(rgb(&colour)).body;
     let brightest = hypothesis.matte.foot() + hypothesis.matte.direction * hypothesis.matte_length;
     let highlights = points.iter().filter(|point| point.kind == PixelKind::Highlight);
+    Some(RegionPlane {
+        region,
+        body: transform.body(),
+        surface: transform.surface(),
+        has_plane,
+        angle_deg: angle_deg(&transform),
+        matte_length: amount(brightest),
+        meeting_point: has_plane.then(|| amount(hypothesis.start)),
+        highlight_length: highlights.fold(0.0, |most, point| most.max(point.surface)),
+        slice_half_width: shown.analysis.used.slice_half_width_counts() as f32,
+        radius: shown.analysis.used.radius_counts() as f32,
+        extent: extent(&points),
+        points,
+        transform,
+    })
+}
+
+/// Smallest and largest m_b and m_s of the points, counts.
+fn extent(points: &[PlanePixel]) -> [[f32; 2]; 2] {
     let range = |of: fn(&PlanePixel) -> f32| {
         points
             .iter()
             .map(of)
             .fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
     };
-    Some(RegionPlane {
-        region,
-        body: transform.body(),
-        surface: transform.surface(),
-        has_plane,
-        angle_deg: transform
-            .sine()
-            .atan2(crate::color::dot(transform.body(), transform.surface()))
-            .to_degrees(),
-        matte_length: amount(brightest),
-        meeting_point: has_plane.then(|| amount(hypothesis.start)),
-        highlight_length: highlights.fold(0.0, |most, point| most.max(point.surface)),
-        slice_half_width: shown.analysis.used.slice_half_width_counts() as f32,
-        radius: shown.analysis.used.radius_counts() as f32,
-        extent: [range(|point| point.body), range(|point| point.surface)],
-        points,
-        transform,
-    })
+    [range(|point| point.body), range(|point| point.surface)]
+}
+
+fn angle_deg(transform: &ReflectionTransform) -> f32 {
+    transform.sine().atan2(crate::color::dot(transform.body(), transform.surface())).to_degrees()
 }
 
 impl RegionPlane {

@@ -2,8 +2,8 @@
 
 use super::state::AfterPin;
 use super::{
-    Combine, Command, Debugger, Document, Export, Gesture, MaskRuns, Notice, Origin, Picture, Selection,
-    Severity, Shown, State, View, Workspace,
+    Asked, Combine, Command, Debugger, Document, Export, Gesture, MaskRuns, Notice, Origin, Picture,
+    Selection, Severity, Shown, State, View, Workspace,
 };
 use crate::photo::ReadOptions;
 use crate::raster::{Mask, Raster};
@@ -18,6 +18,10 @@ pub enum Effect {
     Analyse,
     /// Record the decisions of that analysis.
     Trace,
+    /// Find what would change a pixel's fate.
+    Inquire(Asked),
+    /// Stop that.
+    StopInquiring,
     /// Read a photograph in this way.
     Read(Origin, ReadOptions),
     /// Read parameters.
@@ -89,6 +93,7 @@ pub fn reduce(state: &mut State, command: Command) -> Vec<Effect> {
             state.history.end_gesture();
             Vec::new()
         }
+        Command::Ask(ask) => super::inquiry::reduce(state, ask),
         Command::Debug(command) => super::debugger::reduce(state, command),
         Command::Export(_) if state.jobs.export.is_some() => {
             let text = "an export is still under way: wait for its end, or cancel it first";
@@ -129,7 +134,10 @@ fn edit_or_look(state: &mut State, command: Command) -> Vec<Effect> {
         Command::SetParams(params) => edit_params(state, None, |old| *old = *params),
         Command::PinIlluminant(direction, gesture) => pin_illuminant(state, direction, gesture),
         Command::RestrictTo(area) => edit(state, None, |document| document.area = area),
-        Command::Select(item) => edit(state, None, |document| document.selection.item = item),
+        Command::Select(item) => {
+            state.asked_pixel = None;
+            edit(state, None, |document| document.selection.item = item)
+        }
         Command::Mark(mask, combine, gesture) => edit(state, gesture, |document| {
             document.selection.marked = combined(document.selection.marked.take(), mask, combine);
         }),
@@ -143,7 +151,10 @@ fn edit_or_look(state: &mut State, command: Command) -> Vec<Effect> {
                 };
             })
         }
-        Command::ClearSelection => edit(state, None, |document| document.selection = Selection::default()),
+        Command::ClearSelection => {
+            state.asked_pixel = None;
+            edit(state, None, |document| document.selection = Selection::default())
+        }
         other => {
             look(state, other);
             Vec::new()
@@ -187,7 +198,7 @@ fn opened(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     // Masks of another picture mean nothing here; parameters stay.
     state.document = Document { params: state.document.params, ..Document::default() };
     state.history.forget();
-    (state.newest, state.pinned, state.hover) = (None, None, None);
+    (state.newest, state.pinned, state.hover, state.asked_pixel) = (None, None, None, None);
     state.view.show_pinned = false;
     (state.view.image.centre_px, state.view.image.zoom) = (None, None);
     (state.view.profile, state.after_pin) = (super::ProfileLine::Row, None);
@@ -302,7 +313,10 @@ fn analyse(state: &mut State) -> Vec<Effect> {
         return Vec::new();
     }
     state.generation += 1;
-    vec![Effect::Analyse]
+    // What was asked, was asked of the result before.
+    let inquiring = state.inquiry.take().is_some_and(|inquiry| inquiry.found.is_none());
+    let stop = inquiring.then_some(Effect::StopInquiring);
+    stop.into_iter().chain([Effect::Analyse]).collect()
 }
 
 fn pin_illuminant(state: &mut State, direction: Option<[f64; 3]>, gesture: Option<Gesture>) -> Vec<Effect> {

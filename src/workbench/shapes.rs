@@ -1,9 +1,13 @@
 //! The model's shapes in the RGB cube, in counts: what a hypothesis claims, and where its lines run.
 
+mod cursor;
+
+pub use cursor::{CursorShapes, cluster_ellipsoid, cursor_shapes};
+
 use super::Shown;
 use super::solid::{HalfSpace, Solid, Tube, convex_body, cube, ellipsoid, octant};
 use super::vector::{Point, dot64};
-use crate::color::{Vec3, dot, principal_axes, rgb};
+use crate::color::{Moments, Vec3, dot, principal_axes, rgb};
 use crate::reflection::DichromaticPlane;
 use crate::segment::PlanarHypothesis;
 use crate::trace::PixelKind;
@@ -91,7 +95,10 @@ pub fn illuminant_line(shown: &Shown) -> Option<[Point; 2]> {
 
 /// The ellipsoid of a window's colours at two standard deviations; none without at least two pixels.
 pub fn window_ellipsoid(shown: &Shown, window: u32) -> Option<Solid> {
-    let moments = shown.analysis.windows.moments.as_slice().get(window as usize)?;
+    ellipsoid_of(shown.analysis.windows.moments.as_slice().get(window as usize)?)
+}
+
+fn ellipsoid_of(moments: &Moments) -> Option<Solid> {
     if moments.n < 2.0 {
         return None;
     }
@@ -127,7 +134,13 @@ fn full(shown: &Shown) -> f64 {
 /// The slice as the segmentation claims it, [`crate::reflection::Slice`], as a body: bounded where that is refined.
 fn slice(shown: &Shown, hypothesis: &PlanarHypothesis, plane: &DichromaticPlane, full: f64) -> Solid {
     let used = &shown.analysis.used;
-    let (half_width, radius) = (used.slice_half_width_counts(), used.radius_counts());
+    let bounds = shown.params.refinements().slice_bounds;
+    let bounds = bounds.then(|| [used.radius_counts(), hypothesis.matte_length]);
+    slice_body(plane, used.slice_half_width_counts(), bounds, full)
+}
+
+/// A slice as a body; `bounds` are the cylinder's radius and the length of the matte line, where it is bounded by them.
+fn slice_body(plane: &DichromaticPlane, half_width: f64, bounds: Option<[f64; 2]>, full: f64) -> Solid {
     let mean: [f64; 3] = plane.matte.mean.into();
     let normal: [f64; 3] = plane.normal.into();
     let level = dot64(normal, mean);
@@ -136,7 +149,7 @@ fn slice(shown: &Shown, hypothesis: &PlanarHypothesis, plane: &DichromaticPlane,
         HalfSpace::new(normal.map(|v| -v), half_width - level),
     ];
     sides.extend(cube(full));
-    if shown.params.refinements().slice_bounds {
+    if let Some([radius, matte_length]) = bounds {
         let inward: [f64; 3] = plane.inward.into();
         let on_line = dot64(inward, mean);
         sides.push(HalfSpace::new(inward.map(|v| -v), radius - on_line));
@@ -145,7 +158,7 @@ fn slice(shown: &Shown, hypothesis: &PlanarHypothesis, plane: &DichromaticPlane,
         let slack = radius / plane.angle_rad.sin();
         let body: [f64; 3] = (plane.matte.direction - plane.inward * cotangent).into();
         let zero = -cotangent * on_line;
-        let most = 1.15 * hypothesis.matte_length + radius + slack;
+        let most = 1.15 * matte_length + radius + slack;
         sides.push(HalfSpace::new(body, most + zero));
         sides.push(HalfSpace::new(body.map(|v| -v), slack - zero));
     }

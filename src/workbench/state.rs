@@ -1,6 +1,6 @@
 //! All there is to show.
 
-use super::{Debugger, Document, History, Item, JobState, Picture, Shown, View, Workspace};
+use super::{Debugger, Document, History, Inquiry, Item, JobState, Picture, Shown, View, Workspace};
 use crate::segment::Params;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,6 +24,10 @@ pub struct State {
     pub view: View,
     /// The step debugger.
     pub debugger: Debugger,
+    /// The pixel that was clicked last, if nothing else has been selected since: its history is told.
+    pub(super) asked_pixel: Option<u32>,
+    /// What would change a pixel's fate, as far as that has been asked.
+    pub inquiry: Option<Inquiry>,
     /// What goes on in the background.
     pub jobs: JobState,
     /// What a person should know, oldest first.
@@ -84,6 +88,14 @@ impl State {
         };
         let at = pixel(self.hover).or(pixel(self.document.selection.item));
         self.picture.as_ref().map(|picture| super::profile_ends(self.view.profile, picture, at))
+    }
+
+    /// The pixel that is asked about: the selected one, or the one at which the selected region was clicked.
+    pub fn asked_pixel(&self) -> Option<u32> {
+        match self.document.selection.item {
+            Some(Item::Pixel(pixel)) => Some(pixel),
+            _ => self.asked_pixel,
+        }
     }
 
     /// The region that panels about one region show: the selected item's.

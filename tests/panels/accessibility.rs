@@ -20,6 +20,8 @@ fn nameless(window: &Window) -> Vec<String> {
             let data = node.data();
             [Action::Click, Action::SetValue, Action::Increment].iter().any(|&a| data.supports_action(a))
         })
+        // A scroll bar is known by what it stands beside.
+        .filter(|node| node.role() != Role::ScrollBar)
         .filter(|node| {
             let named = |text: Option<String>| text.is_some_and(|text| !text.trim().is_empty());
             !(named(node.label()) || node.role() == Role::Label && named(node.value()))

@@ -9,6 +9,8 @@
 mod accessibility;
 mod colours;
 mod compare;
+mod cursor;
+mod debugger;
 mod exports;
 mod images;
 mod keyboard;
@@ -16,4 +18,5 @@ mod opening;
 mod pictures;
 mod regions;
 mod sliders;
+mod why;
 mod window;

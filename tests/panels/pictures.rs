@@ -6,7 +6,8 @@ use crate::window::{Window, apply, named, tiny, with_software_driver};
 use dichroscope::gui::Pane;
 use dichroscope::segment::{Parameter, Setting};
 use dichroscope::workbench::{
-    Arrangement, ColourBy, Command, Fill, ImageSettings, Item, Layer, Origin, ProfileLine, Theme,
+    Arrangement, ColourBy, Command, DebugCommand, Fill, ImageSettings, Item, Layer, Origin, ProfileLine,
+    Theme,
 };
 use egui::accesskit::Role;
 use egui::{Rect, Vec2, pos2, vec2};
@@ -94,6 +95,17 @@ fn sliders_and_tables() {
     compare(&mut window, "regions");
     window.state_mut().show_alone(Some(Pane::Selection));
     compare(&mut window, "selection");
+}
+
+#[test]
+fn the_timeline() {
+    let Some(mut window) = opened(vec2(900.0, 96.0), Some(Pane::Timeline)) else { return };
+    apply(&mut window, Command::Debug(DebugCommand::Seek(1500)));
+    compare(&mut window, "timeline");
+    window.set_size(vec2(640.0, 150.0));
+    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    apply(&mut window, Command::Theme(Theme::Light));
+    compare(&mut window, "timeline-light");
 }
 
 #[test]

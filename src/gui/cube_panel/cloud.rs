@@ -68,11 +68,19 @@ struct Inputs {
     item: Option<Item>,
     look: (ColourSpace, ColourBy, bool, bool, Theme),
     detail: Option<Arc<[UniqueColour]>>,
+    /// Whether all points are ghosts: the debugger's cursor stands on something else.
+    ghostly: bool,
 }
 
 impl Inputs {
-    fn of(state: &State, picture: &Arc<Picture>, detail: Option<&Arc<[UniqueColour]>>) -> Self {
-        let CubeSettings { space, colour_by, size_by_count, ghost_rest, .. } = state.view.cube;
+    fn of(
+        state: &State,
+        picture: &Arc<Picture>,
+        detail: Option<&Arc<[UniqueColour]>>,
+        ghostly: bool,
+    ) -> Self {
+        let CubeSettings { space, size_by_count, ghost_rest, .. } = state.view.cube;
+        let colour_by = colour_by(state);
         let selection = &state.document.selection;
         Self {
             picture: Arc::clone(picture),
@@ -81,6 +89,7 @@ impl Inputs {
             item: selection.item,
             look: (space, colour_by, size_by_count, ghost_rest, state.view.theme),
             detail: detail.cloned(),
+            ghostly,
         }
     }
 
@@ -90,7 +99,16 @@ impl Inputs {
             && same(self.shown.as_ref(), other.shown.as_ref())
             && same_arc(self.marked.as_ref(), other.marked.as_ref())
             && same_arc(self.detail.as_ref(), other.detail.as_ref())
-            && (self.item, self.look) == (other.item, other.look)
+            && (self.item, self.look, self.ghostly) == (other.item, other.look, other.ghostly)
+    }
+}
+
+/// What gives the points their colour: regions and classes are the result's, which is not there yet where the debugger's
+/// cursor is followed.
+pub fn colour_by(state: &State) -> ColourBy {
+    match state.view.cube.colour_by {
+        ColourBy::Region | ColourBy::Class if state.followed().is_some() => ColourBy::Own,
+        colour_by => colour_by,
     }
 }
 
@@ -103,20 +121,22 @@ fn same_arc<T: ?Sized>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
 }
 
 impl Cloud {
-    /// Brings the points up to date; `detail` are all unique colours, where they are to be drawn.
+    /// Brings the points up to date; `detail` are all unique colours, where they are to be drawn. All are ghosts where
+    /// that is wanted.
     pub fn update(
         &mut self,
         state: &State,
         tones: &Tones,
         picture: &Arc<Picture>,
         detail: Option<&Arc<[UniqueColour]>>,
+        ghostly: bool,
     ) {
-        let inputs = Inputs::of(state, picture, detail);
+        let inputs = Inputs::of(state, picture, detail, ghostly);
         if self.of.as_ref().is_some_and(|of| of.is(&inputs)) {
             return;
         }
         self.tally.update(picture, inputs.shown.as_ref());
-        let focus = focus(state, picture);
+        let focus = if ghostly { Some(vec![0; picture.histogram.bins.len()]) } else { focus(state, picture) };
         self.fullest = picture.histogram.bins.iter().map(|bin| bin.count).max().unwrap_or(1);
         let brush = Brush { inputs: &inputs, tally: &self.tally, tones, fullest: self.fullest };
         let bins = picture.histogram.bins.iter().enumerate();

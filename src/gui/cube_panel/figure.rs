@@ -8,6 +8,7 @@ use crate::workbench::{
     self, ColourSpace, CubeSettings, Item, Mesh, Picture, Point, RegionShapes, Shown, Solid, State, Theme,
 };
 use egui::{Color32, Rect, Stroke, Ui};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 const CYLINDER_ALPHA: u8 = 16;
@@ -36,7 +37,7 @@ pub struct Figure {
 /// A place with a name.
 struct Note {
     place: Point,
-    text: &'static str,
+    text: Cow<'static, str>,
     tip: &'static str,
     dot: bool,
 }
@@ -48,6 +49,8 @@ struct Inputs {
     region: Option<u16>,
     window: Option<u32>,
     view: (ColourSpace, [bool; 5], Theme),
+    /// The instant at the debugger's cursor, in place of the result.
+    frame: Option<super::cursor::Frame>,
 }
 
 #[derive(Clone)]
@@ -82,6 +85,7 @@ impl Inputs {
                 [show_cylinder, show_slice, show_lines, show_illuminant, show_ellipsoid],
                 state.view.theme,
             ),
+            frame: super::cursor::frame(state),
         })
     }
 }
@@ -94,11 +98,16 @@ impl Figure {
             return false;
         }
         *self = Self { of: inputs.clone(), ..Self::default() };
-        let Some(Inputs { shown: Same(shown), region, window, view: (space, show, theme) }) = inputs else {
+        let Some(Inputs { shown: Same(shown), region, window, view: (space, show, theme), .. }) = inputs
+        else {
             return true;
         };
         let tones = Tones::of(theme);
         let mut pen = Pen { figure: self, space, full: picture.histogram.full_counts };
+        if let Some(replay) = state.followed() {
+            pen.instant(state, replay, &shown, &tones);
+            return true;
+        }
         let [cylinder, slice, lines, illuminant, ellipsoid] = show;
         if let Some(region) = region
             && let Some(shapes) = workbench::region_shapes(&shown, region)
@@ -121,14 +130,8 @@ impl Figure {
             }
         }
         if let Some(ends) = workbench::illuminant_line(&shown).filter(|_| illuminant) {
-            let dash = if space == ColourSpace::Rgb { DASH_PT } else { 0.0 };
-            pen.line(&ends, tones.text, OUTLINE_PT, dash);
-            pen.note(
-                ends[1],
-                "illuminant",
-                "The colour of the light, common to all highlights (section 5.4).",
-                false,
-            );
+            let tip = "The colour of the light, common to all highlights (section 5.4).";
+            pen.light(&ends, tones.text, "illuminant", tip);
         }
         if let Some(solid) = window.filter(|_| ellipsoid).and_then(|w| workbench::window_ellipsoid(&shown, w))
         {
@@ -160,7 +163,7 @@ impl Figure {
                 painter.circle(at, 4.0, tones.background, Stroke::new(1.8, tones.text));
             }
             Some(Label {
-                text: note.text.to_owned(),
+                text: note.text.to_string(),
                 at,
                 sides: sides.clone(),
                 leader: true,
@@ -174,7 +177,7 @@ impl Figure {
 }
 
 /// Puts shapes in counts into the space.
-struct Pen<'a> {
+pub struct Pen<'a> {
     figure: &'a mut Figure,
     space: ColourSpace,
     full: f32,
@@ -206,8 +209,7 @@ impl Pen<'_> {
         }
         let tip = "The end of the matte line, where the surface faces the light (section 5.4.1).";
         self.note(shapes.brightest_matte, "brightest matte point", tip, true);
-        self.line(&shapes.matte_line, colour, LINE_PT, 0.0);
-        self.figure.spine = Some(shapes.matte_line.map(|end| self.space.place(end, self.full)));
+        self.spine(&shapes.matte_line, colour, LINE_PT);
         let third = along(shapes.matte_line, 0.35);
         self.note(
             third,
@@ -222,9 +224,29 @@ impl Pen<'_> {
         }
     }
 
-    fn note(&mut self, counts: Point, text: &'static str, tip: &'static str, dot: bool) {
+    /// The line of the light's colour.
+    pub fn light(&mut self, ends: &[Point; 2], colour: Color32, name: &'static str, tip: &'static str) {
+        let dash = if self.space == ColourSpace::Rgb { DASH_PT } else { 0.0 };
+        self.line(ends, colour, OUTLINE_PT, dash);
+        self.note(ends[1], name, tip, false);
+    }
+
+    /// The matte line, beside which names stand.
+    pub fn spine(&mut self, ends: &[Point; 2], colour: Color32, width_px: f32) {
+        self.line(ends, colour, width_px, 0.0);
+        self.figure.spine = Some(ends.map(|end| self.space.place(end, self.full)));
+    }
+
+    /// A translucent body with its name.
+    pub fn body(&mut self, solid: &Solid, colour: Color32, name: &'static str, tip: &'static str) {
+        self.solid(solid, colour, CYLINDER_ALPHA);
+        self.note_at_corner(solid, name, tip);
+    }
+
+    /// Names a place.
+    pub fn note(&mut self, counts: Point, text: impl Into<Cow<'static, str>>, tip: &'static str, dot: bool) {
         let place = self.space.place(counts, self.full);
-        self.figure.notes.push(Note { place, text, tip, dot });
+        self.figure.notes.push(Note { place, text: text.into(), tip, dot });
     }
 
     /// Named where its last outline begins.
@@ -234,7 +256,8 @@ impl Pen<'_> {
         }
     }
 
-    fn line(&mut self, counts: &[Point], colour: Color32, width_px: f32, dash_px: f32) {
+    /// Straight lines from place to place.
+    pub fn line(&mut self, counts: &[Point], colour: Color32, width_px: f32, dash_px: f32) {
         let curve = self.space.polyline(counts, self.full);
         let pieces = curve.windows(2).map(|ends| Line {
             a: ends[0],

@@ -1,6 +1,6 @@
 //! What the points' colours mean, where they are not their own.
 
-use super::cloud::{class_colour, density_colour};
+use super::cloud::{class_colour, colour_by, density_colour};
 use crate::gui::Cx;
 use crate::gui::theme::SMALL_PT;
 use crate::trace::Class;
@@ -14,7 +14,7 @@ const STEPS: usize = 24;
 pub fn show(ui: &Ui, cx: &Cx, rect: Rect, fullest: u32) -> Rect {
     let painter = ui.painter_at(rect);
     let corner = rect.min + vec2(8.0, 6.0);
-    match cx.state.view.cube.colour_by {
+    match colour_by(cx.state) {
         ColourBy::Class => classes(&painter, cx, corner),
         ColourBy::Density => density(&painter, cx, corner, fullest),
         ColourBy::Own | ColourBy::Region => Rect::from_min_max(corner, corner),

@@ -4,7 +4,7 @@ use super::geometry::Placement;
 use super::icons::{corners, cross};
 use super::sheets::Sheet;
 use crate::gui::theme::{SMALL_PT, Tones};
-use crate::workbench::{ACCENT, Item, Layer, ProfileLine, State, Tool, legend};
+use crate::workbench::{ACCENT, Item, Layer, LegendEntry, ProfileLine, State, Tool, legend};
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
 /// The accent over pictures, the same in both themes: a picture is as dark in either.
@@ -86,8 +86,10 @@ pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
         fill(painter, place, MARK.gamma_multiply(0.28), marked);
         edges(painter, place, MARK, marked);
     }
+    // Regions and windows are the result's: there are none where the cursor is followed.
+    let shown = state.shown().filter(|_| state.followed().is_none());
     for (item, colour) in [(selection.item, MARK), (state.hover, Color32::WHITE)] {
-        match (item, state.shown()) {
+        match (item, shown) {
             (Some(Item::Region(region)), Some(shown)) => {
                 edges(painter, place, colour, |x, y| shown.labels().get(x, y) == Some(&region));
             }
@@ -171,7 +173,7 @@ pub fn pixels(painter: &Painter, place: &Placement, state: &State, pointer_here:
             cross(painter, square.center(), colour);
         }
     };
-    show(state.document.selection.item, MARK, true);
+    show(state.asked_pixel().map(Item::Pixel), MARK, true);
     show(state.hover, Color32::WHITE, !pointer_here);
 }
 
@@ -219,7 +221,11 @@ pub fn tag(painter: &Painter, tones: &Tones, at: Pos2, align: Align2, text: &str
 
 /// What the colours of a layer stand for, along the lower edge.
 pub fn key(painter: &Painter, tones: &Tones, view: Rect, layer: Layer) {
-    let entries = legend(layer);
+    entries(painter, tones, view, &legend(layer));
+}
+
+/// Colours and their names, along the lower edge.
+pub fn entries(painter: &Painter, tones: &Tones, view: Rect, entries: &[LegendEntry]) {
     if entries.is_empty() {
         return;
     }

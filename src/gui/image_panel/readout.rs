@@ -2,8 +2,8 @@
 
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::intrinsic::PixelKind;
-use crate::trace::Class;
-use crate::workbench::{Item, Picture, Shown, State};
+use crate::trace::{Class, Replay};
+use crate::workbench::{Item, Picture, RegionNames, Shown, State};
 use egui::accesskit::Role;
 use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -31,7 +31,11 @@ const CELLS: [Cell; 11] = [
     cell("G", 34.0, "Green of the photograph, linear counts"),
     cell("B", 34.0, "Blue of the photograph, linear counts"),
     cell("", 38.0, "Class of its window: the shape of the colour cluster (section 5.2.1)"),
-    cell("", 26.0, "Its region"),
+    cell(
+        "",
+        26.0,
+        "Its region; at the debugger's cursor the hypothesis that holds it, by its number of birth",
+    ),
     cell("m_b", 40.0, "Amount of body reflection, counts (section 6)"),
     cell("m_s", 40.0, "Amount of surface reflection, counts (section 6)"),
     cell("\u{3b5}", 32.0, "Distance from the dichromatic plane, counts (section 6)"),
@@ -64,11 +68,10 @@ pub fn show(ui: &mut Ui, state: &State, tones: &Tones) {
         Some(Item::Pixel(pixel)) => Some(pixel as usize),
         _ => None,
     });
-    let facts = state
-        .picture
-        .as_ref()
-        .zip(pixel)
-        .and_then(|(picture, pixel)| Facts::of(picture, state.shown().map(|shown| &**shown), pixel));
+    let facts = state.picture.as_ref().zip(pixel).and_then(|(picture, pixel)| match state.followed() {
+        Some(replay) => Facts::at_cursor(picture, replay, &state.debugger.names, pixel),
+        None => Facts::of(picture, state.shown().map(|shown| &**shown), pixel),
+    });
     let values = facts.as_ref().map_or_else(Default::default, Facts::values);
     let chip = facts.as_ref().and_then(|facts| facts.chip);
     let whole = ui.interact(full, ui.scope_id().with("readout"), Sense::hover());
@@ -132,6 +135,11 @@ struct Found {
     class: Option<Class>,
     kind: PixelKind,
     region: Option<u16>,
+    split: Option<Split>,
+}
+
+/// What a pixel was split into.
+struct Split {
     body: f32,
     surface: Option<f32>,
     noise: f32,
@@ -150,6 +158,21 @@ impl Facts {
         Some(Self { at, colour, found, chip })
     }
 
+    /// What is known at the debugger's cursor; the region by its number of birth.
+    fn at_cursor(picture: &Picture, replay: &Replay, names: &RegionNames, pixel: usize) -> Option<Self> {
+        let image = &picture.photo.image;
+        let colour = *image.pixels.as_slice().get(pixel)?;
+        let class = replay.first_grid().and_then(|grid| {
+            let window = grid.window_of(pixel, image.width());
+            grid.classes.as_slice().get(window).copied().flatten().flatten()
+        });
+        let region = Some(*replay.labels().as_slice().get(pixel)?).filter(|&region| region != 0);
+        let found = Found { class, kind: replay.kind(pixel), region, split: None };
+        let chip = region.map(|region| crate::gui::widgets::colour(names.colour(region)));
+        let at = [pixel % image.width(), pixel / image.width()];
+        Some(Self { at, colour, found: Some(found), chip })
+    }
+
     fn values(&self) -> [String; 11] {
         let counts = |value: f32| format!("{value:.1}");
         let mut values: [String; 11] = Default::default();
@@ -161,9 +184,11 @@ impl Facts {
         found.class.map_or("", Class::name).clone_into(&mut values[5]);
         let Some(region) = found.region else { return values };
         values[6] = region.to_string();
-        values[7] = counts(found.body);
-        values[8] = found.surface.map_or_else(String::new, counts);
-        values[9] = format!("{:+.1}", found.noise);
+        if let Some(split) = &found.split {
+            values[7] = counts(split.body);
+            values[8] = split.surface.map_or_else(String::new, counts);
+            values[9] = format!("{:+.1}", split.noise);
+        }
         // A pixel in no region is nothing to any.
         let kind = if found.kind == PixelKind::Unassigned { "" } else { found.kind.name() };
         kind.clone_into(&mut values[10]);
@@ -182,10 +207,11 @@ impl Found {
             class: shown.classes().get(x / shown.window_px(), y / shown.window_px()).copied().flatten(),
             kind: intrinsic.kinds[pixel],
             region: reflection.map(|_| label),
-            body: reflection.map_or(0.0, |region| along(intrinsic.body[pixel], region.body)),
-            surface: reflection
-                .and_then(|region| region.surface.map(|surface| along(intrinsic.surface[pixel], surface))),
-            noise: intrinsic.noise[pixel],
+            split: reflection.map(|region| Split {
+                body: along(intrinsic.body[pixel], region.body),
+                surface: region.surface.map(|surface| along(intrinsic.surface[pixel], surface)),
+                noise: intrinsic.noise[pixel],
+            }),
         }
     }
 }

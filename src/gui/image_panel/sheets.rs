@@ -1,23 +1,20 @@
 //! Painted layers and marks, and their textures: painted when something changed, uploaded where they are seen.
 
 use super::geometry::{Placement, level_for};
+use super::tiles::{TILE, Tile, boldest, options};
 use crate::raster::{Mask, Raster};
 use crate::workbench::{
-    Fill, ImageSettings, Item, Layer, Look, Picture, Selection, Shown, State, marks, paint, pyramid,
+    Fill, ImageSettings, Instant, Item, Layer, Look, Picture, Selection, Shown, State, marks, paint,
+    paint_instant, pyramid,
 };
-use egui::{
-    Color32, ColorImage, Context, Mesh, Painter, Rect, Shape, TextureFilter, TextureHandle, TextureOptions,
-    pos2,
-};
+use egui::{Color32, Context, Mesh, Painter, Rect, Shape, TextureHandle};
 use std::collections::HashMap;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 /// Larger pictures are painted in the background, so that no frame waits for them; pixels.
-const LARGE_PX: usize = 1 << 20;
-/// Side of a texture without its seam, texels.
-const TILE: usize = 1024;
+pub const LARGE_PX: usize = 1 << 20;
 /// Sheets kept at most, and their pixels in total.
 const MOST: (usize, usize) = (8, 40 << 20);
 
@@ -30,6 +27,8 @@ pub enum Slot {
     Other,
     /// Over both.
     Marks,
+    /// The instant at the debugger's cursor, over the photograph.
+    Instant,
 }
 
 /// What is to be painted.
@@ -45,6 +44,7 @@ pub struct Order {
 enum Subject {
     Layer(Layer, Look),
     Marks(Selection, Option<Item>),
+    Instant(Arc<Instant>, Look),
 }
 
 impl Order {
@@ -63,7 +63,13 @@ impl Order {
 
     /// What is marked, selected and pointed at elsewhere; none where nothing of this is larger than a pixel.
     pub fn marks(state: &State) -> Option<Self> {
-        let large = |item: &Item| !matches!(item, Item::Pixel(_));
+        let followed = state.followed().is_some();
+        let large = |item: &Item| match item {
+            Item::Pixel(_) => false,
+            // These are the result's, and the cursor is not there yet.
+            Item::Region(_) | Item::Window(_) => !followed,
+            Item::Bin(_) => true,
+        };
         let hover = state.hover.filter(large);
         let mut selection = state.document.selection.clone();
         selection.item = selection.item.filter(large);
@@ -75,6 +81,18 @@ impl Order {
         Some(Self { picture, shown, pinned: None, subject: Subject::Marks(selection, hover) })
     }
 
+    /// The instant at the cursor.
+    pub fn instant(state: &State, instant: &Arc<Instant>) -> Option<Self> {
+        let picture = Arc::clone(state.picture.as_ref()?);
+        let look = Look { exposure_ev: 0.0, gamma: 1.0, ..Look::of(&state.view.image, None) };
+        Some(Self {
+            picture,
+            shown: None,
+            pinned: None,
+            subject: Subject::Instant(Arc::clone(instant), look),
+        })
+    }
+
     fn paint(&self) -> Raster<[u8; 4]> {
         let (shown, pinned) = (self.shown.as_deref(), self.pinned.as_deref());
         match &self.subject {
@@ -83,6 +101,10 @@ impl Order {
                 let drawn = marks(&self.picture, shown, selection, *hover);
                 // One transparent texel stands for nothing.
                 drawn.unwrap_or_else(|| Raster::filled(1, 1, [0; 4]))
+            }
+            Subject::Instant(instant, look) => {
+                let (width, height) = self.picture.size();
+                paint_instant(instant, width, height, look)
             }
         }
     }
@@ -95,6 +117,7 @@ impl Order {
                 let marked = selection.marked.as_ref().map(Arc::downgrade).unwrap_or_default();
                 SubjectKey::Marks(selection.item, marked, *hover)
             }
+            Subject::Instant(instant, look) => SubjectKey::Instant(Arc::downgrade(instant), *look),
         };
         Key {
             picture: Arc::downgrade(&self.picture),
@@ -118,6 +141,7 @@ struct Key {
 enum SubjectKey {
     Layer(Layer, Look),
     Marks(Option<Item>, Weak<Mask>, Option<Item>),
+    Instant(Weak<Instant>, Look),
 }
 
 impl PartialEq for Key {
@@ -127,6 +151,7 @@ impl PartialEq for Key {
             (SubjectKey::Marks(a, b, c), SubjectKey::Marks(d, e, f)) => {
                 (a, c) == (d, f) && Weak::ptr_eq(b, e)
             }
+            (SubjectKey::Instant(a, b), SubjectKey::Instant(c, d)) => b == d && Weak::ptr_eq(a, c),
             _ => false,
         };
         subject
@@ -141,7 +166,7 @@ impl PartialEq for Key {
 pub struct Sheets {
     kept: Vec<Sheet>,
     /// What each slot showed last: it stays until the new one is painted.
-    last: [Option<Key>; 3],
+    last: [Option<Key>; 4],
     painting: Option<Receiver<Sheet>>,
     clock: u64,
 }
@@ -154,7 +179,8 @@ impl Sheets {
         let key = order.key();
         if !self.kept.iter().any(|sheet| sheet.key == key) {
             if order.picture.photo.image.pixels.len() <= LARGE_PX {
-                self.kept.push(Sheet::painted(order));
+                let sheet = Sheet::painted(order);
+                self.keep(sheet);
             } else if self.painting.is_none() {
                 self.paint_in_background(ctx, order);
             }
@@ -179,12 +205,29 @@ impl Sheets {
         match painting.try_recv() {
             Ok(mut sheet) => {
                 sheet.used = self.clock;
-                self.kept.push(sheet);
+                self.keep(sheet);
                 self.painting = None;
             }
             Err(TryRecvError::Disconnected) => self.painting = None,
             Err(TryRecvError::Empty) => {}
         }
+    }
+
+    /// Keeps a new sheet. One of an instant takes the textures of the instant before: they change many times a second.
+    fn keep(&mut self, mut sheet: Sheet) {
+        let instant = |sheet: &Sheet| matches!(sheet.key.subject, SubjectKey::Instant(..));
+        if instant(&sheet) {
+            for old in self.kept.extract_if(.., |old| instant(old)) {
+                sheet.spare.extend(old.spare);
+                sheet.spare.extend(old.tiles);
+            }
+        }
+        self.kept.push(sheet);
+    }
+
+    /// Whether a painter is at work.
+    pub fn is_painting(&self) -> bool {
+        self.painting.is_some()
     }
 
     fn paint_in_background(&mut self, ctx: &Context, order: &Order) {
@@ -224,12 +267,20 @@ pub struct Sheet {
     key: Key,
     levels: Vec<Raster<[u8; 4]>>,
     tiles: HashMap<[usize; 3], TextureHandle>,
+    /// Textures of the same size with an older picture.
+    spare: HashMap<[usize; 3], TextureHandle>,
     used: u64,
 }
 
 impl Sheet {
     fn painted(order: &Order) -> Self {
-        Self { key: order.key(), levels: vec![order.paint()], tiles: HashMap::new(), used: 0 }
+        Self {
+            key: order.key(),
+            levels: vec![order.paint()],
+            tiles: HashMap::new(),
+            spare: HashMap::new(),
+            used: 0,
+        }
     }
 
     fn is_orphan(&self) -> bool {
@@ -246,7 +297,7 @@ impl Sheet {
     fn make_copies(&mut self) {
         if self.levels.len() == 1 {
             let copies = match self.key.subject {
-                SubjectKey::Layer(..) => pyramid(&self.levels[0]),
+                SubjectKey::Layer(..) | SubjectKey::Instant(..) => pyramid(&self.levels[0]),
                 SubjectKey::Marks(..) => boldest(&self.levels[0]),
             };
             self.levels.extend(copies);
@@ -273,10 +324,15 @@ impl Sheet {
         for row in rows {
             for column in columns.clone() {
                 let Some(tile) = Tile::of(texels, column, row) else { continue };
-                let texture = self
-                    .tiles
-                    .entry([level, column, row])
-                    .or_insert_with(|| painter.ctx().load_texture("picture", tile.cut(texels), options()));
+                let place_of_tile = [level, column, row];
+                let texture = self.tiles.entry(place_of_tile).or_insert_with(|| {
+                    let image = tile.cut(texels);
+                    if let Some(mut spare) = self.spare.remove(&place_of_tile) {
+                        spare.set(image, options());
+                        return spare;
+                    }
+                    painter.ctx().load_texture("picture", image, options())
+                });
                 let part = Rect::from_min_max(
                     tile.inner.min * shrunk,
                     (tile.inner.max * shrunk).min(place.size.to_pos2()),
@@ -288,92 +344,5 @@ impl Sheet {
                 painter.add(Shape::mesh(mesh));
             }
         }
-    }
-}
-
-/// Sharp pixels from near, smooth from afar.
-fn options() -> TextureOptions {
-    TextureOptions {
-        magnification: TextureFilter::Nearest,
-        minification: TextureFilter::Linear,
-        ..TextureOptions::default()
-    }
-}
-
-/// A part of a picture: what is drawn, and what is uploaded, a texel more where the picture goes on: smoothing looks there.
-struct Tile {
-    inner: Rect,
-    outer: Rect,
-}
-
-impl Tile {
-    fn of(texels: &Raster<[u8; 4]>, column: usize, row: usize) -> Option<Self> {
-        let (left, top) = (column * TILE, row * TILE);
-        let (right, bottom) = ((left + TILE).min(texels.width()), (top + TILE).min(texels.height()));
-        let rect = |left, top, right, bottom| {
-            Rect::from_min_max(pos2(left as f32, top as f32), pos2(right as f32, bottom as f32))
-        };
-        (left < right && top < bottom).then(|| Self {
-            inner: rect(left, top, right, bottom),
-            outer: rect(
-                left.saturating_sub(1),
-                top.saturating_sub(1),
-                (right + 1).min(texels.width()),
-                (bottom + 1).min(texels.height()),
-            ),
-        })
-    }
-
-    fn cut(&self, texels: &Raster<[u8; 4]>) -> ColorImage {
-        let columns = self.outer.min.x as usize..self.outer.max.x as usize;
-        let rows = self.outer.min.y as usize..self.outer.max.y as usize;
-        let colour = |&[r, g, b, a]: &[u8; 4]| Color32::from_rgba_unmultiplied(r, g, b, a);
-        let size = [columns.len(), rows.len()];
-        let pixels = rows.flat_map(|y| texels.row(y)[columns.clone()].iter().map(colour)).collect();
-        ColorImage::new(size, pixels)
-    }
-}
-
-/// Smaller and smaller copies that keep thin outlines: of every 2 × 2 the most opaque.
-fn boldest(marks: &Raster<[u8; 4]>) -> Vec<Raster<[u8; 4]>> {
-    let mut levels: Vec<Raster<[u8; 4]>> = Vec::new();
-    loop {
-        let last = levels.last().unwrap_or(marks);
-        let (width, height) = (last.width().div_ceil(2), last.height().div_ceil(2));
-        if last.width().max(last.height()) <= 64 {
-            return levels;
-        }
-        let boldest = |at: usize| {
-            let (x, y) = (at % width * 2, at / width * 2);
-            let four = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
-            four.iter().filter_map(|&(x, y)| last.get(x, y)).max_by_key(|texel| texel[3]).copied()
-        };
-        let data = (0..width * height).map(|at| boldest(at).unwrap_or_default()).collect();
-        levels.push(Raster::from_vec(width, height, data).unwrap_or_default());
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tiles_overlap_by_a_texel_where_the_picture_goes_on() {
-        let texels = Raster::filled(TILE + 10, 5, [0; 4]);
-        let first = Tile::of(&texels, 0, 0).unwrap();
-        let second = Tile::of(&texels, 1, 0).unwrap();
-        assert_eq!((first.inner.max.x, first.outer.max.x), (1024.0, 1025.0));
-        assert_eq!((second.outer.min.x, second.outer.max.x), (1023.0, 1034.0));
-        assert_eq!(second.cut(&texels).size, [11, 5]);
-        assert!(Tile::of(&texels, 2, 0).is_none());
-    }
-
-    #[test]
-    fn a_thin_outline_survives_in_smaller_copies() {
-        let mut marks = Raster::filled(200, 100, [0u8; 4]);
-        marks[37 * 200 + 133] = [9, 9, 9, 255];
-        let levels = boldest(&marks);
-        assert_eq!(levels.len(), 2);
-        assert_eq!(*levels[1].get(33, 9).unwrap(), [9, 9, 9, 255]);
     }
 }

@@ -4,7 +4,7 @@ use super::icons::{self, Sign};
 use crate::gui::shortcuts::{Deed, keys_of};
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::gui::widgets::clickable;
-use crate::workbench::{Arrangement, Fill, ImageSettings, Layer, State, Tool};
+use crate::workbench::{Arrangement, DebugSettings, Fill, ImageSettings, Layer, State, Tool};
 use egui::accesskit::Role;
 use egui::{
     Button, ComboBox, DragValue, Label, Popup, PopupCloseBehavior, Response, RichText, Sense, Slider, Ui,
@@ -44,36 +44,53 @@ const fn tip(layer: Layer) -> &'static str {
 }
 
 /// Shows the row. `zoom` is the one in force, screen points a pixel.
-pub fn row(ui: &mut Ui, state: &State, tones: &Tones, settings: &mut ImageSettings, zoom: f32) {
+pub fn row(
+    ui: &mut Ui,
+    state: &State,
+    tones: &Tones,
+    settings: &mut ImageSettings,
+    debug: &mut DebugSettings,
+    zoom: f32,
+) {
     ui.spacing_mut().item_spacing = vec2(3.0, 3.0);
     ui.spacing_mut().interact_size.y = icons::SIDE_PT;
     ui.horizontal_wrapped(|ui| {
-        layer(ui, state, "Layer", &mut settings.layer);
+        let followed = state.followed().is_some();
+        if layer(ui, state, "Layer", &mut settings.layer, followed) {
+            debug.follow = false;
+        }
         arrangement(ui, tones, settings);
         if settings.arrangement != Arrangement::Single {
-            layer(ui, state, "Second layer", &mut settings.other);
+            layer(ui, state, "Second layer", &mut settings.other, false);
         }
         fill(ui, tones, settings);
         zooming(ui, settings, zoom);
         display(ui, tones, settings);
+        super::cursor::toggle(ui, state, debug);
     });
 }
 
-fn layer(ui: &mut Ui, state: &State, name: &str, layer: &mut Layer) {
-    let combo = ComboBox::from_id_salt(name).width(104.0).height(320.0).selected_text(layer.name());
+/// Chooses a layer; whether one was chosen in place of the instant at the cursor.
+fn layer(ui: &mut Ui, state: &State, name: &str, layer: &mut Layer, followed: bool) -> bool {
+    let now = if followed { "At the cursor" } else { layer.name() };
+    let combo = ComboBox::from_id_salt(name).width(104.0).height(320.0).selected_text(now);
+    let mut chosen = false;
     let shown = combo.show_ui(ui, |ui| {
         for choice in Layer::ALL {
             let possible = choice != Layer::Difference || state.pinned.is_some();
             let keys = keys_of(ui.ctx(), Deed::Layer(choice));
-            let button = Button::selectable(*layer == choice, choice.name()).shortcut_text(keys);
+            let button = Button::selectable(!followed && *layer == choice, choice.name()).shortcut_text(keys);
             let button = ui.add_enabled(possible, button).on_hover_text(tip(choice));
             if button.on_disabled_hover_text("Pin a result first (K).").clicked() {
                 *layer = choice;
+                chosen = followed;
             }
         }
     });
     shown.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
-    shown.response.on_hover_text(tip(*layer));
+    let of_cursor = "What is decided at the debugger's cursor; a layer shows the result instead.";
+    shown.response.on_hover_text(if followed { of_cursor } else { tip(*layer) });
+    chosen
 }
 
 fn arrangement(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {

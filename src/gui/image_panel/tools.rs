@@ -7,7 +7,7 @@ use crate::gui::Cx;
 use crate::raster::Mask;
 use crate::workbench::marking::{brush, outline, rectangle};
 use crate::workbench::{
-    Combine, Command, Gesture, ImageSettings, Item, Layer, ProfileLine, Severity, State, Tool,
+    Ask, Combine, Command, Gesture, ImageSettings, Item, Layer, ProfileLine, Severity, State, Tool,
 };
 use egui::{
     Color32, CursorIcon, Key, Modifiers, Painter, PointerButton, Pos2, Rect, Response, Stroke, Ui, pos2,
@@ -264,6 +264,7 @@ fn point(spot: &Spot, cx: &mut Cx, settings: &mut ImageSettings, modifiers: Modi
         if item != cx.state.document.selection.item {
             cx.send(Command::Select(item));
         }
+        cx.out.extend(pixel.map(|pixel| Command::Ask(Ask::Why(pixel))));
     }
 }
 

@@ -7,8 +7,9 @@ use super::shade::Shades;
 use crate::raster::{Mask, Raster};
 use crate::segment::{LightBasis, LightFindings, Scene, white_offsets_deg};
 
-/// Least share of the votes for the light.
+/// Least share of the votes for the light, unless regions that hold so large a part of what is lit vouch for it.
 const LEAST_SHARE: f64 = 0.02;
+const SUPPORTED: f64 = 0.3;
 /// How far from white a voted light is believed: blue to yellow, green to magenta, degrees.
 const USUAL_DEG: [f64; 2] = [20.0, 8.0];
 /// Most surface reflection, as a share of all light there.
@@ -38,7 +39,8 @@ impl Doubt {
         weights: &Raster<f32>,
         outside: &Mask,
     ) -> Option<Self> {
-        if light.basis != LightBasis::Given && scene.refine.vote_light && light.share < LEAST_SHARE {
+        let vouched_for = light.basis == LightBasis::Given || light.support >= SUPPORTED;
+        if scene.refine.vote_light && !vouched_for && light.share < LEAST_SHARE {
             return Some(Self::NoVote(light.share));
         }
         let direction = light.direction?;

@@ -231,10 +231,10 @@ mod tests {
                 Vec3::from(colours[usize::from(first)]) * (60.0 + x) + highlight(x, y, peak)
             });
             for (pixel, input) in image.pixels.as_slice().iter().enumerate() {
-                for band in 0..3 {
+                for (band, input) in input.iter().enumerate() {
                     let (body, surface) = (result.body[pixel][band], result.surface[pixel][band]);
-                    prop_assert!(body >= 0.0 && surface >= 0.0 && body <= input[band]);
-                    prop_assert!((body + surface - input[band]).abs() < 1e-3);
+                    prop_assert!(body >= 0.0 && surface >= 0.0 && body <= *input);
+                    prop_assert!((body + surface - input).abs() < 1e-3);
                 }
                 prop_assert!((0.0..=1.0).contains(&result.confidence[pixel]));
             }

@@ -77,7 +77,7 @@ impl BlockAnchor {
             let heir = heir.filter(|&heir| heir != 0)?;
             names.births_of(heir).find(|&region| blocks(region).next().is_some())
         })?;
-        let block = blocks(region).nth(self.turn).or_else(|| blocks(region).last())?;
+        let block = blocks(region).nth(self.turn).or_else(|| blocks(region).next_back())?;
         Some(self.place_in(trace, &block))
     }
 

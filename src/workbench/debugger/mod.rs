@@ -5,15 +5,30 @@ mod anchor;
 mod breakpoint;
 mod cursor;
 mod growth;
+mod instant;
+mod looked_at;
 mod names;
 mod reduce;
+mod rows;
+mod tee;
+mod timeline_axis;
+mod tracks;
 mod watch;
+mod why;
 
 pub use breakpoint::{Breakpoint, CandidateCheck, Condition, SavedClass};
 pub use cursor::{Direction, Goal, Grain};
 pub use growth::{Growth, growth, rings};
+pub use instant::{Instant, InstantView, RegionsView, RolesView, WindowsView, cursor_place};
+pub use looked_at::{LookedAt, Role, looked_at};
 pub use names::RegionNames;
+pub use rows::{HypothesisRow, Status, WindowCounts, hypothesis_rows, window_counts};
+pub use tee::{Check, Tee, candidate_name, candidate_reach, tee};
+pub use timeline_axis::{TimelineAxis, TimelineSection, timeline_density};
+pub use tracks::{candidate_pixels, measured_and_ignored, pixels_of_region, sampled, test_at_cursor, tracks};
 pub use watch::{AxisDistance, Current, Watch, WatchedPixel, watch};
+
+pub use why::{Account, Why, why};
 
 pub(super) use reduce::reduce;
 #[cfg(test)]

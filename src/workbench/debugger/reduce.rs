@@ -45,7 +45,7 @@ pub fn reduce(state: &mut State, command: DebugCommand) -> Vec<Effect> {
             let n = debugger.target(debugger.at(), grain, direction);
             debugger.go(n);
         }
-        DebugCommand::Into => debugger.into_block(),
+        DebugCommand::Into => debugger.enter_block(),
         DebugCommand::RunTo(goal, direction) => debugger.run_to(goal, direction, &settings.breakpoints),
         DebugCommand::Play(direction) => {
             debugger.rest();
@@ -155,7 +155,7 @@ impl Debugger {
     }
 
     /// Enters the next block, and plays it ring by ring to its end.
-    fn into_block(&mut self) {
+    fn enter_block(&mut self) {
         self.rest();
         let at = self.at();
         let next = self.trace().and_then(|trace| trace.blocks().find(|block| block.steps.start >= at));

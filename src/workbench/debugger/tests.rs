@@ -402,6 +402,31 @@ fn the_growth_at_the_cursor_is_the_regions_and_its_surroundings_are_not() {
     assert_eq!(growth(replay(bench.state())), None);
 }
 
+#[test]
+fn a_pixel_is_told_newest_first_with_its_hypothesis_and_its_region() {
+    let bench = bench();
+    let (state, trace) = (bench.state(), trace(&bench));
+    let shown = state.newest.as_ref().unwrap();
+    let names = &state.debugger.names;
+    let pixel = shown.labels().as_slice().iter().position(|&label| label == 1).unwrap() as u32;
+    let told = why(shown, &trace, names, Some(pixel), None);
+    let (about, history) = told.pixel.unwrap();
+    assert_eq!(about, pixel);
+    assert_eq!(history.first().map(|account| account.stage), Some(Stage::Split), "{history:?}");
+    assert_eq!(history.last().map(|account| account.stage), Some(Stage::Masks), "{history:?}");
+    assert!(history.is_sorted_by(|a, b| a.step >= b.step));
+    let (birth, story) = told.hypothesis.unwrap();
+    assert_eq!(names.final_number(birth), 1);
+    assert!(matches!(trace.event(story[0].step), Some(Event::HypothesisChosen(_))));
+    let (number, made_of) = told.region.unwrap();
+    assert_eq!((number, made_of[0].depth), (1, 0));
+    assert!(made_of.iter().all(|account| trace.event(account.step).is_some()));
+
+    let of_hypothesis = why(shown, &trace, names, None, Some(birth));
+    assert_eq!((of_hypothesis.pixel, of_hypothesis.hypothesis.unwrap().1), (None, story));
+    assert_eq!(why(shown, &trace, names, Some(u32::MAX), Some(u16::MAX)), Why::default());
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 

@@ -1,7 +1,7 @@
 use super::*;
 use crate::segment::Setting;
 use crate::truth::sample;
-use crate::workbench::{Executor, Item, Workbench};
+use crate::workbench::{Ask, Executor, Item, Workbench};
 use std::sync::mpsc::{self, Receiver};
 use std::time::Duration;
 
@@ -289,4 +289,24 @@ fn on_threads_the_newest_request_wins() {
     assert!(bench.state().is_current());
     // The scores come after the result, without holding it up.
     wait(&mut bench, &woken, |state| state.shown().is_some_and(|shown| shown.accuracy().is_some()));
+}
+
+#[test]
+fn what_would_change_a_pixel_is_asked_in_the_background_and_forgotten_with_the_result() {
+    let mut bench = opened_tiny();
+    let labels = bench.state().shown().unwrap().labels().clone();
+    let pixel = labels.as_slice().iter().position(|&label| label == 1).unwrap() as u32;
+    bench.apply(Command::Ask(Ask::WhatIf(Some(pixel))));
+    let inquiry = bench.state().inquiry.clone().unwrap();
+    let found = inquiry.found.expect("inline it has ended");
+    assert!(inquiry.done == inquiry.total && !found.is_empty());
+    let first = found[0];
+    bench.apply(Command::SetParameter(first.parameter, Setting::Value(first.at), None));
+    assert!(bench.state().inquiry.is_none(), "another result, another question");
+    let fate = bench.state().shown().unwrap();
+    let (home, kind) = (fate.labels()[pixel as usize], fate.analysis.intrinsic.kinds[pixel as usize]);
+    let same = crate::workbench::shown::heirs(&labels, fate.labels())[1] == home;
+    assert!(!same || kind == first.after.kind, "what was foretold has come");
+    bench.apply(Command::Ask(Ask::WhatIf(Some(u32::MAX))));
+    assert!(bench.state().inquiry.is_none(), "no such pixel");
 }

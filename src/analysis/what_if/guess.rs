@@ -1,0 +1,115 @@
+//! What the recorded numbers say about where a fate changes.
+
+use super::Direction;
+use crate::reflection::{SliceBound, SliceMiss};
+use crate::segment::{Parameter, Params, UsedParams};
+use crate::trace::{Barrier, Happening, MaskVerdict, PassedOver, Reach, Release, What};
+
+/// A value at which one threshold would decide otherwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Guess {
+    pub(super) parameter: Parameter,
+    pub(super) direction: Direction,
+    pub(super) value: f64,
+}
+
+/// Thresholds are compared in the precision of pixels: a guess goes this much farther, relatively.
+const BEYOND: f64 = 1e-6;
+
+/// The guesses that a pixel's history gives rise to.
+pub(super) fn guesses(history: &[Happening], params: &Params, used: &UsedParams) -> Vec<Guess> {
+    let mut found =
+        Guesses { used, noise_moves_width: params.cylinder_width.value().is_some(), list: Vec::new() };
+    for happening in history {
+        found.hear(&happening.what);
+    }
+    found.list
+}
+
+struct Guesses<'a> {
+    used: &'a UsedParams,
+    /// Whether the radius follows the noise.
+    noise_moves_width: bool,
+    list: Vec<Guess>,
+}
+
+impl Guesses<'_> {
+    fn up(&mut self, parameter: Parameter, value: f64) {
+        let value = value * (1.0 + BEYOND);
+        self.list.push(Guess { parameter, direction: Direction::Up, value });
+    }
+
+    fn down(&mut self, parameter: Parameter, value: f64) {
+        let value = value * (1.0 - BEYOND);
+        self.list.push(Guess { parameter, direction: Direction::Down, value });
+    }
+
+    /// The cylinder would just reach so far, counts.
+    fn wider(&mut self, distance: f64) {
+        self.up(Parameter::CylinderWidth, distance / self.used.camera_noise);
+        if self.noise_moves_width {
+            self.up(Parameter::CameraNoise, distance / self.used.cylinder_width);
+        }
+    }
+
+    fn hear(&mut self, what: &What) {
+        match what {
+            What::Masked(verdict) => self.hear_mask(verdict),
+            What::Seeded { reach, .. } | What::Claimed { reach, .. } => self.hear_reach(*reach),
+            What::Released { why: Release::Refit { distance, .. }, .. } => self.wider(f64::from(*distance)),
+            What::Refused { barrier: Barrier::Cylinder { distance, .. }, .. } => {
+                self.wider(f64::from(*distance));
+            }
+            What::Refused { barrier: Barrier::Slice(SliceMiss { bound, value, .. }), .. } => match bound {
+                SliceBound::Height => {
+                    self.up(Parameter::SliceWidth, f64::from(*value) / self.used.camera_noise);
+                }
+                SliceBound::Surface => self.wider(f64::from(-*value)),
+                SliceBound::Black | SliceBound::MatteEnd => {}
+            },
+            What::AreaPassedOver { pixels, reason: PassedOver::TooSmall | PassedOver::Consumed, .. } => {
+                self.list.push(Guess {
+                    parameter: Parameter::MinArea,
+                    direction: Direction::Down,
+                    value: f64::from(*pixels),
+                });
+            }
+            What::AreaChosen { pixels, .. } => self.list.push(Guess {
+                parameter: Parameter::MinArea,
+                direction: Direction::Up,
+                value: f64::from(*pixels) + 1.0,
+            }),
+            _ => {}
+        }
+    }
+
+    fn hear_mask(&mut self, verdict: &MaskVerdict) {
+        match *verdict {
+            MaskVerdict::Believed { brightness: [from_black, _], largest: [largest, _] } => {
+                self.up(Parameter::MinIntensity, from_black);
+                // A band at the threshold is clipped.
+                let (parameter, direction) = (Parameter::ClipThreshold, Direction::Down);
+                self.list.push(Guess { parameter, direction, value: largest });
+            }
+            MaskVerdict::Dark { brightness: [from_black, _] } => {
+                self.down(Parameter::MinIntensity, from_black);
+            }
+            MaskVerdict::Clipped { largest: [largest, _] } => self.up(Parameter::ClipThreshold, largest),
+            MaskVerdict::Bloomed { neighbours: [clipped, _] } => self.list.push(Guess {
+                parameter: Parameter::BloomDensity,
+                direction: Direction::Up,
+                value: clipped as f64 + 1.0,
+            }),
+            MaskVerdict::Outside | MaskVerdict::Invalid => {}
+        }
+    }
+
+    fn hear_reach(&mut self, reach: Reach) {
+        let noise = self.used.camera_noise;
+        match reach {
+            Reach::Axis { distance, .. } => self.down(Parameter::CylinderWidth, f64::from(distance) / noise),
+            Reach::Plane { distance, .. } => self.down(Parameter::SliceWidth, f64::from(distance) / noise),
+            Reach::Brightness { .. } => {}
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! The values of a parameter that are tried, and how finely.
+
+use super::Direction;
+use crate::photo::LinearImage;
+use crate::segment::{Parameter, ParameterSpec};
+
+/// How far a parameter is moved, as factors.
+const FACTORS: [f64; 6] = [1.1, 1.25, 1.5, 2.0, 3.0, 5.0];
+/// A place is narrowed down to this share of its value.
+const PRECISION: f64 = 0.01;
+
+/// Values of a parameter on one side of the one that it has.
+pub(super) struct Ladder {
+    spec: ParameterSpec,
+    direction: Direction,
+    now: f64,
+    /// Distance between values that are told apart: a digit behind three, or 1.
+    grid: f64,
+    /// The farthest value that makes sense.
+    limit: f64,
+    rungs: Vec<f64>,
+}
+
+impl Ladder {
+    pub(super) fn new(parameter: Parameter, direction: Direction, now: f64, image: &LinearImage) -> Self {
+        let spec = parameter.spec();
+        let limit = match (parameter, direction) {
+            // Beyond the largest value of the picture nothing clips.
+            (Parameter::ClipThreshold, Direction::Up) => {
+                largest_band(image).clamp(spec.range.0, spec.range.1) * 1.01
+            }
+            (_, Direction::Up) => spec.range.1,
+            (_, Direction::Down) => spec.range.0,
+        };
+        // A threshold that is off comes down from where the picture ends.
+        let start = if now.is_finite() { now } else { largest_band(image) };
+        // Nothing grows from nothing.
+        let start = if direction == Direction::Up { start.max(spec.paper / 8.0) } else { start };
+        let grid = if spec.whole { 1.0 } else { 10f64.powf(start.max(1e-3).log10().floor() - 2.0) };
+        let mut ladder = Self { spec, direction, now, grid, limit, rungs: Vec::new() };
+        for factor in FACTORS {
+            let value = if direction == Direction::Up { start * factor } else { start / factor };
+            if let Some(rung) = ladder.beyond(value)
+                && ladder.rungs.last() != Some(&rung)
+            {
+                ladder.rungs.push(rung);
+            }
+        }
+        ladder
+    }
+
+    /// The values to try, nearest first.
+    pub(super) fn rungs(&self) -> &[f64] {
+        &self.rungs
+    }
+
+    /// The nearest value of the grid that lies as far as `value` or farther, up to the limit; none on the wrong side.
+    pub(super) fn beyond(&self, value: f64) -> Option<f64> {
+        let steps = value / self.grid;
+        let snapped = match self.direction {
+            Direction::Up => self.tidy(steps.ceil()).min(self.limit),
+            Direction::Down => self.tidy(steps.floor()).max(self.limit),
+        };
+        let outward = match self.direction {
+            Direction::Up => snapped > self.now && value <= self.limit * (1.0 + PRECISION),
+            Direction::Down => snapped < self.now && value >= self.limit * (1.0 - PRECISION),
+        };
+        let inside = (self.spec.range.0..=self.spec.range.1).contains(&snapped);
+        (outward && inside && (!self.spec.whole || snapped.fract() == 0.0)).then_some(snapped)
+    }
+
+    /// The next value of the grid towards the one that the parameter has, or that one.
+    pub(super) fn step_back(&self, value: f64) -> f64 {
+        let steps = (value / self.grid).round();
+        match self.direction {
+            Direction::Up => self.tidy(steps - 1.0).max(self.now),
+            Direction::Down => self.tidy(steps + 1.0).min(self.now),
+        }
+    }
+
+    /// A value of the grid between two; none where they are near enough.
+    pub(super) fn between(&self, near: f64, far: f64) -> Option<f64> {
+        // What is off lies above everything.
+        let near = if near.is_finite() { near } else { far + 4.0 * self.grid.max(PRECISION * far) };
+        let apart = (near - far).abs();
+        if apart <= self.grid * 1.5 && self.spec.whole && apart <= 1.0 {
+            return None;
+        }
+        if !self.spec.whole && apart <= self.grid.max(PRECISION * far.abs()) * 1.000_001 {
+            return None;
+        }
+        let middle = self.tidy((f64::midpoint(near, far) / self.grid).round());
+        let (low, high) = (near.min(far), near.max(far));
+        (middle > low && middle < high).then_some(middle)
+    }
+
+    /// So many steps of the grid, without the dust of binary fractions.
+    fn tidy(&self, steps: f64) -> f64 {
+        if self.grid >= 1.0 { steps * self.grid } else { steps / (1.0 / self.grid).round() }
+    }
+}
+
+fn largest_band(image: &LinearImage) -> f64 {
+    let largest = image.pixels.as_slice().iter().flatten().fold(0.0f32, |most, &band| most.max(band));
+    f64::from(largest)
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exactness is what is tested")]
+mod tests {
+    use super::*;
+    use crate::raster::Raster;
+    use proptest::prelude::*;
+
+    fn image() -> LinearImage {
+        LinearImage::new(Raster::filled(2, 2, [200.0, 90.0, 30.0]), None)
+    }
+
+    fn ladder(parameter: Parameter, direction: Direction, now: f64) -> Ladder {
+        Ladder::new(parameter, direction, now, &image())
+    }
+
+    #[test]
+    fn rungs_go_outward_in_tidy_steps_and_end_where_the_parameter_does() {
+        assert_eq!(
+            ladder(Parameter::CylinderWidth, Direction::Up, 4.0).rungs(),
+            [4.4, 5.0, 6.0, 8.0, 12.0, 20.0]
+        );
+        assert_eq!(ladder(Parameter::WindowSize, Direction::Down, 10.0).rungs(), [9.0, 8.0, 6.0, 5.0, 3.0]);
+        assert!(ladder(Parameter::BloomDensity, Direction::Down, 1.0).rungs().is_empty());
+        assert_eq!(ladder(Parameter::MinIntensity, Direction::Up, 0.0).rungs().len(), 6);
+        // Nothing clips beyond 200 counts.
+        assert!(ladder(Parameter::ClipThreshold, Direction::Up, 240.0).rungs().is_empty());
+        assert_eq!(ladder(Parameter::ClipThreshold, Direction::Down, f64::INFINITY).rungs()[0], 181.0);
+    }
+
+    proptest! {
+        #[test]
+        fn halving_ends_and_stays_between(
+            which in 0usize..8, up: bool, now in 0.6f64..400.0, share in 0f64..1.0,
+        ) {
+            let parameter = Parameter::ALL[which];
+            let spec = parameter.spec();
+            let now = now.clamp(spec.range.0, spec.range.1);
+            let now = if spec.whole { now.round() } else { now };
+            let direction = if up { Direction::Up } else { Direction::Down };
+            let ladder = ladder(parameter, direction, now);
+            let mut last = now;
+            for &rung in ladder.rungs() {
+                prop_assert!(if up { rung > last } else { rung < last }, "{last} {rung}");
+                prop_assert!((spec.range.0..=spec.range.1).contains(&rung));
+                let (mut near, mut far) = (last, rung);
+                let place = near + share * (far - near);
+                let mut turns = 0;
+                while let Some(middle) = ladder.between(near, far) {
+                    if (middle < place) == up { near = middle } else { far = middle }
+                    turns += 1;
+                    prop_assert!(turns < 12, "{near} {far}");
+                }
+                last = rung;
+            }
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! One photograph to be questioned: what `trace` and `why` have in common.
+
+use super::one::Area;
+use super::reading::Reading;
+use super::settings::Settings;
+use anyhow::{Context, Result, bail};
+use clap::Args;
+use dichroscope::analysis::{Analysis, Session};
+use dichroscope::photo::{self, LinearImage};
+use dichroscope::segment::Params;
+use dichroscope::trace::Trace;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A photograph and how to analyse it.
+#[derive(Debug, Args)]
+pub(super) struct Subject {
+    /// Photograph to analyse
+    #[arg(index = 1)]
+    pub(super) image: PathBuf,
+    /// Analyse only the pixels of the photograph that this picture of the same size shows as not black
+    #[arg(long, value_name = "MASK")]
+    area: Option<PathBuf>,
+    /// Number of threads [default: one per core]
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    #[command(flatten)]
+    settings: Settings,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+/// A photograph that has been read and analysed, and the record of it.
+pub(super) struct Traced {
+    pub(super) image: Arc<LinearImage>,
+    pub(super) params: Params,
+    pub(super) session: Session,
+    pub(super) analysis: Analysis,
+    pub(super) trace: Trace,
+}
+
+/// Why a photograph is not analysed: the call is wrong, or the file is.
+pub(super) enum Trouble {
+    Usage(anyhow::Error),
+    File(anyhow::Error),
+}
+
+impl Subject {
+    /// Reads the photograph, lets `check` look at it, and analyses it with a record. Errors name the file.
+    pub(super) fn analyze(&self, check: impl FnOnce(&LinearImage) -> Result<()>) -> Result<Traced, Trouble> {
+        let params = self.settings.params().map_err(Trouble::Usage)?;
+        let reading = self.reading.options();
+        let area = self.area.as_deref().map(|path| Area::read(path, &reading)).transpose();
+        let area = area.map_err(Trouble::Usage)?;
+        // Reading names the file itself.
+        let photo = photo::read(&self.image, &reading).map_err(|error| Trouble::File(error.into()))?;
+        let image = Arc::new(photo.image);
+        check(&image).with_context(|| self.image.display().to_string()).map_err(Trouble::Usage)?;
+        let mut session = Session::new(Arc::clone(&image));
+        if let Some(area) = area {
+            session.restrict(Some(area.mask())).context("--area").map_err(Trouble::Usage)?;
+        }
+        let (analysis, trace) =
+            session.run_traced(&params, &mut ()).map_err(|error| Trouble::File(error.into()))?;
+        Ok(Traced { image, params, session, analysis, trace })
+    }
+
+    /// Runs `work` with the number of threads that was asked for.
+    pub(super) fn with_threads<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T> {
+        let threads = self.threads.map_or(0, NonZeroUsize::get);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        Ok(pool.context("cannot start the threads")?.install(work))
+    }
+}
+
+/// `12,7` as column and row.
+pub(super) fn parse_pixel(text: &str) -> Result<[usize; 2], String> {
+    let sides =
+        text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    sides
+        .ok_or_else(|| format!("{text:?} is no pixel: expected column and row, counted from 0, as in 120,85"))
+}
+
+/// The index of a pixel inside the photograph.
+pub(super) fn pixel_inside(image: &LinearImage, [x, y]: [usize; 2]) -> Result<usize> {
+    let (width, height) = (image.width(), image.height());
+    if x >= width || y >= height {
+        bail!("there is no pixel ({x}, {y}): the picture has {width} \u{d7} {height} pixels, counted from 0");
+    }
+    Ok(y * width + x)
+}

@@ -1,0 +1,133 @@
+//! `dichroscope why`: a pixel's history as text, newest first.
+
+use super::subject::{Subject, Traced, Trouble, parse_pixel, pixel_inside};
+use super::{Outcome, note, print};
+use anyhow::Result;
+use clap::Args;
+use dichroscope::analysis::{WhatIfObserver, what_if};
+use dichroscope::intrinsic::PixelKind;
+use dichroscope::raster::UNASSIGNED;
+use dichroscope::report::{Condensed, Names, condense, what_if_sentence};
+use dichroscope::trace::{lineage, pixel_history};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fmt::Write;
+use std::io::IsTerminal;
+
+/// Say why a pixel is what it is: its history, newest first, each decision with its numbers
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The pixel: column and row, counted from 0
+    #[arg(index = 2, value_name = "X,Y", value_parser = parse_pixel)]
+    pixel: [usize; 2],
+    /// Also search how far each parameter would have to move for the pixel to change its fate: dozens of analyses
+    #[arg(long)]
+    what_if: bool,
+    // Last, as the headings of its flags would hold for what follows them.
+    #[command(flatten)]
+    subject: Subject,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
+    arguments.subject.with_threads(|| why(arguments))?
+}
+
+fn why(arguments: &Arguments) -> Result<Outcome> {
+    let mut traced = match arguments.subject.analyze(|image| pixel_inside(image, arguments.pixel).map(drop)) {
+        Ok(traced) => traced,
+        Err(Trouble::Usage(error)) => return Err(error),
+        Err(Trouble::File(error)) => {
+            note(&format!("{error:#}"));
+            return Ok(Outcome::SomeFailed);
+        }
+    };
+    let pixel = pixel_inside(&traced.image, arguments.pixel)?;
+    print(&history(&traced, pixel));
+    if arguments.what_if {
+        print(&changes(&mut traced, pixel)?);
+    }
+    Ok(Outcome::Done)
+}
+
+/// What would change the pixel's fate.
+fn changes(traced: &mut Traced, pixel: usize) -> Result<String> {
+    let mut bar = Bar::new();
+    let found = what_if(&mut traced.session, &traced.params, pixel, &mut bar)?;
+    bar.0.finish_and_clear();
+    let mut text = "\nwhat if\n".to_owned();
+    if found.is_empty() {
+        text.push_str("  no value of any parameter that was tried changes it\n");
+    }
+    for what_if in &found {
+        let _ = writeln!(text, "  {}", what_if_sentence(what_if));
+    }
+    Ok(text)
+}
+
+/// Shows how far a search is, on a terminal.
+struct Bar(ProgressBar);
+
+impl Bar {
+    fn new() -> Self {
+        if !std::io::stderr().is_terminal() {
+            return Self(ProgressBar::hidden());
+        }
+        let style = ProgressStyle::with_template("what if {bar:40} {pos}/{len}");
+        Self(ProgressBar::new(0).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
+    }
+}
+
+impl WhatIfObserver for Bar {
+    fn progress(&mut self, done: usize, of: usize) {
+        self.0.set_length(of as u64);
+        self.0.set_position(done as u64);
+    }
+}
+
+/// What the pixel is, and how it came to that.
+fn history(traced: &Traced, pixel: usize) -> String {
+    let names = Names::of(&traced.trace);
+    let happened = pixel_history(&traced.trace, &traced.image, &traced.analysis.masks, pixel);
+    let mut text = headline(traced, &names, pixel);
+    text.push('\n');
+    let condensed = condense(&happened);
+    let digits = traced.trace.len().to_string().len();
+    for Condensed { last, times } in condensed.iter().rev() {
+        let again = if *times > 1 { format!(" ({times} times, this is the last)") } else { String::new() };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{:>digits$}  {:<8}  {}{again}",
+            last.step,
+            last.stage.name(),
+            names.happening(last)
+        );
+    }
+    text.push_str(&origin(traced, &names, pixel));
+    text
+}
+
+/// `pixel (12, 7), colour (120.3, 40.1, 38.8) counts: matte, in region 3`
+fn headline(traced: &Traced, names: &Names, pixel: usize) -> String {
+    let [r, g, b] = traced.image.pixels[pixel];
+    let what = match traced.analysis.finals.labels[pixel] {
+        UNASSIGNED => "in no region".to_owned(),
+        region => {
+            let kind: PixelKind = traced.analysis.intrinsic.kinds[pixel];
+            format!("{}, in region {region}", kind.name())
+        }
+    };
+    format!("pixel {}, colour ({r:.1}, {g:.1}, {b:.1}) counts: {what}\n", names.pixel(pixel as u32))
+}
+
+/// The hypotheses that the pixel's region is made of, where they are more than one.
+fn origin(traced: &Traced, names: &Names, pixel: usize) -> String {
+    let ancestors = lineage(&traced.trace, traced.analysis.finals.labels[pixel]);
+    if ancestors.len() < 2 {
+        return String::new();
+    }
+    let mut text = format!("\nregion {} is made of\n", traced.analysis.finals.labels[pixel]);
+    for ancestor in &ancestors {
+        let _ = writeln!(text, "  {:1$}{2}", "", 2 * ancestor.depth, names.ancestor(ancestor));
+    }
+    text
+}

@@ -1,0 +1,275 @@
+//! What stops the cursor: a list of conditions in plain controls.
+
+use super::theme::SMALL_PT;
+use super::{Cx, widgets};
+use crate::workbench::{
+    Breakpoint, CandidateCheck, Command, Condition, DebugCommand, DebugSettings, Item, SavedClass, State,
+};
+use egui::accesskit::Role;
+use egui::{ComboBox, DragValue, Response, RichText, ScrollArea, Ui, WidgetInfo};
+
+/// Pixels that a new condition on a region's size starts from.
+const USUAL_PIXELS: u32 = 1000;
+
+/// What a condition is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum About {
+    Pixel,
+    Size,
+    Rejected,
+    Candidate,
+    Class,
+    Conflict,
+}
+
+impl About {
+    /// All of them, with their names and what they mean.
+    const ALL: [(Self, &'static str, &'static str); 6] = [
+        (Self::Pixel, "pixel changes owner", "A region claims this pixel or gives it up (5.3.2, 5.4.2)."),
+        (Self::Size, "region exceeds", "A region grows beyond so many pixels (5.3.2)."),
+        (
+            Self::Rejected,
+            "hypothesis is rejected",
+            "An area is passed over although it was large enough, or a region is given up, absorbed or dropped (5.3).",
+        ),
+        (Self::Candidate, "candidate fails", "A neighbour fails a test of highlight candidates (5.4.1)."),
+        (Self::Class, "window has class", "A window is classified so (5.2.1)."),
+        (Self::Conflict, "conflict between", "Two regions want the same pixel (5.3.2, 5.4.2)."),
+    ];
+
+    fn of(condition: Condition) -> Self {
+        match condition {
+            Condition::PixelChangesOwner(_) => Self::Pixel,
+            Condition::RegionExceeds { .. } => Self::Size,
+            Condition::HypothesisRejected => Self::Rejected,
+            Condition::CandidateFails(_) => Self::Candidate,
+            Condition::ClassIs(_) => Self::Class,
+            Condition::Conflict(..) => Self::Conflict,
+        }
+    }
+
+    /// A condition of this kind, about what is selected.
+    fn usual(self, state: &State) -> Condition {
+        let region = chosen_region(state);
+        match self {
+            Self::Pixel => Condition::PixelChangesOwner(state.asked_pixel().unwrap_or(0)),
+            Self::Size => Condition::RegionExceeds { region, pixels: USUAL_PIXELS },
+            Self::Rejected => Condition::HypothesisRejected,
+            Self::Candidate => Condition::CandidateFails(CandidateCheck::Any),
+            Self::Class => Condition::ClassIs(SavedClass::Volume),
+            Self::Conflict => Condition::Conflict(region, None),
+        }
+    }
+}
+
+/// The list. It keeps nothing.
+#[derive(Default)]
+pub struct BreakpointsPanel;
+
+impl BreakpointsPanel {
+    /// Shows the list.
+    #[allow(clippy::unused_self, reason = "as the other panels")]
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+        let mut breakpoints = cx.state.view.debug.breakpoints.clone();
+        ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+            egui::Frame::new().inner_margin(8).show(ui, |ui| {
+                ui.spacing_mut().item_spacing.x = 6.0;
+                ui.horizontal(|ui| {
+                    let tip = "Playing, running and stepping into stop where its condition holds.";
+                    if ui.button("Add breakpoint").on_hover_text(tip).clicked() {
+                        let condition = about_selection(cx.state).usual(cx.state);
+                        breakpoints.push(Breakpoint { enabled: true, condition });
+                    }
+                    if breakpoints.is_empty() {
+                        let text = "Playing stops where a condition holds.";
+                        ui.label(RichText::new(text).color(cx.tones.quiet));
+                    }
+                });
+                let mut removed = None;
+                for (index, breakpoint) in breakpoints.iter_mut().enumerate() {
+                    let gone = ui.push_id(index, |ui| ui.horizontal(|ui| row(ui, cx, index, breakpoint)));
+                    if gone.inner.inner {
+                        removed = Some(index);
+                    }
+                }
+                if let Some(index) = removed {
+                    breakpoints.remove(index);
+                }
+            });
+        });
+        let before = &cx.state.view.debug;
+        if breakpoints != before.breakpoints {
+            let settings = DebugSettings { breakpoints, ..before.clone() };
+            cx.send(Command::Debug(DebugCommand::Settings(settings)));
+        }
+    }
+}
+
+/// One breakpoint; whether it is to be removed.
+fn row(ui: &mut Ui, cx: &mut Cx, index: usize, breakpoint: &mut Breakpoint) -> bool {
+    let number = index + 1;
+    let stopped = cx.state.debugger.stopped_by == Some(index);
+    let enabled = ui.checkbox(&mut breakpoint.enabled, "").on_hover_text("Whether it stops the cursor.");
+    let on = breakpoint.enabled;
+    enabled.widget_info(|| {
+        WidgetInfo::selected(Role::CheckBox, true, on, format!("Breakpoint {number} enabled"))
+    });
+    let ink = if stopped { cx.tones.accent } else { cx.tones.quiet };
+    let tip = if stopped {
+        "It stopped the cursor. Click to select what it is about."
+    } else {
+        "Click to select what it is about."
+    };
+    let name = egui::Button::new(RichText::new(number.to_string()).color(ink)).frame(false);
+    let label = ui.add(name).on_hover_text(tip);
+    let words = format!("Breakpoint {number}{}", if stopped { ", stopped here" } else { "" });
+    label.widget_info(|| WidgetInfo::labeled(Role::Button, true, &words));
+    if label.clicked()
+        && let Some(item) = item_of(cx.state, breakpoint.condition)
+    {
+        cx.send(Command::Select(Some(item)));
+    }
+    kind(ui, cx.state, number, &mut breakpoint.condition);
+    details(ui, cx, number, &mut breakpoint.condition);
+    let remove = ui.small_button("Remove").on_hover_text("Take this breakpoint away.");
+    remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Remove breakpoint {number}")));
+    if stopped {
+        ui.label(RichText::new("stopped here").size(SMALL_PT).color(cx.tones.accent));
+    }
+    remove.clicked()
+}
+
+fn kind(ui: &mut Ui, state: &State, number: usize, condition: &mut Condition) {
+    let about = About::of(*condition);
+    let (_, name, tip) = About::ALL.into_iter().find(|(known, ..)| *known == about).unwrap_or(About::ALL[0]);
+    let combo = ComboBox::from_id_salt("kind").width(138.0).selected_text(name);
+    let combo = combo.show_ui(ui, |ui| {
+        for (choice, name, tip) in About::ALL {
+            let chosen = ui.selectable_label(choice == about, name).on_hover_text(tip).clicked();
+            if chosen && choice != about {
+                *condition = choice.usual(state);
+            }
+        }
+    });
+    named(&combo.response, Role::ComboBox, format!("Condition of breakpoint {number}"));
+    combo.response.on_hover_text(tip);
+}
+
+fn named(response: &Response, role: Role, name: String) {
+    response.widget_info(move || WidgetInfo::labeled(role, true, &name));
+}
+
+/// What the condition needs to know.
+fn details(ui: &mut Ui, cx: &mut Cx, number: usize, condition: &mut Condition) {
+    match condition {
+        Condition::PixelChangesOwner(pixel) => pixel_controls(ui, cx.state, number, pixel),
+        Condition::RegionExceeds { region, pixels } => {
+            region_control(ui, cx, &format!("Region of breakpoint {number}"), region);
+            let field = ui.add(DragValue::new(pixels).range(1..=u32::MAX).speed(10.0).suffix(" px"));
+            named(&field, Role::SpinButton, format!("Pixels of breakpoint {number}"));
+        }
+        Condition::HypothesisRejected => {}
+        Condition::CandidateFails(check) => {
+            let choices = CandidateCheck::ALL.map(|check| (check, check.name()));
+            choose(ui, format!("Test of breakpoint {number}"), check, &choices);
+        }
+        Condition::ClassIs(class) => {
+            use SavedClass::{Line, Plane, Point, Volume};
+            let choices =
+                [Point, Line, Plane, Volume].map(|class| (class, crate::trace::Class::from(class).name()));
+            choose(ui, format!("Class of breakpoint {number}"), class, &choices);
+        }
+        Condition::Conflict(one, other) => {
+            region_control(ui, cx, &format!("First region of breakpoint {number}"), one);
+            ui.label(RichText::new("and").color(cx.tones.quiet));
+            region_control(ui, cx, &format!("Second region of breakpoint {number}"), other);
+        }
+    }
+}
+
+fn choose<T: Copy + PartialEq>(ui: &mut Ui, name: String, value: &mut T, choices: &[(T, &'static str)]) {
+    let shown = choices.iter().find(|(choice, _)| choice == value).map_or("", |(_, name)| name);
+    let combo = ComboBox::from_id_salt(&name).width(110.0).selected_text(shown);
+    let combo = combo.show_ui(ui, |ui| {
+        for &(choice, name) in choices {
+            ui.selectable_value(value, choice, name);
+        }
+    });
+    named(&combo.response, Role::ComboBox, name);
+}
+
+/// Column and row, or the pixel that is selected.
+fn pixel_controls(ui: &mut Ui, state: &State, number: usize, pixel: &mut u32) {
+    let Some((width, height)) = state.picture.as_ref().map(|picture| picture.size()) else { return };
+    let (mut x, mut y) = (*pixel as usize % width.max(1), *pixel as usize / width.max(1));
+    for (name, value, size) in [("Column", &mut x, width), ("Row", &mut y, height)] {
+        let prefix = if name == "Column" { "x " } else { "y " };
+        let field = ui.add(DragValue::new(value).range(0..=size.saturating_sub(1)).prefix(prefix));
+        named(&field, Role::SpinButton, format!("{name} of breakpoint {number}"));
+    }
+    *pixel = (y * width + x) as u32;
+    let selected = state.asked_pixel();
+    let button = ui.add_enabled(selected.is_some(), egui::Button::new("selected pixel").small());
+    named(&button, Role::Button, format!("Selected pixel for breakpoint {number}"));
+    let button = button.on_hover_text("Take the pixel that is selected.");
+    if button.on_disabled_hover_text("Select a pixel first: Alt + click in the image.").clicked() {
+        *pixel = selected.unwrap_or(*pixel);
+    }
+}
+
+/// A region by its number of birth, 0 being any.
+fn region_control(ui: &mut Ui, cx: &Cx, name: &str, region: &mut Option<u16>) {
+    if let Some(region) = *region {
+        let colour = widgets::colour(cx.state.debugger.names.colour(region));
+        widgets::chip(ui, colour, &format!("colour of hypothesis {region}"));
+    }
+    let mut number = region.unwrap_or(0);
+    let field = DragValue::new(&mut number)
+        .range(0..=u16::MAX - 1)
+        .speed(0.1)
+        .custom_formatter(|number, _| match number as u16 {
+            0 => "any region".to_owned(),
+            number => format!("hypothesis {number}"),
+        })
+        .custom_parser(|text| {
+            let number = text.trim().trim_start_matches(|c: char| !c.is_ascii_digit());
+            if number.is_empty() { Some(0.0) } else { number.parse().ok() }
+        });
+    let field = ui.add(field);
+    field.widget_info(|| WidgetInfo {
+        label: Some(name.to_owned()),
+        ..WidgetInfo::drag_value(true, f64::from(region.unwrap_or(0)))
+    });
+    field.on_hover_text("A region by the number of its hypothesis, as on the timeline; 0: any.");
+    *region = (number > 0).then_some(number);
+}
+
+/// What a new breakpoint is about: what is selected.
+fn about_selection(state: &State) -> About {
+    match state.document.selection.item {
+        Some(Item::Pixel(_)) => About::Pixel,
+        Some(Item::Region(_)) => About::Size,
+        _ => About::Rejected,
+    }
+}
+
+/// The hypothesis that gave the selected region its number.
+fn chosen_region(state: &State) -> Option<u16> {
+    match state.document.selection.item {
+        Some(Item::Region(region)) => state.debugger.names.births_of(region).next(),
+        _ => state.debugger.chosen,
+    }
+}
+
+/// What a condition is about, as something to select.
+fn item_of(state: &State, condition: Condition) -> Option<Item> {
+    match condition {
+        Condition::PixelChangesOwner(pixel) => Some(Item::Pixel(pixel)),
+        Condition::RegionExceeds { region: Some(region), .. }
+        | Condition::Conflict(Some(region), _)
+        | Condition::Conflict(None, Some(region)) => {
+            Some(state.debugger.names.final_number(region)).filter(|&number| number > 0).map(Item::Region)
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,179 @@
+//! The colour space at the debugger's cursor: the pixels that the step looks at, and the shapes that stand there.
+
+use super::figure::Pen;
+use crate::gpu::{Batch, Point};
+use crate::gui::theme::Tones;
+use crate::gui::widgets;
+use crate::trace::Replay;
+use crate::workbench::{
+    self, CubeSettings, Picture, Role, Shown, State, Theme, beside_colour, candidate_reach, looked_at,
+    test_at_cursor,
+};
+use egui::Color32;
+use std::time::{Duration, Instant};
+
+/// Points of each kind, at most.
+const MOST: usize = 20_000;
+/// Diameter of a point, points of the screen.
+const OWN_PT: f32 = 3.0;
+const BESIDE_PT: f32 = 3.4;
+/// Of what a test ignores.
+const QUIET_PT: f32 = 2.4;
+
+/// Of larger pictures, pixels, points are looked for only so often while the cursor plays.
+const LARGE_PX: usize = 1 << 22;
+const PATIENCE: Duration = Duration::from_millis(120);
+
+const THIN_PT: f32 = 1.0;
+const THICK_PT: f32 = 2.0;
+const MARK_PT: f32 = 4.5;
+
+/// What tells instants apart: the trace, the place in it, and the region chosen.
+pub type Frame = (u64, usize, Option<u16>);
+
+/// The instant that is shown; none where the result is.
+pub fn frame(state: &State) -> Option<Frame> {
+    let replay = state.followed()?;
+    Some((state.debugger.generation, replay.at(), state.debugger.chosen))
+}
+
+/// The pixels that the step at the cursor looks at, as points.
+#[derive(Default)]
+pub struct Track {
+    of: Option<(Frame, CubeSettings, Theme)>,
+    made: Option<Instant>,
+    /// One batch for each of what they are to the step.
+    pub drawn: Vec<Batch<Point>>,
+}
+
+impl Track {
+    /// Brings the points up to date.
+    pub fn update(&mut self, state: &State, tones: &Tones, picture: &Picture) {
+        let of = frame(state).map(|frame| (frame, state.view.cube.clone(), state.view.theme));
+        if self.of == of || (of.is_some() && self.rests(state, picture)) {
+            return;
+        }
+        self.of = of;
+        self.made = Some(Instant::now());
+        self.drawn.clear();
+        let (Some(replay), Some(shown)) = (state.followed(), &state.newest) else { return };
+        let colors = &picture.photo.image.pixels;
+        let masks = &shown.analysis.masks;
+        let focus = state.debugger.focus();
+        let (space, full) = (state.view.cube.space, picture.histogram.full_counts);
+        for (role, pixels) in looked_at(replay, focus, colors, masks, MOST) {
+            let (colour, size_px) = look(role, own(state), tones);
+            let point = |&pixel: &u32| Point {
+                position: space.place(colors.as_slice()[pixel as usize], full),
+                color: colour.to_array(),
+                size_px,
+            };
+            self.drawn.push(Batch::new(pixels.iter().map(point).collect::<Vec<_>>()));
+        }
+    }
+
+    /// Whether the points of an instant before may stay: of a large picture, while it plays, for a moment.
+    fn rests(&self, state: &State, picture: &Picture) -> bool {
+        let large = picture.photo.image.pixels.len() > LARGE_PX && state.debugger.playing.is_some();
+        large && self.of.is_some() && self.made.is_some_and(|made| made.elapsed() < PATIENCE)
+    }
+
+    /// Whether there is something that all else is to be the ghost of.
+    pub fn is_shown(&self) -> bool {
+        !self.drawn.is_empty()
+    }
+}
+
+/// The colour of the region in focus.
+fn own(state: &State) -> Option<[u8; 3]> {
+    state.debugger.focus().map(|focus| state.debugger.names.colour(focus))
+}
+
+fn look(role: Role, own: Option<[u8; 3]>, tones: &Tones) -> (Color32, f32) {
+    let accent = |colour: Option<[u8; 3]>| colour.map_or(tones.accent, widgets::colour);
+    match role {
+        Role::Own => (accent(own), OWN_PT),
+        Role::Newest => (tones.text, BESIDE_PT),
+        Role::Beside => (widgets::colour(beside_colour(own.unwrap_or(workbench::ACCENT))), BESIDE_PT),
+        Role::Ignored => (tones.quiet, QUIET_PT),
+        Role::Window(class) => (class.map_or(tones.quiet, super::cloud::class_colour), BESIDE_PT),
+    }
+}
+
+impl Pen<'_> {
+    /// The shapes at the cursor.
+    pub fn instant(&mut self, state: &State, replay: &Replay, shown: &Shown, tones: &Tones) {
+        let show = &state.view.cube;
+        let focus = state.debugger.focus();
+        let shapes = workbench::cursor_shapes(replay, focus, shown);
+        let colour = own(state).map_or(tones.quiet, widgets::colour);
+        if show.show_lines {
+            for (region, axis) in &shapes.others {
+                let colour = widgets::colour(state.debugger.names.colour(*region)).gamma_multiply(0.7);
+                self.line(axis, colour, THIN_PT, 0.0);
+            }
+        }
+        if let Some(ends) = shapes.light.filter(|_| show.show_illuminant) {
+            let tip = "The colour of the light as it is estimated so far (section 5.4).";
+            self.light(&ends, tones.text, "illuminant so far", tip);
+        }
+        if let Some(solid) = shapes.cylinder.as_ref().filter(|_| show.show_cylinder) {
+            self.body(solid, colour, "cylinder", "The colours that the region may claim (section 5.3.2).");
+        }
+        if let Some(solid) = shapes.slice.as_ref().filter(|_| show.show_slice) {
+            self.body(solid, colour, "slice", "The colours that the region may claim (section 5.4.2).");
+        }
+        if let Some(test) = test_at_cursor(replay) {
+            self.test(test, replay, shown, colour, tones);
+        } else if let Some(axis) = shapes.axis.filter(|_| show.show_lines) {
+            self.line(&axis, tones.text, THICK_PT, 0.0);
+            if let Some(start) = shapes.start {
+                let tip = "Where highlights leave the matte line (section 5.4.1).";
+                self.note(start, "meeting point", tip, true);
+            }
+        }
+        if show.show_ellipsoid {
+            self.window(replay, shown, tones);
+        }
+    }
+
+    /// The window that was classified last.
+    fn window(&mut self, replay: &Replay, shown: &Shown, tones: &Tones) {
+        let colors = &shown.picture.photo.image.pixels;
+        let groups = looked_at(replay, None, colors, &shown.analysis.masks, usize::MAX);
+        let Some((Role::Window(_), pixels)) = groups.first() else { return };
+        let colors = pixels.iter().map(|&pixel| colors.as_slice()[pixel as usize]);
+        if let Some(solid) = workbench::cluster_ellipsoid(colors) {
+            let tip = "The window's colours at two standard deviations: what its class is decided from (section 5.2.1).";
+            self.body(&solid, tones.accent, "window", tip);
+        }
+    }
+
+    /// A skewed-T test: both lines, the part of the matte line where highlights may begin, and the gap.
+    fn test(
+        &mut self,
+        test: &crate::trace::CandidateTest,
+        replay: &Replay,
+        shown: &Shown,
+        colour: Color32,
+        tones: &Tones,
+    ) {
+        let colors = shown.picture.photo.image.pixels.as_slice();
+        let pixels = workbench::candidate_pixels(replay, test.candidate, &shown.analysis.masks);
+        let reach = candidate_reach(test, pixels.iter().map(|&pixel| colors[pixel as usize]));
+        let tee = workbench::tee(test, reach);
+        self.line(&tee.upper, colour, MARK_PT, 0.0);
+        self.spine(&tee.matte, tones.text, THICK_PT);
+        self.line(&tee.line, tones.text, THICK_PT, 0.0);
+        self.line(&tee.gap, tones.accent, THICK_PT, 0.0);
+        let [gap, limit] = test.gap;
+        let tip = "The shortest way between both lines, against the longest allowed (section 5.4.1).";
+        self.note(tee.gap[0], format!("gap {gap:.1} of {limit:.1}"), tip, true);
+        let tip = "The end of the matte line: the brightest pixel on its outside, but for half a percent (section 5.4.1).";
+        self.note(tee.matte[1], "brightest matte point", tip, true);
+        let tip = "The first eigenvector of the neighbouring cluster, through its mean (section 5.4.1).";
+        self.note(tee.line[1], "candidate", tip, false);
+        let tip = "Where the highlight line may leave the matte line: the 50 % heuristic (section 5.4.1).";
+        self.note(tee.upper[0], "upper 50 %", tip, false);
+    }
+}

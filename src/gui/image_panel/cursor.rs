@@ -1,0 +1,124 @@
+//! The instant at the debugger's cursor, in place of the layer.
+
+use super::geometry::Placement;
+use super::icons::{corners, cross};
+use super::overlay::{self, MARK};
+use crate::gui::Cx;
+use crate::gui::theme::{SMALL_PT, Tones};
+use crate::gui::widgets::{colour, grouped};
+use crate::workbench::{Command, DebugCommand, DebugSettings, Instant, State, cursor_place, instant_legend};
+use egui::accesskit::Role;
+use egui::{Align2, Button, Color32, Painter, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use std::sync::Arc;
+
+/// From this zoom on a single pixel is framed, before it is crossed; screen points a pixel.
+const FRAMED: f32 = 8.0;
+
+/// The instant that is shown, taken out of the cursor once.
+#[derive(Default)]
+pub struct Film {
+    shown: Option<(Frame, Arc<Instant>)>,
+}
+
+/// What tells instants apart.
+type Frame = (u64, usize, Option<u16>);
+
+impl Film {
+    /// The instant at the cursor, where it is followed; an older one while `busy`, so that a large picture is not copied
+    /// more often than it is painted.
+    pub fn instant(&mut self, state: &State, busy: bool) -> Option<Arc<Instant>> {
+        let (Some(replay), Some(picture), Some(shown)) =
+            (state.followed(), &state.picture, state.newest.as_ref())
+        else {
+            self.shown = None;
+            return None;
+        };
+        let debugger = &state.debugger;
+        let frame = (debugger.generation, replay.at(), debugger.chosen);
+        if let Some((at, instant)) = &self.shown
+            && (*at == frame || (busy && at.0 == frame.0))
+        {
+            return Some(Arc::clone(instant));
+        }
+        let colors = &picture.photo.image.pixels;
+        let masks = &shown.analysis.masks;
+        let instant = Arc::new(Instant::of(replay, &debugger.names, debugger.chosen, colors, masks));
+        self.shown = Some((frame, Arc::clone(&instant)));
+        Some(instant)
+    }
+}
+
+/// The button that follows the cursor; only there while the cursor stands before the end.
+pub fn toggle(ui: &mut Ui, state: &State, settings: &mut DebugSettings) {
+    if state.debugger.stopped().is_none() {
+        return;
+    }
+    let tip = "Image, colour space and tables show the instant at the debugger's cursor, not the result.";
+    let button = Button::selectable(settings.follow, "Follow");
+    if ui.add(button).on_hover_text(tip).clicked() {
+        settings.follow = !settings.follow;
+    }
+}
+
+/// Sends changed settings of the debugger.
+pub fn send(cx: &mut Cx, settings: DebugSettings) {
+    if settings != cx.state.view.debug {
+        cx.send(Command::Debug(DebugCommand::Settings(settings)));
+    }
+}
+
+/// The window or pixel that the step taken last is about.
+pub fn spot(painter: &Painter, place: &Placement, instant: &Instant) {
+    let line = |area: Rect, tone: Color32| {
+        painter.add(Shape::line(corners(area).to_vec(), Stroke::new(3.4, Color32::from_black_alpha(150))));
+        painter.add(Shape::line(corners(area).to_vec(), Stroke::new(1.6, tone)));
+    };
+    if let Some([left, top, side]) = instant.window {
+        let square = Rect::from_min_size(egui::pos2(left as f32, top as f32), egui::Vec2::splat(side as f32));
+        line(place.screen_rect_of(square.intersect(Rect::from_min_size(egui::Pos2::ZERO, place.size))), MARK);
+    }
+    if let Some((pixel, taken)) = instant.pixel {
+        let tone = if taken { MARK } else { Color32::WHITE };
+        let square = place.screen_rect_of(place.square_of(pixel));
+        if place.zoom >= FRAMED {
+            line(square, tone);
+        } else {
+            cross(painter, square.center(), tone);
+        }
+    }
+}
+
+/// Where the cursor stands, in the upper left corner, and what the colours mean, along the lower edge.
+pub fn words(ui: &Ui, painter: &Painter, tones: &Tones, view: Rect, state: &State, instant: &Instant) {
+    let Some(replay) = state.followed() else { return };
+    let text = format!("at step {}: {}", grouped(replay.at()), cursor_place(replay));
+    let corner = view.left_top() + vec2(6.0, 6.0);
+    let area = overlay::tag(painter, tones, corner, Align2::LEFT_TOP, &text);
+    let label = ui.interact(area, ui.scope_id().with("cursor place"), Sense::hover());
+    label.widget_info(|| WidgetInfo::labeled(Role::Label, true, text.clone()));
+    label.on_hover_text(
+        "The picture shows this instant of the analysis; \u{201c}Follow\u{201d} turns back to the result.",
+    );
+    overlay::entries(painter, tones, view, &instant_legend(instant));
+    chosen(painter, tones, area, state);
+}
+
+/// The region in focus, as a chip beside the place.
+fn chosen(painter: &Painter, tones: &Tones, beside: Rect, state: &State) {
+    let Some(focus) = state.debugger.focus() else { return };
+    let names = &state.debugger.names;
+    let text = match names.final_number(focus) {
+        0 => "nothing is left of it".to_owned(),
+        number => format!("\u{2192} region {number}"),
+    };
+    let font = egui::FontId::proportional(SMALL_PT);
+    let galley = painter.layout_no_wrap(text, font, tones.quiet);
+    let area = Rect::from_min_size(
+        beside.right_top() + vec2(4.0, 0.0),
+        vec2(galley.size().x + 24.0, beside.height()),
+    );
+    painter.rect_filled(area, 3.0, tones.panel.gamma_multiply(0.86));
+    let chip = Rect::from_center_size(area.left_center() + vec2(9.5, 0.0), vec2(9.0, 9.0));
+    painter.rect_filled(chip, 2.0, colour(names.colour(focus)));
+    painter.galley(area.min + vec2(18.0, 2.0), galley, tones.quiet);
+}

@@ -1,0 +1,130 @@
+//! The plane at the debugger's cursor: a skewed-T test in the plane of both lines, where a T is read best, or a region that
+//! grows in its slice.
+
+use super::{PlanePanel, cloud, hovered, kinds, navigate, quiet};
+use crate::gui::{Cx, verdict, widgets};
+use crate::trace::{PixelKind, Replay};
+use crate::workbench::{State, growing_plane, test_at_cursor, test_plane};
+use egui::{Sense, Stroke, Ui, vec2};
+
+/// A kind, its name and what it means.
+type Name = (PixelKind, &'static str, &'static str);
+
+/// What the points of a test are.
+const TESTED: [Name; 3] = [
+    (
+        PixelKind::Matte,
+        "measured",
+        "Pixels on the outside of the matte line: its length is measured by them (section 5.4.1).",
+    ),
+    (
+        PixelKind::Lost,
+        "ignored",
+        "Pixels on its inside, where highlights grow: ignored for its length (section 5.4.1).",
+    ),
+    (
+        PixelKind::Highlight,
+        "candidate",
+        "The neighbouring cluster that is tested as its highlight (section 5.4.1).",
+    ),
+];
+
+/// What the points of a growing region are.
+const GROWING: [Name; 3] = [
+    (PixelKind::Matte, "its pixels", "What the region holds at the cursor (section 5.3.2, 5.4.2)."),
+    (PixelKind::Highlight, "just taken", "What it took in the ring at work (section 5.3.2, 5.4.2)."),
+    (
+        PixelKind::Lost,
+        "not taken",
+        "Neighbours whose colours lie outside of its cylinder or slice (section 5.3.2, 5.4.2).",
+    ),
+];
+
+/// What is shown of the cursor: the trace, the place in it, and the region by its number of birth.
+pub type Frame = (u64, usize, u16);
+
+/// What there is to show at the cursor, if anything.
+pub fn frame(state: &State) -> Option<Frame> {
+    let replay = state.followed()?;
+    let region = match test_at_cursor(replay) {
+        Some(test) => test.region,
+        None => state.debugger.focus().filter(|&focus| replay.hypothesis(focus).is_some())?,
+    };
+    Some((state.debugger.generation, replay.at(), region))
+}
+
+impl PlanePanel {
+    /// Shows it.
+    pub(super) fn show_instant(&mut self, ui: &mut Ui, cx: &mut Cx, replay: &Replay, frame: Frame) {
+        let state = cx.state;
+        let Some(picture) = &state.picture else { return };
+        self.update_instant(state, replay, frame);
+        let Some(plane) = &self.plane else {
+            let text = "At the cursor there is no plane: a line is missing, or both have one direction.";
+            return widgets::nothing(ui, cx.tones, text);
+        };
+        let test = test_at_cursor(replay);
+        if !cx.bare {
+            let names = if test.is_some() { TESTED } else { GROWING };
+            egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 3)).show(ui, |ui| bar(ui, cx, names));
+        }
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        if rect.width() < 16.0 || rect.height() < 16.0 {
+            return;
+        }
+        response.widget_info(|| {
+            let what = if test.is_some() { "Skewed-T test" } else { "Growth" };
+            let name = format!("{what} of hypothesis {}", frame.2);
+            egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, name)
+        });
+        let chart = navigate(ui, &response, plane, self.chart, rect);
+        self.chart = Some(chart);
+        let painter = ui.painter_at(rect);
+        chart.axes(&painter, plane, rect, cx.tones);
+        painter.add(egui::Shape::Mesh(cloud(&mut self.cloud, cx, plane, chart, rect)));
+        if let Some(test) = test {
+            // The part of the matte line on which a highlight may begin.
+            let along = |percent: f64| (percent / 100.0 * test.matte_length) as f32;
+            let upper =
+                test.position_limits.map(|percent| chart.screen(plane.oblique(along(percent), 0.0), rect));
+            painter.line_segment(upper, Stroke::new(5.0, cx.tones.accent.gamma_multiply(0.55)));
+        }
+        chart.skewed_t(ui, &response, plane, rect, cx.tones);
+        if let Some(test) = test {
+            verdict::show(ui, cx.tones, cx.tones.panel, rect.left_top() + vec2(8.0, 4.0), test);
+        }
+        hovered(&painter, cx, plane, chart, picture, rect);
+        self.point(cx, &response, chart, rect);
+    }
+
+    fn update_instant(&mut self, state: &State, replay: &Replay, frame: Frame) {
+        let (Some(picture), Some(shown)) = (&state.picture, &state.newest) else { return };
+        if self.frame == Some(frame) {
+            return;
+        }
+        let (region, masks) = (state.debugger.names.final_number(frame.2), &shown.analysis.masks);
+        let test = test_at_cursor(replay);
+        self.plane = match test {
+            Some(test) => test_plane(replay, test, region, picture, masks),
+            None => growing_plane(replay, frame.2, region, picture, masks),
+        };
+        // A region that grows keeps its place under the eye.
+        if test.is_some() || self.frame.is_none_or(|(_, _, before)| before != frame.2) {
+            self.chart = None;
+        }
+        (self.frame, self.cloud) = (Some(frame), None);
+    }
+}
+
+/// What the points' colours mean.
+fn bar(ui: &mut Ui, cx: &Cx, names: [Name; 3]) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        for (kind, name, tip) in names {
+            widgets::chip(ui, kinds::colour(kind, cx.state.view.theme), name).on_hover_text(tip);
+            ui.label(quiet(cx, name)).on_hover_text(tip);
+            ui.add_space(6.0);
+        }
+    });
+}

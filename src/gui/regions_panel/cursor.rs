@@ -1,0 +1,228 @@
+//! The table at the debugger's cursor: the hypotheses so far; before there are any, the windows and areas.
+
+use super::{ROW_PT, cell, vector};
+use crate::gui::theme::{SMALL_PT, Tones};
+use crate::gui::{Cx, widgets};
+use crate::trace::Replay;
+use crate::workbench::{
+    Command, DebugCommand, HypothesisRow, Item, LegendEntry, RegionNames, Status, WindowCounts,
+    class_entries, hypothesis_rows, window_counts,
+};
+use egui::{Align, Button, Label, Layout, RichText, Sense, Ui};
+use egui_extras::{Column, TableBuilder, TableRow};
+
+/// What the rows are sorted by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Key {
+    #[default]
+    Birth,
+    Pixels,
+    Direction,
+    Radius,
+    Status,
+    Becomes,
+}
+
+/// A column: key, title, width in points, tooltip.
+const COLUMNS: [(Key, &str, f32, &str); 6] = [
+    (
+        Key::Birth,
+        "#",
+        40.0,
+        "The hypothesis' number, in the order of birth; its colour is that of what becomes of it.",
+    ),
+    (Key::Pixels, "pixels", 52.0, "Pixels that it has at the cursor."),
+    (
+        Key::Direction,
+        "direction",
+        96.0,
+        "Unit direction of its line at the cursor, red green blue (section 5.3.1).",
+    ),
+    (Key::Radius, "radius", 52.0, "Radius of its cylinder, counts (section 5.3.2)."),
+    (Key::Status, "status", 110.0, "What became of it up to the cursor (section 5.3)."),
+    (Key::Becomes, "result", 70.0, "The region of the result that it is, or is part of."),
+];
+
+/// How the rows are sorted.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sorting {
+    key: Key,
+    descending: bool,
+}
+
+impl Sorting {
+    /// Shows what there is at the cursor.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx, replay: &Replay) {
+        light(ui, cx.tones, replay);
+        let rows = hypothesis_rows(replay, &cx.state.debugger.names);
+        if !rows.is_empty() {
+            egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| self.table(ui, cx, &rows));
+        } else if let Some(counts) = window_counts(replay) {
+            windows(ui, cx.tones, &counts);
+        } else {
+            widgets::nothing(ui, cx.tones, "At the cursor no window has been laid yet.");
+        }
+    }
+
+    fn table(&mut self, ui: &mut Ui, cx: &mut Cx, rows: &[HypothesisRow]) {
+        ui.spacing_mut().item_spacing = egui::vec2(6.0, 1.0);
+        let focus = cx.state.debugger.focus();
+        let order = self.order(rows);
+        let mut hovered = None;
+        let mut table = TableBuilder::new(ui).striped(false).sense(Sense::click()).resizable(false);
+        for (key, _, width, _) in COLUMNS {
+            let last = key == Key::Becomes;
+            table =
+                table.column(if last { Column::remainder().at_least(width) } else { Column::exact(width) });
+        }
+        if let Some(row) = order.iter().position(|&index| Some(rows[index].region) == focus) {
+            table = table.scroll_to_row(row, None);
+        }
+        table
+            .header(ROW_PT, |mut header| {
+                for (key, title, _, tip) in COLUMNS {
+                    header.col(|ui| self.heading(ui, cx.tones, key, title, tip));
+                }
+            })
+            .body(|body| {
+                body.rows(ROW_PT, order.len(), |mut row| {
+                    let of = &rows[order[row.index()]];
+                    row.set_selected(Some(of.region) == focus);
+                    cells(&mut row, cx.tones, of, &cx.state.debugger.names);
+                    let response = row.response();
+                    let becomes = (of.final_number != 0).then_some(Item::Region(of.final_number));
+                    if response.hovered() {
+                        hovered = becomes;
+                    }
+                    if response.clicked() {
+                        cx.out.push(Command::Debug(DebugCommand::Choose(Some(of.region))));
+                        cx.out.extend(becomes.map(|item| Command::Select(Some(item))));
+                    }
+                });
+            });
+        if ui.rect_contains_pointer(ui.max_rect()) && hovered != cx.state.hover {
+            cx.send(Command::Hover(hovered));
+        }
+    }
+
+    fn heading(&mut self, ui: &mut Ui, tones: &Tones, key: Key, title: &str, tip: &str) {
+        let chosen = self.key == key;
+        let arrow = match (chosen, self.descending) {
+            (false, _) => "",
+            (true, false) => " \u{2191}",
+            (true, true) => " \u{2193}",
+        };
+        let tone = if chosen { tones.text } else { tones.quiet };
+        let text = RichText::new(format!("{title}{arrow}")).size(SMALL_PT).color(tone);
+        let layout = match key {
+            Key::Pixels | Key::Radius => Layout::right_to_left(Align::Center),
+            _ => Layout::left_to_right(Align::Center),
+        };
+        ui.with_layout(layout, |ui| {
+            if ui.add(Button::new(text).frame(false)).on_hover_text(tip).clicked() {
+                self.descending = if chosen { !self.descending } else { key == Key::Pixels };
+                self.key = key;
+            }
+        });
+    }
+
+    fn order(self, rows: &[HypothesisRow]) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..rows.len()).collect();
+        let value = |row: &HypothesisRow| match self.key {
+            Key::Birth => f64::from(row.region),
+            Key::Pixels => f64::from(row.pixels),
+            Key::Direction => row.direction.map_or(-10.0, super::hue_rad),
+            Key::Radius => row.radius,
+            Key::Status => match row.status {
+                Status::AtWork => 0.0,
+                Status::Stands => 1.0,
+                Status::Absorbed(_) => 2.0,
+                Status::Merged(_) => 3.0,
+                Status::Barren => 4.0,
+                Status::Dropped => 5.0,
+            },
+            Key::Becomes => f64::from(row.final_number),
+        };
+        order.sort_by(|&a, &b| {
+            let by_value = value(&rows[a]).total_cmp(&value(&rows[b]));
+            if self.descending { by_value.reverse() } else { by_value }.then(a.cmp(&b))
+        });
+        order
+    }
+}
+
+fn cells(row: &mut TableRow, tones: &Tones, of: &HypothesisRow, names: &RegionNames) {
+    let over = !matches!(of.status, Status::AtWork | Status::Stands);
+    let tone = if over { tones.quiet } else { tones.text };
+    let plain = |ui: &mut Ui, text: String| {
+        ui.add(Label::new(RichText::new(text).color(tone)).selectable(false));
+    };
+    let number = |row: &mut TableRow, text: String| {
+        row.col(|ui| {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| plain(ui, text));
+        });
+    };
+    cell(row, |ui| {
+        let colour = widgets::colour(names.colour(of.region));
+        widgets::chip(ui, colour, &format!("colour of hypothesis {}", of.region));
+        plain(ui, of.region.to_string());
+    });
+    number(row, widgets::grouped(of.pixels as usize));
+    cell(row, |ui| vector(ui, tones, of.direction));
+    number(row, format!("{:.1}", of.radius));
+    cell(row, |ui| plain(ui, of.status.text()));
+    cell(row, |ui| {
+        let becomes = match of.final_number {
+            0 => "\u{2013}".to_owned(),
+            number => format!("\u{2192} region {number}"),
+        };
+        plain(ui, becomes);
+    });
+}
+
+/// The light as it is estimated so far.
+fn light(ui: &mut Ui, tones: &Tones, replay: &Replay) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 6.0;
+        let tip = "The colour of the light as it is estimated up to the cursor (section 5.4).";
+        ui.label(RichText::new("light so far").color(tones.quiet)).on_hover_text(tip);
+        match replay.light() {
+            Some(direction) => vector(ui, tones, Some(direction)),
+            None => {
+                ui.label(RichText::new("not estimated yet").color(tones.quiet));
+            }
+        }
+    });
+}
+
+/// Windows by class, and the areas that they form.
+fn windows(ui: &mut Ui, tones: &Tones, counts: &WindowCounts) {
+    ui.add_space(4.0);
+    let row = |ui: &mut Ui, entry: Option<LegendEntry>, name: &str, tip: &str, count: usize| {
+        match entry {
+            Some(entry) => widgets::chip(ui, widgets::colour(entry.colour), name),
+            None => ui.label(""),
+        };
+        ui.label(name).on_hover_text(tip);
+        widgets::number(ui, tones, 70.0, &widgets::grouped(count), "");
+        ui.end_row();
+    };
+    egui::Grid::new("windows so far").num_columns(3).spacing([6.0, 2.0]).show(ui, |ui| {
+        for (entry, count) in class_entries().into_iter().zip(counts.classes) {
+            row(ui, Some(entry), entry.name, entry.tooltip, count);
+        }
+        let tip = "Windows with too few pixels to be believed for a class (section 5.2.1).";
+        row(ui, None, "without a class", tip, counts.unclassed);
+        let tip = "Windows without a single pixel to be believed: background and shadow (section 4).";
+        row(ui, None, "empty", tip, counts.empty);
+        row(
+            ui,
+            None,
+            "not looked at yet",
+            "Windows that come after the cursor (section 5.2.1).",
+            counts.waiting,
+        );
+        let tip = "Neighbouring windows of one class whose union is of that class too (section 5.2.2).";
+        row(ui, None, "areas so far", tip, counts.areas);
+    });
+}

@@ -1,0 +1,70 @@
+//! The decisions in their order: where the cursor stands among them, and what moves it.
+
+mod drawing;
+mod hint;
+mod icons;
+mod run_to;
+mod track;
+mod transport;
+
+pub use track::track_id;
+
+use super::{Cx, widgets};
+use crate::report::Names;
+use crate::trace::Trace;
+use crate::workbench::{Command, DebugCommand, DebugSettings};
+use egui::{Frame, Margin, RichText, Ui};
+use track::Track;
+
+/// The panel: which part of the track is seen, and what was made for it.
+#[derive(Default)]
+pub struct TimelinePanel {
+    track: Track,
+    /// What things are called in the trace of a result.
+    names: Option<(u64, Names)>,
+}
+
+impl TimelinePanel {
+    /// Shows it.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+        let state = cx.state;
+        let debugger = &state.debugger;
+        if state.picture.is_none() {
+            return widgets::nothing(ui, cx.tones, "The timeline appears when a photograph is open.");
+        }
+        if !state.view.debug.open {
+            return off(ui, cx);
+        }
+        let Some(replay) = debugger.replay.as_ref().filter(|replay| !replay.trace().is_empty()) else {
+            return widgets::nothing(ui, cx.tones, "Recording the decisions of the analysis\u{2026}");
+        };
+        let names = self.names(debugger.generation, replay.trace());
+        Frame::new().inner_margin(Margin { left: 8, right: 8, top: 3, bottom: 5 }).show(ui, |ui| {
+            transport::show(ui, cx, replay, &names);
+            self.track.show(ui, cx, replay, &names);
+        });
+    }
+
+    fn names(&mut self, generation: u64, trace: &Trace) -> Names {
+        let (made, names) = self.names.get_or_insert_with(|| (generation, Names::of(trace)));
+        if *made != generation {
+            (*made, *names) = (generation, Names::of(trace));
+        }
+        names.clone()
+    }
+}
+
+/// Nothing is recorded: what that means, and the button that changes it.
+fn off(ui: &mut Ui, cx: &mut Cx) {
+    ui.add_space((ui.available_height() / 2.0 - 14.0).max(4.0));
+    ui.horizontal_wrapped(|ui| {
+        ui.add_space(8.0);
+        let keys = "Keep every decision of the analysis, to stop it, rewind it and ask why (D).";
+        if ui.button("Record decisions").on_hover_text(keys).clicked() {
+            let settings = DebugSettings { open: true, ..cx.state.view.debug.clone() };
+            cx.send(Command::Debug(DebugCommand::Settings(settings)));
+        }
+        let text = "Nothing is recorded: the analysis is a little faster, and cannot be stopped or rewound.";
+        ui.label(RichText::new(text).color(cx.tones.quiet));
+    });
+}

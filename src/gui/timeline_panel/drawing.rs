@@ -1,0 +1,158 @@
+//! How the track looks. Nothing is drawn once per step but where steps are far enough apart to be seen.
+
+use super::track::{Lanes, Scale};
+use crate::gui::theme::{SMALL_PT, Tones};
+use crate::gui::{Cx, widgets};
+use crate::trace::{Replay, Step, Trace};
+use egui::{Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
+
+/// Single steps are drawn from this width on, points.
+const TICK_PT: f32 = 4.0;
+/// A stretch of this height has room for its name, points.
+const NAMED_PT: f32 = 12.0;
+
+/// Draws the track: density, stages, passes, blocks, single steps where there is room for them, and the cursor.
+pub fn draw(painter: &Painter, cx: &Cx, scale: &Scale, lanes: &Lanes, replay: &Replay, density: &[usize]) {
+    let (tones, trace) = (cx.tones, replay.trace());
+    bars(painter, tones, scale, lanes.density, density);
+    let now = trace.stage_at(replay.at().saturating_sub(1));
+    for (index, (stage, steps)) in trace.stages().enumerate() {
+        let fill = if index % 2 == 0 { tones.well } else { tones.line };
+        let ink = if Some(stage) == now { tones.text } else { tones.quiet };
+        span(painter, scale.part(lanes.stages, &steps), fill, ink, stage.name());
+    }
+    for (index, pass) in trace.passes().enumerate() {
+        let fill = tones.quiet.gamma_multiply(if index % 2 == 0 { 0.18 } else { 0.30 });
+        span(painter, scale.part(lanes.passes, &pass.steps), fill, tones.quiet, pass.pass.name());
+    }
+    painter.rect_filled(lanes.blocks, 0.0, tones.well.gamma_multiply(0.6));
+    if lanes.passes.height() < NAMED_PT {
+        names_of_empty(painter, tones, scale, lanes.blocks, trace);
+    }
+    blocks(painter, cx, scale, lanes.blocks, trace);
+    ticks(painter, tones, scale, lanes.density, trace);
+    cursor(painter, tones, scale, lanes, replay.at());
+}
+
+/// A stretch with its name, where there is room for it.
+fn span(painter: &Painter, rect: Option<Rect>, fill: Color32, ink: Color32, name: &str) {
+    let Some(rect) = rect else { return };
+    let right = (rect.right() - 1.0).max(rect.left() + 0.5);
+    painter.rect_filled(rect.with_max_x(right), 0.0, fill);
+    if rect.height() >= NAMED_PT {
+        label(painter, rect, ink, name);
+    }
+}
+
+/// Words in a stretch, if it is wide enough for them.
+fn label(painter: &Painter, rect: Rect, ink: Color32, name: &str) {
+    let galley = painter.layout_no_wrap(name.to_owned(), FontId::proportional(SMALL_PT), ink);
+    if galley.size().x + 8.0 <= rect.width() {
+        let at = pos2(rect.left() + 4.0, rect.center().y - galley.size().y / 2.0);
+        painter.galley(at, galley, ink);
+    }
+}
+
+/// How many decisions each column holds, so that few and many are both seen.
+fn bars(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, density: &[usize]) {
+    let most = density.iter().copied().max().unwrap_or(0).max(1);
+    let full = (most as f32).ln_1p();
+    let width = scale.rect.width() / density.len().max(1) as f32;
+    let mut mesh = Mesh::default();
+    for (column, &count) in density.iter().enumerate().filter(|(_, count)| **count > 0) {
+        let height = ((count as f32).ln_1p() / full * lane.height()).max(1.0);
+        let left = lane.left() + column as f32 * width;
+        let bar = Rect::from_min_max(pos2(left, lane.bottom() - height), pos2(left + width, lane.bottom()));
+        mesh.add_colored_rect(bar, tones.quiet.gamma_multiply(0.55));
+    }
+    painter.add(mesh);
+}
+
+/// Passes without blocks say in their empty place what they are.
+fn names_of_empty(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, trace: &Trace) {
+    for pass in trace.passes() {
+        let block = trace.blocks().find(|block| block.steps.start >= pass.steps.start);
+        let empty = block.is_none_or(|block| block.steps.start >= pass.steps.end);
+        if let Some(rect) = scale.part(lane, &pass.steps).filter(|_| empty) {
+            label(painter, rect, tones.quiet.gamma_multiply(0.8), pass.pass.name());
+        }
+    }
+}
+
+/// Hypotheses, slices, candidates and holes in the colours of their regions.
+fn blocks(painter: &Painter, cx: &Cx, scale: &Scale, lane: Rect, trace: &Trace) {
+    let (state, names) = (cx.state, &cx.state.debugger.names);
+    let (selected, hovered) = (state.selected_region(), state.hover.and_then(|item| state.region_of(item)));
+    // Where blocks are thinner than a column, one is drawn for all that begin in it.
+    let mut drawn = f32::NEG_INFINITY;
+    let mut outlined = Vec::new();
+    for block in trace.blocks() {
+        let Some(rect) = scale.part(lane, &block.steps) else { continue };
+        if rect.right() <= drawn {
+            continue;
+        }
+        drawn = (rect.left() + 1.0).max(rect.right());
+        let region = block.topic.region();
+        let number = Some(names.final_number(region)).filter(|&number| number > 0);
+        let mut fill = widgets::colour(names.colour(region));
+        if selected.is_some() && number != selected {
+            fill = fill.gamma_multiply(0.55);
+        }
+        let gap = if rect.width() > 3.0 { 1.0 } else { 0.0 };
+        let rect = rect.with_max_x((rect.right() - gap).max(rect.left() + 1.0));
+        painter.rect_filled(rect, 0.0, fill);
+        if number.is_some() && (number == selected || number == hovered) {
+            outlined.push(rect);
+        }
+    }
+    for rect in outlined.into_iter().filter(|rect| rect.width() >= 3.0) {
+        painter.rect_stroke(rect, 0.0, Stroke::new(1.0, cx.tones.text), StrokeKind::Inside);
+    }
+}
+
+/// Single steps, where they are far enough apart: decisions are long, claims short, refusals hollow.
+fn ticks(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, trace: &Trace) {
+    for (steps, width) in scale.axis.stretches(scale.section) {
+        let span = scale.section.to - scale.section.from;
+        if width / span * f64::from(scale.rect.width()) < f64::from(TICK_PT) {
+            continue;
+        }
+        let first = scale.step_at(lane.left()).map_or(steps.start, |step| step.max(steps.start));
+        let last = scale.step_at(lane.right()).map_or(steps.end, |step| (step + 1).min(steps.end));
+        for (n, step) in trace.steps_in(first..last.max(first)) {
+            let x = f32::midpoint(scale.x(n), scale.x(n + 1));
+            let foot = pos2(x, lane.bottom());
+            match step {
+                Step::Event(_) => {
+                    let range = egui::Rangef::new(lane.center().y, lane.bottom());
+                    painter.vline(x, range, (1.0, tones.quiet));
+                }
+                Step::Refusal { .. } => {
+                    painter.circle_stroke(foot - vec2(0.0, 3.0), 1.6, Stroke::new(1.0, tones.quiet));
+                }
+                Step::Claim { .. } | Step::Label { .. } => {
+                    painter.circle_filled(foot - vec2(0.0, 3.0), 1.6, tones.quiet);
+                }
+            }
+        }
+    }
+}
+
+/// The cursor, and a veil over what is not decided yet.
+fn cursor(painter: &Painter, tones: &Tones, scale: &Scale, lanes: &Lanes, at: usize) {
+    let rect = scale.rect;
+    let x = scale.x(at);
+    let ahead = Rect::from_min_max(pos2(x.clamp(rect.left(), rect.right()), lanes.stages.top()), rect.max);
+    painter.rect_filled(ahead, 0.0, tones.panel.gamma_multiply(0.4));
+    // At either end half of the handle would lie outside.
+    let x = if (rect.left()..=rect.right()).contains(&x) {
+        x.clamp(rect.left() + 1.0, rect.right() - 1.0)
+    } else {
+        return;
+    };
+    painter.vline(x, rect.y_range(), (1.6, tones.accent));
+    let handle: Vec<Pos2> = [(-5.0, 0.0), (5.0, 0.0), (5.0, 4.0), (0.0, 9.0), (-5.0, 4.0)]
+        .map(|(dx, dy)| pos2(x + dx, rect.top() + dy))
+        .to_vec();
+    painter.add(Shape::convex_polygon(handle, tones.accent, Stroke::NONE));
+}

@@ -1,0 +1,117 @@
+//! The signs of the transport controls.
+
+use crate::gui::theme::Tones;
+use crate::workbench::Direction;
+use egui::accesskit::Role;
+use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+
+/// Side of a button, points.
+pub const SIDE_PT: f32 = 22.0;
+
+/// What a button shows.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Sign {
+    /// To the beginning, or to the end.
+    Limit(Direction),
+    /// A stage.
+    Stage(Direction),
+    /// A hypothesis.
+    Hypothesis(Direction),
+    /// An event.
+    Event(Direction),
+    /// Play.
+    Play(Direction),
+    /// Rest.
+    Pause,
+    /// Into.
+    Into,
+    /// Again from the start.
+    Loop,
+    /// Recording.
+    Record,
+}
+
+/// A button that is on or off, named `name` for those who do not see its sign.
+pub fn button(ui: &mut Ui, tones: &Tones, sign: Sign, on: bool, name: &str, tip: &str) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(SIDE_PT, SIDE_PT), Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), on, name));
+    let ground = match (on, response.hovered() || response.has_focus()) {
+        (true, _) => tones.accent.gamma_multiply(0.3),
+        (false, true) => tones.line,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(rect, 3.0, ground);
+    let colour = match (ui.is_enabled(), on) {
+        (false, _) => tones.quiet.gamma_multiply(0.5),
+        (true, true) => tones.text,
+        (true, false) => tones.text.gamma_multiply(0.75),
+    };
+    draw(ui.painter(), rect.shrink(4.0), sign, colour, tones);
+    response.on_hover_text(tip)
+}
+
+/// Points of a sign are given in a square of 14 × 14, as it points forward.
+fn draw(painter: &Painter, square: Rect, sign: Sign, colour: Color32, tones: &Tones) {
+    let back = matches!(
+        sign,
+        Sign::Limit(Direction::Back)
+            | Sign::Stage(Direction::Back)
+            | Sign::Hypothesis(Direction::Back)
+            | Sign::Event(Direction::Back)
+            | Sign::Play(Direction::Back)
+    );
+    let at = |x: f32, y: f32| square.min + vec2(if back { 14.0 - x } else { x }, y) * (square.width() / 14.0);
+    let stroke = Stroke::new(1.4, colour);
+    let wedge = |left: f32, right: f32, half: f32| {
+        let points = vec![at(left, 7.0 - half), at(right, 7.0), at(left, 7.0 + half)];
+        painter.add(Shape::convex_polygon(points, colour, Stroke::NONE));
+    };
+    let bar = |x: f32, half: f32| {
+        painter.line_segment([at(x, 7.0 - half), at(x, 7.0 + half)], stroke);
+    };
+    match sign {
+        Sign::Limit(_) => {
+            wedge(1.0, 6.0, 4.0);
+            wedge(6.0, 11.0, 4.0);
+            bar(12.0, 4.5);
+        }
+        Sign::Stage(_) => {
+            wedge(3.0, 9.0, 4.0);
+            bar(10.5, 4.5);
+        }
+        Sign::Hypothesis(_) => {
+            wedge(1.5, 7.0, 4.0);
+            wedge(7.0, 12.5, 4.0);
+        }
+        Sign::Event(_) => {
+            painter.add(Shape::line(vec![at(5.0, 3.0), at(9.0, 7.0), at(5.0, 11.0)], stroke));
+        }
+        Sign::Play(_) => wedge(3.0, 12.0, 5.5),
+        Sign::Pause => {
+            for x in [4.5, 9.5] {
+                painter.line_segment([at(x, 2.5), at(x, 11.5)], Stroke::new(2.6, colour));
+            }
+        }
+        Sign::Into => {
+            painter
+                .add(Shape::line(vec![at(2.5, 8.0), at(2.5, 12.0), at(11.5, 12.0), at(11.5, 8.0)], stroke));
+            painter.line_segment([at(7.0, 1.5), at(7.0, 8.5)], stroke);
+            painter.add(Shape::line(vec![at(4.2, 6.0), at(7.0, 9.0), at(9.8, 6.0)], stroke));
+        }
+        Sign::Loop => again(painter, at, stroke),
+        Sign::Record => {
+            painter.circle_stroke(at(7.0, 7.0), 5.2, stroke);
+            painter.circle_filled(at(7.0, 7.0), 2.8, tones.accent);
+        }
+    }
+}
+
+/// A turning arrow.
+fn again(painter: &Painter, at: impl Fn(f32, f32) -> Pos2, stroke: Stroke) {
+    let turn = |i: usize| {
+        let angle = (i as f32 / 20.0 * 0.8 - 0.2) * std::f32::consts::TAU;
+        at(7.0 + 5.0 * angle.cos(), 7.0 + 5.0 * angle.sin())
+    };
+    painter.add(Shape::line((0..=20).map(turn).collect(), stroke));
+    painter.add(Shape::line(vec![at(5.4, 1.0), at(8.8, 2.3), at(7.6, 5.4)], stroke));
+}

@@ -1,0 +1,267 @@
+//! Stages, passes and blocks along a line, how dense the decisions are, and the cursor.
+
+use super::drawing::draw;
+use super::hint;
+use crate::gui::Cx;
+use crate::report::Names;
+use crate::trace::{Block, Replay};
+use crate::workbench::{Command, DebugCommand, Item, TimelineAxis, TimelineSection, timeline_density};
+use egui::accesskit::{Action, ActionData};
+use egui::{
+    CursorIcon, EventFilter, Id, PointerButton, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
+    pos2, vec2,
+};
+
+/// What scrolling so far doubles the zoom, points.
+const SCROLL_PT: f32 = 140.0;
+/// The widget's id: arrow keys stay the debugger's while it has the focus.
+pub fn track_id() -> Id {
+    Id::unique("timeline track")
+}
+
+/// What the density was counted for: the result, the section and the columns.
+type Counted = (u64, TimelineSection, usize);
+
+/// The track: what of it is seen, and what was made for that.
+#[derive(Default)]
+pub struct Track {
+    axis: Option<(u64, TimelineAxis)>,
+    section: TimelineSection,
+    density: Option<(Counted, Vec<usize>)>,
+    /// The cursor and the length of the trace in the last frame.
+    cursor: [usize; 2],
+    /// The region that this panel last said the pointer is over.
+    pointed: Option<u16>,
+}
+
+/// Rows of the track, from top to bottom.
+pub struct Lanes {
+    /// How many decisions.
+    pub density: Rect,
+    /// Stages.
+    pub stages: Rect,
+    /// Passes.
+    pub passes: Rect,
+    /// Hypotheses, slices, candidates, holes.
+    pub blocks: Rect,
+}
+
+/// Where steps are on the screen.
+#[derive(Clone, Copy)]
+pub struct Scale<'a> {
+    /// Where steps lie along the line.
+    pub axis: &'a TimelineAxis,
+    /// What of the line is seen.
+    pub section: TimelineSection,
+    /// Where.
+    pub rect: Rect,
+}
+
+impl Track {
+    /// Shows it in what is left of `ui`.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx, replay: &Replay, names: &Names) {
+        let rect = ui.available_rect_before_wrap();
+        if rect.width() < 8.0 || rect.height() < 8.0 {
+            return;
+        }
+        let generation = cx.state.debugger.generation;
+        let axis = match self.axis.take() {
+            Some((made, axis)) if made == generation => axis,
+            _ => TimelineAxis::of(replay.trace()),
+        };
+        let response = ui.interact(rect, track_id(), Sense::click_and_drag());
+        ui.advance_cursor_after_rect(rect);
+        self.follow(&axis, replay);
+        self.travel(ui, &response, &axis);
+        let scale = Scale { axis: &axis, section: self.section, rect };
+        let lanes = lanes(rect);
+        self.act(ui, cx, &response, &scale, &lanes, replay);
+        describe(ui, cx, &response, replay);
+        let columns = rect.width() as usize;
+        let key = (generation, self.section, columns);
+        let density = match self.density.take() {
+            Some((counted, density)) if counted == key => density,
+            _ => timeline_density(replay.trace(), &axis, self.section, columns),
+        };
+        draw(&ui.painter_at(rect), cx, &scale, &lanes, replay, &density);
+        if response.has_focus() {
+            let stroke = Stroke::new(1.0, cx.tones.quiet.gamma_multiply(0.5));
+            ui.painter().rect_stroke(rect.expand(2.0), 2.0, stroke, StrokeKind::Inside);
+        }
+        tell(&response, cx, &scale, replay, names);
+        self.density = Some((key, density));
+        self.axis = Some((generation, axis));
+    }
+
+    /// The section shows the cursor whenever that has moved; another trace is shown whole.
+    fn follow(&mut self, axis: &TimelineAxis, replay: &Replay) {
+        let now = [replay.at(), replay.trace().len()];
+        let before = std::mem::replace(&mut self.cursor, now);
+        if before[1] != now[1] {
+            self.section = TimelineSection::default();
+        } else if before[0] != now[0] {
+            self.section = self.section.showing(axis.place_of(now[0]));
+        }
+    }
+
+    /// Zooms and pans.
+    fn travel(&mut self, ui: &Ui, response: &Response, axis: &TimelineAxis) {
+        let rect = response.rect;
+        if response.double_clicked() {
+            self.section = TimelineSection::default();
+        }
+        if response.dragged_by(PointerButton::Middle) {
+            self.section = self.section.panned(f64::from(-response.drag_delta().x / rect.width()));
+        }
+        let Some(pointer) = response.hover_pos().filter(|_| response.contains_pointer()) else { return };
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
+        let factor = f64::from((scroll.y / SCROLL_PT).exp2() * pinch);
+        if (factor - 1.0).abs() > 1e-6 {
+            let share = f64::from((pointer.x - rect.left()) / rect.width());
+            self.section = self.section.zoomed(axis, factor, share);
+        }
+        if scroll.x != 0.0 {
+            self.section = self.section.panned(f64::from(-scroll.x / rect.width()));
+        }
+    }
+
+    /// Clicks seek, drags scrub, and blocks are their regions.
+    fn act(
+        &mut self,
+        ui: &Ui,
+        cx: &mut Cx,
+        response: &Response,
+        scale: &Scale,
+        lanes: &Lanes,
+        replay: &Replay,
+    ) {
+        if response.clicked() || response.drag_started() {
+            response.request_focus();
+        }
+        let arrows = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(track_id(), arrows));
+        let pointer = response.interact_pointer_pos().or(response.hover_pos());
+        let block = pointer
+            .filter(|pointer| lanes.blocks.contains(*pointer))
+            .and_then(|pointer| replay.trace().block_at(scale.step_at(pointer.x)?));
+        self.point(cx, response.contains_pointer().then_some(block.as_ref()).flatten());
+        if response.hovered() && !response.dragged() {
+            ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
+        }
+        let Some(pointer) = response.interact_pointer_pos() else { return };
+        if response.clicked_by(PointerButton::Primary)
+            && let Some(block) = block
+        {
+            choose(cx, &block);
+        } else if response.dragged_by(PointerButton::Primary) || response.clicked_by(PointerButton::Primary) {
+            let n = scale.axis.taken_at(scale.place(pointer.x));
+            if n != replay.at() {
+                cx.send(Command::Debug(DebugCommand::Seek(n)));
+            }
+        }
+    }
+
+    /// Tells which region the pointer is over, when that has changed.
+    fn point(&mut self, cx: &mut Cx, block: Option<&Block>) {
+        let names = &cx.state.debugger.names;
+        let region = block.map(|block| names.final_number(block.topic.region())).filter(|&number| number > 0);
+        if region != self.pointed {
+            let ours = self.pointed.map(Item::Region) == cx.state.hover;
+            if region.is_some() || ours {
+                cx.send(Command::Hover(region.map(Item::Region)));
+            }
+            self.pointed = region;
+        }
+    }
+}
+
+/// Selects a block's region, and goes to its first decision.
+fn choose(cx: &mut Cx, block: &Block) {
+    let region = block.topic.region();
+    let number = cx.state.debugger.names.final_number(region);
+    let item = Some(Item::Region(number)).filter(|_| number > 0);
+    if item.is_some() && item != cx.state.document.selection.item {
+        cx.send(Command::Select(item));
+    }
+    cx.send(Command::Debug(DebugCommand::Choose(Some(region))));
+    cx.send(Command::Debug(DebugCommand::Seek(block.steps.start + 1)));
+}
+
+/// A slider, to those who do not see it.
+fn describe(ui: &Ui, cx: &mut Cx, response: &Response, replay: &Replay) {
+    response.widget_info(|| WidgetInfo::slider(true, replay.at() as f64, "Timeline"));
+    let last = replay.trace().len();
+    ui.ctx().accesskit_node_builder(response.id, |node| {
+        node.set_min_numeric_value(0.0);
+        node.set_max_numeric_value(last as f64);
+        node.set_numeric_value_step(1.0);
+        node.add_action(Action::SetValue);
+    });
+    let wanted = ui.input(|input| {
+        let values = input.accesskit_action_requests(response.id, Action::SetValue);
+        values
+            .filter_map(|request| match request.data {
+                Some(ActionData::NumericValue(value)) => Some(value),
+                _ => None,
+            })
+            .last()
+    });
+    if let Some(value) = wanted {
+        cx.send(Command::Debug(DebugCommand::Seek(value.max(0.0) as usize)));
+    }
+}
+
+/// Says what happened under the pointer.
+fn tell(response: &Response, cx: &Cx, scale: &Scale, replay: &Replay, names: &Names) {
+    let step = response.hover_pos().and_then(|pointer| scale.step_at(pointer.x));
+    if let Some(step) = step.filter(|_| !response.dragged()) {
+        let regions = &cx.state.debugger.names;
+        response.clone().on_hover_ui_at_pointer(|ui| {
+            for line in hint::lines(replay.trace(), regions, names, step) {
+                ui.label(line);
+            }
+        });
+    }
+}
+
+impl Scale<'_> {
+    fn place(&self, x: f32) -> f64 {
+        self.section.place(f64::from((x - self.rect.left()) / self.rect.width()))
+    }
+
+    /// Where the line is after `steps` steps.
+    pub fn x(&self, steps: usize) -> f32 {
+        let share = self.section.share(self.axis.place_of(steps));
+        // Far outside is as good as outside, and numbers stay small.
+        self.rect.left() + (share.clamp(-1.0, 2.0) * f64::from(self.rect.width())) as f32
+    }
+
+    /// The step that happens there.
+    pub fn step_at(&self, x: f32) -> Option<usize> {
+        self.axis.step_at(self.place(x))
+    }
+
+    /// A stretch of steps in a lane; none where it is not seen.
+    pub fn part(&self, lane: Rect, steps: &std::ops::Range<usize>) -> Option<Rect> {
+        let (left, right) = (self.x(steps.start), self.x(steps.end));
+        (right > lane.left() && left < lane.right())
+            .then(|| Rect::from_x_y_ranges(left.max(lane.left())..=right.min(lane.right()), lane.y_range()))
+    }
+}
+
+fn lanes(rect: Rect) -> Lanes {
+    let height = rect.height();
+    let density = (height * 0.22).clamp(0.0, 36.0);
+    let stages = (height * 0.26).clamp(6.0, 16.0);
+    // Passes are named where there is room for that.
+    let passes = if height >= 96.0 { 14.0 } else { 4.0 };
+    let mut top = rect.top();
+    let mut lane = |height: f32| {
+        let lane = Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), height));
+        top += height + 1.0;
+        lane
+    };
+    let (density, stages, passes) = (lane(density), lane(stages), lane(passes));
+    let blocks = Rect::from_min_max(pos2(rect.left(), top), rect.max);
+    Lanes { density, stages, passes, blocks }
+}

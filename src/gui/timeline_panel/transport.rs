@@ -1,0 +1,257 @@
+//! The row over the track: what moves the cursor, how fast, where it stands and what happened there.
+
+use super::icons::{self, Sign};
+use super::run_to;
+use crate::gui::shortcuts::{self, DebugDeed, Deed, keys_of};
+use crate::gui::widgets::grouped;
+use crate::gui::{Cx, theme::SMALL_PT};
+use crate::report::Names;
+use crate::trace::Replay;
+use crate::workbench::{Command, DebugCommand, DebugSettings, Direction, Grain};
+use Direction::{Back, Forward};
+use egui::accesskit::Role;
+use egui::{ComboBox, DragValue, Label, RichText, Slider, Ui, WidgetInfo, vec2};
+
+/// Width that the sentence needs beside the controls, points; else it stands below them.
+const SENTENCE_PT: f32 = 130.0;
+/// A panel of this height has room for a second row over the track, points.
+const TWO_ROWS_PT: f32 = 88.0;
+
+/// A button: its sign, name, deed and tooltip.
+type Control = (Sign, &'static str, DebugDeed, &'static str);
+
+const LEFT: [Control; 4] = [
+    (Sign::Limit(Back), "To the beginning", DebugDeed::Start, "Before the first decision"),
+    (
+        Sign::Stage(Back),
+        "Stage back",
+        DebugDeed::Step(Grain::Stage, Back),
+        "Back to where a stage begins (5.2 to 6)",
+    ),
+    (
+        Sign::Hypothesis(Back),
+        "Hypothesis back",
+        DebugDeed::Step(Grain::Hypothesis, Back),
+        "Back to where a hypothesis, slice or hole begins (5.3 to 5.5)",
+    ),
+    (
+        Sign::Event(Back),
+        "Event back",
+        DebugDeed::Step(Grain::Event, Back),
+        "Back by a decision that is more than a pixel's claim",
+    ),
+];
+
+const RIGHT: [Control; 5] = [
+    (
+        Sign::Event(Forward),
+        "Event forward",
+        DebugDeed::Step(Grain::Event, Forward),
+        "On by a decision that is more than a pixel's claim",
+    ),
+    (
+        Sign::Hypothesis(Forward),
+        "Hypothesis forward",
+        DebugDeed::Step(Grain::Hypothesis, Forward),
+        "On to where a hypothesis, slice or hole ends (5.3 to 5.5)",
+    ),
+    (
+        Sign::Stage(Forward),
+        "Stage forward",
+        DebugDeed::Step(Grain::Stage, Forward),
+        "On to where a stage ends (5.2 to 6)",
+    ),
+    (Sign::Limit(Forward), "To the result", DebugDeed::End, "After the last decision: the result"),
+    (
+        Sign::Into,
+        "Into the next hypothesis",
+        DebugDeed::Into,
+        "Into the next hypothesis or slice, whose growth plays ring by ring (5.3.2)",
+    ),
+];
+
+/// Shows the row.
+pub fn show(ui: &mut Ui, cx: &mut Cx, replay: &Replay, names: &Names) {
+    ui.spacing_mut().item_spacing = vec2(2.0, 3.0);
+    ui.spacing_mut().interact_size.y = icons::SIDE_PT;
+    let tall = ui.available_height() >= TWO_ROWS_PT;
+    let beside = ui
+        .horizontal_wrapped(|ui| {
+            controls(ui, cx, &LEFT);
+            players(ui, cx);
+            controls(ui, cx, &RIGHT);
+            ui.add_space(4.0);
+            pace(ui, cx);
+            run_to::show(ui, cx);
+            // In one piece, where the row wraps.
+            ui.horizontal(|ui| counter(ui, cx, replay));
+            let beside = !tall || ui.available_size_before_wrap().x >= SENTENCE_PT;
+            if beside {
+                sentence(ui, cx, replay, names);
+            }
+            beside
+        })
+        .inner;
+    if !beside {
+        ui.horizontal(|ui| sentence(ui, cx, replay, names));
+    }
+}
+
+fn controls(ui: &mut Ui, cx: &mut Cx, controls: &[Control]) {
+    for &(sign, name, deed, tip) in controls {
+        let keys = keys_of(ui.ctx(), Deed::Debug(deed));
+        if icons::button(ui, cx.tones, sign, false, name, &format!("{tip} ({keys})")).clicked() {
+            shortcuts::move_cursor(deed, cx);
+        }
+    }
+}
+
+fn players(ui: &mut Ui, cx: &mut Cx) {
+    let playing = cx.state.debugger.playing;
+    ui.add_space(4.0);
+    for (direction, name, tip) in [
+        (Some(Back), "Play backwards", "Take the decisions back, one after the other (Shift+Space)"),
+        (None, "Pause", "Stop here (Space)"),
+        (Some(Forward), "Play", "Play the decisions one after the other (Space)"),
+    ] {
+        let sign = direction.map_or(Sign::Pause, Sign::Play);
+        let on = direction.is_some() && playing == direction;
+        if icons::button(ui, cx.tones, sign, on, name, tip).clicked() {
+            cx.send(Command::Debug(DebugCommand::Play(direction)));
+        }
+    }
+    ui.add_space(4.0);
+}
+
+/// The least and the largest rate of a grain, and the usual one, units a second.
+fn rates(grain: Grain) -> [f64; 3] {
+    match grain {
+        Grain::Claim => [1.0, 1e6, 5e3],
+        Grain::Event => [1.0, 1e4, 50.0],
+        Grain::Ring => [1.0, 1e3, 30.0],
+        Grain::Hypothesis => [0.5, 60.0, 4.0],
+        Grain::Pass | Grain::Stage => [0.2, 20.0, 1.0],
+    }
+}
+
+fn plural(grain: Grain) -> &'static str {
+    match grain {
+        Grain::Claim => "claims",
+        Grain::Event => "events",
+        Grain::Ring => "rings",
+        Grain::Hypothesis => "hypotheses",
+        Grain::Pass => "passes",
+        Grain::Stage => "stages",
+    }
+}
+
+fn grain_tip(grain: Grain) -> &'static str {
+    match grain {
+        Grain::Claim => "Each single step: a pixel's claim, a window's class.",
+        Grain::Event => "Each decision that is more than a pixel's claim.",
+        Grain::Ring => "Each ring of pixels around what a region has claimed (5.3.2).",
+        Grain::Hypothesis => "Each hypothesis, slice or hole as a whole (5.3 to 5.5).",
+        Grain::Pass => "Each part of a stage.",
+        Grain::Stage => "Each stage (5.2 to 6).",
+    }
+}
+
+/// What playing advances by, how fast, and whether it begins anew.
+fn pace(ui: &mut Ui, cx: &mut Cx) {
+    let before = &cx.state.view.debug;
+    let mut settings = before.clone();
+    let combo = ComboBox::from_id_salt("grain").width(78.0).selected_text(plural(settings.grain));
+    let combo = combo.show_ui(ui, |ui| {
+        for grain in Grain::ALL {
+            let choice = ui.selectable_label(settings.grain == grain, plural(grain));
+            if choice.on_hover_text(grain_tip(grain)).clicked() {
+                (settings.grain, settings.per_second) = (grain, rates(grain)[2]);
+            }
+        }
+    });
+    combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Grain"));
+    combo.response.on_hover_text(format!("What playing advances by. {}", grain_tip(before.grain)));
+    let [least, most, _] = rates(settings.grain);
+    ui.spacing_mut().slider_width = 64.0;
+    let slider = Slider::new(&mut settings.per_second, least..=most).logarithmic(true).suffix(" /s");
+    let slider = ui.add(slider.custom_formatter(|rate, _| rate_text(rate)));
+    slider.widget_info(|| WidgetInfo::slider(true, before.per_second, "Rate"));
+    slider.on_hover_text("How many of these a second while playing.");
+    let tip = "Begin anew when the end is reached.";
+    if icons::button(ui, cx.tones, Sign::Loop, settings.looped, "Loop", tip).clicked() {
+        settings.looped = !settings.looped;
+    }
+    let tip = "Decisions are recorded. Click to stop that, and to free their memory (D).";
+    if icons::button(ui, cx.tones, Sign::Record, false, "Stop recording", tip).clicked() {
+        settings.open = false;
+    }
+    tell(cx, settings);
+}
+
+fn tell(cx: &mut Cx, settings: DebugSettings) {
+    if settings != cx.state.view.debug {
+        cx.send(Command::Debug(DebugCommand::Settings(settings)));
+    }
+}
+
+fn rate_text(rate: f64) -> String {
+    if rate >= 1e3 {
+        grouped(rate.round() as usize)
+    } else if rate >= 10.0 {
+        format!("{rate:.0}")
+    } else {
+        format!("{rate:.1}")
+    }
+}
+
+/// Where the cursor stands: typed, it goes there.
+fn counter(ui: &mut Ui, cx: &mut Cx, replay: &Replay) {
+    let quiet = |text: String| RichText::new(text).color(cx.tones.quiet);
+    let len = replay.trace().len();
+    ui.add_space(6.0);
+    ui.label(quiet("step".to_owned()));
+    let mut at = replay.at();
+    let field = DragValue::new(&mut at)
+        .range(0..=len)
+        .speed((len as f64 / 2000.0).max(0.1))
+        .update_while_editing(false)
+        .custom_formatter(|at, _| grouped(at as usize))
+        .custom_parser(|text| text.replace(|c: char| c.is_whitespace(), "").parse().ok());
+    let width = 12.0 + 7.4 * grouped(len).chars().count() as f32;
+    let field = ui.add_sized(vec2(width, ui.spacing().interact_size.y - 2.0), field);
+    field.widget_info(|| WidgetInfo {
+        label: Some("Step".to_owned()),
+        ..WidgetInfo::drag_value(true, replay.at() as f64)
+    });
+    if field.changed() && at != replay.at() {
+        cx.send(Command::Debug(DebugCommand::Seek(at)));
+    }
+    field.on_hover_text("Decisions taken so far. Type a number to go there.");
+    ui.label(quiet(format!("/ {}", grouped(len))));
+    ui.add_space(8.0);
+}
+
+/// What the cursor does, and what happened at the step taken last.
+fn sentence(ui: &mut Ui, cx: &Cx, replay: &Replay, names: &Names) {
+    let debugger = &cx.state.debugger;
+    let stale = cx.state.newest.as_ref().is_some_and(|newest| newest.generation != debugger.generation);
+    let (word, tone) = match (debugger.playing, debugger.stopped_by) {
+        (Some(Forward), _) => ("playing".to_owned(), cx.tones.accent),
+        (Some(Back), _) => ("playing back".to_owned(), cx.tones.accent),
+        (None, Some(index)) => (format!("breakpoint {}", index + 1), cx.tones.accent),
+        (None, None) if stale => ("recording\u{2026}".to_owned(), cx.tones.quiet),
+        (None, None) if debugger.stopped().is_none() => ("result".to_owned(), cx.tones.quiet),
+        (None, None) => ("stopped".to_owned(), cx.tones.quiet),
+    };
+    let text = match replay.last() {
+        Some(step) => names.step(&step),
+        None => "nothing is decided yet".to_owned(),
+    };
+    // What does not fit is cut: the row below belongs to the track.
+    let size = vec2(ui.available_size_before_wrap().x.max(1.0), ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+        ui.add(Label::new(RichText::new(word).size(SMALL_PT).color(tone)).truncate());
+        ui.add_space(6.0);
+        ui.add(Label::new(&text).truncate()).on_hover_text(&text)
+    });
+}

@@ -1,0 +1,62 @@
+//! A skewed-T test in words: what was held against what, and whether it passed.
+
+use super::theme::{SMALL_PT, Tones};
+use crate::trace::CandidateTest;
+use crate::workbench::{Check, candidate_name, tee};
+use egui::accesskit::Role;
+use egui::{Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+
+/// Room for a mark before a line, points.
+const MARK_PT: f32 = 12.0;
+
+/// Shows it with its upper left corner at `corner`, over `ground`; returns the room that it takes.
+pub fn show(ui: &Ui, tones: &Tones, ground: Color32, corner: Pos2, test: &CandidateTest) -> Rect {
+    let halo = ground.gamma_multiply(0.8);
+    let head = format!("highlight of {}: {}?", test.region, candidate_name(test.candidate));
+    let tip =
+        "A neighbouring cluster is the region's highlight if both lines form a skewed T (section 5.4.1).";
+    let mut room = line(ui, (tones, halo), corner, &head, None, tip);
+    for Check { passed, text, tip } in tee(test, None).checks {
+        let below = room.left_bottom() + vec2(0.0, 1.0);
+        room = room.union(line(ui, (tones, halo), below, &text, Some(passed), tip));
+    }
+    room
+}
+
+/// What failed is in full tone after a cross, what passed is quiet after a tick.
+fn line(
+    ui: &Ui,
+    (tones, halo): (&Tones, Color32),
+    at: Pos2,
+    text: &str,
+    passed: Option<bool>,
+    tip: &str,
+) -> Rect {
+    let tone = if passed == Some(true) { tones.quiet } else { tones.text };
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(SMALL_PT), tone);
+    let aside = if passed.is_some() { MARK_PT } else { 0.0 };
+    let area = Rect::from_min_size(at, galley.size() + vec2(aside, 0.0));
+    ui.painter().rect_filled(area.expand2(vec2(2.0, 0.0)), 2.0, halo);
+    ui.painter().galley(at + vec2(aside, 0.0), galley, tone);
+    if let Some(passed) = passed {
+        let middle = pos2(at.x + 4.0, area.center().y);
+        let stroke = Stroke::new(1.5, tone);
+        let strokes = if passed {
+            [[vec2(-3.5, 0.0), vec2(-1.0, 2.5)], [vec2(-1.0, 2.5), vec2(3.5, -3.0)]]
+        } else {
+            [[vec2(-3.0, -3.0), vec2(3.0, 3.0)], [vec2(-3.0, 3.0), vec2(3.0, -3.0)]]
+        };
+        for ends in strokes {
+            ui.painter().line_segment(ends.map(|end| middle + end), stroke);
+        }
+    }
+    let said = match passed {
+        None => text.to_owned(),
+        Some(true) => format!("passed: {text}"),
+        Some(false) => format!("failed: {text}"),
+    };
+    let response = ui.interact(area, ui.scope_id().with(("verdict", text)), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, said.clone()));
+    response.on_hover_text(tip);
+    area
+}

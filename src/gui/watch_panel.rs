@@ -1,0 +1,291 @@
+//! What stands at the cursor: numbers, and which of them have changed since it last rested.
+
+use super::theme::{SMALL_PT, Tones};
+use super::{Cx, widgets};
+use crate::color::Vec3;
+use crate::workbench::{AxisDistance, Current, Watch, WatchedPixel, watch};
+use egui::{Align, Color32, Label, Layout, RichText, ScrollArea, Ui, vec2};
+
+/// Width of the names, points.
+const NAME_PT: f32 = 76.0;
+/// Width of all columns of numbers together, points.
+const NUMBERS_PT: f32 = 126.0;
+/// Width of a line with its unit, points.
+const GROUP_PT: f32 = NAME_PT + NUMBERS_PT + 50.0;
+/// Width of the regions' names among the distances, points.
+const REGION_PT: f32 = 112.0;
+/// Width of a distance and its limit, points.
+const DISTANCE_PT: f32 = 82.0;
+/// Height of a line, points.
+const LINE_PT: f32 = 18.0;
+
+/// The table, and the values that the last ones are held against.
+#[derive(Default)]
+pub struct WatchPanel {
+    now: Option<Seen>,
+    rested: Vec<Vec<Line>>,
+}
+
+/// The values of one frame.
+struct Seen {
+    /// The result, and the cursor in its trace.
+    at: (u64, usize),
+    rests: bool,
+    groups: Vec<Vec<Line>>,
+}
+
+/// A line of the table.
+#[derive(Clone, Debug, PartialEq)]
+struct Line {
+    name: &'static str,
+    tip: &'static str,
+    /// One value or three, in as many columns.
+    values: Vec<String>,
+    unit: &'static str,
+}
+
+impl WatchPanel {
+    /// Shows the table.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+        let (state, debugger) = (cx.state, &cx.state.debugger);
+        let (Some(replay), Some(picture)) = (&debugger.replay, &state.picture) else {
+            let text = "Values at the cursor appear when the decisions of an analysis are recorded (D).";
+            return widgets::nothing(ui, cx.tones, text);
+        };
+        let pixel = state.asked_pixel();
+        let found = watch(replay, &debugger.names, &picture.photo.image.pixels, pixel);
+        let mut groups = vec![of_run(&found)];
+        groups.extend(found.current.as_ref().map(of_current));
+        groups.extend(found.pixel.as_ref().map(|pixel| of_pixel(pixel, picture.size().0)));
+        self.remember((debugger.generation, replay.at()), debugger.playing.is_none(), groups);
+        let Some(now) = &self.now else { return };
+        ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+            egui::Frame::new().inner_margin(8).show(ui, |ui| {
+                ui.spacing_mut().item_spacing = vec2(4.0, 1.0);
+                table(ui, cx.tones, &now.groups, |line| self.has_changed(line));
+                if let Some(pixel) = &found.pixel {
+                    distances(ui, cx, pixel);
+                } else {
+                    let text = "Select a pixel (Alt + click) to see its distances to every axis and plane.";
+                    ui.label(RichText::new(text).size(SMALL_PT).color(cx.tones.quiet));
+                }
+            });
+        });
+    }
+
+    /// Keeps the values of the last rest as long as the cursor moves.
+    fn remember(&mut self, at: (u64, usize), rests: bool, groups: Vec<Vec<Line>>) {
+        let before = self.now.replace(Seen { at, rests, groups });
+        if let Some(before) = before.filter(|before| before.at != at && before.rests) {
+            self.rested = before.groups;
+        }
+    }
+
+    fn has_changed(&self, line: &Line) -> bool {
+        self.rested.iter().flatten().any(|old| old.tip == line.tip && old.values != line.values)
+    }
+}
+
+impl Line {
+    fn new(name: &'static str, tip: &'static str, values: Vec<String>, unit: &'static str) -> Self {
+        Self { name, tip, values, unit }
+    }
+
+    fn one(name: &'static str, tip: &'static str, value: String, unit: &'static str) -> Self {
+        Self::new(name, tip, vec![value], unit)
+    }
+}
+
+fn none() -> String {
+    "\u{2013}".to_owned()
+}
+
+/// How far the analysis is.
+fn of_run(watch: &Watch) -> Vec<Line> {
+    let stage = watch.stage.map_or_else(none, |stage| stage.name().to_owned());
+    let pass = watch.pass.map_or_else(none, |pass| pass.name().to_owned());
+    let [standing, begun] = watch.regions.map(widgets::grouped);
+    let regions = format!("{standing} of {begun}");
+    let unassigned = widgets::grouped(watch.unassigned as usize);
+    let light = watch.light.map_or_else(|| vec![none()], |light| light.map(|v| format!("{v:.3}")).to_vec());
+    vec![
+        Line::one("stage", "The stage of the step taken last (5.2 to 6).", stage, ""),
+        Line::one("pass", "The part of that stage.", pass, ""),
+        Line::one("regions", "Regions that stand, of all that were begun so far.", regions, ""),
+        Line::one("unassigned", "Pixels that are in no region yet.", unassigned, "px"),
+        Line::new("light", "Unit direction of the light as estimated so far (5.4.1).", light, ""),
+    ]
+}
+
+/// The hypothesis that the cursor is about.
+fn of_current(current: &Current) -> Vec<Line> {
+    let number = match current.final_number {
+        0 => current.region.to_string(),
+        number => format!("{} (region {number})", current.region),
+    };
+    let pixels = widgets::grouped(current.pixels as usize);
+    let vector = |v: &Vec3, digits: usize| v.iter().map(|v| format!("{v:.digits$}")).collect();
+    let (mean, direction) = (vector(&current.line.mean, 1), vector(&current.line.direction, 3));
+    let half = current.half_width.map_or_else(none, |half| format!("{half:.2}"));
+    let tip = "The one that the cursor is about, and what it is in the result.";
+    vec![
+        Line::one("hypothesis", tip, number, ""),
+        Line::one("pixels", "Pixels that it holds.", pixels, "px"),
+        Line::new("mean", "Mean colour of its line (5.3.1).", mean, "counts"),
+        Line::new("direction", "Unit direction of its cylinder's axis (5.3.1).", direction, ""),
+        Line::one("radius", "Radius of its cylinder (5.3.2).", format!("{:.2}", current.radius), "counts"),
+        Line::one("half width", "Half the thickness of its slice, once it has one (5.4.2).", half, "counts"),
+    ]
+}
+
+/// The selected pixel.
+fn of_pixel(pixel: &WatchedPixel, width: usize) -> Vec<Line> {
+    let (x, y) = (pixel.pixel as usize % width.max(1), pixel.pixel as usize / width.max(1));
+    let class = match pixel.class {
+        None => none(),
+        Some(None) => "too few pixels".to_owned(),
+        Some(Some(class)) => class.name().to_owned(),
+    };
+    let holder = if pixel.region == 0 { none() } else { format!("hypothesis {}", pixel.region) };
+    let colour = pixel.color.map(|v| format!("{v:.1}")).to_vec();
+    let role = pixel.kind.name().to_owned();
+    vec![
+        Line::one("pixel", "The selected pixel: column, row.", format!("{x}, {y}"), ""),
+        Line::new("colour", "Linear counts, red green blue.", colour, "counts"),
+        Line::one("class", "Class of its window, once it is known (5.2.1).", class, ""),
+        Line::one("held by", "The region that has claimed it.", holder, ""),
+        Line::one("role", "Matte, highlight, restored: once it is labelled (6).", role, ""),
+    ]
+}
+
+/// Groups of lines, side by side where there is room.
+fn table(ui: &mut Ui, tones: &Tones, groups: &[Vec<Line>], changed: impl Fn(&Line) -> bool) {
+    let abreast = if ui.available_width() >= 2.0 * GROUP_PT + 8.0 { 2 } else { 1 };
+    for row in groups.chunks(abreast) {
+        ui.horizontal_top(|ui| {
+            for group in row {
+                ui.vertical(|ui| {
+                    ui.set_width(GROUP_PT);
+                    for line in group {
+                        show_line(ui, tones, line, changed(line));
+                    }
+                });
+            }
+        });
+        ui.add_space(4.0);
+    }
+}
+
+fn show_line(ui: &mut Ui, tones: &Tones, line: &Line, changed: bool) {
+    ui.horizontal(|ui| {
+        name(ui, tones, line, changed);
+        let ink = if changed { tones.accent } else { tones.text };
+        for value in &line.values {
+            cell(ui, NUMBERS_PT / line.values.len() as f32 - 4.0, RichText::new(value).color(ink));
+        }
+        ui.label(RichText::new(line.unit).color(tones.quiet));
+    });
+}
+
+fn name(ui: &mut Ui, tones: &Tones, line: &Line, changed: bool) {
+    let size = vec2(NAME_PT, LINE_PT);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+        ui.set_min_size(size);
+        let (rect, _) = ui.allocate_exact_size(vec2(3.0, LINE_PT - 4.0), egui::Sense::hover());
+        if changed {
+            ui.painter().rect_filled(rect, 1.0, tones.accent);
+        }
+        let text = RichText::new(line.name).color(tones.quiet);
+        ui.add(Label::new(text).truncate()).on_hover_text(line.tip);
+    });
+}
+
+fn cell(ui: &mut Ui, width: f32, text: RichText) {
+    let size = vec2(width, LINE_PT);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+        ui.set_min_size(size);
+        ui.add(Label::new(text).extend());
+    });
+}
+
+/// The selected pixel's distances to every region: value and threshold, those inside it in full tone.
+fn distances(ui: &mut Ui, cx: &Cx, pixel: &WatchedPixel) {
+    let tones = cx.tones;
+    let heading =
+        format!("from pixel to region, {}", if pixel.distances.is_empty() { "none yet" } else { "counts" });
+    widgets::heading(ui, tones, &heading).on_hover_text(
+        "Distance from each cylinder's axis against its radius (5.3.2), and from each slice's plane against half its width (5.4.2).",
+    );
+    if pixel.distances.is_empty() {
+        return;
+    }
+    let small = |text: &str| RichText::new(text.to_owned()).size(SMALL_PT).color(tones.quiet);
+    ui.horizontal(|ui| {
+        ui.add_space(REGION_PT + ui.spacing().item_spacing.x);
+        for title in ["axis / radius", "plane / half", "along"] {
+            cell(ui, DISTANCE_PT, small(title));
+        }
+    });
+    for distance in &pixel.distances {
+        ui.horizontal(|ui| row(ui, cx, distance));
+    }
+}
+
+fn row(ui: &mut Ui, cx: &Cx, distance: &AxisDistance) {
+    let (tones, names) = (cx.tones, &cx.state.debugger.names);
+    let size = vec2(REGION_PT, LINE_PT);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+        ui.set_min_size(size);
+        let region = distance.region;
+        widgets::chip(ui, widgets::colour(names.colour(region)), &format!("colour of hypothesis {region}"));
+        ui.label(RichText::new(format!("hypothesis {region}")).color(tones.quiet));
+    });
+    let against = |[value, limit]: [f64; 2]| {
+        let ink: Color32 = if value <= limit { tones.text } else { tones.quiet };
+        RichText::new(format!("{value:.1} / {limit:.1}")).color(ink)
+    };
+    cell(ui, DISTANCE_PT, against(distance.axis));
+    cell(
+        ui,
+        DISTANCE_PT,
+        distance.plane.map_or_else(|| RichText::new("\u{2013}").color(tones.quiet), against),
+    );
+    cell(ui, DISTANCE_PT, RichText::new(format!("{:.0}", distance.along)).color(tones.quiet));
+    let inside = |[value, limit]: [f64; 2]| value <= limit;
+    let words = match (inside(distance.axis), distance.plane.is_some_and(inside)) {
+        (true, true) => "in both",
+        (true, false) => "in cylinder",
+        (false, true) => "in slice",
+        (false, false) => "",
+    };
+    ui.label(RichText::new(words).size(SMALL_PT).color(tones.text));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(value: &str) -> Vec<Vec<Line>> {
+        vec![vec![Line::one("pixels", "Pixels that it holds.", value.to_owned(), "px")]]
+    }
+
+    #[test]
+    fn what_changed_since_the_last_rest_is_marked() {
+        let mut panel = WatchPanel::default();
+        let marked =
+            |panel: &WatchPanel| panel.now.as_ref().is_some_and(|now| panel.has_changed(&now.groups[0][0]));
+        panel.remember((1, 10), true, line("5"));
+        assert!(!marked(&panel), "nothing came before");
+        panel.remember((1, 11), true, line("6"));
+        assert!(marked(&panel));
+        panel.remember((1, 11), true, line("6"));
+        assert!(marked(&panel), "as long as the cursor rests");
+        for at in 12..20 {
+            panel.remember((1, at), false, line(&at.to_string()));
+        }
+        panel.remember((1, 19), true, line("6"));
+        assert!(!marked(&panel), "playing is one move");
+        panel.remember((1, 20), true, line("6"));
+        assert!(!marked(&panel));
+    }
+}

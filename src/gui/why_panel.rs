@@ -1,0 +1,206 @@
+//! Why this pixel: its history, what would change its fate, and the stories of its hypothesis and its region.
+
+use super::later::{AT_ONCE_PX, Later};
+use super::theme::SMALL_PT;
+use super::{Cx, widgets};
+use crate::analysis::WhatIf;
+use crate::report::what_if_sentence;
+use crate::segment::Setting;
+use crate::workbench::{Account, Ask, Command, DebugCommand, Inquiry, Why, why};
+use egui::{FontId, Response, RichText, ScrollArea, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
+use std::sync::Arc;
+
+/// What is asked: the result, the pixel, the hypothesis.
+type Question = (u64, Option<u32>, Option<u16>);
+
+/// The panel.
+#[derive(Default)]
+pub struct WhyPanel {
+    answers: Later<Question, Why>,
+}
+
+impl WhyPanel {
+    /// Shows the answers for what is selected.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+        let debugger = &cx.state.debugger;
+        let (Some(trace), Some(shown)) = (debugger.trace().cloned(), cx.state.newest.clone()) else {
+            return unrecorded(ui, cx);
+        };
+        let pixel = cx.state.asked_pixel();
+        let selected = cx.state.selected_region().filter(|_| pixel.is_none());
+        let of_region = selected.and_then(|region| debugger.names.births_of(region).next());
+        let birth = debugger.chosen.filter(|_| pixel.is_none()).or(of_region);
+        if pixel.is_none() && birth.is_none() {
+            let text =
+                "Click a pixel or a region: its history appears here, and the reason for every refusal.";
+            let inset = egui::Frame::new().inner_margin(12);
+            inset.show(ui, |ui| widgets::nothing(ui, cx.tones, text));
+            return;
+        }
+        let (names, generation) = (Arc::clone(&debugger.names), debugger.generation);
+        let at_once = shown.labels().len() <= AT_ONCE_PX;
+        let question = (generation, pixel, birth);
+        let answer = move || why(&shown, &trace, &names, pixel, birth);
+        let Some(found) = self.answers.get(ui.ctx(), question, at_once, answer) else { return };
+        egui::Frame::new().inner_margin(8).show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| answers(ui, cx, found));
+        });
+    }
+}
+
+/// There is nothing to ask yet.
+fn unrecorded(ui: &mut Ui, cx: &mut Cx) {
+    if cx.state.picture.is_none() {
+        return widgets::nothing(
+            ui,
+            cx.tones,
+            "Open a photograph, then click a pixel to learn why it is what it is.",
+        );
+    }
+    if cx.state.view.debug.open {
+        return widgets::nothing(ui, cx.tones, "The decisions are being recorded\u{2026}");
+    }
+    ui.centered_and_justified(|ui| {
+        let record = egui::Button::new("Record the decisions").ui(ui);
+        if record
+            .on_hover_text("Keeps every decision of the analysis, so that each can be asked for.")
+            .clicked()
+        {
+            let settings = crate::workbench::DebugSettings { open: true, ..cx.state.view.debug.clone() };
+            cx.send(Command::Debug(DebugCommand::Settings(settings)));
+        }
+    });
+}
+
+fn answers(ui: &mut Ui, cx: &mut Cx, found: &Why) {
+    if let Some((pixel, history)) = &found.pixel {
+        about_pixel(ui, cx, *pixel);
+        entries(ui, cx, history);
+        what_if(ui, cx, *pixel);
+    }
+    if let Some((birth, told)) = &found.hypothesis {
+        let heading = widgets::heading(ui, cx.tones, &format!("Hypothesis {birth}"));
+        heading.on_hover_text(
+            "5.3\u{2013}5.4: why it was chosen, which neighbours were tested as its highlight, how it ended.",
+        );
+        entries(ui, cx, told);
+    }
+    if let Some((number, told)) = &found.region {
+        let heading = widgets::heading(ui, cx.tones, &format!("Region {number} is made of"));
+        heading.on_hover_text(
+            "The hypotheses, absorptions and merges that made it, each under what it became part of.",
+        );
+        entries(ui, cx, told);
+    }
+}
+
+/// Where the pixel is, its colour and where it ended.
+fn about_pixel(ui: &mut Ui, cx: &Cx, pixel: u32) {
+    let (Some(picture), Some(shown)) = (&cx.state.picture, &cx.state.newest) else { return };
+    let width = picture.size().0.max(1);
+    let (x, y) = (pixel as usize % width, pixel as usize / width);
+    let colour = picture.photo.image.pixels[pixel as usize];
+    let region = shown.labels()[pixel as usize];
+    ui.horizontal(|ui| {
+        widgets::chip(ui, widgets::own_colour(colour), "the pixel's colour");
+        ui.label(format!("Pixel {x}, {y}"));
+        let [r, g, b] = colour;
+        ui.label(RichText::new(format!("{r:.0} {g:.0} {b:.0} counts")).color(cx.tones.quiet));
+        let kind = shown.analysis.intrinsic.kinds[pixel as usize].name();
+        let fate = if region == 0 { kind.to_owned() } else { format!("region {region}, {kind}") };
+        ui.label(fate);
+    });
+}
+
+/// Sentences, each a link that moves the cursor to its step.
+fn entries(ui: &mut Ui, cx: &mut Cx, accounts: &[Account]) {
+    if accounts.is_empty() {
+        ui.label(RichText::new("nothing was decided about it").color(cx.tones.quiet));
+    }
+    let at = cx.state.debugger.replay.as_ref().map(crate::trace::Replay::at);
+    for account in accounts {
+        let now = at == Some(account.step + 1);
+        let response = entry(ui, cx, account, now);
+        if response.on_hover_text("Go to this step.").clicked() {
+            cx.send(Command::Debug(DebugCommand::Seek(account.step + 1)));
+        }
+    }
+}
+
+/// Width of the stage's name before a sentence, points.
+const STAGE_PT: f32 = 58.0;
+/// How far an ancestor stands in per joining, points.
+const INDENT_PT: f32 = 12.0;
+
+fn entry(ui: &mut Ui, cx: &Cx, account: &Account, now: bool) -> Response {
+    let width = ui.available_width();
+    let left = STAGE_PT + INDENT_PT * account.depth as f32;
+    let font = FontId::proportional(SMALL_PT);
+    let colour = if now { cx.tones.accent } else { cx.tones.text };
+    let galley =
+        ui.painter().layout(account.text.clone(), font.clone(), colour, (width - left - 4.0).max(40.0));
+    let size = vec2(width, galley.size().y + 4.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(rect, 2.0, cx.tones.line);
+    }
+    if now {
+        let bar = egui::Rect::from_min_size(rect.min, vec2(2.0, rect.height()));
+        ui.painter().rect_filled(bar, 0.0, cx.tones.accent);
+    }
+    let top = rect.top() + 2.0;
+    let stage = ui.painter().layout_no_wrap(account.stage.name().to_owned(), font, cx.tones.quiet);
+    ui.painter().galley(pos2(rect.left() + 6.0, top), stage, cx.tones.quiet);
+    ui.painter().galley(pos2(rect.left() + left, top), galley, colour);
+    response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Link, true, &account.text));
+    response
+}
+
+/// How far each parameter would have to move.
+fn what_if(ui: &mut Ui, cx: &mut Cx, pixel: u32) {
+    let heading = widgets::heading(ui, cx.tones, "What if");
+    heading.on_hover_text(
+        "How far each parameter would have to move for this pixel to end otherwise, tried by analysing again.",
+    );
+    let inquiry = cx.state.inquiry.as_ref().filter(|inquiry| inquiry.asked.pixel == pixel);
+    match inquiry {
+        None => {
+            let ask = ui.button("Find what would change it");
+            let ask =
+                ask.on_hover_text("Analyses the picture again and again, each parameter moved up and down.");
+            if ask.clicked() {
+                cx.send(Command::Ask(Ask::WhatIf(Some(pixel))));
+            }
+        }
+        Some(Inquiry { found: None, done, total, .. }) => {
+            let share = *done as f32 / (*total).max(1) as f32;
+            ui.horizontal(|ui| {
+                ui.add(egui::ProgressBar::new(share).desired_width(160.0));
+                if ui.button("Stop").clicked() {
+                    cx.send(Command::Ask(Ask::WhatIf(None)));
+                }
+            });
+        }
+        Some(Inquiry { found: Some(found), .. }) => {
+            let found = Arc::clone(found);
+            alternatives(ui, cx, &found);
+        }
+    }
+}
+
+/// What was found, each a link that sets the parameter so.
+fn alternatives(ui: &mut Ui, cx: &mut Cx, found: &[WhatIf]) {
+    if found.is_empty() {
+        let text = "No value of any single parameter that was tried changes what this pixel is.";
+        ui.label(RichText::new(text).color(cx.tones.quiet));
+    }
+    for what_if in found {
+        let text = what_if_sentence(what_if);
+        let origin = if what_if.predicted { "from the recorded numbers" } else { "by search" };
+        let hover =
+            format!("Found {origin}, and confirmed by analysing again. Click to set the parameter so.");
+        if ui.add(egui::Link::new(text)).on_hover_text(hover).clicked() {
+            cx.send(Command::SetParameter(what_if.parameter, Setting::Value(what_if.at), None));
+        }
+    }
+}

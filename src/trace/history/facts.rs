@@ -1,0 +1,70 @@
+//! What is known of a pixel without looking at the order of events: its mask, its region's vectors, its amounts.
+
+use super::MaskVerdict;
+use super::growth::brightness;
+use crate::color::dot;
+use crate::photo::{LinearImage, MaskLimits, Masks};
+use crate::reflection::{Components, ReflectionTransform};
+use crate::trace::{Event, Trace, VectorsFitted};
+
+/// Each region's vectors, by its number of birth; none for those that are no more.
+pub(super) fn final_vectors(trace: &Trace) -> Vec<Option<&VectorsFitted>> {
+    let mut vectors: Vec<&VectorsFitted> = Vec::new();
+    let mut numbers: &[u16] = &[];
+    for (_, event) in trace.events() {
+        match event {
+            Event::VectorsFitted(fitted) => vectors.push(fitted),
+            Event::Renumbered { finals } => numbers = finals,
+            _ => {}
+        }
+    }
+    let of = |&number: &u16| usize::from(number).checked_sub(1).and_then(|index| vectors.get(index)).copied();
+    numbers.iter().map(of).collect()
+}
+
+/// Everything that is said of a pixel's mask.
+pub(super) fn verdicts(
+    image: &LinearImage,
+    masks: &Masks,
+    limits: &MaskLimits,
+    pixel: usize,
+) -> Vec<MaskVerdict> {
+    let color = image.pixels[pixel];
+    let brightness = [f64::from(brightness(color)), limits.min_intensity];
+    let largest = [f64::from(color[0].max(color[1]).max(color[2])), limits.clip_threshold];
+    let mut found = Vec::new();
+    if masks.outside(pixel) {
+        found.push(MaskVerdict::Outside);
+    }
+    if masks.invalid(pixel) {
+        found.push(MaskVerdict::Invalid);
+    } else if dot(color, color) < (limits.min_intensity * limits.min_intensity) as f32 {
+        found.push(MaskVerdict::Dark { brightness });
+    }
+    if masks.clipped(pixel) {
+        found.push(MaskVerdict::Clipped { largest });
+    } else if masks.distorted(pixel) {
+        let clipped = image.pixels.around(pixel).filter(|&near| near != pixel && masks.clipped(near)).count();
+        found.push(MaskVerdict::Bloomed { neighbours: [clipped, limits.bloom_density] });
+    }
+    if found.is_empty() {
+        found.push(MaskVerdict::Believed { brightness, largest });
+    }
+    found
+}
+
+/// A believed colour's amounts (equation 13), and the surface reflection that was cut, counts off the body line.
+pub(super) fn amounts(fitted: &VectorsFitted, color: [f32; 3]) -> (Components, Option<f32>) {
+    let transform = fitted.surface.and_then(|surface| ReflectionTransform::new(&fitted.body, &surface));
+    let Some(transform) = transform else {
+        let body = dot(color, crate::color::rgb(&fitted.body));
+        return (Components { body, surface: 0.0, noise: 0.0 }, None);
+    };
+    let components = transform.split(color);
+    let offset = components.surface * transform.sine();
+    if offset < fitted.least_offset {
+        let body = dot(color, transform.body());
+        return (Components { body, surface: 0.0, ..components }, Some(offset));
+    }
+    (components, None)
+}

@@ -1,0 +1,349 @@
+//! The history of one pixel: what was decided about it, by which numbers, and why it was refused where it was.
+//!
+//! Claims, contests and events are in the trace. What the trace leaves out is computed again, exactly, from the recorded line
+//! or plane and the pixel's colour: how far it lay from the axis that claimed it, and why a region that grew beside it did
+//! not take it. A region's growth visits the 4-neighbours of all it starts from and takes (5.3.2, 5.4.2, 5.5), so that a
+//! neighbour which was neither taken nor contested was refused by its mask or by its colour.
+//!
+//! One pass over the trace suffices: the changes of hands of the pixel and of its four neighbours, and the events.
+
+mod facts;
+mod growth;
+mod patch;
+mod teller;
+#[cfg(test)]
+mod tests;
+
+use super::{Class, Contest, PassedOver, PixelKind, Stage, Trace};
+use crate::color::Trial;
+use crate::photo::{LinearImage, Masks};
+use crate::reflection::{Components, SliceMiss};
+
+/// Something that was decided about a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Happening {
+    /// The step of the trace at which it was decided.
+    pub step: usize,
+    /// The stage of that step.
+    pub stage: Stage,
+    /// What was decided.
+    pub what: What,
+}
+
+/// What was decided about a pixel. Regions by their numbers of birth unless said otherwise; 0 is no region.
+#[derive(Clone, Debug, PartialEq)]
+pub enum What {
+    /// Its colour is believed, or why not (section 4).
+    Masked(MaskVerdict),
+    /// Its window was classified (5.2.1).
+    Window(Box<WindowStory>),
+    /// Its window's area was tried with its neighbours (5.2.2).
+    Merging(Box<MergeStory>),
+    /// Its area started a hypothesis (5.3.1).
+    AreaChosen {
+        /// The region.
+        region: u16,
+        /// Areas looked at before in this pass.
+        rank: u32,
+        /// Unclaimed pixels of the area.
+        pixels: u32,
+        /// Radius of the cylinder, counts.
+        radius: f64,
+    },
+    /// Its area did not start a hypothesis while the pixel was in no region.
+    AreaPassedOver {
+        /// Unclaimed pixels of the area.
+        pixels: u32,
+        /// Fewest that it needs.
+        least: u32,
+        /// Why.
+        reason: PassedOver,
+    },
+    /// A region began to grow here.
+    Seeded {
+        /// The region.
+        region: u16,
+        /// How far inside its cylinder it lies.
+        reach: Reach,
+    },
+    /// A region that grew took it.
+    Claimed {
+        /// The region.
+        region: u16,
+        /// The region that had it.
+        from: u16,
+        /// How far inside the region's reach it lies.
+        reach: Reach,
+        /// The contest with the region that had it.
+        contest: Option<Contest>,
+    },
+    /// A region that grew wanted it, and the one that had it kept it.
+    Kept {
+        /// The region that had it.
+        holder: u16,
+        /// The region that wanted it.
+        challenger: u16,
+        /// By what it was decided.
+        contest: Contest,
+    },
+    /// A region grew beside it and did not want it.
+    Refused {
+        /// The region.
+        region: u16,
+        /// What kept it out.
+        barrier: Barrier,
+    },
+    /// Regions grew beside it, which by its mask was not there to be claimed.
+    Unclaimable {
+        /// The regions, in the order of their growth.
+        regions: Vec<u16>,
+    },
+    /// Its region gave it up.
+    Released {
+        /// The region.
+        region: u16,
+        /// Why.
+        why: Release,
+    },
+    /// Its region became part of another one.
+    Merged {
+        /// The region that vanished.
+        from: u16,
+        /// The region that has the pixel now.
+        into: u16,
+        /// Angle between their lines, degrees.
+        angle_deg: f64,
+        /// Root mean square distance of the vanished region's pixels from the other's line, counts.
+        rms: f64,
+    },
+    /// It followed the majority around it.
+    Voted {
+        /// The region that had it.
+        from: u16,
+        /// The region that has it now.
+        region: u16,
+        /// Pixels of that region around it, and of all regions.
+        votes: [u32; 2],
+    },
+    /// It went back to whose it was before the slices grew, for slices that turn to another light.
+    Reset {
+        /// The region that had it.
+        from: u16,
+        /// The region that has it again.
+        to: u16,
+    },
+    /// A hole around it was given to a region.
+    Filled {
+        /// The region.
+        region: u16,
+        /// Pixels of the hole.
+        pixels: u32,
+        /// Share of the hole's assigned border that the region holds.
+        border_share: f64,
+    },
+    /// The part of its region around it became a region of its own.
+    Separated {
+        /// The region.
+        region: u16,
+        /// The new one.
+        part: u16,
+        /// Pixels of the part.
+        pixels: u32,
+    },
+    /// Its region got its final number.
+    Numbered {
+        /// The region, by its number of birth.
+        region: u16,
+        /// By its final number.
+        number: u16,
+    },
+    /// It was told matte from highlight, and split (section 6).
+    Split(Box<SplitStory>),
+}
+
+/// Whether a colour is believed (section 4).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MaskVerdict {
+    /// Neither dark nor distorted.
+    Believed {
+        /// Distance from black, counts, and that below which a pixel is dark.
+        brightness: [f64; 2],
+        /// The largest band, counts, and that from which a pixel is clipped.
+        largest: [f64; 2],
+    },
+    /// It lies outside the area that the analysis is restricted to.
+    Outside,
+    /// The file holds no usable value.
+    Invalid,
+    /// It is too near to black.
+    Dark {
+        /// Distance from black, counts, and that below which a pixel is dark.
+        brightness: [f64; 2],
+    },
+    /// A band is clipped.
+    Clipped {
+        /// The largest band, counts, and that from which a pixel is clipped.
+        largest: [f64; 2],
+    },
+    /// Too many of its 8 neighbours are clipped.
+    Bloomed {
+        /// Clipped neighbours, and so many make a pixel bloomed.
+        neighbours: [usize; 2],
+    },
+}
+
+/// How its window was classified.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WindowStory {
+    /// Side of the windows, pixels.
+    pub size_px: u32,
+    /// Valid pixels in it, and the fewest that get a class.
+    pub pixels: [u32; 2],
+    /// Variances along the principal axes, counts², largest first.
+    pub eigenvalues: [f32; 3],
+    /// The χ² tests made, in order; none where there is no class.
+    pub trials: Vec<Trial>,
+    /// Whether they were tail tests, or the paper's.
+    pub tail_test: bool,
+    /// Its class, unless it holds too few valid pixels.
+    pub class: Option<Class>,
+}
+
+/// How its window's area grew.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MergeStory {
+    /// Unions tried with the area, and those that were kept.
+    pub tried: u32,
+    /// Those that were kept.
+    pub joined: u32,
+    /// Valid pixels of the area after the last union kept.
+    pub pixels: u32,
+    /// The last union refused.
+    pub refusal: Option<MergeRefusal>,
+    /// Class of the area.
+    pub class: Class,
+}
+
+/// A union that was refused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MergeRefusal {
+    /// The step at which it was.
+    pub step: usize,
+    /// Valid pixels of the neighbour.
+    pub neighbour_pixels: u32,
+    /// What the union would have been.
+    pub union: Class,
+    /// The χ² test that showed one direction too many.
+    pub trial: Option<Trial>,
+}
+
+/// How far inside a region's reach a pixel lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reach {
+    /// Of a cylinder (5.3.2).
+    Axis {
+        /// Distance from its axis, counts.
+        distance: f32,
+        /// Its radius, counts.
+        radius: f64,
+    },
+    /// Of a slice (5.4.2).
+    Plane {
+        /// Distance from the dichromatic plane, counts.
+        distance: f32,
+        /// Half the slice's thickness, counts.
+        half_width: f64,
+    },
+    /// Of a highlight that grows by brightness (5.5).
+    Brightness {
+        /// Distance from black, counts.
+        brightness: f32,
+        /// That of the point where the highlight starts, counts.
+        start: f32,
+    },
+}
+
+/// What kept a pixel out of a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Barrier {
+    /// It lies outside the cylinder.
+    Cylinder {
+        /// Distance from the axis, counts.
+        distance: f32,
+        /// The radius, counts.
+        radius: f64,
+    },
+    /// It lies outside the slice.
+    Slice(SliceMiss),
+    /// It is no brighter than where the highlight starts.
+    Darker {
+        /// Distance from black, counts.
+        brightness: f32,
+        /// That of the point where the highlight starts, counts.
+        start: f32,
+    },
+}
+
+/// Why a region gave a pixel up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Release {
+    /// The line was fitted again, and the pixel lies outside the new cylinder.
+    Refit {
+        /// Distance from the new axis, counts.
+        distance: f32,
+        /// The radius, counts.
+        radius: f64,
+    },
+    /// The region claimed too few pixels.
+    Barren {
+        /// Pixels of the area that it started from.
+        pixels: u32,
+        /// Fewest that it had to claim.
+        least: u32,
+    },
+    /// The region turned out to be the broad highlight of another one.
+    Absorbed {
+        /// The object that it lies on.
+        by: u16,
+        /// Distances of both lines from black, counts: the highlight's, the object's.
+        feet: [f64; 2],
+        /// Distance between the lines, counts.
+        gap: f64,
+    },
+    /// The region was too small to keep.
+    Dropped {
+        /// Its pixels.
+        pixels: u32,
+    },
+}
+
+/// How a pixel was split.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SplitStory {
+    /// The region, by its final number.
+    pub number: u16,
+    /// What it is to its region.
+    pub kind: PixelKind,
+    /// Distances from the matte and from the highlight line, counts; the nearer decides. None without a highlight line, and
+    /// where the colour is not believed.
+    pub lines: Option<[f32; 2]>,
+    /// Its amounts m_b, m_s and ε (equation 13), counts. None where the colour is not believed: it was restored.
+    pub amounts: Option<Components>,
+    /// Surface reflection that was taken for none, as it lies less than [`SplitStory::least_offset`] off the body line,
+    /// counts across that line.
+    pub cut: Option<f32>,
+    /// See there, counts.
+    pub least_offset: f32,
+}
+
+/// Everything that was decided about a pixel, oldest first. Nothing for a pixel outside the picture, or a trace of another
+/// picture.
+///
+/// `image` and `masks` are those that the trace was made from.
+pub fn pixel_history(trace: &Trace, image: &LinearImage, masks: &Masks, pixel: usize) -> Vec<Happening> {
+    let shape = (trace.width(), trace.height());
+    if shape != (image.width(), image.height()) || shape != masks.shape() || pixel >= image.pixels.len() {
+        return Vec::new();
+    }
+    teller::Teller::new(trace, image, masks, pixel).tell()
+}

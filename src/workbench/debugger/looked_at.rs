@@ -1,0 +1,88 @@
+//! Which pixels the step at the cursor looks at: what the colour space view shows in full, the rest being its ghost.
+
+use super::tracks::{
+    candidate_pixels, measured_and_ignored, pixels_of_region, sampled, test_at_cursor, tracks,
+};
+use crate::photo::Masks;
+use crate::raster::Raster;
+use crate::trace::{Class, Event, Grid, Replay, Step};
+
+/// What pixels are to the step at the cursor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Of the region, or of the area that would remain.
+    Own,
+    /// Of the region, and taken in the ring at work.
+    Newest,
+    /// Not taken, the cluster that is tested, or the area that would vanish.
+    Beside,
+    /// On the inside of a tested matte line: its length is measured without them (5.4.1).
+    Ignored,
+    /// Of a window of this class (5.2.1).
+    Window(Option<Class>),
+}
+
+/// Some pixels, and what they are to the step.
+pub type LookedAt = (Role, Vec<u32>);
+
+/// The pixels that the step at the cursor looks at, at most `most` of each kind, evenly chosen; `focus` is the region that
+/// is looked at where the step is about no pixels.
+pub fn looked_at(
+    replay: &Replay,
+    focus: Option<u16>,
+    colors: &Raster<[f32; 3]>,
+    masks: &Masks,
+    most: usize,
+) -> Vec<LookedAt> {
+    let groups = groups(replay, focus, colors, masks).into_iter();
+    let few = |(role, pixels): LookedAt| (role, sampled(&pixels, most).collect::<Vec<u32>>());
+    groups.map(few).filter(|(_, pixels)| !pixels.is_empty()).collect()
+}
+
+fn groups(replay: &Replay, focus: Option<u16>, colors: &Raster<[f32; 3]>, masks: &Masks) -> Vec<LookedAt> {
+    if let Some(test) = test_at_cursor(replay) {
+        let own = pixels_of_region(replay, test.region);
+        let (measured, ignored) = measured_and_ignored(test, &own, colors);
+        let candidate = candidate_pixels(replay, test.candidate, masks);
+        return vec![(Role::Own, measured), (Role::Ignored, ignored), (Role::Beside, candidate)];
+    }
+    if let Some(tracks) = tracks(replay, colors, masks) {
+        return vec![
+            (Role::Own, pixels_of_region(replay, tracks.region)),
+            (Role::Beside, tracks.outside),
+            (Role::Newest, tracks.newest),
+        ];
+    }
+    let width = colors.width();
+    match (replay.last(), replay.grid()) {
+        (Some(Step::Event(Event::WindowClassified { window, class, .. })), Some(grid)) => {
+            vec![(Role::Window(*class), pixels_in(grid, width, colors.height(), |at| at == *window as usize))]
+        }
+        (Some(Step::Event(Event::MergeTried { into, from, class, union, .. })), Some(grid)) => {
+            let areas = grid.areas();
+            let root = |window: &u32| areas.get(*window as usize).copied();
+            let pixels = |root: Option<u32>| {
+                pixels_in(grid, width, colors.height(), |at| areas.get(at).copied() == root)
+            };
+            let mut groups = vec![(Role::Own, pixels(root(into)))];
+            if class != union {
+                groups.push((Role::Beside, pixels(root(from))));
+            }
+            groups
+        }
+        _ => focus.map(|focus| (Role::Own, pixels_of_region(replay, focus))).into_iter().collect(),
+    }
+}
+
+/// The pixels of some windows, window by window.
+fn pixels_in(grid: &Grid, width: usize, height: usize, wanted: impl Fn(usize) -> bool) -> Vec<u32> {
+    let (side, columns) = ((grid.laid.size_px as usize).max(1), (grid.laid.columns as usize).max(1));
+    let mut pixels = Vec::new();
+    for window in (0..grid.classes.len()).filter(|&window| wanted(window)) {
+        let (left, top) = (window % columns * side, window / columns * side);
+        for y in top..(top + side).min(height) {
+            pixels.extend((left..(left + side).min(width)).map(|x| (y * width + x) as u32));
+        }
+    }
+    pixels
+}

@@ -1,0 +1,148 @@
+//! The debugger's cursor: image, plane and tables show the instant at which it stands.
+
+use crate::window::{
+    Window, apply, at, click, inside, item, named, says, shown, state, tiny_window, with_software_driver,
+    zoom_in,
+};
+use dichroscope::gui::Pane;
+use dichroscope::trace::{Block, Event, Stage, Topic, Trace};
+use dichroscope::workbench::{Command, DebugCommand, Item};
+use egui::accesskit::Role;
+use egui::vec2;
+use egui_kittest::SnapshotOptions;
+use std::sync::Arc;
+
+fn trace(window: &Window) -> Arc<Trace> {
+    Arc::clone(state(window).debugger.trace().expect("decisions are recorded"))
+}
+
+fn seek(window: &mut Window, n: usize) {
+    apply(window, Command::Debug(DebugCommand::Seek(n)));
+}
+
+/// The first block about this.
+fn block(window: &Window, wanted: impl Fn(Topic) -> bool) -> Block {
+    trace(window).blocks().find(|block| wanted(block.topic)).expect("there is one")
+}
+
+/// After the first highlight candidate that passed.
+fn accepted(window: &Window) -> usize {
+    let trace = trace(window);
+    let passed = trace
+        .events()
+        .find(|(_, event)| matches!(event, Event::CandidateTested(test) if test.verdict.accepted()));
+    passed.expect("the scene has a highlight").0 + 1
+}
+
+#[test]
+fn the_picture_tells_where_the_cursor_stands_and_can_turn_back_to_the_result() {
+    let mut window = tiny_window();
+    assert!(!says(&window, "at step") && !says(&window, "Follow"));
+    let block = block(&window, |topic| topic == Topic::Hypothesis(1));
+    seek(&mut window, block.steps.start + 200);
+    assert!(says(&window, "linear \u{b7} hypothesis 1"));
+    click(&mut window, Role::Button, "Follow");
+    assert!(!state(&window).view.debug.follow && !says(&window, "linear \u{b7} hypothesis 1"));
+    click(&mut window, Role::Button, "Follow");
+    assert!(says(&window, "linear \u{b7} hypothesis 1"));
+    click(&mut window, Role::ComboBox, "Layer");
+    click(&mut window, Role::Button, "Body");
+    assert!(!state(&window).view.debug.follow, "a layer of the result was asked for");
+    let end = trace(&window).len();
+    seek(&mut window, end);
+    assert!(!says(&window, "Follow"), "at the end there is nothing to follow");
+}
+
+#[test]
+fn a_pixel_tells_who_had_it_then() {
+    let mut window = tiny_window();
+    zoom_in(&mut window);
+    let (x, y) = inside(&window, 1);
+    let place = at(&window, x as f32 + 0.5, y as f32 + 0.5);
+    let readout = |window: &mut Window| -> String {
+        window.hover_at(place);
+        window.run_steps(3);
+        let found = named(window, Role::Label, &format!("x {x}, y {y}"));
+        crate::window::words(&found).unwrap()
+    };
+    assert!(readout(&mut window).contains("m_b"));
+    let merge = trace(&window).steps_of(Stage::Merge);
+    seek(&mut window, merge.start);
+    let then = readout(&mut window);
+    assert!(!then.contains("m_b") && then.matches(',').count() == 5, "a class, no region yet: {then}");
+    let linear = trace(&window).steps_of(Stage::Linear);
+    seek(&mut window, linear.end);
+    let pixel = y * shown(&window).labels().width() + x;
+    let owner = shown(&window).linear_labels()[pixel];
+    let then = readout(&mut window);
+    assert!(then.ends_with(&format!(",  {owner}")), "{then}");
+}
+
+#[test]
+fn the_table_lists_windows_then_hypotheses() {
+    let mut window = tiny_window();
+    let merge = trace(&window).steps_of(Stage::Merge);
+    seek(&mut window, merge.start + 20);
+    assert!(says(&window, "areas so far") && says(&window, "not looked at yet"));
+    assert!(says(&window, "not estimated yet"));
+    let block = block(&window, |topic| topic == Topic::Hypothesis(2));
+    seek(&mut window, block.steps.end - 1);
+    assert!(says(&window, "colour of hypothesis 2") && says(&window, "at work"));
+    assert!(!says(&window, "colour of hypothesis 3") && !says(&window, "colour of region 1"));
+    click(&mut window, Role::Label, "colour of hypothesis 1");
+    let names = Arc::clone(&state(&window).debugger.names);
+    assert_eq!(state(&window).debugger.chosen, Some(1));
+    assert_eq!(item(&window), Some(Item::Region(names.final_number(1))));
+    for heading in ["pixels", "direction", "radius", "status", "result", "#"] {
+        click(&mut window, Role::Button, heading);
+    }
+    assert!(says(&window, "colour of hypothesis 1"));
+}
+
+#[test]
+fn a_skewed_t_test_is_drawn_with_its_checks() {
+    let mut window = tiny_window();
+    let n = accepted(&window);
+    seek(&mut window, n);
+    assert!(says(&window, "Skewed-T test of hypothesis"));
+    assert!(says(&window, "passed: gap") && says(&window, "passed: meets at"));
+    assert!(says(&window, "brightest") || says(&window, "matte line"));
+    let failed = trace(&window).events().find_map(|(n, event)| match event {
+        Event::CandidateTested(test) if !test.verdict.lines_meet => Some(n + 1),
+        _ => None,
+    });
+    if let Some(n) = failed {
+        seek(&mut window, n);
+        assert!(says(&window, "failed: gap"));
+    }
+}
+
+#[test]
+fn the_colour_space_shows_what_the_step_looks_at() {
+    let Some(mut window) = with_software_driver(vec2(700.0, 500.0)) else { return };
+    window.state_mut().show_alone(Some(Pane::Colours));
+    apply(&mut window, Command::Open(dichroscope::workbench::Origin::File(crate::window::tiny())));
+    let n = accepted(&window);
+    seek(&mut window, n);
+    for name in ["candidate", "upper 50 %", "gap ", "passed: gap"] {
+        assert!(says(&window, name), "{name}");
+    }
+    let slice = block(&window, |topic| matches!(topic, Topic::Slice(_)));
+    seek(&mut window, slice.steps.end - 1);
+    assert!(says(&window, "slice") && says(&window, "illuminant so far"));
+    let hypothesis = block(&window, |topic| matches!(topic, Topic::Hypothesis(_)));
+    seek(&mut window, hypothesis.steps.end - 1);
+    assert!(says(&window, "cylinder") && !says(&window, "illuminant"));
+}
+
+#[test]
+fn what_an_instant_looks_like() {
+    let Some(mut window) = with_software_driver(vec2(420.0, 300.0)) else { return };
+    window.state_mut().show_alone(Some(Pane::Image));
+    apply(&mut window, Command::Open(dichroscope::workbench::Origin::File(crate::window::tiny())));
+    let block = block(&window, |topic| topic == Topic::Hypothesis(2));
+    seek(&mut window, block.steps.start + block.steps.len() * 3 / 5);
+    window.run_steps(6);
+    let options = SnapshotOptions::new().output_path("tests/panels/snapshots").max_failed_pixels(60);
+    window.snapshot_options("cursor-hypothesis", &options);
+}

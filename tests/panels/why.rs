@@ -1,0 +1,59 @@
+//! Why a pixel is what it is: its history as links, and what would change it.
+
+use crate::window::{Window, apply, click, named, says, state, tiny_window};
+use dichroscope::gui::Pane;
+use dichroscope::trace::Stage;
+use dichroscope::workbench::{Ask, Command, Item, why};
+use egui::accesskit::Role;
+
+/// A pixel of the largest region.
+fn pixel(window: &Window) -> u32 {
+    let labels = state(window).newest.as_ref().unwrap().labels();
+    labels.as_slice().iter().position(|&label| label == 1).unwrap() as u32
+}
+
+/// The panel in all of the window, so that nothing has to be scrolled to.
+fn alone(window: &mut Window) {
+    window.state_mut().show_alone(Some(Pane::Why));
+    window.run_steps(3);
+}
+
+#[test]
+fn a_clicked_region_tells_the_pixels_history_and_each_sentence_leads_to_its_step() {
+    let mut window = tiny_window();
+    assert!(says(&window, "Click a pixel or a region"));
+    let pixel = pixel(&window);
+    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    assert!(says(&window, "Region 1 is made of"), "a region has a story too");
+    apply(&mut window, Command::Ask(Ask::Why(pixel)));
+    alone(&mut window);
+    let debugger = &state(&window).debugger;
+    let (trace, shown) = (debugger.trace().unwrap(), state(&window).newest.as_ref().unwrap());
+    let (_, history) = why(shown, trace, &debugger.names, Some(pixel), None).pixel.unwrap();
+    let split = history.iter().find(|account| account.stage == Stage::Split).unwrap().clone();
+    let masks = history.iter().find(|account| account.stage == Stage::Masks).unwrap().clone();
+    for account in [split, masks] {
+        click(&mut window, Role::Link, &account.text);
+        let replay = state(&window).debugger.replay.as_ref().unwrap();
+        assert_eq!(replay.at(), account.step + 1, "{}", account.text);
+    }
+    apply(&mut window, Command::Select(Some(Item::Region(2))));
+    assert_eq!(state(&window).asked_pixel(), None, "another region, another question");
+}
+
+#[test]
+fn what_would_change_a_pixel_is_found_and_a_click_sets_it() {
+    let mut window = tiny_window();
+    let pixel = pixel(&window);
+    apply(&mut window, Command::Select(Some(Item::Pixel(pixel))));
+    alone(&mut window);
+    click(&mut window, Role::Button, "Find what would change it");
+    let found = state(&window).inquiry.as_ref().unwrap().found.clone().unwrap();
+    let first = found[0];
+    let sentence = dichroscope::report::what_if_sentence(&first);
+    named(&window, Role::Link, &sentence);
+    click(&mut window, Role::Link, &sentence);
+    let params = &state(&window).document.params;
+    assert_eq!(params.get(first.parameter).value(), Some(first.at));
+    assert!(state(&window).is_current());
+}

@@ -1,0 +1,237 @@
+//! A pixel's history is complete, in order, and true.
+
+use crate::synthetic::Scene;
+use dichroscope::analysis::{Analysis, Session};
+use dichroscope::photo::LinearImage;
+use dichroscope::raster::UNASSIGNED;
+use dichroscope::reflection::{SliceBound, SliceMiss};
+use dichroscope::report::{Names, condense, trace_line};
+use dichroscope::segment::{Method, Params, Setting};
+use dichroscope::trace::{
+    Barrier, Birth, Event, Happening, JoinedHow, Pass, PixelKind, Reach, Replay, Stage, Step, Trace, What,
+    lineage, pixel_history, story,
+};
+use proptest::prelude::*;
+use std::sync::Arc;
+
+struct Traced {
+    image: Arc<LinearImage>,
+    analysis: Analysis,
+    trace: Arc<Trace>,
+}
+
+impl Traced {
+    fn new(seed: u64, params: &Params) -> Self {
+        let image = Arc::new(Scene::grid_of_balls([140, 70], 2, 1, seed).render().image);
+        let (analysis, trace) = Session::new(Arc::clone(&image)).run_traced(params, &mut ()).unwrap();
+        Self { image, analysis, trace: Arc::new(trace) }
+    }
+
+    fn history(&self, pixel: usize) -> Vec<Happening> {
+        pixel_history(&self.trace, &self.image, &self.analysis.masks, pixel)
+    }
+
+    /// Pixels to ask about: spread over the picture, and on the borders of regions.
+    fn pixels(&self) -> Vec<usize> {
+        let labels = &self.analysis.finals.labels;
+        let mut border = Vec::new();
+        for pixel in 0..labels.len() {
+            let mut edge = false;
+            labels.for_each_neighbour(pixel, |near| edge |= labels[near] != labels[pixel]);
+            if edge {
+                border.push(pixel);
+            }
+        }
+        let step = border.len().div_ceil(40).max(1);
+        (0..labels.len()).step_by(401).chain(border.into_iter().step_by(step)).collect()
+    }
+}
+
+fn random_params() -> impl Strategy<Value = Params> {
+    let method = prop_oneof![Just(Method::Refined), Just(Method::Paper)];
+    (method, 1.5f64..6.0, 1.5f64..6.0, 60u32..600).prop_map(|(method, cylinder, slice, area)| Params {
+        cylinder_width: Setting::Value(cylinder),
+        slice_width: Setting::Value(slice),
+        min_area: Setting::Value(f64::from(area)),
+        ..Params::of(method)
+    })
+}
+
+/// The owner that a happening leaves a pixel with; none where it leaves it as it was.
+fn owner_after(what: &What) -> Option<u16> {
+    match *what {
+        What::Seeded { region, .. }
+        | What::Claimed { region, .. }
+        | What::Voted { region, .. }
+        | What::Filled { region, .. } => Some(region),
+        What::Released { .. } => Some(UNASSIGNED),
+        What::Merged { into, .. } => Some(into),
+        What::Reset { to, .. } => Some(to),
+        What::Separated { part, .. } => Some(part),
+        _ => None,
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(10))]
+
+    #[test]
+    fn every_change_of_hands_is_told_and_leads_to_the_result(seed in any::<u64>(), params in random_params()) {
+        let traced = Traced::new(seed, &params);
+        let pixels = traced.pixels();
+        let mut claims = vec![Vec::new(); traced.image.pixels.len()];
+        for (n, step) in traced.trace.steps() {
+            if let Step::Claim { pixel, after, .. } = step {
+                claims[pixel as usize].push((n, after));
+            }
+        }
+        for pixel in pixels {
+            let history = traced.history(pixel);
+            prop_assert!(history.is_sorted_by_key(|happening| happening.step));
+            let told: Vec<(usize, u16)> =
+                history.iter().filter_map(|h| Some((h.step, owner_after(&h.what)?))).collect();
+            prop_assert_eq!(&told, &claims[pixel], "pixel {}", pixel);
+            let split = history.iter().find_map(|h| match &h.what {
+                What::Split(story) => Some((story.number, story.kind)),
+                _ => None,
+            });
+            let label = traced.analysis.finals.labels[pixel];
+            let kind = traced.analysis.intrinsic.kinds[pixel];
+            prop_assert_eq!(split, (label != UNASSIGNED).then_some((label, kind)), "pixel {}", pixel);
+        }
+    }
+
+    #[test]
+    fn the_numbers_told_are_those_that_decided(seed in any::<u64>(), params in random_params()) {
+        let traced = Traced::new(seed, &params);
+        for pixel in traced.pixels() {
+            for Happening { step, what, .. } in traced.history(pixel) {
+                let holds = match &what {
+                    What::Seeded { reach, .. } | What::Claimed { reach, .. } => match *reach {
+                        Reach::Axis { distance, radius } => f64::from(distance) <= radius + 1e-3,
+                        Reach::Plane { distance, half_width } => f64::from(distance) <= half_width + 1e-3,
+                        Reach::Brightness { brightness, start } => brightness >= start - 1e-3,
+                    },
+                    What::Refused { barrier, .. } => match *barrier {
+                        Barrier::Cylinder { distance, radius } => f64::from(distance) >= radius - 1e-3,
+                        Barrier::Slice(SliceMiss { bound: SliceBound::Surface | SliceBound::Black, value, limit }) => {
+                            value < limit
+                        }
+                        Barrier::Slice(SliceMiss { value, limit, .. }) => value > limit,
+                        Barrier::Darker { brightness, start } => brightness <= start + 1e-3,
+                    },
+                    What::Split(story) => {
+                        let nearer = story.lines.is_none_or(|[matte, highlight]| {
+                            (story.kind == PixelKind::Highlight) == (highlight < matte) || (highlight - matte).abs() < 1e-2
+                        });
+                        let intrinsic = &traced.analysis.intrinsic;
+                        let length = |c: [f32; 3]| c.iter().map(|v| v * v).sum::<f32>().sqrt();
+                        nearer && story.amounts.is_none_or(|amounts| {
+                            (amounts.body.abs() - length(intrinsic.body[pixel])).abs() < 0.05
+                                && (amounts.surface.abs() - length(intrinsic.surface[pixel])).abs() < 0.05
+                                && (amounts.noise - intrinsic.noise[pixel]).abs() < 0.05
+                        })
+                    }
+                    What::Window(story) => {
+                        let directions = story.trials.iter().filter(|trial| !trial.is_noise()).count();
+                        story.class.is_none_or(|class| class as usize == directions)
+                    }
+                    _ => true,
+                };
+                prop_assert!(holds, "pixel {}, step {}: {:?}", pixel, step, what);
+            }
+        }
+    }
+
+    #[test]
+    fn a_region_that_grew_beside_a_pixel_took_it_or_there_is_a_reason(
+        seed in any::<u64>(), params in random_params(),
+    ) {
+        let traced = Traced::new(seed, &params);
+        let pixels: Vec<usize> = traced.pixels().into_iter().step_by(7).collect();
+        let histories: Vec<Vec<Happening>> = pixels.iter().map(|&pixel| traced.history(pixel)).collect();
+        let mut replay = Replay::new(Arc::clone(&traced.trace));
+        let events: Vec<(usize, &Event)> = traced.trace.events().collect();
+        for (index, &(step, event)) in events.iter().enumerate() {
+            let Event::GrowthBegan { region, .. } = *event else { continue };
+            if traced.trace.pass_at(step).map(|span| span.pass) == Some(Pass::Brightness) {
+                continue;
+            }
+            let end = events.get(index + 1).map_or(traced.trace.len(), |&(next, _)| next);
+            // What a barren hypothesis gives back follows its growth without a word.
+            replay.seek(end);
+            for (&pixel, history) in pixels.iter().zip(&histories) {
+                let labels = replay.labels();
+                let mut beside = false;
+                labels.for_each_neighbour(pixel, |near| beside |= labels[near] == region);
+                if !beside || labels[pixel] == region {
+                    continue;
+                }
+                let stage = traced.trace.stage_at(step);
+                let told = history.iter().any(|happening| {
+                    let here = (step..end).contains(&happening.step);
+                    match &happening.what {
+                        What::Refused { region: by, .. } => here && *by == region,
+                        What::Kept { challenger, .. } => here && *challenger == region,
+                        What::Unclaimable { regions } => {
+                            Some(happening.stage) == stage && regions.contains(&region)
+                        }
+                        _ => false,
+                    }
+                });
+                prop_assert!(told, "pixel {}, hypothesis {} at {}: {:#?}", pixel, region, step, history);
+            }
+        }
+    }
+
+    #[test]
+    fn everything_has_words_and_a_line(seed in any::<u64>(), params in random_params()) {
+        let traced = Traced::new(seed, &params);
+        let names = Names::of(&traced.trace);
+        let mut line = String::new();
+        for (n, step) in traced.trace.steps().filter(|(n, step)| n % 17 == 0 || matches!(step, Step::Event(_))) {
+            prop_assert!(!names.step(&step).is_empty(), "{:?}", step);
+            line.clear();
+            trace_line(&names, n, traced.trace.stage_at(n).unwrap(), &step, &mut line);
+            let parsed: serde_json::Value = serde_json::from_str(&line).unwrap();
+            prop_assert_eq!(parsed.as_object().unwrap().len(), 6, "{}", line);
+        }
+        for pixel in traced.pixels() {
+            let history = traced.history(pixel);
+            let condensed = condense(&history);
+            prop_assert_eq!(condensed.iter().map(|line| line.times).sum::<usize>(), history.len());
+            prop_assert!(history.iter().all(|happening| !names.happening(happening).is_empty()));
+        }
+    }
+
+    #[test]
+    fn a_region_descends_from_every_hypothesis_that_joined_it(seed in any::<u64>(), params in random_params()) {
+        let traced = Traced::new(seed, &params);
+        for number in 1..=traced.analysis.intrinsic.regions.len() as u16 {
+            let ancestors = lineage(&traced.trace, number);
+            prop_assert_eq!((ancestors[0].depth, ancestors[0].joined), (0, None));
+            for ancestor in &ancestors {
+                let told = story(&traced.trace, ancestor.region).unwrap();
+                prop_assert_eq!(told.chosen.is_some(), matches!(ancestor.birth, Birth::Area { .. }));
+                let Some(joined) = ancestor.joined else {
+                    prop_assert!(told.end.is_none() && told.number == Some(number));
+                    continue;
+                };
+                prop_assert!(ancestors.iter().any(|other| other.region == joined.to));
+                if joined.how != JoinedHow::Whole {
+                    prop_assert_eq!(told.end.map(|(step, _)| step), Some(joined.step));
+                }
+            }
+        }
+        prop_assert!(lineage(&traced.trace, 0).is_empty() && story(&traced.trace, 0).is_none());
+    }
+}
+
+#[test]
+fn a_dark_pixel_has_a_short_history() {
+    let traced = Traced::new(5, &Params::default());
+    let dark = (0..traced.image.pixels.len()).find(|&pixel| traced.analysis.masks.dark(pixel)).unwrap();
+    let history = traced.history(dark);
+    assert!(matches!(history[0].what, What::Masked(_)) && history[0].stage == Stage::Masks);
+    assert!(history.len() < 4, "{history:?}");
+}
