@@ -16,9 +16,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
 
-const FILES: [&str; 15] = [
+const FILES: [&str; 16] = [
     "body.exr",
     "body.png",
+    "confidence.png",
     "matte.png",
     "noise.exr",
     "noise.png",

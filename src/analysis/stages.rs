@@ -7,8 +7,9 @@ use crate::intrinsic::{Intrinsic, split};
 use crate::photo::{LinearImage, MaskLimits, Masks, estimate_sigma};
 use crate::raster::{LabelMap, Mask, Raster};
 use crate::segment::{
-    Areas, Classifier, FinalRegions, MatteRegions, Params, PlanarRegions, Refine, Scene, Setting, UsedParams,
-    Windows, classify, clipping_regions, final_regions, matte_regions, merge, planar_regions,
+    Areas, Classifier, FinalRegions, LightFindings, MatteRegions, Params, PlanarRegions, Refine, Scene,
+    Setting, UsedParams, Windows, classify, clipping_regions, final_regions, matte_regions, merge,
+    planar_regions,
 };
 use crate::trace::{Event, MasksMade, Recorder, Reel, Trace};
 use std::sync::Arc;
@@ -277,9 +278,11 @@ fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks, restricted
             "no linear area was found: no window varies along one direction beyond the noise".to_owned(),
         );
     } else if planar.illuminant.is_none() {
-        warnings.push(
-            "no highlight was found: the light's colour is unknown and all is body reflection".to_owned(),
-        );
+        let why = match planar.light {
+            LightFindings { planes: None, votes: None, .. } => "no highlight was found".to_owned(),
+            light => light.reason(),
+        };
+        warnings.push(format!("{why}: the light's colour is unknown and all is body reflection"));
     }
     warnings
 }

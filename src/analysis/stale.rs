@@ -30,9 +30,18 @@ fn first_stage(switch: &str) -> Stage {
         "tail_test" => Stage::Classify,
         "robust_lines" | "all_seeds" | "absorb_highlights" | "second_look" | "proximity_vote"
         | "merge_regions" => Stage::Linear,
-        "robust_illuminant" | "extend_planes" | "slice_bounds" => Stage::Planar,
+        "robust_illuminant" | "extend_planes" | "slice_bounds" | "vote_light" => Stage::Planar,
         "split_components" => Stage::Clipping,
-        "edge_body" | "scene_illuminant" | "no_negative_surface" | "restore_prior" => Stage::Split,
+        "edge_body"
+        | "scene_illuminant"
+        | "no_negative_surface"
+        | "restore_prior"
+        | "region_holds"
+        | "local_split"
+        | "texture_test"
+        | "hysteresis"
+        | "belief"
+        | "clip_repair" => Stage::Split,
         // One that is not listed makes everything stale, which is slow but never wrong.
         _ => Stage::Masks,
     }

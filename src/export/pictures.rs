@@ -17,7 +17,7 @@ struct Subject<'a> {
 type Writer = fn(&Subject, &Path) -> Result<(), ExportError>;
 
 /// Pictures in a result folder, the matte photograph apart.
-pub(super) const PICTURE_COUNT: usize = 13;
+pub(super) const PICTURE_COUNT: usize = 14;
 
 /// Every picture by its name; the largest first, so that none is still at work when all others are done.
 const PICTURES: [(&str, Writer); PICTURE_COUNT] = [
@@ -28,6 +28,7 @@ const PICTURES: [(&str, Writer); PICTURE_COUNT] = [
     ("body.png", |s, path| png::write_rgb(path, &viewable(&s.analysis.intrinsic.body))),
     ("surface.png", |s, path| png::write_rgb(path, &viewable(&s.analysis.intrinsic.surface))),
     ("noise.png", |s, path| png::write_grey(path, &viewable_noise(s.analysis))),
+    ("confidence.png", |s, path| png::write_grey(path, &viewable_share(&s.analysis.intrinsic.confidence))),
     ("regions.png", |s, path| png::write_labels(path, &s.analysis.finals.labels)),
     ("stage-1-classification.png", |s, path| png::write_rgb(path, &stages::classification(s.analysis))),
     ("stage-2-merged.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.areas))),
@@ -77,6 +78,11 @@ fn residual(subject: &Subject) -> Raster<[f32; 3]> {
 /// Linear counts as sRGB values; what is brighter than 255 counts is white.
 fn viewable(counts: &Raster<[f32; 3]>) -> Raster<[u8; 3]> {
     counts.map(|colour| colour.map(|value| srgb_from_linear(value / 255.0)))
+}
+
+/// Shares as grey values, 0…1 as 0…255.
+fn viewable_share(shares: &Raster<f32>) -> Raster<u8> {
+    shares.map(|share| (255.0 * share).round() as u8)
 }
 
 /// ε as grey values: 128 where it is zero, 1 and 255 at the faces of the slice.

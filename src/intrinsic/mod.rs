@@ -1,12 +1,19 @@
 //! Section 6: every pixel split into body reflection, surface reflection and noise.
 
+mod confidence;
+mod holding;
+mod local;
+mod reason;
+mod region;
 mod restore;
 mod split;
 mod vectors;
 
-pub use split::{POOR_FIT, split};
+pub use reason::Reason;
+pub use split::split;
 
 use crate::raster::Raster;
+pub use crate::segment::POOR_FIT;
 pub use crate::trace::PixelKind;
 
 /// The intrinsic images and what is known of each region.
@@ -20,6 +27,10 @@ pub struct Intrinsic {
     pub noise: Raster<f32>,
     /// What each pixel is to its region.
     pub kinds: Raster<PixelKind>,
+    /// How far the split of each pixel is to be believed, 0…1.
+    pub confidence: Raster<f32>,
+    /// Why a pixel is not explained by one region's skewed T.
+    pub reasons: Raster<Reason>,
     /// The regions; region `id` is at index `id − 1`.
     pub regions: Vec<RegionReflection>,
 }
@@ -51,6 +62,12 @@ pub struct RegionReflection {
     pub angle_deg: Option<f64>,
     /// Root mean square distance of its undistorted pixels from the plane (from the line without one), counts.
     pub fit_rms_counts: f64,
+    /// Whether one skewed T explains it; where not, its plane is not used.
+    pub holds: bool,
+    /// How far its split is to be believed, 0…1; 0 where it does not hold.
+    pub confidence: f64,
+    /// How much surface and body reflection vary against each other from pixel to pixel: 1 for a print, about 0 for highlights.
+    pub texture: f64,
     /// Whether body and surface can be told apart.
     pub separable: bool,
     /// Regions that it touches, ascending.

@@ -1,21 +1,21 @@
 //! Section 6: every pixel's amounts of body and surface reflection, by its region's T.
 
+use super::confidence::Grounds;
+use super::holding::holding;
+use super::local::split_locally;
+use super::reason::{Case, Reason};
+use super::region::{Known, MIN_ANGLE_DEG};
 use super::restore::Distorted;
-use super::vectors::{Vectors, fit_rms, fit_vectors};
+use super::vectors::{Vectors, fit_vectors};
 use super::{Intrinsic, RegionReflection};
-use crate::color::{dot, rgb};
+use crate::color::{Vec3, dot, rgb};
 use crate::raster::{Raster, UNASSIGNED};
 use crate::reflection::{Components, HighlightTest, ReflectionTransform};
-use crate::segment::{FinalRegions, Members, Pixels, PlanarHypothesis, Scene, members, neighbours};
+use crate::segment::{
+    FinalRegions, Members, Pixels, PlanarHypothesis, RegionFit, Scene, members, neighbours,
+};
 use crate::trace::{Event, Pass, PixelKind, Recorder, VectorsFitted};
 use rayon::prelude::*;
-
-/// Below this angle body and surface reflection cannot be told apart at all, degrees.
-const MIN_ANGLE_DEG: f64 = 3.0;
-/// Below this angle they can, with noise amplified more than four times.
-const SMALL_ANGLE_DEG: f64 = 14.0;
-/// A fit worse than this many σ of a band's noise is worth a warning.
-pub const POOR_FIT: f64 = 1.5;
 
 /// Splits the picture.
 pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut R) -> Intrinsic {
@@ -34,32 +34,65 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
     }
     let mut images = Images::split_undistorted(scene, regions, &splitters);
     if scene.stopped() {
-        return images.with_regions(Vec::new());
+        return images.unfinished();
     }
     images.restore(scene, regions, &splitters, &members);
+    let fits: Vec<RegionFit> = splitters
+        .par_iter()
+        .enumerate()
+        .map(|(index, splitter)| {
+            let id = index as u16 + 1;
+            let (body, surface) = (&splitter.vectors.body, splitter.vectors.surface.as_ref());
+            RegionFit::new(scene, &regions.labels, (id, members.region(id)), (&Vec3::zeros(), body, surface))
+        })
+        .collect();
+    let holding = holding(scene, regions, &members, &fits, &images.kinds);
+    let local = split_locally(scene, regions, &holding, &mut images);
     if R::KEEPS {
         recorder.record(Event::PassBegan { pass: Pass::Labels });
         recorder.labels(&images.kinds);
     }
     let touching = neighbours(&regions.labels, regions.hypotheses.len());
-    let reflections = splitters
+    let reflections: Vec<RegionReflection> = splitters
         .par_iter()
         .zip(touching)
         .enumerate()
         .map(|(index, (splitter, neighbours))| {
             let id = index as u16 + 1;
-            splitter.report(scene, id, members.region(id), &images.kinds, neighbours)
+            let known = Known { id, pixels: members.region(id), fit: fits[index], kinds: &images.kinds };
+            known.report(scene, splitter, neighbours)
         })
         .collect();
-    images.with_regions(reflections)
+    let grounds = Grounds {
+        labels: &regions.labels,
+        holding: &holding,
+        kinds: &images.kinds,
+        noise: &images.noise,
+        regions: &reflections,
+        sigma: scene.sigma() as f32,
+    };
+    let confidence = grounds.confidence(local.as_ref());
+    let case = Case {
+        masks: scene.masks,
+        labels: &regions.labels,
+        holding: &holding,
+        kinds: &images.kinds,
+        noise: &images.noise,
+        regions: &reflections,
+        light: regions.light.direction,
+        sigma: scene.sigma() as f32,
+    };
+    let reasons = case.reasons();
+    let Images { body, surface, noise, kinds } = images;
+    Intrinsic { body, surface, noise, kinds, confidence, reasons, regions: reflections }
 }
 
 /// How one region's pixels are split.
-struct Splitter {
-    hypothesis: PlanarHypothesis,
-    vectors: Vectors,
+pub(super) struct Splitter {
+    pub(super) hypothesis: PlanarHypothesis,
+    pub(super) vectors: Vectors,
     /// None where the region has no plane: then all is body reflection.
-    transform: Option<ReflectionTransform>,
+    pub(super) transform: Option<ReflectionTransform>,
     test: Option<HighlightTest>,
     /// Amount of body reflection where the highlight line starts, counts.
     start_body: f32,
@@ -113,91 +146,17 @@ impl Splitter {
             PixelKind::Matte
         }
     }
-
-    fn report(
-        &self,
-        scene: &Scene,
-        id: u16,
-        pixels: Pixels,
-        kinds: &Raster<PixelKind>,
-        neighbours: Vec<u16>,
-    ) -> RegionReflection {
-        let count = |test: &dyn Fn(usize) -> bool| pixels.iter().filter(|&p| test(p as usize)).count();
-        let matte_pixels = count(&|pixel| kinds[pixel] == PixelKind::Matte);
-        let highlight_pixels = pixels.len() - matte_pixels;
-        let surface = self.vectors.surface;
-        let angle_deg = surface.map(|surface| crate::color::axis_angle_deg(&self.vectors.body, &surface));
-        let fit_rms_counts = fit_rms(scene, &self.vectors, pixels);
-        RegionReflection {
-            id,
-            pixels: pixels.len(),
-            matte_pixels,
-            highlight_pixels,
-            clipped_pixels: count(&|pixel| scene.masks.clipped(pixel)),
-            body: self.vectors.body.into(),
-            surface: surface.map(Into::into),
-            matte_mean: self.vectors.matte_mean.into(),
-            highlight_start: surface.map(|_| self.hypothesis.start.into()),
-            plane_normal: self.transform.map(|t| t.normal().map(f64::from)),
-            angle_deg,
-            fit_rms_counts,
-            separable: self.transform.is_some(),
-            neighbours,
-            warnings: self.warnings(scene, angle_deg, fit_rms_counts, pixels, kinds),
-        }
-    }
-
-    fn warnings(
-        &self,
-        scene: &Scene,
-        angle_deg: Option<f64>,
-        fit_rms_counts: f64,
-        pixels: Pixels,
-        kinds: &Raster<PixelKind>,
-    ) -> Vec<String> {
-        let mut warnings = Vec::new();
-        match angle_deg {
-            None => warnings.push("no dichromatic plane: everything counts as body reflection".to_owned()),
-            Some(angle) if angle < MIN_ANGLE_DEG => warnings.push(format!(
-                "body and surface vector are collinear ({angle:.1}\u{b0}): everything counts as body reflection"
-            )),
-            Some(angle) if angle < SMALL_ANGLE_DEG => warnings.push(format!(
-                "body and surface vector are only {angle:.1}\u{b0} apart: the split amplifies noise {:.0} times",
-                1.0 / angle.to_radians().sin()
-            )),
-            Some(_) => {}
-        }
-        let limit = POOR_FIT * scene.sigma();
-        if fit_rms_counts > limit {
-            // Only a region with a surface vector has a plane to lie off.
-            let what = if angle_deg.is_some() { "plane" } else { "matte line" };
-            warnings.push(format!(
-                "poor fit: pixels lie {fit_rms_counts:.1} counts from the {what} (rms), {limit:.1} is noise"
-            ));
-        }
-        let foot = self.hypothesis.matte.foot().norm();
-        if foot > scene.sigma() {
-            warnings.push(format!(
-                "the matte line misses black by {foot:.1} counts: ambient light, inter-reflection or no single material"
-            ));
-        }
-        let lost = pixels.iter().filter(|&pixel| kinds[pixel as usize] == PixelKind::Lost).count();
-        if lost > 0 {
-            warnings.push(format!("{lost} pixels are clipped in every band: their split is a guess"));
-        }
-        warnings
-    }
 }
 
 /// A pixel, its body and surface colour, and whether they are restored or lost.
 type RestoredPixel = (u32, [[f32; 3]; 2], PixelKind);
 
 /// The intrinsic images while they are made.
-struct Images {
-    body: Raster<[f32; 3]>,
-    surface: Raster<[f32; 3]>,
-    noise: Raster<f32>,
-    kinds: Raster<PixelKind>,
+pub(super) struct Images {
+    pub(super) body: Raster<[f32; 3]>,
+    pub(super) surface: Raster<[f32; 3]>,
+    pub(super) noise: Raster<f32>,
+    pub(super) kinds: Raster<PixelKind>,
 }
 
 impl Images {
@@ -237,10 +196,12 @@ impl Images {
         images
     }
 
-    /// The images, finished, with what is known of each region.
-    fn with_regions(self, regions: Vec<RegionReflection>) -> Intrinsic {
+    /// What there is when the run is stopped.
+    fn unfinished(self) -> Intrinsic {
         let Self { body, surface, noise, kinds } = self;
-        Intrinsic { body, surface, noise, kinds, regions }
+        let confidence = Raster::filled(body.width(), body.height(), 0.0);
+        let reasons = confidence.map(|_| Reason::default());
+        Intrinsic { body, surface, noise, kinds, confidence, reasons, regions: Vec::new() }
     }
 
     /// Restores distorted pixels from their good bands and their surroundings.

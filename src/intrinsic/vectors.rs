@@ -7,7 +7,7 @@
 //! cluster inward by mean shift (`edge_body`, rough surfaces .87° → .54°); the surface vector is the scene's illuminant
 //! (`scene_illuminant`, +5.7 dB body, +7.6 dB surface). A given illuminant is the surface vector under the paper's method too.
 
-use crate::color::{Line, Moments, Vec3, dot, rgb, vec3};
+use crate::color::{Line, Moments, Vec3, dot, rgb};
 use crate::photo::Masks;
 use crate::reflection::DichromaticPlane;
 use crate::segment::{Pixels, PlanarHypothesis, Scene};
@@ -117,28 +117,14 @@ fn any_across(direction: &Vec3) -> Vec3 {
     direction.cross(&axis).normalize()
 }
 
-/// Root mean square distance of the region's undistorted pixels from its plane, or from its line without one.
-pub fn fit_rms(scene: &Scene, vectors: &Vectors, pixels: Pixels) -> f64 {
-    let colors = undistorted(scene.pixels.as_slice(), scene.masks, pixels);
-    let normal = vectors.surface.and_then(|s| vectors.body.cross(&s).try_normalize(1e-6));
-    let squares: f64 = colors
-        .iter()
-        .map(|&color| match normal {
-            Some(normal) => vec3(color).dot(&normal).powi(2),
-            None => vec3(color).cross(&vectors.body).norm_squared() / 2.0,
-        })
-        .sum();
-    (squares / (colors.len().max(1)) as f64).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::axis_angle_deg;
+    use crate::color::{axis_angle_deg, vec3};
     use crate::intrinsic::split;
     use crate::photo::{LinearImage, MaskLimits};
     use crate::raster::{LabelMap, Raster};
-    use crate::segment::{FinalRegions, Parameter, Params, UsedParams};
+    use crate::segment::{FinalRegions, LightFindings, Parameter, Params, UsedParams};
     use crate::trace::Silent;
     use proptest::prelude::*;
 
@@ -197,7 +183,7 @@ mod tests {
             let hypothesis =
                 PlanarHypothesis { origin: 1, matte, matte_length: 150.0, plane, start, highlight: None, alive: true };
             let labels = LabelMap::filled(amounts.len(), 1, 1);
-            let regions = FinalRegions { labels, hypotheses: vec![hypothesis] };
+            let regions = FinalRegions { labels, hypotheses: vec![hypothesis], light: LightFindings::default() };
             let result = split(&scene, &regions, &mut Silent);
             let found = &result.regions[0];
             prop_assert!(axis_angle_deg(&found.body.into(), &body) < 0.1);

@@ -2,8 +2,12 @@
 //!
 //! Everything is row-major: the value of column `x`, row `y` is at index `y * width + x`.
 
+mod blur;
 mod grid;
 mod morphology;
+mod window;
 
+pub use blur::blur;
 pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};
 pub use morphology::dilate;
+pub use window::Window;

@@ -67,6 +67,11 @@ impl ReflectionTransform {
         })
     }
 
+    /// What a colour is multiplied with for its amounts of body and surface reflection.
+    pub fn amount_rows(&self) -> [[f32; 3]; 2] {
+        [self.rows[0], self.rows[1]]
+    }
+
     /// C_b, unit.
     pub fn body(&self) -> [f32; 3] {
         self.body

@@ -2,11 +2,12 @@
 
 use super::scores::Scores;
 use crate::analysis::{Analysis, Stage};
-use crate::intrinsic::RegionReflection;
+use crate::intrinsic::{Reason, RegionReflection};
 use crate::photo::Photo;
 use crate::raster::UNASSIGNED;
 use crate::segment::{IlluminantSetting, Method, Parameter, Params, Refine, Setting};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Version of the schema; it rises when a field changes its name or its meaning.
@@ -32,6 +33,9 @@ pub struct Report {
     pub regions: Vec<RegionFacts>,
     /// Pixels in no region; of an area only those inside.
     pub unassigned_pixels: usize,
+    /// Pixels by what keeps them from being explained, by name; of an area only those inside.
+    #[serde(default)]
+    pub reasons: BTreeMap<String, usize>,
     /// What to beware of, in words: of the file first, then of the analysis.
     pub warnings: Vec<String>,
     /// How it compares with a ground truth, when there was one.
@@ -54,18 +58,25 @@ impl Report {
             image,
             area: None,
             params: ParamsFacts::new(params, analysis),
-            illuminant: IlluminantFacts {
-                direction: analysis.illuminant.map(|light| light.direction),
-                objects: analysis.illuminant.map_or(0, |light| light.objects),
-                given: analysis.illuminant.is_some_and(|light| light.given),
-            },
+            illuminant: IlluminantFacts::new(analysis),
             regions: analysis.intrinsic.regions.iter().map(RegionFacts::from).collect(),
             unassigned_pixels: unassigned,
+            reasons: reasons(analysis),
             warnings: file_warnings.iter().chain(&analysis.warnings).cloned().collect(),
             scores: None,
             timings_ms: Timings::default(),
         }
     }
+}
+
+/// How many pixels have which reason; reasons that none has are left out.
+fn reasons(analysis: &Analysis) -> BTreeMap<String, usize> {
+    let mut counts = [0usize; Reason::ALL.len()];
+    for (pixel, &reason) in analysis.intrinsic.reasons.as_slice().iter().enumerate() {
+        counts[reason as usize] += usize::from(!analysis.masks.outside(pixel));
+    }
+    let named = Reason::ALL.iter().zip(counts).filter(|(_, count)| *count > 0);
+    named.map(|(reason, count)| (reason.name().to_owned(), count)).collect()
 }
 
 /// The file and how it was read.
@@ -173,7 +184,7 @@ impl ParamsFacts {
 }
 
 /// The colour of the light and what it rests on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct IlluminantFacts {
     /// Unit vector; null where nothing in the image told of it.
     pub direction: Option<[f64; 3]>,
@@ -182,6 +193,49 @@ pub struct IlluminantFacts {
     /// Whether it was given and not estimated.
     #[serde(default)]
     pub given: bool,
+    /// What it rests on: `given`, `planes`, `votes` or `none`.
+    #[serde(default)]
+    pub basis: String,
+    /// Why this light was used and no other, or why none was.
+    #[serde(default)]
+    pub reason: String,
+    /// Within so many degrees the light lies, as far as the evidence itself can tell; null where it was given or is unknown.
+    #[serde(default)]
+    pub interval_deg: Option<f64>,
+    /// The light by the dichromatic planes, unit.
+    #[serde(default)]
+    pub planes: Option<[f64; 3]>,
+    /// The light by the votes of small highlights, unit.
+    #[serde(default)]
+    pub votes: Option<[f64; 3]>,
+    /// Degrees between both.
+    #[serde(default)]
+    pub agreement_deg: Option<f64>,
+    /// Share of the votes that the light used has, 0…1.
+    #[serde(default)]
+    pub vote_share: f64,
+    /// Share of the lit pixels in regions that hold and show highlights, 0…1.
+    #[serde(default)]
+    pub support: f64,
+}
+
+impl IlluminantFacts {
+    fn new(analysis: &Analysis) -> Self {
+        let light = &analysis.planar.light;
+        Self {
+            direction: analysis.illuminant.map(|light| light.direction),
+            objects: analysis.illuminant.map_or(0, |light| light.objects),
+            given: analysis.illuminant.is_some_and(|light| light.given),
+            basis: light.basis.name().to_owned(),
+            reason: light.reason(),
+            interval_deg: light.interval_deg,
+            planes: light.planes,
+            votes: light.votes,
+            agreement_deg: light.agreement_deg(),
+            vote_share: light.share,
+            support: light.support,
+        }
+    }
 }
 
 /// One region, as [`RegionReflection`] describes it.
@@ -200,9 +254,20 @@ pub struct RegionFacts {
     pub plane_normal: Option<[f64; 3]>,
     pub angle_deg: Option<f64>,
     pub fit_rms_counts: f64,
+    /// True in reports of versions that did not ask.
+    #[serde(default = "yes")]
+    pub holds: bool,
+    #[serde(default)]
+    pub confidence: f64,
+    #[serde(default)]
+    pub texture: f64,
     pub separable: bool,
     pub neighbours: Vec<u16>,
     pub warnings: Vec<String>,
+}
+
+const fn yes() -> bool {
+    true
 }
 
 impl From<&RegionReflection> for RegionFacts {
@@ -220,6 +285,9 @@ impl From<&RegionReflection> for RegionFacts {
             plane_normal: region.plane_normal,
             angle_deg: region.angle_deg,
             fit_rms_counts: region.fit_rms_counts,
+            holds: region.holds,
+            confidence: region.confidence,
+            texture: region.texture,
             separable: region.separable,
             neighbours: region.neighbours.clone(),
             warnings: region.warnings.clone(),

@@ -117,6 +117,7 @@ mod tests {
                 "illuminant",
                 "regions",
                 "unassigned_pixels",
+                "reasons",
                 "warnings",
                 "timings_ms"
             ]
@@ -127,7 +128,14 @@ mod tests {
         assert_eq!(json["params"]["method"], "paper");
         assert_eq!(json["params"]["refine"]["all_seeds"], false, "the paper's method refines nothing");
         assert_eq!(json["unassigned_pixels"], 12);
-        assert_eq!(json["illuminant"], serde_json::json!({"direction": null, "objects": 0, "given": false}));
+        let light = &json["illuminant"];
+        assert!(light["direction"].is_null() && light["interval_deg"].is_null());
+        assert_eq!(
+            (&light["objects"], &light["given"], &light["basis"]),
+            (&0.into(), &false.into(), &"none".into())
+        );
+        assert!(light["reason"].as_str().is_some_and(|why| why.starts_with("no highlight was found")));
+        assert_eq!(json["reasons"], serde_json::json!({"shadow": 12}));
     }
 
     #[test]

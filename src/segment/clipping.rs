@@ -136,8 +136,8 @@ mod tests {
     use super::*;
     use crate::color::{Line, Vec3};
     use crate::reflection::DichromaticPlane;
-    use crate::segment::PlanarHypothesis;
     use crate::segment::testing::{Drawing, check, labels};
+    use crate::segment::{LightFindings, PlanarHypothesis};
     use crate::trace::Silent;
 
     fn body() -> Vec3 {
@@ -166,8 +166,12 @@ mod tests {
             highlight: None,
             alive: true,
         };
-        let planar =
-            PlanarRegions { labels: labels(before), hypotheses: vec![hypothesis; 2], illuminant: None };
+        let planar = PlanarRegions {
+            labels: labels(before),
+            hypotheses: vec![hypothesis; 2],
+            illuminant: None,
+            light: LightFindings::default(),
+        };
         check(&clipping_regions(&drawing.scene(), &planar, &mut Silent), after);
     }
 

@@ -48,6 +48,9 @@ pub struct Prior {
 pub struct Intersection {
     /// Unit direction.
     pub direction: Vec3,
+    /// Within so many degrees of it the light lies, by what the constraints allow and how well they agree (two standard
+    /// deviations in the direction that is known worst).
+    pub interval_deg: f64,
     /// What each constraint said, in their order.
     pub contributions: Vec<Contribution>,
 }
@@ -86,7 +89,24 @@ pub fn intersect(constraints: &[Constraint], prior: &Prior) -> Intersection {
         weight: weight(c, &direction),
     };
     let contributions = constraints.iter().map(said).collect();
-    Intersection { direction, contributions }
+    Intersection { direction, interval_deg: interval_deg(constraints, prior, &direction), contributions }
+}
+
+/// Two standard deviations of the direction where it is known worst, degrees.
+fn interval_deg(constraints: &[Constraint], prior: &Prior, direction: &Vec3) -> f64 {
+    let mut information = Matrix3::identity() / prior.sd_deg.powi(2);
+    let (mut misfit, mut count) = (0.0, 0.0);
+    for constraint in constraints {
+        let weight = weight(constraint, direction);
+        information += constraint.normal * constraint.normal.transpose() * weight;
+        misfit += weight * residual_deg(constraint, direction).powi(2);
+        count += weight * constraint.variance_deg2;
+    }
+    // Only what turns the direction counts, and not what lengthens it.
+    information += direction * direction.transpose() * 1e6;
+    let (values, _) = crate::color::principal_axes(&information);
+    let disagreement = (misfit / (count - 2.0f64).max(1.0)).max(1.0);
+    (2.0 * (disagreement / values[2].max(1e-9)).sqrt()).min(90.0)
 }
 
 /// Strongest constraints whose pairs are tried as starts.
@@ -128,14 +148,23 @@ fn merit(constraints: &[Constraint], prior: &Prior, direction: &Vec3) -> f64 {
             c.reliability / (1.0 + u * u)
         })
         .sum();
-    let white = Vec3::repeat(1.0).normalize();
-    let yellow_blue = Vec3::new(1.0, 0.0, -1.0).normalize();
-    let green_magenta = white.cross(&yellow_blue);
-    let off =
-        |axis: &Vec3, sd: f64| (direction.dot(axis).atan2(direction.dot(&white)).to_degrees() / sd).powi(2);
-    let unusual = f64::midpoint(off(&yellow_blue, WHITE_SD_DEG[0]), off(&green_magenta, WHITE_SD_DEG[1]));
+    let unusual = unusualness(direction);
     let far = (axis_angle_deg(direction, &prior.direction) / prior.sd_deg).powi(2) / 2.0;
     satisfied - unusual / (1.0 + unusual / MOST_UNUSUAL) - far
+}
+
+/// How far a light lies from white: between blue (negative) and yellow, and between magenta and green, degrees.
+pub fn white_offsets_deg(direction: &Vec3) -> [f64; 2] {
+    let white = Vec3::repeat(1.0).normalize();
+    let yellow_blue = Vec3::new(1.0, 0.0, -1.0).normalize();
+    let green_magenta = yellow_blue.cross(&white);
+    [yellow_blue, green_magenta].map(|axis| direction.dot(&axis).atan2(direction.dot(&white)).to_degrees())
+}
+
+/// How unusual a light is: minus the logarithm of its likelihood.
+pub fn unusualness(direction: &Vec3) -> f64 {
+    let [yellow_blue, green_magenta] = white_offsets_deg(direction);
+    f64::midpoint((yellow_blue / WHITE_SD_DEG[0]).powi(2), (green_magenta / WHITE_SD_DEG[1]).powi(2))
 }
 
 fn residual_deg(constraint: &Constraint, direction: &Vec3) -> f64 {

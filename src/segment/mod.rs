@@ -3,12 +3,15 @@
 mod absorb;
 mod borders;
 mod candidates;
+mod choice;
 mod classify;
 mod clipping;
 mod evidence;
+mod holds;
 mod illuminant;
 mod in_plane;
 mod ledger;
+mod light;
 mod linear;
 mod matte;
 mod merge;
@@ -22,17 +25,20 @@ mod setting;
 #[cfg(test)]
 mod testing;
 mod unite;
+mod vote_light;
 
 pub use classify::{Classifier, Windows, classify};
 pub use clipping::clipping_regions;
+pub use holds::{POOR_FIT, RegionFit};
 pub use ledger::{Members, Pixels};
+pub use light::{Illuminant, LightBasis, LightFindings, white_offsets_deg};
 pub use linear::Hypothesis;
 pub use matte::{MatteRegions, matte_regions};
 pub use merge::{Areas, merge};
 pub use params::{InvalidParameter, Method, Parameter, ParameterSpec, Params, UsedParams};
-pub use planar::{Illuminant, PlanarHypothesis, PlanarRegions, planar_regions};
+pub use planar::{PlanarHypothesis, PlanarRegions, planar_regions};
 pub use preset::Preset;
 pub use refine::Refine;
-pub use regions::{FinalRegions, final_regions, members, neighbours};
+pub use regions::{FinalRegions, final_regions, members, neighbours, parts};
 pub use scene::Scene;
 pub use setting::{IlluminantSetting, Setting};

@@ -11,11 +11,13 @@
 //! A light that was given is not estimated, whatever the method: every plane turns to it.
 
 use super::candidates::{Found, HighlightLine, highlight_lines};
+use super::choice::ByPlanes;
 use super::classify::Windows;
 use super::evidence::{branch_constraint, nearby_highlight, plane_constraint};
 use super::illuminant::{Constraint, Prior, average_direction, intersect, weighted_direction};
 use super::in_plane::Branches;
 use super::ledger::{Ledger, Members};
+use super::light::{Illuminant, LightFindings};
 use super::linear::{Hypothesis, cylinders, matte_length};
 use super::matte::MatteRegions;
 use super::merge::Areas;
@@ -37,17 +39,6 @@ const ROUNDS: usize = 3;
 const SETTLED_DEG: f64 = 0.5;
 /// Pixels that all in-plane fits look at together: what they cost does not grow with the picture.
 const BRANCH_SAMPLES: usize = 16_000;
-
-/// The colour of the scene's light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Illuminant {
-    /// Unit vector.
-    pub direction: [f64; 3],
-    /// Number of regions whose highlights it rests on; 0 where it was given.
-    pub objects: usize,
-    /// Whether it was given and not estimated.
-    pub given: bool,
-}
 
 /// A region's skewed T.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,6 +76,8 @@ pub struct PlanarRegions {
     pub hypotheses: Vec<PlanarHypothesis>,
     /// The light, where a highlight gave evidence of it.
     pub illuminant: Option<Illuminant>,
+    /// What it rests on.
+    pub light: LightFindings,
 }
 
 /// Grows matte regions into planar ones.
@@ -121,67 +114,54 @@ pub fn planar_regions<R: Recorder>(
         let direction = average_direction(&stage.lines);
         stage.announce(direction, Vec::new());
         let hypotheses = stage.slices(direction);
-        return stage.finish(hypotheses, direction, objects);
+        return stage.choose(hypotheses, ByPlanes { direction, objects, interval_deg: 90.0 });
     }
-    let (mut direction, mut objects) = stage.first_illuminant(&members);
-    let mut hypotheses = stage.slices(direction);
+    let mut found = stage.first_illuminant(&members);
+    let mut hypotheses = stage.slices(found.direction);
     for _ in 0..ROUNDS {
-        let Some(before) = direction.filter(|_| !scene.stopped()) else { break };
-        let (next, count) = stage.illuminant_again(&hypotheses, &before);
-        (direction, objects) = (Some(next), count);
+        let Some(before) = found.direction.filter(|_| !scene.stopped()) else { break };
+        let next;
+        (next, found) = stage.illuminant_again(&hypotheses, &before);
         stage.unite();
         if axis_angle_deg(&next, &before) < SETTLED_DEG {
-            hypotheses = stage.hypotheses(direction);
+            hypotheses = stage.hypotheses(found.direction);
             break;
         }
         stage.reset();
-        hypotheses = stage.slices(direction);
+        hypotheses = stage.slices(found.direction);
     }
-    stage.finish(hypotheses, direction, objects)
+    stage.choose(hypotheses, found)
 }
 
-struct Stage<'a, 's, R: Recorder> {
-    scene: &'a Scene<'s>,
+pub(super) struct Stage<'a, 's, R: Recorder> {
+    pub(super) scene: &'a Scene<'s>,
     matte_labels: LabelMap,
     matte: Vec<Hypothesis>,
     /// Lengths of the matte lines from black, counts.
     lengths: Vec<f64>,
     lines: Vec<Option<HighlightLine>>,
-    ledger: Ledger<'a, R>,
+    pub(super) ledger: Ledger<'a, R>,
 }
 
 impl<R: Recorder> Stage<'_, '_, R> {
-    fn finish(
-        self,
-        hypotheses: Vec<PlanarHypothesis>,
-        direction: Option<Vec3>,
-        objects: usize,
-    ) -> PlanarRegions {
-        let illuminant = direction.filter(|_| objects > 0).map(|d| Illuminant {
-            direction: d.into(),
-            objects,
-            given: false,
-        });
-        PlanarRegions { labels: self.ledger.labels, hypotheses, illuminant }
-    }
-
     /// Slices that all turn to a light that is known: nothing is estimated, and one round settles it.
     fn under_given_light(mut self, direction: [f64; 3]) -> PlanarRegions {
         self.ledger.begin(Pass::Illuminant);
         if R::KEEPS {
             self.ledger.recorder.record(Event::IlluminantGiven { direction });
         }
-        let light = Some(Vec3::from(direction));
-        let mut hypotheses = self.slices(light);
+        let given = Some(Vec3::from(direction));
+        let mut hypotheses = self.slices(given);
         if self.scene.refine.robust_illuminant {
             self.unite();
-            hypotheses = self.hypotheses(light);
+            hypotheses = self.hypotheses(given);
         }
         let illuminant = Some(Illuminant { direction, objects: 0, given: true });
-        PlanarRegions { labels: self.ledger.labels, hypotheses, illuminant }
+        let light = LightFindings::given(direction);
+        PlanarRegions { labels: self.ledger.labels, hypotheses, illuminant, light }
     }
 
-    fn announce(&mut self, direction: Option<Vec3>, contributions: Vec<Contribution>) {
+    pub(super) fn announce(&mut self, direction: Option<Vec3>, contributions: Vec<Contribution>) {
         self.ledger.begin(Pass::Illuminant);
         if R::KEEPS
             && let Some(direction) = direction
@@ -192,7 +172,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
     }
 
     /// The illuminant from what lies just outside the matte regions.
-    fn first_illuminant(&mut self, members: &Members) -> (Option<Vec3>, usize) {
+    fn first_illuminant(&mut self, members: &Members) -> ByPlanes {
         let candidates = weighted_direction(&self.lines);
         let white = Vec3::repeat(1.0).normalize();
         let start = candidates.unwrap_or(white);
@@ -209,16 +189,17 @@ impl<R: Recorder> Stage<'_, '_, R> {
             })
             .collect();
         if constraints.is_empty() && candidates.is_none() {
-            return (None, 0);
+            return ByPlanes { direction: None, objects: 0, interval_deg: 90.0 };
         }
         let sd_deg = if candidates.is_some() { 8.0 } else { 12.0 };
         let found = intersect(&constraints, &Prior { direction: start, sd_deg });
         self.announce(Some(found.direction), found.contributions);
-        (Some(found.direction), constraints.len().max(self.lines.iter().flatten().count()))
+        let objects = constraints.len().max(self.lines.iter().flatten().count());
+        ByPlanes { direction: Some(found.direction), objects, interval_deg: found.interval_deg }
     }
 
     /// The illuminant from the grown regions.
-    fn illuminant_again(&mut self, hypotheses: &[PlanarHypothesis], before: &Vec3) -> (Vec3, usize) {
+    fn illuminant_again(&mut self, hypotheses: &[PlanarHypothesis], before: &Vec3) -> (Vec3, ByPlanes) {
         let members = Members::of(&self.ledger.labels, hypotheses.len());
         let budget = BRANCH_SAMPLES / hypotheses.iter().filter(|h| h.plane.is_some()).count().max(1);
         let pairs: Vec<(Option<Constraint>, Option<Constraint>)> = (1..=hypotheses.len() as u16)
@@ -252,11 +233,12 @@ impl<R: Recorder> Stage<'_, '_, R> {
         };
         let found = intersect(&constraints, &prior);
         self.announce(Some(found.direction), found.contributions);
-        (found.direction, objects)
+        let direction = Some(found.direction);
+        (found.direction, ByPlanes { direction, objects, interval_deg: found.interval_deg })
     }
 
     /// Joins parts that have grown together.
-    fn unite(&mut self) {
+    pub(super) fn unite(&mut self) {
         if !self.scene.refine.merge_regions {
             return;
         }
@@ -276,7 +258,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
     }
 
     /// Takes the labels back to the matte regions.
-    fn reset(&mut self) {
+    pub(super) fn reset(&mut self) {
         self.ledger.begin(Pass::Reset);
         for pixel in 0..self.matte_labels.len() {
             self.ledger.assign(pixel, self.matte_labels[pixel]);
@@ -284,12 +266,12 @@ impl<R: Recorder> Stage<'_, '_, R> {
     }
 
     /// Each region's skewed T under a light.
-    fn hypotheses(&self, illuminant: Option<Vec3>) -> Vec<PlanarHypothesis> {
+    pub(super) fn hypotheses(&self, illuminant: Option<Vec3>) -> Vec<PlanarHypothesis> {
         (0..self.matte.len()).map(|index| self.hypothesis(index, illuminant)).collect()
     }
 
     /// Makes each region's skewed T and grows it, larger regions first.
-    fn slices(&mut self, illuminant: Option<Vec3>) -> Vec<PlanarHypothesis> {
+    pub(super) fn slices(&mut self, illuminant: Option<Vec3>) -> Vec<PlanarHypothesis> {
         let members = Members::of(&self.matte_labels, self.matte.len());
         let hypotheses = self.hypotheses(illuminant);
         let slices: Vec<Option<Slice>> = hypotheses.iter().map(|h| self.slice(h)).collect();

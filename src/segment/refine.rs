@@ -53,6 +53,27 @@ pub struct Refine {
     /// Parts of a region that lie apart become regions of their own, unless an occluder or a shadow parts them. No object of
     /// the scenes measured needs it.
     pub split_components: bool,
+    /// Where few regions hold, the light is the one that small highlights vote for.
+    /// Printed scenes: illuminant 15.1° → .6° and 7.6° → .7°.
+    pub vote_light: bool,
+    /// Regions that do not hold are not split by their planes.
+    /// Printed scenes: body +20 dB and more on the regions that it is about; nothing on plain ones.
+    pub region_holds: bool,
+    /// Where no region holds, pixels are split by their saturation against that of their hue around them.
+    /// Printed scenes: body 30.2 → 40 dB; nothing on plain ones.
+    pub local_split: bool,
+    /// The local split passes over what varies against the body's shading.
+    /// See `intrinsic/local/texture`.
+    pub texture_test: bool,
+    /// The local split takes whole blobs with a strong core.
+    /// See `intrinsic/local/blobs`.
+    pub hysteresis: bool,
+    /// Without believable highlights nothing is split locally.
+    /// See `intrinsic/local/belief`.
+    pub belief: bool,
+    /// Clipped hearts of local highlights take the body around them.
+    /// See `intrinsic/local/repair`.
+    pub clip_repair: bool,
 }
 
 impl Refine {
@@ -74,6 +95,13 @@ impl Refine {
             no_negative_surface: on,
             restore_prior: on,
             split_components: on,
+            vote_light: on,
+            region_holds: on,
+            local_split: on,
+            texture_test: on,
+            hysteresis: on,
+            belief: on,
+            clip_repair: on,
         }
     }
 
@@ -115,12 +143,23 @@ impl Refine {
                 "Clipped pixels are restored from the bands that can be believed and from their surroundings (5.5, 6)."
             }
             "split_components" => "Parts of a region that lie apart become regions of their own (5.5).",
+            "vote_light" => "Small highlights vote for the light; where few regions hold, they decide (5.4).",
+            "region_holds" => {
+                "Where a region's pixels do not fit its plane, or vary like a print, the plane is not used (3)."
+            }
+            "local_split" => {
+                "Where no region holds, what is paler than its hue around it is taken for a highlight (6)."
+            }
+            "texture_test" => "The local split passes over what varies against the body like a print (6).",
+            "hysteresis" => "The local split takes faint blobs that have a strong core, and no others (6).",
+            "belief" => "Where highlights or light are not believable, nothing is split locally (6).",
+            "clip_repair" => "Clipped hearts of local highlights take the body that surrounds them (5.5, 6).",
             _ => "",
         }
     }
 
     /// Names and switches, in the order in which they take effect.
-    pub fn switches(&mut self) -> [(&'static str, &mut bool); 15] {
+    pub fn switches(&mut self) -> [(&'static str, &mut bool); 22] {
         [
             ("tail_test", &mut self.tail_test),
             ("robust_lines", &mut self.robust_lines),
@@ -137,6 +176,13 @@ impl Refine {
             ("no_negative_surface", &mut self.no_negative_surface),
             ("restore_prior", &mut self.restore_prior),
             ("split_components", &mut self.split_components),
+            ("vote_light", &mut self.vote_light),
+            ("region_holds", &mut self.region_holds),
+            ("local_split", &mut self.local_split),
+            ("texture_test", &mut self.texture_test),
+            ("hysteresis", &mut self.hysteresis),
+            ("belief", &mut self.belief),
+            ("clip_repair", &mut self.clip_repair),
         ]
     }
 }

@@ -6,6 +6,7 @@
 //! twice its size to be another object. Regions of one matte line that were found apart are joined by the same rule.
 
 use super::ledger::{Ledger, Members, Pixels};
+use super::light::LightFindings;
 use super::planar::{PlanarHypothesis, PlanarRegions};
 use super::scene::Scene;
 use super::unite::{MAX_ANGLE_DEG, matte_cluster, one_line};
@@ -32,6 +33,8 @@ pub struct FinalRegions {
     /// Region `id` at index `id − 1`. Parts of one linear hypothesis that lie apart have the same
     /// [`origin`](PlanarHypothesis::origin).
     pub hypotheses: Vec<PlanarHypothesis>,
+    /// The light, and what it rests on.
+    pub light: LightFindings,
 }
 
 /// Drops, separates and numbers the regions.
@@ -84,7 +87,7 @@ pub fn final_regions<R: Recorder>(
     if R::KEEPS {
         recorder.record(Event::Renumbered { finals: finals.into() });
     }
-    FinalRegions { labels, hypotheses: kept }
+    FinalRegions { labels, hypotheses: kept, light: planar.light }
 }
 
 /// Joins regions on one matte line that an occluder or a shadow parts.
@@ -171,7 +174,7 @@ fn separate<R: Recorder>(
 
 /// Groups of a region's pixels of which each is more than [`APART_PX`] from the next along rows or columns; none where there
 /// is but one.
-fn parts(width: usize, pixels: Pixels) -> Vec<Vec<u32>> {
+pub fn parts(width: usize, pixels: Pixels) -> Vec<Vec<u32>> {
     let runs = pixels.runs();
     let reach = APART_PX as u32;
     let row = |run: (u32, u32)| run.0 / width as u32;
@@ -334,6 +337,7 @@ mod tests {
             labels: labels.clone(),
             hypotheses: (1..).zip(&lines).map(hypothesis).collect(),
             illuminant: None,
+            light: LightFindings::default(),
         };
         let row = ".".repeat(SIZE_PX[0]);
         let drawing = Drawing::new(&[row.as_str(); SIZE_PX[1]], |_| Vec3::zeros());

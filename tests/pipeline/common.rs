@@ -96,11 +96,19 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
         count[1] += usize::from(kind == PixelKind::Matte);
         count[2] += usize::from(analysis.masks.clipped(pixel));
         if label == UNASSIGNED {
-            expect(intrinsic.body[pixel] == image.pixels[pixel], "an unassigned pixel lost its colour");
-            expect(intrinsic.surface[pixel] == [0.0; 3], "an unassigned pixel reflects at its surface");
+            let (body, surface) = (intrinsic.body[pixel], intrinsic.surface[pixel]);
+            let whole = |band: usize| {
+                let input = image.pixels[pixel][band];
+                (body[band] + surface[band] - input).abs() <= 1e-5 * input.max(1.0) && body[band] <= input
+            };
+            expect((0..3).all(whole), "an unassigned pixel lost some of its colour");
             expect(intrinsic.noise[pixel] == 0.0, "an unassigned pixel is noisy");
         }
     }
+    let shares = intrinsic.confidence.as_slice();
+    expect(shares.iter().all(|share| (0.0..=1.0).contains(share)), "a confidence is no share");
+    expect(intrinsic.confidence.len() == labels.len(), "the confidence has another size");
+    expect(intrinsic.reasons.len() == labels.len(), "the reasons have another size");
     expect(analysis.finals.hypotheses.len() == regions.len(), "a region without a skewed T");
     for hypothesis in &analysis.finals.hypotheses {
         let origin = analysis.matte.hypotheses.get(usize::from(hypothesis.origin) - 1);
@@ -116,6 +124,8 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
         expect(region.surface.is_none_or(is_unit), "a surface vector is not of unit length");
         expect(region.plane_normal.is_none_or(is_unit), "a plane's normal is not of unit length");
         expect(region.fit_rms_counts.is_finite(), "a fit is not finite");
+        expect((0.0..=1.0).contains(&region.confidence), "a region's confidence is no share");
+        expect(region.texture.is_finite(), "a texture is no number");
         expect(region.neighbours.is_sorted(), "neighbours are not sorted");
         let mutual = |&other: &u16| {
             regions.get(usize::from(other) - 1).is_some_and(|other| other.neighbours.contains(&region.id))

@@ -152,7 +152,7 @@ fn small_picture() -> impl Strategy<Value = LinearImage> {
 fn any_params() -> impl Strategy<Value = Params> {
     let choice = prop_oneof![6 => Just(None), 1 => Just(Some(None)), 1 => (0f64..=1.0).prop_map(|share| Some(Some(share)))];
     let choices = prop::collection::vec(choice, Parameter::ALL.len());
-    (any::<bool>(), choices, any::<[bool; 15]>()).prop_map(|(paper, choices, switches)| {
+    (any::<bool>(), choices, any::<[bool; 22]>()).prop_map(|(paper, choices, switches)| {
         let mut params = Params::of(if paper { Method::Paper } else { Method::Refined });
         params.min_area = Setting::Value(60.0);
         for (parameter, choice) in Parameter::ALL.into_iter().zip(choices) {

@@ -12,6 +12,7 @@ mod history;
 mod identities;
 mod light;
 mod methods;
+mod prints;
 mod replay;
 mod scenes;
 mod threads;

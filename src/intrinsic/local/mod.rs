@@ -1,0 +1,243 @@
+//! Where no region holds: what can be said of a pixel from its surroundings alone (real photographs; beyond the paper).
+//!
+//! Printed cups, fruit and skin break "one object, one skewed T", and a plane fitted to them makes the body image worse than
+//! the input. What still holds there is the dichromatic model at a point: surface reflection adds the light's colour, and so
+//! lowers a pixel's saturation below what the same hue has around it. `shade` measures that, `texture` and `blobs` decide
+//! where it is a highlight, `belief` whether this picture has any, and `repair` fills what has clipped.
+//!
+//! Body is the input less what is found, so that input = body + surface, and never more than the input. On a rendered scene of
+//! printed objects the body image goes from 19.8 dB (planes alone; doing nothing: 30.2 dB) to 40 dB.
+
+mod belief;
+mod blobs;
+mod repair;
+mod shade;
+mod texture;
+
+use super::confidence::LOCAL;
+use super::split::Images;
+use crate::color::Vec3;
+use crate::raster::{Mask, Raster, Window};
+use crate::segment::{FinalRegions, Scene};
+use crate::trace::PixelKind;
+use rayon::prelude::*;
+use shade::Shades;
+
+/// Fewest lit pixels that are worth a look, and the least share of all that are lit.
+const LEAST_PIXELS: usize = 64;
+const LEAST_SHARE: f64 = 0.01;
+/// How far around them the surroundings matter, pixels.
+const MARGIN_PX: usize = 24;
+
+/// Takes the planes' split back where it does not hold, and splits locally there. Returns the confidence of the pixels that
+/// were split so, 0 elsewhere; none where no pixel was.
+pub fn split_locally(
+    scene: &Scene,
+    regions: &FinalRegions,
+    holding: &Mask,
+    images: &mut Images,
+) -> Option<Raster<f32>> {
+    let outside = take_back(scene, holding, images);
+    let pixels = outside.as_slice().iter().filter(|&&outside| outside).count();
+    let lit = (0..outside.len()).filter(|&pixel| !scene.masks.dark(pixel)).count();
+    let few = pixels < LEAST_PIXELS || (pixels as f64) < LEAST_SHARE * lit as f64;
+    let light = Vec3::from(regions.light.direction?);
+    if !scene.refine.local_split || few || scene.stopped() {
+        return None;
+    }
+    let window = Window::around((outside.width(), outside.height()), MARGIN_PX, |pixel| outside[pixel])?;
+    let shades = Shades::new(scene, &light, window)?;
+    let texture = scene.refine.texture_test.then(|| texture::texture(&shades, scene.sigma()));
+    let weights = blobs::weights(scene, &shades, texture.as_ref(), &outside);
+    if scene.refine.belief
+        && belief::Doubt::about(scene, &regions.light, &shades, &weights, &outside).is_some()
+    {
+        return None;
+    }
+    let mut confidence = apply(&light, &shades, &weights, images);
+    if scene.refine.clip_repair {
+        repair::repair(scene, &outside, images, &mut confidence);
+    }
+    Some(confidence)
+}
+
+/// Gives lit pixels outside of what holds their input back, and tells which they are.
+fn take_back(scene: &Scene, holding: &Mask, images: &mut Images) -> Mask {
+    let (width, height) = (holding.width(), holding.height());
+    let mut outside = Raster::filled(width, height, false);
+    let rows = (
+        images.body.as_mut_slice().par_chunks_mut(width.max(1)),
+        images.surface.as_mut_slice().par_chunks_mut(width.max(1)),
+        images.noise.as_mut_slice().par_chunks_mut(width.max(1)),
+        images.kinds.as_mut_slice().par_chunks_mut(width.max(1)),
+        outside.as_mut_slice().par_chunks_mut(width.max(1)),
+    );
+    rows.into_par_iter().enumerate().for_each(|(y, (body, surface, noise, kinds, outside))| {
+        for x in 0..width {
+            let pixel = y * width + x;
+            if holding[pixel] {
+                continue;
+            }
+            outside[x] = !scene.masks.dark(pixel);
+            if kinds[x] == PixelKind::Unassigned {
+                continue;
+            }
+            (body[x], surface[x], noise[x]) = (scene.pixels[pixel], [0.0; 3], 0.0);
+            // Nothing was restored there.
+            if kinds[x] == PixelKind::Restored {
+                kinds[x] = PixelKind::Lost;
+            }
+        }
+    });
+    outside
+}
+
+/// Moves surface reflection from body to surface. Returns the confidence of each pixel.
+fn apply(light: &Vec3, shades: &Shades, weights: &Raster<f32>, images: &mut Images) -> Raster<f32> {
+    let width = images.body.width();
+    let mut confidence = Raster::filled(width, images.body.height(), 0.0);
+    let window = shades.window;
+    let per_amount: [f32; 3] = std::array::from_fn(|band| (3f64.sqrt() * light[band]) as f32);
+    let rows = (
+        images.body.as_mut_slice().par_chunks_mut(width.max(1)),
+        images.surface.as_mut_slice().par_chunks_mut(width.max(1)),
+        images.kinds.as_mut_slice().par_chunks_mut(width.max(1)),
+        confidence.as_mut_slice().par_chunks_mut(width.max(1)),
+    );
+    let rows = rows.into_par_iter().skip(window.top).take(window.height);
+    rows.enumerate().for_each(|(row, (body, surface, kinds, confidence))| {
+        let found = weights.row(row).iter().zip(shades.points.row(row));
+        for (x, (&weight, point)) in (window.left..).zip(found).filter(|(_, (weight, _))| **weight > 0.0) {
+            let amount = weight * point.surface;
+            // Never more than there is in any band.
+            surface[x] = std::array::from_fn(|band| (amount * per_amount[band]).min(body[x][band]));
+            body[x] = std::array::from_fn(|band| body[x][band] - surface[x][band]);
+            kinds[x] = if kinds[x] == PixelKind::Unassigned { kinds[x] } else { PixelKind::Highlight };
+            confidence[x] = LOCAL * weight;
+        }
+    });
+    confidence
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::vec3;
+    use crate::intrinsic::split;
+    use crate::photo::{LinearImage, MaskLimits, Masks};
+    use crate::raster::LabelMap;
+    use crate::segment::{LightBasis, LightFindings, Parameter, Params, UsedParams};
+    use crate::trace::Silent;
+    use proptest::prelude::*;
+
+    const SIDE_PX: usize = 96;
+    const SIGMA: f64 = 1.25;
+
+    fn light() -> Vec3 {
+        Vec3::new(0.62, 0.57, 0.54).normalize()
+    }
+
+    fn numbers() -> UsedParams {
+        let paper = |parameter: Parameter| parameter.spec().paper;
+        UsedParams {
+            clip_threshold: 240.0,
+            bloom_density: paper(Parameter::BloomDensity),
+            camera_noise: 2.0 * SIGMA,
+            min_intensity: paper(Parameter::MinIntensity),
+            cylinder_width: paper(Parameter::CylinderWidth),
+            slice_width: paper(Parameter::SliceWidth),
+            window_size: paper(Parameter::WindowSize),
+            min_area: paper(Parameter::MinArea),
+            illuminant: None,
+        }
+    }
+
+    /// Splits a picture in which no region was found, under a light that is known.
+    fn local(colour: impl Fn(f64, f64) -> Vec3) -> (LinearImage, crate::intrinsic::Intrinsic) {
+        let place = |i: usize| ((i % SIDE_PX) as f64, (i / SIDE_PX) as f64);
+        let data = (0..SIDE_PX * SIDE_PX).map(|i| {
+            let color = colour(place(i).0, place(i).1);
+            // A fixed pattern in the place of noise: well within it, and the same in every run.
+            let noise = ((i * 7919 % 13) as f32 - 6.0) * 0.15;
+            crate::color::rgb(&color).map(|band| (band + noise).clamp(0.0, 255.0))
+        });
+        let pixels = Raster::from_vec(SIDE_PX, SIDE_PX, data.collect()).unwrap();
+        let image = LinearImage::new(pixels, Some(255.0));
+        let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 1 };
+        let masks = Masks::new(&image, &limits);
+        let used = numbers();
+        let scene = Scene::new(&image, &masks, &used, Params::default().refinements());
+        let light = LightFindings {
+            direction: Some(light().into()),
+            basis: LightBasis::Votes,
+            share: 0.1,
+            ..LightFindings::default()
+        };
+        let labels = LabelMap::filled(SIDE_PX, SIDE_PX, 0);
+        let regions = FinalRegions { labels, hypotheses: Vec::new(), light };
+        let result = split(&scene, &regions, &mut Silent);
+        (image, result)
+    }
+
+    fn slope(x: f64, y: f64) -> Vec3 {
+        Vec3::new(0.75, 0.4, 0.25) * (90.0 + 0.4 * x + 0.2 * y)
+    }
+
+    /// A highlight of width 4 px at (48, 40).
+    fn highlight(x: f64, y: f64, amount: f64) -> Vec3 {
+        light() * (amount * (-((x - 48.0).powi(2) + (y - 40.0).powi(2)) / 32.0).exp())
+    }
+
+    #[test]
+    fn a_gaussian_highlight_on_a_matte_slope_is_found() {
+        let (_, result) = local(|x, y| slope(x, y) + highlight(x, y, 120.0));
+        let error =
+            |x: usize, y: usize| (vec3(result.body[y * SIDE_PX + x]) - slope(x as f64, y as f64)).norm();
+        assert!(error(48, 40) < 8.0, "its peak, 120 counts high: {}", error(48, 40));
+        assert!(error(52, 42) < 8.0, "its flank: {}", error(52, 42));
+        let found = result.surface[40 * SIDE_PX + 48];
+        assert!(crate::color::axis_angle_deg(&vec3(found), &light()) < 0.01);
+        assert!(result.confidence[40 * SIDE_PX + 48] > 0.2);
+        assert!(result.surface[80 * SIDE_PX + 10].iter().all(|band| *band == 0.0));
+    }
+
+    #[test]
+    fn a_clipped_heart_takes_the_body_around_it() {
+        let (_, result) = local(|x, y| slope(x, y) + highlight(x, y, 420.0));
+        let error = (vec3(result.body[40 * SIDE_PX + 48]) - slope(48.0, 40.0)).norm();
+        assert!(error < 20.0, "{error}");
+        assert_eq!(result.kinds[40 * SIDE_PX + 48], PixelKind::Unassigned);
+    }
+
+    #[test]
+    fn a_print_without_highlights_is_left_alone() {
+        let check = |x: f64, y: f64| ((x / 9.0).floor() + (y / 9.0).floor()) as i64 % 2 == 0;
+        let colours = [Vec3::new(0.8, 0.3, 0.2), Vec3::new(0.6, 0.5, 0.45)];
+        let (image, result) = local(|x, y| colours[usize::from(check(x, y))] * (110.0 + 0.5 * x));
+        let changed = result.surface.as_slice().iter().filter(|s| s.iter().sum::<f32>() > 6.0).count();
+        assert!(changed < image.pixels.len() / 200, "{changed} pixels");
+        let (image, result) = local(slope);
+        assert_eq!(result.body.as_slice(), image.pixels.as_slice(), "shading alone is no highlight");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(12))]
+        #[test]
+        fn body_is_never_more_than_the_input_and_surface_is_the_rest(
+            colours in prop::array::uniform2(prop::array::uniform3(0.05f64..1.0)), period in 3.0f64..20.0, peak in 0.0f64..500.0,
+        ) {
+            let (image, result) = local(|x, y| {
+                let first = ((x / period).floor() + (y / period).floor()) as i64 % 2 == 0;
+                Vec3::from(colours[usize::from(first)]) * (60.0 + x) + highlight(x, y, peak)
+            });
+            for (pixel, input) in image.pixels.as_slice().iter().enumerate() {
+                for (band, input) in input.iter().enumerate() {
+                    let (body, surface) = (result.body[pixel][band], result.surface[pixel][band]);
+                    prop_assert!(body >= 0.0 && surface >= 0.0 && body <= *input);
+                    prop_assert!((body + surface - input).abs() < 1e-3);
+                }
+                prop_assert!((0.0..=1.0).contains(&result.confidence[pixel]));
+            }
+        }
+    }
+}

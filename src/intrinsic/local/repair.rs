@@ -1,0 +1,166 @@
+//! Rule `clip_repair`: the clipped heart of a highlight takes the body that surrounds it.
+//!
+//! A blob of clipped pixels is filled where at least 40 % of the ring of 2 px around it are highlight and the highlight rises
+//! towards it: harmonically, which is the smoothest that meets the ring. Other clipped pixels (white paper, the sky) are left
+//! alone. Worth 8 dB inside highlights of printed scenes, nothing elsewhere.
+
+use crate::intrinsic::split::Images;
+use crate::raster::{Mask, Raster};
+use crate::segment::Scene;
+use crate::trace::PixelKind;
+
+/// Least share of the ring that is highlight.
+const LEAST_HIGHLIGHT: f64 = 0.4;
+/// Most pixels of a blob: larger ones are windows and skies.
+const MOST_PX: usize = 40_000;
+/// Confidence of a repaired pixel.
+const CONFIDENCE: f32 = 0.3;
+
+/// Fills the clipped blobs of `outside` that are highlights.
+pub fn repair(scene: &Scene, outside: &Mask, images: &mut Images, confidence: &mut Raster<f32>) {
+    let mut blobs =
+        Blobs { scene, mark: vec![0; outside.len()], width: outside.width(), height: outside.height() };
+    for start in 0..outside.len() {
+        let wanted = |pixel: usize| outside[pixel] && scene.masks.clipped(pixel);
+        if !wanted(start) || blobs.mark[start] != 0 || scene.stopped() {
+            continue;
+        }
+        let blob = blobs.flood(start, wanted);
+        let rings = blobs.rings(&blob);
+        if blob.len() > MOST_PX || !is_highlight(&rings, &images.surface) {
+            continue;
+        }
+        let filled = blobs.harmonic(&blob, &rings, &images.body);
+        for (&pixel, fill) in blob.iter().zip(filled) {
+            let input = scene.pixels[pixel];
+            images.body[pixel] = std::array::from_fn(|band| fill[band].clamp(0.0, input[band]));
+            images.surface[pixel] = std::array::from_fn(|band| input[band] - images.body[pixel][band]);
+            if images.kinds[pixel] != PixelKind::Unassigned {
+                images.kinds[pixel] = PixelKind::Restored;
+            }
+            confidence[pixel] = CONFIDENCE;
+        }
+    }
+}
+
+/// Whether the ring around a blob is highlight enough, and more so next to the blob.
+fn is_highlight([inner, outer]: &[Vec<usize>; 2], surface: &Raster<[f32; 3]>) -> bool {
+    let amount = |&pixel: &usize| surface[pixel].iter().sum::<f32>();
+    let mean = |ring: &[usize]| ring.iter().map(amount).sum::<f32>() / ring.len().max(1) as f32;
+    let count = inner.len() + outer.len();
+    let highlight = inner.iter().chain(outer).filter(|pixel| amount(pixel) > 0.0).count();
+    !inner.is_empty()
+        && !outer.is_empty()
+        && highlight as f64 >= LEAST_HIGHLIGHT * count as f64
+        && mean(inner) > mean(outer)
+}
+
+/// Blobs of clipped pixels, found one after the other.
+struct Blobs<'a> {
+    scene: &'a Scene<'a>,
+    /// What has been reached: blobs 1; rings are marked while they are walked.
+    mark: Vec<u8>,
+    width: usize,
+    height: usize,
+}
+
+const BLOB: u8 = 1;
+const RING: u8 = 2;
+
+impl Blobs<'_> {
+    /// All pixels that hang together with `start` and are `wanted`.
+    fn flood(&mut self, start: usize, wanted: impl Fn(usize) -> bool) -> Vec<usize> {
+        let mut blob = vec![start];
+        self.mark[start] = BLOB;
+        let mut at = 0;
+        while let Some(&pixel) = blob.get(at) {
+            at += 1;
+            for near in around(self.width, self.height, pixel) {
+                if self.mark[near] == 0 && wanted(near) {
+                    self.mark[near] = BLOB;
+                    blob.push(near);
+                }
+            }
+        }
+        blob
+    }
+
+    /// The unclipped pixels next to a blob, and those next to them.
+    fn rings(&mut self, blob: &[usize]) -> [Vec<usize>; 2] {
+        let inner = self.ring(blob);
+        let outer = self.ring(&inner);
+        inner.iter().chain(&outer).for_each(|&pixel| self.mark[pixel] = 0);
+        [inner, outer]
+    }
+
+    fn ring(&mut self, from: &[usize]) -> Vec<usize> {
+        let mut ring = Vec::new();
+        for &pixel in from {
+            for near in around(self.width, self.height, pixel) {
+                let known = !self.scene.masks.clipped(near) && !self.scene.masks.invalid(near);
+                if self.mark[near] == 0 && known {
+                    self.mark[near] = RING;
+                    ring.push(near);
+                }
+            }
+        }
+        ring
+    }
+
+    /// The values inside a blob that are the mean of their neighbours, by successive over-relaxation.
+    fn harmonic(&self, blob: &[usize], rings: &[Vec<usize>; 2], body: &Raster<[f32; 3]>) -> Vec<[f32; 3]> {
+        let ring = || rings.iter().flatten().map(|&pixel| body[pixel]);
+        let count = ring().count() as f32;
+        let sum = ring().fold([0.0f32; 3], |sum, color| std::array::from_fn(|band| sum[band] + color[band]));
+        let mut values = vec![sum.map(|sum| sum / count); blob.len()];
+        let mut order: Vec<usize> = (0..blob.len()).collect();
+        order.sort_unstable_by_key(|&index| blob[index]);
+        let place = |pixel: usize| {
+            let found = order.binary_search_by_key(&pixel, |&index| blob[index]);
+            found.ok().map(|at| order[at])
+        };
+        // Of each pixel: its neighbours inside, and the sum and number of those outside.
+        let mut near = vec![[usize::MAX; 4]; blob.len()];
+        let mut fixed = vec![([0.0f32; 3], 0.0f32); blob.len()];
+        for (index, &pixel) in blob.iter().enumerate() {
+            let (border, weight) = &mut fixed[index];
+            let mut inside = 0;
+            body.for_each_neighbour(pixel, |next| {
+                if let Some(other) = place(next) {
+                    near[index][inside] = other;
+                    inside += 1;
+                } else if !self.scene.masks.clipped(next) && !self.scene.masks.invalid(next) {
+                    border.iter_mut().zip(body[next]).for_each(|(sum, band)| *sum += band);
+                } else {
+                    return;
+                }
+                *weight += 1.0;
+            });
+        }
+        let across = (blob.len() as f32).sqrt() + 2.0;
+        let relaxation = 2.0 / (1.0 + std::f32::consts::PI / across);
+        for _ in 0..(3.0 * across) as usize + 20 {
+            for &index in &order {
+                let (mut sum, weight) = fixed[index];
+                for &next in near[index].iter().take_while(|&&next| next != usize::MAX) {
+                    sum.iter_mut().zip(values[next]).for_each(|(sum, band)| *sum += band);
+                }
+                if weight > 0.0 {
+                    for band in 0..3 {
+                        values[index][band] += relaxation * (sum[band] / weight - values[index][band]);
+                    }
+                }
+            }
+        }
+        values
+    }
+}
+
+/// The 8-neighbours of a pixel.
+fn around(width: usize, height: usize, pixel: usize) -> impl Iterator<Item = usize> {
+    let (x, y) = (pixel % width, pixel / width);
+    let columns = x.saturating_sub(1)..(x + 2).min(width);
+    (y.saturating_sub(1)..(y + 2).min(height))
+        .flat_map(move |v| columns.clone().map(move |u| v * width + u))
+        .filter(move |&near| near != pixel)
+}

@@ -1,0 +1,127 @@
+//! Which light: that of the planes, or that of the votes? (refinement `vote_light`)
+//!
+//! The planes are right to a tenth of a degree where objects are what section 3 assumes, and up to 18° off where they are
+//! printed; the votes are right to a degree in both. So the planes are believed where regions that hold, and show highlights,
+//! cover 30 % of what is lit. Else the votes are, and slices are made anew under their light, if enough votes agree on a light
+//! that is not unusual. Where neither speaks, no light is known and nothing is split by planes: a picture without highlights
+//! stays as it is.
+
+use super::holds::RegionFit;
+use super::ledger::Members;
+use super::light::{Illuminant, LightBasis, LightFindings, white_offsets_deg};
+use super::planar::{PlanarHypothesis, PlanarRegions, Stage};
+use super::scene::Scene;
+use super::vote_light::Votes;
+use crate::color::Vec3;
+use crate::raster::LabelMap;
+use crate::trace::Recorder;
+use rayon::prelude::*;
+
+/// Share of the lit pixels that regions which hold must cover for their planes to be believed without further ado …
+const SUPPORTED: f64 = 0.3;
+/// … and where the votes say nothing of use.
+const HARDLY_SUPPORTED: f64 = 0.05;
+/// Least share of the votes, and farthest from white, blue to yellow and green to magenta (degrees), of a light by votes.
+const LEAST_SHARE: f64 = 0.02;
+const USUAL_DEG: [f64; 2] = [20.0, 8.0];
+/// A region shows a highlight if so many of its pixels, and such a share of them, are nearer to the highlight line.
+const HIGHLIGHT_PX: usize = 30;
+const HIGHLIGHT_SHARE: f64 = 0.005;
+/// Pixels of a region that are looked at, evenly chosen.
+const SAMPLES: usize = 6000;
+
+/// The planes' light, the regions it rests on, and within how many degrees it lies.
+#[derive(Clone, Copy, Debug)]
+pub struct ByPlanes {
+    pub direction: Option<Vec3>,
+    pub objects: usize,
+    pub interval_deg: f64,
+}
+
+impl<R: Recorder> Stage<'_, '_, R> {
+    /// Holds the planes' light against the votes, and finishes with the better one.
+    pub fn choose(mut self, mut hypotheses: Vec<PlanarHypothesis>, planes: ByPlanes) -> PlanarRegions {
+        let by_planes = planes.direction.filter(|_| planes.objects > 0);
+        let mut light = LightFindings {
+            direction: by_planes.map(Into::into),
+            basis: if by_planes.is_some() { LightBasis::Planes } else { LightBasis::Nothing },
+            planes: by_planes.map(Into::into),
+            interval_deg: by_planes.map(|_| planes.interval_deg),
+            ..LightFindings::default()
+        };
+        let mut objects = planes.objects;
+        if self.scene.refine.vote_light && !self.scene.stopped() {
+            let votes = Votes::cast(self.scene);
+            let winner = votes.as_ref().map(Votes::winner);
+            light.votes = winner.map(Into::into);
+            light.support = support(self.scene, &self.ledger.labels, &hypotheses);
+            let chosen = votes.as_ref().zip(winner).filter(|(votes, winner)| {
+                let offsets = white_offsets_deg(winner);
+                let usual = (0..2).all(|i| offsets[i].abs() <= USUAL_DEG[i]);
+                light.support < SUPPORTED && usual && votes.share(winner) >= LEAST_SHARE
+            });
+            if let Some((votes, winner)) = chosen {
+                light.basis = LightBasis::Votes;
+                light.direction = Some(winner.into());
+                light.interval_deg = Some(votes.interval_deg(&winner));
+                objects = votes.blobs;
+                hypotheses = self.slices_anew(Some(winner));
+            } else if votes.is_some() && light.support < HARDLY_SUPPORTED {
+                light = LightFindings {
+                    direction: None,
+                    basis: LightBasis::Nothing,
+                    interval_deg: None,
+                    ..light
+                };
+                hypotheses = self.slices_anew(None);
+            } else {
+                // Ways that contradict each other are not as sure as each is of itself.
+                let doubt = light.agreement_deg().filter(|_| light.support < 2.0 * SUPPORTED).unwrap_or(0.0);
+                light.interval_deg = light.interval_deg.map(|interval| interval.max(doubt / 2.0));
+            }
+            let used = light.direction.map(Vec3::from);
+            light.share = votes.zip(used).map_or(0.0, |(votes, used)| votes.share(&used));
+        }
+        let illuminant = light.direction.map(|direction| Illuminant { direction, objects, given: false });
+        PlanarRegions { labels: self.ledger.labels, hypotheses, illuminant, light }
+    }
+
+    /// The regions under another light, from the matte ones on.
+    fn slices_anew(&mut self, light: Option<Vec3>) -> Vec<PlanarHypothesis> {
+        self.reset();
+        self.announce(light, Vec::new());
+        let hypotheses = self.slices(light);
+        if light.is_none() {
+            return hypotheses;
+        }
+        self.unite();
+        self.hypotheses(light)
+    }
+}
+
+/// Share of the lit pixels that lie in regions which hold and show a highlight.
+fn support(scene: &Scene, labels: &LabelMap, hypotheses: &[PlanarHypothesis]) -> f64 {
+    let members = Members::of(labels, hypotheses.len());
+    let supporting = (1..=hypotheses.len() as u16)
+        .into_par_iter()
+        .map(|id| {
+            let hypothesis = &hypotheses[usize::from(id) - 1];
+            let pixels = members.region(id);
+            let Some((plane, test)) = hypothesis.plane.zip(hypothesis.highlight_test()) else { return 0 };
+            if scene.stopped() || pixels.len() < HIGHLIGHT_PX {
+                return 0;
+            }
+            let vectors = (&plane.matte.mean, &plane.matte.direction, Some(&plane.surface));
+            let usable = pixels.sample(SAMPLES).filter(|&pixel| scene.masks.usable(pixel as usize));
+            let (highlight, seen) = usable.fold((0, 0), |(highlight, seen), pixel| {
+                (highlight + usize::from(test.is_highlight(scene.pixels[pixel as usize])), seen + 1)
+            });
+            let share = highlight as f64 / f64::from(seen.max(1));
+            let shows = share >= HIGHLIGHT_SHARE && share * pixels.len() as f64 >= HIGHLIGHT_PX as f64;
+            let holds = shows && RegionFit::new(scene, labels, (id, pixels), vectors).holds(scene.sigma());
+            if holds { pixels.len() } else { 0 }
+        })
+        .sum::<usize>();
+    let lit = (0..labels.len()).filter(|&pixel| !scene.masks.dark(pixel)).count();
+    supporting as f64 / lit.max(1) as f64
+}

@@ -1,0 +1,99 @@
+//! What is known of the light's colour, and from where.
+
+use super::illuminant::white_offsets_deg as offsets_deg;
+use crate::color::Vec3;
+
+/// The colour of the scene's light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Illuminant {
+    /// Unit vector.
+    pub direction: [f64; 3],
+    /// Number of regions, or of small highlights that voted, that it rests on; 0 where it was given.
+    pub objects: usize,
+    /// Whether it was given and not estimated.
+    pub given: bool,
+}
+
+/// What the light rests on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum LightBasis {
+    /// Nothing told of it.
+    #[default]
+    Nothing,
+    /// It was given.
+    Given,
+    /// The dichromatic planes of regions.
+    Planes,
+    /// The votes of small highlights.
+    Votes,
+}
+
+impl LightBasis {
+    /// Its name in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Nothing => "none",
+            Self::Given => "given",
+            Self::Planes => "planes",
+            Self::Votes => "votes",
+        }
+    }
+}
+
+/// The light by two ways that know nothing of one another, and which was used.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LightFindings {
+    /// The unit vector that was used.
+    pub direction: Option<[f64; 3]>,
+    /// What it rests on.
+    pub basis: LightBasis,
+    /// The light by the dichromatic planes, unit.
+    pub planes: Option<[f64; 3]>,
+    /// The light by the votes of small highlights, unit.
+    pub votes: Option<[f64; 3]>,
+    /// Share of the votes that the light used has, 0…1; 0 without votes.
+    pub share: f64,
+    /// Share of the lit pixels whose regions hold and show highlights under the planes' light, 0…1.
+    pub support: f64,
+    /// Within so many degrees the light lies, as far as the evidence itself can tell.
+    pub interval_deg: Option<f64>,
+}
+
+impl LightFindings {
+    /// A light that was given.
+    pub fn given(direction: [f64; 3]) -> Self {
+        Self { direction: Some(direction), basis: LightBasis::Given, ..Self::default() }
+    }
+
+    /// Degrees between both ways, where both found a light.
+    pub fn agreement_deg(&self) -> Option<f64> {
+        let (planes, votes) = (self.planes?, self.votes?);
+        Some(crate::color::axis_angle_deg(&planes.into(), &votes.into()))
+    }
+
+    /// Why this light was used and no other, in words.
+    pub fn reason(&self) -> String {
+        let support = 100.0 * self.support;
+        match self.basis {
+            LightBasis::Given => "it was given".to_owned(),
+            LightBasis::Planes => format!(
+                "dichromatic planes: regions that hold and show highlights cover {support:.0} % of the lit pixels"
+            ),
+            LightBasis::Votes => format!(
+                "votes of small highlights: regions that hold and show highlights cover only {support:.0} % of the lit pixels"
+            ),
+            LightBasis::Nothing if self.planes.is_none() && self.votes.is_none() => {
+                "no highlight was found, neither on a region nor a small one".to_owned()
+            }
+            LightBasis::Nothing => {
+                "the regions whose planes tell of a light do not hold, and small highlights do not agree on a usual one"
+                    .to_owned()
+            }
+        }
+    }
+}
+
+/// How far a light lies from white: between blue (negative) and yellow, and between magenta and green, degrees.
+pub fn white_offsets_deg(direction: &Vec3) -> [f64; 2] {
+    offsets_deg(direction)
+}

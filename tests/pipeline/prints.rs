@@ -1,0 +1,89 @@
+//! Where the model does not hold: printed objects, and pictures without highlights.
+
+use crate::common::{analyze, assert_valid, scores_of, truth_of};
+use crate::synthetic::{FULL_SCALE, Random, Rendered, Scene};
+use dichroscope::photo::LinearImage;
+use dichroscope::raster::Raster;
+use dichroscope::segment::{LightBasis, Params, Refine};
+
+/// The scene with checks of 9 px printed on its balls: every other one has its bands in another order, and less of them.
+fn printed(scene: &Scene) -> Rendered {
+    let mut rendered = scene.render();
+    let width = rendered.body.width();
+    for (pixel, body) in rendered.body.as_mut_slice().iter_mut().enumerate() {
+        if (pixel % width / 9 + pixel / width / 9).is_multiple_of(2) {
+            *body = [0.7 * body[1], 0.7 * body[2], 0.7 * body[0]];
+        }
+    }
+    rendered.image = photograph(&rendered, scene.noise_sigma);
+    rendered
+}
+
+fn photograph(rendered: &Rendered, noise_sigma: f64) -> LinearImage {
+    let mut noise = Random::new(5);
+    let both = rendered.body.as_slice().iter().zip(rendered.surface.as_slice());
+    let mut seen = |counts: f32| {
+        (f64::from(counts) + noise_sigma * noise.normal()).round().clamp(0.0, FULL_SCALE) as f32
+    };
+    let pixels = both.map(|(body, surface)| [0, 1, 2].map(|band| seen(body[band] + surface[band]))).collect();
+    let raster = Raster::from_vec(rendered.body.width(), rendered.body.height(), pixels).unwrap();
+    LinearImage::new(raster, Some(FULL_SCALE as f32))
+}
+
+/// 10·log10(255² / mean square difference).
+fn psnr_db(a: &Raster<[f32; 3]>, b: &Raster<[f32; 3]>) -> f64 {
+    let pairs = a.as_slice().iter().flatten().zip(b.as_slice().iter().flatten());
+    let squares: f64 = pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum();
+    10.0 * (FULL_SCALE * FULL_SCALE * (3 * a.len()) as f64 / squares.max(1e-9)).log10()
+}
+
+#[test]
+fn a_printed_scene_is_never_worse_than_its_photograph() {
+    for seed in [31, 32, 33] {
+        let scene = Scene {
+            illuminant: crate::synthetic::unit([1.1, 1.0, 0.9]),
+            ..Scene::grid_of_balls([320, 160], 2, 1, seed)
+        };
+        let rendered = printed(&scene);
+        let params = Params::default();
+        let analysis = analyze(&rendered.image, &params);
+        assert_valid(&rendered.image, &analysis, "printed");
+        let [nothing, found] =
+            [&rendered.image.pixels, &analysis.intrinsic.body].map(|b| psnr_db(b, &rendered.body));
+        assert!(found >= nothing - 0.01, "seed {seed}: {found} dB, doing nothing {nothing} dB");
+        let scores = scores_of(&truth_of(&scene, &rendered), &rendered.image, &analysis, &params);
+        assert!(scores.psnr_body >= scores.psnr_nothing, "seed {seed}: {scores:?}");
+        let planes_alone = Refine { region_holds: false, vote_light: false, ..Refine::default() };
+        let before = analyze(&rendered.image, &Params { refine: planes_alone, ..params });
+        let before = psnr_db(&before.intrinsic.body, &rendered.body);
+        assert!(found > before, "seed {seed}: {found} dB, planes alone {before} dB");
+    }
+}
+
+#[test]
+fn a_picture_of_body_reflection_stays_as_it_is() {
+    for seed in [41, 42] {
+        let scene = Scene { noise_sigma: 0.0, ..Scene::grid_of_balls([320, 160], 2, 1, seed) };
+        for print in [false, true] {
+            let mut rendered = if print { printed(&scene) } else { scene.render() };
+            rendered.surface = Raster::filled(rendered.body.width(), rendered.body.height(), [0.0; 3]);
+            let image = photograph(&rendered, 0.0);
+            let analysis = analyze(&image, &Params::default());
+            let left = psnr_db(&analysis.intrinsic.body, &image.pixels);
+            assert!(left > 45.0, "seed {seed}, print {print}: {left} dB between input and body");
+        }
+    }
+}
+
+#[test]
+fn plain_balls_hold_and_their_planes_tell_of_the_light() {
+    let image = Scene::grid_of_balls([240, 160], 3, 2, 8).render().image;
+    let analysis = analyze(&image, &Params::default());
+    assert!(analysis.intrinsic.regions.iter().all(|region| region.holds && region.confidence > 0.3));
+    let light = analysis.planar.light;
+    assert!(light.basis == LightBasis::Planes && light.support > 0.9, "{light:?}");
+    assert!(light.interval_deg.is_some_and(|interval| interval > 0.0 && interval < 5.0), "{light:?}");
+    let sure = analysis.intrinsic.confidence.as_slice().iter().filter(|&&share| share > 0.5).count();
+    let assigned = analysis.finals.labels.as_slice().iter().filter(|&&label| label != 0).count();
+    assert!(sure * 10 > assigned * 8, "{sure} of {assigned}");
+}
