@@ -5,6 +5,7 @@ mod cursor;
 use super::theme::{SMALL_PT, Tones};
 use super::{Cx, widgets};
 use crate::intrinsic::RegionReflection;
+use crate::segment::{Illuminant, LightBasis, LightFindings};
 use crate::workbench::{Command, Item, Shown, regions_text};
 use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -208,7 +209,20 @@ fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &S
     number(row, region.angle_deg.map_or_else(none, |angle| RichText::new(format!("{angle:.1}\u{b0}"))));
     let highlight = (region.highlight_pixels > 0).then(|| widgets::grouped(region.highlight_pixels));
     number(row, highlight.map_or_else(none, RichText::new));
-    number(row, RichText::new(format!("{:.2}", region.fit_rms_counts)));
+    let rms = RichText::new(format!("{:.2}", region.fit_rms_counts));
+    row.col(|ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let rms = if region.holds { rms } else { rms.color(tones.accent) };
+            let label = ui.add(Label::new(rms).selectable(false));
+            if !region.holds {
+                label.on_hover_text(format!(
+                    "Does not hold: its pixels lie {:.1} counts from the plane (rms), or are texture ({:.2} of at most 0.25). \
+                     Its plane is not used.",
+                    region.fit_rms_counts, region.texture
+                ));
+            }
+        });
+    });
     cell(row, |ui| {
         if let Some(first) = region.warnings.first() {
             let more = region.warnings.len() - 1;
@@ -251,6 +265,7 @@ fn shade(direction: [f64; 3]) -> Color32 {
 
 /// The light's colour, what it rests on, and how far it is from the truth.
 fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
+    let findings = &shown.analysis.finals.light;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         let tip =
@@ -258,17 +273,12 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
         ui.label(RichText::new("light").color(cx.tones.quiet)).on_hover_text(tip);
         match &shown.analysis.illuminant {
             Some(light) => {
-                let objects = if light.objects == 1 { "object" } else { "objects" };
                 vector(ui, cx.tones, Some(light.direction));
-                let from = if light.given {
-                    "given".to_owned()
-                } else {
-                    format!("from {} {objects}", light.objects)
-                };
-                ui.label(RichText::new(from).size(SMALL_PT).color(cx.tones.quiet));
+                let from = RichText::new(rests_on(light, findings)).size(SMALL_PT).color(cx.tones.quiet);
+                ui.label(from).on_hover_text(findings.reason());
             }
             None => {
-                ui.label("unknown: no highlight was found");
+                ui.label("unknown").on_hover_text(findings.reason());
             }
         }
         // Beside it the button for copying must find its place.
@@ -282,6 +292,17 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
             }
         });
     });
+}
+
+/// What the light rests on, and within how many degrees it lies.
+fn rests_on(light: &Illuminant, findings: &LightFindings) -> String {
+    let s = if light.objects == 1 { "" } else { "s" };
+    let from = match findings.basis {
+        LightBasis::Given => return "given".to_owned(),
+        LightBasis::Votes => format!("by {} small highlight{s}", light.objects),
+        LightBasis::Planes | LightBasis::Nothing => format!("from {} object{s}", light.objects),
+    };
+    findings.interval_deg.map_or_else(|| from.clone(), |degrees| format!("{from}, \u{b1}{degrees:.1}\u{b0}"))
 }
 
 /// How far the result is from the ground truth, doing nothing beside it.

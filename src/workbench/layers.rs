@@ -14,6 +14,7 @@ pub use pyramid::pyramid;
 
 use super::{Fill, ImageSettings, Layer, Picture, Shown};
 use crate::export::coloured;
+use crate::intrinsic::Reason;
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Mask, Raster};
 use crate::trace::Class;
@@ -65,6 +66,43 @@ const DIFFERENCE: [LegendEntry; 3] = [
     LegendEntry::new("brighter", [255, 255, 255], "body reflection 64 counts above the pinned result's"),
 ];
 
+const CONFIDENCE: [LegendEntry; 2] = [
+    LegendEntry::new("not at all", [1, 1, 1], "the split of this pixel is not to be believed"),
+    LegendEntry::new(
+        "fully",
+        [255, 255, 255],
+        "the split of this pixel is to be believed as far as the model goes",
+    ),
+];
+
+/// What keeps pixels from being explained, in the order of [`Reason::ALL`] from the second on.
+const REASONS: [LegendEntry; 8] = [
+    LegendEntry::new("shadow", [74, 111, 212], "5.6: too dark to be analysed, shadow or background"),
+    LegendEntry::new("no matte line", [160, 120, 220], "5.3: lit, but on no matte line that was found"),
+    LegendEntry::new("mixed boundary", [120, 190, 200], "5.6: between two objects, a mixture of both"),
+    LegendEntry::new(
+        "inter-reflection",
+        [90, 180, 110],
+        "7.5: off the plane, light of a neighbour or a second material",
+    ),
+    LegendEntry::new(
+        "texture",
+        [232, 120, 90],
+        "7.5: body and surface reflection vary against each other, a print",
+    ),
+    LegendEntry::new(
+        "other object",
+        [220, 140, 190],
+        "5.5: the clipped highlight of another object than its region's",
+    ),
+    LegendEntry::new(
+        "collinear",
+        [150, 150, 150],
+        "3.2: the body has the light's colour: grey, white, metal",
+    ),
+    LegendEntry::new("clipped in all bands", [250, 226, 70], "5.5: nothing of its colour is left to go by"),
+];
+
 /// What a colour stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LegendEntry {
@@ -89,6 +127,8 @@ pub fn legend(layer: Layer) -> Vec<LegendEntry> {
         Layer::Masks => MASKS.to_vec(),
         Layer::Noise => NOISE.to_vec(),
         Layer::Difference => DIFFERENCE.to_vec(),
+        Layer::Confidence => CONFIDENCE.to_vec(),
+        Layer::Reasons => REASONS.to_vec(),
         Layer::Input
         | Layer::Areas
         | Layer::Linear
@@ -166,6 +206,8 @@ pub fn paint(
             let before = pinned.filter(fits).unwrap_or(shown);
             difference(&analysis.intrinsic.body, &before.analysis.intrinsic.body, look)
         }
+        Layer::Confidence => confidence(&analysis.intrinsic.confidence),
+        Layer::Reasons => reasons(&base, &analysis.intrinsic.reasons, look),
         Layer::Classes => classes(&base, shown, look),
         Layer::Areas => areas(&base, shown, look),
         Layer::Linear => stage(&base, shown.linear_labels(), shown, look),
@@ -254,6 +296,22 @@ fn noise(epsilon: &Raster<f32>, half_width_counts: f32, look: &Look) -> Raster<[
             *pixel = [grey, grey, grey, 255];
         }
     })
+}
+
+/// Black for 0, white for 1.
+fn confidence(share: &Raster<f32>) -> Raster<[u8; 4]> {
+    each_row(share, |share, row| {
+        for (pixel, &share) in row.iter_mut().zip(share) {
+            let grey = (share.clamp(0.0, 1.0) * 255.0).round() as u8;
+            *pixel = [grey, grey, grey, 255];
+        }
+    })
+}
+
+/// A colour for each reason; what is explained is left clear.
+fn reasons(base: &Base, reasons: &Raster<Reason>, look: &Look) -> Raster<[u8; 4]> {
+    let width = base.photo.width();
+    base.overlaid(look.fill, &legend_styles(&REASONS, look), |x, y| reasons[y * width + x] as usize)
 }
 
 fn difference(now: &Raster<[f32; 3]>, before: &Raster<[f32; 3]>, look: &Look) -> Raster<[u8; 4]> {

@@ -63,11 +63,15 @@ pub enum Layer {
     Masks,
     /// The newest result's body reflection minus the pinned one's, grey = 0.
     Difference,
+    /// How far the split of each pixel is to be believed, black = not at all.
+    Confidence,
+    /// Why pixels are not explained (5.6, 7.5).
+    Reasons,
 }
 
 impl Layer {
     /// All of them, in the order of the pipeline.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Input,
         Self::Masks,
         Self::Classes,
@@ -78,6 +82,8 @@ impl Layer {
         Self::Body,
         Self::Surface,
         Self::Noise,
+        Self::Confidence,
+        Self::Reasons,
         Self::Difference,
     ];
 
@@ -95,6 +101,8 @@ impl Layer {
             Self::Noise => "Noise",
             Self::Masks => "Masks",
             Self::Difference => "Difference",
+            Self::Confidence => "Confidence",
+            Self::Reasons => "Reasons",
         }
     }
 
@@ -102,7 +110,13 @@ impl Layer {
     pub const fn is_overlay(self) -> bool {
         matches!(
             self,
-            Self::Classes | Self::Areas | Self::Linear | Self::Planar | Self::Regions | Self::Masks
+            Self::Classes
+                | Self::Areas
+                | Self::Linear
+                | Self::Planar
+                | Self::Regions
+                | Self::Masks
+                | Self::Reasons
         )
     }
 }

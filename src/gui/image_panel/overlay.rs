@@ -50,6 +50,7 @@ pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer,
                 (Layer::Body, Some(found)) => found.body[pixel].to_vec(),
                 (Layer::Surface, Some(found)) => found.surface[pixel].to_vec(),
                 (Layer::Noise, Some(found)) => vec![found.noise[pixel]],
+                (Layer::Confidence, Some(found)) => vec![found.confidence[pixel]],
                 _ => picture.photo.image.pixels[pixel].to_vec(),
             };
             let tone = readable_on(sheet.colour(pixel));

@@ -39,6 +39,10 @@ const fn tip(layer: Layer) -> &'static str {
         Layer::Body => "Body reflection: the photograph without highlights (section 6).",
         Layer::Surface => "Surface reflection: the highlights alone (section 6).",
         Layer::Noise => "Distance \u{3b5} from the dichromatic plane; grey is 0 (section 6).",
+        Layer::Confidence => {
+            "How far the split of each pixel is to be believed: black not at all, white fully."
+        }
+        Layer::Reasons => "Why pixels are not explained by one region's skewed T (sections 5.6 and 7.5).",
         Layer::Difference => "Body reflection minus that of the pinned result; grey is 0.",
     }
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::intrinsic::Intrinsic;
+use crate::intrinsic::{Intrinsic, Reason};
 use crate::segment::{MatteRegions, Windows};
 use crate::workbench::testing::{divided, grey, labels, picture, shown};
 use crate::workbench::{Item, Selection};
@@ -140,6 +140,27 @@ fn noise_and_difference_are_grey_at_zero() {
     let difference = greys(Layer::Difference, Some(&before));
     assert_eq!(difference[..3], [[128, 128, 128, 255], [255, 1, 192, 255], [255, 0, 128, 255]]);
     assert_eq!(greys(Layer::Difference, None), [[128, 128, 128, 255]; 5]);
+}
+
+#[test]
+fn confidence_is_grey_and_each_reason_has_its_colour() {
+    let picture = grey(&["....."], 100);
+    let mut now = shown(&picture);
+    let confidence = Raster::from_vec(5, 1, vec![0.0, 0.5, 1.0, 2.0, f32::NAN]).unwrap();
+    let mut reasons = now.analysis.intrinsic.reasons.map(|_| Reason::Explained);
+    reasons.as_mut_slice()[1..4].copy_from_slice(&[Reason::Shadow, Reason::Texture, Reason::ClippedAllBands]);
+    let intrinsic = Intrinsic { confidence, reasons, ..Intrinsic::clone(&now.analysis.intrinsic) };
+    now.analysis.intrinsic = Arc::new(intrinsic);
+    let look = Look { opacity: 1.0, ..Look::default() };
+    let drawn = |layer| paint(layer, &picture, Some(&now), None, &look).into_vec();
+    let levels: Vec<u8> = drawn(Layer::Confidence).iter().map(|pixel| pixel[0]).collect();
+    assert_eq!(levels, [0, 128, 255, 255, 0]);
+    let colour = |name: &str| legend(Layer::Reasons).iter().find(|entry| entry.name == name).unwrap().colour;
+    let drawn: Vec<[u8; 3]> = drawn(Layer::Reasons).iter().map(|&[r, g, b, _]| [r, g, b]).collect();
+    let expected = [colour("shadow"), colour("texture"), colour("clipped in all bands")];
+    assert_eq!(drawn[1..4], expected);
+    assert_eq!(drawn[0], drawn[4], "what is explained is the photograph");
+    assert_eq!(legend(Layer::Reasons).len() + 1, Reason::ALL.len());
 }
 
 #[test]
