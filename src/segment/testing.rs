@@ -21,7 +21,7 @@ impl Drawing {
     pub fn new(rows: &[&str], palette: impl Fn(char) -> Vec3) -> Self {
         let colors = rows.iter().flat_map(|row| row.chars());
         let colors = colors.map(|c| if c == '.' { [0.0; 3] } else { rgb(&palette(c)) }).collect();
-        let pixels = Raster::from_vec(rows[0].len(), rows.len(), colors).unwrap();
+        let pixels = Raster::from_vec(rows[0].chars().count(), rows.len(), colors).unwrap();
         let image = LinearImage::new(pixels, Some(255.0));
         let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 9 };
         let used = UsedParams {
