@@ -90,7 +90,7 @@ fn a_result_tells_its_progress_and_can_be_stopped() {
     let files = AtomicUsize::new(0);
     let export = Export::Result { folder: folder.clone(), force: false };
     let halt = |done: usize, total: usize| {
-        assert!((1..=total).contains(&done) && total == 14);
+        assert!((1..=total).contains(&done) && total == 15);
         if done == 3 {
             stop.stop();
         }
@@ -102,7 +102,7 @@ fn a_result_tells_its_progress_and_can_be_stopped() {
         files.fetch_add(1, Ordering::Relaxed);
     };
     write(&export, &bench, &Stop::default(), &count).unwrap();
-    assert_eq!(files.into_inner(), 14);
+    assert_eq!(files.into_inner(), 15);
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 15);
 }
 
