@@ -133,6 +133,7 @@ const POINTER: &[(&str, &str)] = &[
     ("Drag", "pan the image, orbit the colour space"),
     ("Middle drag, Space drag", "pan, whatever the tool"),
     ("Double-click", "fit a view; reset a slider to its default"),
+    ("Shift + click on the timeline", "run there, or to a breakpoint on the way"),
     ("Shift + mark", "add to what is marked"),
     ("Alt + mark", "take away from what is marked"),
     ("Arrow keys on a slider", "one step"),

@@ -199,7 +199,8 @@ fn alternatives(ui: &mut Ui, cx: &mut Cx, found: &[WhatIf]) {
         let origin = if what_if.predicted { "from the recorded numbers" } else { "by search" };
         let hover =
             format!("Found {origin}, and confirmed by analysing again. Click to set the parameter so.");
-        if ui.add(egui::Link::new(text)).on_hover_text(hover).clicked() {
+        let link = egui::Link::new(RichText::new(text).size(SMALL_PT));
+        if ui.add(link).on_hover_text(hover).clicked() {
             cx.send(Command::SetParameter(what_if.parameter, Setting::Value(what_if.at), None));
         }
     }

@@ -25,6 +25,12 @@ impl Classifier {
         let significant = self.0.directions(cluster.n, lambda);
         ([Class::Point, Class::Line, Class::Plane, Class::Volume][significant], lambda)
     }
+
+    /// Statistic and threshold of the test that decided the class of `pixels` colours of these variances, for the record.
+    pub fn decided_by(&mut self, pixels: f64, eigenvalues: [f64; 3]) -> [f32; 2] {
+        let trials = self.0.trials(pixels, eigenvalues);
+        trials.last().map_or([0.0; 2], |trial| [trial.statistic() as f32, trial.threshold() as f32])
+    }
 }
 
 /// The windows of an image: a grid of squares, the last column and row cut off by the border.
@@ -83,8 +89,9 @@ pub fn classify<R: Recorder>(
         classes[window] = class;
         if R::KEEPS {
             let (window, pixels) = (window as u32, pixels as u32);
+            let chi_square = classifier.decided_by(cluster.n, eigenvalues);
             let eigenvalues = eigenvalues.map(|variance| variance as f32);
-            recorder.record(Event::WindowClassified { window, pixels, eigenvalues, class });
+            recorder.record(Event::WindowClassified { window, pixels, eigenvalues, chi_square, class });
         }
     }
     Windows { size_px, moments, classes }

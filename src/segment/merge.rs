@@ -102,6 +102,7 @@ impl Forest {
                 from: pair.1,
                 pixels: [into, from].map(|part| self.moments[part].n as u32),
                 eigenvalues: eigenvalues.map(|variance| variance as f32),
+                chi_square: classifier.decided_by(both.n, eigenvalues),
                 class,
                 union,
             });

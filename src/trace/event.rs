@@ -34,6 +34,9 @@ pub enum Event {
         pixels: u32,
         /// Variances along the principal axes, counts², largest first.
         eigenvalues: [f32; 3],
+        /// The statistic of the test that decided the class, and the χ² quantile that it was held against: the test after
+        /// which no direction was left but noise, or the last one.
+        chi_square: [f32; 2],
         /// Its class, unless it holds too few valid pixels.
         class: Option<Class>,
     },
@@ -47,6 +50,9 @@ pub enum Event {
         pixels: [u32; 2],
         /// Variances of the union along its principal axes, counts², largest first.
         eigenvalues: [f32; 3],
+        /// The statistic of the test that decided the union's class, and the χ² quantile that it was held against: the test after
+        /// which no direction was left but noise, or the last one.
+        chi_square: [f32; 2],
         /// Class of both.
         class: Class,
         /// Class of the union: they merge if it is the same.

@@ -5,7 +5,9 @@ use super::hint;
 use crate::gui::Cx;
 use crate::report::Names;
 use crate::trace::{Block, Replay};
-use crate::workbench::{Command, DebugCommand, Item, TimelineAxis, TimelineSection, timeline_density};
+use crate::workbench::{
+    Command, DebugCommand, Direction, Goal, Item, TimelineAxis, TimelineSection, timeline_density,
+};
 use egui::accesskit::{Action, ActionData};
 use egui::{
     CursorIcon, EventFilter, Id, PointerButton, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
@@ -125,7 +127,7 @@ impl Track {
         }
     }
 
-    /// Clicks seek, drags scrub, and blocks are their regions.
+    /// Clicks seek, with Shift they run there; drags scrub, and blocks are their regions.
     fn act(
         &mut self,
         ui: &Ui,
@@ -149,13 +151,18 @@ impl Track {
             ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
         }
         let Some(pointer) = response.interact_pointer_pos() else { return };
+        let runs = response.clicked() && ui.input(|input| input.modifiers.shift);
         if response.clicked_by(PointerButton::Primary)
+            && !runs
             && let Some(block) = block
         {
             choose(cx, &block);
         } else if response.dragged_by(PointerButton::Primary) || response.clicked_by(PointerButton::Primary) {
             let n = scale.axis.taken_at(scale.place(pointer.x));
-            if n != replay.at() {
+            let direction = if n < replay.at() { Direction::Back } else { Direction::Forward };
+            if runs {
+                cx.send(Command::Debug(DebugCommand::RunTo(Goal::Place(n), direction)));
+            } else if n != replay.at() {
                 cx.send(Command::Debug(DebugCommand::Seek(n)));
             }
         }

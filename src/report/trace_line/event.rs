@@ -29,24 +29,40 @@ pub(super) fn parts(names: &Names, event: &Event) -> (Value, Value, Value) {
             json!({"window_size": laid.size_px, "columns": laid.columns, "rows": laid.rows, "tail_test": laid.tail_test}),
             json!({"least_pixels": laid.least_pixels, "camera_noise": laid.camera_noise}),
         ),
-        Event::WindowClassified { window, pixels, eigenvalues, class } => (
+        Event::WindowClassified {
+            window,
+            pixels,
+            eigenvalues,
+            chi_square: [statistic, threshold],
+            class,
+        } => (
             json!({"window": window}),
             json!({
                 "pixels": pixels,
                 "eigenvalues": eigenvalues.map(short),
+                "chi_square": short(*statistic),
                 "class": class.map(crate::trace::Class::name),
             }),
-            none(),
+            json!({"chi_square": short(*threshold)}),
         ),
-        Event::MergeTried { into, from, pixels, eigenvalues, class, union } => (
+        Event::MergeTried {
+            into,
+            from,
+            pixels,
+            eigenvalues,
+            chi_square: [statistic, threshold],
+            class,
+            union,
+        } => (
             json!({"into": into, "area": from}),
             json!({
                 "pixels": pixels,
                 "eigenvalues": eigenvalues.map(short),
+                "chi_square": short(*statistic),
                 "union": union.name(),
                 "kept": class == union,
             }),
-            json!({"class": class.name()}),
+            json!({"class": class.name(), "chi_square": short(*threshold)}),
         ),
         Event::HypothesisChosen(_)
         | Event::HypothesisPassedOver { .. }

@@ -14,19 +14,23 @@ impl Names {
             Event::PassBegan { pass } => pass_began(*pass),
             Event::MasksMade(made) => masks_made(made),
             Event::WindowsLaid(laid) => windows_laid(laid),
-            Event::WindowClassified { window, pixels, eigenvalues, class } => {
+            Event::WindowClassified { window, pixels, eigenvalues, chi_square, class } => {
                 let pixels = count(*pixels, "valid pixel");
                 let [a, b, c] = variances(*eigenvalues);
                 let verdict = class.map_or("too few for a class", Class::name);
-                format!("window {window}, {pixels}, variances {a:.1}, {b:.1}, {c:.1} counts\u{b2}: {verdict}")
+                let held = held(*chi_square);
+                format!(
+                    "window {window}, {pixels}, variances {a:.1}, {b:.1}, {c:.1} counts\u{b2}, {held}: {verdict}"
+                )
             }
-            Event::MergeTried { into, from, pixels: [a, b], eigenvalues, class, union } => {
+            Event::MergeTried { into, from, pixels: [a, b], eigenvalues, chi_square, class, union } => {
                 let [x, y, z] = variances(*eigenvalues);
                 let verdict = if class == union { "they merge" } else { "they stay apart" };
                 format!(
                     "areas {into} ({a} px) and {from} ({b} px), both {}: variances of the union {x:.1}, {y:.1}, {z:.1} \
-                     counts\u{b2}, {}: {verdict}",
+                     counts\u{b2}, {}, {}: {verdict}",
                     class.name(),
+                    held(*chi_square),
                     union.name()
                 )
             }
@@ -144,6 +148,12 @@ impl Names {
             CandidateSource::Absorbed(region) => format!("absorbed {}", self.region(region)),
         }
     }
+}
+
+/// The test that decided a class, in numbers.
+fn held([statistic, threshold]: [f32; 2]) -> String {
+    let relation = if statistic <= threshold { '\u{2264}' } else { '>' };
+    format!("\u{3c7}\u{b2} {statistic:.1} {relation} {threshold:.1}")
 }
 
 /// Variances to print: rounding may leave less than nothing of them.

@@ -30,7 +30,7 @@ impl<'a> Patch<'a> {
     /// What an event says about the window.
     pub(super) fn hear(&mut self, step: usize, event: &Event) -> Option<What> {
         match event {
-            Event::WindowClassified { window, pixels, eigenvalues, class } if *window == self.window => {
+            Event::WindowClassified { window, pixels, eigenvalues, class, .. } if *window == self.window => {
                 self.class = *class;
                 let trials = match class {
                     Some(_) => self.test.trials(f64::from(*pixels), eigenvalues.map(f64::from)),
@@ -54,7 +54,7 @@ impl<'a> Patch<'a> {
     }
 
     fn tried(&mut self, step: usize, event: &Event) {
-        let Event::MergeTried { into, from, pixels, eigenvalues, class, union } = event else { return };
+        let Event::MergeTried { into, from, pixels, eigenvalues, class, union, .. } = event else { return };
         let own = usize::from(*from == self.area);
         let (last, story) = self.merging.get_or_insert_with(|| {
             let pixels = pixels[own];

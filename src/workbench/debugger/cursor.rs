@@ -59,6 +59,8 @@ pub enum Goal {
     Region(u16),
     /// The next breakpoint.
     Breakpoint,
+    /// After this many steps, or a breakpoint on the way.
+    Place(usize),
 }
 
 /// Where a step of this grain leads from `at`; rings are the caller's.
@@ -128,7 +130,7 @@ pub fn found(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Opti
         Goal::Kind(kind) => step.kind() == kind,
         Goal::Pixel(pixel) => step.pixel() == Some(pixel) || windows.binary_search(&n).is_ok(),
         Goal::Region(region) => step.concerns(region),
-        Goal::Breakpoint => false,
+        Goal::Breakpoint | Goal::Place(_) => false,
     };
     match direction {
         Direction::Forward => first(trace.steps_in(at..trace.len()), meant),

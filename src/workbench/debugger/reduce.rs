@@ -171,7 +171,12 @@ impl Debugger {
             Direction::Forward => self.len(),
             Direction::Back => 0,
         };
-        if goal == Goal::Breakpoint {
+        let stops = match goal {
+            Goal::Breakpoint => Some(far),
+            Goal::Place(n) => Some(n.min(self.len())),
+            _ => None,
+        };
+        if let Some(far) = stops {
             let stop = hit(replay, far, breakpoints);
             self.seek(stop.map_or(far, |stop| stop.0));
             self.stopped_by = stop.map(|stop| stop.1);

@@ -251,6 +251,11 @@ fn breakpoints_stop_playing_and_running_in_both_directions() {
     assert_eq!((debugger.playing, debugger.stopped_by), (None, Some(1)));
     assert_eq!(replay(bench.state()).size(region), 41, "right after it has outgrown it");
     let stopped = at(&bench);
+    for (place, arrives) in [(stopped - 5, stopped - 5), (first.steps.end, stopped)] {
+        debug(&mut bench, DebugCommand::Seek(0));
+        debug(&mut bench, DebugCommand::RunTo(Goal::Place(place), Direction::Forward));
+        assert_eq!(at(&bench), arrives, "a breakpoint on the way stops it, one beyond does not");
+    }
     debug(&mut bench, DebugCommand::Seek(first.steps.end));
     debug(&mut bench, DebugCommand::RunTo(Goal::Breakpoint, Direction::Back));
     assert_eq!(at(&bench), stopped);

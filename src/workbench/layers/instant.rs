@@ -13,6 +13,8 @@ const SEAM: [u8; 4] = [0, 0, 0, 200];
 /// What a region did not take has one of these colours: the one that is less like the region's own.
 const BESIDE: [[u8; 3]; 2] = [[0x2E, 0xC4, 0xF2], [0xF2, 0x55, 0xC2]];
 const BESIDE_ALPHA: u8 = 210;
+/// Opacity of the regions that are not in focus, of that of the one that is: clearly somebody's, unlike what is nobody's.
+const HELD: f32 = 0.6;
 
 /// Names, colours and meanings of the roles (section 6).
 const ROLES: [LegendEntry; 4] = [
@@ -194,7 +196,10 @@ impl RegionsView {
     fn paint(&self, painted: &mut Raster<[u8; 4]>, look: &Look) {
         let selected = |id: u16| self.focus.is_none_or(|focus| focus == id);
         let styles: Vec<[u8; 4]> = std::iter::once(CLEAR)
-            .chain(self.colours.iter().zip(1..).map(|(&colour, id)| look.style(colour, selected(id))))
+            .chain(self.colours.iter().zip(1..).map(|(&colour, id)| {
+                let [r, g, b, alpha] = look.style(colour, true);
+                [r, g, b, if selected(id) { alpha } else { (f32::from(alpha) * HELD) as u8 }]
+            }))
             .collect();
         let labels = &self.labels;
         let style = |label: u16| styles.get(usize::from(label)).copied().unwrap_or(CLEAR);
@@ -254,7 +259,6 @@ impl RolesView {
 
 #[cfg(test)]
 mod tests {
-    use super::super::DIMMED;
     use super::*;
 
     fn drawn(painted: &Raster<[u8; 4]>, named: &[(char, [u8; 4])]) -> Vec<String> {
@@ -283,7 +287,7 @@ mod tests {
         }
     }
 
-    const DIM: u8 = (255.0 * DIMMED) as u8;
+    const DIM: u8 = (255.0 * HELD) as u8;
 
     #[test]
     fn the_region_in_focus_is_full_its_newest_ring_light_and_what_it_did_not_take_in_another_colour() {
