@@ -69,14 +69,13 @@ impl Report {
     }
 }
 
-/// How many pixels have which reason; reasons that none has are left out.
+/// How many pixels have which reason.
 fn reasons(analysis: &Analysis) -> BTreeMap<String, usize> {
     let mut counts = [0usize; Reason::ALL.len()];
     for (pixel, &reason) in analysis.intrinsic.reasons.as_slice().iter().enumerate() {
         counts[reason as usize] += usize::from(!analysis.masks.outside(pixel));
     }
-    let named = Reason::ALL.iter().zip(counts).filter(|(_, count)| *count > 0);
-    named.map(|(reason, count)| (reason.name().to_owned(), count)).collect()
+    Reason::ALL.iter().zip(counts).map(|(reason, count)| (reason.name().to_owned(), count)).collect()
 }
 
 /// The file and how it was read.

@@ -138,16 +138,11 @@ mod tests {
     use crate::segment::Members;
     use crate::segment::testing::Drawing;
 
-    /// The fit of a picture in which `colour` says each pixel's body and surface reflection, to the vectors that made it.
-    fn fit(colour: impl Fn(usize, usize) -> (f64, f64)) -> RegionFit {
+    /// The fit of a picture in which `amounts` says each pixel's body and surface reflection, to the vectors that made it.
+    fn fit(amounts: impl Fn(f64, f64) -> (f64, f64)) -> RegionFit {
         let (body, surface) = (Vec3::new(0.9, 0.4, 0.2).normalize(), Vec3::repeat(1.0).normalize());
-        let rows: Vec<String> = (0..40u32)
-            .map(|y| (0..40u32).filter_map(|x| char::from_u32(0x4000 + y * 40 + x)).collect())
-            .collect();
-        let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
-        let drawing = Drawing::new(&rows, |c| {
-            let at = c as usize - 0x4000;
-            let (b, s) = colour(at % 40, at / 40);
+        let drawing = Drawing::by_place(40, |x, y| {
+            let (b, s) = amounts(x, y);
             body * b + surface * s
         });
         let labels = LabelMap::filled(40, 40, 1);
@@ -159,15 +154,17 @@ mod tests {
     #[test]
     fn a_highlight_on_a_slope_is_no_texture() {
         let found = fit(|x, y| {
-            let d2 = (x as f64 - 20.0).powi(2) + (y as f64 - 20.0).powi(2);
-            (60.0 + x as f64, 120.0 * (-d2 / 30.0).exp())
+            let d2 = (x - 20.0).powi(2) + (y - 20.0).powi(2);
+            (60.0 + x, 120.0 * (-d2 / 30.0).exp())
         });
         assert!(found.holds(1.25) && found.texture < 0.2, "{found:?}");
     }
 
     #[test]
     fn a_check_of_two_colours_of_one_plane_is_texture() {
-        let found = fit(|x, y| if (x / 5 + y / 5) % 2 == 0 { (100.0, 0.0) } else { (50.0, 60.0) });
+        let found = fit(|x, y| {
+            if (x as usize / 5 + y as usize / 5).is_multiple_of(2) { (100.0, 0.0) } else { (50.0, 60.0) }
+        });
         assert!(found.textured() && !found.poor(1.25) && !found.holds(1.25), "{found:?}");
         assert!((found.texture - 1.0).abs() < 0.1, "{found:?}");
         assert!((found.texture_slope - 50.0 / 60.0).abs() < 0.1, "{found:?}");
@@ -175,7 +172,7 @@ mod tests {
 
     #[test]
     fn shading_alone_holds() {
-        let found = fit(|x, y| (40.0 + x as f64 + 2.0 * (y as f64 / 3.0).sin() * y as f64, 0.0));
+        let found = fit(|x, y| (60.0 + x + (y / 6.0).sin() * y, 0.0));
         assert!(found.holds(1.25), "{found:?}");
     }
 }

@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 /// applies each.
 ///
 /// Measured by switching each off alone: the mean over nine rendered scenes of spheres, cups and donuts and, where a second
-/// figure stands, over seven others (tori, cubes, ellipsoids, a cylinder, small objects, similar hues, warm and blue lamps).
+/// figure stands, over seven others (tori, cubes, ellipsoids, a cylinder, small objects, similar hues, warm and blue lamps). From
+/// `vote_light` on: the mean over eleven scenes of printed, marbled, speckled and fading objects; none of these switches changes
+/// the plain scenes by .01 dB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[allow(clippy::struct_excessive_bools, reason = "these are the switches themselves")]
@@ -54,25 +56,25 @@ pub struct Refine {
     /// the scenes measured needs it.
     pub split_components: bool,
     /// Where few regions hold, the light is the one that small highlights vote for.
-    /// Printed scenes: illuminant 15.1° → .6° and 7.6° → .7°.
+    /// Illuminant 4.7° → 2.7°, 15.1° → .8° on printed and marbled objects, whose body gains 9.5 dB; .7 dB on average.
     pub vote_light: bool,
     /// Regions that do not hold are not split by their planes.
-    /// Printed scenes: body +20 dB and more on the regions that it is about; nothing on plain ones.
+    /// Body 23.2 → 32.0 dB (doing nothing: 27.4), the whole picture 27.3 → 32.0 dB.
     pub region_holds: bool,
     /// Where no region holds, pixels are split by their saturation against that of their hue around them.
-    /// Printed scenes: body 30.2 → 40 dB; nothing on plain ones.
+    /// Body +3.9 dB, the whole picture +5.6 dB.
     pub local_split: bool,
     /// The local split passes over what varies against the body's shading.
-    /// See `intrinsic/local/texture`.
+    /// Body +1.5 dB, the whole picture +1.0 dB.
     pub texture_test: bool,
     /// The local split takes whole blobs with a strong core.
-    /// See `intrinsic/local/blobs`.
+    /// Body +.4 dB, the whole picture −.2 dB.
     pub hysteresis: bool,
     /// Without believable highlights nothing is split locally.
-    /// See `intrinsic/local/belief`.
+    /// Gold, black, white and pale objects: body +.3 dB. Scenes with highlights may lose by it: it is a caution.
     pub belief: bool,
     /// Clipped hearts of local highlights take the body around them.
-    /// See `intrinsic/local/repair`.
+    /// The whole picture +5.1 dB.
     pub clip_repair: bool,
 }
 

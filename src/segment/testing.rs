@@ -21,7 +21,17 @@ impl Drawing {
     pub fn new(rows: &[&str], palette: impl Fn(char) -> Vec3) -> Self {
         let colors = rows.iter().flat_map(|row| row.chars());
         let colors = colors.map(|c| if c == '.' { [0.0; 3] } else { rgb(&palette(c)) }).collect();
-        let pixels = Raster::from_vec(rows[0].chars().count(), rows.len(), colors).unwrap();
+        Self::of(Raster::from_vec(rows[0].len(), rows.len(), colors).unwrap())
+    }
+
+    /// A square picture, coloured by column and row; the numbers are those of [`Drawing::new`].
+    pub fn by_place(side_px: usize, colour: impl Fn(f64, f64) -> Vec3) -> Self {
+        let place = |i: usize| rgb(&colour((i % side_px) as f64, (i / side_px) as f64));
+        let colors = (0..side_px * side_px).map(place).collect();
+        Self::of(Raster::from_vec(side_px, side_px, colors).unwrap())
+    }
+
+    fn of(pixels: Raster<[f32; 3]>) -> Self {
         let image = LinearImage::new(pixels, Some(255.0));
         let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 9 };
         let used = UsedParams {

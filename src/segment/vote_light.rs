@@ -313,22 +313,10 @@ mod tests {
     use crate::color::axis_angle_deg;
     use crate::segment::testing::Drawing;
 
-    /// A picture of 60 × 60 pixels by their places.
-    fn picture(colour: impl Fn(f64, f64) -> Vec3) -> Drawing {
-        let rows: Vec<String> = (0..60u32)
-            .map(|y| (0..60u32).filter_map(|x| char::from_u32(0x4000 + y * 60 + x)).collect())
-            .collect();
-        let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
-        Drawing::new(&rows, |c| {
-            let at = c as usize - 0x4000;
-            colour((at % 60) as f64, (at / 60) as f64)
-        })
-    }
-
     #[test]
     fn small_highlights_on_two_colours_elect_their_light() {
         let light = Vec3::new(0.65, 0.57, 0.5).normalize();
-        let drawing = picture(|x, y| {
+        let drawing = Drawing::by_place(60, |x, y| {
             let body = if x < 30.0 { Vec3::new(0.8, 0.3, 0.2) } else { Vec3::new(0.2, 0.5, 0.7) };
             let d2 = ((x % 30.0) - 15.0).powi(2) + ((y % 30.0) - 15.0).powi(2);
             body * (80.0 + 0.3 * y) + light * (150.0 * (-d2 / 8.0).exp())
@@ -342,7 +330,8 @@ mod tests {
 
     #[test]
     fn shading_alone_does_not_vote() {
-        let drawing = picture(|x, y| Vec3::new(0.8, 0.3, 0.2) * (60.0 + x + 20.0 * (y / 9.0).sin()));
+        let drawing =
+            Drawing::by_place(60, |x, y| Vec3::new(0.8, 0.3, 0.2) * (60.0 + x + 20.0 * (y / 9.0).sin()));
         assert_eq!(Votes::cast(&drawing.scene()), None);
     }
 }
