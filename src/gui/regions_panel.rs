@@ -278,7 +278,8 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
                 ui.label(from).on_hover_text(findings.reason());
             }
             None => {
-                ui.label("unknown").on_hover_text(findings.reason());
+                let text = format!("unknown: {}", findings.reason());
+                ui.add(Label::new(&text).truncate()).on_hover_text(text);
             }
         }
         // Beside it the button for copying must find its place.
