@@ -24,6 +24,40 @@ pub(super) fn parts(names: &Names, event: &Event) -> (Value, Value, Value) {
                 "bloom_density": made.limits.bloom_density,
             }),
         ),
+        Event::WindowsLaid(_) | Event::WindowClassified { .. } | Event::MergeTried { .. } => windows(event),
+        Event::HypothesisChosen(_)
+        | Event::HypothesisPassedOver { .. }
+        | Event::SeedsPlaced { .. }
+        | Event::GrowthBegan { .. }
+        | Event::LineRefitted(_) => hypothesis(event),
+        Event::CandidateTested(test) => tested(test),
+        Event::CandidateChosen(chosen) => (
+            json!({"region": chosen.region, "candidate": candidate(chosen.candidate)}),
+            json!({"meeting_point": vector(&chosen.meeting_point), "direction": vector(&chosen.direction)}),
+            none(),
+        ),
+        Event::IlluminantEstimated(estimated) => {
+            let contribution = |c: &crate::trace::Contribution| json!({"region": c.region, "residual_deg": c.residual_deg, "weight": c.weight});
+            let contributions: Vec<Value> = estimated.contributions.iter().map(contribution).collect();
+            (
+                none(),
+                json!({"given": false, "direction": estimated.direction, "contributions": contributions}),
+                none(),
+            )
+        }
+        Event::IlluminantGiven { direction } => {
+            (none(), json!({"given": true, "direction": direction}), none())
+        }
+        Event::SliceMade(made) => slice(made),
+        Event::VectorsFitted(fitted) => vectors(fitted),
+        other => change(names, other),
+    }
+}
+
+/// The same of windows and the areas that they merge into.
+fn windows(event: &Event) -> (Value, Value, Value) {
+    let none = || json!({});
+    match event {
         Event::WindowsLaid(laid) => (
             none(),
             json!({"window_size": laid.size_px, "columns": laid.columns, "rows": laid.rows, "tail_test": laid.tail_test}),
@@ -64,32 +98,7 @@ pub(super) fn parts(names: &Names, event: &Event) -> (Value, Value, Value) {
             }),
             json!({"class": class.name(), "chi_square": short(*threshold)}),
         ),
-        Event::HypothesisChosen(_)
-        | Event::HypothesisPassedOver { .. }
-        | Event::SeedsPlaced { .. }
-        | Event::GrowthBegan { .. }
-        | Event::LineRefitted(_) => hypothesis(event),
-        Event::CandidateTested(test) => tested(test),
-        Event::CandidateChosen(chosen) => (
-            json!({"region": chosen.region, "candidate": candidate(chosen.candidate)}),
-            json!({"meeting_point": vector(&chosen.meeting_point), "direction": vector(&chosen.direction)}),
-            none(),
-        ),
-        Event::IlluminantEstimated(estimated) => {
-            let contribution = |c: &crate::trace::Contribution| json!({"region": c.region, "residual_deg": c.residual_deg, "weight": c.weight});
-            let contributions: Vec<Value> = estimated.contributions.iter().map(contribution).collect();
-            (
-                none(),
-                json!({"given": false, "direction": estimated.direction, "contributions": contributions}),
-                none(),
-            )
-        }
-        Event::IlluminantGiven { direction } => {
-            (none(), json!({"given": true, "direction": direction}), none())
-        }
-        Event::SliceMade(made) => slice(made),
-        Event::VectorsFitted(fitted) => vectors(fitted),
-        other => change(names, other),
+        _ => (none(), none(), none()),
     }
 }
 
