@@ -85,7 +85,8 @@ impl Votes {
         let margin_px = (4.0 * COARSE_PX) as usize;
         let window = Window::around(size, margin_px, |pixel| !scene.masks.dark(pixel))?;
         let clipped = dilate(&scene.masks.mask(crate::photo::Masks::clipped), CLIP_MARGIN_PX);
-        let valid = |pixel: usize| !clipped[pixel] && !scene.masks.invalid(pixel);
+        let known = |pixel: usize| !scene.masks.invalid(pixel) && !scene.masks.outside(pixel);
+        let valid = |pixel: usize| !clipped[pixel] && known(pixel);
         let weighted = window.raster(|pixel| {
             let [r, g, b] = scene.pixels[pixel];
             if valid(pixel) { [r, g, b, 1.0] } else { [0.0; 4] }

@@ -93,12 +93,17 @@ impl Blobs<'_> {
         [inner, outer]
     }
 
+    /// Whether a pixel tells what is around a blob.
+    fn known(&self, pixel: usize) -> bool {
+        let masks = self.scene.masks;
+        !masks.clipped(pixel) && !masks.invalid(pixel) && !masks.outside(pixel)
+    }
+
     fn ring(&mut self, from: &[usize]) -> Vec<usize> {
         let mut ring = Vec::new();
         for &pixel in from {
             for near in around(self.width, self.height, pixel) {
-                let known = !self.scene.masks.clipped(near) && !self.scene.masks.invalid(near);
-                if self.mark[near] == 0 && known {
+                if self.mark[near] == 0 && self.known(near) {
                     self.mark[near] = RING;
                     ring.push(near);
                 }
@@ -129,7 +134,7 @@ impl Blobs<'_> {
                 if let Some(other) = place(next) {
                     near[index][inside] = other;
                     inside += 1;
-                } else if !self.scene.masks.clipped(next) && !self.scene.masks.invalid(next) {
+                } else if self.known(next) {
                     border.iter_mut().zip(body[next]).for_each(|(sum, band)| *sum += band);
                 } else {
                     return;

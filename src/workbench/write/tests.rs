@@ -103,7 +103,7 @@ fn a_result_tells_its_progress_and_can_be_stopped() {
     };
     write(&export, &bench, &Stop::default(), &count).unwrap();
     assert_eq!(files.into_inner(), 15);
-    assert_eq!(fs::read_dir(&folder).unwrap().count(), 15);
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 16);
 }
 
 #[test]
