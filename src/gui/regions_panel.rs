@@ -271,16 +271,13 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
         let tip =
             "The colour of the light: where the dichromatic planes of all objects intersect (section 5.4).";
         ui.label(RichText::new("light").color(cx.tones.quiet)).on_hover_text(tip);
-        match &shown.analysis.illuminant {
-            Some(light) => {
-                vector(ui, cx.tones, Some(light.direction));
-                let from = RichText::new(rests_on(light, findings)).size(SMALL_PT).color(cx.tones.quiet);
-                ui.label(from).on_hover_text(findings.reason());
-            }
-            None => {
-                let text = format!("unknown: {}", findings.reason());
-                ui.add(Label::new(&text).truncate()).on_hover_text(text);
-            }
+        if let Some(light) = &shown.analysis.illuminant {
+            vector(ui, cx.tones, Some(light.direction));
+            let from = RichText::new(rests_on(light, findings)).size(SMALL_PT).color(cx.tones.quiet);
+            ui.label(from).on_hover_text(findings.reason());
+        } else {
+            let text = format!("unknown: {}", findings.reason());
+            ui.add(Label::new(&text).truncate()).on_hover_text(text);
         }
         // Beside it the button for copying must find its place.
         if ui.available_width() > ACCURACY_PT {
