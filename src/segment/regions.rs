@@ -172,7 +172,7 @@ fn separate<R: Recorder>(
     }
 }
 
-/// Groups of a region's pixels of which each is more than [`APART_PX`] from the next along rows or columns; none where there
+/// Groups of a region's pixels of which each is more than `APART_PX` from the next along rows or columns; none where there
 /// is but one.
 pub fn parts(width: usize, pixels: Pixels) -> Vec<Vec<u32>> {
     let runs = pixels.runs();

@@ -1,6 +1,6 @@
 //! Rule `texture_test`: true highlights do not vary against the body's shading, texture does.
 //!
-//! hp(x) = x − G5(x); t = −min(G7[hp ms · hp m_b], 0) / √((G7[hp m_b²] + 0.3σ²) · G7[ms²]). The Gaussians are 5 and 7 px wide
+//! hp(x) = x − G5(x); t = −min(G7\[hp ms · hp m_b\], 0) / √((G7\[hp m_b²\] + 0.3σ²) · G7\[ms²\]). The Gaussians are 5 and 7 px wide
 //! (measured against 6 and 8: printed scenes +0.4 dB on average). Where t is above 0.1 surface reflection loses weight, from
 //! 0.3 on it has none.
 
