@@ -26,12 +26,6 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
         .enumerate()
         .map(|(index, hypothesis)| Splitter::new(scene, hypothesis, members.region(index as u16 + 1)))
         .collect();
-    if R::KEEPS {
-        recorder.record(Event::PassBegan { pass: Pass::Vectors });
-        for (region, splitter) in (1..).zip(&splitters) {
-            recorder.record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(region))));
-        }
-    }
     let mut images = Images::split_undistorted(scene, regions, &splitters);
     if scene.stopped() {
         return images.unfinished();
@@ -46,6 +40,13 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
             RegionFit::new(scene, &regions.labels, (id, members.region(id)), (&Vec3::zeros(), body, surface))
         })
         .collect();
+    if R::KEEPS {
+        recorder.record(Event::PassBegan { pass: Pass::Vectors });
+        for (region, (splitter, fit)) in (1..).zip(splitters.iter().zip(&fits)) {
+            let holds = !scene.refine.region_holds || fit.holds(scene.sigma());
+            recorder.record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(region, fit, holds))));
+        }
+    }
     let holding = holding(scene, regions, &members, &fits, &images.kinds);
     let local = split_locally(scene, regions, &holding, &mut images);
     if R::KEEPS {
@@ -127,7 +128,7 @@ impl Splitter {
         components
     }
 
-    fn vectors_fitted(&self, region: u16) -> VectorsFitted {
+    fn vectors_fitted(&self, region: u16, fit: &RegionFit, holds: bool) -> VectorsFitted {
         VectorsFitted {
             region,
             body: self.vectors.body,
@@ -136,6 +137,9 @@ impl Splitter {
             start: self.hypothesis.start,
             highlight: self.hypothesis.plane.map(|plane| plane.surface),
             least_offset: self.least_offset,
+            rms_counts: fit.rms_counts,
+            texture: fit.texture,
+            holds,
         }
     }
 

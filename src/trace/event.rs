@@ -384,6 +384,12 @@ pub struct VectorsFitted {
     pub highlight: Option<Vec3>,
     /// Surface reflection that lies less than this off the body line is none, counts; negative infinity: any is some.
     pub least_offset: f32,
+    /// Root mean square distance of its pixels from the plane, counts.
+    pub rms_counts: f64,
+    /// How much surface and body reflection vary against each other: 1 for a print.
+    pub texture: f64,
+    /// Whether one skewed T explains it; where not, its plane is not used.
+    pub holds: bool,
 }
 
 /// Why an area did not start a hypothesis.

@@ -199,6 +199,9 @@ fn vectors(fitted: &VectorsFitted) -> (Value, Value, Value) {
             "surface": fitted.surface.as_ref().map(vector),
             "matte": line(&fitted.matte),
             "start": vector(&fitted.start),
+            "fit_rms_counts": fitted.rms_counts,
+            "texture": fitted.texture,
+            "holds": fitted.holds,
         }),
         json!({"least_offset": short(fitted.least_offset)}),
     )

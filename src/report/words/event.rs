@@ -234,7 +234,8 @@ fn vectors_fitted(fitted: &VectorsFitted) -> String {
         || "no surface vector: all is body reflection".to_owned(),
         |surface| format!("surface vector {}", direction(surface.into())),
     );
-    format!("region {} is split by body vector {body}, {surface}", fitted.region)
+    let holds = if fitted.holds { "" } else { "; it does not hold, its plane is not used" };
+    format!("region {} is split by body vector {body}, {surface}{holds}", fitted.region)
 }
 
 /// `the largest`, `the 2nd`, of areas that were looked at before.

@@ -263,7 +263,13 @@ fn outside(barrier: Barrier) -> String {
 }
 
 fn split(story: &SplitStory) -> String {
-    let SplitStory { number, kind, lines, amounts, cut, least_offset } = story;
+    let SplitStory { number, kind, lines, amounts, cut, least_offset, unfit } = story;
+    if let Some([rms, texture]) = unfit {
+        return format!(
+            "region {number} does not hold ({rms:.1} counts rms from its plane, texture {texture:.2}): its plane is not used, \
+             only highlights that stand out locally are split"
+        );
+    }
     let what = match (kind, lines) {
         (PixelKind::Restored, _) => "is restored from the bands that can be believed".to_owned(),
         (PixelKind::Lost, _) => "is clipped in every band: its split is a guess".to_owned(),

@@ -334,6 +334,9 @@ pub struct SplitStory {
     pub cut: Option<f32>,
     /// See there, counts.
     pub least_offset: f32,
+    /// Distance of the region's pixels from its plane (root mean square, counts) and its texture, where the region does not
+    /// hold: then its plane is not used, and the amounts are not the pixel's.
+    pub unfit: Option<[f64; 2]>,
 }
 
 /// Everything that was decided about a pixel, oldest first. Nothing for a pixel outside the picture, or a trace of another

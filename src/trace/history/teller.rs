@@ -360,6 +360,7 @@ impl<'a> Teller<'a> {
                 amounts: believed.then_some(amounts),
                 cut: cut.filter(|_| believed),
                 least_offset: fitted.least_offset,
+                unfit: (!fitted.holds).then_some([fitted.rms_counts, fitted.texture]),
             })),
         );
     }

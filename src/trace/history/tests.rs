@@ -214,6 +214,9 @@ fn the_end_is_a_number_a_role_and_amounts() {
                 start: Vec3::x() * 97.0,
                 highlight: Some(Vec3::y()),
                 least_offset: 2.5,
+                rms_counts: 1.0,
+                texture: 0.0,
+                holds: true,
             })));
             let kinds = vec![PixelKind::Highlight, PixelKind::Matte];
             tape.labels(&Raster::from_vec(2, 1, kinds).unwrap());
