@@ -18,6 +18,36 @@ pub enum Icon {
     Lock(bool),
 }
 
+/// Side of a button with a sign, points.
+pub const SIDE_PT: f32 = 22.0;
+
+/// A button that is on or off, named `name` for those who do not see its sign, which `draw` draws into a square in a colour.
+pub fn sign_button(
+    ui: &mut Ui,
+    tones: &Tones,
+    on: bool,
+    name: &str,
+    tip: &str,
+    draw: impl FnOnce(&Painter, Rect, Color32),
+) -> Response {
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(SIDE_PT), Sense::click());
+    response
+        .widget_info(|| egui::WidgetInfo::selected(egui::accesskit::Role::Button, ui.is_enabled(), on, name));
+    let ground = match (on, response.hovered() || response.has_focus()) {
+        (true, _) => tones.accent.gamma_multiply(0.3),
+        (false, true) => tones.line,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(rect, 3.0, ground);
+    let colour = match (ui.is_enabled(), on) {
+        (false, _) => tones.quiet.gamma_multiply(0.5),
+        (true, true) => tones.text,
+        (true, false) => tones.text.gamma_multiply(0.75),
+    };
+    draw(ui.painter(), rect.shrink(4.0), colour);
+    response.on_hover_text(tip)
+}
+
 /// A button with a picture; `name` is read to those who do not see it.
 pub fn button(ui: &mut Ui, tones: &Tones, icon: Icon, selected: bool, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ui.spacing().interact_size.y), Sense::click());

@@ -5,7 +5,7 @@ mod cursor;
 use super::theme::{SMALL_PT, Tones};
 use super::{Cx, widgets};
 use crate::intrinsic::RegionReflection;
-use crate::segment::{Illuminant, LightBasis, LightFindings};
+use crate::segment::{Illuminant, LightBasis, LightFindings, TEXTURE_CORRELATION};
 use crate::workbench::{Command, Item, Shown, regions_text};
 use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -140,16 +140,8 @@ impl RegionsPanel {
 
     fn heading(&mut self, ui: &mut Ui, tones: &Tones, key: Key, title: &str, tip: &str) {
         let chosen = self.key == key;
-        let arrow = match (chosen, self.descending) {
-            (false, _) => "",
-            (true, false) => " \u{2191}",
-            (true, true) => " \u{2193}",
-        };
-        let tone = if chosen { tones.text } else { tones.quiet };
-        let text = RichText::new(format!("{title}{arrow}")).size(SMALL_PT).color(tone);
         ui.with_layout(layout_of(key), |ui| {
-            let response = ui.add(Button::new(text).frame(false)).on_hover_text(tip);
-            if response.clicked() {
+            if sorted_by(ui, tones, chosen.then_some(self.descending), title, tip) {
                 // Numbers are asked for from the largest on, names from the first.
                 self.descending = if chosen { !self.descending } else { !matches!(key, Key::Id) };
                 self.key = key;
@@ -216,7 +208,7 @@ fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &S
             let label = ui.add(Label::new(rms).selectable(false));
             if !region.holds {
                 label.on_hover_text(format!(
-                    "Does not hold: its pixels lie {:.1} counts from the plane (rms), or are texture ({:.2} of at most 0.25). \
+                    "Does not hold: its pixels lie {:.1} counts from the plane (rms), or are texture ({:.2} of at most {TEXTURE_CORRELATION}). \
                      Its plane is not used.",
                     region.fit_rms_counts, region.texture
                 ));
@@ -290,6 +282,19 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
             }
         });
     });
+}
+
+/// The title of a column that rows may be sorted by, and now are where it is known whether `descending`; whether it was
+/// clicked.
+fn sorted_by(ui: &mut Ui, tones: &Tones, descending: Option<bool>, title: &str, tip: &str) -> bool {
+    let arrow = match descending {
+        None => "",
+        Some(false) => " \u{2191}",
+        Some(true) => " \u{2193}",
+    };
+    let tone = if descending.is_some() { tones.text } else { tones.quiet };
+    let text = RichText::new(format!("{title}{arrow}")).size(SMALL_PT).color(tone);
+    ui.add(Button::new(text).frame(false)).on_hover_text(tip).clicked()
 }
 
 /// What the light rests on, and within how many degrees it lies.

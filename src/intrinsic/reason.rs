@@ -7,7 +7,8 @@ use super::RegionReflection;
 use crate::color::{Vec3, axis_angle_deg};
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
-use crate::segment::POOR_FIT;
+
+use crate::segment::{POOR_FIT, TEXTURE_CORRELATION};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
@@ -107,7 +108,9 @@ impl Case<'_> {
     fn of_region(&self, region: &RegionReflection) -> Reason {
         let collinear =
             |light: [f64; 3]| axis_angle_deg(&Vec3::from(region.body), &Vec3::from(light)) < COLLINEAR_DEG;
-        if !region.holds && f64::from(self.sigma) * POOR_FIT >= region.fit_rms_counts {
+        let only_textured = f64::from(self.sigma) * POOR_FIT >= region.fit_rms_counts;
+        // A print of several colours lies off its plane as well: what it is says more than what it does.
+        if !region.holds && (only_textured || region.texture > TEXTURE_CORRELATION) {
             Reason::Texture
         } else if !region.holds {
             Reason::InterReflection

@@ -17,7 +17,7 @@ use nalgebra::Matrix3;
 /// Most rms distance from plane or line that is noise, σ.
 pub const POOR_FIT: f64 = 1.5;
 /// From this correlation of body and surface reflection on, texture is suspected …
-const TEXTURE_CORRELATION: f64 = 0.25;
+pub const TEXTURE_CORRELATION: f64 = 0.25;
 /// … and believed where surface reflection takes at least this share of its own amount from the body reflection.
 const TEXTURE_SLOPE: f64 = 0.2;
 /// Pixels whose distance from the plane is looked at, evenly chosen, and those whose surroundings are.

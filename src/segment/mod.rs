@@ -29,7 +29,7 @@ mod vote_light;
 
 pub use classify::{Classifier, Windows, classify};
 pub use clipping::clipping_regions;
-pub use holds::{POOR_FIT, RegionFit};
+pub use holds::{POOR_FIT, RegionFit, TEXTURE_CORRELATION};
 pub use ledger::{Members, Pixels};
 pub use light::{Illuminant, LightBasis, LightFindings, white_offsets_deg};
 pub use linear::Hypothesis;

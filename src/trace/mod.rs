@@ -12,13 +12,13 @@ mod recorder;
 mod reel;
 mod replay;
 mod standing;
+mod step;
 mod terms;
 mod timeline;
 
 pub use event::{
-    CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Contest, Contribution, Event,
-    HypothesisChosen, IlluminantEstimated, LineRefitted, MasksMade, Measure, Pass, PassedOver, SliceMade,
-    Step, VectorsFitted, WindowsLaid,
+    CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Contribution, Event, HypothesisChosen,
+    IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver, SliceMade, VectorsFitted, WindowsLaid,
 };
 pub use history::{
     Barrier, Happening, MaskVerdict, MergeRefusal, MergeStory, Reach, Release, SplitStory, What, WindowStory,
@@ -30,5 +30,6 @@ pub use recorder::{Recorder, Silent, Tape};
 pub use reel::{Reel, Steps};
 pub use replay::Replay;
 pub use standing::{End, Grid, Hypothesis};
+pub use step::{Contest, Measure, Step};
 pub use terms::{Class, PixelKind, Stage};
 pub use timeline::{Block, PassSpan, Topic, Trace};

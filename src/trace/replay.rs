@@ -8,8 +8,6 @@ use super::{CandidateChosen, Event, Pass, PixelKind, Reel, SliceMade, Stage, Ste
 use crate::raster::{LabelMap, UNASSIGNED};
 use std::sync::Arc;
 
-/// Changes of hands between two keyframes, as a share of the picture's pixels.
-const MOVES_PER_KEYFRAME: usize = 1;
 /// Steps nearer than this are played from where the cursor is.
 const NEAR: usize = 1 << 16;
 
@@ -182,7 +180,8 @@ impl Replay {
     pub fn prepare(&mut self) {
         self.keyframes.clear();
         self.seek(0);
-        let every = (self.labels.len() * MOVES_PER_KEYFRAME).max(NEAR);
+        // With a picture's worth of claims between keyframes, a seek plays about half of that at most.
+        let every = self.labels.len().max(NEAR);
         let total = self.moves_before(self.trace.len());
         self.keep();
         for target in 1..=total / every {

@@ -81,7 +81,7 @@ const REASONS: [LegendEntry; 8] = [
     LegendEntry::new("no matte line", [160, 120, 220], "5.3: lit, but on no matte line that was found"),
     LegendEntry::new("mixed boundary", [120, 190, 200], "5.6: between two objects, a mixture of both"),
     LegendEntry::new(
-        "inter-reflection",
+        "off the plane",
         [90, 180, 110],
         "7.5: off the plane, light of a neighbour or a second material",
     ),

@@ -1,12 +1,11 @@
 //! Small buttons with drawn signs.
 
+use crate::gui::icons::sign_button;
 use crate::gui::theme::Tones;
 use crate::workbench::{Arrangement, Fill, Tool};
-use egui::accesskit::Role;
-use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Color32, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
 
-/// Side of a button, points.
-pub const SIDE_PT: f32 = 22.0;
+pub use crate::gui::icons::SIDE_PT;
 
 /// What a button shows.
 #[derive(Clone, Copy)]
@@ -23,20 +22,7 @@ pub enum Sign {
 
 /// A button that is on or off, named `name` for those who do not see its sign.
 pub fn toggle(ui: &mut Ui, tones: &Tones, sign: Sign, on: bool, name: &str, tip: &str) -> Response {
-    let (rect, response) = ui.allocate_exact_size(vec2(SIDE_PT, SIDE_PT), Sense::click());
-    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), on, name));
-    let ground = match (on, response.hovered() || response.has_focus()) {
-        (true, _) => tones.accent.gamma_multiply(0.3),
-        (false, true) => tones.line,
-        (false, false) => Color32::TRANSPARENT,
-    };
-    ui.painter().rect_filled(rect, 3.0, ground);
-    let mut colour = if on { tones.text } else { tones.text.gamma_multiply(0.75) };
-    if !ui.is_enabled() {
-        colour = tones.quiet.gamma_multiply(0.5);
-    }
-    draw(ui.painter(), rect.shrink(4.0), sign, colour);
-    response.on_hover_text(tip)
+    sign_button(ui, tones, on, name, tip, |painter, square, colour| draw(painter, square, sign, colour))
 }
 
 /// Points of a sign are given in a square of 14 × 14.

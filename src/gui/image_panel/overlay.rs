@@ -225,26 +225,37 @@ pub fn key(painter: &Painter, tones: &Tones, view: Rect, layer: Layer) {
     entries(painter, tones, view, &legend(layer));
 }
 
-/// Colours and their names, along the lower edge.
+/// Colours and their names, along the lower edge, in as many lines as they need.
 pub fn entries(painter: &Painter, tones: &Tones, view: Rect, entries: &[LegendEntry]) {
-    if entries.is_empty() {
-        return;
-    }
+    const LINE_PT: f32 = 18.0;
     let font = FontId::proportional(SMALL_PT);
-    let galleys: Vec<_> = entries
-        .iter()
-        .map(|entry| painter.layout_no_wrap(entry.name.to_owned(), font.clone(), tones.text))
-        .collect();
-    let width: f32 = galleys.iter().map(|galley| galley.size().x + 24.0).sum::<f32>() + 2.0;
-    let area = Rect::from_min_size(view.left_bottom() + vec2(6.0, -24.0), vec2(width, 18.0));
-    painter.rect_filled(area, 3.0, tones.panel.gamma_multiply(0.86));
-    let mut x = area.left() + 6.0;
-    for (entry, galley) in entries.iter().zip(galleys) {
-        let chip = Rect::from_center_size(pos2(x + 4.5, area.center().y), vec2(9.0, 9.0));
-        painter.rect_filled(chip, 2.0, crate::gui::widgets::colour(entry.colour));
+    let most = view.width() - 12.0;
+    let mut lines: Vec<(f32, Vec<_>)> = Vec::new();
+    for entry in entries {
+        let galley = painter.layout_no_wrap(entry.name.to_owned(), font.clone(), tones.text);
         let step = galley.size().x + 24.0;
-        painter.galley(pos2(x + 13.0, area.center().y - galley.size().y / 2.0), galley, tones.text);
-        x += step;
+        match lines.last_mut() {
+            Some((width, line)) if *width + step <= most => {
+                *width += step;
+                line.push((entry, galley));
+            }
+            _ => lines.push((step + 2.0, vec![(entry, galley)])),
+        }
+    }
+    let top = view.bottom() - 6.0 - LINE_PT * lines.len() as f32;
+    for (index, (width, line)) in lines.into_iter().enumerate() {
+        let corner = pos2(view.left() + 6.0, top + LINE_PT * index as f32);
+        let area = Rect::from_min_size(corner, vec2(width, LINE_PT));
+        painter.rect_filled(area, 3.0, tones.panel.gamma_multiply(0.86));
+        let mut x = area.left() + 6.0;
+        for (entry, galley) in line {
+            let chip = Rect::from_center_size(pos2(x + 4.5, area.center().y), vec2(9.0, 9.0));
+            painter.rect_filled(chip, 2.0, crate::gui::widgets::colour(entry.colour));
+            let (text, step) =
+                (pos2(x + 13.0, area.center().y - galley.size().y / 2.0), galley.size().x + 24.0);
+            painter.galley(text, galley, tones.text);
+            x += step;
+        }
     }
 }
 

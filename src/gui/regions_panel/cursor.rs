@@ -1,14 +1,14 @@
 //! The table at the debugger's cursor: the hypotheses so far; before there are any, the windows and areas.
 
 use super::{ROW_PT, cell, vector};
-use crate::gui::theme::{SMALL_PT, Tones};
+use crate::gui::theme::Tones;
 use crate::gui::{Cx, widgets};
 use crate::trace::Replay;
 use crate::workbench::{
     Command, DebugCommand, HypothesisRow, Item, LegendEntry, RegionNames, Status, WindowCounts,
     class_entries, hypothesis_rows, window_counts,
 };
-use egui::{Align, Button, Label, Layout, RichText, Sense, Ui};
+use egui::{Align, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 
 /// What the rows are sorted by.
@@ -107,19 +107,12 @@ impl Sorting {
 
     fn heading(&mut self, ui: &mut Ui, tones: &Tones, key: Key, title: &str, tip: &str) {
         let chosen = self.key == key;
-        let arrow = match (chosen, self.descending) {
-            (false, _) => "",
-            (true, false) => " \u{2191}",
-            (true, true) => " \u{2193}",
-        };
-        let tone = if chosen { tones.text } else { tones.quiet };
-        let text = RichText::new(format!("{title}{arrow}")).size(SMALL_PT).color(tone);
         let layout = match key {
             Key::Pixels | Key::Radius => Layout::right_to_left(Align::Center),
             _ => Layout::left_to_right(Align::Center),
         };
         ui.with_layout(layout, |ui| {
-            if ui.add(Button::new(text).frame(false)).on_hover_text(tip).clicked() {
+            if super::sorted_by(ui, tones, chosen.then_some(self.descending), title, tip) {
                 self.descending = if chosen { !self.descending } else { key == Key::Pixels };
                 self.key = key;
             }
