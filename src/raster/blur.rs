@@ -9,16 +9,29 @@ const BAND_ROWS: usize = 64;
 /// Smooths by a Gaussian of `sigma_px`; at the border the mean is over what lies inside.
 pub fn blur<const N: usize>(image: &Raster<[f32; N]>, sigma_px: f64) -> Raster<[f32; N]> {
     let (width, height) = (image.width(), image.height());
-    let mut from = image.clone();
-    if from.is_empty() {
-        return from;
+    if image.is_empty() {
+        return image.clone();
     }
-    let mut to = Raster::filled(width, height, [0.0; N]);
-    for radius_px in radii(sigma_px).into_iter().filter(|&radius| radius > 0) {
-        mean_along_rows(&from, &mut to, radius_px);
-        mean_along_columns(&to, &mut from, radius_px);
+    let radii_px = radii(sigma_px).into_iter().filter(|&radius| radius > 0);
+    // Means along rows and along columns commute: all of the first while a row is in the cache.
+    let mut smooth = Raster::filled(width, height, [0.0; N]);
+    let rows = smooth.as_mut_slice().par_chunks_mut(width).enumerate();
+    rows.for_each_init(
+        || vec![[0.0; N]; width],
+        |from, (y, row)| {
+            row.copy_from_slice(image.row(y));
+            for radius_px in radii_px.clone() {
+                from.copy_from_slice(row);
+                mean_along_row(from, row, radius_px);
+            }
+        },
+    );
+    let mut spare = Raster::filled(width, height, [0.0; N]);
+    for radius_px in radii_px {
+        mean_along_columns(&smooth, &mut spare, radius_px);
+        std::mem::swap(&mut smooth, &mut spare);
     }
-    from
+    smooth
 }
 
 /// Three radii of which the running means together have the Gaussian's variance, as nearly as whole pixels can: a mean over
@@ -31,29 +44,26 @@ fn radii(sigma_px: f64) -> [usize; 3] {
     (0..=3).map(tried).min_by(|a, b| miss(*a).total_cmp(&miss(*b))).unwrap_or([small; 3])
 }
 
-fn mean_along_rows<const N: usize>(from: &Raster<[f32; N]>, to: &mut Raster<[f32; N]>, radius_px: usize) {
-    let width = from.width();
-    let shares: Vec<f32> = (0..=2 * radius_px + 1).map(|count| 1.0 / count.max(1) as f32).collect();
-    to.as_mut_slice().par_chunks_mut(width).enumerate().for_each(|(y, to)| {
-        let row = from.row(y);
-        let mut sum = [0.0f32; N];
-        let mut count = 0;
-        for value in &row[..radius_px.min(width)] {
+fn mean_along_row<const N: usize>(from: &[[f32; N]], to: &mut [[f32; N]], radius_px: usize) {
+    let width = from.len();
+    let mut sum = [0.0f32; N];
+    let mut count = 0.0f32;
+    for value in &from[..radius_px.min(width)] {
+        add(&mut sum, value);
+        count += 1.0;
+    }
+    for x in 0..width {
+        if let Some(value) = from.get(x + radius_px) {
             add(&mut sum, value);
-            count += 1;
+            count += 1.0;
         }
-        for x in 0..width {
-            if let Some(value) = row.get(x + radius_px) {
-                add(&mut sum, value);
-                count += 1;
-            }
-            if x > radius_px {
-                subtract(&mut sum, &row[x - radius_px - 1]);
-                count -= 1;
-            }
-            to[x] = sum.map(|sum| sum * shares[count]);
+        if x > radius_px {
+            subtract(&mut sum, &from[x - radius_px - 1]);
+            count -= 1.0;
         }
-    });
+        let share = 1.0 / count;
+        to[x] = sum.map(|sum| sum * share);
+    }
 }
 
 fn mean_along_columns<const N: usize>(from: &Raster<[f32; N]>, to: &mut Raster<[f32; N]>, radius_px: usize) {

@@ -56,11 +56,9 @@ const PARTS: usize = 8;
 struct Voter {
     /// Unit normal of the plane of D and B.
     normal: Vec3,
-    /// B, unit, and what in the plane is perpendicular to it, on D's side.
-    body: Vec3,
-    across: Vec3,
-    /// From B to D, degrees.
-    angle_deg: f64,
+    /// D, unit, and what in the plane is perpendicular to it, on the side away from B.
+    rise: Vec3,
+    beyond: Vec3,
     /// v, degrees².
     variance_deg2: f64,
     /// Sine of the angle from the plane from which on a light gets no vote.
@@ -154,7 +152,12 @@ impl Votes {
             let reach_deg = if index == 0 { CONE_DEG } else { 3.0 * step_deg };
             // To find the hill, some voters will do.
             let every = if index == 0 { FIRST_ASKED } else { 1 };
-            best = self.best_around(&best, reach_deg, step_deg, every, &|_| true);
+            let lights = cone(&best, reach_deg, step_deg);
+            let votes = lights.par_iter().map(|light| {
+                let asked = self.voters.iter().step_by(every);
+                asked.map(|voter| voter.votes_for(light)).sum()
+            });
+            best = elected(&lights, &votes.collect::<Vec<f64>>()).unwrap_or(best);
         }
         best
     }
@@ -162,9 +165,19 @@ impl Votes {
     /// Within so many degrees the light lies: two standard deviations of the winner, by leaving each eighth of the blobs out
     /// once, and not less than votes of such a share have been seen to miss by.
     pub fn interval_deg(&self, winner: &Vec3) -> f64 {
+        let lights = cone(winner, 3.0, 0.5);
+        let by_part: Vec<[f64; PARTS]> = lights
+            .par_iter()
+            .map(|light| {
+                let mut votes = [0.0; PARTS];
+                self.voters.iter().for_each(|voter| votes[voter.blob % PARTS] += voter.votes_for(light));
+                votes
+            })
+            .collect();
         let squares: f64 = (0..PARTS)
             .map(|part| {
-                let without = self.best_around(winner, 3.0, 0.5, 1, &|voter| voter.blob % PARTS != part);
+                let others = by_part.iter().map(|votes| votes.iter().sum::<f64>() - votes[part]);
+                let without = elected(&lights, &others.collect::<Vec<f64>>()).unwrap_or(*winner);
                 crate::color::axis_angle_deg(&without, winner).powi(2)
             })
             .sum();
@@ -172,29 +185,14 @@ impl Votes {
         let spread_deg = 2.0 * (squares * (parts - 1.0) / parts).sqrt();
         spread_deg.max(MISS_DEG / self.share(winner).max(1e-3)).clamp(1.0, 90.0)
     }
+}
 
-    fn best_around(
-        &self,
-        centre: &Vec3,
-        reach_deg: f64,
-        step_deg: f64,
-        every: usize,
-        heard: &(dyn Fn(&Voter) -> bool + Sync),
-    ) -> Vec3 {
-        let lights = cone(centre, reach_deg, step_deg);
-        let merits: Vec<f64> = lights
-            .par_iter()
-            .map(|light| {
-                let votes: f64 = {
-                    let asked = self.voters.iter().step_by(every).filter(|voter| heard(voter));
-                    asked.map(|voter| voter.votes_for(light)).sum()
-                };
-                votes * (-unusualness(light)).exp()
-            })
-            .collect();
-        let best = (0..lights.len()).max_by(|&a, &b| merits[a].total_cmp(&merits[b]).then(b.cmp(&a)));
-        best.filter(|&best| merits[best] > 0.0).map_or(*centre, |best| lights[best])
-    }
+/// The light that the votes and the prior are for; none where there are no votes.
+fn elected(lights: &[Vec3], votes: &[f64]) -> Option<Vec3> {
+    let merits: Vec<f64> =
+        lights.iter().zip(votes).map(|(light, votes)| votes * (-unusualness(light)).exp()).collect();
+    let best = (0..lights.len()).max_by(|&a, &b| merits[a].total_cmp(&merits[b]).then(b.cmp(&a)))?;
+    (merits[best] > 0.0).then(|| lights[best])
 }
 
 impl Voter {
@@ -206,12 +204,12 @@ impl Voter {
         if angle_deg.partial_cmp(&LEAST_ANGLE_DEG) != Some(std::cmp::Ordering::Greater) {
             return None;
         }
-        let (normal, body) = (normal.try_normalize(0.0)?, b.try_normalize(0.0)?);
         let error_deg = (sigma / 2.0 / (rise * sine)).to_degrees();
-        let across = body.cross(&normal);
+        let (normal, rise) = (normal.try_normalize(0.0)?, d.try_normalize(0.0)?);
+        let beyond = rise.cross(&normal);
         let variance_deg2 = 1.0 + error_deg * error_deg;
         let reach = (2.0 * NEGLIGIBLE * variance_deg2).sqrt().min(90.0).to_radians().sin();
-        Some(Self { normal, body, across, angle_deg, variance_deg2, reach, weight: 1.0, blob: 0 })
+        Some(Self { normal, rise, beyond, variance_deg2, reach, weight: 1.0, blob: 0 })
     }
 
     #[inline]
@@ -220,10 +218,14 @@ impl Voter {
         if sine.abs() > self.reach {
             return 0.0;
         }
+        let (along, beyond) = (self.rise.dot(light), self.beyond.dot(light));
+        // Four tolerances off, where votes are negligible: 32° beyond D, 12° before it.
+        if beyond > 0.625 * along || beyond < -0.213 * along {
+            return 0.0;
+        }
         let off_deg = sine.clamp(-1.0, 1.0).asin().to_degrees();
         let miss = off_deg * off_deg / (2.0 * self.variance_deg2);
-        let from_body_deg = self.across.dot(light).atan2(self.body.dot(light)).to_degrees();
-        let beyond_deg = from_body_deg - self.angle_deg;
+        let beyond_deg = beyond.atan2(along).to_degrees();
         let tolerance_deg = if beyond_deg >= 0.0 { BEYOND_DEG } else { BEFORE_DEG };
         let far = (beyond_deg / tolerance_deg).powi(2) / 2.0;
         self.weight * (-miss - far).exp() / self.variance_deg2.sqrt()

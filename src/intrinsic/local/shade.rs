@@ -24,6 +24,7 @@ const BINS: usize = 40;
 const RATIOS: (f32, f32) = (0.4, 12.0);
 /// Smoothing from cell to cell: three running means of three.
 const CELL_WEIGHTS: [f32; 7] = [1.0, 3.0, 6.0, 7.0, 6.0, 3.0, 1.0];
+const CELL_REACH: usize = CELL_WEIGHTS.len() / 2;
 /// Quantile that is the body's.
 const QUANTILE: f32 = 0.3;
 /// Least mean of J that has a hue, counts, and its least chromatic part, σ.
@@ -126,36 +127,63 @@ impl Axes {
         let (u, v) = ((2.0 * j[0] - j[1] - j[2]) / 6f32.sqrt(), (j[1] - j[2]) / 2f32.sqrt());
         let turns = v.atan2(u) / std::f32::consts::TAU;
         let hue = ((turns + 1.0).fract() * HUES as f32).min(HUES as f32 - 0.001);
-        Seen { mean, chroma: u.hypot(v), hue }
+        Seen { mean, chroma: (u * u + v * v).sqrt(), hue }
     }
 }
 
-/// Counts over cells, hues and bins of ln(a/c).
+/// Counts over cells, hues and bins of ln(a/c), a row of cells at a time.
 struct Histogram {
     cell_px: usize,
     columns: usize,
-    rows: usize,
-    /// Row by row, cell by cell, hue by hue.
-    counts: Vec<f32>,
-    /// Whether a cell has any pixel of a hue.
-    used: Vec<bool>,
+    rows: Vec<Row>,
 }
 
-const PER_CELL: usize = HUES * BINS;
+/// One row of cells: counts of those hues only that it has.
+struct Row {
+    /// Cell by cell, hue by hue: where its counts are; [`NONE`] where there are none.
+    place: Vec<u32>,
+    counts: Vec<[f32; BINS]>,
+}
 
-impl Histogram {
-    fn empty(cell_px: usize, columns: usize, rows: usize) -> Self {
-        let cells = columns * rows;
-        Self { cell_px, columns, rows, counts: vec![0.0; cells * PER_CELL], used: vec![false; cells * HUES] }
+const NONE: u32 = u32::MAX;
+
+impl Row {
+    fn empty(columns: usize) -> Self {
+        Self { place: vec![NONE; columns * HUES], counts: Vec::new() }
     }
 
+    fn get(&self, cell: usize, hue: usize) -> Option<&[f32; BINS]> {
+        self.counts.get(self.place[cell * HUES + hue] as usize)
+    }
+
+    fn get_mut(&mut self, cell: usize, hue: usize) -> &mut [f32; BINS] {
+        let place = &mut self.place[cell * HUES + hue];
+        if *place == NONE {
+            *place = self.counts.len() as u32;
+            self.counts.push([0.0; BINS]);
+        }
+        &mut self.counts[*place as usize]
+    }
+
+    /// Adds the counts of a cell of `other`, weighted, to one of its own.
+    fn add(&mut self, cell: usize, weight: f32, (other, from): (&Self, usize)) {
+        for hue in 0..HUES {
+            if let Some(counts) = other.get(from, hue) {
+                self.get_mut(cell, hue).iter_mut().zip(counts).for_each(|(sum, n)| *sum += weight * n);
+            }
+        }
+    }
+}
+
+impl Histogram {
     fn new(scene: &Scene, axes: &Axes) -> Self {
         let (width, height) = (scene.pixels.width(), scene.pixels.height());
         let scale = ((width * height) as f64 / MEGAPIXEL).sqrt().max(1.0);
         let cell_px = (CELL_PX * scale).round() as usize;
-        let mut histogram = Self::empty(cell_px, width.div_ceil(cell_px), height.div_ceil(cell_px));
+        let columns = width.div_ceil(cell_px);
         let sigma = scene.sigma() as f32;
-        histogram.rows_mut().enumerate().for_each(|(row, (counts, used))| {
+        let counted = |row: usize| {
+            let mut counts = Row::empty(columns);
             for y in row * cell_px..((row + 1) * cell_px).min(height) {
                 for (x, &color) in scene.pixels.row(y).iter().enumerate() {
                     let pixel = y * width + x;
@@ -164,70 +192,65 @@ impl Histogram {
                     }
                     let seen = axes.of(color);
                     if seen.has_hue(sigma) {
-                        let place = x / cell_px * HUES + seen.hue as usize;
-                        used[place] = true;
-                        counts[place * BINS + seen.bin() as usize] += 1.0;
+                        counts.get_mut(x / cell_px, seen.hue as usize)[seen.bin() as usize] += 1.0;
                     }
                 }
             }
-        });
-        histogram
+            counts
+        };
+        let rows = (0..height.div_ceil(cell_px)).into_par_iter().map(counted).collect();
+        Self { cell_px, columns, rows }
     }
 
-    /// Rows of cells, in parallel: their counts, and which hues they have.
-    fn rows_mut(&mut self) -> impl IndexedParallelIterator<Item = (&mut [f32], &mut [bool])> {
-        let per_row = self.columns.max(1);
-        let counts = self.counts.par_chunks_mut(per_row * PER_CELL);
-        counts.zip(self.used.par_chunks_mut(per_row * HUES))
-    }
-
-    /// Smoothed from cell to cell.
+    /// Smoothed from cell to cell; those outside count nothing.
     fn smoothed(self) -> Self {
-        let across = self.along(|row, column, step| Some((row, column.checked_add_signed(step)?)));
-        across.along(|row, column, step| Some((row.checked_add_signed(step)?, column)))
-    }
-
-    /// Weighted sums over the cells that `near` names; those outside count nothing.
-    fn along(&self, near: impl Fn(usize, usize, isize) -> Option<(usize, usize)> + Sync) -> Self {
-        let mut result = Self::empty(self.cell_px, self.columns, self.rows);
-        result.rows_mut().enumerate().for_each(|(row, (counts, used))| {
-            for column in 0..self.columns {
-                for (step, weight) in (-3..).zip(CELL_WEIGHTS) {
-                    let cell = near(row, column, step).filter(|&(r, c)| r < self.rows && c < self.columns);
-                    let Some(cell) = cell.map(|(r, c)| r * self.columns + c) else { continue };
-                    for hue in (0..HUES).filter(|hue| self.used[cell * HUES + hue]) {
-                        let (from, to) = ((cell * HUES + hue) * BINS, (column * HUES + hue) * BINS);
-                        used[column * HUES + hue] = true;
-                        let sums = counts[to..to + BINS].iter_mut();
-                        sums.zip(&self.counts[from..from + BINS]).for_each(|(sum, n)| *sum += weight * n);
+        let across = |row: &Row| {
+            let mut sums = Row::empty(self.columns);
+            for cell in 0..self.columns {
+                for (near, weight) in (cell..).zip(CELL_WEIGHTS) {
+                    if let Some(near) = near.checked_sub(CELL_REACH).filter(|&near| near < self.columns) {
+                        sums.add(cell, weight, (row, near));
                     }
                 }
             }
-        });
-        result
+            sums
+        };
+        let rows: Vec<Row> = self.rows.par_iter().map(across).collect();
+        let down = |row: usize| {
+            let mut sums = Row::empty(self.columns);
+            for (near, weight) in (row..).zip(CELL_WEIGHTS) {
+                if let Some(near) = near.checked_sub(CELL_REACH).and_then(|near| rows.get(near)) {
+                    (0..self.columns).for_each(|cell| sums.add(cell, weight, (near, cell)));
+                }
+            }
+            sums
+        };
+        let rows = (0..rows.len()).into_par_iter().map(down).collect();
+        Self { rows, ..self }
     }
 
     /// κ and median of each hue of each cell, smoothed from hue to hue.
     fn ratios(&self) -> Ratios {
-        let mut of = vec![None; self.columns * self.rows * HUES];
-        of.par_chunks_mut(HUES).enumerate().for_each(|(cell, of)| {
-            for (hue, of) in of.iter_mut().enumerate() {
-                let places = [hue + HUES - 1, hue, hue + 1].map(|hue| cell * HUES + hue % HUES);
-                if places.iter().all(|&place| !self.used[place]) {
-                    continue;
-                }
-                let mut bins = [0.0f32; BINS];
-                for (place, weight) in places.into_iter().zip([1.0, 2.0, 1.0]) {
-                    if self.used[place] {
-                        let counts = &self.counts[place * BINS..(place + 1) * BINS];
-                        bins.iter_mut().zip(counts).for_each(|(sum, count)| *sum += weight * count);
-                    }
-                }
-                let total: f32 = bins.iter().sum();
-                *of = (total > 0.0).then(|| [QUANTILE, 0.5].map(|share| quantile(&bins, share * total)));
+        let of_cell = |row: &Row, cell: usize, hue: usize| {
+            let near = [hue + HUES - 1, hue, hue + 1].map(|hue| row.get(cell, hue % HUES));
+            if near.iter().all(Option::is_none) {
+                return None;
             }
-        });
-        Ratios { cell_px: self.cell_px as f32, columns: self.columns, rows: self.rows, of }
+            let mut bins = [0.0f32; BINS];
+            for (counts, weight) in near.into_iter().zip([1.0, 2.0, 1.0]) {
+                if let Some(counts) = counts {
+                    bins.iter_mut().zip(counts).for_each(|(sum, count)| *sum += weight * count);
+                }
+            }
+            let total: f32 = bins.iter().sum();
+            (total > 0.0).then(|| [QUANTILE, 0.5].map(|share| quantile(&bins, share * total)))
+        };
+        let of_row = |row: &Row| -> Vec<_> {
+            let cells = (0..self.columns).flat_map(|cell| (0..HUES).map(move |hue| (cell, hue)));
+            cells.map(|(cell, hue)| of_cell(row, cell, hue)).collect()
+        };
+        let of = self.rows.par_iter().flat_map_iter(of_row).collect();
+        Ratios { cell_px: self.cell_px as f32, columns: self.columns, rows: self.rows.len(), of }
     }
 }
 
