@@ -49,6 +49,7 @@ pub fn used_params(params: &Params, image: &LinearImage, sigma: Option<f64>) -> 
         window_size: params.window_size.value().unwrap_or(window),
         min_area: params.min_area.value().unwrap_or((500.0 * scale * scale).round().max(72.0)),
         illuminant: params.illuminant.direction(),
+        ambient: params.ambient,
     }
 }
 

@@ -3,7 +3,9 @@
 use anyhow::{Context, Result, anyhow, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
-use dichroscope::segment::{IlluminantSetting, Method, Parameter, Params, Preset, Refine, Setting};
+use dichroscope::segment::{
+    AmbientSetting, IlluminantSetting, Method, Parameter, Params, Preset, Refine, Setting,
+};
 use std::path::{Path, PathBuf};
 
 /// How to analyse.
@@ -33,6 +35,9 @@ pub(super) struct Settings {
     /// The colour of the light, of any length; every dichromatic plane turns to it [default: auto]
     #[arg(long, value_name = "R,G,B|auto", allow_hyphen_values = true)]
     illuminant: Option<IlluminantSetting>,
+    /// The ambient light, counts a band: found where the matte lines meet, given, or left alone [default: auto]
+    #[arg(long, value_name = "auto|R,G,B|off", allow_hyphen_values = true)]
+    ambient: Option<AmbientSetting>,
 }
 
 impl Settings {
@@ -52,6 +57,7 @@ impl Settings {
             }
         }
         params.illuminant = self.illuminant.unwrap_or(params.illuminant);
+        params.ambient = self.ambient.unwrap_or(params.ambient);
         self.switch(&mut params)?;
         params.validate()?;
         Ok(params)

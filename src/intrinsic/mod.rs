@@ -1,5 +1,6 @@
 //! Section 6: every pixel split into body reflection, surface reflection and noise.
 
+mod ambient;
 mod confidence;
 mod holding;
 mod local;
@@ -9,6 +10,7 @@ mod restore;
 mod split;
 mod vectors;
 
+pub use ambient::{Ambient, AmbientVerdict, Meeting};
 pub use reason::Reason;
 pub use split::split;
 
@@ -31,6 +33,8 @@ pub struct Intrinsic {
     pub confidence: Raster<f32>,
     /// Why a pixel is not explained by one region's skewed T.
     pub reasons: Raster<Reason>,
+    /// What is known of the ambient light.
+    pub ambient: Ambient,
     /// The regions; region `id` is at index `id − 1`.
     pub regions: Vec<RegionReflection>,
 }

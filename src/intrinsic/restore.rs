@@ -23,7 +23,7 @@ pub struct Distorted<'a> {
     /// Region of each pixel.
     pub labels: &'a LabelMap,
     /// A band at or above it is clipped, counts.
-    pub clip_threshold: f32,
+    pub clip_thresholds: [f32; 3],
     /// Standard deviation of the noise, counts.
     pub sigma: f32,
 }
@@ -48,7 +48,7 @@ impl Distorted<'_> {
     ) -> Restored {
         let color = self.pixels[pixel];
         let band = (0..3).min_by(|&a, &b| color[a].total_cmp(&color[b])).unwrap_or(0);
-        let lost = color[band] >= self.clip_threshold;
+        let lost = color[band] >= self.clip_thresholds[band];
         let (body, surface) = (transform.body()[band], transform.surface()[band]);
         let on_highlight = test.is_some_and(|test| test.is_highlight(color));
         let components = if on_highlight && surface.abs() > 1e-3 {
@@ -98,11 +98,14 @@ impl Distorted<'_> {
     fn good_bands(&self, pixel: usize) -> [bool; 3] {
         let mut good = [true; 3];
         for near in self.pixels.around(pixel) {
-            for (good, band) in good.iter_mut().zip(self.pixels[near]) {
-                *good &= band < self.clip_threshold;
+            for (band, good) in good.iter_mut().enumerate() {
+                *good &= self.pixels[near][band] < self.clip_thresholds[band];
             }
         }
-        if good == [false; 3] { self.pixels[pixel].map(|band| band < self.clip_threshold) } else { good }
+        if good == [false; 3] {
+            return std::array::from_fn(|band| self.pixels[pixel][band] < self.clip_thresholds[band]);
+        }
+        good
     }
 
     /// Body reflection to expect at each distorted pixel of a region: that of its undistorted surroundings (by `body`, from
@@ -180,7 +183,7 @@ mod tests {
             pixels: &image.pixels,
             masks: &masks,
             labels: &labels,
-            clip_threshold: CLIP,
+            clip_thresholds: [CLIP; 3],
             sigma: 1.25,
         };
         distorted.most_probable(4, transform, 100.0)
@@ -235,7 +238,7 @@ mod tests {
             pixels: &image.pixels,
             masks: &masks,
             labels: &labels,
-            clip_threshold: CLIP,
+            clip_thresholds: [CLIP; 3],
             sigma: 1.25,
         };
         let Restored { components, lost } = distorted.smallest_band(0, &t, None, 0.0);
@@ -254,7 +257,7 @@ mod tests {
             pixels: &image.pixels,
             masks: &masks,
             labels: &labels,
-            clip_threshold: CLIP,
+            clip_thresholds: [CLIP; 3],
             sigma: 1.25,
         };
         let priors = distorted.priors(&[1, 2, 3], |color| color[0]);

@@ -1,5 +1,6 @@
 //! Section 6: every pixel's amounts of body and surface reflection, by its region's T.
 
+use super::ambient::Ambient;
 use super::confidence::Grounds;
 use super::holding::holding;
 use super::local::split_locally;
@@ -17,9 +18,44 @@ use crate::segment::{
 use crate::trace::{Event, Pass, PixelKind, Recorder, VectorsFitted};
 use rayon::prelude::*;
 
-/// Splits the picture.
+/// Splits the picture, without its ambient light.
 pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut R) -> Intrinsic {
     let members = members(regions);
+    let ambient = Ambient::new(scene, regions, &members);
+    let Some(counts) = ambient.subtracted else {
+        return Intrinsic { ambient, ..split_from(&[0.0; 3], scene, regions, &members, recorder) };
+    };
+    let less = counts.map(|band| band as f32);
+    let pixels = scene.pixels.map(|&color| std::array::from_fn(|band| color[band] - less[band]));
+    let shifted = FinalRegions {
+        labels: regions.labels.clone(),
+        hypotheses: regions
+            .hypotheses
+            .iter()
+            .map(|hypothesis| hypothesis.from_origin(&counts.into()))
+            .collect(),
+        light: regions.light,
+    };
+    let mut result = split_from(&counts, &scene.with_pixels(&pixels), &shifted, &members, recorder);
+    result.ambient = ambient;
+    for color in result.body.as_mut_slice() {
+        *color = std::array::from_fn(|band| color[band] + less[band]);
+    }
+    for region in &mut result.regions {
+        let moved = std::iter::once(&mut region.matte_mean).chain(&mut region.highlight_start);
+        moved.for_each(|color| *color = std::array::from_fn(|band| color[band] + counts[band]));
+    }
+    result
+}
+
+/// Splits a picture whose colours were measured from `origin`, counts.
+fn split_from<R: Recorder>(
+    origin: &[f64; 3],
+    scene: &Scene,
+    regions: &FinalRegions,
+    members: &Members,
+    recorder: &mut R,
+) -> Intrinsic {
     let splitters: Vec<Splitter> = regions
         .hypotheses
         .par_iter()
@@ -30,7 +66,7 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
     if scene.stopped() {
         return images.unfinished();
     }
-    images.restore(scene, regions, &splitters, &members);
+    images.restore(origin, scene, regions, (&splitters, members));
     let fits: Vec<RegionFit> = splitters
         .par_iter()
         .enumerate()
@@ -44,10 +80,11 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
         recorder.record(Event::PassBegan { pass: Pass::Vectors });
         for (region, (splitter, fit)) in (1..).zip(splitters.iter().zip(&fits)) {
             let holds = !scene.refine.region_holds || fit.holds(scene.sigma());
-            recorder.record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(region, fit, holds))));
+            recorder
+                .record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(region, origin, fit, holds))));
         }
     }
-    let holding = holding(scene, regions, &members, &fits, &images.kinds);
+    let holding = holding(scene, regions, members, &fits, &images.kinds);
     let local = split_locally(scene, regions, &holding, &mut images);
     if R::KEEPS {
         recorder.record(Event::PassBegan { pass: Pass::Labels });
@@ -85,7 +122,8 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
     };
     let reasons = case.reasons();
     let Images { body, surface, noise, kinds } = images;
-    Intrinsic { body, surface, noise, kinds, confidence, reasons, regions: reflections }
+    let ambient = Ambient::default();
+    Intrinsic { body, surface, noise, kinds, confidence, reasons, ambient, regions: reflections }
 }
 
 /// How one region's pixels are split.
@@ -128,18 +166,20 @@ impl Splitter {
         components
     }
 
-    fn vectors_fitted(&self, region: u16, fit: &RegionFit, holds: bool) -> VectorsFitted {
+    fn vectors_fitted(&self, region: u16, origin: &[f64; 3], fit: &RegionFit, holds: bool) -> VectorsFitted {
+        let PlanarHypothesis { matte, start, .. } = self.hypothesis.from_origin(&-Vec3::from(*origin));
         VectorsFitted {
             region,
             body: self.vectors.body,
             surface: self.transform.and(self.vectors.surface),
-            matte: self.hypothesis.matte,
-            start: self.hypothesis.start,
+            matte,
+            start,
             highlight: self.hypothesis.plane.map(|plane| plane.surface),
             least_offset: self.least_offset,
             rms_counts: fit.rms_counts,
             texture: fit.texture,
             holds,
+            origin: *origin,
         }
     }
 
@@ -205,16 +245,23 @@ impl Images {
         let Self { body, surface, noise, kinds } = self;
         let confidence = Raster::filled(body.width(), body.height(), 0.0);
         let reasons = confidence.map(|_| Reason::default());
-        Intrinsic { body, surface, noise, kinds, confidence, reasons, regions: Vec::new() }
+        let ambient = Ambient::default();
+        Intrinsic { body, surface, noise, kinds, confidence, reasons, ambient, regions: Vec::new() }
     }
 
     /// Restores distorted pixels from their good bands and their surroundings.
-    fn restore(&mut self, scene: &Scene, regions: &FinalRegions, splitters: &[Splitter], members: &Members) {
+    fn restore(
+        &mut self,
+        origin: &[f64; 3],
+        scene: &Scene,
+        regions: &FinalRegions,
+        (splitters, members): (&[Splitter], &Members),
+    ) {
         let distorted = Distorted {
             pixels: scene.pixels,
             masks: scene.masks,
             labels: &regions.labels,
-            clip_threshold: scene.used.clip_threshold as f32,
+            clip_thresholds: origin.map(|band| (scene.used.clip_threshold - band) as f32),
             sigma: scene.sigma() as f32,
         };
         let restored: Vec<Vec<RestoredPixel>> = splitters

@@ -158,6 +158,7 @@ mod tests {
             window_size: paper(Parameter::WindowSize),
             min_area: paper(Parameter::MinArea),
             illuminant: None,
+            ambient: crate::segment::AmbientSetting::Auto,
         }
     }
 

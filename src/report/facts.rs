@@ -2,10 +2,10 @@
 
 use super::scores::Scores;
 use crate::analysis::{Analysis, Stage};
-use crate::intrinsic::{Reason, RegionReflection};
+use crate::intrinsic::{Ambient, Reason, RegionReflection};
 use crate::photo::Photo;
 use crate::raster::UNASSIGNED;
-use crate::segment::{IlluminantSetting, Method, Parameter, Params, Refine, Setting};
+use crate::segment::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine, Setting};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -29,6 +29,9 @@ pub struct Report {
     pub params: ParamsFacts,
     /// The colour of the light.
     pub illuminant: IlluminantFacts,
+    /// The ambient light; absent in reports of versions that did not ask.
+    #[serde(default)]
+    pub ambient: AmbientFacts,
     /// The regions; region `id` of `regions.png` is at index `id − 1`.
     pub regions: Vec<RegionFacts>,
     /// Pixels in no region; of an area only those inside.
@@ -59,6 +62,7 @@ impl Report {
             area: None,
             params: ParamsFacts::new(params, analysis),
             illuminant: IlluminantFacts::new(analysis),
+            ambient: AmbientFacts::new(analysis),
             regions: analysis.intrinsic.regions.iter().map(RegionFacts::from).collect(),
             unassigned_pixels: unassigned,
             reasons: reasons(analysis),
@@ -137,6 +141,15 @@ pub struct LightFacts {
     pub used: Option<[f64; 3]>,
 }
 
+/// The ambient light as it was asked for and as it was used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AmbientAsked {
+    /// Three numbers in counts, `auto` or `off`.
+    pub asked: AmbientSetting,
+    /// What was subtracted before the split, counts; null: nothing.
+    pub used: Option<[f64; 3]>,
+}
+
 /// Method, parameters and refinements of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "Parameter::spec describes each")]
@@ -153,6 +166,9 @@ pub struct ParamsFacts {
     /// Absent in reports of versions that could not be told the light.
     #[serde(default)]
     pub illuminant: LightFacts,
+    /// Absent in reports of versions that did not ask.
+    #[serde(default)]
+    pub ambient: AmbientAsked,
     /// The refinements in force: all off under the paper's method.
     pub refine: Refine,
 }
@@ -177,7 +193,49 @@ impl ParamsFacts {
                 asked: params.illuminant,
                 used: analysis.illuminant.map(|light| light.direction),
             },
+            ambient: AmbientAsked { asked: params.ambient, used: analysis.intrinsic.ambient.subtracted },
             refine: params.refinements(),
+        }
+    }
+}
+
+/// The ambient light (section 7.5).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AmbientFacts {
+    /// Subtracted before the split and added to the body image after it, counts; null: nothing.
+    pub subtracted: Option<[f64; 3]>,
+    /// Why it was subtracted, or why not: `off`, `given`, `subtracted`, `few_lines`, `black`, `negative`, `no_meeting` or
+    /// `darker_pixels`.
+    pub verdict: String,
+    /// The same in words.
+    pub reason: String,
+    /// Where the matte lines meet, counts; null where it was not asked, or fewer than two lines are known.
+    pub meeting: Option<[f64; 3]>,
+    /// Its standard deviation in each band, counts.
+    pub sd_counts: Option<[f64; 3]>,
+    /// Lines that it rests on.
+    pub lines: usize,
+    /// Root mean square distance of the lines from it, counts.
+    pub miss_counts: Option<f64>,
+    /// Root mean square distance of the lines from black, counts.
+    pub miss_of_black_counts: Option<f64>,
+    /// Its squared distance from black, in variances: 16.3 is significant.
+    pub chi_square: Option<f64>,
+}
+
+impl AmbientFacts {
+    fn new(analysis: &Analysis) -> Self {
+        let Ambient { subtracted, meeting, verdict } = analysis.intrinsic.ambient;
+        Self {
+            subtracted,
+            verdict: verdict.name().to_owned(),
+            reason: verdict.reason().to_owned(),
+            meeting: meeting.map(|meeting| meeting.counts),
+            sd_counts: meeting.map(|meeting| meeting.sd_counts),
+            lines: meeting.map_or(0, |meeting| meeting.lines),
+            miss_counts: meeting.map(|meeting| meeting.miss_counts[0]),
+            miss_of_black_counts: meeting.map(|meeting| meeting.miss_counts[1]),
+            chi_square: meeting.map(|meeting| meeting.chi_square),
         }
     }
 }

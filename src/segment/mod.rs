@@ -24,6 +24,7 @@ mod scene;
 mod setting;
 #[cfg(test)]
 mod testing;
+mod two_lights;
 mod unite;
 mod vote_light;
 
@@ -41,4 +42,4 @@ pub use preset::Preset;
 pub use refine::Refine;
 pub use regions::{FinalRegions, final_regions, members, neighbours, parts};
 pub use scene::Scene;
-pub use setting::{IlluminantSetting, Setting};
+pub use setting::{AmbientSetting, IlluminantSetting, Setting};

@@ -4,7 +4,7 @@
 //! all of them need to know. Values are in counts, 255 = full scale, whatever the depth of the file.
 
 use super::refine::Refine;
-use super::setting::{IlluminantSetting, Setting};
+use super::setting::{AmbientSetting, IlluminantSetting, Setting};
 use serde::{Deserialize, Serialize};
 
 /// Which algorithm.
@@ -141,6 +141,9 @@ impl Parameter {
     }
 }
 
+/// Most ambient light that may be given, counts a band.
+const MOST_AMBIENT: f64 = 200.0;
+
 /// What was asked for. [`Params::default`] is the refined method, [`Params::paper`] that of 1990.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -157,6 +160,8 @@ pub struct Params {
     pub min_area: Setting,
     /// The colour of the light: estimated, or given.
     pub illuminant: IlluminantSetting,
+    /// The ambient light: estimated, given, or left alone.
+    pub ambient: AmbientSetting,
     pub refine: Refine,
 }
 
@@ -187,6 +192,7 @@ impl Params {
             window_size: paper(Parameter::WindowSize),
             min_area: paper(Parameter::MinArea),
             illuminant: IlluminantSetting::Auto,
+            ambient: AmbientSetting::Auto,
             refine: Refine::default(),
         }
     }
@@ -241,7 +247,15 @@ impl Params {
         }
         match self.illuminant {
             IlluminantSetting::Given(colour) if self.illuminant.direction().is_none() => {
-                Err(InvalidParameter::Illuminant(colour))
+                return Err(InvalidParameter::Illuminant(colour));
+            }
+            _ => {}
+        }
+        match self.ambient {
+            AmbientSetting::Given(colour)
+                if colour.iter().any(|band| !(0.0..=MOST_AMBIENT).contains(band)) =>
+            {
+                Err(InvalidParameter::Ambient(colour))
             }
             _ => Ok(()),
         }
@@ -262,6 +276,8 @@ pub struct UsedParams {
     pub min_area: f64,
     /// Direction of the light where it was given, unit; none: the image is asked.
     pub illuminant: Option<[f64; 3]>,
+    /// What was asked of the ambient light.
+    pub ambient: AmbientSetting,
 }
 
 impl UsedParams {
@@ -305,6 +321,9 @@ pub enum InvalidParameter {
     /// A light that is no colour.
     #[error("illuminant = {0:?}: expected `auto` or three numbers from 0 on, not all of them 0")]
     Illuminant([f64; 3]),
+    /// Ambient light that is no colour.
+    #[error("ambient = {0:?}: expected `auto`, `off` or three numbers from 0 to {MOST_AMBIENT} counts")]
+    Ambient([f64; 3]),
 }
 
 #[cfg(test)]
@@ -338,6 +357,11 @@ mod tests {
         for colour in [[0.0; 3], [1.0, -0.1, 1.0], [f64::NAN, 1.0, 1.0], [f64::INFINITY, 1.0, 1.0]] {
             let message = with(colour).validate().unwrap_err().to_string();
             assert!(message.starts_with(&format!("illuminant = {colour:?}: expected")), "{message}");
+        }
+        for colour in [[-1.0, 0.0, 0.0], [0.0, f64::NAN, 0.0], [0.0, 0.0, 201.0]] {
+            let params = Params { ambient: AmbientSetting::Given(colour), ..Params::default() };
+            let message = params.validate().unwrap_err().to_string();
+            assert!(message.starts_with(&format!("ambient = {colour:?}: expected")), "{message}");
         }
     }
 

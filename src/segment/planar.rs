@@ -13,7 +13,7 @@
 use super::candidates::{Found, HighlightLine, highlight_lines};
 use super::choice::ByPlanes;
 use super::classify::Windows;
-use super::evidence::{branch_constraint, nearby_highlight, plane_constraint};
+use super::evidence::{nearby_highlight, plane_constraint};
 use super::illuminant::{Constraint, Prior, average_direction, intersect, weighted_direction};
 use super::in_plane::Branches;
 use super::ledger::{Ledger, Members};
@@ -22,6 +22,7 @@ use super::linear::{Hypothesis, cylinders, matte_length};
 use super::matte::MatteRegions;
 use super::merge::Areas;
 use super::scene::Scene;
+use super::two_lights::{Evidence, light_of};
 use super::unite::merge_regions;
 use crate::color::{Cylinder, Line, Vec3, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
@@ -60,6 +61,15 @@ pub struct PlanarHypothesis {
 }
 
 impl PlanarHypothesis {
+    /// The same with colours measured from `origin`, counts.
+    #[must_use]
+    pub fn from_origin(&self, origin: &Vec3) -> Self {
+        let moved = |line: Line| Line { mean: line.mean - origin, ..line };
+        let matte_length = self.matte_length - self.matte.direction.dot(origin);
+        let plane = self.plane.map(|plane| DichromaticPlane { matte: moved(plane.matte), ..plane });
+        Self { matte: moved(self.matte), matte_length, plane, start: self.start - origin, ..*self }
+    }
+
     /// What tells its highlight pixels from its matte ones (section 6); `None` without a plane.
     pub fn highlight_test(&self) -> Option<HighlightTest> {
         let plane = self.plane.as_ref()?;
@@ -186,6 +196,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
                 let nearby =
                     nearby_highlight(self.scene, &self.matte_labels, &plane, length, members.region(id));
                 plane_constraint(self.scene, id, &plane, length, nearby.into_iter())
+                    .map(|found| found.constraint)
             })
             .collect();
         if constraints.is_empty() && candidates.is_none() {
@@ -202,16 +213,14 @@ impl<R: Recorder> Stage<'_, '_, R> {
     fn illuminant_again(&mut self, hypotheses: &[PlanarHypothesis], before: &Vec3) -> (Vec3, ByPlanes) {
         let members = Members::of(&self.ledger.labels, hypotheses.len());
         let budget = BRANCH_SAMPLES / hypotheses.iter().filter(|h| h.plane.is_some()).count().max(1);
-        let pairs: Vec<(Option<Constraint>, Option<Constraint>)> = (1..=hypotheses.len() as u16)
+        let evidence: Vec<Evidence> = (1..=hypotheses.len() as u16)
             .into_par_iter()
-            .map(|id| {
+            .filter_map(|id| {
                 let hypothesis = &hypotheses[usize::from(id) - 1];
                 let wanted = hypothesis.alive && !self.scene.stopped();
-                let Some(plane) = hypothesis.plane.filter(|_| wanted) else { return (None, None) };
+                let plane = hypothesis.plane.filter(|_| wanted)?;
                 let (pixels, length) = (members.region(id), hypothesis.matte_length);
-                let Some(lies_in) = plane_constraint(self.scene, id, &plane, length, pixels.iter()) else {
-                    return (None, None);
-                };
+                let lies_in = plane_constraint(self.scene, id, &plane, length, pixels.iter())?;
                 let branches = Branches {
                     scene: self.scene,
                     labels: &self.ledger.labels,
@@ -220,18 +229,16 @@ impl<R: Recorder> Stage<'_, '_, R> {
                     matte_length: length,
                     budget,
                 };
-                let branch = branches.estimate(pixels);
-                (Some(lies_in), branch.map(|branch| branch_constraint(&lies_in, &plane, &branch)))
+                Some(Evidence { plane, lies_in, highlights: branches.estimate(pixels) })
             })
             .collect();
-        let objects = pairs.iter().filter(|(lies_in, _)| lies_in.is_some()).count();
-        let branches = pairs.iter().filter(|(_, branch)| branch.is_some()).count();
-        let constraints: Vec<Constraint> = pairs.into_iter().flat_map(|(a, b)| [a, b]).flatten().collect();
+        let objects = evidence.len();
+        let branches = evidence.iter().filter(|evidence| evidence.highlights.is_some()).count();
         let prior = match weighted_direction(&self.lines) {
             Some(direction) if branches == 0 => Prior { direction, sd_deg: 8.0 },
             _ => Prior { direction: *before, sd_deg: 30.0 },
         };
-        let found = intersect(&constraints, &prior);
+        let found = light_of(self.scene, &evidence, &prior);
         self.announce(Some(found.direction), found.contributions);
         let direction = Some(found.direction);
         (found.direction, ByPlanes { direction, objects, interval_deg: found.interval_deg })

@@ -31,6 +31,15 @@ impl<'a> Scene<'a> {
         Self { stop, ..self }
     }
 
+    /// The same scene with other colours, such as those without the ambient light.
+    #[must_use]
+    pub fn with_pixels<'b>(&self, pixels: &'b Raster<[f32; 3]>) -> Scene<'b>
+    where
+        'a: 'b,
+    {
+        Scene { pixels, ..*self }
+    }
+
     /// Whether to give up. Asked once a hypothesis, a row, or every 64k pixels that a region grows from.
     pub fn stopped(&self) -> bool {
         (self.stop)()

@@ -126,15 +126,15 @@ impl std::str::FromStr for IlluminantSetting {
         if text == "auto" {
             return Ok(Self::Auto);
         }
-        let bands: Option<Vec<f64>> = text.split(',').map(|band| band.trim().parse().ok()).collect();
-        let colour = bands.and_then(|bands| <[f64; 3]>::try_from(bands).ok());
-        colour.map(Self::Given).ok_or_else(|| format!("{text:?} is neither three numbers R,G,B nor `auto`"))
+        three_numbers(text)
+            .map(Self::Given)
+            .ok_or_else(|| format!("{text:?} is neither three numbers R,G,B nor `auto`"))
     }
 }
 
-/// How an [`IlluminantSetting`] is written.
+/// How an [`IlluminantSetting`] or an [`AmbientSetting`] is written.
 #[derive(Serialize, Deserialize)]
-#[serde(untagged, expecting = "expected three numbers or \"auto\"")]
+#[serde(untagged, expecting = "expected three numbers or a word such as \"auto\"")]
 enum Written {
     Colour([f64; 3]),
     Word(String),
@@ -159,6 +159,73 @@ impl From<IlluminantSetting> for Written {
             IlluminantSetting::Given(colour) => Self::Colour(colour),
         }
     }
+}
+
+/// The ambient light (section 7.5): estimated from the matte lines, given, or left alone.
+///
+/// In TOML and JSON `"auto"`, `"off"` or three numbers, as a flag `auto`, `off` or `R,G,B`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
+pub enum AmbientSetting {
+    /// Estimated, and subtracted before the split where it is significant.
+    #[default]
+    Auto,
+    /// Neither estimated nor subtracted.
+    Off,
+    /// What every pixel holds of it, counts.
+    Given([f64; 3]),
+}
+
+impl fmt::Display for AmbientSetting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => f.write_str("auto"),
+            Self::Off => f.write_str("off"),
+            Self::Given([r, g, b]) => write!(f, "{r},{g},{b}"),
+        }
+    }
+}
+
+impl std::str::FromStr for AmbientSetting {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "auto" => Ok(Self::Auto),
+            "off" => Ok(Self::Off),
+            _ => three_numbers(text)
+                .map(Self::Given)
+                .ok_or_else(|| format!("{text:?} is neither three numbers R,G,B nor `auto` nor `off`")),
+        }
+    }
+}
+
+impl TryFrom<Written> for AmbientSetting {
+    type Error = String;
+
+    fn try_from(written: Written) -> Result<Self, Self::Error> {
+        match written {
+            Written::Colour(colour) => Ok(Self::Given(colour)),
+            Written::Word(word) if word == "auto" => Ok(Self::Auto),
+            Written::Word(word) if word == "off" => Ok(Self::Off),
+            Written::Word(word) => Err(format!("{word:?} is neither three numbers nor `auto` nor `off`")),
+        }
+    }
+}
+
+impl From<AmbientSetting> for Written {
+    fn from(setting: AmbientSetting) -> Self {
+        match setting {
+            AmbientSetting::Given(colour) => Self::Colour(colour),
+            word => Self::Word(word.to_string()),
+        }
+    }
+}
+
+/// Three numbers parted by commas.
+fn three_numbers(text: &str) -> Option<[f64; 3]> {
+    let bands: Option<Vec<f64>> = text.split(',').map(|band| band.trim().parse().ok()).collect();
+    bands.and_then(|bands| <[f64; 3]>::try_from(bands).ok())
 }
 
 #[cfg(test)]
@@ -195,5 +262,21 @@ mod tests {
             assert!((r - 0.6).abs() < 1e-12 && (g - 0.8).abs() < 1e-12 && b == 0.0, "{length}");
         }
         assert_eq!(IlluminantSetting::Auto.direction(), None);
+    }
+
+    #[test]
+    fn ambient_light_is_a_word_or_three_numbers_in_toml_and_as_a_flag() {
+        let given = AmbientSetting::Given([4.0, 5.5, 0.0]);
+        for (text, setting) in
+            [("auto", AmbientSetting::Auto), ("off", AmbientSetting::Off), ("4,5.5,0", given)]
+        {
+            assert_eq!(text.parse(), Ok(setting));
+            assert_eq!(setting.to_string(), text);
+            let params = Params { ambient: setting, ..Params::default() };
+            assert_eq!(toml::from_str::<Params>(&toml::to_string(&params).unwrap()).unwrap(), params);
+        }
+        for wrong in ["", "on", "1,2", "1,2,x"] {
+            assert!(wrong.parse::<AmbientSetting>().is_err(), "{wrong}");
+        }
     }
 }

@@ -44,6 +44,7 @@ impl Drawing {
             window_size: 10.0,
             min_area: 4.0,
             illuminant: None,
+            ambient: crate::segment::AmbientSetting::Auto,
         };
         Self { masks: Masks::new(&image, &limits), image, used, refine: Params::default().refine }
     }

@@ -390,6 +390,8 @@ pub struct VectorsFitted {
     pub texture: f64,
     /// Whether one skewed T explains it; where not, its plane is not used.
     pub holds: bool,
+    /// Where body and surface reflection are measured from: black, or the ambient light, counts.
+    pub origin: [f64; 3],
 }
 
 /// Why an area did not start a hypothesis.

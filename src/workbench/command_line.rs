@@ -2,7 +2,7 @@
 
 use super::write::AREA_FILE;
 use super::{Origin, State};
-use crate::segment::{IlluminantSetting, Method, Parameter, Params, Refine};
+use crate::segment::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine};
 use std::path::Path;
 
 /// The call that analyses the open photograph as the window does, for a POSIX shell. Only what differs from the defaults is
@@ -66,6 +66,9 @@ fn params_words(params: &Params) -> Vec<String> {
     if params.illuminant != IlluminantSetting::Auto {
         words.extend(["--illuminant".to_owned(), params.illuminant.to_string()]);
     }
+    if params.ambient != AmbientSetting::Auto {
+        words.extend(["--ambient".to_owned(), params.ambient.to_string()]);
+    }
     // The paper's method refines nothing, whatever the switches say.
     if params.method == Method::Refined {
         let (mut asked, mut usual) = (params.refine, Refine::default());
@@ -127,11 +130,12 @@ mod tests {
         params.min_area = Setting::Auto;
         params.refine.second_look = false;
         params.illuminant = IlluminantSetting::Given([1.0, 0.5, 0.25]);
+        params.ambient = AmbientSetting::Off;
         state.document.area = Some(Arc::new(crate::raster::Raster::filled(1, 1, true)));
         assert_eq!(
             analyze_call(&state),
             "dichroscope analyze 'my photo'\\''s.png' --out results --encoding gamma:2.2 --full-scale 2040 \
-             --camera-noise 3.5 --min-area auto --illuminant 1,0.5,0.25 --without second_look --area area.png  \
+             --camera-noise 3.5 --min-area auto --illuminant 1,0.5,0.25 --ambient off --without second_look --area area.png  \
              # area.png: export the area under this name first"
         );
     }

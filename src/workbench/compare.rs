@@ -136,6 +136,7 @@ fn settings(pinned: &Shown, newest: &Shown) -> Vec<SettingChange> {
         add(parameter.spec().name, asked(pinned), asked(newest));
     }
     add("illuminant", pinned.params.illuminant.to_string(), newest.params.illuminant.to_string());
+    add("ambient", pinned.params.ambient.to_string(), newest.params.ambient.to_string());
     let word = |on: bool| if on { "on" } else { "off" }.to_owned();
     let (mut before, mut after) = (pinned.params.refinements(), newest.params.refinements());
     for ((name, before), (_, after)) in before.switches().into_iter().zip(after.switches()) {

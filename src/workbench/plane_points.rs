@@ -47,6 +47,8 @@ pub struct RegionPlane {
     /// Smallest and largest m_b and m_s of the points, counts.
     pub extent: [[f32; 2]; 2],
     transform: ReflectionTransform,
+    /// Where the amounts are measured from: black, or the ambient light.
+    origin: Point,
 }
 
 /// A pixel, or the pixels of a cell.
@@ -81,8 +83,9 @@ pub fn region_plane(shown: &Shown, region: u16) -> Option<RegionPlane> {
     };
     let has_plane = made.is_some();
     let transform = made.or_else(stand_in)?;
-    let points = points(shown, region, &transform);
-    let amount = |colour: Vec3| transform.split(rgb(&colour)).body;
+    let origin = shown.analysis.intrinsic.ambient.subtracted.unwrap_or_default().map(|band| band as f32);
+    let points = points(shown, region, &|colour| transform.split(from(origin, colour)));
+    let amount = |colour: Vec3| transform.split(from(origin, rgb(&colour))).body;
     let brightest = hypothesis.matte.foot() + hypothesis.matte.direction * hypothesis.matte_length;
     let highlights = points.iter().filter(|point| point.kind == PixelKind::Highlight);
     Some(RegionPlane {
@@ -99,7 +102,13 @@ pub fn region_plane(shown: &Shown, region: u16) -> Option<RegionPlane> {
         extent: extent(&points),
         points,
         transform,
+        origin,
     })
+}
+
+/// A colour measured from `origin`, counts.
+fn from(origin: Point, colour: Point) -> Point {
+    std::array::from_fn(|band| colour[band] - origin[band])
 }
 
 /// Smallest and largest m_b and m_s of the points, counts.
@@ -120,7 +129,7 @@ fn angle_deg(transform: &ReflectionTransform) -> f32 {
 impl RegionPlane {
     /// A colour's amounts of body and surface reflection and its distance from the plane, counts.
     pub fn amounts(&self, colour: Point) -> Components {
-        self.transform.split(colour)
+        self.transform.split(from(self.origin, colour))
     }
 
     /// Where m_b and m_s lie in the plane as it is, counts: the first axis along C_b, C_s at its true angle to it.
@@ -158,12 +167,12 @@ impl RegionPlane {
     }
 }
 
-fn points(shown: &Shown, region: u16, transform: &ReflectionTransform) -> Vec<PlanePixel> {
+fn points(shown: &Shown, region: u16, amounts_of: &(dyn Fn(Point) -> Components + Sync)) -> Vec<PlanePixel> {
     let colours = shown.picture.photo.image.pixels.as_slice();
     let kinds = shown.analysis.intrinsic.kinds.as_slice();
     let place = |pixel: u32| {
         let colour = colours[pixel as usize];
-        let Components { body, surface, .. } = transform.split(colour);
+        let Components { body, surface, .. } = amounts_of(colour);
         PlanePixel { body, surface, colour, kind: kinds[pixel as usize], pixel, count: 1 }
     };
     let pixels = pixels_of(shown.labels(), region);
@@ -174,7 +183,7 @@ fn points(shown: &Shown, region: u16, transform: &ReflectionTransform) -> Vec<Pl
         .par_iter()
         .with_min_len(1 << 14)
         .map(|&pixel| {
-            let Components { body, surface, .. } = transform.split(colours[pixel as usize]);
+            let Components { body, surface, .. } = amounts_of(colours[pixel as usize]);
             [body, surface]
         })
         .collect();

@@ -3,7 +3,7 @@
 use crate::files::{self, Png, curv, rgb_icc};
 use crate::{pixels, read_with};
 use dichroscope::export::write_matte;
-use dichroscope::intrinsic::{Intrinsic, PixelKind, Reason};
+use dichroscope::intrinsic::{Ambient, Intrinsic, PixelKind, Reason};
 use dichroscope::photo::{Layout, Photo, ReadOptions, decode, read};
 use dichroscope::raster::Raster;
 use exr::image::FlatSamples;
@@ -30,6 +30,7 @@ fn split(body: &Raster<[f32; 3]>, surface: [f32; 3]) -> Intrinsic {
         kinds: Raster::filled(width, height, PixelKind::Matte),
         confidence: Raster::filled(width, height, 1.0),
         reasons: Raster::filled(width, height, Reason::Explained),
+        ambient: Ambient::default(),
         regions: Vec::new(),
     }
 }

@@ -110,7 +110,7 @@ fn apply(light: &Vec3, shades: &Shades, weights: &Raster<f32>, images: &mut Imag
         for (x, (&weight, point)) in (window.left..).zip(found).filter(|(_, (weight, _))| **weight > 0.0) {
             let amount = weight * point.surface;
             // Never more than there is in any band.
-            surface[x] = std::array::from_fn(|band| (amount * per_amount[band]).min(body[x][band]));
+            surface[x] = std::array::from_fn(|band| (amount * per_amount[band]).min(body[x][band].max(0.0)));
             body[x] = std::array::from_fn(|band| body[x][band] - surface[x][band]);
             kinds[x] = if kinds[x] == PixelKind::Unassigned { kinds[x] } else { PixelKind::Highlight };
             confidence[x] = LOCAL * weight;
@@ -149,6 +149,7 @@ mod tests {
             window_size: paper(Parameter::WindowSize),
             min_area: paper(Parameter::MinArea),
             illuminant: None,
+            ambient: crate::segment::AmbientSetting::Auto,
         }
     }
 

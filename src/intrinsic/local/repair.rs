@@ -33,7 +33,7 @@ pub fn repair(scene: &Scene, outside: &Mask, images: &mut Images, confidence: &m
         let filled = blobs.harmonic(&blob, &rings, &images.body);
         for (&pixel, fill) in blob.iter().zip(filled) {
             let input = scene.pixels[pixel];
-            images.body[pixel] = std::array::from_fn(|band| fill[band].clamp(0.0, input[band]));
+            images.body[pixel] = std::array::from_fn(|band| fill[band].clamp(0.0, input[band].max(0.0)));
             images.surface[pixel] = std::array::from_fn(|band| input[band] - images.body[pixel][band]);
             if images.kinds[pixel] != PixelKind::Unassigned {
                 images.kinds[pixel] = PixelKind::Restored;

@@ -55,6 +55,7 @@ pub(super) fn verdicts(
 
 /// A believed colour's amounts (equation 13), and the surface reflection that was cut, counts off the body line.
 pub(super) fn amounts(fitted: &VectorsFitted, color: [f32; 3]) -> (Components, Option<f32>) {
+    let color = std::array::from_fn(|band| color[band] - fitted.origin[band] as f32);
     let transform = fitted.surface.and_then(|surface| ReflectionTransform::new(&fitted.body, &surface));
     let Some(transform) = transform else {
         let body = dot(color, crate::color::rgb(&fitted.body));

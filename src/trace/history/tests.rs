@@ -217,6 +217,7 @@ fn the_end_is_a_number_a_role_and_amounts() {
                 rms_counts: 1.0,
                 texture: 0.0,
                 holds: true,
+                origin: [0.0; 3],
             })));
             let kinds = vec![PixelKind::Highlight, PixelKind::Matte];
             tape.labels(&Raster::from_vec(2, 1, kinds).unwrap());

@@ -49,6 +49,8 @@ impl Sheet<'_> {
             extent: super::extent(&points),
             points,
             transform: self.transform,
+            // Ambient light is known after all growth only.
+            origin: [0.0; 3],
         }
     }
 }
