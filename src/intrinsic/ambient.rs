@@ -254,3 +254,81 @@ fn meeting(lines: &[MatteLine]) -> Option<Meeting> {
         chi_square,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::LabelMap;
+    use crate::segment::testing::Drawing;
+    use crate::segment::{LightFindings, PlanarHypothesis};
+    use proptest::prelude::*;
+
+    const SIDE_PX: usize = 40;
+
+    /// Stripes of shaded bodies, each from a point of its own, and what is found of their ambient light.
+    fn found(bodies: &[([f64; 3], [f64; 3])], setting: AmbientSetting) -> Ambient {
+        let width = SIDE_PX * bodies.len();
+        let place = |x: f64| (x as usize / SIDE_PX).min(bodies.len() - 1);
+        let drawing = Drawing::by_place(width, |x, y| {
+            let (body, from) = bodies[place(x)];
+            Vec3::from(from) + Vec3::from(body).normalize() * (40.0 + 2.0 * y % 120.0)
+        });
+        let labels = LabelMap::from_vec(
+            width,
+            drawing.height(),
+            (0..width * drawing.height()).map(|i| place((i % width) as f64) as u16 + 1).collect(),
+        );
+        let hypotheses = (1..).zip(bodies).map(|(origin, (body, from))| {
+            let direction = Vec3::from(*body).normalize();
+            let matte = Line::new(Vec3::from(*from) + direction * 90.0, direction);
+            let start = matte.mean;
+            PlanarHypothesis { origin, matte, matte_length: 160.0, plane: None, start, highlight: None, alive: true }
+        });
+        let regions =
+            FinalRegions { labels: labels.unwrap(), hypotheses: hypotheses.collect(), light: LightFindings::default() };
+        let used = crate::segment::UsedParams { ambient: setting, ..drawing.used };
+        let scene = Scene { used: &used, ..drawing.scene() };
+        Ambient::new(&scene, &regions, &crate::segment::members(&regions))
+    }
+
+    const RED: [f64; 3] = [0.9, 0.3, 0.2];
+    const GREEN: [f64; 3] = [0.2, 0.8, 0.3];
+    const BLUE: [f64; 3] = [0.3, 0.4, 0.9];
+
+    proptest! {
+        #[test]
+        fn three_lines_tell_where_they_meet(veil in prop::array::uniform3(2.0f64..15.0)) {
+            let ambient = found(&[(RED, veil), (GREEN, veil), (BLUE, veil)], AmbientSetting::Auto);
+            prop_assert_eq!(ambient.verdict, AmbientVerdict::Subtracted);
+            let subtracted = ambient.subtracted.unwrap();
+            for band in 0..3 {
+                prop_assert!((subtracted[band] - veil[band]).abs() < 0.6, "{:?} {:?}", subtracted, veil);
+            }
+        }
+    }
+
+    #[test]
+    fn black_needs_no_light_and_darkness_is_none() {
+        let of = |p: [f64; 3]| found(&[(RED, p), (GREEN, p), (BLUE, p)], AmbientSetting::Auto);
+        assert_eq!(of([0.0; 3]).verdict, AmbientVerdict::Black);
+        let dark = of([-6.0, -5.0, -6.0]);
+        assert_eq!((dark.verdict, dark.subtracted), (AmbientVerdict::Negative, None));
+    }
+
+    #[test]
+    fn lines_that_do_not_meet_tell_of_no_light_and_two_are_too_few() {
+        let apart = [(RED, [0.0, 12.0, 0.0]), (GREEN, [14.0, 0.0, 0.0]), (BLUE, [0.0, 0.0, 9.0]), (RED, [0.0, 0.0, 14.0])];
+        let found_apart = found(&apart, AmbientSetting::Auto);
+        assert_eq!(found_apart.subtracted, None, "{found_apart:?}");
+        let two = found(&[(RED, [8.0; 3]), (GREEN, [8.0; 3])], AmbientSetting::Auto);
+        assert_eq!((two.verdict, two.subtracted), (AmbientVerdict::FewLines, None));
+    }
+
+    #[test]
+    fn what_is_given_is_taken_and_off_is_off() {
+        let bodies = [(RED, [8.0; 3]), (GREEN, [8.0; 3]), (BLUE, [8.0; 3])];
+        assert_eq!(found(&bodies, AmbientSetting::Off), Ambient::default());
+        let given = found(&bodies, AmbientSetting::Given([1.0, 2.0, 3.0]));
+        assert_eq!((given.subtracted, given.verdict), (Some([1.0, 2.0, 3.0]), AmbientVerdict::Given));
+    }
+}

@@ -50,41 +50,16 @@ pub fn nearby_highlight(
     found
 }
 
-/// The plane that a region's highlight pixels lie in.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LiesIn {
-    /// As what the illuminant is perpendicular to.
-    pub constraint: Constraint,
-    /// Height above the plane that was asked with, per offset in it.
-    tangent: f64,
+/// What a region's highlights themselves say of its plane; without them, the pixels off the matte line say little.
+pub fn by_highlights(by_all: &Constraint, plane: &DichromaticPlane, rise: Option<&Rise>) -> Constraint {
+    const FAINT_DEG: f64 = 5.0;
+    let Some(rise) = rise else {
+        return Constraint { variance_deg2: by_all.variance_deg2 + FAINT_DEG * FAINT_DEG, ..*by_all };
+    };
+    let variance_deg2 = rise.variance * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG;
+    Constraint { normal: normal_of(plane, rise.tangent), variance_deg2, ..*by_all }
 }
 
-impl LiesIn {
-    /// How far the highlights themselves rise off the plane of all pixels off the matte line, in standard deviations; 0 where
-    /// either is no plane.
-    pub fn contradiction(&self, rise: &Rise, sigma: f64) -> f64 {
-        if self.constraint.reliability < 1.0 || rise.residual > POOR_FIT * sigma {
-            return 0.0;
-        }
-        let variance = self.constraint.variance_deg2 * 1f64.to_radians().powi(2) + rise.variance;
-        (rise.tangent - self.tangent).abs() / variance.sqrt()
-    }
-
-    /// What the highlights themselves say instead; without them, pixels off the matte line say little.
-    pub fn by_highlights(&self, plane: &DichromaticPlane, rise: Option<&Rise>) -> Self {
-        const FAINT_DEG: f64 = 5.0;
-        let Some(rise) = rise else {
-            let variance_deg2 = self.constraint.variance_deg2 + FAINT_DEG * FAINT_DEG;
-            return Self { constraint: Constraint { variance_deg2, ..self.constraint }, ..*self };
-        };
-        let variance_deg2 = rise.variance * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG;
-        let normal = normal_of(plane, rise.tangent);
-        Self { constraint: Constraint { normal, variance_deg2, ..self.constraint }, tangent: rise.tangent }
-    }
-}
-
-/// Residuals beyond this many σ are no noise.
-const POOR_FIT: f64 = 2.0;
 /// Least error of a plane's normal, degrees.
 const FLOOR_DEG: f64 = 0.4;
 
@@ -100,8 +75,9 @@ pub fn plane_constraint(
     plane: &DichromaticPlane,
     matte_length: f64,
     pixels: impl Iterator<Item = u32>,
-) -> Option<LiesIn> {
+) -> Option<Constraint> {
     const MIN_PIXELS: f64 = 10.0;
+    const POOR_FIT: f64 = 2.0;
     let axes = plane.coordinates();
     let (radius, sigma) = (scene.used.radius_counts() as f32, scene.sigma());
     let points: Vec<(f64, f64)> = pixels
@@ -116,15 +92,14 @@ pub fn plane_constraint(
         return None;
     }
     let per_pixel = fit.residual.max(sigma).powi(2);
-    let constraint = Constraint {
+    Some(Constraint {
         region,
         normal: normal_of(plane, fit.tangent),
         variance_deg2: per_pixel / fit.squares * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG,
         doubt_deg: 1.0,
         // Pixels that scatter about the plane by more than noise are no highlight on one material.
         reliability: (POOR_FIT * sigma / fit.residual).powi(2).min(1.0),
-    };
-    Some(LiesIn { constraint, tangent: fit.tangent })
+    })
 }
 
 /// A line through the origin of (offset, height) points.

@@ -167,8 +167,7 @@ pub fn unusualness(direction: &Vec3) -> f64 {
     f64::midpoint((yellow_blue / WHITE_SD_DEG[0]).powi(2), (green_magenta / WHITE_SD_DEG[1]).powi(2))
 }
 
-/// How far a direction lies off a constraint, degrees.
-pub fn residual_deg(constraint: &Constraint, direction: &Vec3) -> f64 {
+fn residual_deg(constraint: &Constraint, direction: &Vec3) -> f64 {
     constraint.normal.dot(direction).clamp(-1.0, 1.0).asin().to_degrees()
 }
 

@@ -196,7 +196,6 @@ impl<R: Recorder> Stage<'_, '_, R> {
                 let nearby =
                     nearby_highlight(self.scene, &self.matte_labels, &plane, length, members.region(id));
                 plane_constraint(self.scene, id, &plane, length, nearby.into_iter())
-                    .map(|found| found.constraint)
             })
             .collect();
         if constraints.is_empty() && candidates.is_none() {

@@ -28,9 +28,11 @@ use std::ops::Range;
 const MIN_BLOB_PX: usize = 12;
 /// Most highlights of one region that are looked at, the largest.
 const MAX_BLOBS: usize = 6;
+/// Pixels that lie farther inside the plane show the light's colour by themselves, σ.
+const STRONG: f64 = 24.0;
 
 /// Where one object's highlights put the illuminant.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct InPlane {
     /// cot θ, θ the angle between body and surface vector.
     pub cotangent: f64,
@@ -38,6 +40,8 @@ pub struct InPlane {
     pub variance_rad2: f64,
     /// Tangent of the angle between the plane and the highlights, and its variance.
     pub rise: Rise,
+    /// Offset and height of the pixels that the light outshines, counts.
+    pub strong: Vec<[f64; 2]>,
 }
 
 /// Height above a plane per offset in it.
@@ -47,8 +51,6 @@ pub struct Rise {
     pub tangent: f64,
     /// Its variance.
     pub variance: f64,
-    /// Largest scale of the residuals around a highlight, counts.
-    pub residual: f64,
 }
 
 /// A region and the plane in which its highlights are sought.
@@ -71,26 +73,29 @@ pub struct Branches<'a> {
 impl Branches<'_> {
     /// Estimates cotθ from the region's highlights; `None` without a highlight that says anything.
     pub fn estimate(&self, pixels: Pixels) -> Option<InPlane> {
-        let (mut along, mut height, mut residual) = (Mean::default(), Mean::default(), 0.0f64);
+        let (mut along, mut height, mut strong) = (Mean::default(), Mean::default(), Vec::new());
         let blobs = self.highlights(pixels);
         let most = self.budget / blobs.len().max(1);
         for blob in blobs {
             let radius_px = (blob.len() as f64 / std::f64::consts::PI).sqrt().clamp(3.0, 24.0) as usize;
             let blob = Blob::new(&blob, 2 * radius_px, self.labels.width(), self.labels.height());
             let sigma = self.scene.sigma();
-            let near = || regress::<QUARTIC, CUBIC>(&self.samples(&blob, radius_px, most), sigma);
-            let wide = || regress::<CUBIC, QUADRATIC>(&self.samples(&blob, 2 * radius_px, most), sigma);
+            let around = self.samples(&blob, radius_px);
+            let outshone = around.iter().filter(|sample| sample.offset > STRONG * sigma);
+            strong.extend(outshone.map(|sample| [sample.offset, sample.height]));
+            let near = || regress::<QUARTIC, CUBIC>(&thinned(&around, most), sigma);
+            let wide =
+                || regress::<CUBIC, QUADRATIC>(&thinned(&self.samples(&blob, 2 * radius_px), most), sigma);
             if let Some(slopes) = near().or_else(wide) {
                 along.add(slopes.along);
                 height.add(slopes.height);
-                residual = residual.max(slopes.residual);
             }
         }
         let (cotangent, variance) = along.value()?;
         let (tangent, rise_variance) = height.value()?;
         let sine2 = 1.0 / (1.0 + cotangent * cotangent);
-        let rise = Rise { tangent, variance: rise_variance, residual };
-        Some(InPlane { cotangent, variance_rad2: sine2 * sine2 * variance, rise })
+        let rise = Rise { tangent, variance: rise_variance };
+        Some(InPlane { cotangent, variance_rad2: sine2 * sine2 * variance, rise, strong })
     }
 
     /// Connected pixels of the region that lie more than a radius inside the plane, distorted pixels joined in; the
@@ -148,8 +153,8 @@ impl Branches<'_> {
         Raster::from_vec(width, rows.len(), data).unwrap_or_default()
     }
 
-    /// The believable pixels of the region within `radius_px` of a highlight, at most about `most`, evenly chosen.
-    fn samples(&self, blob: &Blob, radius_px: usize, most: usize) -> Vec<Sample> {
+    /// The believable pixels of the region within `radius_px` of a highlight.
+    fn samples(&self, blob: &Blob, radius_px: usize) -> Vec<Sample> {
         let Self { scene, labels, region, .. } = *self;
         let axes = self.plane.coordinates();
         let thickness = scene.used.radius_counts() as f32;
@@ -173,9 +178,14 @@ impl Branches<'_> {
                 samples.push(Sample { x: x as f64, y: y as f64, along, offset, height });
             }
         }
-        let step = samples.len().div_ceil(most.max(1)).max(1);
-        samples.into_iter().step_by(step).collect()
+        samples
     }
+}
+
+/// At most about `most` of the samples, evenly chosen.
+fn thinned(samples: &[Sample], most: usize) -> Vec<Sample> {
+    let step = samples.len().div_ceil(most.max(1)).max(1);
+    samples.iter().step_by(step).copied().collect()
 }
 
 /// A mean of values with variances.

@@ -35,8 +35,6 @@ pub struct Slopes {
     pub along: (f64, f64),
     /// The tangent of the angle between the plane and where the highlight lies.
     pub height: (f64, f64),
-    /// Scale of the residuals above the plane, counts.
-    pub residual: f64,
 }
 
 /// Both slopes from one highlight's surroundings, with `N` regressors; how far `M` differ counts as error.
@@ -70,7 +68,7 @@ pub fn regress<const N: usize, const M: usize>(samples: &[Sample], sigma: f64) -
             let of_noise = (NOISE_ERROR * fit.noise / fit.information * slopes[i]).powi(2);
             (slopes[i], scales[i].powi(2) / fit.information + of_model + of_noise)
         });
-        answer = Some(Slopes { along, height, residual: scales[1] });
+        answer = Some(Slopes { along, height });
         if settled {
             break;
         }
@@ -272,7 +270,7 @@ mod tests {
                 }
             })
             .collect();
-        let Slopes { along, height, .. } = regress::<QUARTIC, CUBIC>(&samples, 0.01).unwrap();
+        let Slopes { along, height } = regress::<QUARTIC, CUBIC>(&samples, 0.01).unwrap();
         assert!((along.0 - 1.7).abs() < 1e-3 && along.1 < 1e-4, "{along:?}");
         assert!((height.0 - 0.2).abs() < 1e-3 && height.1 < 1e-4, "{height:?}");
     }
