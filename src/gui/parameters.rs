@@ -2,7 +2,7 @@
 
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
-use crate::segment::{IlluminantSetting, Method, Parameter, Params, Setting};
+use crate::segment::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Setting};
 use crate::workbench::{Command, Gesture};
 use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Sense, Slider, Ui, vec2};
 
@@ -207,10 +207,11 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
     });
 }
 
-/// The pinned illuminant and the outlined area.
+/// The pinned illuminant, the ambient light and the outlined area.
 fn by_hand(ui: &mut Ui, cx: &mut Cx) {
     widgets::heading(ui, cx.tones, "By hand");
     illuminant(ui, cx);
+    ambient(ui, cx);
     let (area, marked) = (&cx.state.document.area, &cx.state.document.selection.marked);
     let narrow = ui.available_width() < NARROW_PT;
     ui.horizontal(|ui| {
@@ -255,47 +256,99 @@ fn illuminant(ui: &mut Ui, cx: &mut Cx) {
         cx.state.newest.as_ref().and_then(|shown| shown.analysis.illuminant).map(|light| light.direction);
     let tip =
         "The colour of the light. Found, or given: then every dichromatic plane turns to it (section 5.4).";
-    let narrow = ui.available_width() < NARROW_PT;
-    if narrow {
-        label(ui, "illuminant", tip);
-    }
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = GAP_PT;
-        if !narrow {
-            label(ui, "illuminant", tip);
-        }
-        let mut direction = typed.or(found).unwrap_or([1.0, 1.0, 1.0].map(|v: f64| v / 3f64.sqrt()));
-        let mut changed = false;
-        let mut rested = false;
-        for (value, band) in direction.iter_mut().zip(["red", "green", "blue"]) {
-            let field = DragValue::new(value).range(0.0..=1.0).speed(0.002).fixed_decimals(3);
-            let field = ui.add_sized(vec2(VALUE_PT, ROW_PT), field);
-            field.widget_info(|| {
-                let name = format!("illuminant {band}");
-                egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, name)
-            });
-            let field = field.on_hover_text(tip);
-            changed |= field.changed();
-            rested |= field.drag_stopped() || field.lost_focus();
-        }
-        if changed {
-            cx.send(Command::PinIlluminant(Some(direction), Some(Gesture::Illuminant)));
-        }
-        if rested {
-            cx.send(Command::EndGesture);
-        }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let pin = Button::selectable(given.is_some(), RichText::new("pin").size(SMALL_PT));
-            let pin = ui.add_enabled(given.is_some() || found.is_some(), pin);
-            pin.widget_info(|| {
-                let role = egui::accesskit::Role::CheckBox;
-                egui::WidgetInfo::selected(role, true, given.is_some(), "pin illuminant")
-            });
-            if pin.on_hover_text("Keep this light, or let it be found again.").clicked() {
-                cx.send(Command::PinIlluminant(if given.is_some() { None } else { found }, None));
-            }
+    let mut direction = typed.or(found).unwrap_or([1.0, 1.0, 1.0].map(|v: f64| v / 3f64.sqrt()));
+    let field = Bands { name: "illuminant", tip, most: 1.0, speed: 0.002, decimals: 3 };
+    let [changed, rested] = field.show(ui, &mut direction, |ui| {
+        let pin = Button::selectable(given.is_some(), RichText::new("pin").size(SMALL_PT));
+        let pin = ui.add_enabled(given.is_some() || found.is_some(), pin);
+        pin.widget_info(|| {
+            let role = egui::accesskit::Role::CheckBox;
+            egui::WidgetInfo::selected(role, true, given.is_some(), "pin illuminant")
         });
+        if pin.on_hover_text("Keep this light, or let it be found again.").clicked() {
+            cx.send(Command::PinIlluminant(if given.is_some() { None } else { found }, None));
+        }
     });
+    if changed {
+        cx.send(Command::PinIlluminant(Some(direction), Some(Gesture::Illuminant)));
+    }
+    if rested {
+        cx.send(Command::EndGesture);
+    }
+}
+
+/// The ambient light: what was found and subtracted, or what is given.
+fn ambient(ui: &mut Ui, cx: &mut Cx) {
+    let setting = cx.state.document.params.ambient;
+    let found = cx.state.newest.as_ref().map(|shown| shown.analysis.intrinsic.ambient);
+    let tip = "Light from everywhere, counts: where the matte lines meet. It is subtracted before the split and belongs to \
+               the body reflection after it (section 7.5).";
+    let mut counts = match setting {
+        AmbientSetting::Given(counts) => counts,
+        AmbientSetting::Off => [0.0; 3],
+        AmbientSetting::Auto => found.and_then(|ambient| ambient.subtracted).unwrap_or_default(),
+    };
+    let field = Bands { name: "ambient", tip, most: 200.0, speed: 0.1, decimals: 1 };
+    let [changed, rested] = field.show(ui, &mut counts, |ui| {
+        let auto = setting == AmbientSetting::Auto;
+        let button = ui.add(Button::selectable(auto, RichText::new("auto").size(SMALL_PT)));
+        button.widget_info(|| {
+            egui::WidgetInfo::selected(egui::accesskit::Role::CheckBox, true, auto, "ambient automatic")
+        });
+        let why = found.map_or("", |ambient| ambient.verdict.reason());
+        if button.on_hover_text(format!("Found in the picture, or off. {why}")).clicked() {
+            let next = if auto { AmbientSetting::Off } else { AmbientSetting::Auto };
+            cx.send(Command::SetAmbient(next, None));
+        }
+    });
+    if changed {
+        cx.send(Command::SetAmbient(AmbientSetting::Given(counts), Some(Gesture::Ambient)));
+    }
+    if rested {
+        cx.send(Command::EndGesture);
+    }
+}
+
+/// A row of three numbers, red, green and blue.
+struct Bands {
+    name: &'static str,
+    tip: &'static str,
+    most: f64,
+    speed: f64,
+    decimals: usize,
+}
+
+impl Bands {
+    /// Shows it with something at its end; whether a number was changed, and whether it was let go of.
+    fn show(&self, ui: &mut Ui, values: &mut [f64; 3], end: impl FnOnce(&mut Ui)) -> [bool; 2] {
+        let narrow = ui.available_width() < NARROW_PT;
+        if narrow {
+            label(ui, self.name, self.tip);
+        }
+        let (mut changed, mut rested) = (false, false);
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP_PT;
+            if !narrow {
+                label(ui, self.name, self.tip);
+            }
+            for (value, band) in values.iter_mut().zip(["red", "green", "blue"]) {
+                let field = DragValue::new(value)
+                    .range(0.0..=self.most)
+                    .speed(self.speed)
+                    .fixed_decimals(self.decimals);
+                let field = ui.add_sized(vec2(VALUE_PT, ROW_PT), field);
+                field.widget_info(|| {
+                    let name = format!("{} {band}", self.name);
+                    egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, name)
+                });
+                let field = field.on_hover_text(self.tip);
+                changed |= field.changed();
+                rested |= field.drag_stopped() || field.lost_focus();
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), end);
+        });
+        [changed, rested]
+    }
 }
 
 fn switches(ui: &mut Ui, cx: &mut Cx) {

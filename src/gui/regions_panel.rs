@@ -271,6 +271,7 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
             let text = format!("unknown: {}", findings.reason());
             ui.add(Label::new(&text).truncate()).on_hover_text(text);
         }
+        ambient(ui, cx, shown);
         // Beside it the button for copying must find its place.
         if ui.available_width() > ACCURACY_PT {
             accuracy(ui, cx, shown);
@@ -282,6 +283,20 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
             }
         });
     });
+}
+
+/// What was subtracted as ambient light, where something was.
+fn ambient(ui: &mut Ui, cx: &Cx, shown: &Shown) {
+    let ambient = &shown.analysis.intrinsic.ambient;
+    let Some(counts) = ambient.subtracted else { return };
+    let spread = ambient.meeting.map_or(String::new(), |meeting| {
+        let [r, g, b] = meeting.sd_counts;
+        format!(" Standard deviations {r:.1}, {g:.1}, {b:.1} counts, from {} matte lines.", meeting.lines)
+    });
+    let tip = format!("Light from everywhere (section 7.5): {}.{spread}", ambient.verdict.reason());
+    ui.label(RichText::new("ambient").color(cx.tones.quiet)).on_hover_text(&tip);
+    let text = counts.map(|band| format!("{band:.1}")).join(" ");
+    ui.label(format!("{text} counts")).on_hover_text(tip);
 }
 
 /// The title of a column that rows may be sorted by, and now are where it is known whether `descending`; whether it was

@@ -260,7 +260,7 @@ mod tests {
     use super::*;
     use crate::raster::LabelMap;
     use crate::segment::testing::Drawing;
-    use crate::segment::{LightFindings, PlanarHypothesis};
+    use crate::segment::{LightFindings, members};
     use proptest::prelude::*;
 
     const SIDE_PX: usize = 40;
@@ -269,26 +269,30 @@ mod tests {
     fn found(bodies: &[([f64; 3], [f64; 3])], setting: AmbientSetting) -> Ambient {
         let width = SIDE_PX * bodies.len();
         let place = |x: f64| (x as usize / SIDE_PX).min(bodies.len() - 1);
-        let drawing = Drawing::by_place(width, |x, y| {
+        let mut drawing = Drawing::by_place(width, |x, y| {
             let (body, from) = bodies[place(x)];
-            Vec3::from(from) + Vec3::from(body).normalize() * (40.0 + 2.0 * y % 120.0)
+            Vec3::from(from) + Vec3::from(body).normalize() * (40.0 + (3.0 * y) % 120.0)
         });
-        let labels = LabelMap::from_vec(
-            width,
-            drawing.height(),
-            (0..width * drawing.height()).map(|i| place((i % width) as f64) as u16 + 1).collect(),
-        );
+        drawing.used.ambient = setting;
+        let of_pixel = |i: usize| place((i % width) as f64) as u16 + 1;
+        let labels = LabelMap::from_vec(width, width, (0..width * width).map(of_pixel).collect()).unwrap();
         let hypotheses = (1..).zip(bodies).map(|(origin, (body, from))| {
             let direction = Vec3::from(*body).normalize();
             let matte = Line::new(Vec3::from(*from) + direction * 90.0, direction);
             let start = matte.mean;
-            PlanarHypothesis { origin, matte, matte_length: 160.0, plane: None, start, highlight: None, alive: true }
+            PlanarHypothesis {
+                origin,
+                matte,
+                matte_length: 160.0,
+                plane: None,
+                start,
+                highlight: None,
+                alive: true,
+            }
         });
         let regions =
-            FinalRegions { labels: labels.unwrap(), hypotheses: hypotheses.collect(), light: LightFindings::default() };
-        let used = crate::segment::UsedParams { ambient: setting, ..drawing.used };
-        let scene = Scene { used: &used, ..drawing.scene() };
-        Ambient::new(&scene, &regions, &crate::segment::members(&regions))
+            FinalRegions { labels, hypotheses: hypotheses.collect(), light: LightFindings::default() };
+        Ambient::new(&drawing.scene(), &regions, &members(&regions))
     }
 
     const RED: [f64; 3] = [0.9, 0.3, 0.2];
@@ -317,7 +321,12 @@ mod tests {
 
     #[test]
     fn lines_that_do_not_meet_tell_of_no_light_and_two_are_too_few() {
-        let apart = [(RED, [0.0, 12.0, 0.0]), (GREEN, [14.0, 0.0, 0.0]), (BLUE, [0.0, 0.0, 9.0]), (RED, [0.0, 0.0, 14.0])];
+        let apart = [
+            (RED, [0.0, 12.0, 0.0]),
+            (GREEN, [14.0, 0.0, 0.0]),
+            (BLUE, [0.0, 0.0, 9.0]),
+            (RED, [0.0, 0.0, 14.0]),
+        ];
         let found_apart = found(&apart, AmbientSetting::Auto);
         assert_eq!(found_apart.subtracted, None, "{found_apart:?}");
         let two = found(&[(RED, [8.0; 3]), (GREEN, [8.0; 3])], AmbientSetting::Auto);

@@ -115,6 +115,7 @@ mod tests {
                 "image",
                 "params",
                 "illuminant",
+                "ambient",
                 "regions",
                 "unassigned_pixels",
                 "reasons",

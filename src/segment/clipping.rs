@@ -170,7 +170,6 @@ mod tests {
             labels: labels(before),
             hypotheses: vec![hypothesis; 2],
             illuminant: None,
-            ambient: crate::segment::AmbientSetting::Auto,
             light: LightFindings::default(),
         };
         check(&clipping_regions(&drawing.scene(), &planar, &mut Silent), after);

@@ -23,7 +23,7 @@ mod regions;
 mod scene;
 mod setting;
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 mod two_lights;
 mod unite;
 mod vote_light;

@@ -337,7 +337,6 @@ mod tests {
             labels: labels.clone(),
             hypotheses: (1..).zip(&lines).map(hypothesis).collect(),
             illuminant: None,
-            ambient: crate::segment::AmbientSetting::Auto,
             light: LightFindings::default(),
         };
         let row = ".".repeat(SIZE_PX[0]);

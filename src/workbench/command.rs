@@ -7,7 +7,7 @@ use super::{
 use crate::analysis::Stage;
 use crate::photo::ReadOptions;
 use crate::raster::Mask;
-use crate::segment::{Method, Parameter, Params, Setting};
+use crate::segment::{AmbientSetting, Method, Parameter, Params, Setting};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -20,6 +20,8 @@ pub enum Gesture {
     Brush,
     /// Turning the pinned illuminant.
     Illuminant,
+    /// Dragging a band of the ambient light.
+    Ambient,
 }
 
 /// How newly marked pixels join those marked before.
@@ -78,6 +80,8 @@ pub enum Command {
     LoadParams(PathBuf),
     /// Fix the light's direction, or let it be found.
     PinIlluminant(Option<[f64; 3]>, Option<Gesture>),
+    /// Say what is to be done about ambient light.
+    SetAmbient(AmbientSetting, Option<Gesture>),
     /// Restrict the analysis to these pixels, or lift the restriction.
     RestrictTo(Option<Arc<Mask>>),
     /// What follows is a step of its own.

@@ -133,6 +133,9 @@ fn edit_or_look(state: &mut State, command: Command) -> Vec<Effect> {
         }),
         Command::SetParams(params) => edit_params(state, None, |old| *old = *params),
         Command::PinIlluminant(direction, gesture) => pin_illuminant(state, direction, gesture),
+        Command::SetAmbient(setting, gesture) => {
+            edit_params(state, gesture, |params| params.ambient = setting)
+        }
         Command::RestrictTo(area) => edit(state, None, |document| document.area = area),
         Command::Select(item) => {
             state.asked_pixel = None;
