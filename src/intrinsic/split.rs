@@ -79,13 +79,11 @@ fn split_from<R: Recorder>(
     if R::KEEPS {
         recorder.record(Event::PassBegan { pass: Pass::Vectors });
         for (region, (splitter, fit)) in (1..).zip(splitters.iter().zip(&fits)) {
-            let holds = !scene.refine.region_holds || fit.holds(scene.sigma());
-            recorder
-                .record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(region, origin, fit, holds))));
+            recorder.record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(scene, region, origin, fit))));
         }
     }
     let holding = holding(scene, regions, members, &fits, &images.kinds);
-    let local = split_locally(scene, regions, &holding, &mut images);
+    let local = split_locally(scene, regions, &holding, &mut images, recorder);
     if R::KEEPS {
         recorder.record(Event::PassBegan { pass: Pass::Labels });
         recorder.labels(&images.kinds);
@@ -166,7 +164,7 @@ impl Splitter {
         components
     }
 
-    fn vectors_fitted(&self, region: u16, origin: &[f64; 3], fit: &RegionFit, holds: bool) -> VectorsFitted {
+    fn vectors_fitted(&self, scene: &Scene, region: u16, origin: &[f64; 3], fit: &RegionFit) -> VectorsFitted {
         let PlanarHypothesis { matte, start, .. } = self.hypothesis.from_origin(&-Vec3::from(*origin));
         VectorsFitted {
             region,
@@ -178,7 +176,9 @@ impl Splitter {
             least_offset: self.least_offset,
             rms_counts: fit.rms_counts,
             texture: fit.texture,
-            holds,
+            texture_slope: fit.texture_slope,
+            limits: RegionFit::limits(scene.sigma()),
+            holds: !scene.refine.region_holds || fit.holds(scene.sigma()),
             origin: *origin,
         }
     }

@@ -61,6 +61,13 @@ impl Window {
         self.at(index % self.width.max(1), index / self.width.max(1))
     }
 
+    /// The window's index of one of the picture's pixels; none outside.
+    pub fn index(&self, pixel: usize) -> Option<usize> {
+        let (x, y) = (pixel % self.picture_width.max(1), pixel / self.picture_width.max(1));
+        let (column, row) = (x.checked_sub(self.left)?, y.checked_sub(self.top)?);
+        (column < self.width && row < self.height).then_some(row * self.width + column)
+    }
+
     /// A raster of its size, from the picture's indices.
     pub fn raster<T: Default>(&self, of: impl Fn(usize) -> T) -> Raster<T> {
         let rows = (0..self.height).map(|row| self.at(0, row));
@@ -80,6 +87,10 @@ mod tests {
         let tight = Window::around((10, 5), 0, wanted).unwrap();
         assert_eq!((tight.left, tight.top, tight.width, tight.height), (2, 1, 6, 2));
         assert_eq!((tight.pixel(0), tight.pixel(11), tight.at(0, 1)), (12, 27, 22));
+        assert_eq!(
+            [11, 12, 27, 28, 33].map(|pixel| tight.index(pixel)),
+            [None, Some(0), Some(11), None, None]
+        );
         let grown = Window::around((10, 5), 3, wanted).unwrap();
         assert_eq!((grown.left, grown.top, grown.width, grown.height), (0, 0, 10, 5));
         assert_eq!(Window::around((10, 5), 3, |_| false), None);

@@ -11,10 +11,10 @@ use super::ledger::Members;
 use super::light::{Illuminant, LightBasis, LightFindings, white_offsets_deg};
 use super::planar::{PlanarHypothesis, PlanarRegions, Stage};
 use super::scene::Scene;
-use super::vote_light::Votes;
+use super::vote_light::{LEAST_VOTERS, Votes};
 use crate::color::Vec3;
 use crate::raster::LabelMap;
-use crate::trace::Recorder;
+use crate::trace::{Elected, Event, LightChosen, LightLimits, Pass, Recorder, VotesCast};
 use rayon::prelude::*;
 
 /// Share of the lit pixels that regions which hold must cover for their planes to be believed without further ado …
@@ -52,38 +52,62 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let mut objects = planes.objects;
         if self.scene.refine.vote_light && !self.scene.stopped() {
             let votes = Votes::cast(self.scene);
-            let winner = votes.as_ref().map(Votes::winner);
-            light.votes = winner.map(Into::into);
+            let elected = votes.as_ref().map(elected);
+            light.votes = elected.map(|elected| elected.direction);
             light.support = support(self.scene, &self.ledger.labels, &hypotheses);
-            let chosen = votes.as_ref().zip(winner).filter(|(votes, winner)| {
-                let offsets = white_offsets_deg(winner);
-                let usual = (0..2).all(|i| offsets[i].abs() <= USUAL_DEG[i]);
-                light.support < SUPPORTED && usual && votes.share(winner) >= LEAST_SHARE
-            });
-            if let Some((votes, winner)) = chosen {
-                light.basis = LightBasis::Votes;
-                light.direction = Some(winner.into());
-                light.interval_deg = Some(votes.interval_deg(&winner));
-                objects = votes.blobs;
-                hypotheses = self.slices_anew(Some(winner));
-            } else if votes.is_some() && light.support < HARDLY_SUPPORTED {
-                light = LightFindings {
-                    direction: None,
-                    basis: LightBasis::Nothing,
-                    interval_deg: None,
-                    ..light
-                };
-                hypotheses = self.slices_anew(None);
-            } else {
-                // Ways that contradict each other are not as sure as each is of itself.
-                let doubt = light.agreement_deg().filter(|_| light.support < 2.0 * SUPPORTED).unwrap_or(0.0);
-                light.interval_deg = light.interval_deg.map(|interval| interval.max(doubt / 2.0));
+            light.basis = better(&light, elected.as_ref());
+            light.direction = match light.basis {
+                LightBasis::Votes => light.votes,
+                LightBasis::Nothing => None,
+                _ => light.direction,
+            };
+            self.tell(&light, elected, objects);
+            match (light.basis, &votes) {
+                (LightBasis::Votes, Some(votes)) => {
+                    let winner = light.direction.map(Vec3::from);
+                    light.interval_deg = winner.map(|winner| votes.interval_deg(&winner));
+                    objects = votes.blobs;
+                    hypotheses = self.slices_anew(winner);
+                }
+                (LightBasis::Nothing, Some(_)) => {
+                    light.interval_deg = None;
+                    hypotheses = self.slices_anew(None);
+                }
+                _ => {
+                    // Ways that contradict each other are not as sure as each is of itself.
+                    let doubt =
+                        light.agreement_deg().filter(|_| light.support < 2.0 * SUPPORTED).unwrap_or(0.0);
+                    light.interval_deg = light.interval_deg.map(|interval| interval.max(doubt / 2.0));
+                }
             }
             let used = light.direction.map(Vec3::from);
             light.share = votes.zip(used).map_or(0.0, |(votes, used)| votes.share(&used));
         }
         let illuminant = light.direction.map(|direction| Illuminant { direction, objects, given: false });
         PlanarRegions { labels: self.ledger.labels, hypotheses, illuminant, light }
+    }
+
+    /// Records what was found, and which light is used.
+    fn tell(&mut self, light: &LightFindings, elected: Option<Elected>, objects: usize) {
+        self.ledger.begin(Pass::LightChoice);
+        if R::KEEPS {
+            let votes = VotesCast { elected, least_voters: LEAST_VOTERS as u32 };
+            self.ledger.recorder.record(Event::VotesCast(Box::new(votes)));
+            let chosen = LightChosen {
+                basis: light.basis,
+                direction: light.direction,
+                planes: light.planes.map(|planes| (planes, objects as u32)),
+                votes: elected,
+                support: light.support,
+                limits: LightLimits {
+                    support: SUPPORTED,
+                    hardly: HARDLY_SUPPORTED,
+                    share: LEAST_SHARE,
+                    offsets_deg: USUAL_DEG,
+                },
+            };
+            self.ledger.recorder.record(Event::LightChosen(Box::new(chosen)));
+        }
     }
 
     /// The regions under another light, from the matte ones on.
@@ -96,6 +120,31 @@ impl<R: Recorder> Stage<'_, '_, R> {
         }
         self.unite();
         self.hypotheses(light)
+    }
+}
+
+/// The light that votes are for.
+fn elected(votes: &Votes) -> Elected {
+    let winner = votes.winner();
+    Elected {
+        direction: winner.into(),
+        voters: votes.voters() as u32,
+        blobs: votes.blobs as u32,
+        share: votes.share(&winner),
+        offsets_deg: white_offsets_deg(&winner),
+    }
+}
+
+/// What the light had better rest on.
+fn better(light: &LightFindings, elected: Option<&Elected>) -> LightBasis {
+    let Some(elected) = elected else { return light.basis };
+    let usual = (0..2).all(|i| elected.offsets_deg[i].abs() <= USUAL_DEG[i]);
+    if light.support < SUPPORTED && usual && elected.share >= LEAST_SHARE {
+        LightBasis::Votes
+    } else if light.support < HARDLY_SUPPORTED {
+        LightBasis::Nothing
+    } else {
+        light.basis
     }
 }
 

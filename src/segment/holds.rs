@@ -12,6 +12,7 @@ use super::scene::Scene;
 use crate::color::{Vec3, dot, rgb};
 use crate::raster::LabelMap;
 use crate::reflection::ReflectionTransform;
+use crate::trace::FitLimits;
 use nalgebra::Matrix3;
 
 /// Most rms distance from plane or line that is noise, σ.
@@ -75,6 +76,16 @@ impl RegionFit {
     /// Whether body and surface reflection vary against each other.
     pub fn textured(&self) -> bool {
         self.texture > TEXTURE_CORRELATION && self.texture_slope > TEXTURE_SLOPE
+    }
+
+    /// Up to where the figures of a region that holds may go.
+    pub fn limits(sigma: f64) -> FitLimits {
+        FitLimits {
+            rms_counts: POOR_FIT * sigma,
+            rms_sigmas: POOR_FIT,
+            texture: TEXTURE_CORRELATION,
+            texture_slope: TEXTURE_SLOPE,
+        }
     }
 
     /// Whether one skewed T explains the region.

@@ -1,6 +1,8 @@
 //! What is known of the light's colour, and from where.
 
 use super::illuminant::white_offsets_deg as offsets_deg;
+pub use crate::trace::LightBasis;
+
 use crate::color::Vec3;
 
 /// The colour of the scene's light.
@@ -12,32 +14,6 @@ pub struct Illuminant {
     pub objects: usize,
     /// Whether it was given and not estimated.
     pub given: bool,
-}
-
-/// What the light rests on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum LightBasis {
-    /// Nothing told of it.
-    #[default]
-    Nothing,
-    /// It was given.
-    Given,
-    /// The dichromatic planes of regions.
-    Planes,
-    /// The votes of small highlights.
-    Votes,
-}
-
-impl LightBasis {
-    /// Its name in reports.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Nothing => "none",
-            Self::Given => "given",
-            Self::Planes => "planes",
-            Self::Votes => "votes",
-        }
-    }
 }
 
 /// The light by two ways that know nothing of one another, and which was used.

@@ -29,7 +29,7 @@ const LEAST_RISE: f32 = 8.0;
 /// Least angle between D and B, degrees.
 const LEAST_ANGLE_DEG: f64 = 2.0;
 /// Fewest voters, and the most that are heard, evenly chosen.
-const LEAST_VOTERS: usize = 30;
+pub const LEAST_VOTERS: usize = 30;
 const MOST_VOTERS: usize = 1500;
 /// Pixels of a blob from which on each of them counts less.
 const BLOB_PX: f64 = 60.0;
@@ -77,6 +77,11 @@ pub struct Votes {
 }
 
 impl Votes {
+    /// Pixels that are heard.
+    pub fn voters(&self) -> usize {
+        self.voters.len()
+    }
+
     /// Asks the picture; none where too few pixels have anything to say.
     pub fn cast(scene: &Scene) -> Option<Self> {
         let size = (scene.pixels.width(), scene.pixels.height());

@@ -3,7 +3,7 @@
 //! Events are kept by the hundred thousand, so what is rare and large is boxed. Claims, conflicts and labels are kept by the
 //! million: they are no events, see [`super::Reel`].
 
-use super::{Class, Stage};
+use super::{Class, FitLimits, LightChosen, LocalDecision, Stage, VotesCast};
 use crate::color::{Line, Vec3};
 use crate::photo::MaskLimits;
 use crate::reflection::{DichromaticPlane, Slice};
@@ -121,6 +121,10 @@ pub enum Event {
         /// Unit direction.
         direction: [f64; 3],
     },
+    /// Small highlights voted for a light (refines 5.4.1).
+    VotesCast(Box<VotesCast>),
+    /// It was decided which light is used (refines 5.4.1).
+    LightChosen(Box<LightChosen>),
     /// A region's dichromatic plane became a slice (5.4.2).
     SliceMade(Box<SliceMade>),
     /// A component of unassigned pixels was given to the region around it (5.5).
@@ -157,6 +161,8 @@ pub enum Event {
     },
     /// By which vectors a region's pixels are split (section 6).
     VectorsFitted(Box<VectorsFitted>),
+    /// A decision of the local split (beyond section 6).
+    Local(LocalDecision),
 }
 
 /// A part of a stage.
@@ -176,6 +182,8 @@ pub enum Pass {
     Candidates,
     /// The light's colour is estimated (5.4.1), for the first time or once more.
     Illuminant,
+    /// Planes or votes: which light is used (refines 5.4.1).
+    LightChoice,
     /// Labels go back to the matte regions, for slices that turn to another light (refines 5.4).
     Reset,
     /// Slices grow (5.4.2).
@@ -194,6 +202,10 @@ pub enum Pass {
     Numbering,
     /// Body and surface vectors of each region (section 6).
     Vectors,
+    /// Where no region holds, pixels are split by their surroundings (beyond section 6).
+    LocalSplit,
+    /// Clipped blobs there are filled from around them.
+    ClipRepair,
     /// Each pixel's role (section 6).
     Labels,
 }
@@ -209,6 +221,7 @@ impl Pass {
             Self::Uniting => "unite regions",
             Self::Candidates => "skewed-T tests",
             Self::Illuminant => "illuminant",
+            Self::LightChoice => "choice of light",
             Self::Reset => "back to matte",
             Self::Slices => "slices",
             Self::Brightness => "brighter than the start",
@@ -218,6 +231,8 @@ impl Pass {
             Self::Separating => "separate parts",
             Self::Numbering => "number",
             Self::Vectors => "vectors",
+            Self::LocalSplit => "local split",
+            Self::ClipRepair => "clip repair",
             Self::Labels => "labels",
         }
     }
@@ -388,6 +403,10 @@ pub struct VectorsFitted {
     pub rms_counts: f64,
     /// How much surface and body reflection vary against each other: 1 for a print.
     pub texture: f64,
+    /// Body reflection lost per surface reflection gained from pixel to pixel.
+    pub texture_slope: f64,
+    /// Up to where these may go.
+    pub limits: FitLimits,
     /// Whether one skewed T explains it; where not, its plane is not used.
     pub holds: bool,
     /// Where body and surface reflection are measured from: black, or the ambient light, counts.

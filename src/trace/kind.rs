@@ -1,6 +1,6 @@
 //! What kinds of steps there are, and what they are called.
 
-use super::{Event, Step};
+use super::{Event, LocalDecision, Step};
 
 /// A kind of step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -37,6 +37,10 @@ pub enum Kind {
     Highlight,
     /// The illuminant was estimated or given.
     Illuminant,
+    /// Small highlights voted for a light.
+    Votes,
+    /// It was decided which light is used.
+    LightChoice,
     /// A slice was made (5.4.2).
     Slice,
     /// A hole was filled (5.5).
@@ -49,6 +53,16 @@ pub enum Kind {
     Numbers,
     /// Reflection vectors were fitted (6).
     Vectors,
+    /// The local split begins, or does not.
+    LocalSplit,
+    /// Candidate highlights were counted.
+    Blobs,
+    /// A candidate highlight was judged.
+    Blob,
+    /// It was tested whether highlights are believable.
+    Belief,
+    /// A clipped blob was filled, or not.
+    Repair,
     /// A pixel changed hands.
     Claim,
     /// A pixel was refused in a conflict.
@@ -59,7 +73,7 @@ pub enum Kind {
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 32] = [
         Self::Stage,
         Self::Pass,
         Self::Masks,
@@ -76,12 +90,19 @@ impl Kind {
         Self::Candidate,
         Self::Highlight,
         Self::Illuminant,
+        Self::Votes,
+        Self::LightChoice,
         Self::Slice,
         Self::Hole,
         Self::Dropped,
         Self::Part,
         Self::Numbers,
         Self::Vectors,
+        Self::LocalSplit,
+        Self::Blobs,
+        Self::Blob,
+        Self::Belief,
+        Self::Repair,
         Self::Claim,
         Self::Refusal,
         Self::Label,
@@ -106,12 +127,19 @@ impl Kind {
             Self::Candidate => "candidate",
             Self::Highlight => "highlight chosen",
             Self::Illuminant => "illuminant",
+            Self::Votes => "votes",
+            Self::LightChoice => "light chosen",
             Self::Slice => "slice",
             Self::Hole => "hole filled",
             Self::Dropped => "dropped",
             Self::Part => "part separated",
             Self::Numbers => "numbers",
             Self::Vectors => "vectors",
+            Self::LocalSplit => "local split",
+            Self::Blobs => "blobs",
+            Self::Blob => "blob",
+            Self::Belief => "belief",
+            Self::Repair => "clip repair",
             Self::Claim => "claim",
             Self::Refusal => "refusal",
             Self::Label => "label",
@@ -139,12 +167,19 @@ impl Event {
             Self::CandidateTested(_) => Kind::Candidate,
             Self::CandidateChosen(_) => Kind::Highlight,
             Self::IlluminantEstimated(_) | Self::IlluminantGiven { .. } => Kind::Illuminant,
+            Self::VotesCast(_) => Kind::Votes,
+            Self::LightChosen(_) => Kind::LightChoice,
             Self::SliceMade(_) => Kind::Slice,
             Self::HoleFilled { .. } => Kind::Hole,
             Self::Dropped { .. } => Kind::Dropped,
             Self::ComponentSplit { .. } => Kind::Part,
             Self::Renumbered { .. } => Kind::Numbers,
             Self::VectorsFitted(_) => Kind::Vectors,
+            Self::Local(LocalDecision::Began(_)) => Kind::LocalSplit,
+            Self::Local(LocalDecision::Blobs { .. }) => Kind::Blobs,
+            Self::Local(LocalDecision::Blob(_)) => Kind::Blob,
+            Self::Local(LocalDecision::Belief(_)) => Kind::Belief,
+            Self::Local(LocalDecision::Repair(_)) => Kind::Repair,
         }
     }
 

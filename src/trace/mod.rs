@@ -7,7 +7,9 @@
 mod event;
 mod history;
 mod kind;
+mod light;
 mod lineage;
+mod local;
 mod recorder;
 mod reel;
 mod replay;
@@ -21,11 +23,16 @@ pub use event::{
     IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver, SliceMade, VectorsFitted, WindowsLaid,
 };
 pub use history::{
-    Barrier, Happening, MaskVerdict, MergeRefusal, MergeStory, Reach, Release, SplitStory, What, WindowStory,
-    pixel_history,
+    Barrier, Happening, LocalFate, LocalStory, MaskVerdict, MergeRefusal, MergeStory, Reach, Release,
+    SplitStory, Unfit, What, WindowStory, pixel_history,
 };
 pub use kind::Kind;
+pub use light::{Elected, LightBasis, LightChosen, LightLimits, VotesCast};
 pub use lineage::{Ancestor, Birth, HypothesisStory, Joined, JoinedHow, final_numbers, lineage, story};
+pub use local::{
+    BeliefLimits, BeliefTested, BlobJudged, Doubt, FitLimits, LocalBegan, LocalDecision, LocalLimits,
+    LocalPoint, LocalPoints, LocalRecord, LocalStart, RepairTried, RepairVerdict,
+};
 pub use recorder::{Recorder, Silent, Tape};
 pub use reel::{Reel, Steps};
 pub use replay::Replay;

@@ -1,6 +1,6 @@
 //! Who listens to the decisions while they are made.
 
-use super::{Contest, Event, PixelKind, Reel, Stage};
+use super::{Contest, Event, LocalRecord, PixelKind, Reel, Stage};
 use crate::raster::Raster;
 
 /// Takes one stage's decisions in their order. Stages are generic over it, so that [`Silent`] costs nothing.
@@ -19,6 +19,9 @@ pub trait Recorder: Default {
 
     /// Every pixel's final role was decided.
     fn labels(&mut self, kinds: &Raster<PixelKind>);
+
+    /// What pixels were judged by where the model does not hold.
+    fn local(&mut self, record: LocalRecord);
 
     /// The record of what was heard; none where nothing was kept.
     fn finish(self, stage: Stage) -> Option<Reel>;
@@ -42,6 +45,9 @@ impl Recorder for Silent {
 
     #[inline]
     fn labels(&mut self, _kinds: &Raster<PixelKind>) {}
+
+    #[inline]
+    fn local(&mut self, _record: LocalRecord) {}
 
     fn finish(self, _stage: Stage) -> Option<Reel> {
         None
@@ -71,6 +77,10 @@ impl Recorder for Tape {
 
     fn labels(&mut self, kinds: &Raster<PixelKind>) {
         self.0.set_labels(kinds.clone());
+    }
+
+    fn local(&mut self, record: LocalRecord) {
+        self.0.set_local(record);
     }
 
     fn finish(self, stage: Stage) -> Option<Reel> {

@@ -9,7 +9,7 @@ mod steps;
 pub use steps::Steps;
 
 use super::timeline::Contents;
-use super::{Block, Contest, Event, Measure, PassSpan, PixelKind, Stage, Step};
+use super::{Block, Contest, Event, LocalDecision, LocalRecord, Measure, PassSpan, PixelKind, Stage, Step};
 use crate::raster::{LabelMap, Raster};
 use std::ops::Range;
 
@@ -57,6 +57,7 @@ pub struct Reel {
     shown: Vec<[f32; 2]>,
     measures: Vec<Measure>,
     labels: Option<Labels>,
+    local: Option<Box<LocalRecord>>,
     contents: Contents,
 }
 
@@ -104,6 +105,10 @@ impl Reel {
             before_row.push(sum);
         }
         self.labels = Some(Labels { kinds, before_row });
+    }
+
+    pub(super) fn set_local(&mut self, record: LocalRecord) {
+        self.local = Some(Box::new(record));
     }
 
     pub(super) fn finished(mut self, stage: Stage) -> Self {
@@ -159,6 +164,7 @@ impl Reel {
             + self.moves.len() * size_of::<Move>()
             + self.contested.len() * (size_of::<u32>() + size_of::<[f32; 2]>() + size_of::<Measure>())
             + self.labels.as_ref().map_or(0, |labels| labels.kinds.len() + 4 * labels.before_row.len())
+            + self.local.as_ref().map_or(0, |local| local.bytes())
     }
 
     /// Plays all changes of hands on `labels`, by the regions' numbers of birth.
@@ -230,6 +236,11 @@ impl Reel {
         self.labels.as_ref().map(|labels| &labels.kinds)
     }
 
+    /// What pixels were judged by where the model does not hold, of the last stage.
+    pub fn local(&self) -> Option<&LocalRecord> {
+        self.local.as_deref()
+    }
+
     /// Step at which a pixel got its role; none where it got none.
     pub fn step_of_label(&self, pixel: usize) -> Option<usize> {
         let labels = self.labels.as_ref()?;
@@ -298,9 +309,13 @@ fn boxed_bytes(event: &Event) -> usize {
         Event::IlluminantEstimated(estimated) => {
             size_of_val(&**estimated) + size_of_val(estimated.contributions.as_slice())
         }
+        Event::VotesCast(votes) => size_of_val(&**votes),
+        Event::LightChosen(chosen) => size_of_val(&**chosen),
         Event::SliceMade(made) => size_of_val(&**made),
         Event::Renumbered { finals } => size_of_val(&**finals),
         Event::VectorsFitted(fitted) => size_of_val(&**fitted),
+        Event::Local(LocalDecision::Began(began)) => size_of_val(&**began),
+        Event::Local(LocalDecision::Belief(tested)) => size_of_val(&**tested),
         _ => 0,
     }
 }

@@ -115,6 +115,7 @@ impl Replay {
         match self.find(*self.standing.lights.last()?) {
             Event::IlluminantEstimated(estimated) => Some(estimated.direction),
             Event::IlluminantGiven { direction } => Some(*direction),
+            Event::LightChosen(chosen) => chosen.direction,
             _ => None,
         }
     }

@@ -10,7 +10,7 @@ use crate::raster::Raster;
 pub(super) struct Standing {
     pub(super) grids: Vec<Grid>,
     pub(super) hypotheses: Vec<Hypothesis>,
-    /// Illuminants so far: reel and event.
+    /// Lights so far: reel and event.
     pub(super) lights: Vec<EventId>,
     /// What gave the regions their final numbers.
     pub(super) finals: Option<EventId>,
@@ -150,7 +150,9 @@ impl Standing {
                     hypothesis.highlights.push(id);
                 }
             }
-            Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } => self.lights.push(id),
+            Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } | Event::LightChosen(_) => {
+                self.lights.push(id);
+            }
             Event::Renumbered { .. } => self.finals = Some(id),
             other => {
                 if let Some((region, end)) = self.ending(other)
@@ -182,7 +184,7 @@ impl Standing {
             Event::CandidateChosen(chosen) => {
                 self.of(chosen.region).and_then(|hypothesis| hypothesis.highlights.pop());
             }
-            Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } => {
+            Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } | Event::LightChosen(_) => {
                 self.lights.pop();
             }
             Event::Renumbered { .. } => self.finals = None,

@@ -8,7 +8,7 @@ use crate::workbench::{Command, DebugCommand, Direction, Goal};
 use egui::{Button, RichText, Ui};
 
 /// Kinds of steps, by what they are about.
-const GROUPS: [(&str, &[Kind]); 6] = [
+const GROUPS: [(&str, &[Kind]); 7] = [
     ("Stages and passes", &[Kind::Stage, Kind::Pass, Kind::Masks]),
     ("Windows and areas (5.2)", &[Kind::Windows, Kind::Window, Kind::Merge]),
     (
@@ -23,11 +23,15 @@ const GROUPS: [(&str, &[Kind]); 6] = [
             Kind::Merged,
         ],
     ),
-    ("Highlights and planes (5.4)", &[Kind::Candidate, Kind::Highlight, Kind::Illuminant, Kind::Slice]),
+    (
+        "Highlights and planes (5.4)",
+        &[Kind::Candidate, Kind::Highlight, Kind::Illuminant, Kind::Votes, Kind::LightChoice, Kind::Slice],
+    ),
     (
         "Clipping, numbers, vectors (5.5, 6)",
         &[Kind::Hole, Kind::Dropped, Kind::Part, Kind::Numbers, Kind::Vectors],
     ),
+    ("Where no region holds", &[Kind::LocalSplit, Kind::Blobs, Kind::Blob, Kind::Belief, Kind::Repair]),
     ("Pixels", &[Kind::Claim, Kind::Refusal, Kind::Label]),
 ];
 

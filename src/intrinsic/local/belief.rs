@@ -6,6 +6,7 @@
 use super::shade::Shades;
 use crate::raster::{Mask, Raster};
 use crate::segment::{LightBasis, LightFindings, Scene, white_offsets_deg};
+use crate::trace::{BeliefLimits, BeliefTested, Doubt};
 
 /// Least share of the votes for the light, unless regions that hold so large a part of what is lit vouch for it.
 const LEAST_SHARE: f64 = 0.02;
@@ -17,58 +18,77 @@ const MOST_SURFACE: f64 = 0.18;
 /// Most of the strong highlights that may outshine the body under them.
 const MOST_OUTSHINING: f64 = 0.6;
 
-/// Why nothing is split locally.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Doubt {
-    /// Small highlights do not speak for the light: the share of them that does.
-    NoVote(f64),
-    /// The light would be unusual: degrees between blue and yellow, and between green and magenta.
-    UnusualLight([f64; 2]),
-    /// So large a share of the picture's light would be surface reflection.
-    TooMuch(f64),
-    /// So many highlights outshine the body: they are white things.
-    Outshining(f64),
+/// Asks for one reason for doubt after the other, until one is found.
+pub fn test(
+    scene: &Scene,
+    light: &LightFindings,
+    shades: &Shades,
+    weights: &Raster<f32>,
+    outside: &Mask,
+) -> BeliefTested {
+    let limits = BeliefLimits {
+        share: LEAST_SHARE,
+        offsets_deg: USUAL_DEG,
+        surface: MOST_SURFACE,
+        outshining: MOST_OUTSHINING,
+    };
+    let vouched_for = light.basis == LightBasis::Given || light.support >= SUPPORTED;
+    let asked = scene.refine.vote_light && !vouched_for;
+    let voted = light.direction.filter(|_| light.basis == LightBasis::Votes);
+    let tested = BeliefTested {
+        share: asked.then_some(light.share),
+        offsets_deg: voted.map(|direction| white_offsets_deg(&direction.into())),
+        surface: None,
+        outshining: None,
+        limits,
+        doubt: None,
+    };
+    if tested.share.is_some_and(|share| share < LEAST_SHARE) {
+        return BeliefTested { doubt: Some(Doubt::NoVote), ..tested };
+    }
+    let unusual = |offsets: [f64; 2]| (0..2).any(|i| offsets[i].abs() > USUAL_DEG[i]);
+    if tested.offsets_deg.is_some_and(unusual) {
+        return BeliefTested { doubt: Some(Doubt::UnusualLight), ..tested };
+    }
+    let Found { surface, total, strong, outshining } = Found::of(scene, shades, weights, outside);
+    let (share, white) = (surface / total.max(1.0), f64::from(outshining) / f64::from(strong.max(1)));
+    let doubt = if share > MOST_SURFACE {
+        Some(Doubt::TooMuch)
+    } else {
+        (white > MOST_OUTSHINING).then_some(Doubt::Outshining)
+    };
+    BeliefTested { surface: Some(share), outshining: Some((white, strong)), doubt, ..tested }
 }
 
-impl Doubt {
-    /// The first reason for doubt; none where highlights are believed.
-    pub fn about(
-        scene: &Scene,
-        light: &LightFindings,
-        shades: &Shades,
-        weights: &Raster<f32>,
-        outside: &Mask,
-    ) -> Option<Self> {
-        let vouched_for = light.basis == LightBasis::Given || light.support >= SUPPORTED;
-        if scene.refine.vote_light && !vouched_for && light.share < LEAST_SHARE {
-            return Some(Self::NoVote(light.share));
-        }
-        let direction = light.direction?;
-        let offsets = white_offsets_deg(&direction.into());
-        if light.basis == LightBasis::Votes && (0..2).any(|i| offsets[i].abs() > USUAL_DEG[i]) {
-            return Some(Self::UnusualLight(offsets));
-        }
-        let (mut surface, mut total) = (0.0f64, 0.0f64);
-        let (mut strong, mut outshining) = (0usize, 0usize);
+/// What would be split.
+#[derive(Default)]
+struct Found {
+    /// Surface reflection, and all light there, counts.
+    surface: f64,
+    total: f64,
+    /// Strong highlight pixels, and those of them that outshine the body.
+    strong: u32,
+    outshining: u32,
+}
+
+impl Found {
+    fn of(scene: &Scene, shades: &Shades, weights: &Raster<f32>, outside: &Mask) -> Self {
+        let mut found = Self::default();
         for (index, point) in shades.points.as_slice().iter().enumerate() {
             let pixel = shades.window.pixel(index);
             if !outside[pixel] {
                 continue;
             }
-            total += f64::from(scene.pixels[pixel].iter().sum::<f32>()) / 3.0;
+            found.total += f64::from(scene.pixels[pixel].iter().sum::<f32>()) / 3.0;
             if weights[index] <= 0.0 {
                 continue;
             }
-            surface += f64::from(weights[index] * point.surface);
+            found.surface += f64::from(weights[index] * point.surface);
             if point.surface > point.high {
-                strong += usize::from(point.surface > 0.3 * point.body);
-                outshining += usize::from(point.surface > point.body);
+                found.strong += u32::from(point.surface > 0.3 * point.body);
+                found.outshining += u32::from(point.surface > point.body);
             }
         }
-        let (share, white) = (surface / total.max(1.0), outshining as f64 / strong.max(1) as f64);
-        if share > MOST_SURFACE {
-            return Some(Self::TooMuch(share));
-        }
-        (white > MOST_OUTSHINING).then_some(Self::Outshining(white))
+        found
     }
 }

@@ -13,15 +13,18 @@ mod blobs;
 mod repair;
 mod shade;
 mod texture;
+mod told;
 
 use super::confidence::LOCAL;
 use super::split::Images;
 use crate::color::Vec3;
 use crate::raster::{Mask, Raster, Window};
 use crate::segment::{FinalRegions, Scene};
-use crate::trace::PixelKind;
+use crate::trace::{LocalStart, PixelKind, Recorder};
+use blobs::Highlights;
 use rayon::prelude::*;
 use shade::Shades;
+use told::Told;
 
 /// Fewest lit pixels that are worth a look, and the least share of all that are lit.
 const LEAST_PIXELS: usize = 64;
@@ -31,32 +34,59 @@ const MARGIN_PX: usize = 24;
 
 /// Takes the planes' split back where it does not hold, and splits locally there. Returns the confidence of the pixels that
 /// were split so, 0 elsewhere; none where no pixel was.
-pub fn split_locally(
+pub fn split_locally<R: Recorder>(
     scene: &Scene,
     regions: &FinalRegions,
     holding: &Mask,
     images: &mut Images,
+    recorder: &mut R,
 ) -> Option<Raster<f32>> {
     let outside = take_back(scene, holding, images);
+    let mut told = Told::new(recorder);
+    let confidence = split_outside(scene, regions, &outside, images, &mut told);
+    told.finish(outside);
+    confidence
+}
+
+/// Splits what lies outside of what holds.
+fn split_outside<R: Recorder>(
+    scene: &Scene,
+    regions: &FinalRegions,
+    outside: &Mask,
+    images: &mut Images,
+    told: &mut Told<R>,
+) -> Option<Raster<f32>> {
     let pixels = outside.as_slice().iter().filter(|&&outside| outside).count();
     let lit = (0..outside.len()).filter(|&pixel| !scene.masks.dark(pixel)).count();
     let few = pixels < LEAST_PIXELS || (pixels as f64) < LEAST_SHARE * lit as f64;
-    let light = Vec3::from(regions.light.direction?);
-    if !scene.refine.local_split || few || scene.stopped() {
-        return None;
-    }
-    let window = Window::around((outside.width(), outside.height()), MARGIN_PX, |pixel| outside[pixel])?;
-    let shades = Shades::new(scene, &light, window)?;
+    let light = regions.light.direction.map(Vec3::from);
+    let shades = light.filter(|_| scene.refine.local_split && !few && !scene.stopped()).and_then(|light| {
+        let window = Window::around((outside.width(), outside.height()), MARGIN_PX, |pixel| outside[pixel])?;
+        Some((light, Shades::new(scene, &light, window)?))
+    });
+    let start = match shades {
+        Some(_) => LocalStart::Begins,
+        None if !scene.refine.local_split => LocalStart::Off,
+        None if few => LocalStart::Few,
+        None => LocalStart::NoLight,
+    };
+    told.began(scene, start, [pixels, lit], regions.light.direction);
+    let (light, shades) = shades?;
     let texture = scene.refine.texture_test.then(|| texture::texture(&shades, scene.sigma()));
-    let weights = blobs::weights(scene, &shades, texture.as_ref(), &outside);
-    if scene.refine.belief
-        && belief::Doubt::about(scene, &regions.light, &shades, &weights, &outside).is_some()
-    {
-        return None;
+    let Highlights { weights, judged } = blobs::highlights::<R>(scene, &shades, texture.as_ref(), outside);
+    told.judged(scene, &shades, texture.as_ref(), &judged);
+    if scene.refine.belief {
+        let tested = belief::test(scene, &regions.light, &shades, &weights, outside);
+        let doubted = tested.doubt.is_some();
+        told.believed(tested);
+        if doubted {
+            return None;
+        }
     }
     let mut confidence = apply(&light, &shades, &weights, images);
     if scene.refine.clip_repair {
-        repair::repair(scene, &outside, images, &mut confidence);
+        told.repairs();
+        repair::repair(scene, outside, images, &mut confidence, |tried, blob| told.repair(tried, blob));
     }
     Some(confidence)
 }

@@ -7,7 +7,7 @@
 use crate::intrinsic::split::Images;
 use crate::raster::{Mask, Raster};
 use crate::segment::Scene;
-use crate::trace::PixelKind;
+use crate::trace::{PixelKind, RepairTried, RepairVerdict};
 
 /// Least share of the ring that is highlight.
 const LEAST_HIGHLIGHT: f64 = 0.4;
@@ -16,8 +16,14 @@ const MOST_PX: usize = 40_000;
 /// Confidence of a repaired pixel.
 const CONFIDENCE: f32 = 0.3;
 
-/// Fills the clipped blobs of `outside` that are highlights.
-pub fn repair(scene: &Scene, outside: &Mask, images: &mut Images, confidence: &mut Raster<f32>) {
+/// Fills the clipped blobs of `outside` that are highlights; `told` hears of each blob and its pixels.
+pub fn repair(
+    scene: &Scene,
+    outside: &Mask,
+    images: &mut Images,
+    confidence: &mut Raster<f32>,
+    mut told: impl FnMut(RepairTried, &[usize]),
+) {
     let mut blobs =
         Blobs { scene, mark: vec![0; outside.len()], width: outside.width(), height: outside.height() };
     for start in 0..outside.len() {
@@ -27,7 +33,9 @@ pub fn repair(scene: &Scene, outside: &Mask, images: &mut Images, confidence: &m
         }
         let blob = blobs.flood(start, wanted);
         let rings = blobs.rings(&blob);
-        if blob.len() > MOST_PX || !is_highlight(&rings, &images.surface) {
+        let tried = tried(&blob, &rings, &images.surface);
+        told(tried, &blob);
+        if tried.verdict != RepairVerdict::Filled {
             continue;
         }
         let filled = blobs.harmonic(&blob, &rings, &images.body);
@@ -44,15 +52,31 @@ pub fn repair(scene: &Scene, outside: &Mask, images: &mut Images, confidence: &m
 }
 
 /// Whether the ring around a blob is highlight enough, and more so next to the blob.
-fn is_highlight([inner, outer]: &[Vec<usize>; 2], surface: &Raster<[f32; 3]>) -> bool {
+fn tried(blob: &[usize], [inner, outer]: &[Vec<usize>; 2], surface: &Raster<[f32; 3]>) -> RepairTried {
     let amount = |&pixel: &usize| surface[pixel].iter().sum::<f32>();
     let mean = |ring: &[usize]| ring.iter().map(amount).sum::<f32>() / ring.len().max(1) as f32;
     let count = inner.len() + outer.len();
     let highlight = inner.iter().chain(outer).filter(|pixel| amount(pixel) > 0.0).count();
-    !inner.is_empty()
-        && !outer.is_empty()
-        && highlight as f64 >= LEAST_HIGHLIGHT * count as f64
-        && mean(inner) > mean(outer)
+    let rise = [mean(inner), mean(outer)];
+    let verdict = if blob.len() > MOST_PX {
+        RepairVerdict::TooLarge
+    } else if inner.is_empty() || outer.is_empty() {
+        RepairVerdict::NoRing
+    } else if (highlight as f64) < LEAST_HIGHLIGHT * count as f64 {
+        RepairVerdict::NoHighlight
+    } else if rise[0] > rise[1] {
+        RepairVerdict::Filled
+    } else {
+        RepairVerdict::NoRise
+    };
+    RepairTried {
+        blob: 0,
+        pixel: blob.first().map_or(0, |&first| first as u32),
+        pixels: blob.len() as u32,
+        ring: [highlight as f32 / count.max(1) as f32, LEAST_HIGHLIGHT as f32],
+        rise: rise.map(|sum| sum / 3.0),
+        verdict,
+    }
 }
 
 /// Blobs of clipped pixels, found one after the other.

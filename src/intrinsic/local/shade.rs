@@ -28,8 +28,8 @@ const CELL_REACH: usize = CELL_WEIGHTS.len() / 2;
 /// Quantile that is the body's.
 const QUANTILE: f32 = 0.3;
 /// Least mean of J that has a hue, counts, and its least chromatic part, σ.
-const LEAST_MEAN: f32 = 5.1;
-const LEAST_CHROMA: f32 = 3.0;
+pub const LEAST_MEAN: f32 = 5.1;
+pub const LEAST_CHROMA: f32 = 3.0;
 /// Noise of ms, as a share of what independent bands would give.
 const NOISE: f32 = 0.55;
 
@@ -52,6 +52,8 @@ pub struct Shades {
     pub window: Window,
     /// Dark pixels have none.
     pub points: Raster<Shade>,
+    axes: Axes,
+    ratios: Ratios,
 }
 
 impl Shades {
@@ -83,7 +85,15 @@ impl Shades {
                 }
             }
         });
-        Some(Self { window, points })
+        Some(Self { window, points, axes, ratios })
+    }
+
+    /// κ and the median around a pixel of the window; none where nothing near has its hue.
+    pub fn ratios(&self, scene: &Scene, index: usize) -> Option<[f32; 2]> {
+        let pixel = self.window.pixel(index);
+        let place =
+            (self.window.left + index % self.window.width, self.window.top + index / self.window.width);
+        self.ratios.read(place, self.axes.of(scene.pixels[pixel]).hue)
     }
 }
 

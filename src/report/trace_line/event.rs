@@ -1,7 +1,7 @@
 //! The three objects of an event's line.
 
 use super::super::Names;
-use super::short;
+use super::{local, short};
 use crate::color::{Line, Vec3};
 use crate::trace::{CandidateSource, CandidateTest, Event, Pass, PassedOver, SliceMade, VectorsFitted};
 use serde_json::{Value, json};
@@ -48,6 +48,9 @@ pub(super) fn parts(names: &Names, event: &Event) -> (Value, Value, Value) {
         Event::IlluminantGiven { direction } => {
             (none(), json!({"given": true, "direction": direction}), none())
         }
+        Event::VotesCast(votes) => local::votes(votes),
+        Event::LightChosen(chosen) => local::chosen(chosen),
+        Event::Local(decision) => local::local(names, decision),
         Event::SliceMade(made) => slice(made),
         Event::VectorsFitted(fitted) => vectors(fitted),
         other => change(names, other),
@@ -201,9 +204,15 @@ fn vectors(fitted: &VectorsFitted) -> (Value, Value, Value) {
             "start": vector(&fitted.start),
             "fit_rms_counts": fitted.rms_counts,
             "texture": fitted.texture,
+            "texture_slope": fitted.texture_slope,
             "holds": fitted.holds,
         }),
-        json!({"least_offset": short(fitted.least_offset)}),
+        json!({
+            "least_offset": short(fitted.least_offset),
+            "fit_rms_counts": fitted.limits.rms_counts,
+            "texture": fitted.limits.texture,
+            "texture_slope": fitted.limits.texture_slope,
+        }),
     )
 }
 

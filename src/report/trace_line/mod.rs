@@ -6,6 +6,7 @@
 //! that is not finite is `null`. A first line says which schema this is.
 
 mod event;
+mod local;
 
 use super::Names;
 use crate::trace::{Contest, Measure, Stage, Step, Trace};

@@ -1,6 +1,7 @@
 //! Events in words.
 
-use super::{Names, count, direction, percent};
+use super::light::{light_chosen, votes_cast};
+use super::{Names, count, direction, local, percent};
 use crate::trace::{
     CandidateSource, CandidateTest, Class, Event, HypothesisChosen, IlluminantEstimated, MasksMade, Pass,
     PassedOver, SliceMade, VectorsFitted, WindowsLaid,
@@ -61,7 +62,10 @@ impl Names {
             Event::IlluminantGiven { direction: light } => {
                 format!("the light is given: {}", direction(*light))
             }
+            Event::VotesCast(votes) => votes_cast(votes),
+            Event::LightChosen(chosen) => light_chosen(chosen),
             Event::VectorsFitted(fitted) => vectors_fitted(fitted),
+            Event::Local(decision) => self.local(decision),
             Event::Renumbered { finals } => {
                 let kept = finals.iter().filter(|&&number| number > 0).count();
                 format!("of {} hypotheses {kept} are regions, numbered by size", finals.len())
@@ -234,8 +238,9 @@ fn vectors_fitted(fitted: &VectorsFitted) -> String {
         || "no surface vector: all is body reflection".to_owned(),
         |surface| format!("surface vector {}", direction(surface.into())),
     );
-    let holds = if fitted.holds { "" } else { "; it does not hold, its plane is not used" };
-    format!("region {} is split by body vector {body}, {surface}{holds}", fitted.region)
+    let fit = [fitted.rms_counts, fitted.texture, fitted.texture_slope];
+    let verdict = local::verdict(fit, &fitted.limits, fitted.holds);
+    format!("region {} is split by body vector {body}, {surface}; {verdict}", fitted.region)
 }
 
 /// `the largest`, `the 2nd`, of areas that were looked at before.

@@ -1,6 +1,7 @@
 //! What was decided about a pixel, in words.
 
 use super::event::{ordinal, passed_over, variances};
+use super::local::{surroundings, unfit};
 use super::{Names, count, percent, won};
 use crate::color::Trial;
 use crate::reflection::{SliceBound, SliceMiss};
@@ -83,6 +84,8 @@ impl Names {
                 )
             }
             What::Split(story) => split(story),
+            What::Surroundings(story) => surroundings(story),
+            What::Decided(event) => self.event(event),
             other => self.moved(other),
         }
     }
@@ -263,13 +266,10 @@ fn outside(barrier: Barrier) -> String {
 }
 
 fn split(story: &SplitStory) -> String {
-    let SplitStory { number, kind, lines, amounts, cut, least_offset, unfit } = story;
-    if let Some([rms, texture]) = unfit {
-        return format!(
-            "region {number} does not hold ({rms:.1} counts rms from its plane, texture {texture:.2}): its plane is not used, \
-             only highlights that stand out locally are split"
-        );
+    if let Some(why) = &story.unfit {
+        return unfit(story.number, why);
     }
+    let SplitStory { number, kind, lines, amounts, cut, least_offset, .. } = story;
     let what = match (kind, lines) {
         (PixelKind::Restored, _) => "is restored from the bands that can be believed".to_owned(),
         (PixelKind::Lost, _) => "is clipped in every band: its split is a guess".to_owned(),

@@ -3,7 +3,9 @@
 
 mod event;
 mod happening;
+mod light;
 mod lineage;
+mod local;
 #[cfg(test)]
 mod tests;
 mod what_if;

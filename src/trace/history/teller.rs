@@ -2,8 +2,9 @@
 
 use super::facts::{amounts, final_vectors, verdicts};
 use super::growth::{Growth, Reaching, Regions, highlight_test};
+use super::local::Outside;
 use super::patch::Patch;
-use super::{Happening, Release, SplitStory, What};
+use super::{Happening, Release, SplitStory, Unfit, What};
 use crate::photo::{LinearImage, Masks};
 use crate::raster::UNASSIGNED;
 use crate::trace::reel::Move;
@@ -35,6 +36,8 @@ pub(super) struct Teller<'a> {
     /// How the final regions are split, by their numbers of birth.
     fitted: Vec<Option<&'a VectorsFitted>>,
     patch: Option<Patch<'a>>,
+    /// What was decided where its region does not explain it.
+    outside: Option<Outside>,
     stage: Stage,
     pass: Option<Pass>,
     cause: Cause<'a>,
@@ -61,6 +64,7 @@ impl<'a> Teller<'a> {
             regions: Regions::default(),
             fitted: final_vectors(trace),
             patch: None,
+            outside: Outside::of(trace, pixel, image.pixels[pixel]),
             stage: Stage::Masks,
             pass: None,
             cause: Cause::Nothing,
@@ -79,6 +83,7 @@ impl<'a> Teller<'a> {
             self.end_growth();
             self.end_merging();
         }
+        self.told.extend(self.outside.into_iter().flat_map(|outside| outside.told));
         // A refusal that is found out at the end of a growth happened when it came to the pixel.
         self.told.sort_by_key(|happening| happening.step);
         self.told
@@ -360,7 +365,12 @@ impl<'a> Teller<'a> {
                 amounts: believed.then_some(amounts),
                 cut: cut.filter(|_| believed),
                 least_offset: fitted.least_offset,
-                unfit: (!fitted.holds).then_some([fitted.rms_counts, fitted.texture]),
+                unfit: self.outside.as_ref().map(|outside| Unfit {
+                    fit: [fitted.rms_counts, fitted.texture, fitted.texture_slope],
+                    limits: fitted.limits,
+                    region_holds: fitted.holds,
+                    surface: outside.surface,
+                }),
             })),
         );
     }

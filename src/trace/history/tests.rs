@@ -6,7 +6,7 @@ use crate::photo::MaskLimits;
 use crate::raster::Raster;
 use crate::reflection::{DichromaticPlane, Slice, SliceBound};
 use crate::trace::{
-    Event, HypothesisChosen, LineRefitted, MasksMade, Measure, Pass, Recorder, SliceMade, Tape,
+    Event, FitLimits, HypothesisChosen, LineRefitted, MasksMade, Measure, Pass, Recorder, SliceMade, Tape,
     VectorsFitted, WindowsLaid,
 };
 use std::sync::Arc;
@@ -216,6 +216,8 @@ fn the_end_is_a_number_a_role_and_amounts() {
                 least_offset: 2.5,
                 rms_counts: 1.0,
                 texture: 0.0,
+                texture_slope: 0.0,
+                limits: FitLimits::default(),
                 holds: true,
                 origin: [0.0; 3],
             })));

@@ -1,0 +1,136 @@
+//! What is recorded of the local split; nothing where no record is kept.
+
+use super::blobs::{CORE_TEXTURE, Judged, TEXTURE_LIMITS};
+use super::shade::{LEAST_CHROMA, LEAST_MEAN, Shades};
+use super::{LEAST_PIXELS, LEAST_SHARE};
+use crate::raster::{Mask, Raster};
+use crate::segment::Scene;
+use crate::trace::{
+    BeliefTested, Event, LocalBegan, LocalDecision, LocalLimits, LocalPoint, LocalPoints, LocalRecord,
+    LocalStart, Pass, Recorder, RepairTried,
+};
+use rayon::prelude::*;
+
+/// Tells a recorder of each decision, and collects what each pixel was judged by.
+pub struct Told<'a, R> {
+    recorder: &'a mut R,
+    points: Option<LocalPoints>,
+    /// Blobs that have a number.
+    numbered: u16,
+}
+
+impl<'a, R: Recorder> Told<'a, R> {
+    pub fn new(recorder: &'a mut R) -> Self {
+        Self { recorder, points: None, numbered: 0 }
+    }
+
+    fn record(&mut self, decision: LocalDecision) {
+        self.recorder.record(Event::Local(decision));
+    }
+
+    /// It begins, or not. `pixels` lie outside of what holds, of `lit` ones.
+    pub fn began(
+        &mut self,
+        scene: &Scene,
+        start: LocalStart,
+        [pixels, lit]: [usize; 2],
+        light: Option<[f64; 3]>,
+    ) {
+        if !R::KEEPS {
+            return;
+        }
+        self.recorder.record(Event::PassBegan { pass: Pass::LocalSplit });
+        let refine = scene.refine;
+        let limits = LocalLimits {
+            mean: LEAST_MEAN,
+            chroma: LEAST_CHROMA * scene.sigma() as f32,
+            texture: TEXTURE_LIMITS,
+            core_texture: CORE_TEXTURE,
+        };
+        self.record(LocalDecision::Began(Box::new(LocalBegan {
+            start,
+            pixels: pixels as u32,
+            lit: lit as u32,
+            least: LEAST_PIXELS.max((LEAST_SHARE * lit as f64).ceil() as usize) as u32,
+            light,
+            limits,
+            texture_test: refine.texture_test,
+            hysteresis: refine.hysteresis,
+            clip_repair: refine.clip_repair,
+        })));
+    }
+
+    /// Each candidate highlight.
+    pub fn judged(&mut self, scene: &Scene, shades: &Shades, texture: Option<&Raster<f32>>, judged: &Judged) {
+        if !R::KEEPS {
+            return;
+        }
+        let mut of = points(scene, shades, texture);
+        for &(index, blob) in &judged.of {
+            of[index].blob = blob;
+        }
+        self.points = Some(LocalPoints { window: shades.window, of });
+        self.numbered = judged.blobs.len() as u16;
+        if scene.refine.hysteresis {
+            let Judged { found, small, small_pixels, .. } = *judged;
+            self.record(LocalDecision::Blobs { found, small, small_pixels, least: Judged::LEAST });
+        }
+        for &blob in &judged.blobs {
+            self.record(LocalDecision::Blob(blob));
+        }
+    }
+
+    /// Whether highlights are believed.
+    pub fn believed(&mut self, tested: BeliefTested) {
+        if R::KEEPS {
+            self.record(LocalDecision::Belief(Box::new(tested)));
+        }
+    }
+
+    /// What follows is the repair of clipped blobs.
+    pub fn repairs(&mut self) {
+        if R::KEEPS {
+            self.recorder.record(Event::PassBegan { pass: Pass::ClipRepair });
+        }
+    }
+
+    /// A clipped blob was filled, or not.
+    pub fn repair(&mut self, tried: RepairTried, blob: &[usize]) {
+        if !R::KEEPS || self.numbered >= LocalPoint::MOST_BLOBS {
+            return;
+        }
+        self.numbered += 1;
+        if let Some(LocalPoints { window, of }) = &mut self.points {
+            for index in blob.iter().filter_map(|&pixel| window.index(pixel)) {
+                of[index].blob = self.numbered;
+            }
+        }
+        self.record(LocalDecision::Repair(RepairTried { blob: self.numbered, ..tried }));
+    }
+
+    /// That was all; `outside`: what lies outside of what holds.
+    pub fn finish(self, outside: Mask) {
+        if R::KEEPS {
+            self.recorder.local(LocalRecord { outside, points: self.points });
+        }
+    }
+}
+
+/// What each pixel of the window is judged by.
+fn points(scene: &Scene, shades: &Shades, texture: Option<&Raster<f32>>) -> Raster<LocalPoint> {
+    let width = shades.window.width;
+    let mut points = Raster::filled(width, shades.window.height, LocalPoint::default());
+    points.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(row, points)| {
+        for (column, point) in points.iter_mut().enumerate() {
+            let index = row * width + column;
+            let shade = &shades.points[index];
+            if !scene.masks.dark(shades.window.pixel(index))
+                && let Some(ratios) = shades.ratios(scene, index)
+            {
+                let texture = texture.map_or(0.0, |texture| texture[index]);
+                *point = LocalPoint::new(ratios, [shade.low, shade.high], texture);
+            }
+        }
+    });
+    points
+}

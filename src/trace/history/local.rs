@@ -1,0 +1,161 @@
+//! What was decided about a pixel that lies outside of what holds: under which light, by what around it, in which blob.
+
+use super::{Happening, LocalFate, LocalStory, What};
+use crate::trace::{
+    BeliefTested, Event, LocalBegan, LocalDecision, LocalPoint, LocalRecord, LocalStart, RepairVerdict,
+    Stage, Trace,
+};
+
+/// What is told, and what came of it.
+pub(super) struct Outside {
+    /// Oldest first.
+    pub(super) told: Vec<Happening>,
+    /// Amount of surface reflection m_s that was found, counts; none where it was filled from what is around it.
+    pub(super) surface: Option<f32>,
+}
+
+impl Outside {
+    /// None for a pixel that a region explains, or that is dark.
+    pub(super) fn of(trace: &Trace, pixel: usize, color: [f32; 3]) -> Option<Self> {
+        let record = trace.reel(Stage::Split)?.local()?;
+        record.outside.as_slice().get(pixel).filter(|outside| **outside)?;
+        let mut case = Case { color, point: record.point(pixel).copied(), ..Case::default() };
+        for (step, event) in trace.events() {
+            case.hear(step, event);
+        }
+        Some(case.told(record))
+    }
+}
+
+/// The decisions that concern the pixel.
+#[derive(Default)]
+struct Case<'a> {
+    color: [f32; 3],
+    point: Option<LocalPoint>,
+    light: Option<(usize, Stage, &'a Event)>,
+    began: Option<(usize, &'a LocalBegan)>,
+    least_px: u32,
+    /// Its blob's judgement, whether it is kept, and what else was decided.
+    decided: Vec<(usize, &'a Event)>,
+    kept: bool,
+    filled: bool,
+    belief: Option<(usize, &'a Event, &'a BeliefTested)>,
+}
+
+impl<'a> Case<'a> {
+    fn hear(&mut self, step: usize, event: &'a Event) {
+        let number = self.point.map_or(0, |point| point.blob);
+        match event {
+            Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } => {
+                // Where lights were held against each other, the choice says more than the new slices' light.
+                if !matches!(self.light, Some((.., Event::LightChosen(_)))) {
+                    self.light = Some((step, Stage::Planar, event));
+                }
+            }
+            Event::LightChosen(_) => self.light = Some((step, Stage::Planar, event)),
+            Event::Local(LocalDecision::Began(began)) => {
+                self.began = Some((step, began));
+                if began.start != LocalStart::Begins {
+                    self.decided.push((step, event));
+                }
+            }
+            Event::Local(LocalDecision::Blobs { least, .. }) => self.least_px = *least,
+            Event::Local(LocalDecision::Blob(judged)) if judged.blob == number => {
+                self.kept = judged.kept;
+                self.decided.push((step, event));
+            }
+            Event::Local(LocalDecision::Repair(tried)) if tried.blob == number => {
+                self.filled = tried.verdict == RepairVerdict::Filled;
+                self.decided.push((step, event));
+            }
+            Event::Local(LocalDecision::Belief(tested)) => self.belief = Some((step, event, tested)),
+            _ => {}
+        }
+    }
+
+    fn told(mut self, record: &LocalRecord) -> Outside {
+        let doubted = self.belief.is_some_and(|(.., tested)| tested.doubt.is_some());
+        let story = self.began.filter(|_| record.points.is_some()).map(|(step, began)| {
+            let story = self.story(began, doubted);
+            (step, story)
+        });
+        let surface = story.as_ref().map_or(0.0, |(_, story)| if doubted { 0.0 } else { story.surface() });
+        if let Some((step, event, _)) = self.belief.filter(|_| doubted || surface > 0.0 || self.filled) {
+            self.decided.push((step, event));
+        }
+        let light =
+            self.light.map(|(step, stage, event)| (step, stage, What::Decided(Box::new(event.clone()))));
+        let story = story.map(|(step, story)| (step, Stage::Split, What::Surroundings(Box::new(story))));
+        let decided = self.decided.into_iter();
+        let decided =
+            decided.map(|(step, event)| (step, Stage::Split, What::Decided(Box::new(event.clone()))));
+        let mut told: Vec<Happening> = light
+            .into_iter()
+            .chain(story)
+            .chain(decided)
+            .map(|(step, stage, what)| Happening { step, stage, what })
+            .collect();
+        told.sort_by_key(|happening| happening.step);
+        Outside { told, surface: (!self.filled).then_some(surface) }
+    }
+
+    fn story(&self, began: &LocalBegan, doubted: bool) -> LocalStory {
+        let point = self.point.unwrap_or_default();
+        let [mean, chroma] = began.light.map_or([0.0; 2], |light| whitened(light, self.color));
+        let ratios = point.ratios();
+        let body = ratios.map_or(0.0, |[ratio, _]| ratio * chroma);
+        let [low, high] = point.limits();
+        let limits = began.limits;
+        let mut story = LocalStory {
+            mean,
+            chroma,
+            ratios,
+            body,
+            excess: if low > 0.0 { (mean - body).max(0.0) } else { 0.0 },
+            noise: low,
+            variation: high,
+            texture: point.texture(),
+            weight: limits.weight(point.texture()),
+            limits,
+            least_px: self.least_px,
+            fate: LocalFate::Faint,
+            doubted,
+        };
+        story.fate = self.fate(began, &point, &story);
+        story
+    }
+
+    fn fate(&self, began: &LocalBegan, point: &LocalPoint, story: &LocalStory) -> LocalFate {
+        let has_hue = story.mean > story.limits.mean && story.chroma > story.limits.chroma;
+        if !has_hue {
+            return LocalFate::Grey;
+        }
+        if point.ratios().is_none() {
+            return LocalFate::Alone;
+        }
+        // What has a hue and yet no limits was not asked.
+        if story.noise <= 0.0 {
+            return LocalFate::Clipped;
+        }
+        if !began.hysteresis {
+            let is_strong = story.excess > story.variation;
+            return if is_strong { LocalFate::Taken } else { LocalFate::Weak };
+        }
+        match point.blob {
+            0 if story.excess <= story.noise => LocalFate::Faint,
+            0 if story.weight <= 0.0 => LocalFate::Texture,
+            0 => LocalFate::Thin,
+            LocalPoint::SMALL => LocalFate::Small,
+            _ if self.kept => LocalFate::Taken,
+            _ => LocalFate::NoHighlight,
+        }
+    }
+}
+
+/// Mean and length of the chromatic part of J = I / (√3 s), s the light: it makes the light white.
+fn whitened(light: [f64; 3], color: [f32; 3]) -> [f32; 2] {
+    let j: [f64; 3] = std::array::from_fn(|band| f64::from(color[band]) / (3f64.sqrt() * light[band]));
+    let mean = j.iter().sum::<f64>() / 3.0;
+    let chroma = j.iter().map(|value| (value - mean).powi(2)).sum::<f64>().sqrt();
+    [mean as f32, chroma as f32]
+}

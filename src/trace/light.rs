@@ -1,0 +1,81 @@
+//! Which light is used, and on what it rests: the planes of regions, or the votes of small highlights (beyond 5.4).
+
+/// What the light rests on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum LightBasis {
+    /// Nothing told of it.
+    #[default]
+    Nothing,
+    /// It was given.
+    Given,
+    /// The dichromatic planes of regions.
+    Planes,
+    /// The votes of small highlights.
+    Votes,
+}
+
+impl LightBasis {
+    /// Its name in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Nothing => "none",
+            Self::Given => "given",
+            Self::Planes => "planes",
+            Self::Votes => "votes",
+        }
+    }
+}
+
+/// The light that small highlights vote for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Elected {
+    /// Unit direction.
+    pub direction: [f64; 3],
+    /// Pixels that were heard.
+    pub voters: u32,
+    /// Small highlights that they belong to.
+    pub blobs: u32,
+    /// Share of the votes that the light has, 0…1.
+    pub share: f64,
+    /// How far it lies from white: between blue (negative) and yellow, and between green (negative) and magenta, degrees.
+    pub offsets_deg: [f64; 2],
+}
+
+/// What [`super::Event::VotesCast`] says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VotesCast {
+    /// The light with most votes; none where too few pixels have anything to say.
+    pub elected: Option<Elected>,
+    /// Fewest pixels that make a vote.
+    pub least_voters: u32,
+}
+
+/// What [`super::Event::LightChosen`] says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightChosen {
+    /// What the light that is used rests on.
+    pub basis: LightBasis,
+    /// Its unit direction; none: no light is known.
+    pub direction: Option<[f64; 3]>,
+    /// The light by the dichromatic planes, unit, and how many objects it rests on.
+    pub planes: Option<([f64; 3], u32)>,
+    /// The light by the votes.
+    pub votes: Option<Elected>,
+    /// Share of the lit pixels in regions that hold and show highlights under the planes' light, 0…1.
+    pub support: f64,
+    /// What decided.
+    pub limits: LightLimits,
+}
+
+/// What the ways to a light are held against.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightLimits {
+    /// Support from which on the planes are believed, whatever the votes say, 0…1.
+    pub support: f64,
+    /// Support below which they are not, if votes were cast and are of no use either, 0…1.
+    pub hardly: f64,
+    /// Least share of the votes that elects a light, 0…1.
+    pub share: f64,
+    /// Farthest from white that a light by votes may lie: blue to yellow, green to magenta, degrees.
+    pub offsets_deg: [f64; 2],
+}

@@ -1,0 +1,353 @@
+//! Where the model does not hold: whether a region does, and what the local split decided elsewhere (beyond section 6).
+//!
+//! Blobs are recorded one by one, as far as their numbers go; smaller ones than may count are only counted. What each pixel was
+//! judged by is kept beside the events, 12 bytes for a pixel of the window that was looked at and one for any pixel.
+
+use crate::raster::{Mask, Raster, Window};
+
+/// Up to where a region's figures may go for it to hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FitLimits {
+    /// Root mean square distance from the plane, counts, and in σ.
+    pub rms_counts: f64,
+    /// See there.
+    pub rms_sigmas: f64,
+    /// Anticorrelation of body and surface reflection; it tells of texture only together with the next.
+    pub texture: f64,
+    /// Body reflection lost per surface reflection gained.
+    pub texture_slope: f64,
+}
+
+/// A step of the local split.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LocalDecision {
+    /// It begins, or why it does not.
+    Began(Box<LocalBegan>),
+    /// Candidate highlights were found that do not lie in what holds; those large enough follow.
+    Blobs {
+        /// How many in all.
+        found: u32,
+        /// Those of too few pixels, and the pixels in them.
+        small: u32,
+        /// See there.
+        small_pixels: u32,
+        /// Fewest pixels of one that may count.
+        least: u32,
+    },
+    /// A candidate highlight was judged (hysteresis).
+    Blob(BlobJudged),
+    /// Are there highlights at all, under this light?
+    Belief(Box<BeliefTested>),
+    /// A blob of clipped pixels was filled from what is around it, or not.
+    Repair(RepairTried),
+}
+
+/// What [`LocalDecision::Began`] says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LocalBegan {
+    /// Whether it begins.
+    pub start: LocalStart,
+    /// Lit pixels outside of what holds.
+    pub pixels: u32,
+    /// All lit pixels.
+    pub lit: u32,
+    /// Fewest outside that are worth it.
+    pub least: u32,
+    /// The light, unit.
+    pub light: Option<[f64; 3]>,
+    /// What pixels are held against.
+    pub limits: LocalLimits,
+    /// Whether texture is asked for.
+    pub texture_test: bool,
+    /// Whether whole blobs count, or single pixels.
+    pub hysteresis: bool,
+    /// Whether clipped pixels are filled.
+    pub clip_repair: bool,
+}
+
+/// Whether pixels are split by their surroundings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LocalStart {
+    /// They are.
+    Begins,
+    /// It is switched off.
+    Off,
+    /// Too few lie outside of what holds.
+    Few,
+    /// The light is not known, or has nothing of one band.
+    NoLight,
+}
+
+/// What pixels of the local split are held against.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LocalLimits {
+    /// Least mean of J = I / (√3 s) that has a hue, counts.
+    pub mean: f32,
+    /// Least chromatic part of J that has a hue, counts.
+    pub chroma: f32,
+    /// Texture up to which all of a pixel's surface reflection counts, and from which on none does.
+    pub texture: [f32; 2],
+    /// Texture below which a pixel can be of a strong core.
+    pub core_texture: f32,
+}
+
+impl LocalLimits {
+    /// The share of its surface reflection that counts, 0…1, by texture.
+    pub fn weight(&self, texture: f32) -> f32 {
+        let [all, none] = self.texture;
+        1.0 - ((texture - all) / (none - all)).clamp(0.0, 1.0)
+    }
+}
+
+/// What [`LocalDecision::Blob`] says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlobJudged {
+    /// Its number, from 1; repaired blobs go on counting.
+    pub blob: u16,
+    /// Its first pixel.
+    pub pixel: u32,
+    /// Its pixels, clipped ones apart.
+    pub pixels: u32,
+    /// Clipped pixels that hang together with it.
+    pub clipped: u32,
+    /// Pixels above the variation of their hue.
+    pub strong: u32,
+    /// Those of them that do not look like texture.
+    pub calm: u32,
+    /// Those of them that a square of 3 × 3 fits into: the core.
+    pub core: u32,
+    /// Whether it is a highlight: it has a core, or clipped pixels.
+    pub kept: bool,
+}
+
+/// What [`LocalDecision::Belief`] says. What was not measured is none: the first doubt ends it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BeliefTested {
+    /// Share of the votes for the light, 0…1; none where regions that hold vouch for it, or it was given, or no votes are asked for.
+    pub share: Option<f64>,
+    /// How far a light by votes lies from white: blue to yellow, green to magenta, degrees.
+    pub offsets_deg: Option<[f64; 2]>,
+    /// Share of all light there that would be surface reflection, 0…1.
+    pub surface: Option<f64>,
+    /// Share of the strong highlight pixels that outshine the body under them, 0…1, and how many strong ones there are.
+    pub outshining: Option<(f64, u32)>,
+    /// Up to where each may go; of the share, from where on.
+    pub limits: BeliefLimits,
+    /// Why nothing is split; none: highlights are believed.
+    pub doubt: Option<Doubt>,
+}
+
+/// See [`BeliefTested`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BeliefLimits {
+    /// Least share of the votes, 0…1.
+    pub share: f64,
+    /// Farthest from white, degrees.
+    pub offsets_deg: [f64; 2],
+    /// Largest share of surface reflection, 0…1.
+    pub surface: f64,
+    /// Largest share of what outshines the body, 0…1.
+    pub outshining: f64,
+}
+
+/// Why no highlight is believed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Doubt {
+    /// Small highlights do not speak for the light.
+    NoVote,
+    /// The light would be unusual.
+    UnusualLight,
+    /// Too much would be surface reflection.
+    TooMuch,
+    /// Highlights outshine the body: they are white things.
+    Outshining,
+}
+
+impl Doubt {
+    /// Its name in trace lines.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::NoVote => "no_vote",
+            Self::UnusualLight => "unusual_light",
+            Self::TooMuch => "too_much",
+            Self::Outshining => "outshining",
+        }
+    }
+}
+
+/// What [`LocalDecision::Repair`] says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RepairTried {
+    /// Its number, after those of the candidate highlights.
+    pub blob: u16,
+    /// Its first pixel.
+    pub pixel: u32,
+    /// Its pixels.
+    pub pixels: u32,
+    /// Share of the ring of 2 px around it that is highlight, 0…1, and the least that is filled.
+    pub ring: [f32; 2],
+    /// Mean surface reflection of the ring's inner pixels and of its outer ones, counts a band.
+    pub rise: [f32; 2],
+    /// What came of it.
+    pub verdict: RepairVerdict,
+}
+
+/// Whether a clipped blob is filled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RepairVerdict {
+    /// It is.
+    Filled,
+    /// It is as large as windows and skies.
+    TooLarge,
+    /// There is no ring of unclipped pixels around it.
+    NoRing,
+    /// Too little of the ring is highlight.
+    NoHighlight,
+    /// The highlight does not rise towards it.
+    NoRise,
+}
+
+impl RepairVerdict {
+    /// Its name in trace lines.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Filled => "filled",
+            Self::TooLarge => "too_large",
+            Self::NoRing => "no_ring",
+            Self::NoHighlight => "no_highlight",
+            Self::NoRise => "no_rise",
+        }
+    }
+}
+
+/// What one pixel was judged by, compactly.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LocalPoint {
+    ratios: [u16; 2],
+    limits: [u16; 2],
+    texture: u16,
+    /// The blob that it is of: a number, 0 for none, [`LocalPoint::SMALL`].
+    pub blob: u16,
+}
+
+impl LocalPoint {
+    /// In place of a number: one of the blobs that are only counted.
+    pub const SMALL: u16 = u16::MAX;
+    /// Most blobs that have a number.
+    pub const MOST_BLOBS: u16 = u16::MAX - 1;
+    /// Steps a unit of κ, counts and texture.
+    const STEPS: [f32; 3] = [4096.0, 128.0, 65535.0];
+
+    /// Of κ and its median, of the limits of noise and variation (counts), and of texture.
+    pub fn new(ratios: [f32; 2], limits: [f32; 2], texture: f32) -> Self {
+        let [ratio, counts, share] = Self::STEPS;
+        // A cast of a float saturates.
+        Self {
+            ratios: ratios.map(|value| (value * ratio).round() as u16),
+            limits: limits.map(|value| (value * counts).round() as u16),
+            texture: (texture * share).round() as u16,
+            blob: 0,
+        }
+    }
+
+    /// κ: the ratio of mean to chromatic part that body reflection has around it, and the median there; none where nothing
+    /// around it has its hue.
+    pub fn ratios(&self) -> Option<[f32; 2]> {
+        (self.ratios[0] > 0).then(|| self.ratios.map(|value| f32::from(value) / Self::STEPS[0]))
+    }
+
+    /// What surface reflection must exceed: noise, and the variation of its hue around it, counts. Zero where a pixel has no
+    /// hue or is clipped.
+    pub fn limits(&self) -> [f32; 2] {
+        self.limits.map(|value| f32::from(value) / Self::STEPS[1])
+    }
+
+    /// How much surface and body reflection vary against each other around it, 0…1.
+    pub fn texture(&self) -> f32 {
+        f32::from(self.texture) / Self::STEPS[2]
+    }
+}
+
+/// What the local split kept of its pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LocalRecord {
+    /// Lit pixels of the picture that lie outside of what holds.
+    pub outside: Mask,
+    /// What those of a window were judged by; none where nothing was split.
+    pub points: Option<LocalPoints>,
+}
+
+/// The pixels of a window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LocalPoints {
+    /// Which.
+    pub window: Window,
+    /// One of each.
+    pub of: Raster<LocalPoint>,
+}
+
+impl LocalRecord {
+    /// What a pixel was judged by; none for one that was not looked at.
+    pub fn point(&self, pixel: usize) -> Option<&LocalPoint> {
+        let points = self.points.as_ref()?;
+        points.of.as_slice().get(points.window.index(pixel)?)
+    }
+
+    /// The pixels of a blob by its number, ascending.
+    pub fn blob(&self, blob: u16) -> Vec<u32> {
+        let Some(LocalPoints { window, of }) = self.points.as_ref().filter(|_| blob != 0) else {
+            return Vec::new();
+        };
+        let own = of.as_slice().iter().enumerate().filter(|(_, point)| point.blob == blob);
+        own.map(|(index, _)| window.pixel(index) as u32).collect()
+    }
+
+    /// Memory that it takes, bytes.
+    pub fn bytes(&self) -> usize {
+        let points = self.points.as_ref().map_or(0, |points| points.of.len());
+        self.outside.len() + points * size_of::<LocalPoint>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_keeps_its_figures_as_exactly_as_they_are_told() {
+        for ratio in [0.4f32, 1.234, 7.7, 12.0] {
+            let point = LocalPoint::new([ratio, 1.3 * ratio], [4.321, 123.456], 0.1234);
+            let [kept, median] = point.ratios().unwrap();
+            assert!((kept - ratio).abs() < 2e-4 && (median - 1.3 * ratio).abs() < 2e-4, "{kept} {median}");
+            let [low, high] = point.limits();
+            assert!((low - 4.321).abs() < 5e-3 && (high - 123.456).abs() < 5e-3);
+            assert!((point.texture() - 0.1234).abs() < 1e-4);
+        }
+        assert_eq!(LocalPoint::default().ratios(), None);
+        assert_eq!(size_of::<LocalPoint>(), 12);
+    }
+
+    #[test]
+    fn a_blob_is_found_by_its_number() {
+        let window = Window::around((4, 3), 0, |pixel| [5, 6, 9, 10].contains(&pixel)).unwrap();
+        let mut of = Raster::filled(2, 2, LocalPoint::default());
+        (of[1].blob, of[2].blob) = (7, 7);
+        let record =
+            LocalRecord { outside: Raster::filled(4, 3, true), points: Some(LocalPoints { window, of }) };
+        assert_eq!(record.blob(7), [6, 9]);
+        assert!(record.blob(0).is_empty());
+        assert_eq!(record.point(6).map(|point| point.blob), Some(7));
+        assert_eq!((record.point(0), record.point(11)), (None, None));
+        assert_eq!(record.bytes(), 12 + 4 * 12);
+    }
+
+    #[test]
+    fn weight_falls_from_all_to_nothing_between_its_limits() {
+        let limits = LocalLimits { texture: [0.1, 0.3], ..LocalLimits::default() };
+        let weights = [0.0, 0.1, 0.2, 0.3, 1.0].map(|texture| limits.weight(texture));
+        assert!(
+            weights.iter().zip([1.0, 1.0, 0.5, 0.0, 0.0]).all(|(a, b)| (a - b).abs() < 1e-6),
+            "{weights:?}"
+        );
+    }
+}
