@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 
+#[path = "synthetic/marbled.rs"]
+mod marbled;
+
 use assert_cmd::cargo::cargo_bin_cmd;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -125,6 +128,75 @@ fn why_tells_newest_first_with_value_and_threshold() {
     }
     let dark = succeeds("why TINY 0,0 --min-intensity 441");
     assert!(dark.contains("in no region") && dark.contains("counts from black, below 441.0"), "{dark}");
+}
+
+/// Middle of a highlight of the marbled sheet with a clipped heart, of one without, and of a printed speck.
+const CLIPPED: [usize; 2] = [60, 18];
+const HIGHLIGHT: [usize; 2] = [20, 20];
+const SPECK: [usize; 2] = [33, 137];
+
+/// What is told of a pixel of a marbled sheet with so much body reflection, in which no region holds.
+fn why_marbled([x, y]: [usize; 2], body_share: f64) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("marbled.ppm");
+    let [width, height] = marbled::SIZE_PX;
+    let mut bytes = format!("P6\n{width} {height}\n255\n").into_bytes();
+    bytes.extend(marbled::marbled(body_share).as_flattened());
+    fs::write(&file, bytes).unwrap();
+    succeeds(&format!("why {} {x},{y} --encoding linear", file.display()))
+}
+
+#[track_caller]
+fn says(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part:?} in {text}");
+    }
+}
+
+#[test]
+fn why_tells_of_a_highlight_where_no_region_holds() {
+    let text = why_marbled(HIGHLIGHT, 1.0);
+    says(&text, &["does not hold: ", "rms from its plane (at most ", "its surroundings give it "]);
+    says(&text, &["regions that hold and show highlights cover ", "highlights are believed: "]);
+    says(
+        &text,
+        &[
+            "around it its hue has \u{3ba} = a/c ",
+            "more than noise (",
+            "weight ",
+            "of them are a strong core",
+        ],
+    );
+    let amount = |before: &str| -> f64 {
+        let after = text.split(before).nth(1).unwrap_or_else(|| panic!("{before:?} in {text}"));
+        after.split(' ').next().unwrap().parse().unwrap()
+    };
+    let [given, found] = ["its surroundings give it ", "surface is "].map(amount);
+    assert!((given - found).abs() < 0.01 && given > 20.0, "{text}");
+}
+
+#[test]
+fn why_tells_of_texture_and_of_a_clipped_heart_where_no_region_holds() {
+    let speck = why_marbled(SPECK, 1.0);
+    says(&speck, &["it varies against the body like texture, t 0.", "from 0.30 on nothing counts"]);
+    says(&speck, &["it keeps its colour as body"]);
+    let heart = why_marbled(CLIPPED, 1.0);
+    says(&heart, &["restored, in region", "it is filled with the body around it", "but it is clipped"]);
+    says(&heart, &["of its ring of 2 px are highlight (at least 40 %)"]);
+}
+
+#[test]
+fn why_tells_why_nothing_was_split_locally() {
+    // More highlight than a scene is believed to have.
+    let text = why_marbled(HIGHLIGHT, 0.3);
+    says(
+        &text,
+        &[
+            "no highlight is believed, nothing is split locally: ",
+            " of the light there would be surface reflection (at most 18 %)",
+        ],
+    );
+    says(&text, &["surface would be ", "it keeps its colour as body"]);
 }
 
 #[test]

@@ -1,22 +1,9 @@
-//! Where the model does not hold: whether a region does, and what the local split decided elsewhere (beyond section 6).
+//! Where the model does not hold: what the local split decided there (beyond section 6).
 //!
 //! Blobs are recorded one by one, as far as their numbers go; smaller ones than may count are only counted. What each pixel was
 //! judged by is kept beside the events, 12 bytes for a pixel of the window that was looked at and one for any pixel.
 
 use crate::raster::{Mask, Raster, Window};
-
-/// Up to where a region's figures may go for it to hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FitLimits {
-    /// Root mean square distance from the plane, counts, and in σ.
-    pub rms_counts: f64,
-    /// See there.
-    pub rms_sigmas: f64,
-    /// Anticorrelation of body and surface reflection; it tells of texture only together with the next.
-    pub texture: f64,
-    /// Body reflection lost per surface reflection gained.
-    pub texture_slope: f64,
-}
 
 /// A step of the local split.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +27,17 @@ pub enum LocalDecision {
     Belief(Box<BeliefTested>),
     /// A blob of clipped pixels was filled from what is around it, or not.
     Repair(RepairTried),
+}
+
+impl LocalDecision {
+    /// The number of the blob that it is about, where it is about one.
+    pub fn blob(&self) -> Option<u16> {
+        match self {
+            Self::Blob(judged) => Some(judged.blob),
+            Self::Repair(tried) => Some(tried.blob),
+            _ => None,
+        }
+    }
 }
 
 /// What [`LocalDecision::Began`] says.

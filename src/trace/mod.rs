@@ -17,10 +17,11 @@ mod standing;
 mod step;
 mod terms;
 mod timeline;
+mod vectors;
 
 pub use event::{
     CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Contribution, Event, HypothesisChosen,
-    IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver, SliceMade, VectorsFitted, WindowsLaid,
+    IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver, SliceMade, WindowsLaid,
 };
 pub use history::{
     Barrier, Happening, LocalFate, LocalStory, MaskVerdict, MergeRefusal, MergeStory, Reach, Release,
@@ -30,8 +31,8 @@ pub use kind::Kind;
 pub use light::{Elected, LightBasis, LightChosen, LightLimits, VotesCast};
 pub use lineage::{Ancestor, Birth, HypothesisStory, Joined, JoinedHow, final_numbers, lineage, story};
 pub use local::{
-    BeliefLimits, BeliefTested, BlobJudged, Doubt, FitLimits, LocalBegan, LocalDecision, LocalLimits,
-    LocalPoint, LocalPoints, LocalRecord, LocalStart, RepairTried, RepairVerdict,
+    BeliefLimits, BeliefTested, BlobJudged, Doubt, LocalBegan, LocalDecision, LocalLimits, LocalPoint,
+    LocalPoints, LocalRecord, LocalStart, RepairTried, RepairVerdict,
 };
 pub use recorder::{Recorder, Silent, Tape};
 pub use reel::{Reel, Steps};
@@ -40,3 +41,4 @@ pub use standing::{End, Grid, Hypothesis};
 pub use step::{Contest, Measure, Step};
 pub use terms::{Class, PixelKind, Stage};
 pub use timeline::{Block, PassSpan, Topic, Trace};
+pub use vectors::{FitLimits, VectorsFitted};

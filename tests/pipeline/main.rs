@@ -6,6 +6,7 @@
 mod area;
 mod cache;
 mod common;
+mod decisions;
 mod degenerate;
 mod files;
 mod history;
@@ -17,5 +18,7 @@ mod replay;
 mod scenes;
 mod threads;
 
+#[path = "../synthetic/marbled.rs"]
+mod marbled;
 #[path = "../synthetic/mod.rs"]
 mod synthetic;

@@ -7,7 +7,7 @@ use dichroscope::raster::Raster;
 use dichroscope::segment::{LightBasis, Params, Refine};
 
 /// The scene with checks of 9 px printed on its balls: every other one has its bands in another order, and less of them.
-fn printed(scene: &Scene) -> Rendered {
+pub fn printed(scene: &Scene) -> Rendered {
     let mut rendered = scene.render();
     let width = rendered.body.width();
     for (pixel, body) in rendered.body.as_mut_slice().iter_mut().enumerate() {
@@ -19,7 +19,7 @@ fn printed(scene: &Scene) -> Rendered {
     rendered
 }
 
-fn photograph(rendered: &Rendered, noise_sigma: f64) -> LinearImage {
+pub fn photograph(rendered: &Rendered, noise_sigma: f64) -> LinearImage {
     let mut noise = Random::new(5);
     let both = rendered.body.as_slice().iter().zip(rendered.surface.as_slice());
     let mut seen = |counts: f32| {

@@ -238,8 +238,7 @@ fn vectors_fitted(fitted: &VectorsFitted) -> String {
         || "no surface vector: all is body reflection".to_owned(),
         |surface| format!("surface vector {}", direction(surface.into())),
     );
-    let fit = [fitted.rms_counts, fitted.texture, fitted.texture_slope];
-    let verdict = local::verdict(fit, &fitted.limits, fitted.holds);
+    let verdict = local::verdict(fitted);
     format!("region {} is split by body vector {body}, {surface}; {verdict}", fitted.region)
 }
 

@@ -12,10 +12,11 @@ pub(super) fn votes_cast(votes: &VotesCast) -> String {
         );
     };
     format!(
-        "{} vote for the light {}: {}",
+        "{} vote for the light {}: it has {} of the votes and lies {}",
         voters(&elected),
         direction(elected.direction),
-        standing(&elected)
+        tenths(elected.share),
+        white(elected.offsets_deg)
     )
 }
 
@@ -35,11 +36,12 @@ pub(super) fn light_chosen(chosen: &LightChosen) -> String {
             no_use(votes.as_ref(), limits)
         ),
         (LightBasis::Votes, Some(votes)) => format!(
-            "the light{known} is that of {}: {covered}, less than the {enough} from which on planes are believed; the votes \
-             agree, {} (at least {} of the votes; at most {})",
+            "the light{known} is that of the votes: {covered}, planes need {enough}; {} agree with {} of the votes (at least {}), \
+             {} (at most {})",
             voters(votes),
-            standing(votes),
+            tenths(votes.share),
             tenths(limits.share),
+            white(votes.offsets_deg),
             farthest(limits)
         ),
         (_, votes) if chosen.planes.is_none() => {
@@ -72,10 +74,6 @@ fn no_use(votes: Option<&Elected>, limits: &LightLimits) -> String {
 
 fn voters(elected: &Elected) -> String {
     format!("{} of {}", count(elected.voters, "pixel"), count(elected.blobs, "small highlight"))
-}
-
-fn standing(elected: &Elected) -> String {
-    format!("{} of the votes are for it, {}", tenths(elected.share), white(elected.offsets_deg))
 }
 
 fn farthest(limits: &LightLimits) -> String {

@@ -4,7 +4,7 @@ use super::light::{tenths, white};
 use super::{Names, count, percent};
 use crate::trace::{
     BeliefTested, BlobJudged, Doubt, FitLimits, LocalBegan, LocalDecision, LocalFate, LocalStart, LocalStory,
-    RepairTried, RepairVerdict, Unfit,
+    RepairTried, RepairVerdict, Unfit, VectorsFitted,
 };
 
 impl Names {
@@ -30,12 +30,10 @@ impl Names {
                 format!("{blob} is one: it has no strong core, but {} in it", count(clipped, "clipped pixel"))
             }
             (true, ..) => {
-                format!(
-                    "{blob} is one: {core} of them are a strong core, paler than their hue varies around them"
-                )
+                format!("{blob} is one: {core} of them are a strong core, paler than their hue varies")
             }
             _ if strong == 0 => {
-                format!("{blob} is none: no pixel of it is paler than its hue varies around it")
+                format!("{blob} is none: no pixel of it is paler than its hue varies")
             }
             _ if calm == 0 => format!(
                 "{blob} is none: {strong} of them are paler than their hue varies, but all these look like texture"
@@ -123,31 +121,38 @@ fn belief(tested: &BeliefTested) -> String {
 /// What a pixel was judged by.
 pub(super) fn surroundings(story: &LocalStory) -> String {
     let LocalStory { mean, chroma, excess, noise, variation, texture, weight, limits, .. } = story;
-    let seen = format!("mean a {mean:.1}, chromatic part c {chroma:.1} counts under the light");
+    let seen = format!("a {mean:.1} and c {chroma:.1} counts (mean and chromatic part under the light)");
     let Some([ratio, median]) = story.ratios.filter(|_| story.fate != LocalFate::Grey) else {
         let why = match story.fate {
             LocalFate::Grey if *chroma <= limits.chroma => {
-                format!("too grey to have a hue, c at most {:.1}", limits.chroma)
+                format!("it is too grey to have a hue (c at most {:.1})", limits.chroma)
             }
-            LocalFate::Grey => format!("too dark to have a hue, a at most {:.1}", limits.mean),
+            LocalFate::Grey => format!("it is too dark to have a hue (a at most {:.1})", limits.mean),
             _ => "nothing around it has its hue".to_owned(),
         };
-        return format!("{seen}: {why}; its surroundings cannot tell what is highlight");
+        return format!("{seen}: {why}, so that nothing tells how much of it is highlight");
     };
     let around = format!("{seen}; around it its hue has \u{3ba} = a/c {ratio:.2} (median {median:.2})");
     if story.fate == LocalFate::Clipped {
-        return format!("{around}, but it is clipped: only what surrounds its blob can tell");
+        return format!("{around}, but it is clipped: only the ring around its blob can tell");
     }
-    let paler = format!("{around}, so that \u{3ba}c {:.1} are body and ms {excess:.1} too much", story.body);
+    let body = story.body;
+    if story.fate == LocalFate::Faint {
+        return format!(
+            "{around}: \u{3ba}c = {body:.1} counts are body, and it is hardly paler: ms = {excess:.1} counts, noise up to {noise:.1}"
+        );
+    }
+    let paler = format!("{around}: \u{3ba}c = {body:.1} counts are body, ms = {excess:.1} counts too many");
+    if story.fate == LocalFate::Weak {
+        return format!("{paler}, no more than its hue varies ({variation:.1})");
+    }
     let above = if excess > variation {
-        format!("more than noise ({noise:.1}) and the variation of its hue ({variation:.1})")
+        format!("more than noise ({noise:.1}) and than its hue varies ({variation:.1})")
     } else {
-        format!("more than noise ({noise:.1}), not than the variation of its hue ({variation:.1})")
+        format!("more than noise ({noise:.1}), less than its hue varies ({variation:.1})")
     };
     let [all, none] = limits.texture;
     let fate = match story.fate {
-        LocalFate::Faint => return format!("{paler}: no more than noise ({noise:.1})"),
-        LocalFate::Weak => return format!("{paler}: no more than the variation of its hue ({variation:.1})"),
         LocalFate::Texture => {
             format!(
                 "but it varies against the body like texture, t {texture:.2}: from {none:.2} on nothing counts"
@@ -165,32 +170,34 @@ pub(super) fn surroundings(story: &LocalStory) -> String {
             )
         }
     };
-    format!("{paler}: {above}; {fate}")
+    format!("{paler}, {above}; {fate}")
 }
 
-/// Whether a region holds, in its figures; `holds`: what came of it.
-pub(super) fn verdict(fit: [f64; 3], limits: &FitLimits, holds: bool) -> String {
-    let failed = failed_limits(fit, limits);
-    let [rms, texture, slope] = fit;
-    match (holds, failed.as_str()) {
-        (false, _) => format!("it does not hold, {failed}: its plane is not used"),
-        (true, "") => format!(
-            "it holds: {rms:.1} counts rms from its plane (at most {:.1}, {} \u{3c3}), texture {texture:.2} with slope {slope:.2} \
-             (not above {} and {})",
-            limits.rms_counts, limits.rms_sigmas, limits.texture, limits.texture_slope
-        ),
+/// Whether a region holds, by its figures.
+pub(super) fn verdict(fitted: &VectorsFitted) -> String {
+    let VectorsFitted { rms_counts, texture, texture_slope, limits, .. } = fitted;
+    let has_plane = fitted.surface.is_some();
+    let failed = failed_limits([*rms_counts, *texture, *texture_slope], limits, has_plane);
+    match (fitted.holds, failed.as_str()) {
+        (false, _) => format!("it does not hold and its plane is not used: {failed}"),
+        (true, "") => {
+            let texture = if has_plane {
+                format!(
+                    ", texture correlation {texture:.2} (suspect above {}), slope {texture_slope:.2} (above {})",
+                    limits.texture, limits.texture_slope
+                )
+            } else {
+                String::new()
+            };
+            format!("it holds: {}{texture}", distance(*rms_counts, limits, has_plane))
+        }
         (true, _) => format!("whether it holds is not asked ({failed})"),
     }
 }
 
 /// The limits that a region's figures exceed; empty where they do not.
-fn failed_limits([rms, texture, slope]: [f64; 3], limits: &FitLimits) -> String {
-    let far = (rms > limits.rms_counts).then(|| {
-        format!(
-            "{rms:.1} counts rms from its plane (at most {:.1}, {} \u{3c3})",
-            limits.rms_counts, limits.rms_sigmas
-        )
-    });
+fn failed_limits([rms, texture, slope]: [f64; 3], limits: &FitLimits, has_plane: bool) -> String {
+    let far = (rms > limits.rms_counts).then(|| distance(rms, limits, has_plane));
     let textured = (texture > limits.texture && slope > limits.texture_slope).then(|| {
         format!(
             "body and surface vary against each other like a print, correlation {texture:.2} (at most {}), slope {slope:.2} (at \
@@ -198,7 +205,14 @@ fn failed_limits([rms, texture, slope]: [f64; 3], limits: &FitLimits) -> String 
             limits.texture, limits.texture_slope
         )
     });
-    far.into_iter().chain(textured).collect::<Vec<_>>().join(" and ")
+    far.into_iter().chain(textured).collect::<Vec<_>>().join(", and ")
+}
+
+/// `2.2 counts rms from its plane (at most 1.9 = 1.5 σ)`
+fn distance(rms: f64, limits: &FitLimits, has_plane: bool) -> String {
+    let what = if has_plane { "plane" } else { "line" };
+    let FitLimits { rms_counts, rms_sigmas, .. } = limits;
+    format!("{rms:.1} counts rms from its {what} (at most {rms_counts:.1} = {rms_sigmas} \u{3c3})")
 }
 
 /// Why a region's plane is not used for a pixel, and what it has instead.
@@ -209,12 +223,13 @@ pub(super) fn unfit(number: u16, story: &Unfit) -> String {
              other regions"
         )
     } else {
-        format!("region {number} does not hold, {}", failed_limits(story.fit, &story.limits))
+        let failed = failed_limits(story.fit, &story.limits, story.has_plane);
+        format!("region {number} does not hold: {failed}")
     };
     let instead = match story.surface {
         None => "it is filled with the body around it".to_owned(),
         Some(surface) if surface > 0.0 => {
-            format!("by its surroundings surface is {surface:.1} counts, the rest body")
+            format!("its surroundings give it {surface:.1} counts of surface, the rest is body")
         }
         Some(_) => "it keeps its colour as body".to_owned(),
     };

@@ -146,3 +146,107 @@ fn every_step_is_a_sentence() {
         assert_eq!(names().step(&step), sentence);
     }
 }
+
+#[test]
+fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
+    use crate::trace::{BlobJudged, LocalDecision, RepairTried, RepairVerdict};
+    let all =
+        BlobJudged { blob: 1, pixel: 23, pixels: 40, clipped: 0, strong: 21, calm: 12, core: 9, kept: true };
+    let verdicts = [
+        (all, "is one: 9 of them are a strong core"),
+        (BlobJudged { core: 0, clipped: 1, ..all }, "no strong core, but 1 clipped pixel in it"),
+        (
+            BlobJudged { core: 0, kept: false, ..all },
+            "12 of them are paler than their hue varies and no texture",
+        ),
+        (
+            BlobJudged { core: 0, calm: 0, kept: false, ..all },
+            "21 of them are paler than their hue varies, but all",
+        ),
+        (BlobJudged { core: 0, calm: 0, strong: 0, kept: false, ..all }, "no pixel of it is paler"),
+    ];
+    for (judged, part) in verdicts {
+        let said = names().event(&Event::Local(LocalDecision::Blob(judged)));
+        assert!(said.starts_with("the candidate highlight of 40 pixels at (3, 2) is "), "{said}");
+        assert!(said.contains(part), "{said}");
+    }
+    let tried = RepairTried {
+        blob: 2,
+        pixel: 23,
+        pixels: 12,
+        ring: [0.62, 0.4],
+        rise: [40.0, 20.0],
+        verdict: RepairVerdict::Filled,
+    };
+    let verdicts = [
+        (
+            RepairVerdict::Filled,
+            "62 % of its ring of 2 px are highlight (at least 40 %), 40.0 counts next to it, 20.0",
+        ),
+        (RepairVerdict::TooLarge, "as large as a window"),
+        (RepairVerdict::NoRing, "no ring of unclipped pixels"),
+        (RepairVerdict::NoHighlight, "62 % of its ring of 2 px are highlight, at least 40 % are needed"),
+        (RepairVerdict::NoRise, "does not rise towards it, 40.0 counts"),
+    ];
+    for (verdict, part) in verdicts {
+        let said = names().event(&Event::Local(LocalDecision::Repair(RepairTried { verdict, ..tried })));
+        assert!(
+            said.starts_with("the blob of 12 clipped pixels at (3, 2) is ") && said.contains(part),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn a_light_is_told_with_what_it_rests_on_and_why_the_other_one_is_not_used() {
+    use crate::trace::{Elected, LightBasis, LightChosen, LightLimits};
+    let limits = LightLimits { support: 0.3, hardly: 0.05, share: 0.02, offsets_deg: [20.0, 8.0] };
+    let votes = Elected { direction: [0.6; 3], voters: 300, blobs: 9, share: 0.06, offsets_deg: [4.0, -1.0] };
+    let by_votes = LightChosen {
+        basis: LightBasis::Votes,
+        direction: Some([0.6; 3]),
+        planes: Some(([0.5; 3], 4)),
+        votes: Some(votes),
+        support: 0.12,
+        limits,
+    };
+    let weak = Some(Elected { share: 0.01, ..votes });
+    let odd = Some(Elected { offsets_deg: [-25.0, 1.0], ..votes });
+    let by_planes = LightChosen { basis: LightBasis::Planes, ..by_votes };
+    let unknown = LightChosen { basis: LightBasis::Nothing, direction: None, ..by_votes };
+    let told = [
+        (
+            by_votes,
+            "that of the votes: regions that hold and show highlights cover 12 % of the lit pixels, planes need 30 %; 300",
+        ),
+        (
+            by_votes,
+            "6.0 % of the votes (at least 2.0 %), 4.0\u{b0} to yellow and 1.0\u{b0} to green of white (at most 20\u{b0} and 8\u{b0})",
+        ),
+        (
+            LightChosen { support: 0.64, ..by_planes },
+            "that of the planes: regions that hold and show highlights cover 64 %",
+        ),
+        (
+            LightChosen { votes: None, ..by_planes },
+            "less than 30 %, but too few pixels of small highlights vote",
+        ),
+        (
+            LightChosen { votes: weak, ..by_planes },
+            "1.0 % of their votes are for one light, at least 2.0 % are needed",
+        ),
+        (LightChosen { votes: odd, ..by_planes }, "an unusual light, 25.0\u{b0} to blue"),
+        (
+            LightChosen { votes: odd, support: 0.01, ..unknown },
+            "no light is known: regions that hold and show highlights cover 1 %",
+        ),
+        (
+            LightChosen { votes: None, planes: None, ..unknown },
+            "no light is known: no region shows a highlight, and too few",
+        ),
+    ];
+    for (chosen, part) in told {
+        let said = names().event(&Event::LightChosen(Box::new(chosen)));
+        assert!(said.contains(part), "{said}");
+    }
+}

@@ -368,6 +368,7 @@ impl<'a> Teller<'a> {
                 unfit: self.outside.as_ref().map(|outside| Unfit {
                     fit: [fitted.rms_counts, fitted.texture, fitted.texture_slope],
                     limits: fitted.limits,
+                    has_plane: fitted.surface.is_some(),
                     region_holds: fitted.holds,
                     surface: outside.surface,
                 }),

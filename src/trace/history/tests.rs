@@ -4,10 +4,10 @@ use super::*;
 use crate::color::{Line, Vec3};
 use crate::photo::MaskLimits;
 use crate::raster::Raster;
-use crate::reflection::{DichromaticPlane, Slice, SliceBound};
+use crate::reflection::{Components, DichromaticPlane, Slice, SliceBound};
 use crate::trace::{
-    Event, FitLimits, HypothesisChosen, LineRefitted, MasksMade, Measure, Pass, Recorder, SliceMade, Tape,
-    VectorsFitted, WindowsLaid,
+    Event, FitLimits, HypothesisChosen, LineRefitted, MasksMade, Measure, Pass, PixelKind, Recorder,
+    SliceMade, Tape, VectorsFitted, WindowsLaid,
 };
 use std::sync::Arc;
 

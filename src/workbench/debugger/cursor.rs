@@ -1,6 +1,6 @@
 //! Where the cursor goes.
 
-use crate::trace::{Event, Kind, Step, Trace};
+use crate::trace::{Event, Kind, Stage, Step, Trace};
 use serde::{Deserialize, Serialize};
 
 /// Forward or back.
@@ -123,7 +123,7 @@ fn first<'a>(
 /// After the next step that a goal means, or the last one before; none where there is none. Breakpoints are not its matter.
 pub fn found(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Option<usize> {
     let windows = match goal {
-        Goal::Pixel(pixel) => classifications(trace, pixel),
+        Goal::Pixel(pixel) => concerning(trace, pixel),
         _ => Vec::new(),
     };
     let meant = |n: usize, step: &Step| match goal {
@@ -138,10 +138,12 @@ pub fn found(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Opti
     }
 }
 
-/// The steps at which windows that hold a pixel were classified, ascending.
-fn classifications(trace: &Trace, pixel: u32) -> Vec<usize> {
+/// The steps at which windows and blobs that hold a pixel were judged, ascending.
+fn concerning(trace: &Trace, pixel: u32) -> Vec<usize> {
     let (x, y) = (pixel as usize % trace.width().max(1), pixel as usize / trace.width().max(1));
     let mut holding = None;
+    let local = trace.reel(Stage::Split).and_then(|reel| reel.local());
+    let own_blob = local.and_then(|local| local.point(pixel as usize)).map(|point| point.blob);
     let mut found = Vec::new();
     for (n, event) in trace.events() {
         match event {
@@ -150,6 +152,9 @@ fn classifications(trace: &Trace, pixel: u32) -> Vec<usize> {
                 holding = Some((y / size * laid.columns as usize + x / size) as u32);
             }
             Event::WindowClassified { window, .. } if holding == Some(*window) => found.push(n),
+            Event::Local(decision) if decision.blob().is_some_and(|blob| Some(blob) == own_blob) => {
+                found.push(n)
+            }
             _ => {}
         }
     }

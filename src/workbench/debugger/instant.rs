@@ -1,6 +1,7 @@
 //! What the picture shows of an instant, taken out of the cursor so that it can be painted on another thread.
 
 use super::RegionNames;
+use super::looked_at::blob_at_cursor;
 use super::tracks::{candidate_pixels, test_at_cursor, tracks};
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Raster};
@@ -79,6 +80,8 @@ pub struct RegionsView {
 pub struct RolesView {
     /// Role of each pixel: unassigned as long as it is not known.
     pub kinds: Raster<PixelKind>,
+    /// The blob that the step taken last judged, and whether it is a highlight.
+    pub blob: Option<(Vec<u32>, bool)>,
 }
 
 impl WindowsView {
@@ -141,7 +144,9 @@ impl Instant {
                 let windows = windows.filter(|_| second);
                 InstantView::Regions(regions(replay, names, chosen, colors, masks, windows))
             }
-            Some(Stage::Split) => InstantView::Roles(RolesView { kinds: roles(replay) }),
+            Some(Stage::Split) => {
+                InstantView::Roles(RolesView { kinds: roles(replay), blob: blob_at_cursor(replay) })
+            }
         };
         Self { view, pixel, window }
     }

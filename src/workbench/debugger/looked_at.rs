@@ -5,16 +5,16 @@ use super::tracks::{
 };
 use crate::photo::Masks;
 use crate::raster::Raster;
-use crate::trace::{Class, Event, Grid, Replay, Step};
+use crate::trace::{Class, Event, Grid, LocalDecision, RepairVerdict, Replay, Stage, Step};
 
 /// What pixels are to the step at the cursor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Of the region, or of the area that would remain.
+    /// Of the region, of the area that would remain, or of a blob that is a highlight.
     Own,
     /// Of the region, and taken in the ring at work.
     Newest,
-    /// Not taken, the cluster that is tested, or the area that would vanish.
+    /// Not taken, the cluster that is tested, the area that would vanish, or a blob that is no highlight.
     Beside,
     /// On the inside of a tested matte line: its length is measured without them (5.4.1).
     Ignored,
@@ -53,6 +53,9 @@ fn groups(replay: &Replay, focus: Option<u16>, colors: &Raster<[f32; 3]>, masks:
             (Role::Newest, tracks.newest),
         ];
     }
+    if let Some((blob, kept)) = blob_at_cursor(replay) {
+        return vec![(if kept { Role::Own } else { Role::Beside }, blob)];
+    }
     let width = colors.width();
     match (replay.last(), replay.grid()) {
         (Some(Step::Event(Event::WindowClassified { window, class, .. })), Some(grid)) => {
@@ -74,6 +77,18 @@ fn groups(replay: &Replay, focus: Option<u16>, colors: &Raster<[f32; 3]>, masks:
     }
 }
 
+/// The blob that the step taken last judged, and whether it is a highlight: clipped, whether it is filled.
+pub fn blob_at_cursor(replay: &Replay) -> Option<(Vec<u32>, bool)> {
+    let (blob, kept) = match replay.last()? {
+        Step::Event(Event::Local(LocalDecision::Blob(judged))) => (judged.blob, judged.kept),
+        Step::Event(Event::Local(LocalDecision::Repair(tried))) => {
+            (tried.blob, tried.verdict == RepairVerdict::Filled)
+        }
+        _ => return None,
+    };
+    Some((replay.trace().reel(Stage::Split)?.local()?.blob(blob), kept))
+}
+
 /// The pixels of some windows, window by window.
 fn pixels_in(grid: &Grid, width: usize, height: usize, wanted: impl Fn(usize) -> bool) -> Vec<u32> {
     let (side, columns) = ((grid.laid.size_px as usize).max(1), (grid.laid.columns as usize).max(1));
@@ -85,4 +100,42 @@ fn pixels_in(grid: &Grid, width: usize, height: usize, wanted: impl Fn(usize) ->
         }
     }
     pixels
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::Window;
+    use crate::trace::{
+        BlobJudged, LocalPoint, LocalPoints, LocalRecord, Recorder, RepairTried, Tape, Trace,
+    };
+    use std::sync::Arc;
+
+    #[test]
+    fn a_step_about_a_blob_looks_at_its_pixels() {
+        let window = Window::around((4, 2), 0, |_| true).unwrap();
+        let mut of = Raster::filled(4, 2, LocalPoint::default());
+        (of[1].blob, of[2].blob, of[7].blob) = (1, 1, 2);
+        let mut tape = Tape::default();
+        let judged =
+            BlobJudged { blob: 1, pixel: 1, pixels: 2, clipped: 0, strong: 0, calm: 0, core: 0, kept: false };
+        tape.record(Event::Local(LocalDecision::Blob(judged)));
+        tape.record(Event::Local(LocalDecision::Repair(RepairTried {
+            blob: 2,
+            pixel: 7,
+            pixels: 1,
+            ring: [0.5, 0.4],
+            rise: [2.0, 1.0],
+            verdict: RepairVerdict::Filled,
+        })));
+        let points = Some(LocalPoints { window, of });
+        tape.local(LocalRecord { outside: Raster::filled(4, 2, true), points });
+        let reel = Arc::new(tape.finish(Stage::Split).unwrap());
+        let mut replay = Replay::new(Arc::new(Trace::new(4, 2, vec![reel])));
+        assert_eq!(blob_at_cursor(&replay), None);
+        replay.forward();
+        assert_eq!(blob_at_cursor(&replay), Some((vec![1, 2], false)));
+        replay.forward();
+        assert_eq!(blob_at_cursor(&replay), Some((vec![7], true)));
+    }
 }

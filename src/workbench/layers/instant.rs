@@ -52,7 +52,23 @@ pub fn instant_legend(instant: &Instant) -> Vec<LegendEntry> {
             }
             legend
         }
-        InstantView::Roles(_) => ROLES.to_vec(),
+        InstantView::Roles(roles) => {
+            let mut legend = ROLES.to_vec();
+            match roles.blob {
+                Some((_, true)) => legend.push(LegendEntry::new(
+                    "highlight found",
+                    ACCENT,
+                    "where no region holds: a blob that is a highlight, or a clipped one that is filled",
+                )),
+                Some((_, false)) => legend.push(LegendEntry::new(
+                    "no highlight",
+                    BESIDE[0],
+                    "where no region holds: a blob that is no highlight, or a clipped one that is left",
+                )),
+                None => {}
+            }
+            legend
+        }
         InstantView::Regions(regions) => {
             let own = regions.own_colour();
             let mut legend = Vec::new();
@@ -254,6 +270,12 @@ impl RolesView {
                 };
             }
         });
+        if let Some((blob, kept)) = &self.blob {
+            let colour = with_alpha(if *kept { ACCENT } else { BESIDE[0] }, 235);
+            for &pixel in blob {
+                painted[pixel as usize] = colour;
+            }
+        }
     }
 }
 
@@ -352,9 +374,11 @@ mod tests {
     fn roles_are_shown_as_far_as_they_are_given() {
         let kinds = vec![PixelKind::Matte, PixelKind::Highlight, PixelKind::Restored, PixelKind::Unassigned];
         let kinds = Raster::from_vec(4, 1, kinds).unwrap();
-        let found = painted(InstantView::Roles(RolesView { kinds }), 4, 1, &look());
+        let found =
+            painted(InstantView::Roles(RolesView { kinds, blob: Some((vec![3], true)) }), 4, 1, &look());
         let colour = |role: usize| with_alpha(ROLES[role].colour, 255);
-        assert_eq!(found.as_slice(), [colour(0), colour(1), colour(2), CLEAR]);
+        let blob = with_alpha(ACCENT, 235);
+        assert_eq!(found.as_slice(), [colour(0), colour(1), colour(2), blob]);
     }
 
     #[test]
