@@ -138,12 +138,17 @@ const SPECK: [usize; 2] = [33, 137];
 /// What is told of a pixel of a marbled sheet with so much body reflection, in which no region holds.
 fn why_marbled([x, y]: [usize; 2], body_share: f64) -> String {
     let folder = tempfile::tempdir().unwrap();
+    let file = marbled_sheet(&folder, body_share);
+    succeeds(&format!("why {file} {x},{y} --encoding linear"))
+}
+
+fn marbled_sheet(folder: &tempfile::TempDir, body_share: f64) -> String {
     let file = folder.path().join("marbled.ppm");
     let [width, height] = marbled::SIZE_PX;
     let mut bytes = format!("P6\n{width} {height}\n255\n").into_bytes();
     bytes.extend(marbled::marbled(body_share).as_flattened());
     fs::write(&file, bytes).unwrap();
-    succeeds(&format!("why {} {x},{y} --encoding linear", file.display()))
+    file.display().to_string()
 }
 
 #[track_caller]
@@ -250,8 +255,10 @@ fn a_reader_that_has_seen_enough_is_no_failure() {
 #[test]
 fn the_names_in_trace_lines_are_a_contract() {
     let mut kinds: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for arguments in ["", "--illuminant 1,1,1", "--method paper"] {
-        let (schema, steps) = lines(&succeeds(&format!("trace TINY --out - {arguments}")));
+    let folder = tempfile::tempdir().unwrap();
+    let marbled = format!("{} --encoding linear", marbled_sheet(&folder, 1.0));
+    for arguments in ["TINY", "TINY --illuminant 1,1,1", "TINY --method paper", &marbled] {
+        let (schema, steps) = lines(&succeeds(&format!("trace {arguments} --out -")));
         let names: Vec<&str> = schema.as_object().unwrap().keys().map(String::as_str).collect();
         assert_eq!(names, ["schema", "program", "fields", "width", "height", "steps", "stages", "regions"]);
         for line in &steps {

@@ -15,7 +15,7 @@ fn colour(x: usize, y: usize, body_share: f64) -> [u8; 3] {
     let (u, v) = (x as f64, y as f64);
     let share = 0.5 + 0.5 * (u / 9.0 + 2.0 * (v / 17.0).sin()).sin();
     let mut body = [0, 1, 2].map(|k| share * [0.85, 0.35, 0.2][k] + (1.0 - share) * [0.35, 0.55, 0.25][k]);
-    if y >= 128 && x / 4 % 2 == 0 && y / 4 % 2 == 0 {
+    if y >= 128 && (x / 4).is_multiple_of(2) && (y / 4).is_multiple_of(2) {
         let grey = body.iter().sum::<f64>() / 3.0;
         body = body.map(|band| 0.4 * band + 0.6 * grey);
     }

@@ -122,6 +122,11 @@ fn belief(tested: &BeliefTested) -> String {
 pub(super) fn surroundings(story: &LocalStory) -> String {
     let LocalStory { mean, chroma, excess, noise, variation, texture, weight, limits, .. } = story;
     let seen = format!("a {mean:.1} and c {chroma:.1} counts (mean and chromatic part under the light)");
+    if story.fate == LocalFate::Clipped {
+        return format!(
+            "{seen}, but it is clipped: only the ring around its blob can tell what of it is highlight"
+        );
+    }
     let Some([ratio, median]) = story.ratios.filter(|_| story.fate != LocalFate::Grey) else {
         let why = match story.fate {
             LocalFate::Grey if *chroma <= limits.chroma => {
@@ -133,9 +138,6 @@ pub(super) fn surroundings(story: &LocalStory) -> String {
         return format!("{seen}: {why}, so that nothing tells how much of it is highlight");
     };
     let around = format!("{seen}; around it its hue has \u{3ba} = a/c {ratio:.2} (median {median:.2})");
-    if story.fate == LocalFate::Clipped {
-        return format!("{around}, but it is clipped: only the ring around its blob can tell");
-    }
     let body = story.body;
     if story.fate == LocalFate::Faint {
         return format!(

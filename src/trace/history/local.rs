@@ -1,6 +1,7 @@
 //! What was decided about a pixel that lies outside of what holds: under which light, by what around it, in which blob.
 
 use super::{Happening, LocalFate, LocalStory, What};
+use crate::photo::{LinearImage, Masks};
 use crate::trace::{
     BeliefTested, Event, LocalBegan, LocalDecision, LocalPoint, LocalRecord, LocalStart, RepairVerdict,
     Stage, Trace,
@@ -16,10 +17,15 @@ pub(super) struct Outside {
 
 impl Outside {
     /// None for a pixel that a region explains, or that is dark.
-    pub(super) fn of(trace: &Trace, pixel: usize, color: [f32; 3]) -> Option<Self> {
+    pub(super) fn of(trace: &Trace, image: &LinearImage, masks: &Masks, pixel: usize) -> Option<Self> {
         let record = trace.reel(Stage::Split)?.local()?;
         record.outside.as_slice().get(pixel).filter(|outside| **outside)?;
-        let mut case = Case { color, point: record.point(pixel).copied(), ..Case::default() };
+        let mut case = Case {
+            color: image.pixels[pixel],
+            clipped: masks.clipped(pixel),
+            point: record.point(pixel).copied(),
+            ..Case::default()
+        };
         for (step, event) in trace.events() {
             case.hear(step, event);
         }
@@ -31,6 +37,7 @@ impl Outside {
 #[derive(Default)]
 struct Case<'a> {
     color: [f32; 3],
+    clipped: bool,
     point: Option<LocalPoint>,
     light: Option<(usize, Stage, &'a Event)>,
     began: Option<(usize, &'a LocalBegan)>,
@@ -46,11 +53,10 @@ impl<'a> Case<'a> {
     fn hear(&mut self, step: usize, event: &'a Event) {
         let number = self.point.map_or(0, |point| point.blob);
         match event {
+            // Where lights were held against each other, the choice says more than the light of the slices that follow.
+            Event::IlluminantEstimated(_) if matches!(self.light, Some((.., Event::LightChosen(_)))) => {}
             Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } => {
-                // Where lights were held against each other, the choice says more than the new slices' light.
-                if !matches!(self.light, Some((.., Event::LightChosen(_)))) {
-                    self.light = Some((step, Stage::Planar, event));
-                }
+                self.light = Some((step, Stage::Planar, event));
             }
             Event::LightChosen(_) => self.light = Some((step, Stage::Planar, event)),
             Event::Local(LocalDecision::Began(began)) => {
@@ -126,16 +132,15 @@ impl<'a> Case<'a> {
     }
 
     fn fate(&self, began: &LocalBegan, point: &LocalPoint, story: &LocalStory) -> LocalFate {
+        if self.clipped {
+            return LocalFate::Clipped;
+        }
         let has_hue = story.mean > story.limits.mean && story.chroma > story.limits.chroma;
         if !has_hue {
             return LocalFate::Grey;
         }
         if point.ratios().is_none() {
             return LocalFate::Alone;
-        }
-        // What has a hue and yet no limits was not asked.
-        if story.noise <= 0.0 {
-            return LocalFate::Clipped;
         }
         if !began.hysteresis {
             let is_strong = story.excess > story.variation;

@@ -64,7 +64,7 @@ impl<'a> Teller<'a> {
             regions: Regions::default(),
             fitted: final_vectors(trace),
             patch: None,
-            outside: Outside::of(trace, pixel, image.pixels[pixel]),
+            outside: Outside::of(trace, image, masks, pixel),
             stage: Stage::Masks,
             pass: None,
             cause: Cause::Nothing,

@@ -153,7 +153,7 @@ fn concerning(trace: &Trace, pixel: u32) -> Vec<usize> {
             }
             Event::WindowClassified { window, .. } if holding == Some(*window) => found.push(n),
             Event::Local(decision) if decision.blob().is_some_and(|blob| Some(blob) == own_blob) => {
-                found.push(n)
+                found.push(n);
             }
             _ => {}
         }
