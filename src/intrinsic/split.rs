@@ -79,11 +79,12 @@ fn split_from<R: Recorder>(
     if R::KEEPS {
         recorder.record(Event::PassBegan { pass: Pass::Vectors });
         for (region, (splitter, fit)) in (1..).zip(splitters.iter().zip(&fits)) {
-            recorder.record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(scene, region, origin, fit))));
+            recorder
+                .record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(scene, region, origin, fit))));
         }
     }
     let holding = holding(scene, regions, members, &fits, &images.kinds);
-    let local = split_locally(scene, regions, &holding, &mut images, recorder);
+    let local = split_locally((scene, origin), regions, &holding, &mut images, recorder);
     if R::KEEPS {
         recorder.record(Event::PassBegan { pass: Pass::Labels });
         recorder.labels(&images.kinds);
@@ -164,7 +165,13 @@ impl Splitter {
         components
     }
 
-    fn vectors_fitted(&self, scene: &Scene, region: u16, origin: &[f64; 3], fit: &RegionFit) -> VectorsFitted {
+    fn vectors_fitted(
+        &self,
+        scene: &Scene,
+        region: u16,
+        origin: &[f64; 3],
+        fit: &RegionFit,
+    ) -> VectorsFitted {
         let PlanarHypothesis { matte, start, .. } = self.hypothesis.from_origin(&-Vec3::from(*origin));
         VectorsFitted {
             region,

@@ -53,6 +53,8 @@ pub struct LocalBegan {
     pub least: u32,
     /// The light, unit.
     pub light: Option<[f64; 3]>,
+    /// Where colours are measured from: black, or the ambient light, counts.
+    pub origin: [f64; 3],
     /// What pixels are held against.
     pub limits: LocalLimits,
     /// Whether texture is asked for.

@@ -33,16 +33,16 @@ const LEAST_SHARE: f64 = 0.01;
 const MARGIN_PX: usize = 24;
 
 /// Takes the planes' split back where it does not hold, and splits locally there. Returns the confidence of the pixels that
-/// were split so, 0 elsewhere; none where no pixel was.
+/// were split so, 0 elsewhere; none where no pixel was. `origin`: the ambient light that was subtracted from the scene, counts.
 pub fn split_locally<R: Recorder>(
-    scene: &Scene,
+    (scene, origin): (&Scene, &[f64; 3]),
     regions: &FinalRegions,
     holding: &Mask,
     images: &mut Images,
     recorder: &mut R,
 ) -> Option<Raster<f32>> {
     let outside = take_back(scene, holding, images);
-    let mut told = Told::new(recorder);
+    let mut told = Told::new(recorder, *origin);
     let confidence = split_outside(scene, regions, &outside, images, &mut told);
     told.finish(outside);
     confidence

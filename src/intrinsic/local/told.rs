@@ -14,14 +14,16 @@ use rayon::prelude::*;
 /// Tells a recorder of each decision, and collects what each pixel was judged by.
 pub struct Told<'a, R> {
     recorder: &'a mut R,
+    /// The ambient light that was subtracted, counts.
+    origin: [f64; 3],
     points: Option<LocalPoints>,
     /// Blobs that have a number.
     numbered: u16,
 }
 
 impl<'a, R: Recorder> Told<'a, R> {
-    pub fn new(recorder: &'a mut R) -> Self {
-        Self { recorder, points: None, numbered: 0 }
+    pub fn new(recorder: &'a mut R, origin: [f64; 3]) -> Self {
+        Self { recorder, origin, points: None, numbered: 0 }
     }
 
     fn record(&mut self, decision: LocalDecision) {
@@ -53,6 +55,7 @@ impl<'a, R: Recorder> Told<'a, R> {
             lit: lit as u32,
             least: LEAST_PIXELS.max((LEAST_SHARE * lit as f64).ceil() as usize) as u32,
             light,
+            origin: self.origin,
             limits,
             texture_test: refine.texture_test,
             hysteresis: refine.hysteresis,

@@ -87,6 +87,7 @@ fn began(began: &LocalBegan) -> (Value, Value, Value) {
             "pixels": began.pixels,
             "lit": began.lit,
             "light": began.light,
+            "origin": began.origin,
             "texture_test": began.texture_test,
             "hysteresis": began.hysteresis,
             "clip_repair": began.clip_repair,

@@ -107,7 +107,10 @@ impl<'a> Case<'a> {
 
     fn story(&self, began: &LocalBegan, doubted: bool) -> LocalStory {
         let point = self.point.unwrap_or_default();
-        let [mean, chroma] = began.light.map_or([0.0; 2], |light| whitened(light, self.color));
+        let [mean, chroma] = began.light.map_or([0.0; 2], |light| {
+            let color = std::array::from_fn(|band| f64::from(self.color[band]) - began.origin[band]);
+            whitened(light, color)
+        });
         let ratios = point.ratios();
         let body = ratios.map_or(0.0, |[ratio, _]| ratio * chroma);
         let [low, high] = point.limits();
@@ -158,8 +161,8 @@ impl<'a> Case<'a> {
 }
 
 /// Mean and length of the chromatic part of J = I / (√3 s), s the light: it makes the light white.
-fn whitened(light: [f64; 3], color: [f32; 3]) -> [f32; 2] {
-    let j: [f64; 3] = std::array::from_fn(|band| f64::from(color[band]) / (3f64.sqrt() * light[band]));
+fn whitened(light: [f64; 3], color: [f64; 3]) -> [f32; 2] {
+    let j: [f64; 3] = std::array::from_fn(|band| color[band] / (3f64.sqrt() * light[band]));
     let mean = j.iter().sum::<f64>() / 3.0;
     let chroma = j.iter().map(|value| (value - mean).powi(2)).sum::<f64>().sqrt();
     [mean as f32, chroma as f32]
