@@ -1,7 +1,7 @@
 //! Where the model does not hold: what the local split decided there (beyond section 6).
 //!
 //! Blobs are recorded one by one, as far as their numbers go; smaller ones than may count are only counted. What each pixel was
-//! judged by is kept beside the events, 12 bytes for a pixel of the window that was looked at and one for any pixel.
+//! judged by is kept beside the events, 8 bytes for a pixel of the window that was looked at; its limits are computed again.
 
 use crate::raster::{Mask, Raster, Window};
 
@@ -89,6 +89,8 @@ pub struct LocalLimits {
     pub texture: [f32; 2],
     /// Texture below which a pixel can be of a strong core.
     pub core_texture: f32,
+    /// Standard deviation of a band's noise, counts.
+    pub sigma: f32,
 }
 
 impl LocalLimits {
@@ -223,8 +225,9 @@ impl RepairVerdict {
 /// What one pixel was judged by, compactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LocalPoint {
+    /// Logarithms of κ and its median, in steps from the lowest; 0: there are none.
     ratios: [u16; 2],
-    limits: [u16; 2],
+    /// Texture in steps, and [`Self::OUTSIDE`].
     texture: u16,
     /// The blob that it is of: a number, 0 for none, [`LocalPoint::SMALL`].
     pub blob: u16,
@@ -235,46 +238,55 @@ impl LocalPoint {
     pub const SMALL: u16 = u16::MAX;
     /// Most blobs that have a number.
     pub const MOST_BLOBS: u16 = u16::MAX - 1;
-    /// Steps a unit of κ, counts and texture.
-    const STEPS: [f32; 3] = [4096.0, 128.0, 65535.0];
+    /// Between which ratios κ lies.
+    pub const RATIOS: (f32, f32) = (0.4, 12.0);
+    /// Set where a lit pixel lies outside of what holds.
+    const OUTSIDE: u16 = 1 << 15;
+    /// Steps of the ratios, and of texture.
+    const RATIO_STEPS: f32 = 65534.0;
+    const TEXTURE_STEPS: f32 = 32767.0;
 
-    /// Of κ and its median, of the limits of noise and variation (counts), and of texture.
-    pub fn new(ratios: [f32; 2], limits: [f32; 2], texture: f32) -> Self {
-        let [ratio, counts, share] = Self::STEPS;
+    /// Of a pixel, by κ and its median where there are any, and texture.
+    pub fn new(outside: bool, ratios: Option<[f32; 2]>, texture: f32) -> Self {
+        let (low, high) = Self::RATIOS;
+        let place = |ratio: f32| (ratio / low).ln() / (high / low).ln() * Self::RATIO_STEPS;
         // A cast of a float saturates.
+        let texture = (texture.clamp(0.0, 1.0) * Self::TEXTURE_STEPS).round() as u16;
         Self {
-            ratios: ratios.map(|value| (value * ratio).round() as u16),
-            limits: limits.map(|value| (value * counts).round() as u16),
-            texture: (texture * share).round() as u16,
+            ratios: ratios.map_or([0; 2], |ratios| {
+                ratios.map(|ratio| 1 + place(ratio).clamp(0.0, Self::RATIO_STEPS).round() as u16)
+            }),
+            texture: if outside { texture | Self::OUTSIDE } else { texture },
             blob: 0,
         }
+    }
+
+    /// Whether it is a lit pixel outside of what holds.
+    pub fn outside(&self) -> bool {
+        self.texture & Self::OUTSIDE != 0
     }
 
     /// κ: the ratio of mean to chromatic part that body reflection has around it, and the median there; none where nothing
     /// around it has its hue.
     pub fn ratios(&self) -> Option<[f32; 2]> {
-        (self.ratios[0] > 0).then(|| self.ratios.map(|value| f32::from(value) / Self::STEPS[0]))
-    }
-
-    /// What surface reflection must exceed: noise, and the variation of its hue around it, counts. Zero where a pixel has no
-    /// hue or is clipped.
-    pub fn limits(&self) -> [f32; 2] {
-        self.limits.map(|value| f32::from(value) / Self::STEPS[1])
+        let (low, high) = Self::RATIOS;
+        let ratio = |place: u16| low * (f32::from(place - 1) / Self::RATIO_STEPS * (high / low).ln()).exp();
+        (self.ratios[0] > 0 && self.ratios[1] > 0).then(|| self.ratios.map(ratio))
     }
 
     /// How much surface and body reflection vary against each other around it, 0…1.
     pub fn texture(&self) -> f32 {
-        f32::from(self.texture) / Self::STEPS[2]
+        f32::from(self.texture & !Self::OUTSIDE) / Self::TEXTURE_STEPS
     }
 }
 
 /// What the local split kept of its pixels.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LocalRecord {
-    /// Lit pixels of the picture that lie outside of what holds.
-    pub outside: Mask,
-    /// What those of a window were judged by; none where nothing was split.
-    pub points: Option<LocalPoints>,
+pub enum LocalRecord {
+    /// What the pixels of a window were judged by; no other one lies outside of what holds.
+    Points(LocalPoints),
+    /// Nothing was judged: only which lit pixels of the picture lie outside of what holds.
+    Outside(Mask),
 }
 
 /// The pixels of a window.
@@ -287,25 +299,33 @@ pub struct LocalPoints {
 }
 
 impl LocalRecord {
+    /// Whether a pixel is lit and lies outside of what holds.
+    pub fn outside(&self, pixel: usize) -> bool {
+        match self {
+            Self::Points(_) => self.point(pixel).is_some_and(LocalPoint::outside),
+            Self::Outside(mask) => mask.as_slice().get(pixel).is_some_and(|outside| *outside),
+        }
+    }
+
     /// What a pixel was judged by; none for one that was not looked at.
     pub fn point(&self, pixel: usize) -> Option<&LocalPoint> {
-        let points = self.points.as_ref()?;
-        points.of.as_slice().get(points.window.index(pixel)?)
+        let Self::Points(LocalPoints { window, of }) = self else { return None };
+        of.as_slice().get(window.index(pixel)?)
     }
 
     /// The pixels of a blob by its number, ascending.
     pub fn blob(&self, blob: u16) -> Vec<u32> {
-        let Some(LocalPoints { window, of }) = self.points.as_ref().filter(|_| blob != 0) else {
-            return Vec::new();
-        };
-        let own = of.as_slice().iter().enumerate().filter(|(_, point)| point.blob == blob);
+        let Self::Points(LocalPoints { window, of }) = self else { return Vec::new() };
+        let own = of.as_slice().iter().enumerate().filter(|(_, point)| blob != 0 && point.blob == blob);
         own.map(|(index, _)| window.pixel(index) as u32).collect()
     }
 
     /// Memory that it takes, bytes.
     pub fn bytes(&self) -> usize {
-        let points = self.points.as_ref().map_or(0, |points| points.of.len());
-        self.outside.len() + points * size_of::<LocalPoint>()
+        match self {
+            Self::Points(points) => points.of.len() * size_of::<LocalPoint>(),
+            Self::Outside(mask) => mask.len(),
+        }
     }
 }
 
@@ -316,29 +336,30 @@ mod tests {
     #[test]
     fn a_point_keeps_its_figures_as_exactly_as_they_are_told() {
         for ratio in [0.4f32, 1.234, 7.7, 12.0] {
-            let point = LocalPoint::new([ratio, 1.3 * ratio], [4.321, 123.456], 0.1234);
+            let point = LocalPoint::new(true, Some([ratio, 1.01 * ratio.min(11.0)]), 0.1234);
             let [kept, median] = point.ratios().unwrap();
-            assert!((kept - ratio).abs() < 2e-4 && (median - 1.3 * ratio).abs() < 2e-4, "{kept} {median}");
-            let [low, high] = point.limits();
-            assert!((low - 4.321).abs() < 5e-3 && (high - 123.456).abs() < 5e-3);
-            assert!((point.texture() - 0.1234).abs() < 1e-4);
+            assert!((kept / ratio - 1.0).abs() < 1e-4, "{kept}");
+            assert!((median / (1.01 * ratio.min(11.0)) - 1.0).abs() < 1e-4, "{median}");
+            assert!((point.texture() - 0.1234).abs() < 1e-4 && point.outside());
         }
-        assert_eq!(LocalPoint::default().ratios(), None);
-        assert_eq!(size_of::<LocalPoint>(), 12);
+        let none = LocalPoint::new(false, None, 1.0);
+        assert_eq!((none.ratios(), none.outside(), none.texture()), (None, false, 1.0));
+        assert_eq!((LocalPoint::default().ratios(), LocalPoint::default().outside()), (None, false));
+        assert_eq!(size_of::<LocalPoint>(), 8);
     }
 
     #[test]
     fn a_blob_is_found_by_its_number() {
         let window = Window::around((4, 3), 0, |pixel| [5, 6, 9, 10].contains(&pixel)).unwrap();
-        let mut of = Raster::filled(2, 2, LocalPoint::default());
+        let mut of = Raster::filled(2, 2, LocalPoint::new(true, None, 0.0));
         (of[1].blob, of[2].blob) = (7, 7);
-        let record =
-            LocalRecord { outside: Raster::filled(4, 3, true), points: Some(LocalPoints { window, of }) };
+        let record = LocalRecord::Points(LocalPoints { window, of });
         assert_eq!(record.blob(7), [6, 9]);
         assert!(record.blob(0).is_empty());
         assert_eq!(record.point(6).map(|point| point.blob), Some(7));
         assert_eq!((record.point(0), record.point(11)), (None, None));
-        assert_eq!(record.bytes(), 12 + 4 * 12);
+        assert!(record.outside(5) && !record.outside(0) && !record.outside(99));
+        assert_eq!(record.bytes(), 4 * 8);
     }
 
     #[test]

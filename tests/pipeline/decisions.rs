@@ -118,7 +118,7 @@ fn every_highlight_found_locally_is_of_a_blob_that_was_kept_or_filled() {
     }
     assert!(kept.len() > 200 && !filled.is_empty(), "{} kept, {} filled", kept.len(), filled.len());
     for pixel in 0..traced.image.pixels.len() {
-        if record.outside[pixel] {
+        if record.outside(pixel) {
             let own = kept.contains(&(pixel as u32)) || filled.contains(&(pixel as u32));
             assert!(own || traced.surface(pixel) == 0.0, "pixel {pixel}");
         }
@@ -143,7 +143,7 @@ fn what_is_told_of_a_pixel_is_what_it_got() {
         let assigned = traced.analysis.finals.labels[pixel] != 0;
         assert_eq!(
             (story.is_some(), unfit.is_some()),
-            (record.outside[pixel], record.outside[pixel] && assigned)
+            (record.outside(pixel), record.outside(pixel) && assigned)
         );
         let Some(story) = story else { continue };
         fates.insert(format!("{:?}", story.fate));
@@ -185,7 +185,7 @@ fn what_is_not_believed_is_not_split_and_told_so() {
     });
     assert_eq!(doubt, Some(Doubt::TooMuch));
     let record = traced.trace.reel(Stage::Split).unwrap().local().unwrap();
-    let outside: Vec<usize> = (0..record.outside.len()).filter(|&pixel| record.outside[pixel]).collect();
+    let outside: Vec<usize> = (0..traced.image.pixels.len()).filter(|&pixel| record.outside(pixel)).collect();
     assert!(outside.len() > 1000 && outside.iter().all(|&pixel| traced.surface(pixel) == 0.0));
     for &pixel in outside.iter().step_by(97) {
         let history = traced.history(pixel);

@@ -74,7 +74,7 @@ fn split_outside<R: Recorder>(
     let (light, shades) = shades?;
     let texture = scene.refine.texture_test.then(|| texture::texture(&shades, scene.sigma()));
     let Highlights { weights, judged } = blobs::highlights::<R>(scene, &shades, texture.as_ref(), outside);
-    told.judged(scene, &shades, texture.as_ref(), &judged);
+    told.judged(scene, &shades, texture.as_ref(), outside, &judged);
     if scene.refine.belief {
         let tested = belief::test(scene, &regions.light, &shades, &weights, outside);
         let doubted = tested.doubt.is_some();

@@ -11,7 +11,9 @@
 
 use crate::color::Vec3;
 use crate::raster::{Raster, Window};
+use crate::reflection::paleness_limits;
 use crate::segment::Scene;
+use crate::trace::LocalPoint;
 use rayon::prelude::*;
 
 /// Side of a cell, pixels, and the picture from which on it grows.
@@ -21,7 +23,7 @@ const MEGAPIXEL: f64 = 1e6;
 const HUES: usize = 72;
 /// Bins of ln(a/c), and the values of a/c that they span.
 const BINS: usize = 40;
-const RATIOS: (f32, f32) = (0.4, 12.0);
+const RATIOS: (f32, f32) = LocalPoint::RATIOS;
 /// Smoothing from cell to cell: three running means of three.
 const CELL_WEIGHTS: [f32; 7] = [1.0, 3.0, 6.0, 7.0, 6.0, 3.0, 1.0];
 const CELL_REACH: usize = CELL_WEIGHTS.len() / 2;
@@ -30,8 +32,6 @@ const QUANTILE: f32 = 0.3;
 /// Least mean of J that has a hue, counts, and its least chromatic part, σ.
 pub const LEAST_MEAN: f32 = 5.1;
 pub const LEAST_CHROMA: f32 = 3.0;
-/// Noise of ms, as a share of what independent bands would give.
-const NOISE: f32 = 0.55;
 
 /// What one pixel says, in counts of J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -78,10 +78,8 @@ impl Shades {
                 let Some([ratio, median]) = ratios.read(place, seen.hue) else { continue };
                 point.body = ratio * seen.chroma;
                 if seen.has_hue(sigma) && !scene.masks.clipped(pixel) {
-                    let noise = NOISE * sigma * (1.0 / 3.0 + ratio * ratio).sqrt();
                     point.surface = (seen.mean - point.body).max(0.0);
-                    point.low = 3.0 * noise;
-                    point.high = (5.0 * noise).max(3.0 * point.body * (median / ratio).max(1.0).ln());
+                    [point.low, point.high] = paleness_limits(sigma, [ratio, median], point.body);
                 }
             }
         });

@@ -48,6 +48,7 @@ impl<'a, R: Recorder> Told<'a, R> {
             chroma: LEAST_CHROMA * scene.sigma() as f32,
             texture: TEXTURE_LIMITS,
             core_texture: CORE_TEXTURE,
+            sigma: scene.sigma() as f32,
         };
         self.record(LocalDecision::Began(Box::new(LocalBegan {
             start,
@@ -64,11 +65,18 @@ impl<'a, R: Recorder> Told<'a, R> {
     }
 
     /// Each candidate highlight.
-    pub fn judged(&mut self, scene: &Scene, shades: &Shades, texture: Option<&Raster<f32>>, judged: &Judged) {
+    pub fn judged(
+        &mut self,
+        scene: &Scene,
+        shades: &Shades,
+        texture: Option<&Raster<f32>>,
+        outside: &Mask,
+        judged: &Judged,
+    ) {
         if !R::KEEPS {
             return;
         }
-        let mut of = points(scene, shades, texture);
+        let mut of = points(scene, shades, texture, outside);
         for &(index, blob) in &judged.of {
             of[index].blob = blob;
         }
@@ -114,24 +122,27 @@ impl<'a, R: Recorder> Told<'a, R> {
     /// That was all; `outside`: what lies outside of what holds.
     pub fn finish(self, outside: Mask) {
         if R::KEEPS {
-            self.recorder.local(LocalRecord { outside, points: self.points });
+            self.recorder.local(self.points.map_or(LocalRecord::Outside(outside), LocalRecord::Points));
         }
     }
 }
 
 /// What each pixel of the window is judged by.
-fn points(scene: &Scene, shades: &Shades, texture: Option<&Raster<f32>>) -> Raster<LocalPoint> {
+fn points(
+    scene: &Scene,
+    shades: &Shades,
+    texture: Option<&Raster<f32>>,
+    outside: &Mask,
+) -> Raster<LocalPoint> {
     let width = shades.window.width;
     let mut points = Raster::filled(width, shades.window.height, LocalPoint::default());
     points.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(row, points)| {
         for (column, point) in points.iter_mut().enumerate() {
             let index = row * width + column;
-            let shade = &shades.points[index];
-            if !scene.masks.dark(shades.window.pixel(index))
-                && let Some(ratios) = shades.ratios(scene, index)
-            {
+            let pixel = shades.window.pixel(index);
+            if !scene.masks.dark(pixel) {
                 let texture = texture.map_or(0.0, |texture| texture[index]);
-                *point = LocalPoint::new(ratios, [shade.low, shade.high], texture);
+                *point = LocalPoint::new(outside[pixel], shades.ratios(scene, index), texture);
             }
         }
     });

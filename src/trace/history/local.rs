@@ -2,9 +2,9 @@
 
 use super::{Happening, LocalFate, LocalStory, What};
 use crate::photo::{LinearImage, Masks};
+use crate::reflection::paleness_limits;
 use crate::trace::{
-    BeliefTested, Event, LocalBegan, LocalDecision, LocalPoint, LocalRecord, LocalStart, RepairVerdict,
-    Stage, Trace,
+    BeliefTested, Event, LocalBegan, LocalDecision, LocalPoint, LocalStart, RepairVerdict, Stage, Trace,
 };
 
 /// What is told, and what came of it.
@@ -19,7 +19,9 @@ impl Outside {
     /// None for a pixel that a region explains, or that is dark.
     pub(super) fn of(trace: &Trace, image: &LinearImage, masks: &Masks, pixel: usize) -> Option<Self> {
         let record = trace.reel(Stage::Split)?.local()?;
-        record.outside.as_slice().get(pixel).filter(|outside| **outside)?;
+        if !record.outside(pixel) {
+            return None;
+        }
         let mut case = Case {
             color: image.pixels[pixel],
             clipped: masks.clipped(pixel),
@@ -29,7 +31,7 @@ impl Outside {
         for (step, event) in trace.events() {
             case.hear(step, event);
         }
-        Some(case.told(record))
+        Some(case.told())
     }
 }
 
@@ -79,9 +81,9 @@ impl<'a> Case<'a> {
         }
     }
 
-    fn told(mut self, record: &LocalRecord) -> Outside {
+    fn told(mut self) -> Outside {
         let doubted = self.belief.is_some_and(|(.., tested)| tested.doubt.is_some());
-        let story = self.began.filter(|_| record.points.is_some()).map(|(step, began)| {
+        let story = self.began.filter(|_| self.point.is_some()).map(|(step, began)| {
             let story = self.story(began, doubted);
             (step, story)
         });
@@ -112,17 +114,19 @@ impl<'a> Case<'a> {
             whitened(light, color)
         });
         let ratios = point.ratios();
-        let body = ratios.map_or(0.0, |[ratio, _]| ratio * chroma);
-        let [low, high] = point.limits();
         let limits = began.limits;
+        let has_hue = mean > limits.mean && chroma > limits.chroma;
+        let known = ratios.filter(|_| has_hue && !self.clipped);
+        let body = ratios.map_or(0.0, |[ratio, _]| ratio * chroma);
+        let [noise, variation] = known.map_or([0.0; 2], |ratios| paleness_limits(limits.sigma, ratios, body));
         let mut story = LocalStory {
             mean,
             chroma,
             ratios,
             body,
-            excess: if low > 0.0 { (mean - body).max(0.0) } else { 0.0 },
-            noise: low,
-            variation: high,
+            excess: if known.is_some() { (mean - body).max(0.0) } else { 0.0 },
+            noise,
+            variation,
             texture: point.texture(),
             weight: limits.weight(point.texture()),
             limits,

@@ -128,8 +128,7 @@ mod tests {
             rise: [2.0, 1.0],
             verdict: RepairVerdict::Filled,
         })));
-        let points = Some(LocalPoints { window, of });
-        tape.local(LocalRecord { outside: Raster::filled(4, 2, true), points });
+        tape.local(LocalRecord::Points(LocalPoints { window, of }));
         let reel = Arc::new(tape.finish(Stage::Split).unwrap());
         let mut replay = Replay::new(Arc::new(Trace::new(4, 2, vec![reel])));
         assert_eq!(blob_at_cursor(&replay), None);
