@@ -27,19 +27,19 @@ impl Names {
         let blob = format!("the candidate highlight of {} at {}", count(pixels, "pixel"), self.pixel(pixel));
         match (kept, core, clipped) {
             (true, 0, _) => {
-                format!("{blob} is one: it has no strong core, but {} in it", count(clipped, "clipped pixel"))
+                format!("{blob} passes: it has no strong core, but {} in it", count(clipped, "clipped pixel"))
             }
             (true, ..) => {
-                format!("{blob} is one: {core} of them are a strong core, paler than their hue varies")
+                format!("{blob} passes: {core} of them are a strong core, paler than their hue varies")
             }
             _ if strong == 0 => {
-                format!("{blob} is none: no pixel of it is paler than its hue varies")
+                format!("{blob} fails: no pixel of it is paler than its hue varies")
             }
             _ if calm == 0 => format!(
-                "{blob} is none: {strong} of them are paler than their hue varies, but all these look like texture"
+                "{blob} fails: {strong} of them are paler than their hue varies, but all these look like texture"
             ),
             _ => format!(
-                "{blob} is none: {calm} of them are paler than their hue varies and no texture, but nowhere do 3 \u{d7} 3 \
+                "{blob} fails: {calm} of them are paler than their hue varies and no texture, but nowhere do 3 \u{d7} 3 \
                  of these lie together"
             ),
         }

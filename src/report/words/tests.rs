@@ -153,7 +153,7 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
     let all =
         BlobJudged { blob: 1, pixel: 23, pixels: 40, clipped: 0, strong: 21, calm: 12, core: 9, kept: true };
     let verdicts = [
-        (all, "is one: 9 of them are a strong core"),
+        (all, "passes: 9 of them are a strong core"),
         (BlobJudged { core: 0, clipped: 1, ..all }, "no strong core, but 1 clipped pixel in it"),
         (
             BlobJudged { core: 0, kept: false, ..all },
@@ -167,7 +167,7 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
     ];
     for (judged, part) in verdicts {
         let said = names().event(&Event::Local(LocalDecision::Blob(judged)));
-        assert!(said.starts_with("the candidate highlight of 40 pixels at (3, 2) is "), "{said}");
+        assert!(said.starts_with("the candidate highlight of 40 pixels at (3, 2) "), "{said}");
         assert!(said.contains(part), "{said}");
     }
     let tried = RepairTried {

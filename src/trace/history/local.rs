@@ -134,11 +134,11 @@ impl<'a> Case<'a> {
             fate: LocalFate::Faint,
             doubted,
         };
-        story.fate = self.fate(began, &point, &story);
+        story.fate = self.fate(began, point, &story);
         story
     }
 
-    fn fate(&self, began: &LocalBegan, point: &LocalPoint, story: &LocalStory) -> LocalFate {
+    fn fate(&self, began: &LocalBegan, point: LocalPoint, story: &LocalStory) -> LocalFate {
         if self.clipped {
             return LocalFate::Clipped;
         }
