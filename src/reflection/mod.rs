@@ -5,6 +5,6 @@ pub mod photometry;
 mod plane;
 mod transform;
 
-pub use highlight::HighlightTest;
+pub use highlight::{HighlightTest, MOST_BRANCHES};
 pub use plane::{DichromaticPlane, PlaneAxes, PlanePoint, Slice, SliceBound, SliceMiss};
 pub use transform::{Components, ReflectionTransform};

@@ -47,6 +47,8 @@ pub enum Kind {
     Part,
     /// Regions got their final numbers.
     Numbers,
+    /// A region's highlights were held against one another (7.4).
+    Branches,
     /// Reflection vectors were fitted (6).
     Vectors,
     /// A pixel changed hands.
@@ -59,7 +61,7 @@ pub enum Kind {
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 26] = [
         Self::Stage,
         Self::Pass,
         Self::Masks,
@@ -81,6 +83,7 @@ impl Kind {
         Self::Dropped,
         Self::Part,
         Self::Numbers,
+        Self::Branches,
         Self::Vectors,
         Self::Claim,
         Self::Refusal,
@@ -111,6 +114,7 @@ impl Kind {
             Self::Dropped => "dropped",
             Self::Part => "part separated",
             Self::Numbers => "numbers",
+            Self::Branches => "highlight branches",
             Self::Vectors => "vectors",
             Self::Claim => "claim",
             Self::Refusal => "refusal",
@@ -144,6 +148,7 @@ impl Event {
             Self::Dropped { .. } => Kind::Dropped,
             Self::ComponentSplit { .. } => Kind::Part,
             Self::Renumbered { .. } => Kind::Numbers,
+            Self::BranchesSought(_) => Kind::Branches,
             Self::VectorsFitted(_) => Kind::Vectors,
         }
     }

@@ -17,8 +17,9 @@ mod terms;
 mod timeline;
 
 pub use event::{
-    CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Contribution, Event, HypothesisChosen,
-    IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver, SliceMade, VectorsFitted, WindowsLaid,
+    BranchesSought, CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Contribution, Event,
+    HighlightCore, HypothesisChosen, IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver,
+    SliceMade, VectorsFitted, WindowsLaid,
 };
 pub use history::{
     Barrier, Happening, MaskVerdict, MergeRefusal, MergeStory, Reach, Release, SplitStory, What, WindowStory,

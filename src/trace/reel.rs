@@ -300,7 +300,12 @@ fn boxed_bytes(event: &Event) -> usize {
         }
         Event::SliceMade(made) => size_of_val(&**made),
         Event::Renumbered { finals } => size_of_val(&**finals),
-        Event::VectorsFitted(fitted) => size_of_val(&**fitted),
+        Event::BranchesSought(sought) => {
+            size_of_val(&**sought)
+                + size_of_val(sought.cores.as_slice())
+                + size_of_val(sought.gaps.as_slice())
+        }
+        Event::VectorsFitted(fitted) => size_of_val(&**fitted) + size_of_val(fitted.starts.as_slice()),
         _ => 0,
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::workbench::RegionPlane;
-use egui::{Align2, FontId, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, FontId, Id, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
 /// Between ticks, at least, points.
 const TICKS_APART_PT: f32 = 44.0;
@@ -27,7 +27,7 @@ impl Chart {
         let finite = |v: f32| if v.is_finite() { v } else { 0.0 };
         let corners = [[0.0, 0.0], [plane.matte_length, 0.0]]
             .into_iter()
-            .chain(plane.highlight_line().into_iter().flatten())
+            .chain(plane.highlight_lines().flatten())
             .chain(plane.points.iter().map(|point| [point.body, point.surface]))
             .chain(plane.points.is_empty().then_some([finite(body[1]), finite(surface[1])]));
         let mut room = Rect::NOTHING;
@@ -143,13 +143,18 @@ impl Chart {
         }];
         let away = plane.oblique(0.0, 1.0);
         let up = vec2(away[0], -away[1]);
-        if let Some(line) = plane.highlight_line().map(|line| line.map(at)) {
+        let several = plane.branches.len() > 1;
+        for line in plane.highlight_lines().map(|line| line.map(at)) {
             painter.line_segment(line, stroke);
             names.push(Name {
                 at: line[1] + up * 10.0,
                 anchor: Align2::CENTER_BOTTOM,
                 text: "highlight line",
-                tip: "More and more light reflected at the surface, along m_s (section 3.1).",
+                tip: if several {
+                    "More and more light reflected at the surface, along m_s, from one of several shades on which highlights lie (sections 3.1, 7.4)."
+                } else {
+                    "More and more light reflected at the surface, along m_s (section 3.1)."
+                },
             });
         }
         let axis = if plane.has_plane { "m_s, counts" } else { "across, counts" };
@@ -165,7 +170,7 @@ impl Chart {
             text: "matte line",
             tip: "Body reflection alone, from black to the brightest matte point (section 3.1).",
         });
-        if let Some(meeting) = plane.meeting_point.map(|body| at([body, 0.0])) {
+        for meeting in plane.branches.iter().map(|branch| at([branch.meeting_point, 0.0])) {
             painter.circle(meeting, 4.0, tones.panel, Stroke::new(1.8, tones.text));
             names.push(Name {
                 at: meeting + vec2(0.0, 16.0),
@@ -174,8 +179,8 @@ impl Chart {
                 tip: "The shade on which the highlight lies: where its line leaves the matte line (section 3.1).",
             });
         }
-        for name in names {
-            name.show(ui, response, rect, tones);
+        for (number, name) in names.iter().enumerate() {
+            name.show(ui, response.id.with(number), rect, tones);
         }
     }
 }
@@ -189,7 +194,7 @@ struct Name {
 }
 
 impl Name {
-    fn show(&self, ui: &Ui, response: &Response, rect: Rect, tones: &Tones) {
+    fn show(&self, ui: &Ui, id: Id, rect: Rect, tones: &Tones) {
         let painter = ui.painter_at(rect);
         let galley = painter.layout_no_wrap(self.text.to_owned(), FontId::proportional(SMALL_PT), tones.text);
         let place = self.anchor.anchor_size(self.at, galley.size());
@@ -198,7 +203,7 @@ impl Name {
         }
         painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, tones.panel.gamma_multiply(0.75));
         painter.galley(place.min, galley, tones.text);
-        let name = ui.interact(place, response.id.with(self.text), Sense::hover());
+        let name = ui.interact(place, id, Sense::hover());
         name.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, self.text));
         name.on_hover_text(self.tip);
     }

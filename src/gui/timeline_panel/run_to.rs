@@ -26,7 +26,7 @@ const GROUPS: [(&str, &[Kind]); 6] = [
     ("Highlights and planes (5.4)", &[Kind::Candidate, Kind::Highlight, Kind::Illuminant, Kind::Slice]),
     (
         "Clipping, numbers, vectors (5.5, 6)",
-        &[Kind::Hole, Kind::Dropped, Kind::Part, Kind::Numbers, Kind::Vectors],
+        &[Kind::Hole, Kind::Dropped, Kind::Part, Kind::Numbers, Kind::Branches, Kind::Vectors],
     ),
     ("Pixels", &[Kind::Claim, Kind::Refusal, Kind::Label]),
 ];
