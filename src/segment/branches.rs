@@ -26,10 +26,8 @@ const LEAST_PX: usize = 20;
 const LEAST_PX_SHARE: f64 = 0.01;
 /// Undistorted pixels around a distorted heart, as a multiple of the root of its pixels: a whole ring one pixel wide has 3.5.
 const LEAST_RING: f64 = 0.75;
-/// A highlight of a smaller share of the region's strongest is a reflection of its surroundings, not of the lamp, unless at least
-/// this share of its core is distorted, which hides how strong it is.
+/// A highlight of a smaller share of the region's strongest is a reflection of its surroundings, not of the lamp.
 const LEAST_STRENGTH: f32 = 0.4;
-const HIDDEN_SHARE: f64 = 0.5;
 /// Two modes have a valley between them from this difference on, in units of the root of their variances' sum: twice Ashman's
 /// D of 1.4 (Ashman, Bird & Zepf 1994 ask for D > 2, which is √2 of these units).
 const VALLEY: f32 = 2.0;
@@ -72,15 +70,6 @@ struct Strong {
     amounts: Option<[f32; 3]>,
 }
 
-/// A core that may be the lamp's.
-struct Core {
-    told: HighlightCore,
-    /// Surface reflection that its undistorted pixels reach, counts.
-    strength: f32,
-    /// Whether it may well be stronger than that.
-    hidden: bool,
-}
-
 impl BranchSearch<'_> {
     /// Holds the region's highlights against one another.
     pub fn run(&self, pixels: Pixels) -> Branches {
@@ -88,20 +77,18 @@ impl BranchSearch<'_> {
         let floor = vec![0.0; strong.len()];
         let mut half = vec![f32::INFINITY; strong.len()];
         for blob in self.components(&strong, &floor) {
-            let Some(strength) = strength(&strong, &blob) else { continue };
+            let known = blob.iter().filter_map(|&index| strong[index as usize].amounts);
+            let Some(strength) = strength(known.map(|[_, surface, _]| surface)) else { continue };
             for &index in &blob {
                 half[index as usize] = CORE_SHARE * strength;
             }
         }
-        let mut cores: Vec<Core> =
+        let mut cores: Vec<(f32, HighlightCore)> =
             self.components(&strong, &half).iter().filter_map(|core| self.core(&strong, core)).collect();
         let widest = LEAST_GAP * self.matte_length as f32;
-        let strongest = cores.iter().fold(0.0f32, |most, core| most.max(core.strength));
-        cores.retain(|core| {
-            let lamp = core.hidden || core.strength >= LEAST_STRENGTH * strongest;
-            lamp && core.told.deviation <= widest
-        });
-        let mut cores: Vec<HighlightCore> = cores.into_iter().map(|core| core.told).collect();
+        let strongest = cores.iter().fold(0.0f32, |most, (strength, _)| most.max(*strength));
+        cores.retain(|(strength, core)| *strength >= LEAST_STRENGTH * strongest && core.deviation <= widest);
+        let mut cores: Vec<HighlightCore> = cores.into_iter().map(|(_, core)| core).collect();
         let all: f64 = cores.iter().map(|core| f64::from(core.pixels)).sum();
         cores.retain(|core| f64::from(core.pixels) >= LEAST_PX_SHARE * all);
         cores.sort_by(|a, b| a.body.total_cmp(&b.body));
@@ -164,9 +151,8 @@ impl BranchSearch<'_> {
         components
     }
 
-    /// What a core says; none where it is too small, or its clipped heart has no ring around it.
-    fn core(&self, strong: &[Strong], core: &[u32]) -> Option<Core> {
-        let strength = strength(strong, core)?;
+    /// What a core says, and its strength; none where it is too small, or its clipped heart has no ring around it.
+    fn core(&self, strong: &[Strong], core: &[u32]) -> Option<(f32, HighlightCore)> {
         let known: Vec<[f32; 3]> = core.iter().filter_map(|&index| strong[index as usize].amounts).collect();
         let distorted = core.len() - known.len();
         if core.len() < LEAST_PX || (known.len() as f64) < LEAST_RING * (distorted as f64).sqrt() {
@@ -186,8 +172,18 @@ impl BranchSearch<'_> {
         let span_px =
             span(core.iter().map(|&index| strong[index as usize].pixel), self.labels.width() as u32);
         let told = HighlightCore { body, deviation, surface, pixels: core.len() as u32, span_px, branch: 0 };
-        let hidden = distorted as f64 >= HIDDEN_SHARE * core.len() as f64;
-        Some(Core { told, strength, hidden })
+        let amounts = core.iter().map(|&index| self.surface(strong[index as usize], body));
+        Some((strength(amounts)?, told))
+    }
+
+    /// Amount of surface reflection, counts; that of a distorted pixel by its smallest band, with the body reflection around it.
+    fn surface(&self, at: Strong, body: f32) -> f32 {
+        if let Some([_, surface, _]) = at.amounts {
+            return surface;
+        }
+        let color = self.scene.pixels[at.pixel as usize];
+        let band = (0..3).min_by(|&a, &b| color[a].total_cmp(&color[b])).unwrap_or(0);
+        (color[band] - body * self.transform.body()[band]) / self.transform.surface()[band].max(1e-3)
     }
 
     /// How much two cores' body reflection differs, and from which difference on they belong to two branches, counts.
@@ -200,10 +196,9 @@ impl BranchSearch<'_> {
     }
 }
 
-/// The surface reflection that [`LEAST_PX`] undistorted pixels of some reach, or all where they are fewer.
-fn strength(strong: &[Strong], of: &[u32]) -> Option<f32> {
-    let amounts = of.iter().filter_map(|&index| strong[index as usize].amounts);
-    let mut surface: Vec<f32> = amounts.map(|[_, surface, _]| surface).collect();
+/// The surface reflection that [`LEAST_PX`] pixels reach, or all where they are fewer; none without a pixel.
+fn strength(surface: impl Iterator<Item = f32>) -> Option<f32> {
+    let mut surface: Vec<f32> = surface.collect();
     let rank = surface.len().min(LEAST_PX).checked_sub(1)?;
     Some(*surface.select_nth_unstable_by(rank, |a, b| b.total_cmp(a)).1)
 }

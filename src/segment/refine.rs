@@ -83,8 +83,8 @@ pub struct Refine {
     /// The whole picture +5.1 dB.
     pub clip_repair: bool,
     /// A region whose highlights lie on different shades has a highlight line for each.
-    /// Where it finds several, 1716 → 404 matte pixels are called highlight, 82 % of those that it should find are; the images do
-    /// not change.
+    /// In regions where it finds several, 2455 → 427 matte pixels are called highlight, and 5397 → 6009 of 12000 true highlight
+    /// pixels; the images do not change.
     pub second_branch: bool,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::workbench::RegionPlane;
-use egui::{Align2, FontId, Id, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, FontId, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
 /// Between ticks, at least, points.
 const TICKS_APART_PT: f32 = 44.0;
@@ -141,22 +141,7 @@ impl Chart {
             text: "m_b, counts",
             tip: "Amount of body reflection, along the matte line (equation 13).",
         }];
-        let away = plane.oblique(0.0, 1.0);
-        let up = vec2(away[0], -away[1]);
-        let several = plane.branches.len() > 1;
-        for line in plane.highlight_lines().map(|line| line.map(at)) {
-            painter.line_segment(line, stroke);
-            names.push(Name {
-                at: line[1] + up * 10.0,
-                anchor: Align2::CENTER_BOTTOM,
-                text: "highlight line",
-                tip: if several {
-                    "More and more light reflected at the surface, along m_s, from one of several shades on which highlights lie (sections 3.1, 7.4)."
-                } else {
-                    "More and more light reflected at the surface, along m_s (section 3.1)."
-                },
-            });
-        }
+        names.extend(self.highlight_lines(&painter, plane, rect, stroke));
         let axis = if plane.has_plane { "m_s, counts" } else { "across, counts" };
         names.push(Name {
             at: self.top_of_axis(plane, rect),
@@ -170,18 +155,67 @@ impl Chart {
             text: "matte line",
             tip: "Body reflection alone, from black to the brightest matte point (section 3.1).",
         });
-        for meeting in plane.branches.iter().map(|branch| at([branch.meeting_point, 0.0])) {
-            painter.circle(meeting, 4.0, tones.panel, Stroke::new(1.8, tones.text));
-            names.push(Name {
-                at: meeting + vec2(0.0, 16.0),
-                anchor: Align2::CENTER_TOP,
-                text: "meeting point",
-                tip: "The shade on which the highlight lies: where its line leaves the matte line (section 3.1).",
-            });
+        names.extend(self.meeting_points(&painter, plane, rect, tones));
+        for name in names {
+            name.show(ui, response, rect, tones);
         }
-        for (number, name) in names.iter().enumerate() {
-            name.show(ui, response.id.with(number), rect, tones);
+    }
+
+    /// Draws the highlight lines; their name stands at the longest one. None without a line.
+    fn highlight_lines(
+        self,
+        painter: &Painter,
+        plane: &RegionPlane,
+        rect: Rect,
+        stroke: Stroke,
+    ) -> Option<Name> {
+        let lines: Vec<[[f32; 2]; 2]> = plane.highlight_lines().collect();
+        for line in &lines {
+            painter.line_segment(
+                line.map(|[body, surface]| self.screen(plane.oblique(body, surface), rect)),
+                stroke,
+            );
         }
+        let longest = lines.iter().max_by(|a, b| a[1][1].total_cmp(&b[1][1]))?;
+        let away = plane.oblique(0.0, 1.0);
+        let end = self.screen(plane.oblique(longest[1][0], longest[1][1]), rect);
+        let (text, tip) = if lines.len() > 1 {
+            (
+                "highlight lines",
+                "More and more light reflected at the surface, along m_s, from each shade on which a highlight lies (sections 3.1, 7.4).",
+            )
+        } else {
+            ("highlight line", "More and more light reflected at the surface, along m_s (section 3.1).")
+        };
+        Some(Name { at: end + vec2(away[0], -away[1]) * 10.0, anchor: Align2::CENTER_BOTTOM, text, tip })
+    }
+
+    /// Draws where highlight lines leave the matte line; their name stands below the middle. None without a line.
+    fn meeting_points(
+        self,
+        painter: &Painter,
+        plane: &RegionPlane,
+        rect: Rect,
+        tones: &Tones,
+    ) -> Option<Name> {
+        let places: Vec<Pos2> =
+            plane.branches.iter().map(|branch| self.screen([branch.meeting_point, 0.0], rect)).collect();
+        for &place in &places {
+            painter.circle(place, 4.0, tones.panel, Stroke::new(1.8, tones.text));
+        }
+        let middle = Rect::from_points(&places).center();
+        let (text, tip) = match places.len() {
+            0 => return None,
+            1 => (
+                "meeting point",
+                "The shade on which the highlight lies: where its line leaves the matte line (section 3.1).",
+            ),
+            _ => (
+                "meeting points",
+                "The shades on which highlights lie: where their lines leave the matte line (sections 3.1, 7.4).",
+            ),
+        };
+        Some(Name { at: middle + vec2(0.0, 16.0), anchor: Align2::CENTER_TOP, text, tip })
     }
 }
 
@@ -194,7 +228,7 @@ struct Name {
 }
 
 impl Name {
-    fn show(&self, ui: &Ui, id: Id, rect: Rect, tones: &Tones) {
+    fn show(&self, ui: &Ui, response: &Response, rect: Rect, tones: &Tones) {
         let painter = ui.painter_at(rect);
         let galley = painter.layout_no_wrap(self.text.to_owned(), FontId::proportional(SMALL_PT), tones.text);
         let place = self.anchor.anchor_size(self.at, galley.size());
@@ -203,7 +237,7 @@ impl Name {
         }
         painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, tones.panel.gamma_multiply(0.75));
         painter.galley(place.min, galley, tones.text);
-        let name = ui.interact(place, id, Sense::hover());
+        let name = ui.interact(place, response.id.with(self.text), Sense::hover());
         name.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, self.text));
         name.on_hover_text(self.tip);
     }

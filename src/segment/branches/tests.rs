@@ -128,6 +128,12 @@ fn specks_sheen_and_mixed_borders_are_no_highlights() {
         (faces(60.0, 130.0)(x, y), shine(&[(LEFT.0, LEFT.1, 150.0)], x, y) + ambient)
     };
     assert_eq!(search(sheen, 5, |_| 1).cores.len(), 1);
+    // Beside a clipped highlight the same, though no undistorted pixel of that is much stronger.
+    let veiled = |x: f64, y: f64| {
+        let ambient = if x > 80.0 { 40.0 } else { 0.0 };
+        (faces(170.0, 110.0)(x, y), shine(&[(LEFT.0, LEFT.1, 300.0)], x, y) + ambient)
+    };
+    assert_eq!(search(veiled, 5, |_| 1).cores.len(), 1);
     // A column of mixed colours beside another region.
     let mixed = |x: f64, y: f64| {
         let s = if (79.0..80.0).contains(&x) { 90.0 } else { shine(&[LEFT], x, y) };
