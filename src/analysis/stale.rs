@@ -45,7 +45,8 @@ fn first_stage(switch: &str) -> Stage {
         | "texture_test"
         | "hysteresis"
         | "belief"
-        | "clip_repair" => Stage::Split,
+        | "clip_repair"
+        | "second_branch" => Stage::Split,
         // One that is not listed makes everything stale, which is slow but never wrong.
         _ => Stage::Masks,
     }

@@ -8,7 +8,7 @@ mod tests;
 
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
-use crate::workbench::{Command, Item, Picture, Point, RegionPlane, Shown, Theme, region_plane};
+use crate::workbench::{Command, Item, Picture, PlaneBranch, Point, RegionPlane, Shown, Theme, region_plane};
 use chart::Chart;
 use egui::{Align2, Color32, FontId, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
 use std::sync::Arc;
@@ -166,7 +166,8 @@ fn edge_notes(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, shown: &Sho
     let rms = region.fit_rms_counts;
     let text = if plane.has_plane {
         let (angle, slice) = (plane.angle_deg, plane.slice_half_width);
-        format!("angle {angle:.1}\u{b0}\nslice \u{b1}{slice:.1} counts\n\u{3b5} {rms:.2} counts rms")
+        let several = several_highlights(&plane.branches);
+        format!("angle {angle:.1}\u{b0}\nslice \u{b1}{slice:.1} counts\n\u{3b5} {rms:.2} counts rms{several}")
     } else {
         let why = if shown.analysis.illuminant.is_none() {
             "the light's colour is unknown, as no highlight was found"
@@ -181,6 +182,15 @@ fn edge_notes(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, shown: &Sho
     };
     let corner = rect.left_top() + vec2(8.0, 4.0);
     painter.text(corner, Align2::LEFT_TOP, text, FontId::proportional(SMALL_PT), cx.tones.quiet);
+}
+
+/// A line that tells of highlights on different shades; empty for one.
+fn several_highlights(branches: &[PlaneBranch]) -> String {
+    if branches.len() < 2 {
+        return String::new();
+    }
+    let shades: Vec<String> = branches.iter().map(|branch| format!("{:.0}", branch.meeting_point)).collect();
+    format!("\n{} highlight lines from m_b {}", shades.len(), shades.join(", "))
 }
 
 /// Rings the colour that is hovered anywhere, and tells its amounts.

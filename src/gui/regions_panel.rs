@@ -4,7 +4,7 @@ mod cursor;
 
 use super::theme::{SMALL_PT, Tones};
 use super::{Cx, widgets};
-use crate::intrinsic::RegionReflection;
+use crate::intrinsic::{HighlightBranch, RegionReflection};
 use crate::segment::{Illuminant, LightBasis, LightFindings, TEXTURE_CORRELATION};
 use crate::workbench::{Command, Item, Shown, regions_text};
 use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
@@ -200,7 +200,14 @@ fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &S
     cell(row, |ui| vector(ui, tones, region.surface));
     number(row, region.angle_deg.map_or_else(none, |angle| RichText::new(format!("{angle:.1}\u{b0}"))));
     let highlight = (region.highlight_pixels > 0).then(|| widgets::grouped(region.highlight_pixels));
-    number(row, highlight.map_or_else(none, RichText::new));
+    row.col(|ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let label = plain(ui, highlight.map_or_else(none, RichText::new));
+            if !region.highlight_branches.is_empty() {
+                label.on_hover_text(highlight_lines(&region.highlight_branches));
+            }
+        });
+    });
     let rms = RichText::new(format!("{:.2}", region.fit_rms_counts));
     row.col(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -226,6 +233,16 @@ fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &S
             ));
         }
     });
+}
+
+/// On which shades a region's highlights lie, a line each.
+fn highlight_lines(branches: &[HighlightBranch]) -> String {
+    let line = |branch: &HighlightBranch| {
+        let (pixels, percent) = (widgets::grouped(branch.pixels), 100.0 * branch.share);
+        format!("from m_b {:.0} counts: {pixels} px, {percent:.0} %", branch.body)
+    };
+    let lines: Vec<String> = branches.iter().map(line).collect();
+    format!("Highlight lines (section 7.4)\n{}", lines.join("\n"))
 }
 
 /// A cell whose contents stand in a line.

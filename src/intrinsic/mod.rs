@@ -39,6 +39,19 @@ pub struct Intrinsic {
     pub regions: Vec<RegionReflection>,
 }
 
+/// One highlight line of a region, and the highlights on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HighlightBranch {
+    /// Where it leaves the matte line, counts.
+    pub start: [f64; 3],
+    /// Amount of body reflection under its highlights, m_b, counts.
+    pub body: f64,
+    /// Its pixels, restored ones included.
+    pub pixels: usize,
+    /// Its share of the region's highlight pixels, 0…1; 0 where there are none.
+    pub share: f64,
+}
+
 /// One region's reflection vectors and how well they explain its pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionReflection {
@@ -58,8 +71,11 @@ pub struct RegionReflection {
     pub surface: Option<[f64; 3]>,
     /// Mean colour of the matte pixels, counts.
     pub matte_mean: [f64; 3],
-    /// Where the highlight line leaves the matte line, counts.
+    /// Where the highlight line leaves the matte line, counts; that of the strongest branch.
     pub highlight_start: Option<[f64; 3]>,
+    /// Its highlight lines (7.4), the strongest first: more than one where highlights lie on different shades. Empty where body
+    /// and surface cannot be told apart.
+    pub highlight_branches: Vec<HighlightBranch>,
     /// Unit normal of the dichromatic plane, C_b × C_s.
     pub plane_normal: Option<[f64; 3]>,
     /// Angle between body and surface vector, degrees.

@@ -1,10 +1,11 @@
 //! What is told of each region, in numbers and in words.
 
-use super::RegionReflection;
 use super::confidence::of_region;
 use super::split::Splitter;
+use super::{HighlightBranch, RegionReflection};
+use crate::color::Vec3;
 use crate::raster::Raster;
-use crate::segment::{POOR_FIT, Pixels, RegionFit, Scene};
+use crate::segment::{POOR_FIT, Pixels, Scene};
 use crate::trace::PixelKind;
 
 /// Below this angle body and surface reflection cannot be told apart at all, degrees.
@@ -18,8 +19,6 @@ pub struct Known<'a> {
     pub id: u16,
     /// Its pixels.
     pub pixels: Pixels<'a>,
-    /// How well they bear out its vectors.
-    pub fit: RegionFit,
     /// What each pixel of the picture is to its region.
     pub kinds: &'a Raster<PixelKind>,
 }
@@ -35,7 +34,9 @@ impl Known<'_> {
         let surface = vectors.surface;
         let angle_deg = surface.map(|surface| crate::color::axis_angle_deg(&vectors.body, &surface));
         let separable = splitter.transform.is_some();
-        let holds = !scene.refine.region_holds || self.fit.holds(scene.sigma());
+        let fit = &splitter.fit;
+        let holds = !scene.refine.region_holds || fit.holds(scene.sigma());
+        let highlight_branches = self.branches(scene, splitter, highlight_pixels);
         RegionReflection {
             id: self.id,
             pixels: pixels.len(),
@@ -45,17 +46,43 @@ impl Known<'_> {
             body: vectors.body.into(),
             surface: surface.map(Into::into),
             matte_mean: vectors.matte_mean.into(),
-            highlight_start: surface.map(|_| splitter.hypothesis.start.into()),
+            highlight_start: surface.map(|_| splitter.starts[0].into()),
             plane_normal: splitter.transform.map(|t| t.normal().map(f64::from)),
             angle_deg,
-            fit_rms_counts: self.fit.rms_counts,
+            fit_rms_counts: fit.rms_counts,
             holds,
-            confidence: of_region(&self.fit, holds, angle_deg.filter(|_| separable), scene.sigma()),
-            texture: self.fit.texture,
+            confidence: of_region(fit, holds, angle_deg.filter(|_| separable), scene.sigma()),
+            texture: fit.texture,
             separable,
             neighbours,
             warnings: self.warnings(scene, splitter, angle_deg, holds),
+            highlight_branches,
         }
+    }
+
+    /// The region's highlight lines and their pixels: undistorted ones belong to the nearest line, others to the line of the
+    /// highlight that they lie in or near.
+    fn branches(&self, scene: &Scene, splitter: &Splitter, highlight_pixels: usize) -> Vec<HighlightBranch> {
+        let Some(test) = &splitter.test else { return Vec::new() };
+        let mut pixels = vec![0usize; splitter.starts.len()];
+        if let [only] = pixels.as_mut_slice() {
+            *only = highlight_pixels;
+        } else {
+            for pixel in self.pixels.iter() {
+                match self.kinds[pixel as usize] {
+                    PixelKind::Highlight => pixels[test.nearest(scene.pixels[pixel as usize])] += 1,
+                    PixelKind::Restored | PixelKind::Lost => pixels[splitter.branch_near(scene, pixel)] += 1,
+                    PixelKind::Matte | PixelKind::Unassigned => {}
+                }
+            }
+        }
+        let branch = |(pixels, (start, &body)): (usize, (&Vec3, &f32))| HighlightBranch {
+            start: (*start).into(),
+            body: f64::from(body),
+            pixels,
+            share: pixels as f64 / highlight_pixels.max(1) as f64,
+        };
+        pixels.into_iter().zip(splitter.starts.iter().zip(&splitter.start_bodies)).map(branch).collect()
     }
 
     fn warnings(
@@ -66,6 +93,7 @@ impl Known<'_> {
         holds: bool,
     ) -> Vec<String> {
         let mut warnings = Vec::new();
+        let fit = &splitter.fit;
         match angle_deg {
             None => warnings.push("no dichromatic plane: everything counts as body reflection".to_owned()),
             Some(angle) if angle < MIN_ANGLE_DEG => warnings.push(format!(
@@ -77,17 +105,17 @@ impl Known<'_> {
             )),
             Some(_) => {}
         }
-        if self.fit.poor(scene.sigma()) {
+        if fit.poor(scene.sigma()) {
             let what = if splitter.transform.is_some() { "plane" } else { "matte line" };
-            let (rms, limit) = (self.fit.rms_counts, POOR_FIT * scene.sigma());
+            let (rms, limit) = (fit.rms_counts, POOR_FIT * scene.sigma());
             warnings.push(format!(
                 "poor fit: pixels lie {rms:.1} counts from the {what} (rms), {limit:.1} is noise"
             ));
         }
-        if self.fit.textured() {
+        if fit.textured() {
             warnings.push(format!(
                 "texture: surface and body vary against each other (correlation \u{2212}{:.2})",
-                self.fit.texture.min(1.0)
+                fit.texture.min(1.0)
             ));
         }
         if !holds {
@@ -106,6 +134,35 @@ impl Known<'_> {
         if lost > 0 {
             warnings.push(format!("{lost} pixels are clipped in every band: their split is a guess"));
         }
+        warnings.extend(several_highlights(&splitter.start_bodies));
         warnings
+    }
+}
+
+/// What is said of highlights on different shades, `bodies` counts each; none for fewer than two.
+fn several_highlights(bodies: &[f32]) -> Option<String> {
+    let (last, others) = bodies.split_last().filter(|(_, others)| !others.is_empty())?;
+    let others: Vec<String> = others.iter().map(|body| format!("{body:.0}")).collect();
+    let many = ["two", "three", "four"].get(others.len() - 1).copied().unwrap_or("several");
+    let others = others.join(", ");
+    Some(format!(
+        "{many} highlights with different body reflection under them: m_b {others} and {last:.0} counts (7.4)"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::several_highlights;
+
+    #[test]
+    fn only_highlights_on_different_shades_are_worth_a_sentence() {
+        assert_eq!((several_highlights(&[]), several_highlights(&[84.0])), (None, None));
+        let two = several_highlights(&[84.4, 131.6]).unwrap();
+        assert_eq!(
+            two,
+            "two highlights with different body reflection under them: m_b 84 and 132 counts (7.4)"
+        );
+        let three = several_highlights(&[84.4, 131.6, 20.0]).unwrap();
+        assert!(three.starts_with("three") && three.contains("m_b 84, 132 and 20 counts"), "{three}");
     }
 }

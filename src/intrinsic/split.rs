@@ -7,15 +7,16 @@ use super::local::split_locally;
 use super::reason::{Case, Reason};
 use super::region::{Known, MIN_ANGLE_DEG};
 use super::restore::Distorted;
-use super::vectors::{Vectors, fit_vectors};
+use super::vectors::{Vectors, fit_vectors, matte_mean};
 use super::{Intrinsic, RegionReflection};
 use crate::color::{Vec3, dot, rgb};
 use crate::raster::{Raster, UNASSIGNED};
 use crate::reflection::{Components, HighlightTest, ReflectionTransform};
 use crate::segment::{
-    FinalRegions, Members, Pixels, PlanarHypothesis, RegionFit, Scene, members, neighbours,
+    BranchSearch, Branches, FinalRegions, Members, Pixels, PlanarHypothesis, RegionFit, Scene, members,
+    neighbours,
 };
-use crate::trace::{Event, Pass, PixelKind, Recorder, VectorsFitted};
+use crate::trace::{BranchesSought, Event, Pass, PixelKind, Recorder, VectorsFitted};
 use rayon::prelude::*;
 
 /// Splits the picture, without its ambient light.
@@ -42,7 +43,8 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
         *color = std::array::from_fn(|band| color[band] + less[band]);
     }
     for region in &mut result.regions {
-        let moved = std::iter::once(&mut region.matte_mean).chain(&mut region.highlight_start);
+        let starts = region.highlight_branches.iter_mut().map(|branch| &mut branch.start);
+        let moved = std::iter::once(&mut region.matte_mean).chain(&mut region.highlight_start).chain(starts);
         moved.for_each(|color| *color = std::array::from_fn(|band| color[band] + counts[band]));
     }
     result
@@ -60,29 +62,27 @@ fn split_from<R: Recorder>(
         .hypotheses
         .par_iter()
         .enumerate()
-        .map(|(index, hypothesis)| Splitter::new(scene, hypothesis, members.region(index as u16 + 1)))
+        .map(|(index, hypothesis)| {
+            let id = index as u16 + 1;
+            Splitter::new(scene, regions, hypothesis, (id, members.region(id)))
+        })
         .collect();
     let mut images = Images::split_undistorted(scene, regions, &splitters);
     if scene.stopped() {
         return images.unfinished();
     }
     images.restore(origin, scene, regions, (&splitters, members));
-    let fits: Vec<RegionFit> = splitters
-        .par_iter()
-        .enumerate()
-        .map(|(index, splitter)| {
-            let id = index as u16 + 1;
-            let (body, surface) = (&splitter.vectors.body, splitter.vectors.surface.as_ref());
-            RegionFit::new(scene, &regions.labels, (id, members.region(id)), (&Vec3::zeros(), body, surface))
-        })
-        .collect();
     if R::KEEPS {
         recorder.record(Event::PassBegan { pass: Pass::Vectors });
-        for (region, (splitter, fit)) in (1..).zip(splitters.iter().zip(&fits)) {
-            recorder
-                .record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(scene, region, origin, fit))));
+        for (region, splitter) in (1..).zip(&splitters) {
+            let Branches { cores, gaps } = splitter.branches.clone();
+            if !cores.is_empty() {
+                recorder.record(Event::BranchesSought(Box::new(BranchesSought { region, cores, gaps })));
+            }
+            recorder.record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(scene, region, origin))));
         }
     }
+    let fits: Vec<RegionFit> = splitters.iter().map(|splitter| splitter.fit).collect();
     let holding = holding(scene, regions, members, &fits, &images.kinds);
     let local = split_locally((scene, origin), regions, &holding, &mut images, recorder);
     if R::KEEPS {
@@ -96,7 +96,7 @@ fn split_from<R: Recorder>(
         .enumerate()
         .map(|(index, (splitter, neighbours))| {
             let id = index as u16 + 1;
-            let known = Known { id, pixels: members.region(id), fit: fits[index], kinds: &images.kinds };
+            let known = Known { id, pixels: members.region(id), kinds: &images.kinds };
             known.report(scene, splitter, neighbours)
         })
         .collect();
@@ -125,31 +125,87 @@ fn split_from<R: Recorder>(
     Intrinsic { body, surface, noise, kinds, confidence, reasons, ambient, regions: reflections }
 }
 
+/// One of several highlight lines begins so far off the matte line, σ0.
+const CLEAR: f64 = 2.0;
+
 /// How one region's pixels are split.
 pub(super) struct Splitter {
     pub(super) hypothesis: PlanarHypothesis,
     pub(super) vectors: Vectors,
     /// None where the region has no plane: then all is body reflection.
     pub(super) transform: Option<ReflectionTransform>,
-    test: Option<HighlightTest>,
-    /// Amount of body reflection where the highlight line starts, counts.
-    start_body: f32,
+    /// How well its pixels bear out its vectors.
+    pub(super) fit: RegionFit,
+    /// Its highlights, held against one another; empty where that was not asked.
+    pub(super) branches: Branches,
+    /// Where the highlight lines leave the matte line, counts, the strongest branch first.
+    pub(super) starts: Vec<Vec3>,
+    /// Where the lines begin that highlight pixels are told by, counts. Of several lines only what is clear of the noise counts:
+    /// the matte pixels of every shade on which some highlight lies would else be taken for its pixels.
+    line_starts: Vec<Vec3>,
+    pub(super) test: Option<HighlightTest>,
+    /// Amount of body reflection where each highlight line starts, counts.
+    pub(super) start_bodies: Vec<f32>,
     /// Surface reflection that lies less than this off the body line is none, counts; negative infinity: any is some.
     least_offset: f32,
 }
 
 impl Splitter {
-    fn new(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: Pixels) -> Self {
+    fn new(
+        scene: &Scene,
+        regions: &FinalRegions,
+        hypothesis: &PlanarHypothesis,
+        (region, pixels): (u16, Pixels),
+    ) -> Self {
+        let least_offset =
+            if scene.refine.no_negative_surface { scene.used.camera_noise as f32 } else { f32::NEG_INFINITY };
         let vectors = fit_vectors(scene, hypothesis, pixels);
         let transform = vectors
             .surface
             .filter(|surface| crate::color::axis_angle_deg(&vectors.body, surface) >= MIN_ANGLE_DEG)
             .and_then(|surface| ReflectionTransform::new(&vectors.body, &surface));
+        let origin = (&Vec3::zeros(), &vectors.body, vectors.surface.as_ref());
+        let fit = RegionFit::new(scene, &regions.labels, (region, pixels), origin);
         let start_body = transform.map_or(0.0, |t| t.split(rgb(&hypothesis.start)).body.max(0.0));
-        let least_offset =
-            if scene.refine.no_negative_surface { scene.used.camera_noise as f32 } else { f32::NEG_INFINITY };
-        let test = hypothesis.highlight_test().filter(|_| transform.is_some());
-        Self { hypothesis: *hypothesis, vectors, transform, test, start_body, least_offset }
+        let splitter = Self {
+            hypothesis: *hypothesis,
+            vectors,
+            transform,
+            fit,
+            branches: Branches::default(),
+            starts: vec![hypothesis.start],
+            line_starts: vec![hypothesis.start],
+            test: hypothesis.highlight_test().filter(|_| transform.is_some()),
+            start_bodies: vec![start_body],
+            least_offset,
+        };
+        let wanted = scene.refine.second_branch && fit.holds(scene.sigma()) && !scene.stopped();
+        let Some(transform) = transform.as_ref().filter(|_| wanted) else { return splitter };
+        let search = BranchSearch {
+            scene,
+            labels: &regions.labels,
+            region,
+            transform,
+            matte_length: hypothesis.matte_length,
+            light_doubt_deg: regions.light.interval_deg,
+        };
+        splitter.with_branches(scene, search.run(pixels), pixels)
+    }
+
+    /// The same with what its highlights say. Only more than one branch changes anything: how pixels are told apart, and the mean
+    /// of the matte ones. The body vector rests on the outer edge of the cluster, where there is no highlight.
+    fn with_branches(mut self, scene: &Scene, branches: Branches, pixels: Pixels) -> Self {
+        let bodies = branches.bodies();
+        self.branches = branches;
+        let Some(plane) = self.hypothesis.plane.filter(|_| bodies.len() > 1) else { return self };
+        self.starts = bodies.iter().map(|&body| self.vectors.body * f64::from(body)).collect();
+        self.start_bodies = bodies;
+        let clear = CLEAR * scene.used.camera_noise / plane.angle_rad.sin();
+        self.line_starts = self.starts.iter().map(|start| start + plane.surface * clear).collect();
+        let test = HighlightTest::of_lines(&self.hypothesis.matte, &self.line_starts, &plane.surface);
+        self.vectors.matte_mean = matte_mean(scene, pixels, &test).unwrap_or(self.vectors.matte_mean);
+        self.test = Some(test);
+        self
     }
 
     /// The components of an undistorted pixel.
@@ -165,13 +221,7 @@ impl Splitter {
         components
     }
 
-    fn vectors_fitted(
-        &self,
-        scene: &Scene,
-        region: u16,
-        origin: &[f64; 3],
-        fit: &RegionFit,
-    ) -> VectorsFitted {
+    fn vectors_fitted(&self, scene: &Scene, region: u16, origin: &[f64; 3]) -> VectorsFitted {
         let PlanarHypothesis { matte, start, .. } = self.hypothesis.from_origin(&-Vec3::from(*origin));
         VectorsFitted {
             region,
@@ -179,19 +229,20 @@ impl Splitter {
             surface: self.transform.and(self.vectors.surface),
             matte,
             start,
+            starts: self.line_starts.iter().map(|start| start + Vec3::from(*origin)).collect(),
             highlight: self.hypothesis.plane.map(|plane| plane.surface),
             least_offset: self.least_offset,
-            rms_counts: fit.rms_counts,
-            texture: fit.texture,
-            texture_slope: fit.texture_slope,
+            rms_counts: self.fit.rms_counts,
+            texture: self.fit.texture,
+            texture_slope: self.fit.texture_slope,
             limits: RegionFit::limits(scene.sigma()),
-            holds: !scene.refine.region_holds || fit.holds(scene.sigma()),
+            holds: !scene.refine.region_holds || self.fit.holds(scene.sigma()),
             origin: *origin,
         }
     }
 
     fn kind(&self, color: [f32; 3]) -> PixelKind {
-        if self.test.is_some_and(|test| test.is_highlight(color)) {
+        if self.test.as_ref().is_some_and(|test| test.is_highlight(color)) {
             PixelKind::Highlight
         } else {
             PixelKind::Matte
@@ -297,6 +348,12 @@ impl Splitter {
         (body.map(|b| b * components.body), surface.map(|s| s * components.surface))
     }
 
+    /// The branch of the highlight that a pixel lies in or nearest to.
+    pub(super) fn branch_near(&self, scene: &Scene, pixel: u32) -> usize {
+        let width = scene.pixels.width() as u32;
+        if self.starts.len() > 1 { self.branches.nearest(pixel % width, pixel / width) } else { 0 }
+    }
+
     /// Colours and kinds of the region's distorted pixels.
     fn restore(&self, scene: &Scene, distorted: &Distorted, pixels: Pixels) -> Vec<RestoredPixel> {
         let waiting: Vec<u32> =
@@ -310,11 +367,12 @@ impl Splitter {
                     let color = scene.pixels[pixel as usize];
                     return (pixel, [color, [0.0; 3]], PixelKind::Lost);
                 };
+                let start_body = self.start_bodies[self.branch_near(scene, pixel)];
                 let restored = if scene.refine.restore_prior {
-                    let prior = if prior.is_nan() { self.start_body } else { prior };
+                    let prior = if prior.is_nan() { start_body } else { prior };
                     distorted.most_probable(pixel as usize, transform, prior)
                 } else {
-                    distorted.smallest_band(pixel as usize, transform, self.test.as_ref(), self.start_body)
+                    distorted.smallest_band(pixel as usize, transform, self.test.as_ref(), start_body)
                 };
                 let (body, surface) = self.colors(restored.components);
                 let kind = if restored.lost { PixelKind::Lost } else { PixelKind::Restored };

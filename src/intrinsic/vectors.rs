@@ -9,7 +9,7 @@
 
 use crate::color::{Line, Moments, Vec3, dot, rgb};
 use crate::photo::Masks;
-use crate::reflection::DichromaticPlane;
+use crate::reflection::{DichromaticPlane, HighlightTest};
 use crate::segment::{Pixels, PlanarHypothesis, Scene};
 
 /// Reflection vectors of one region.
@@ -49,6 +49,13 @@ pub fn fit_vectors(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: Pixels)
         own.map_or(plane.surface, |line| line.direction)
     });
     Vectors { body, surface, matte_mean }
+}
+
+/// Mean colour of the region's matte pixels, counts, where `test` tells its highlights; none without a matte pixel.
+pub fn matte_mean(scene: &Scene, pixels: Pixels, test: &HighlightTest) -> Option<Vec3> {
+    let mut matte = undistorted(scene.pixels.as_slice(), scene.masks, pixels);
+    matte.retain(|&color| !test.is_highlight(color));
+    (!matte.is_empty()).then(|| matte.into_iter().collect::<Moments>().mean())
 }
 
 fn undistorted(image: &[[f32; 3]], masks: &Masks, pixels: Pixels) -> Vec<[f32; 3]> {

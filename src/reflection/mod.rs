@@ -6,7 +6,7 @@ pub mod photometry;
 mod plane;
 mod transform;
 
-pub use highlight::HighlightTest;
+pub use highlight::{HighlightTest, MOST_BRANCHES};
 pub use paleness::paleness_limits;
 pub use plane::{DichromaticPlane, PlaneAxes, PlanePoint, Slice, SliceBound, SliceMiss};
 pub use transform::{Components, ReflectionTransform};

@@ -2,7 +2,7 @@
 
 use super::scores::Scores;
 use crate::analysis::{Analysis, Stage};
-use crate::intrinsic::{Ambient, Reason, RegionReflection};
+use crate::intrinsic::{Ambient, HighlightBranch, Reason, RegionReflection};
 use crate::photo::Photo;
 use crate::raster::UNASSIGNED;
 use crate::segment::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine, Setting};
@@ -308,6 +308,9 @@ pub struct RegionFacts {
     pub surface: Option<[f64; 3]>,
     pub matte_mean: [f64; 3],
     pub highlight_start: Option<[f64; 3]>,
+    /// Empty in reports of versions that did not look for it.
+    #[serde(default)]
+    pub highlight_branches: Vec<HighlightBranchFacts>,
     pub plane_normal: Option<[f64; 3]>,
     pub angle_deg: Option<f64>,
     pub fit_rms_counts: f64,
@@ -321,6 +324,27 @@ pub struct RegionFacts {
     pub separable: bool,
     pub neighbours: Vec<u16>,
     pub warnings: Vec<String>,
+}
+
+/// One highlight line of a region, as [`HighlightBranch`] describes it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "HighlightBranch describes each")]
+pub struct HighlightBranchFacts {
+    pub start_counts: [f64; 3],
+    pub body_counts: f64,
+    pub pixels: usize,
+    pub share: f64,
+}
+
+impl From<&HighlightBranch> for HighlightBranchFacts {
+    fn from(branch: &HighlightBranch) -> Self {
+        Self {
+            start_counts: branch.start,
+            body_counts: branch.body,
+            pixels: branch.pixels,
+            share: branch.share,
+        }
+    }
 }
 
 const fn yes() -> bool {
@@ -339,6 +363,7 @@ impl From<&RegionReflection> for RegionFacts {
             surface: region.surface,
             matte_mean: region.matte_mean,
             highlight_start: region.highlight_start,
+            highlight_branches: region.highlight_branches.iter().map(HighlightBranchFacts::from).collect(),
             plane_normal: region.plane_normal,
             angle_deg: region.angle_deg,
             fit_rms_counts: region.fit_rms_counts,

@@ -9,8 +9,8 @@ mod trace_line;
 mod words;
 
 pub use facts::{
-    AmbientAsked, AmbientFacts, AreaFacts, IlluminantFacts, ImageFacts, LightFacts, ParameterFacts,
-    ParamsFacts, RegionFacts, Report, SCHEMA, Timings,
+    AmbientAsked, AmbientFacts, AreaFacts, HighlightBranchFacts, IlluminantFacts, ImageFacts, LightFacts,
+    ParameterFacts, ParamsFacts, RegionFacts, Report, SCHEMA, Timings,
 };
 pub use scores::Scores;
 pub use trace_line::{TRACE_SCHEMA, schema_line, trace_line};

@@ -2,6 +2,7 @@
 
 mod absorb;
 mod borders;
+mod branches;
 mod candidates;
 mod choice;
 mod classify;
@@ -28,6 +29,7 @@ mod two_lights;
 mod unite;
 mod vote_light;
 
+pub use branches::{BranchSearch, Branches};
 pub use classify::{Classifier, Windows, classify};
 pub use clipping::clipping_regions;
 pub use holds::{POOR_FIT, RegionFit, TEXTURE_CORRELATION};

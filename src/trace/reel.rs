@@ -313,7 +313,12 @@ fn boxed_bytes(event: &Event) -> usize {
         Event::LightChosen(chosen) => size_of_val(&**chosen),
         Event::SliceMade(made) => size_of_val(&**made),
         Event::Renumbered { finals } => size_of_val(&**finals),
-        Event::VectorsFitted(fitted) => size_of_val(&**fitted),
+        Event::BranchesSought(sought) => {
+            size_of_val(&**sought)
+                + size_of_val(sought.cores.as_slice())
+                + size_of_val(sought.gaps.as_slice())
+        }
+        Event::VectorsFitted(fitted) => size_of_val(&**fitted) + size_of_val(fitted.starts.as_slice()),
         Event::Local(LocalDecision::Began(began)) => size_of_val(&**began),
         Event::Local(LocalDecision::Belief(tested)) => size_of_val(&**tested),
         _ => 0,

@@ -13,8 +13,11 @@ pub struct VectorsFitted {
     pub surface: Option<Vec3>,
     /// The matte line that highlight pixels are told from.
     pub matte: Line,
-    /// Where the highlight line leaves it, counts.
+    /// Where the highlight line left it when the region grew, counts.
     pub start: Vec3,
+    /// Where the highlight lines begin that its pixels are told by, counts, the strongest branch first. One line begins at `start`;
+    /// several begin clear of the noise around the matte line.
+    pub starts: Vec<Vec3>,
     /// Unit direction of the highlight line, by which pixels are told apart: the plane's. None without a plane.
     pub highlight: Option<Vec3>,
     /// Surface reflection that lies less than this off the body line is none, counts; negative infinity: any is some.

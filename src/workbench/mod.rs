@@ -70,7 +70,9 @@ pub use layers::{
     marks, paint, paint_instant, pyramid,
 };
 pub use picture::{Origin, Picture};
-pub use plane_points::{MOST_PLANE_POINTS, PlanePixel, RegionPlane, growing_plane, region_plane, test_plane};
+pub use plane_points::{
+    MOST_PLANE_POINTS, PlaneBranch, PlanePixel, RegionPlane, growing_plane, region_plane, test_plane,
+};
 pub use profile::{ProfileSample, profile, profile_csv, profile_ends};
 pub use reduce::{Effect, reduce};
 pub use runs::MaskRuns;

@@ -4,7 +4,7 @@ mod cursor;
 
 pub use cursor::{growing_plane, test_plane};
 
-use super::shapes::{across, hypothesis};
+use super::shapes::{across, hypothesis, starts};
 use super::{Point, Shown};
 use crate::color::{Vec3, rgb};
 use crate::raster::LabelMap;
@@ -36,10 +36,8 @@ pub struct RegionPlane {
     pub points: Vec<PlanePixel>,
     /// m_b of the brightest matte point, counts.
     pub matte_length: f32,
-    /// m_b where the highlight line leaves the matte line, counts; none without a plane.
-    pub meeting_point: Option<f32>,
-    /// m_s of the brightest highlight pixel, counts; 0 without one.
-    pub highlight_length: f32,
+    /// Its highlight lines, the strongest first; none without a plane.
+    pub branches: Vec<PlaneBranch>,
     /// Distance from the plane within which the slice claims colours, counts.
     pub slice_half_width: f32,
     /// Radius of the cylinder around the matte line, counts.
@@ -49,6 +47,15 @@ pub struct RegionPlane {
     transform: ReflectionTransform,
     /// Where the amounts are measured from: black, or the ambient light.
     origin: Point,
+}
+
+/// A highlight line in a dichromatic plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaneBranch {
+    /// m_b where it leaves the matte line, counts.
+    pub meeting_point: f32,
+    /// m_s of its brightest highlight pixel, counts; 0 without one.
+    pub length: f32,
 }
 
 /// A pixel, or the pixels of a cell.
@@ -87,7 +94,8 @@ pub fn region_plane(shown: &Shown, region: u16) -> Option<RegionPlane> {
     let points = points(shown, region, &|colour| transform.split(from(origin, colour)));
     let amount = |colour: Vec3| transform.split(from(origin, rgb(&colour))).body;
     let brightest = hypothesis.matte.foot() + hypothesis.matte.direction * hypothesis.matte_length;
-    let highlights = points.iter().filter(|point| point.kind == PixelKind::Highlight);
+    let starts = starts(reflection, hypothesis).into_iter().filter(|_| has_plane);
+    let meeting_points: Vec<f32> = starts.map(|start| amount(start)).collect();
     Some(RegionPlane {
         region,
         body: transform.body(),
@@ -95,8 +103,7 @@ pub fn region_plane(shown: &Shown, region: u16) -> Option<RegionPlane> {
         has_plane,
         angle_deg: angle_deg(&transform),
         matte_length: amount(brightest),
-        meeting_point: has_plane.then(|| amount(hypothesis.start)),
-        highlight_length: highlights.fold(0.0, |most, point| most.max(point.surface)),
+        branches: branches(&meeting_points, &points),
         slice_half_width: shown.analysis.used.slice_half_width_counts() as f32,
         radius: shown.analysis.used.radius_counts() as f32,
         extent: extent(&points),
@@ -109,6 +116,19 @@ pub fn region_plane(shown: &Shown, region: u16) -> Option<RegionPlane> {
 /// A colour measured from `origin`, counts.
 fn from(origin: Point, colour: Point) -> Point {
     std::array::from_fn(|band| colour[band] - origin[band])
+}
+
+/// Highlight lines from where they start; each highlight pixel belongs to the one whose m_b is nearest.
+fn branches(meeting_points: &[f32], points: &[PlanePixel]) -> Vec<PlaneBranch> {
+    let line = |&meeting_point: &f32| PlaneBranch { meeting_point, length: 0.0 };
+    let mut branches: Vec<PlaneBranch> = meeting_points.iter().map(line).collect();
+    for point in points.iter().filter(|point| point.kind == PixelKind::Highlight) {
+        let off = |branch: &PlaneBranch| (point.body - branch.meeting_point).abs();
+        if let Some(nearest) = branches.iter_mut().min_by(|a, b| off(a).total_cmp(&off(b))) {
+            nearest.length = nearest.length.max(point.surface);
+        }
+    }
+    branches
 }
 
 /// Smallest and largest m_b and m_s of the points, counts.
@@ -150,10 +170,10 @@ impl RegionPlane {
         [[0.0, 0.0], [self.matte_length, 0.0]]
     }
 
-    /// The highlight line, as m_b and m_s of its ends; none without highlight pixels.
-    pub fn highlight_line(&self) -> Option<[[f32; 2]; 2]> {
-        let start = self.meeting_point.filter(|_| self.highlight_length > 0.0)?;
-        Some([[start, 0.0], [start, self.highlight_length]])
+    /// The highlight lines, as m_b and m_s of their ends: those that have highlight pixels.
+    pub fn highlight_lines(&self) -> impl Iterator<Item = [[f32; 2]; 2]> {
+        let drawn = self.branches.iter().filter(|branch| branch.length > 0.0);
+        drawn.map(|branch| [[branch.meeting_point, 0.0], [branch.meeting_point, branch.length]])
     }
 
     /// The point nearest to a place in oblique coordinates, no farther than `within_counts`.
@@ -303,9 +323,31 @@ mod tests {
                 assert_eq!((nearest.body, nearest.surface), (point.body, point.surface));
             }
             assert!(plane.nearest([-1e6, 0.0], 10.0).is_none());
-            assert!(plane.matte_length > 0.0 && plane.meeting_point.is_some() == plane.has_plane);
+            assert!(plane.matte_length > 0.0 && plane.branches.is_empty() != plane.has_plane);
         }
         assert!(region_plane(&shown, 0).is_none() && region_plane(&shown, 999).is_none());
+    }
+
+    #[test]
+    fn each_highlight_line_reaches_to_its_own_brightest_pixel() {
+        let pixel = |body: f32, surface: f32, kind: PixelKind| PlanePixel {
+            body,
+            surface,
+            colour: [0.0; 3],
+            kind,
+            pixel: 0,
+            count: 1,
+        };
+        let points = [
+            pixel(118.0, 70.0, PixelKind::Highlight),
+            pixel(64.0, 30.0, PixelKind::Highlight),
+            pixel(61.0, 45.0, PixelKind::Highlight),
+            pixel(60.0, 90.0, PixelKind::Lost),
+        ];
+        let lengths = |starts: &[f32]| branches(starts, &points).iter().map(|b| b.length).collect::<Vec<_>>();
+        assert_eq!(lengths(&[120.0, 60.0]), [70.0, 45.0]);
+        assert_eq!(lengths(&[120.0]), [70.0]);
+        assert!(lengths(&[]).is_empty() && branches(&[9.0], &[])[0].length == 0.0);
     }
 
     #[test]

@@ -8,7 +8,8 @@ use super::Shown;
 use super::solid::{HalfSpace, Solid, Tube, convex_body, cube, ellipsoid, octant};
 use super::vector::{Point, dot64};
 use crate::color::{Moments, Vec3, dot, principal_axes, rgb};
-use crate::reflection::DichromaticPlane;
+use crate::intrinsic::RegionReflection;
+use crate::reflection::{DichromaticPlane, HighlightTest, MOST_BRANCHES};
 use crate::segment::PlanarHypothesis;
 use crate::trace::PixelKind;
 use rayon::prelude::*;
@@ -31,11 +32,11 @@ pub struct RegionShapes {
     pub matte_line: [Point; 2],
     /// Where the matte line ends (5.4.1).
     pub brightest_matte: Point,
-    /// Where the highlight line leaves the matte line; none without a plane.
-    pub meeting_point: Option<Point>,
-    /// From the meeting point along the illuminant to the brightest highlight pixel; none without highlight pixels.
-    pub highlight_line: Option<[Point; 2]>,
-    /// Whether the meeting point was found from a highlight; otherwise it is where highlights usually start.
+    /// Where the highlight lines leave the matte line, the strongest first; none without a plane.
+    pub meeting_points: Vec<Point>,
+    /// From the meeting points along the illuminant to the brightest highlight pixels; only of those that have highlight pixels.
+    pub highlight_lines: Vec<[Point; 2]>,
+    /// Whether the meeting points were found from highlights; otherwise it is where highlights usually start.
     pub meeting_point_found: bool,
 }
 
@@ -63,10 +64,9 @@ pub fn region_shapes(shown: &Shown, region: u16) -> Option<RegionShapes> {
     };
     let foot = hypothesis.matte.foot();
     let end = foot + hypothesis.matte.direction * hypothesis.matte_length;
-    let reach = hypothesis.plane.and_then(|plane| highlight_reach(shown, region, &hypothesis.start, &plane));
-    let highlight_line = reach.zip(hypothesis.plane).map(|(reach, plane)| {
-        [rgb(&hypothesis.start), rgb(&(hypothesis.start + plane.surface * f64::from(reach)))]
-    });
+    let reflection = shown.analysis.intrinsic.regions.get(usize::from(region) - 1)?;
+    let starts = if hypothesis.plane.is_some() { starts(reflection, hypothesis) } else { Vec::new() };
+    let highlight_lines = hypothesis.plane.map(|plane| highlight_lines(shown, region, &starts, &plane));
     Some(RegionShapes {
         region,
         cylinder: tube.solid(),
@@ -74,9 +74,9 @@ pub fn region_shapes(shown: &Shown, region: u16) -> Option<RegionShapes> {
         slice: hypothesis.plane.map(|plane| slice(shown, hypothesis, &plane, full)),
         matte_line: [rgb(&foot), rgb(&end)],
         brightest_matte: rgb(&end),
-        meeting_point: hypothesis.plane.map(|_| rgb(&hypothesis.start)),
-        highlight_line,
-        meeting_point_found: hypothesis.highlight.is_some(),
+        meeting_points: starts.iter().map(rgb).collect(),
+        highlight_lines: highlight_lines.unwrap_or_default(),
+        meeting_point_found: hypothesis.highlight.is_some() || starts.len() > 1,
     })
 }
 
@@ -165,17 +165,33 @@ fn slice_body(plane: &DichromaticPlane, half_width: f64, bounds: Option<[f64; 2]
     convex_body(&sides, 4.0 * full, 2)
 }
 
-/// How far the brightest highlight pixel lies from the meeting point along the light, counts.
-fn highlight_reach(shown: &Shown, region: u16, start: &Vec3, plane: &DichromaticPlane) -> Option<f32> {
-    let (start, surface) = (rgb(start), rgb(&plane.surface));
+/// Where a region's highlight lines leave its matte line, counts, the strongest first.
+pub(super) fn starts(reflection: &RegionReflection, hypothesis: &PlanarHypothesis) -> Vec<Vec3> {
+    let found: Vec<Vec3> = reflection.highlight_branches.iter().map(|branch| branch.start.into()).collect();
+    if found.is_empty() { vec![hypothesis.start] } else { found }
+}
+
+/// From each start along the light to the brightest highlight pixel that is nearer to it than to the others, counts.
+fn highlight_lines(shown: &Shown, region: u16, starts: &[Vec3], plane: &DichromaticPlane) -> Vec<[Point; 2]> {
+    let test = HighlightTest::of_lines(&plane.matte, starts, &plane.surface);
+    let surface = rgb(&plane.surface);
+    let at_start: Vec<f32> = starts.iter().map(|start| dot(rgb(start), surface)).collect();
     let kinds = shown.analysis.intrinsic.kinds.as_slice();
     let pixels = shown.picture.photo.image.pixels.as_slice();
-    let at_start = dot(start, surface);
-    let reach = |((&label, &kind), &colour): ((&u16, &PixelKind), &[f32; 3])| {
-        (label == region && kind == PixelKind::Highlight).then(|| dot(colour, surface) - at_start)
+    let reach = |mut reach: [f32; MOST_BRANCHES],
+                 ((&label, &kind), &colour): ((&u16, &PixelKind), &Point)| {
+        if label == region && kind == PixelKind::Highlight {
+            let branch = test.nearest(colour);
+            reach[branch] = reach[branch].max(dot(colour, surface) - at_start[branch]);
+        }
+        reach
     };
-    let all = shown.labels().as_slice().par_iter().zip(kinds).zip(pixels);
-    all.with_min_len(1 << 14).filter_map(reach).reduce_with(f32::max).filter(|&reach| reach > 0.0)
+    let none = || [0.0f32; MOST_BRANCHES];
+    let farther = |a: [f32; MOST_BRANCHES], b: [f32; MOST_BRANCHES]| std::array::from_fn(|i| a[i].max(b[i]));
+    let all = shown.labels().as_slice().par_iter().zip(kinds).zip(pixels).with_min_len(1 << 14);
+    let reach = all.fold(none, reach).reduce(none, farther);
+    let lines = starts.iter().zip(reach).filter(|&(_, reach)| reach > 0.0);
+    lines.map(|(start, reach)| [rgb(start), rgb(&(start + plane.surface * f64::from(reach)))]).collect()
 }
 
 #[cfg(test)]
@@ -230,10 +246,11 @@ pub(super) mod tests {
         assert_eq!((black, end.iter().fold(0.0f32, |most, v| most.max(*v))), ([0.0; 3], 255.0));
         let mut lines = 0;
         for region in 1..=shown.analysis.intrinsic.regions.len() as u16 {
-            let Some([from, to]) = region_shapes(&shown, region).unwrap().highlight_line else { continue };
-            let along: Point = std::array::from_fn(|i| to[i] - from[i]);
-            assert!(dot(cross(along, light), cross(along, light)).sqrt() < 0.02 * distance(from, to));
-            lines += 1;
+            for [from, to] in region_shapes(&shown, region).unwrap().highlight_lines {
+                let along: Point = std::array::from_fn(|i| to[i] - from[i]);
+                assert!(dot(cross(along, light), cross(along, light)).sqrt() < 0.02 * distance(from, to));
+                lines += 1;
+            }
         }
         assert!(lines > 0);
     }

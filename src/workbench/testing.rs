@@ -86,6 +86,7 @@ pub(super) fn region(id: u16, pixels: usize) -> RegionReflection {
         surface: Some([1.0, 0.0, 0.0]),
         matte_mean: [100.0; 3],
         highlight_start: None,
+        highlight_branches: Vec::new(),
         plane_normal: None,
         angle_deg: None,
         fit_rms_counts: 1.5,

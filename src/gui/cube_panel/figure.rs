@@ -199,7 +199,7 @@ impl Pen<'_> {
     }
 
     fn skewed_t(&mut self, shapes: &RegionShapes, colour: Color32) {
-        if let Some(place) = shapes.meeting_point {
+        for &place in &shapes.meeting_points {
             let tip = if shapes.meeting_point_found {
                 "Where the highlight line leaves the matte line: the body reflection under the highlight (section 3.1)."
             } else {
@@ -217,7 +217,7 @@ impl Pen<'_> {
             "Body reflection alone: from black to the brightest matte point (section 3.1).",
             false,
         );
-        if let Some(ends) = shapes.highlight_line {
+        for &ends in &shapes.highlight_lines {
             self.line(&ends, colour, LINE_PT, 0.0);
             let tip = "Body reflection of one shade plus more and more light reflected at the surface (section 3.1).";
             self.note(along(ends, 0.75), "highlight line", tip, false);

@@ -27,7 +27,7 @@ impl Chart {
         let finite = |v: f32| if v.is_finite() { v } else { 0.0 };
         let corners = [[0.0, 0.0], [plane.matte_length, 0.0]]
             .into_iter()
-            .chain(plane.highlight_line().into_iter().flatten())
+            .chain(plane.highlight_lines().flatten())
             .chain(plane.points.iter().map(|point| [point.body, point.surface]))
             .chain(plane.points.is_empty().then_some([finite(body[1]), finite(surface[1])]));
         let mut room = Rect::NOTHING;
@@ -141,17 +141,7 @@ impl Chart {
             text: "m_b, counts",
             tip: "Amount of body reflection, along the matte line (equation 13).",
         }];
-        let away = plane.oblique(0.0, 1.0);
-        let up = vec2(away[0], -away[1]);
-        if let Some(line) = plane.highlight_line().map(|line| line.map(at)) {
-            painter.line_segment(line, stroke);
-            names.push(Name {
-                at: line[1] + up * 10.0,
-                anchor: Align2::CENTER_BOTTOM,
-                text: "highlight line",
-                tip: "More and more light reflected at the surface, along m_s (section 3.1).",
-            });
-        }
+        names.extend(self.highlight_lines(&painter, plane, rect, stroke));
         let axis = if plane.has_plane { "m_s, counts" } else { "across, counts" };
         names.push(Name {
             at: self.top_of_axis(plane, rect),
@@ -165,18 +155,67 @@ impl Chart {
             text: "matte line",
             tip: "Body reflection alone, from black to the brightest matte point (section 3.1).",
         });
-        if let Some(meeting) = plane.meeting_point.map(|body| at([body, 0.0])) {
-            painter.circle(meeting, 4.0, tones.panel, Stroke::new(1.8, tones.text));
-            names.push(Name {
-                at: meeting + vec2(0.0, 16.0),
-                anchor: Align2::CENTER_TOP,
-                text: "meeting point",
-                tip: "The shade on which the highlight lies: where its line leaves the matte line (section 3.1).",
-            });
-        }
+        names.extend(self.meeting_points(&painter, plane, rect, tones));
         for name in names {
             name.show(ui, response, rect, tones);
         }
+    }
+
+    /// Draws the highlight lines; their name stands at the longest one. None without a line.
+    fn highlight_lines(
+        self,
+        painter: &Painter,
+        plane: &RegionPlane,
+        rect: Rect,
+        stroke: Stroke,
+    ) -> Option<Name> {
+        let lines: Vec<[[f32; 2]; 2]> = plane.highlight_lines().collect();
+        for line in &lines {
+            painter.line_segment(
+                line.map(|[body, surface]| self.screen(plane.oblique(body, surface), rect)),
+                stroke,
+            );
+        }
+        let longest = lines.iter().max_by(|a, b| a[1][1].total_cmp(&b[1][1]))?;
+        let away = plane.oblique(0.0, 1.0);
+        let end = self.screen(plane.oblique(longest[1][0], longest[1][1]), rect);
+        let (text, tip) = if lines.len() > 1 {
+            (
+                "highlight lines",
+                "More and more light reflected at the surface, along m_s, from each shade on which a highlight lies (sections 3.1, 7.4).",
+            )
+        } else {
+            ("highlight line", "More and more light reflected at the surface, along m_s (section 3.1).")
+        };
+        Some(Name { at: end + vec2(away[0], -away[1]) * 10.0, anchor: Align2::CENTER_BOTTOM, text, tip })
+    }
+
+    /// Draws where highlight lines leave the matte line; their name stands below the middle. None without a line.
+    fn meeting_points(
+        self,
+        painter: &Painter,
+        plane: &RegionPlane,
+        rect: Rect,
+        tones: &Tones,
+    ) -> Option<Name> {
+        let places: Vec<Pos2> =
+            plane.branches.iter().map(|branch| self.screen([branch.meeting_point, 0.0], rect)).collect();
+        for &place in &places {
+            painter.circle(place, 4.0, tones.panel, Stroke::new(1.8, tones.text));
+        }
+        let middle = Rect::from_points(&places).center();
+        let (text, tip) = match places.len() {
+            0 => return None,
+            1 => (
+                "meeting point",
+                "The shade on which the highlight lies: where its line leaves the matte line (section 3.1).",
+            ),
+            _ => (
+                "meeting points",
+                "The shades on which highlights lie: where their lines leave the matte line (sections 3.1, 7.4).",
+            ),
+        };
+        Some(Name { at: middle + vec2(0.0, 16.0), anchor: Align2::CENTER_TOP, text, tip })
     }
 }
 

@@ -28,7 +28,8 @@ fn a_region_is_asked_for_and_shown() {
         plane.points.iter().map(|point| chart.screen(plane.oblique(point.body, point.surface), rect));
     assert!(places.into_iter().all(|at| rect.contains(at)), "all points are inside the view");
     // Figure 2's angle between both lines is seen as it is.
-    let [start, end] = plane.highlight_line().unwrap().map(|[b, s]| chart.screen(plane.oblique(b, s), rect));
+    let [start, end] =
+        plane.highlight_lines().next().unwrap().map(|[b, s]| chart.screen(plane.oblique(b, s), rect));
     let seen_deg = (start.y - end.y).atan2(end.x - start.x).to_degrees();
     assert!((seen_deg - plane.angle_deg).abs() < 0.1, "{seen_deg} {}", plane.angle_deg);
 }

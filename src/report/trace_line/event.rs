@@ -3,7 +3,9 @@
 use super::super::Names;
 use super::{local, short};
 use crate::color::{Line, Vec3};
-use crate::trace::{CandidateSource, CandidateTest, Event, Pass, PassedOver, SliceMade, VectorsFitted};
+use crate::trace::{
+    BranchesSought, CandidateSource, CandidateTest, Event, Pass, PassedOver, SliceMade, VectorsFitted,
+};
 use serde_json::{Value, json};
 
 /// What an event is about, what was measured, what it was held against.
@@ -52,6 +54,7 @@ pub(super) fn parts(names: &Names, event: &Event) -> (Value, Value, Value) {
         Event::LightChosen(chosen) => local::chosen(chosen),
         Event::Local(decision) => local::local(names, decision),
         Event::SliceMade(made) => slice(made),
+        Event::BranchesSought(sought) => branches(sought),
         Event::VectorsFitted(fitted) => vectors(fitted),
         other => change(names, other),
     }
@@ -194,6 +197,26 @@ fn slice(made: &SliceMade) -> (Value, Value, Value) {
     )
 }
 
+fn branches(sought: &BranchesSought) -> (Value, Value, Value) {
+    let core = |core: &crate::trace::HighlightCore| {
+        json!({
+            "body": short(core.body),
+            "deviation": short(core.deviation),
+            "surface": short(core.surface),
+            "pixels": core.pixels,
+            "span": core.span_px,
+            "branch": core.branch + 1,
+        })
+    };
+    let cores: Vec<Value> = sought.cores.iter().map(core).collect();
+    let of_gaps = |which: usize| sought.gaps.iter().map(|gap| short(gap[which])).collect::<Vec<_>>();
+    (
+        json!({"final": sought.region}),
+        json!({"branches": sought.branches(), "cores": cores, "differences": of_gaps(0)}),
+        json!({"differences": of_gaps(1)}),
+    )
+}
+
 fn vectors(fitted: &VectorsFitted) -> (Value, Value, Value) {
     (
         json!({"final": fitted.region}),
@@ -202,6 +225,7 @@ fn vectors(fitted: &VectorsFitted) -> (Value, Value, Value) {
             "surface": fitted.surface.as_ref().map(vector),
             "matte": line(&fitted.matte),
             "start": vector(&fitted.start),
+            "starts": fitted.starts.iter().map(vector).collect::<Vec<_>>(),
             "fit_rms_counts": fitted.rms_counts,
             "texture": fitted.texture,
             "texture_slope": fitted.texture_slope,

@@ -3,8 +3,8 @@
 use super::light::{light_chosen, votes_cast};
 use super::{Names, count, direction, local, percent};
 use crate::trace::{
-    CandidateSource, CandidateTest, Class, Event, HypothesisChosen, IlluminantEstimated, MasksMade, Pass,
-    PassedOver, SliceMade, VectorsFitted, WindowsLaid,
+    BranchesSought, CandidateSource, CandidateTest, Class, Event, HypothesisChosen, IlluminantEstimated,
+    MasksMade, Pass, PassedOver, SliceMade, VectorsFitted, WindowsLaid,
 };
 
 impl Names {
@@ -64,6 +64,7 @@ impl Names {
             }
             Event::VotesCast(votes) => votes_cast(votes),
             Event::LightChosen(chosen) => light_chosen(chosen),
+            Event::BranchesSought(sought) => branches_sought(sought),
             Event::VectorsFitted(fitted) => vectors_fitted(fitted),
             Event::Local(decision) => self.local(decision),
             Event::Renumbered { finals } => {
@@ -230,6 +231,27 @@ fn illuminant(estimated: &IlluminantEstimated) -> String {
         n => format!(" from {}, at most {worst:.1}\u{b0} off", count(n as u64, "constraint")),
     };
     format!("the light is {}{from}", direction(*light))
+}
+
+fn branches_sought(sought: &BranchesSought) -> String {
+    let cores = sought.cores.iter().map(|core| format!("{:.0} \u{b1} {:.0}", core.body, core.deviation));
+    let cores: Vec<String> = cores.collect();
+    let gap = |&[difference, limit]: &[f32; 2]| {
+        let relation = if difference > limit { '>' } else { '\u{2264}' };
+        format!("{difference:.0} {relation} {limit:.0}")
+    };
+    let gaps: Vec<String> = sought.gaps.iter().map(gap).collect();
+    let apart = if gaps.is_empty() { String::new() } else { format!(", apart {}", gaps.join(", ")) };
+    format!(
+        "region {}: m_b under its {} {} counts{apart}: {}",
+        sought.region,
+        if cores.len() == 1 { "highlight is" } else { "highlights is" },
+        cores.join(", "),
+        match sought.branches() {
+            1 => "one highlight branch".to_owned(),
+            n => format!("{n} highlight branches"),
+        }
+    )
 }
 
 fn vectors_fitted(fitted: &VectorsFitted) -> String {

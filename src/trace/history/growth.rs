@@ -99,9 +99,14 @@ pub(super) fn brightness(color: [f32; 3]) -> f32 {
     dot(color, color).sqrt()
 }
 
-/// What tells a region's highlight pixels, from which growth by brightness starts.
+/// What tells a growing region's highlight pixels, from which growth by brightness starts.
+pub(super) fn growing_test(fitted: &VectorsFitted) -> Option<HighlightTest> {
+    fitted.highlight.map(|surface| HighlightTest::of_lines(&fitted.matte, &[fitted.start], &surface))
+}
+
+/// What tells the final region's highlight pixels.
 pub(super) fn highlight_test(fitted: &VectorsFitted) -> Option<HighlightTest> {
-    fitted.highlight.map(|surface| HighlightTest::of_lines(&fitted.matte, &fitted.start, &surface))
+    fitted.highlight.map(|surface| HighlightTest::of_lines(&fitted.matte, &fitted.starts, &surface))
 }
 
 /// A region that grows.

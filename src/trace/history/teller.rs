@@ -1,7 +1,7 @@
 //! Goes through a trace once and notes what concerns one pixel.
 
 use super::facts::{amounts, final_vectors, verdicts};
-use super::growth::{Growth, Reaching, Regions, highlight_test};
+use super::growth::{Growth, Reaching, Regions, growing_test, highlight_test};
 use super::local::Outside;
 use super::patch::Patch;
 use super::{Happening, Release, SplitStory, Unfit, What};
@@ -210,7 +210,7 @@ impl<'a> Teller<'a> {
         };
         let Some(reaching) = reaching else { return };
         let test = usize::from(region).checked_sub(1).and_then(|index| *self.fitted.get(index)?);
-        let test = test.and_then(highlight_test);
+        let test = test.and_then(growing_test);
         // By brightness only highlight pixels grow.
         let grows = |pixel: usize| match reaching {
             Reaching::Brighter(_) => test.is_some_and(|test| test.is_highlight(self.image.pixels[pixel])),

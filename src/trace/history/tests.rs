@@ -212,6 +212,7 @@ fn the_end_is_a_number_a_role_and_amounts() {
                 surface: Some(Vec3::y()),
                 matte: red(),
                 start: Vec3::x() * 97.0,
+                starts: vec![Vec3::x() * 97.0],
                 highlight: Some(Vec3::y()),
                 least_offset: 2.5,
                 rms_counts: 1.0,

@@ -1,6 +1,6 @@
 //! The plane at the debugger's cursor: of a skewed-T test (5.4.1), or of a region that grows (5.3.2, 5.4.2).
 
-use super::{PlanePixel, RegionPlane};
+use super::{PlaneBranch, PlanePixel, RegionPlane};
 use crate::color::{Vec3, rgb};
 use crate::photo::Masks;
 use crate::reflection::{Components, ReflectionTransform};
@@ -33,7 +33,6 @@ impl Sheet<'_> {
     }
 
     fn plane(self, region: u16, half_widths: [f64; 2], points: Vec<PlanePixel>) -> RegionPlane {
-        let highlights = points.iter().filter(|point| point.kind == PixelKind::Highlight);
         let [slice_half_width, radius] = half_widths.map(|v| v as f32);
         RegionPlane {
             region,
@@ -42,8 +41,7 @@ impl Sheet<'_> {
             has_plane: true,
             angle_deg: super::angle_deg(&self.transform),
             matte_length: 0.0,
-            meeting_point: None,
-            highlight_length: highlights.fold(0.0, |most, point| most.max(point.surface)),
+            branches: Vec::new(),
             slice_half_width,
             radius,
             extent: super::extent(&points),
@@ -78,7 +76,8 @@ pub fn test_plane(
     let brightest = test.matte.foot() + test.matte.direction * test.matte_length;
     let (matte_length, meeting) = (sheet.amount(brightest), sheet.amount(test.meeting[0]));
     let plane = sheet.plane(region, [test.gap[1]; 2], points);
-    Some(RegionPlane { matte_length, meeting_point: Some(meeting), ..plane })
+    let branches = super::branches(&[meeting], &plane.points);
+    Some(RegionPlane { matte_length, branches, ..plane })
 }
 
 /// A region as it stands at the cursor: its pixels are matte, those that it took last highlight, those that it did not take
@@ -116,8 +115,9 @@ pub fn growing_plane(
     let meeting_point = made.map(|made| sheet.amount(made.start)).filter(|_| has_plane);
     let radius = hypothesis.radius;
     let plane = sheet.plane(region, [made.map_or(radius, |made| made.half_width), radius], points);
-    let highlight_length = if has_plane { plane.extent[1][1].max(0.0) } else { 0.0 };
-    Some(RegionPlane { has_plane, matte_length, meeting_point, highlight_length, ..plane })
+    let length = plane.extent[1][1].max(0.0);
+    let branches = meeting_point.map(|meeting_point| PlaneBranch { meeting_point, length });
+    Some(RegionPlane { has_plane, matte_length, branches: branches.into_iter().collect(), ..plane })
 }
 
 #[cfg(test)]
@@ -146,7 +146,7 @@ mod tests {
         let (test, masks) = (test_at_cursor(replay).unwrap(), &state.newest.as_ref().unwrap().analysis.masks);
         let plane = test_plane(replay, test, 3, picture, masks).unwrap();
         assert_eq!((plane.region, plane.has_plane), (3, true));
-        let percent = 100.0 * f64::from(plane.meeting_point.unwrap() / plane.matte_length);
+        let percent = 100.0 * f64::from(plane.branches[0].meeting_point / plane.matte_length);
         assert!((percent - test.position_percent).abs() < 8.0, "{percent} {}", test.position_percent);
         let near = |kind: PixelKind, of: fn(&PlanePixel) -> f32| {
             let all: Vec<f32> = plane.points.iter().filter(|p| p.kind == kind).map(of).collect();
@@ -169,7 +169,7 @@ mod tests {
             let masks = &state.newest.as_ref().unwrap().analysis.masks;
             let picture = state.picture.as_ref().unwrap();
             let plane = growing_plane(replay, region, 1, picture, masks).unwrap();
-            assert_eq!((plane.has_plane, plane.meeting_point.is_some()), (has_plane, has_plane));
+            assert_eq!((plane.has_plane, !plane.branches.is_empty()), (has_plane, has_plane));
             assert!(plane.matte_length > 20.0 && plane.points.len() > 100);
         }
         bench.apply(Command::Debug(DebugCommand::Seek(1)));
