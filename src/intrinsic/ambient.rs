@@ -13,6 +13,7 @@
 
 use crate::color::{Cylinder, Line, LineFit, Moments, Vec3, principal_axes};
 use crate::segment::{AmbientSetting, FinalRegions, Members, POOR_FIT, Pixels, PlanarHypothesis, Scene};
+use crate::trace::{Ambient, AmbientVerdict, Meeting};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
@@ -38,125 +39,40 @@ const DARKEST: f64 = 0.005;
 const TUNING: f64 = 4.7;
 const ITERATIONS: usize = 12;
 
-/// What is known of the ambient light.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Ambient {
-    /// What was subtracted from every pixel before the split, and added to its body reflection after it, counts; none: nothing.
-    pub subtracted: Option<[f64; 3]>,
-    /// Where the matte lines meet; none where it was not asked, or there is no line.
-    pub meeting: Option<Meeting>,
-    /// Why it was subtracted, or why not.
-    pub verdict: AmbientVerdict,
-}
-
-/// The point nearest to all matte lines.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Meeting {
-    /// Its colour, counts.
-    pub counts: [f64; 3],
-    /// Its standard deviation in each band, counts.
-    pub sd_counts: [f64; 3],
-    /// Lines that it rests on.
-    pub lines: usize,
-    /// Root mean square distance of the lines from it, and from black, counts.
-    pub miss_counts: [f64; 2],
-    /// Its squared distance from black, in variances: 16.3 is significant.
-    pub chi_square: f64,
-}
-
-/// Why ambient light was subtracted, or why not.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum AmbientVerdict {
-    /// Nothing was asked of it.
-    #[default]
-    Off,
-    /// It was given.
-    Given,
-    /// Estimated and subtracted.
-    Subtracted,
-    /// Fewer than three matte lines are known well enough.
-    FewLines,
-    /// The lines meet in black, as far as they can tell.
-    Black,
-    /// The lines meet in a colour that no light has: it is negative in some band.
-    Negative,
-    /// The lines meet nowhere.
-    NoMeeting,
-    /// Pixels are darker than the lines' meeting point.
-    DarkerPixels,
-}
-
-impl AmbientVerdict {
-    /// Its name in reports.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Off => "off",
-            Self::Given => "given",
-            Self::Subtracted => "subtracted",
-            Self::FewLines => "few_lines",
-            Self::Black => "black",
-            Self::Negative => "negative",
-            Self::NoMeeting => "no_meeting",
-            Self::DarkerPixels => "darker_pixels",
+/// What a segmented picture tells of its ambient light.
+pub fn ambient(scene: &Scene, regions: &FinalRegions, members: &Members) -> Ambient {
+    match scene.used.ambient {
+        AmbientSetting::Given(counts) => {
+            Ambient { subtracted: Some(counts), meeting: None, verdict: AmbientVerdict::Given }
         }
-    }
-
-    /// It in words.
-    pub const fn reason(self) -> &'static str {
-        match self {
-            Self::Off => "ambient light was not asked for",
-            Self::Given => "it was given",
-            Self::Subtracted => "the matte lines meet there, significantly away from black",
-            Self::FewLines => "fewer than three matte lines are known well enough to meet",
-            Self::Black => "the matte lines meet in black, as far as they can tell",
-            Self::Negative => {
-                "the matte lines meet in a colour that no light has: inter-reflection, or ambient light that differs from place to place"
-            }
-            Self::NoMeeting => "the matte lines do not meet in one point",
-            Self::DarkerPixels => "some pixels are darker than the point where the matte lines meet",
-        }
+        AmbientSetting::Auto if scene.refine.ambient_light => estimated(scene, regions, members),
+        AmbientSetting::Off | AmbientSetting::Auto => Ambient::default(),
     }
 }
 
-impl Ambient {
-    /// Of a segmented picture.
-    pub fn new(scene: &Scene, regions: &FinalRegions, members: &Members) -> Self {
-        match scene.used.ambient {
-            AmbientSetting::Off => Self::default(),
-            AmbientSetting::Given(counts) => {
-                Self { subtracted: Some(counts), meeting: None, verdict: AmbientVerdict::Given }
-            }
-            AmbientSetting::Auto if scene.refine.ambient_light => Self::estimated(scene, regions, members),
-            AmbientSetting::Auto => Self::default(),
-        }
-    }
-
-    fn estimated(scene: &Scene, regions: &FinalRegions, members: &Members) -> Self {
-        let lines: Vec<MatteLine> = (1..=regions.hypotheses.len() as u16)
-            .into_par_iter()
-            .filter_map(|id| {
-                MatteLine::new(scene, &regions.hypotheses[usize::from(id) - 1], members.region(id))
-            })
-            .collect();
-        let meeting = meeting(&lines);
-        let Some(found) = meeting.filter(|_| lines.len() >= LEAST_LINES) else {
-            return Self { subtracted: None, meeting, verdict: AmbientVerdict::FewLines };
-        };
-        let colour = Vec3::from(found.counts);
-        let verdict = if found.chi_square <= SIGNIFICANT || colour.norm() <= scene.sigma() {
-            AmbientVerdict::Black
-        } else if (0..3).any(|band| found.counts[band] < -2.0 * found.sd_counts[band]) {
-            AmbientVerdict::Negative
-        } else if found.miss_counts[0] > BETTER * found.miss_counts[1] {
-            AmbientVerdict::NoMeeting
-        } else if brighter_than_the_darkest(scene, regions, &found.counts) {
-            AmbientVerdict::DarkerPixels
-        } else {
-            AmbientVerdict::Subtracted
-        };
-        let light = found.counts.map(|band| band.max(0.0));
-        Self { subtracted: (verdict == AmbientVerdict::Subtracted).then_some(light), meeting, verdict }
-    }
+fn estimated(scene: &Scene, regions: &FinalRegions, members: &Members) -> Ambient {
+    let lines: Vec<MatteLine> = (1..=regions.hypotheses.len() as u16)
+        .into_par_iter()
+        .filter_map(|id| MatteLine::new(scene, &regions.hypotheses[usize::from(id) - 1], members.region(id)))
+        .collect();
+    let meeting = meeting(&lines);
+    let Some(found) = meeting.filter(|_| lines.len() >= LEAST_LINES) else {
+        return Ambient { subtracted: None, meeting, verdict: AmbientVerdict::FewLines };
+    };
+    let colour = Vec3::from(found.counts);
+    let verdict = if found.chi_square <= SIGNIFICANT || colour.norm() <= scene.sigma() {
+        AmbientVerdict::Black
+    } else if (0..3).any(|band| found.counts[band] < -2.0 * found.sd_counts[band]) {
+        AmbientVerdict::Negative
+    } else if found.miss_counts[0] > BETTER * found.miss_counts[1] {
+        AmbientVerdict::NoMeeting
+    } else if brighter_than_the_darkest(scene, regions, &found.counts) {
+        AmbientVerdict::DarkerPixels
+    } else {
+        AmbientVerdict::Subtracted
+    };
+    let light = found.counts.map(|band| band.max(0.0));
+    Ambient { subtracted: (verdict == AmbientVerdict::Subtracted).then_some(light), meeting, verdict }
 }
 
 /// Whether more pixels of the regions than noise explains are darker in some band.
@@ -293,7 +209,7 @@ mod tests {
         });
         let regions =
             FinalRegions { labels, hypotheses: hypotheses.collect(), light: LightFindings::default() };
-        Ambient::new(&drawing.scene(), &regions, &members(&regions))
+        ambient(&drawing.scene(), &regions, &members(&regions))
     }
 
     const RED: [f64; 3] = [0.9, 0.3, 0.2];
@@ -303,9 +219,9 @@ mod tests {
     proptest! {
         #[test]
         fn three_lines_tell_where_they_meet(veil in prop::array::uniform3(2.0f64..15.0)) {
-            let ambient = found(&[(RED, veil), (GREEN, veil), (BLUE, veil)], AmbientSetting::Auto);
-            prop_assert_eq!(ambient.verdict, AmbientVerdict::Subtracted);
-            let subtracted = ambient.subtracted.unwrap();
+            let told = found(&[(RED, veil), (GREEN, veil), (BLUE, veil)], AmbientSetting::Auto);
+            prop_assert_eq!(told.verdict, AmbientVerdict::Subtracted);
+            let subtracted = told.subtracted.unwrap();
             for band in 0..3 {
                 prop_assert!((subtracted[band] - veil[band]).abs() < 0.6, "{:?} {:?}", subtracted, veil);
             }

@@ -10,13 +10,12 @@ mod restore;
 mod split;
 mod vectors;
 
-pub use ambient::{Ambient, AmbientVerdict, Meeting};
 pub use reason::Reason;
 pub use split::split;
 
 use crate::raster::Raster;
 pub use crate::segment::POOR_FIT;
-pub use crate::trace::PixelKind;
+pub use crate::trace::{Ambient, AmbientVerdict, Meeting, PixelKind};
 
 /// The intrinsic images and what is known of each region.
 #[derive(Clone, Debug, PartialEq)]

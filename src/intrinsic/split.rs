@@ -1,6 +1,6 @@
 //! Section 6: every pixel's amounts of body and surface reflection, by its region's T.
 
-use super::ambient::Ambient;
+use super::ambient::ambient;
 use super::confidence::Grounds;
 use super::holding::holding;
 use super::local::split_locally;
@@ -16,13 +16,17 @@ use crate::segment::{
     BranchSearch, Branches, FinalRegions, Members, Pixels, PlanarHypothesis, RegionFit, Scene, members,
     neighbours,
 };
-use crate::trace::{BranchesSought, Event, Pass, PixelKind, Recorder, VectorsFitted};
+use crate::trace::{Ambient, BranchesSought, Event, Pass, PixelKind, Recorder, VectorsFitted};
 use rayon::prelude::*;
 
 /// Splits the picture, without its ambient light.
 pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut R) -> Intrinsic {
     let members = members(regions);
-    let ambient = Ambient::new(scene, regions, &members);
+    let ambient = ambient(scene, regions, &members);
+    if R::KEEPS {
+        recorder.record(Event::PassBegan { pass: Pass::Ambient });
+        recorder.record(Event::AmbientSought(Box::new(ambient)));
+    }
     let Some(counts) = ambient.subtracted else {
         return Intrinsic { ambient, ..split_from(&[0.0; 3], scene, regions, &members, recorder) };
     };

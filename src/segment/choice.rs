@@ -113,7 +113,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
     /// The regions under another light, from the matte ones on.
     fn slices_anew(&mut self, light: Option<Vec3>) -> Vec<PlanarHypothesis> {
         self.reset();
-        self.announce(light, Vec::new());
+        self.announce(light, Vec::new(), None);
         let hypotheses = self.slices(light);
         if light.is_none() {
             return hypotheses;

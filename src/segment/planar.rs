@@ -27,7 +27,9 @@ use super::unite::merge_regions;
 use crate::color::{Cylinder, Line, Vec3, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::reflection::{DichromaticPlane, HighlightTest, Slice};
-use crate::trace::{Contest, Contribution, Event, IlluminantEstimated, Measure, Pass, Recorder, SliceMade};
+use crate::trace::{
+    Contest, Contribution, Event, IlluminantEstimated, Measure, Outshone, Pass, Recorder, SliceMade,
+};
 use rayon::prelude::*;
 
 /// Smallest angle between body and surface vector at which a plane means anything, degrees.
@@ -122,7 +124,7 @@ pub fn planar_regions<R: Recorder>(
     if !scene.refine.robust_illuminant {
         let objects = stage.lines.iter().flatten().count();
         let direction = average_direction(&stage.lines);
-        stage.announce(direction, Vec::new());
+        stage.announce(direction, Vec::new(), None);
         let hypotheses = stage.slices(direction);
         return stage.choose(hypotheses, ByPlanes { direction, objects, interval_deg: 90.0 });
     }
@@ -171,12 +173,17 @@ impl<R: Recorder> Stage<'_, '_, R> {
         PlanarRegions { labels: self.ledger.labels, hypotheses, illuminant, light }
     }
 
-    pub(super) fn announce(&mut self, direction: Option<Vec3>, contributions: Vec<Contribution>) {
+    pub(super) fn announce(
+        &mut self,
+        direction: Option<Vec3>,
+        contributions: Vec<Contribution>,
+        outshone: Option<Outshone>,
+    ) {
         self.ledger.begin(Pass::Illuminant);
         if R::KEEPS
             && let Some(direction) = direction
         {
-            let estimated = IlluminantEstimated { direction: direction.into(), contributions };
+            let estimated = IlluminantEstimated { direction: direction.into(), contributions, outshone };
             self.ledger.recorder.record(Event::IlluminantEstimated(Box::new(estimated)));
         }
     }
@@ -203,7 +210,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
         }
         let sd_deg = if candidates.is_some() { 8.0 } else { 12.0 };
         let found = intersect(&constraints, &Prior { direction: start, sd_deg });
-        self.announce(Some(found.direction), found.contributions);
+        self.announce(Some(found.direction), found.contributions, None);
         let objects = constraints.len().max(self.lines.iter().flatten().count());
         ByPlanes { direction: Some(found.direction), objects, interval_deg: found.interval_deg }
     }
@@ -237,8 +244,8 @@ impl<R: Recorder> Stage<'_, '_, R> {
             Some(direction) if branches == 0 => Prior { direction, sd_deg: 8.0 },
             _ => Prior { direction: *before, sd_deg: 30.0 },
         };
-        let found = light_of(self.scene, &evidence, &prior);
-        self.announce(Some(found.direction), found.contributions);
+        let (found, outshone) = light_of(self.scene, &evidence, &prior);
+        self.announce(Some(found.direction), found.contributions, outshone);
         let direction = Some(found.direction);
         (found.direction, ByPlanes { direction, objects, interval_deg: found.interval_deg })
     }

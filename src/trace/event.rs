@@ -3,7 +3,7 @@
 //! Events are kept by the hundred thousand, so what is rare and large is boxed. Claims, conflicts and labels are kept by the
 //! million: they are no events, see [`super::Reel`].
 
-use super::{Class, LightChosen, LocalDecision, Stage, VectorsFitted, VotesCast};
+use super::{Ambient, Class, LightChosen, LocalDecision, Outshone, Stage, VectorsFitted, VotesCast};
 use crate::color::{Line, Vec3};
 use crate::photo::MaskLimits;
 use crate::reflection::{DichromaticPlane, Slice};
@@ -159,6 +159,8 @@ pub enum Event {
         /// The final number of region `i + 1` at index `i`; 0 for one that is no more.
         finals: Box<[u16]>,
     },
+    /// Ambient light was sought where the matte lines meet (7.5).
+    AmbientSought(Box<Ambient>),
     /// A region's highlights were held against one another: do they lie on different shades (7.4)?
     BranchesSought(Box<BranchesSought>),
     /// By which vectors a region's pixels are split (section 6).
@@ -202,6 +204,8 @@ pub enum Pass {
     Separating,
     /// Regions that are too small go, the others are numbered.
     Numbering,
+    /// What the matte lines tell of ambient light (7.5).
+    Ambient,
     /// Body and surface vectors of each region (section 6).
     Vectors,
     /// Where no region holds, pixels are split by their surroundings (beyond section 6).
@@ -232,6 +236,7 @@ impl Pass {
             Self::Joining => "join across",
             Self::Separating => "separate parts",
             Self::Numbering => "number",
+            Self::Ambient => "ambient light",
             Self::Vectors => "vectors",
             Self::LocalSplit => "local split",
             Self::ClipRepair => "clip repair",
@@ -354,6 +359,8 @@ pub struct IlluminantEstimated {
     pub direction: [f64; 3],
     /// Each region that had a say.
     pub contributions: Vec<Contribution>,
+    /// Whether all pixels off the matte lines or the highlights alone had it, where both were held against each other.
+    pub outshone: Option<Outshone>,
 }
 
 /// What one region said about the light.

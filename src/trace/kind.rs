@@ -51,6 +51,8 @@ pub enum Kind {
     Part,
     /// Regions got their final numbers.
     Numbers,
+    /// Ambient light was sought (7.5).
+    Ambient,
     /// A region's highlights were held against one another (7.4).
     Branches,
     /// Reflection vectors were fitted (6).
@@ -75,7 +77,7 @@ pub enum Kind {
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 33] = [
+    pub const ALL: [Self; 34] = [
         Self::Stage,
         Self::Pass,
         Self::Masks,
@@ -99,6 +101,7 @@ impl Kind {
         Self::Dropped,
         Self::Part,
         Self::Numbers,
+        Self::Ambient,
         Self::Branches,
         Self::Vectors,
         Self::LocalSplit,
@@ -137,6 +140,7 @@ impl Kind {
             Self::Dropped => "dropped",
             Self::Part => "part separated",
             Self::Numbers => "numbers",
+            Self::Ambient => "ambient light",
             Self::Branches => "highlight branches",
             Self::Vectors => "vectors",
             Self::LocalSplit => "local split",
@@ -178,6 +182,7 @@ impl Event {
             Self::Dropped { .. } => Kind::Dropped,
             Self::ComponentSplit { .. } => Kind::Part,
             Self::Renumbered { .. } => Kind::Numbers,
+            Self::AmbientSought(_) => Kind::Ambient,
             Self::BranchesSought(_) => Kind::Branches,
             Self::VectorsFitted(_) => Kind::Vectors,
             Self::Local(LocalDecision::Began(_)) => Kind::LocalSplit,

@@ -79,3 +79,19 @@ pub struct LightLimits {
     /// Farthest from white that a light by votes may lie: blue to yellow, green to magenta, degrees.
     pub offsets_deg: [f64; 2],
 }
+
+/// How well two lights explain the pixels that the light outshines (7.5): that of all pixels off the matte lines, and that of
+/// the highlights alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outshone {
+    /// Outshone pixels.
+    pub pixels: u32,
+    /// Their mean squared distance from the planes under the one light, σ² …
+    pub by_all: f64,
+    /// … and under the other; none where the first one does well enough.
+    pub by_highlights: Option<f64>,
+    /// Up to where the other may go, and how many times better it has to be.
+    pub limits: [f64; 2],
+    /// Whether the highlights' light was taken.
+    pub taken: bool,
+}

@@ -4,6 +4,7 @@
 //! [`Reel`] a stage. A [`Trace`] is all reels in order; a [`Replay`] is a cursor in it that goes forward and back and shows
 //! what stood at that instant.
 
+mod ambient;
 mod event;
 mod history;
 mod kind;
@@ -19,6 +20,7 @@ mod terms;
 mod timeline;
 mod vectors;
 
+pub use ambient::{Ambient, AmbientVerdict, Meeting};
 pub use event::{
     BranchesSought, CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Contribution, Event,
     HighlightCore, HypothesisChosen, IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver,
@@ -29,7 +31,7 @@ pub use history::{
     SplitStory, Unfit, What, WindowStory, pixel_history,
 };
 pub use kind::Kind;
-pub use light::{Elected, LightBasis, LightChosen, LightLimits, VotesCast};
+pub use light::{Elected, LightBasis, LightChosen, LightLimits, Outshone, VotesCast};
 pub use lineage::{Ancestor, Birth, HypothesisStory, Joined, JoinedHow, final_numbers, lineage, story};
 pub use local::{
     BeliefLimits, BeliefTested, BlobJudged, Doubt, LocalBegan, LocalDecision, LocalLimits, LocalPoint,

@@ -309,6 +309,7 @@ fn boxed_bytes(event: &Event) -> usize {
         Event::IlluminantEstimated(estimated) => {
             size_of_val(&**estimated) + size_of_val(estimated.contributions.as_slice())
         }
+        Event::AmbientSought(ambient) => size_of_val(&**ambient),
         Event::VotesCast(votes) => size_of_val(&**votes),
         Event::LightChosen(chosen) => size_of_val(&**chosen),
         Event::SliceMade(made) => size_of_val(&**made),

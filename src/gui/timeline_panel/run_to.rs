@@ -29,7 +29,7 @@ const GROUPS: [(&str, &[Kind]); 7] = [
     ),
     (
         "Clipping, numbers, vectors (5.5, 6)",
-        &[Kind::Hole, Kind::Dropped, Kind::Part, Kind::Numbers, Kind::Branches, Kind::Vectors],
+        &[Kind::Hole, Kind::Dropped, Kind::Part, Kind::Numbers, Kind::Ambient, Kind::Branches, Kind::Vectors],
     ),
     ("Where no region holds", &[Kind::LocalSplit, Kind::Blobs, Kind::Blob, Kind::Belief, Kind::Repair]),
     ("Pixels", &[Kind::Claim, Kind::Refusal, Kind::Label]),

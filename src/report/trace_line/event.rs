@@ -43,7 +43,12 @@ pub(super) fn parts(names: &Names, event: &Event) -> (Value, Value, Value) {
             let contributions: Vec<Value> = estimated.contributions.iter().map(contribution).collect();
             (
                 none(),
-                json!({"given": false, "direction": estimated.direction, "contributions": contributions}),
+                json!({
+                    "given": false,
+                    "direction": estimated.direction,
+                    "contributions": contributions,
+                    "outshone": estimated.outshone.map(local::outshone),
+                }),
                 none(),
             )
         }
@@ -52,6 +57,7 @@ pub(super) fn parts(names: &Names, event: &Event) -> (Value, Value, Value) {
         }
         Event::VotesCast(votes) => local::votes(votes),
         Event::LightChosen(chosen) => local::chosen(chosen),
+        Event::AmbientSought(ambient) => local::ambient(ambient),
         Event::Local(decision) => local::local(names, decision),
         Event::SliceMade(made) => slice(made),
         Event::BranchesSought(sought) => branches(sought),

@@ -3,7 +3,8 @@
 use super::super::Names;
 use super::short;
 use crate::trace::{
-    BeliefTested, Doubt, Elected, LightChosen, LocalBegan, LocalDecision, LocalStart, RepairTried, VotesCast,
+    Ambient, BeliefTested, Doubt, Elected, LightChosen, LocalBegan, LocalDecision, LocalStart, Outshone,
+    RepairTried, VotesCast,
 };
 use serde_json::{Value, json};
 
@@ -135,6 +136,35 @@ fn repair(names: &Names, tried: &RepairTried) -> (Value, Value, Value) {
             "verdict": tried.verdict.name(),
         }),
         json!({"ring": short(least)}),
+    )
+}
+
+/// How well two lights explain the outshone pixels.
+pub(super) fn outshone(outshone: Outshone) -> Value {
+    json!({
+        "pixels": outshone.pixels,
+        "by_all": outshone.by_all,
+        "by_highlights": outshone.by_highlights,
+        "limits": outshone.limits,
+        "taken": outshone.taken,
+    })
+}
+
+/// What the matte lines tell of ambient light.
+pub(super) fn ambient(ambient: &Ambient) -> (Value, Value, Value) {
+    let meeting = ambient.meeting;
+    (
+        json!({}),
+        json!({
+            "subtracted": ambient.subtracted,
+            "verdict": ambient.verdict.name(),
+            "meeting": meeting.map(|meeting| meeting.counts),
+            "sd_counts": meeting.map(|meeting| meeting.sd_counts),
+            "lines": meeting.map(|meeting| meeting.lines),
+            "miss_counts": meeting.map(|meeting| meeting.miss_counts),
+            "chi_square": meeting.map(|meeting| meeting.chi_square),
+        }),
+        json!({}),
     )
 }
 

@@ -1,6 +1,6 @@
 //! Events in words.
 
-use super::light::{light_chosen, votes_cast};
+use super::light::{ambient_sought, light_chosen, votes_cast, whose_light};
 use super::{Names, count, direction, local, percent};
 use crate::trace::{
     BranchesSought, CandidateSource, CandidateTest, Class, Event, HypothesisChosen, IlluminantEstimated,
@@ -64,6 +64,7 @@ impl Names {
             }
             Event::VotesCast(votes) => votes_cast(votes),
             Event::LightChosen(chosen) => light_chosen(chosen),
+            Event::AmbientSought(ambient) => ambient_sought(ambient),
             Event::BranchesSought(sought) => branches_sought(sought),
             Event::VectorsFitted(fitted) => vectors_fitted(fitted),
             Event::Local(decision) => self.local(decision),
@@ -223,14 +224,15 @@ pub(super) fn passed_over(reason: PassedOver, pixels: u32, least: u32) -> String
 }
 
 fn illuminant(estimated: &IlluminantEstimated) -> String {
-    let IlluminantEstimated { direction: light, contributions } = estimated;
+    let IlluminantEstimated { direction: light, contributions, outshone } = estimated;
     let heard = contributions.iter().filter(|contribution| contribution.weight > 0.0);
     let worst = heard.clone().map(|contribution| contribution.residual_deg).fold(0.0, f64::max);
     let from = match heard.count() {
         0 => String::new(),
         n => format!(" from {}, at most {worst:.1}\u{b0} off", count(n as u64, "constraint")),
     };
-    format!("the light is {}{from}", direction(*light))
+    let whose = outshone.as_ref().map_or_else(String::new, whose_light);
+    format!("the light is {}{from}{whose}", direction(*light))
 }
 
 fn branches_sought(sought: &BranchesSought) -> String {

@@ -1,7 +1,7 @@
 //! Which light is used, in words.
 
 use super::{count, direction, percent};
-use crate::trace::{Elected, LightBasis, LightChosen, LightLimits, VotesCast};
+use crate::trace::{Ambient, Elected, LightBasis, LightChosen, LightLimits, Outshone, VotesCast};
 
 /// What small highlights say.
 pub(super) fn votes_cast(votes: &VotesCast) -> String {
@@ -53,6 +53,44 @@ pub(super) fn light_chosen(chosen: &LightChosen) -> String {
             no_use(votes.as_ref(), limits)
         ),
     }
+}
+
+/// Whether the highlights alone told the light.
+pub(super) fn whose_light(outshone: &Outshone) -> String {
+    let Outshone { pixels, by_all, by_highlights, limits: [most, better], taken } = *outshone;
+    let Some(by_highlights) = by_highlights else { return String::new() };
+    let (alone, relation) = if taken { ("of the highlights alone", "") } else { ("of all pixels", "not ") };
+    format!(
+        "; it is that {alone}: from the planes of the highlights {} that the light outshines lie {:.1} \u{3c3} (rms), from those of \
+         all pixels off the matte lines {:.1} \u{3c3}, {relation}{:.1} times better and at most {:.1} \u{3c3}",
+        count(pixels, "pixel"),
+        by_highlights.sqrt(),
+        by_all.sqrt(),
+        better.sqrt(),
+        most.sqrt()
+    )
+}
+
+/// What the matte lines tell of ambient light.
+pub(super) fn ambient_sought(ambient: &Ambient) -> String {
+    let counts = |counts: [f64; 3]| counts.map(|band| format!("{band:.1}")).join(", ");
+    let reason = ambient.verdict.reason();
+    let Some(meeting) = ambient.meeting else {
+        return match ambient.subtracted {
+            Some(given) => format!("ambient light of {} counts is subtracted: {reason}", counts(given)),
+            None => format!("no ambient light is subtracted: {reason}"),
+        };
+    };
+    let what = if ambient.subtracted.is_some() { "ambient light is" } else { "no ambient light is" };
+    let [miss, of_black] = meeting.miss_counts;
+    format!(
+        "{what} subtracted: {reason}; {} pass {} \u{b1} {} counts by {miss:.1} counts (rms) and black by {of_black:.1}, \
+         \u{3c7}\u{b2} {:.1} (significant above 16.3)",
+        count(meeting.lines as u64, "matte line"),
+        counts(meeting.counts),
+        counts(meeting.sd_counts),
+        meeting.chi_square
+    )
 }
 
 /// Why votes do not decide.
