@@ -83,7 +83,7 @@ pub struct Refine {
     /// The whole picture +5.1 dB.
     pub clip_repair: bool,
     /// A region whose highlights lie on different shades has a highlight line for each.
-    /// In regions where it finds several, 2455 → 427 matte pixels are called highlight, and 5397 → 6009 of 12000 true highlight
+    /// In regions where it finds several, 1698 → 278 matte pixels are called highlight, and 3555 → 4281 of 10163 true highlight
     /// pixels; the images do not change.
     pub second_branch: bool,
 }
