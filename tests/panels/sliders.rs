@@ -5,7 +5,7 @@ use crate::window::{
     tiny_window, undo,
 };
 use dichroscope::gui::Pane;
-use dichroscope::segment::{Method, Parameter, Params, Preset, Setting};
+use dichroscope::segment::{AmbientSetting, Method, Parameter, Params, Preset, Setting};
 use dichroscope::workbench::{Command, Export};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, Rect};
@@ -169,7 +169,8 @@ fn the_light_is_pinned_and_let_go() {
     let mut window = tiny_window();
     let found = shown(&window).analysis.illuminant.unwrap().direction;
     click(&mut window, Role::CheckBox, "pin illuminant");
-    assert_eq!(state(&window).document.params.illuminant.direction(), Some(found));
+    let pinned = state(&window).document.params.illuminant.direction().unwrap();
+    assert!((0..3).all(|band| (pinned[band] - found[band]).abs() < 1e-12), "{pinned:?}, {found:?}");
     assert!(shown(&window).analysis.illuminant.unwrap().given);
     click(&mut window, Role::SpinButton, "illuminant green");
     window.key_press_modifiers(Modifiers::COMMAND, Key::A);
@@ -204,4 +205,23 @@ fn the_call_of_what_is_shown_can_be_copied() {
     let call = copied.concat();
     assert!(call.starts_with("dichroscope analyze ") && call.contains("--camera-noise 4"), "{call:?}");
     assert!(call.contains(&tiny().display().to_string()), "{call:?}");
+}
+
+#[test]
+fn ambient_light_is_given_switched_off_and_found_again() {
+    let mut window = tiny_window();
+    assert_eq!(state(&window).document.params.ambient, AmbientSetting::Auto);
+    click(&mut window, Role::CheckBox, "ambient automatic");
+    assert_eq!(state(&window).document.params.ambient, AmbientSetting::Off);
+    click(&mut window, Role::SpinButton, "ambient blue");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.event(Event::Text("6".to_owned()));
+    window.run_steps(2);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(state(&window).document.params.ambient, AmbientSetting::Given([0.0, 0.0, 6.0]));
+    assert_eq!(shown(&window).analysis.intrinsic.ambient.subtracted, Some([0.0, 0.0, 6.0]));
+    click(&mut window, Role::CheckBox, "ambient automatic");
+    assert_eq!(state(&window).document.params.ambient, AmbientSetting::Auto);
+    undo(&mut window);
+    assert_eq!(state(&window).document.params.ambient, AmbientSetting::Given([0.0, 0.0, 6.0]));
 }
