@@ -95,7 +95,7 @@ pub fn region_plane(shown: &Shown, region: u16) -> Option<RegionPlane> {
     let amount = |colour: Vec3| transform.split(from(origin, rgb(&colour))).body;
     let brightest = hypothesis.matte.foot() + hypothesis.matte.direction * hypothesis.matte_length;
     let starts = starts(reflection, hypothesis).into_iter().filter(|_| has_plane);
-    let meeting_points: Vec<f32> = starts.map(|start| amount(start)).collect();
+    let meeting_points: Vec<f32> = starts.map(amount).collect();
     Some(RegionPlane {
         region,
         body: transform.body(),
