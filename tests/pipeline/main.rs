@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 #![allow(clippy::float_cmp, reason = "what is exact by construction is tested for exactness")]
 
+mod ambient;
 mod area;
 mod cache;
 mod common;

@@ -269,7 +269,7 @@ fn split(story: &SplitStory) -> String {
     if let Some(why) = &story.unfit {
         return unfit(story.number, why);
     }
-    let SplitStory { number, kind, lines, amounts, cut, least_offset, .. } = story;
+    let SplitStory { number, kind, lines, amounts, cut, least_offset, ambient, .. } = story;
     let what = match (kind, lines) {
         (PixelKind::Restored, _) => "is restored from the bands that can be believed".to_owned(),
         (PixelKind::Lost, _) => "is clipped in every band: its split is a guess".to_owned(),
@@ -288,5 +288,11 @@ fn split(story: &SplitStory) -> String {
             amounts.body, amounts.surface, amounts.noise
         )
     });
-    format!("in region {number} it {what}{amounts}")
+    let without = if ambient.iter().all(|&band| band == 0.0) {
+        String::new()
+    } else {
+        let [r, g, b] = ambient;
+        format!(", without ambient light of {r:.1}, {g:.1}, {b:.1} counts")
+    };
+    format!("in region {number} it {what}{amounts}{without}")
 }

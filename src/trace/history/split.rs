@@ -20,6 +20,8 @@ pub struct SplitStory {
     pub cut: Option<f32>,
     /// See there, counts.
     pub least_offset: f32,
+    /// The ambient light that was subtracted from it before (7.5), counts; zeros where there was none.
+    pub ambient: [f64; 3],
     /// Why its region's plane is not used for it, where it is not: then the amounts are not the pixel's.
     pub unfit: Option<Unfit>,
 }

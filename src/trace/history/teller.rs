@@ -365,6 +365,7 @@ impl<'a> Teller<'a> {
                 amounts: believed.then_some(amounts),
                 cut: cut.filter(|_| believed),
                 least_offset: fitted.least_offset,
+                ambient: fitted.origin,
                 unfit: self.outside.as_ref().map(|outside| Unfit {
                     fit: [fitted.rms_counts, fitted.texture, fitted.texture_slope],
                     limits: fitted.limits,
