@@ -3,7 +3,9 @@
 //! Events are kept by the hundred thousand, so what is rare and large is boxed. Claims, conflicts and labels are kept by the
 //! million: they are no events, see [`super::Reel`].
 
-use super::{Ambient, Class, LightChosen, LocalDecision, Outshone, Stage, VectorsFitted, VotesCast};
+use super::{
+    Ambient, BranchesSought, Class, LightChosen, LocalDecision, Outshone, Stage, VectorsFitted, VotesCast,
+};
 use crate::color::{Line, Vec3};
 use crate::photo::MaskLimits;
 use crate::reflection::{DichromaticPlane, Slice};
@@ -389,42 +391,6 @@ pub struct SliceMade {
     pub half_width: f64,
     /// What it holds.
     pub slice: Slice,
-}
-
-/// What [`Event::BranchesSought`] says.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BranchesSought {
-    /// The region, by its final number.
-    pub region: u16,
-    /// Its highlights' cores, by ascending body reflection.
-    pub cores: Vec<HighlightCore>,
-    /// From each core to the next: how much their body reflection differs, and from which difference on they belong to two
-    /// branches, counts.
-    pub gaps: Vec<[f32; 2]>,
-}
-
-impl BranchesSought {
-    /// How many branches there are.
-    pub fn branches(&self) -> usize {
-        self.cores.iter().map(|core| core.branch + 1).max().unwrap_or(0)
-    }
-}
-
-/// The brightest part of one highlight.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HighlightCore {
-    /// Amount of body reflection under it, the median of its undistorted pixels, counts.
-    pub body: f32,
-    /// Standard deviation of that from pixel to pixel, counts: noise, shading, and what the plane leaves open.
-    pub deviation: f32,
-    /// Amount of surface reflection, the mean of its undistorted pixels, counts.
-    pub surface: f32,
-    /// Its pixels, clipped and bloomed ones included.
-    pub pixels: u32,
-    /// First column and row and last column and row that it spans.
-    pub span_px: [u32; 4],
-    /// The branch that it belongs to, from 0 for the strongest.
-    pub branch: usize,
 }
 
 /// Why an area did not start a hypothesis.

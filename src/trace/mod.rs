@@ -5,6 +5,7 @@
 //! what stood at that instant.
 
 mod ambient;
+mod branches;
 mod event;
 mod history;
 mod kind;
@@ -21,10 +22,10 @@ mod timeline;
 mod vectors;
 
 pub use ambient::{Ambient, AmbientVerdict, Meeting};
+pub use branches::{BranchesSought, HighlightCore};
 pub use event::{
-    BranchesSought, CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Contribution, Event,
-    HighlightCore, HypothesisChosen, IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver,
-    SliceMade, WindowsLaid,
+    CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Contribution, Event, HypothesisChosen,
+    IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver, SliceMade, WindowsLaid,
 };
 pub use history::{
     Barrier, Happening, LocalFate, LocalStory, MaskVerdict, MergeRefusal, MergeStory, Reach, Release,

@@ -181,7 +181,39 @@ fn look(state: &mut State, command: Command) {
         Command::Theme(theme) => state.view.theme = theme,
         Command::Layout(layout) => state.view.layout = layout,
         Command::Camera(camera) => state.view.camera = camera,
-        other => unreachable!("handled before: {other:?}"),
+        // The others are handled before; a new one cannot be forgotten, as all are listed.
+        Command::Open(_)
+        | Command::ReadAs(_)
+        | Command::Restore(_)
+        | Command::Opened(_)
+        | Command::Progress { .. }
+        | Command::Analysed(_)
+        | Command::Exporting { .. }
+        | Command::Exported(_)
+        | Command::OpenFailed(_)
+        | Command::SetParameter(..)
+        | Command::SetMethod(_)
+        | Command::SetSwitch(..)
+        | Command::SetParams(_)
+        | Command::LoadParams(_)
+        | Command::PinIlluminant(..)
+        | Command::SetAmbient(..)
+        | Command::RestrictTo(_)
+        | Command::EndGesture
+        | Command::Undo
+        | Command::Redo
+        | Command::Select(_)
+        | Command::Mark(..)
+        | Command::InvertMarked
+        | Command::ClearSelection
+        | Command::Ask(_)
+        | Command::Debug(_)
+        | Command::Export(_)
+        | Command::CancelExport
+        | Command::OpenWorkspace(_)
+        | Command::Notify(..)
+        | Command::Dismiss(_)
+        | Command::ForgetRecent => {}
     }
 }
 
