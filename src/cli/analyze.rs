@@ -156,6 +156,10 @@ pub(super) fn in_short(finished: &Finished) -> String {
         .illuminant
         .direction
         .map_or("light unknown".to_owned(), |[r, g, b]| format!("light ({r:.2}, {g:.2}, {b:.2})"));
+    let ambient = report
+        .ambient
+        .subtracted
+        .map_or_else(String::new, |[r, g, b]| format!(", less ambient ({r:.1}, {g:.1}, {b:.1}) counts"));
     let regions = count(report.regions.len(), "region");
     let noise = report.params.camera_noise.used.unwrap_or_default() / 2.0;
     let poor = report.regions.iter().filter(|region| region.fit_rms_counts > POOR_FIT * noise).count();
@@ -164,7 +168,7 @@ pub(super) fn in_short(finished: &Finished) -> String {
         0 => String::new(),
         n => format!(", {}", count(n, "warning")),
     };
-    format!("{regions}{poor}, {share}, {light}{warnings}, {:.0} ms", report.timings_ms.analysis_ms())
+    format!("{regions}{poor}, {share}, {light}{ambient}{warnings}, {:.0} ms", report.timings_ms.analysis_ms())
 }
 
 fn share(text: &str) -> Result<f64, String> {

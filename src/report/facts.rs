@@ -262,6 +262,9 @@ pub struct IlluminantFacts {
     /// The light by the dichromatic planes, unit.
     #[serde(default)]
     pub planes: Option<[f64; 3]>,
+    /// Whether the planes are those of the highlights alone, as faint surface reflection has another colour.
+    #[serde(default)]
+    pub highlights_alone: bool,
     /// The light by the votes of small highlights, unit.
     #[serde(default)]
     pub votes: Option<[f64; 3]>,
@@ -287,6 +290,7 @@ impl IlluminantFacts {
             reason: light.reason(),
             interval_deg: light.interval_deg,
             planes: light.planes,
+            highlights_alone: light.highlights_alone,
             votes: light.votes,
             agreement_deg: light.agreement_deg(),
             vote_share: light.share,

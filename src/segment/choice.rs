@@ -36,6 +36,8 @@ pub struct ByPlanes {
     pub direction: Option<Vec3>,
     pub objects: usize,
     pub interval_deg: f64,
+    /// Whether it rests on the planes of the highlights alone, as faint surface reflection has another colour.
+    pub highlights_alone: bool,
 }
 
 impl<R: Recorder> Stage<'_, '_, R> {
@@ -47,6 +49,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
             basis: if by_planes.is_some() { LightBasis::Planes } else { LightBasis::Nothing },
             planes: by_planes.map(Into::into),
             interval_deg: by_planes.map(|_| planes.interval_deg),
+            highlights_alone: planes.highlights_alone,
             ..LightFindings::default()
         };
         let mut objects = planes.objects;

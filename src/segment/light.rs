@@ -25,6 +25,8 @@ pub struct LightFindings {
     pub basis: LightBasis,
     /// The light by the dichromatic planes, unit.
     pub planes: Option<[f64; 3]>,
+    /// Whether the planes are those of the highlights alone, as faint surface reflection has another colour (7.5).
+    pub highlights_alone: bool,
     /// The light by the votes of small highlights, unit.
     pub votes: Option<[f64; 3]>,
     /// Share of the votes that the light used has, 0…1; 0 without votes.
@@ -52,9 +54,16 @@ impl LightFindings {
         let support = 100.0 * self.support;
         match self.basis {
             LightBasis::Given => "it was given".to_owned(),
-            LightBasis::Planes => format!(
-                "dichromatic planes: regions that hold and show highlights cover {support:.0} % of the lit pixels"
-            ),
+            LightBasis::Planes => {
+                let alone = if self.highlights_alone {
+                    ", those of the highlights alone, as faint surface reflection has another colour (ambient light)"
+                } else {
+                    ""
+                };
+                format!(
+                    "dichromatic planes{alone}: regions that hold and show highlights cover {support:.0} % of the lit pixels"
+                )
+            }
             LightBasis::Votes => format!(
                 "votes of small highlights: regions that hold and show highlights cover only {support:.0} % of the lit pixels"
             ),

@@ -15,7 +15,7 @@ use super::choice::ByPlanes;
 use super::classify::Windows;
 use super::evidence::{nearby_highlight, plane_constraint};
 use super::illuminant::{Constraint, Prior, average_direction, intersect, weighted_direction};
-use super::in_plane::Branches;
+use super::in_plane::InPlaneSearch;
 use super::ledger::{Ledger, Members};
 use super::light::{Illuminant, LightFindings};
 use super::linear::{Hypothesis, cylinders, matte_length};
@@ -126,7 +126,10 @@ pub fn planar_regions<R: Recorder>(
         let direction = average_direction(&stage.lines);
         stage.announce(direction, Vec::new(), None);
         let hypotheses = stage.slices(direction);
-        return stage.choose(hypotheses, ByPlanes { direction, objects, interval_deg: 90.0 });
+        return stage.choose(
+            hypotheses,
+            ByPlanes { direction, objects, interval_deg: 90.0, highlights_alone: false },
+        );
     }
     let mut found = stage.first_illuminant(&members);
     let mut hypotheses = stage.slices(found.direction);
@@ -206,13 +209,18 @@ impl<R: Recorder> Stage<'_, '_, R> {
             })
             .collect();
         if constraints.is_empty() && candidates.is_none() {
-            return ByPlanes { direction: None, objects: 0, interval_deg: 90.0 };
+            return ByPlanes { direction: None, objects: 0, interval_deg: 90.0, highlights_alone: false };
         }
         let sd_deg = if candidates.is_some() { 8.0 } else { 12.0 };
         let found = intersect(&constraints, &Prior { direction: start, sd_deg });
         self.announce(Some(found.direction), found.contributions, None);
         let objects = constraints.len().max(self.lines.iter().flatten().count());
-        ByPlanes { direction: Some(found.direction), objects, interval_deg: found.interval_deg }
+        ByPlanes {
+            direction: Some(found.direction),
+            objects,
+            interval_deg: found.interval_deg,
+            highlights_alone: false,
+        }
     }
 
     /// The illuminant from the grown regions.
@@ -227,7 +235,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
                 let plane = hypothesis.plane.filter(|_| wanted)?;
                 let (pixels, length) = (members.region(id), hypothesis.matte_length);
                 let lies_in = plane_constraint(self.scene, id, &plane, length, pixels.iter())?;
-                let branches = Branches {
+                let search = InPlaneSearch {
                     scene: self.scene,
                     labels: &self.ledger.labels,
                     region: id,
@@ -235,7 +243,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
                     matte_length: length,
                     budget,
                 };
-                Some(Evidence { plane, lies_in, highlights: branches.estimate(pixels) })
+                Some(Evidence { plane, lies_in, highlights: search.estimate(pixels) })
             })
             .collect();
         let objects = evidence.len();
@@ -245,9 +253,11 @@ impl<R: Recorder> Stage<'_, '_, R> {
             _ => Prior { direction: *before, sd_deg: 30.0 },
         };
         let (found, outshone) = light_of(self.scene, &evidence, &prior);
+        let highlights_alone = outshone.is_some_and(|outshone| outshone.taken);
         self.announce(Some(found.direction), found.contributions, outshone);
         let direction = Some(found.direction);
-        (found.direction, ByPlanes { direction, objects, interval_deg: found.interval_deg })
+        let interval_deg = found.interval_deg;
+        (found.direction, ByPlanes { direction, objects, interval_deg, highlights_alone })
     }
 
     /// Joins parts that have grown together.

@@ -55,7 +55,7 @@ pub struct Rise {
 
 /// A region and the plane in which its highlights are sought.
 #[derive(Clone, Copy)]
-pub struct Branches<'a> {
+pub struct InPlaneSearch<'a> {
     /// The picture.
     pub scene: &'a Scene<'a>,
     /// Region of each pixel.
@@ -70,7 +70,7 @@ pub struct Branches<'a> {
     pub budget: usize,
 }
 
-impl Branches<'_> {
+impl InPlaneSearch<'_> {
     /// Estimates cotθ from the region's highlights; `None` without a highlight that says anything.
     pub fn estimate(&self, pixels: Pixels) -> Option<InPlane> {
         let (mut along, mut height, mut strong) = (Mean::default(), Mean::default(), Vec::new());
