@@ -33,6 +33,8 @@ const TOGETHER: f64 = 4.0;
 const SIGNIFICANT: f64 = 16.27;
 /// Lines have to miss the common point by at most this share of what they miss black by.
 const BETTER: f64 = 0.5;
+/// Lines that miss a point by more do not meet there, σ.
+const FAR: f64 = 2.0;
 /// Share of the pixels that may be darker than the ambient light.
 const DARKEST: f64 = 0.005;
 /// How robust lines are fitted.
@@ -61,7 +63,11 @@ fn estimated(scene: &Scene, regions: &FinalRegions, members: &Members) -> Ambien
     };
     let colour = Vec3::from(found.counts);
     let verdict = if found.chi_square <= SIGNIFICANT || colour.norm() <= scene.sigma() {
-        AmbientVerdict::Black
+        if found.miss_counts[0] > FAR * scene.sigma() {
+            AmbientVerdict::NoMeeting
+        } else {
+            AmbientVerdict::Black
+        }
     } else if (0..3).any(|band| found.counts[band] < -2.0 * found.sd_counts[band]) {
         AmbientVerdict::Negative
     } else if found.miss_counts[0] > BETTER * found.miss_counts[1] {
@@ -245,7 +251,11 @@ mod tests {
             (RED, [0.0, 0.0, 14.0]),
         ];
         let found_apart = found(&apart, AmbientSetting::Auto);
-        assert_eq!(found_apart.subtracted, None, "{found_apart:?}");
+        assert_eq!(
+            (found_apart.verdict, found_apart.subtracted),
+            (AmbientVerdict::NoMeeting, None),
+            "{found_apart:?}"
+        );
         let two = found(&[(RED, [8.0; 3]), (GREEN, [8.0; 3])], AmbientSetting::Auto);
         assert_eq!((two.verdict, two.subtracted), (AmbientVerdict::FewLines, None));
     }
