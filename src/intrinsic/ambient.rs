@@ -4,9 +4,9 @@
 //! Each region's matte line is refitted to what lies in its cylinder. The common point p minimises Σ ρ(|Q_k (p − m_k)|²/var_k),
 //! Q_k the projection across line k, m_k a point of it, var_k how well it is known near black: its own noise, .15 counts, and
 //! .1° of direction over the way there. ρ is Cauchy's, at three standard deviations. p is subtracted before the split if at
-//! least three lines tell of it, it is significant (χ² with three degrees of freedom, .999) and above the noise, a colour that
-//! light can have, a better meeting point than black, and no brighter than the darkest pixels. After the split it is added to
-//! the body image: ambient light that is reflected is body reflection too.
+//! least three lines tell of it, or two that clearly meet, it is significant (χ² with three degrees of freedom, .999) and above
+//! the noise, a colour that light can have, a better meeting point than black, and no brighter than the darkest pixels. After
+//! the split it is added to the body image: ambient light that is reflected is body reflection too.
 //!
 //! On lab scenes it is at most .3 counts a band; veils of 3 to 12 counts are found to .4 counts (1.3 on one scene of three
 //! blue objects, within its own standard deviation), and the body image is as good as without them.
@@ -17,8 +17,10 @@ use crate::trace::{Ambient, AmbientVerdict, Meeting};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
-/// Fewest lines that can agree on a point: two always nearly meet somewhere.
+/// Three lines can agree on a point. Two nearly meet somewhere: they have to pass each other within half the noise, at a place
+/// known to the noise.
 const LEAST_LINES: usize = 3;
+const CLOSE: f64 = 0.5;
 /// Fewest pixels of a line, and the most that are looked at, evenly chosen.
 const LEAST_PX: usize = 300;
 const SAMPLES: usize = 4000;
@@ -58,7 +60,11 @@ fn estimated(scene: &Scene, regions: &FinalRegions, members: &Members) -> Ambien
         .filter_map(|id| MatteLine::new(scene, &regions.hypotheses[usize::from(id) - 1], members.region(id)))
         .collect();
     let meeting = meeting(&lines);
-    let Some(found) = meeting.filter(|_| lines.len() >= LEAST_LINES) else {
+    let tells = |found: &Meeting| {
+        let known = found.sd_counts.iter().all(|sd| *sd <= scene.sigma());
+        found.lines >= LEAST_LINES || (known && found.miss_counts[0] <= CLOSE * scene.sigma())
+    };
+    let Some(found) = meeting.filter(tells) else {
         return Ambient { subtracted: None, meeting, verdict: AmbientVerdict::FewLines };
     };
     let colour = Vec3::from(found.counts);
@@ -243,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_do_not_meet_tell_of_no_light_and_two_are_too_few() {
+    fn lines_that_do_not_meet_tell_of_no_light_and_two_have_to_meet_closely() {
         let apart = [
             (RED, [0.0, 12.0, 0.0]),
             (GREEN, [14.0, 0.0, 0.0]),
@@ -256,8 +262,9 @@ mod tests {
             (AmbientVerdict::NoMeeting, None),
             "{found_apart:?}"
         );
-        let two = found(&[(RED, [8.0; 3]), (GREEN, [8.0; 3])], AmbientSetting::Auto);
-        assert_eq!((two.verdict, two.subtracted), (AmbientVerdict::FewLines, None));
+        let two = |second: [f64; 3]| found(&[(RED, [8.0; 3]), (GREEN, second)], AmbientSetting::Auto);
+        assert_eq!(two([8.0; 3]).verdict, AmbientVerdict::Subtracted);
+        assert_eq!(two([10.0, 8.0, 6.0]).verdict, AmbientVerdict::FewLines);
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub enum AmbientVerdict {
     Given,
     /// Estimated and subtracted.
     Subtracted,
-    /// Fewer than three matte lines are known well enough.
+    /// Too few matte lines are known well enough, or two that do not clearly meet.
     FewLines,
     /// The lines meet in black, as far as they can tell.
     Black,
@@ -69,7 +69,9 @@ impl AmbientVerdict {
             Self::Off => "ambient light was not asked for",
             Self::Given => "it was given",
             Self::Subtracted => "the matte lines meet there, significantly away from black",
-            Self::FewLines => "fewer than three matte lines are known well enough to meet",
+            Self::FewLines => {
+                "too few matte lines are known well enough: three, or two that clearly meet, are needed"
+            }
             Self::Black => "the matte lines meet in black, as far as they can tell",
             Self::Negative => {
                 "the matte lines meet in a colour that no light has: inter-reflection, or ambient light that differs from place to place"
