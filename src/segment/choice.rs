@@ -7,8 +7,9 @@
 //! stays as it is.
 
 use super::holds::RegionFit;
+use super::illuminant::white_offsets_deg;
 use super::ledger::Members;
-use super::light::{Illuminant, LightBasis, LightFindings, white_offsets_deg};
+use super::light::{Illuminant, LightBasis, LightFindings};
 use super::planar::{PlanarHypothesis, PlanarRegions, Stage};
 use super::scene::Scene;
 use super::vote_light::{LEAST_VOTERS, Votes};
@@ -17,13 +18,9 @@ use crate::raster::LabelMap;
 use crate::trace::{Elected, Event, LightChosen, LightLimits, Pass, Recorder, VotesCast};
 use rayon::prelude::*;
 
-/// Share of the lit pixels that regions which hold must cover for their planes to be believed without further ado …
-const SUPPORTED: f64 = 0.3;
-/// … and where the votes say nothing of use.
-const HARDLY_SUPPORTED: f64 = 0.05;
-/// Least share of the votes, and farthest from white, blue to yellow and green to magenta (degrees), of a light by votes.
-const LEAST_SHARE: f64 = 0.02;
-const USUAL_DEG: [f64; 2] = [20.0, 8.0];
+/// What the ways to a light are held against.
+pub const LIGHT_LIMITS: LightLimits =
+    LightLimits { support: 0.3, hardly: 0.05, share: 0.02, offsets_deg: [20.0, 8.0] };
 /// A region shows a highlight if so many of its pixels, and such a share of them, are nearer to the highlight line.
 const HIGHLIGHT_PX: usize = 30;
 const HIGHLIGHT_SHARE: f64 = 0.005;
@@ -78,8 +75,10 @@ impl<R: Recorder> Stage<'_, '_, R> {
                 }
                 _ => {
                     // Ways that contradict each other are not as sure as each is of itself.
-                    let doubt =
-                        light.agreement_deg().filter(|_| light.support < 2.0 * SUPPORTED).unwrap_or(0.0);
+                    let doubt = light
+                        .agreement_deg()
+                        .filter(|_| light.support < 2.0 * LIGHT_LIMITS.support)
+                        .unwrap_or(0.0);
                     light.interval_deg = light.interval_deg.map(|interval| interval.max(doubt / 2.0));
                 }
             }
@@ -102,12 +101,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
                 planes: light.planes.map(|planes| (planes, objects as u32)),
                 votes: elected,
                 support: light.support,
-                limits: LightLimits {
-                    support: SUPPORTED,
-                    hardly: HARDLY_SUPPORTED,
-                    share: LEAST_SHARE,
-                    offsets_deg: USUAL_DEG,
-                },
+                limits: LIGHT_LIMITS,
             };
             self.ledger.recorder.record(Event::LightChosen(Box::new(chosen)));
         }
@@ -141,10 +135,11 @@ fn elected(votes: &Votes) -> Elected {
 /// What the light had better rest on.
 fn better(light: &LightFindings, elected: Option<&Elected>) -> LightBasis {
     let Some(elected) = elected else { return light.basis };
-    let usual = (0..2).all(|i| elected.offsets_deg[i].abs() <= USUAL_DEG[i]);
-    if light.support < SUPPORTED && usual && elected.share >= LEAST_SHARE {
+    let limits = LIGHT_LIMITS;
+    let usual = (0..2).all(|i| elected.offsets_deg[i].abs() <= limits.offsets_deg[i]);
+    if light.support < limits.support && usual && elected.share >= limits.share {
         LightBasis::Votes
-    } else if light.support < HARDLY_SUPPORTED {
+    } else if light.support < limits.hardly {
         LightBasis::Nothing
     } else {
         light.basis

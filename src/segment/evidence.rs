@@ -51,7 +51,7 @@ pub fn nearby_highlight(
 }
 
 /// What a region's highlights themselves say of its plane; without them, the pixels off the matte line say little.
-pub fn by_highlights(by_all: &Constraint, plane: &DichromaticPlane, rise: Option<&Rise>) -> Constraint {
+pub fn plane_of_highlights(by_all: &Constraint, plane: &DichromaticPlane, rise: Option<&Rise>) -> Constraint {
     const FAINT_DEG: f64 = 5.0;
     let Some(rise) = rise else {
         return Constraint { variance_deg2: by_all.variance_deg2 + FAINT_DEG * FAINT_DEG, ..*by_all };

@@ -1,9 +1,6 @@
 //! What is known of the light's colour, and from where.
 
-use super::illuminant::white_offsets_deg as offsets_deg;
 pub use crate::trace::LightBasis;
-
-use crate::color::Vec3;
 
 /// The colour of the scene's light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,9 +73,4 @@ impl LightFindings {
             }
         }
     }
-}
-
-/// How far a light lies from white: between blue (negative) and yellow, and between magenta and green, degrees.
-pub fn white_offsets_deg(direction: &Vec3) -> [f64; 2] {
-    offsets_deg(direction)
 }

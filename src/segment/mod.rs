@@ -30,11 +30,12 @@ mod unite;
 mod vote_light;
 
 pub use branches::{BranchSearch, Branches};
+pub use choice::LIGHT_LIMITS;
 pub use classify::{Classifier, Windows, classify};
 pub use clipping::clipping_regions;
 pub use holds::{POOR_FIT, RegionFit, TEXTURE_CORRELATION};
 pub use ledger::{Members, Pixels};
-pub use light::{Illuminant, LightBasis, LightFindings, white_offsets_deg};
+pub use light::{Illuminant, LightBasis, LightFindings};
 pub use linear::Hypothesis;
 pub use matte::{MatteRegions, matte_regions};
 pub use merge::{Areas, merge};

@@ -8,7 +8,7 @@
 //! the light outshines far better: their mean squared distance from the planes of matte line and light. Printed patterns are
 //! explained by neither.
 
-use super::evidence::{branch_constraint, by_highlights};
+use super::evidence::{branch_constraint, plane_of_highlights};
 use super::illuminant::{Constraint, Intersection, Prior, intersect};
 use super::in_plane::InPlane;
 use super::scene::Scene;
@@ -70,7 +70,7 @@ pub fn light_of(scene: &Scene, evidence: &[Evidence], prior: &Prior) -> (Interse
     }
     let of_highlights = meeting(&|evidence| {
         let rise = evidence.highlights.as_ref().map(|highlights| &highlights.rise);
-        by_highlights(&evidence.lies_in, &evidence.plane, rise)
+        plane_of_highlights(&evidence.lies_in, &evidence.plane, rise)
     });
     let by_highlights = misfit_of(&of_highlights.direction).map_or(FAR, |(misfit, _)| misfit);
     let taken = by_highlights < EXPLAINED && BETTER * by_highlights < by_all;

@@ -285,8 +285,7 @@ struct Blobs {
 }
 
 fn blobs(mask: &Mask) -> Blobs {
-    let (width, height) = (mask.width(), mask.height());
-    let mut of = Raster::filled(width, height, u32::MAX);
+    let mut of = mask.map(|_| u32::MAX);
     let mut pixels = Vec::new();
     let mut stack = Vec::new();
     for start in 0..mask.len() {
@@ -299,14 +298,10 @@ fn blobs(mask: &Mask) -> Blobs {
         stack.push(start);
         while let Some(pixel) = stack.pop() {
             size += 1;
-            let (x, y) = (pixel % width, pixel / width);
-            for v in y.saturating_sub(1)..(y + 2).min(height) {
-                for u in x.saturating_sub(1)..(x + 2).min(width) {
-                    let near = v * width + u;
-                    if mask[near] && of[near] == u32::MAX {
-                        of[near] = blob;
-                        stack.push(near);
-                    }
+            for near in mask.around(pixel) {
+                if mask[near] && of[near] == u32::MAX {
+                    of[near] = blob;
+                    stack.push(near);
                 }
             }
         }

@@ -127,8 +127,6 @@ pub struct BlobJudged {
 pub struct BeliefTested {
     /// Share of the votes for the light, 0…1; none where regions that hold vouch for it, or it was given, or no votes are asked for.
     pub share: Option<f64>,
-    /// How far a light by votes lies from white: blue to yellow, green to magenta, degrees.
-    pub offsets_deg: Option<[f64; 2]>,
     /// Share of all light there that would be surface reflection, 0…1.
     pub surface: Option<f64>,
     /// Share of the strong highlight pixels that outshine the body under them, 0…1, and how many strong ones there are.
@@ -144,8 +142,6 @@ pub struct BeliefTested {
 pub struct BeliefLimits {
     /// Least share of the votes, 0…1.
     pub share: f64,
-    /// Farthest from white, degrees.
-    pub offsets_deg: [f64; 2],
     /// Largest share of surface reflection, 0…1.
     pub surface: f64,
     /// Largest share of what outshines the body, 0…1.
@@ -157,8 +153,6 @@ pub struct BeliefLimits {
 pub enum Doubt {
     /// Small highlights do not speak for the light.
     NoVote,
-    /// The light would be unusual.
-    UnusualLight,
     /// Too much would be surface reflection.
     TooMuch,
     /// Highlights outshine the body: they are white things.
@@ -170,7 +164,6 @@ impl Doubt {
     pub const fn name(self) -> &'static str {
         match self {
             Self::NoVote => "no_vote",
-            Self::UnusualLight => "unusual_light",
             Self::TooMuch => "too_much",
             Self::Outshining => "outshining",
         }

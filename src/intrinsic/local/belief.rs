@@ -5,14 +5,9 @@
 
 use super::shade::Shades;
 use crate::raster::{Mask, Raster};
-use crate::segment::{LightBasis, LightFindings, Scene, white_offsets_deg};
+use crate::segment::{LIGHT_LIMITS, LightBasis, LightFindings, Scene};
 use crate::trace::{BeliefLimits, BeliefTested, Doubt};
 
-/// Least share of the votes for the light, unless regions that hold so large a part of what is lit vouch for it.
-const LEAST_SHARE: f64 = 0.02;
-const SUPPORTED: f64 = 0.3;
-/// How far from white a voted light is believed: blue to yellow, green to magenta, degrees.
-const USUAL_DEG: [f64; 2] = [20.0, 8.0];
 /// Most surface reflection, as a share of all light there.
 const MOST_SURFACE: f64 = 0.18;
 /// Most of the strong highlights that may outshine the body under them.
@@ -26,29 +21,19 @@ pub fn test(
     weights: &Raster<f32>,
     outside: &Mask,
 ) -> BeliefTested {
-    let limits = BeliefLimits {
-        share: LEAST_SHARE,
-        offsets_deg: USUAL_DEG,
-        surface: MOST_SURFACE,
-        outshining: MOST_OUTSHINING,
-    };
-    let vouched_for = light.basis == LightBasis::Given || light.support >= SUPPORTED;
+    let limits =
+        BeliefLimits { share: LIGHT_LIMITS.share, surface: MOST_SURFACE, outshining: MOST_OUTSHINING };
+    let vouched_for = light.basis == LightBasis::Given || light.support >= LIGHT_LIMITS.support;
     let asked = scene.refine.vote_light && !vouched_for;
-    let voted = light.direction.filter(|_| light.basis == LightBasis::Votes);
     let tested = BeliefTested {
         share: asked.then_some(light.share),
-        offsets_deg: voted.map(|direction| white_offsets_deg(&direction.into())),
         surface: None,
         outshining: None,
         limits,
         doubt: None,
     };
-    if tested.share.is_some_and(|share| share < LEAST_SHARE) {
+    if tested.share.is_some_and(|share| share < limits.share) {
         return BeliefTested { doubt: Some(Doubt::NoVote), ..tested };
-    }
-    let unusual = |offsets: [f64; 2]| (0..2).any(|i| offsets[i].abs() > USUAL_DEG[i]);
-    if tested.offsets_deg.is_some_and(unusual) {
-        return BeliefTested { doubt: Some(Doubt::UnusualLight), ..tested };
     }
     let Found { surface, total, strong, outshining } = Found::of(scene, shades, weights, outside);
     let (share, white) = (surface / total.max(1.0), f64::from(outshining) / f64::from(strong.max(1)));

@@ -24,8 +24,7 @@ pub fn repair(
     confidence: &mut Raster<f32>,
     mut told: impl FnMut(RepairTried, &[usize]),
 ) {
-    let mut blobs =
-        Blobs { scene, mark: vec![0; outside.len()], width: outside.width(), height: outside.height() };
+    let mut blobs = Blobs { scene, mark: outside.map(|_| 0) };
     for start in 0..outside.len() {
         let wanted = |pixel: usize| outside[pixel] && scene.masks.clipped(pixel);
         if !wanted(start) || blobs.mark[start] != 0 || scene.stopped() {
@@ -83,9 +82,7 @@ fn tried(blob: &[usize], [inner, outer]: &[Vec<usize>; 2], surface: &Raster<[f32
 struct Blobs<'a> {
     scene: &'a Scene<'a>,
     /// What has been reached: blobs 1; rings are marked while they are walked.
-    mark: Vec<u8>,
-    width: usize,
-    height: usize,
+    mark: Raster<u8>,
 }
 
 const BLOB: u8 = 1;
@@ -99,7 +96,7 @@ impl Blobs<'_> {
         let mut at = 0;
         while let Some(&pixel) = blob.get(at) {
             at += 1;
-            for near in around(self.width, self.height, pixel) {
+            for near in self.mark.around(pixel) {
                 if self.mark[near] == 0 && wanted(near) {
                     self.mark[near] = BLOB;
                     blob.push(near);
@@ -126,7 +123,7 @@ impl Blobs<'_> {
     fn ring(&mut self, from: &[usize]) -> Vec<usize> {
         let mut ring = Vec::new();
         for &pixel in from {
-            for near in around(self.width, self.height, pixel) {
+            for near in self.mark.around(pixel) {
                 if self.mark[near] == 0 && self.known(near) {
                     self.mark[near] = RING;
                     ring.push(near);
@@ -183,13 +180,4 @@ impl Blobs<'_> {
         }
         values
     }
-}
-
-/// The 8-neighbours of a pixel.
-fn around(width: usize, height: usize, pixel: usize) -> impl Iterator<Item = usize> {
-    let (x, y) = (pixel % width, pixel / width);
-    let columns = x.saturating_sub(1)..(x + 2).min(width);
-    (y.saturating_sub(1)..(y + 2).min(height))
-        .flat_map(move |v| columns.clone().map(move |u| v * width + u))
-        .filter(move |&near| near != pixel)
 }

@@ -109,7 +109,6 @@ fn belief(tested: &BeliefTested) -> (Value, Value, Value) {
         json!({}),
         json!({
             "share": tested.share,
-            "offsets_deg": tested.offsets_deg,
             "surface": tested.surface,
             "outshining": tested.outshining.map(|(share, _)| share),
             "strong": tested.outshining.map(|(_, strong)| strong),
@@ -117,7 +116,6 @@ fn belief(tested: &BeliefTested) -> (Value, Value, Value) {
         }),
         json!({
             "share": limits.share,
-            "offsets_deg": limits.offsets_deg,
             "surface": limits.surface,
             "outshining": limits.outshining,
         }),

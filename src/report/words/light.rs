@@ -120,7 +120,7 @@ fn farthest(limits: &LightLimits) -> String {
 }
 
 /// `2.1° to yellow and 0.4° to green of white`
-pub(super) fn white([yellow, magenta]: [f64; 2]) -> String {
+fn white([yellow, magenta]: [f64; 2]) -> String {
     let along = if yellow < 0.0 { "blue" } else { "yellow" };
     let across = if magenta < 0.0 { "green" } else { "magenta" };
     format!("{:.1}\u{b0} to {along} and {:.1}\u{b0} to {across} of white", yellow.abs(), magenta.abs())

@@ -1,6 +1,6 @@
 //! Where the model does not hold, in words.
 
-use super::light::{tenths, white};
+use super::light::tenths;
 use super::{Names, count, percent};
 use crate::trace::{
     BeliefTested, BlobJudged, Doubt, FitLimits, LocalBegan, LocalDecision, LocalFate, LocalStart, LocalStory,
@@ -82,13 +82,9 @@ fn local_began(began: &LocalBegan) -> String {
 
 /// What speaks for highlights, or the doubt that ended it.
 fn belief(tested: &BeliefTested) -> String {
-    let BeliefTested { share, offsets_deg, surface, outshining, limits, doubt } = tested;
-    let [yellow, magenta] = limits.offsets_deg;
+    let BeliefTested { share, surface, outshining, limits, doubt } = tested;
     let light = share.map(|share| {
         format!("{} of the votes are for the light (at least {})", tenths(share), tenths(limits.share))
-    });
-    let colour = offsets_deg.map(|offsets| {
-        format!("it lies {} (at most {yellow:.0}\u{b0} and {magenta:.0}\u{b0})", white(offsets))
     });
     let amount = surface.map(|share| {
         format!(
@@ -107,11 +103,10 @@ fn belief(tested: &BeliefTested) -> String {
     });
     let failed = match doubt {
         None => {
-            let found: Vec<String> = [light, colour, amount, bright].into_iter().flatten().collect();
+            let found: Vec<String> = [light, amount, bright].into_iter().flatten().collect();
             return format!("highlights are believed: {}", found.join("; "));
         }
         Some(Doubt::NoVote) => light,
-        Some(Doubt::UnusualLight) => colour.map(|colour| format!("the light is unusual, {colour}")),
         Some(Doubt::TooMuch) => amount,
         Some(Doubt::Outshining) => bright,
     };
