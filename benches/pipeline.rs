@@ -3,7 +3,7 @@
 //! For each image size it prints the best of several runs of
 //! (a) a copy of the image, f32 RGB;
 //! (b) the floor: one fused pass over it on one thread, mean and covariance of every 10×10 window, which is the least
-//!     that any analysis of colour clusters has to do. With the vector instructions that every x86-64 has it takes
+//!     that any analysis of color clusters has to do. With the vector instructions that every x86-64 has it takes
 //!     five to ten copies: (a) stands beside it to show how far away memory itself is;
 //! (c) the whole analysis, masks to split, with default parameters and all threads;
 //! and (c) as a multiple of (b). A ratio travels between machines better than a time; nothing here passes or fails.
@@ -37,7 +37,7 @@ fn main() {
     let runs = if std::env::args().any(|argument| argument == "--bench") { 15 } else { 1 };
     println!("{:>10}  {:>9}  {:>9}  {:>9}  {:>7}", "size", "copy", "floor", "analysis", "ratio");
     for size_px in [[580, 432], [1160, 864]] {
-        let image = Arc::new(synthetic::Scene::grid_of_balls(size_px, 4, 3, 1).render().image);
+        let image = Arc::new(synthetic::AnalysisInput::grid_of_balls(size_px, 4, 3, 1).render().image);
         let copy = best_of(runs, || image.pixels.clone());
         let floor = best_of(runs, || window_moments(&image.pixels));
         let analysis = best_of(runs, || Session::new(image.clone()).run(&Params::default(), &mut ()));
@@ -207,8 +207,8 @@ fn window_moments(pixels: &Raster<[f32; 3]>) -> Vec<Moments> {
 }
 
 /// Sums lane by lane, whatever band a lane holds, so that the compiler can use vector instructions; the bands are told
-/// apart once at the end. Products of a lane with its neighbours are of use in one or two lanes of three only.
-#[expect(clippy::needless_range_loop, reason = "each lane is read together with its neighbours")]
+/// apart once at the end. Products of a lane with its neighbors are of use in one or two lanes of three only.
+#[expect(clippy::needless_range_loop, reason = "each lane is read together with its neighbors")]
 fn moments_of(lines: [&[f32; LANES]; WINDOW_PX]) -> Moments {
     // Relative to the window's first pixel, or single precision would not do for the covariance.
     let origin: [f32; LANES] = std::array::from_fn(|lane| lines[0][lane % 3]);

@@ -1,4 +1,4 @@
-//! Analyse a photograph in ten lines: `cargo run --release --example analyze [IMAGE]`.
+//! Analyze a photograph in ten lines: `cargo run --release --example analyze [IMAGE]`.
 
 use dichroscope::{analysis::Session, photo, segment::Params};
 use std::{path::Path, sync::Arc};
@@ -10,7 +10,7 @@ fn main() -> anyhow::Result<()> {
     let photo = photo::read(Path::new(&path), &photo::ReadOptions::default())?;
     let analysis = Session::new(Arc::new(photo.image)).run(&Params::default(), &mut ())?;
     println!("{} regions", analysis.intrinsic.regions.len());
-    println!("colour of the light: {:?}", analysis.illuminant.map(|light| light.direction));
+    println!("color of the light: {:?}", analysis.illuminant.map(|light| light.direction));
     for warning in photo.warnings.iter().chain(&analysis.warnings) {
         println!("beware: {warning}");
     }

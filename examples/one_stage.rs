@@ -4,7 +4,7 @@
 
 use dichroscope::photo::{self, MaskLimits, Masks, ReadOptions, estimate_sigma};
 use dichroscope::segment::{Classifier, classify};
-use dichroscope::trace::{Class, Silent};
+use dichroscope::trace::{Class, NoopRecorder};
 use std::path::Path;
 
 const SAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
@@ -24,7 +24,8 @@ fn main() -> anyhow::Result<()> {
     let mut classifier = Classifier::new(camera_noise, true);
     let believable = |pixel| masks.usable(pixel);
     let min_valid = WINDOW_PX * WINDOW_PX / 2;
-    let windows = classify(&image.pixels, believable, WINDOW_PX, min_valid, &mut classifier, &mut Silent);
+    let windows =
+        classify(&image.pixels, believable, WINDOW_PX, min_valid, &mut classifier, &mut NoopRecorder);
 
     println!("σ0 = {camera_noise:.2} counts; . point  / line  # plane  @ volume\n");
     for y in 0..windows.classes.height() {

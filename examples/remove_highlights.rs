@@ -27,7 +27,7 @@ fn main() -> anyhow::Result<()> {
         .surface
         .as_slice()
         .iter()
-        .filter(|colour| colour.iter().any(|&band| band > 0.0))
+        .filter(|color| color.iter().any(|&band| band > 0.0))
         .count();
     println!("{removed} pixels had surface reflection; without it: {}", written.display());
     Ok(())

@@ -1,9 +1,9 @@
-//! Physics-based colour vision with the Dichromatic Reflection Model.
+//! Physics-based color vision with the Dichromatic Reflection Model.
 //!
-//! A glossy object reflects light in two ways: from within its body, coloured by its pigment, and from its surface, coloured
-//! like the light. In the colour cube its pixels lie on a *skewed T*: a matte line from black, and a highlight line that
-//! leaves it in the direction of the light's colour. This crate finds those shapes in a photograph. It divides the picture
-//! into one region per object, estimates the colour of the light, and splits each pixel into body reflection, surface
+//! A glossy object reflects light in two ways: from within its body, colored by its pigment, and from its surface, colored
+//! like the light. In the color cube its pixels lie on a *skewed T*: a matte line from black, and a highlight line that
+//! leaves it in the direction of the light's color. This crate finds those shapes in a photograph. It divides the picture
+//! into one region per object, estimates the color of the light, and splits each pixel into body reflection, surface
 //! reflection and noise. It follows G. J. Klinker, S. A. Shafer and T. Kanade, *A Physical Approach to Color Image
 //! Understanding*, International Journal of Computer Vision 4 (1990): [`segment::Method::Paper`] as it was written,
 //! [`segment::Method::Refined`] with refinements, each a switch in [`segment::Refine`]. "Section 5.3", "table 6" and
@@ -33,7 +33,7 @@
 //!
 //! # Units
 //!
-//! Colours are linear light in *counts*: 255 counts are full scale, whatever the depth of the file. Directions are unit
+//! Colors are linear light in *counts*: 255 counts are full scale, whatever the depth of the file. Directions are unit
 //! vectors in the order red, green, blue. Pictures are row-major [`raster::Raster`]s; region 0 is no region.
 //!
 //! # Map
@@ -41,18 +41,18 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`raster`] | rectangles of values: pixels, masks, label maps, morphology |
-//! | [`color`] | points in the colour cube: moments, eigenvectors, the χ² test, robust lines, cylinders |
+//! | [`color`] | points in the color cube: moments, eigenvectors, the χ² test, robust lines, cylinders |
 //! | [`reflection`] | the model: dichromatic planes, the transform T and its inverse, photometry (equations 3–11) |
 //! | [`photo`] | from a file to linear light; which pixels to believe; the camera's noise |
 //! | [`trace`] | decisions as data: recorders, the log and its replay |
 //! | [`segment`] | section 5, from windows to regions; parameters and refinements |
 //! | [`intrinsic`] | section 6, from regions to body, surface and noise |
 //! | [`analysis`] | one run over all stages, with progress, cancellation and cached outputs |
-//! | [`report`] | the schema of `report.json` |
+//! | [`describe`] | the schema of `report.json` |
 //! | [`truth`] | ground truth and scores |
 //! | [`export`] | results as files |
-//! | [`workbench`] | the application without a screen |
-//! | `gpu` | the colour space in three dimensions (feature `gui`): camera, points, lines and solids, picking |
+//! | [`app`] | the application without a screen |
+//! | `gpu` | the color space in three dimensions (feature `gui`): camera, points, lines and solids, picking |
 //! | `gui` | the window: one file per panel |
 //!
 //! Who may use whom, left by right; rooms between the same arrows do not know each other:
@@ -66,7 +66,9 @@
 //! their results: no clock, no environment, no printing, and the same bytes at any number of threads.
 
 pub mod analysis;
+pub mod app;
 pub mod color;
+pub mod describe;
 pub mod export;
 #[cfg(feature = "gui")]
 pub mod gpu;
@@ -76,8 +78,7 @@ pub mod intrinsic;
 pub mod photo;
 pub mod raster;
 pub mod reflection;
-pub mod report;
 pub mod segment;
 pub mod trace;
 pub mod truth;
-pub mod workbench;
+pub mod view;

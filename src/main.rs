@@ -19,7 +19,7 @@ fn main() -> ExitCode {
 
 #[cfg(feature = "gui")]
 fn screenshot(wish: cli::ScreenshotArguments) -> Result<(), dichroscope::gui::ScreenshotError> {
-    use dichroscope::workbench::Origin;
+    use dichroscope::view::Origin;
     let origin = wish.image.map_or(Origin::Sample(wish.scene), Origin::File);
     for path in dichroscope::gui::screenshot(&wish.out, wish.size, origin)? {
         cli::print(&format!("{}\n", path.display()));

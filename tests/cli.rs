@@ -3,13 +3,14 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 
 use assert_cmd::cargo::cargo_bin_cmd;
+use dichroscope::app::{Application, Command, Executor, Export, analyze_call};
+use dichroscope::describe::{RegionFacts, Report};
 use dichroscope::export::read_report;
 use dichroscope::photo::ReadOptions;
 use dichroscope::raster::Raster;
-use dichroscope::report::{RegionFacts, Report};
 use dichroscope::segment::{IlluminantSetting, Method, Parameter, Setting};
 use dichroscope::truth::ResultPictures;
-use dichroscope::workbench::{Command, Executor, Export, Origin, Workbench, analyze_call};
+use dichroscope::view::Origin;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -36,7 +37,7 @@ const FILES: [&str; 16] = [
 ];
 
 /// A folder to work in, and the program in it.
-struct Desk {
+struct LatestRequest {
     folder: TempDir,
 }
 
@@ -47,7 +48,7 @@ struct Ended {
     err: String,
 }
 
-impl Desk {
+impl LatestRequest {
     fn new() -> Self {
         Self { folder: tempfile::tempdir().unwrap() }
     }
@@ -117,7 +118,7 @@ fn list(folder: &Path) -> Vec<String> {
 
 #[test]
 fn help_and_version_are_no_errors() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     assert!(desk.succeeds("--help").out.contains("analyze"));
     assert!(desk.succeeds("--version").out.contains(env!("CARGO_PKG_VERSION")));
     let help = desk.succeeds("analyze --help").out;
@@ -133,7 +134,7 @@ fn help_and_version_are_no_errors() {
 
 #[test]
 fn wrong_usage_is_exit_2_before_any_work() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.photo("a.png");
     desk.put("empty/notes.txt", b"");
     if cfg!(not(feature = "gui")) {
@@ -173,7 +174,7 @@ fn wrong_usage_is_exit_2_before_any_work() {
 
 #[test]
 fn a_photograph_becomes_a_whole_result() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     let ended = desk.succeeds("analyze TINY/camera8.png --out out --truth TINY");
     assert_eq!(ended.out, "");
     assert_eq!(ended.err.lines().count(), 1, "{}", ended.err);
@@ -203,7 +204,7 @@ fn a_photograph_becomes_a_whole_result() {
 
 #[test]
 fn the_same_photograph_gives_the_same_files_with_any_number_of_threads() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.succeeds("analyze TINY/camera8.png --out one --threads 1");
     desk.succeeds("analyze TINY/camera8.png --out many --threads 4");
     for name in FILES.iter().filter(|name| **name != "report.json") {
@@ -214,7 +215,7 @@ fn the_same_photograph_gives_the_same_files_with_any_number_of_threads() {
 
 #[test]
 fn folders_are_walked_and_keep_their_relative_paths() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     for name in ["d/b.png", "d/s/camera8.png", "d/s/other.png"] {
         desk.photo(name);
     }
@@ -231,7 +232,7 @@ fn folders_are_walked_and_keep_their_relative_paths() {
 
 #[test]
 fn colliding_names_take_the_folders_name_or_are_refused() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     for name in ["p/x.png", "q/x.png", "q/x.bmp.png", "r/x.png", "r/x.jpg"] {
         desk.photo(name);
     }
@@ -247,7 +248,7 @@ fn colliding_names_take_the_folders_name_or_are_refused() {
 
 #[test]
 fn results_are_replaced_whole_and_nothing_else_is_without_force() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.photo("a.png");
     desk.put("out/a/thesis.tex", b"years of work");
     desk.fails(
@@ -271,7 +272,7 @@ fn results_are_replaced_whole_and_nothing_else_is_without_force() {
 
 #[test]
 fn what_fails_says_so_in_a_line_and_leaves_nothing_half_written() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.photo("good.png");
     let bytes = fs::read(desk.path("good.png")).unwrap();
     desk.put("short.png", &bytes[..bytes.len() / 2]);
@@ -290,7 +291,7 @@ fn what_fails_says_so_in_a_line_and_leaves_nothing_half_written() {
 
 #[test]
 fn defaults_give_way_to_the_file_and_the_file_to_flags() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.photo("a.png");
     desk.put(
         "p.toml",
@@ -324,7 +325,7 @@ fn defaults_give_way_to_the_file_and_the_file_to_flags() {
 
 #[test]
 fn a_preset_is_a_column_of_table_6_and_gives_way_to_flags() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.photo("a.png");
     desk.succeeds("analyze a.png --out out --preset cups_pink --min-area 300");
     let params = desk.report("out/a").params;
@@ -337,7 +338,7 @@ fn a_preset_is_a_column_of_table_6_and_gives_way_to_flags() {
 
 #[test]
 fn a_light_can_be_given_and_the_report_says_so() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.photo("a.png");
     desk.put("p.toml", b"illuminant = [1, 1, 1]\n");
     desk.succeeds("analyze a.png --out out --params p.toml --illuminant 0,3,4");
@@ -353,7 +354,7 @@ fn a_light_can_be_given_and_the_report_says_so() {
 
 #[test]
 fn an_area_restricts_the_analysis_and_must_fit_the_photograph() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.photo("a.png");
     // Its own regions as the area: all of it lies where the picture is lit.
     desk.succeeds("analyze a.png --out out");
@@ -374,7 +375,7 @@ fn an_area_restricts_the_analysis_and_must_fit_the_photograph() {
 
 #[test]
 fn with_all_its_surface_reflection_the_matte_picture_is_brighter() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.photo("a.png");
     desk.succeeds("analyze a.png --out none");
     desk.succeeds("analyze a.png --out all --keep-surface 1");
@@ -389,7 +390,7 @@ fn with_all_its_surface_reflection_the_matte_picture_is_brighter() {
 
 #[test]
 fn mistakes_in_the_file_are_named_with_their_line() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.photo("a.png");
     for (text, says) in [
         ("window_size = 12\nwindowsize = 12\n", "p.toml:2: unknown field `windowsize`"),
@@ -408,7 +409,7 @@ fn mistakes_in_the_file_are_named_with_their_line() {
 
 #[test]
 fn truth_is_found_by_the_results_name_or_the_folders() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     for name in list(&tiny()) {
         desk.put(&format!("scenes/cups/{name}"), &fs::read(tiny().join(&name)).unwrap());
     }
@@ -429,7 +430,7 @@ fn truth_is_found_by_the_results_name_or_the_folders() {
 
 #[test]
 fn evaluate_prints_a_table_or_json() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.photo("second.png");
     desk.succeeds("analyze TINY/camera8.png second.png --out out --truth TINY");
     let table = desk.succeeds("evaluate out --truth TINY").out;
@@ -451,7 +452,7 @@ fn evaluate_prints_a_table_or_json() {
 
 #[test]
 fn evaluate_says_what_is_wrong_with_a_result() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.photo("a.png");
     desk.succeeds("analyze a.png --out out");
     desk.fails(1, "evaluate out --truth TINY --image none.png", "out/a: --image none.png: not in");
@@ -463,7 +464,7 @@ fn evaluate_says_what_is_wrong_with_a_result() {
 #[cfg(feature = "gui")]
 #[test]
 fn without_a_display_one_sentence_names_what_needs_none() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     desk.photo("a.png");
     for arguments in ["", "a.png"] {
         let ended = desk.run(arguments);
@@ -479,7 +480,7 @@ fn without_a_display_one_sentence_names_what_needs_none() {
 #[cfg(feature = "gui")]
 #[test]
 fn the_gallery_is_drawn_without_a_display() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     let ended = desk.run("screenshot --out gallery --size 640x400");
     if ended.code == 1 && ended.err.contains("no graphics device") {
         let required = std::env::var_os("DICHROSCOPE_REQUIRE_GPU");
@@ -503,8 +504,8 @@ fn the_gallery_is_drawn_without_a_display() {
 
 #[cfg(not(feature = "gui"))]
 #[test]
-fn without_arguments_the_sample_is_analysed() {
-    let desk = Desk::new();
+fn without_arguments_the_sample_is_analyzed() {
+    let desk = LatestRequest::new();
     let out = desk.succeeds("").out;
     assert!(out.contains("plastic8_white") && out.contains("psnr_restored"), "{out}");
     assert!(out.contains(&desk.path("dichroscope-sample").display().to_string()), "{out}");
@@ -518,11 +519,11 @@ fn without_arguments_the_sample_is_analysed() {
 /// is run. Both write the same result, but for the time that it took.
 #[test]
 fn the_call_that_the_window_hands_out_writes_the_windows_result() {
-    let desk = Desk::new();
+    let desk = LatestRequest::new();
     for name in list(&tiny()) {
         desk.put(&format!("scene/{name}"), &fs::read(tiny().join(&name)).unwrap());
     }
-    let mut bench = Workbench::new(Executor::Inline, || ()).unwrap();
+    let mut bench = Application::new(Executor::Inline, || ()).unwrap();
     bench.apply(Command::Open(Origin::File(desk.path("scene/camera8.png"))));
     bench.apply(Command::SetParameter(Parameter::CameraNoise, Setting::Value(3.5), None));
     bench.apply(Command::SetSwitch("second_look", false));

@@ -6,11 +6,11 @@ use synthetic::{FULL_SCALE, Random, Scene, dot, unit};
 
 const GREEN: [f64; 3] = [0.2, 0.9, 0.3];
 
-/// Length of the part of `colour` across the unit vector `axis`.
-fn distance_from_axis(colour: [f32; 3], axis: [f64; 3]) -> f64 {
-    let colour = colour.map(f64::from);
-    let along = dot(colour, axis);
-    (dot(colour, colour) - along * along).max(0.0).sqrt()
+/// Length of the part of `color` across the unit vector `axis`.
+fn distance_from_axis(color: [f32; 3], axis: [f64; 3]) -> f64 {
+    let color = color.map(f64::from);
+    let along = dot(color, axis);
+    (dot(color, color) - along * along).max(0.0).sqrt()
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn without_noise_a_pixel_is_body_plus_surface_until_it_clips() {
 }
 
 #[test]
-fn surface_reflection_has_the_colour_of_the_light_and_its_peak_between_light_and_view() {
+fn surface_reflection_has_the_color_of_the_light_and_its_peak_between_light_and_view() {
     let scene = Scene { illuminant: unit([0.7, 0.6, 0.4]), ..Scene::one_ball([100, 80], GREEN) };
     let rendered = scene.render();
     for &surface in rendered.surface.as_slice() {
@@ -73,7 +73,7 @@ fn surface_reflection_has_the_colour_of_the_light_and_its_peak_between_light_and
 #[test]
 fn the_larger_ball_covers_the_smaller() {
     let mut scene = Scene::one_ball([100, 80], GREEN);
-    let behind = synthetic::Ball { radius_px: 16.0, centre_px: [72.0, 40.0], ..scene.balls[0] };
+    let behind = synthetic::Ball { radius_px: 16.0, center_px: [72.0, 40.0], ..scene.balls[0] };
     scene.balls.push(behind);
     let rendered = scene.render();
     assert_eq!(rendered.labels.get(72, 40), Some(&1), "inside the larger ball");

@@ -57,8 +57,8 @@ fn pixel_of(line: &Value) -> Option<[u64; 2]> {
 
 /// A pixel of the tiny scene with this role.
 fn pixel_with(steps: &[Value], role: &str) -> [u64; 2] {
-    let labelled = |line: &&Value| line["kind"] == "label" && line["values"]["role"] == role;
-    pixel_of(steps.iter().filter(labelled).nth(200).unwrap()).unwrap()
+    let labeled = |line: &&Value| line["kind"] == "label" && line["values"]["role"] == role;
+    pixel_of(steps.iter().filter(labeled).nth(200).unwrap()).unwrap()
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn a_trace_can_be_narrowed_to_a_stage_a_region_and_a_pixel() {
     let [x, y] = pixel_with(&all, "matte");
     let (_, about) = lines(&succeeds(&format!("trace TINY --out - --pixel {x},{y}")));
     let told: Vec<&Value> = about.iter().filter(|line| pixel_of(line).is_some()).collect();
-    // A refusal happened when a neighbour was claimed.
+    // A refusal happened when a neighbor was claimed.
     let beside = |[u, v]: [u64; 2]| u.abs_diff(x) + v.abs_diff(y) <= 1;
     assert!(told.iter().all(|line| line["kind"] == "hole filled" || pixel_of(line).is_some_and(beside)));
     let own = |line: &&Value| pixel_of(line) == Some([x, y]);
@@ -116,7 +116,7 @@ fn why_tells_newest_first_with_value_and_threshold() {
     for role in ["matte", "highlight"] {
         let [x, y] = pixel_with(&all, role);
         let text = succeeds(&format!("why TINY {x},{y}"));
-        assert!(text.starts_with(&format!("pixel ({x}, {y}), colour (")), "{text}");
+        assert!(text.starts_with(&format!("pixel ({x}, {y}), color (")), "{text}");
         assert!(text.lines().next().unwrap().contains(&format!("{role}, in region ")), "{text}");
         let history = text.split("\n\n").nth(1).unwrap();
         let steps: Vec<u64> =
@@ -184,10 +184,13 @@ fn why_tells_of_a_highlight_where_no_region_holds() {
 fn why_tells_of_texture_and_of_a_clipped_heart_where_no_region_holds() {
     let speck = why_marbled(SPECK, 1.0);
     says(&speck, &["it varies against the body like texture, t 0.", "from 0.30 on nothing counts"]);
-    says(&speck, &["it keeps its colour as body"]);
-    let heart = why_marbled(CLIPPED, 1.0);
-    says(&heart, &["restored, in region", "it is filled with the body around it", "but it is clipped"]);
-    says(&heart, &["of its ring of 2 px are highlight (at least 40 %)"]);
+    says(&speck, &["it keeps its color as body"]);
+    let saturated_core = why_marbled(CLIPPED, 1.0);
+    says(
+        &saturated_core,
+        &["restored, in region", "it is filled with the body around it", "but it is clipped"],
+    );
+    says(&saturated_core, &["of its ring of 2 px are highlight (at least 40 %)"]);
 }
 
 #[test]
@@ -201,7 +204,7 @@ fn why_tells_why_nothing_was_split_locally() {
             " of the light there would be surface reflection (at most 18 %)",
         ],
     );
-    says(&text, &["surface would be ", "it keeps its colour as body"]);
+    says(&text, &["surface would be ", "it keeps its color as body"]);
 }
 
 #[test]

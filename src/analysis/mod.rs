@@ -19,7 +19,7 @@ use crate::intrinsic::Intrinsic;
 use crate::photo::{LinearImage, Masks};
 use crate::raster::{Mask, Raster};
 use crate::segment::{FinalRegions, MatteRegions, Params, PlanarRegions, UsedParams, Windows};
-use crate::trace::{Silent, Tape, Trace};
+use crate::trace::{NoopRecorder, Trace, TraceRecorder};
 use stages::{Stages, Subject};
 use std::sync::Arc;
 
@@ -58,7 +58,7 @@ pub struct Analysis {
     pub planar: Arc<PlanarRegions>,
     /// The final regions, numbered by decreasing size, and their skewed Ts.
     pub finals: Arc<FinalRegions>,
-    /// The colour of the light, where there was evidence of it.
+    /// The color of the light, where there was evidence of it.
     pub illuminant: Option<Illuminant>,
     /// The intrinsic images and the regions' reflection vectors.
     pub intrinsic: Arc<Intrinsic>,
@@ -114,7 +114,7 @@ impl Session {
     /// # Errors
     /// [`Cancelled`] when the observer asks for it; what had finished by then is kept.
     pub fn run(&mut self, params: &Params, observer: &mut impl Observer) -> Result<Analysis, Cancelled> {
-        self.stages.run::<Silent>(&self.subject(), params, observer)
+        self.stages.run::<NoopRecorder>(&self.subject(), params, observer)
     }
 
     /// The same, and the record of every decision. Stages that have a record from an earlier run are not run again; those
@@ -127,7 +127,7 @@ impl Session {
         params: &Params,
         observer: &mut impl Observer,
     ) -> Result<(Analysis, Trace), Cancelled> {
-        let analysis = self.stages.run::<Tape>(&self.subject(), params, observer)?;
+        let analysis = self.stages.run::<TraceRecorder>(&self.subject(), params, observer)?;
         let trace = self.stages.trace(self.image.width(), self.image.height()).ok_or(Cancelled)?;
         Ok((analysis, trace))
     }

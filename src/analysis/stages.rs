@@ -7,11 +7,11 @@ use crate::intrinsic::{Intrinsic, split};
 use crate::photo::{LinearImage, MaskLimits, Masks, estimate_sigma};
 use crate::raster::{LabelMap, Mask, Raster};
 use crate::segment::{
-    Areas, Classifier, FinalRegions, LightFindings, MatteRegions, Params, PlanarRegions, Refine, Scene,
-    Setting, UsedParams, Windows, classify, clipping_regions, final_regions, matte_regions, merge,
+    AnalysisInput, Areas, Classifier, FinalRegions, LightFindings, MatteRegions, Params, PlanarRegions,
+    Refine, Setting, UsedParams, Windows, classify, clipping_regions, final_regions, matte_regions, merge,
     planar_regions,
 };
-use crate::trace::{Event, MasksMade, Recorder, Reel, Trace};
+use crate::trace::{Event, MasksMade, Recorder, StageTrace, Trace};
 use std::sync::Arc;
 
 /// The last output of each stage.
@@ -40,10 +40,10 @@ struct MaskKey {
     area: Option<Arc<Mask>>,
 }
 
-/// What is analysed.
+/// What is analyzed.
 pub struct Subject {
     pub image: Arc<LinearImage>,
-    /// The pixels to analyse; none: all.
+    /// The pixels to analyze; none: all.
     pub area: Option<Arc<Mask>>,
 }
 
@@ -57,12 +57,12 @@ struct MergedAreas {
 struct Slot<K, V> {
     made: Option<(K, V)>,
     generation: u64,
-    reel: Option<Arc<Reel>>,
+    stage_trace: Option<Arc<StageTrace>>,
 }
 
 impl<K, V> Default for Slot<K, V> {
     fn default() -> Self {
-        Self { made: None, generation: 0, reel: None }
+        Self { made: None, generation: 0, stage_trace: None }
     }
 }
 
@@ -82,7 +82,7 @@ impl<K: PartialEq, V: Clone> Slot<K, V> {
         observer.started(stage);
         let kept =
             self.made.as_ref().filter(|(made_from, _)| *made_from == key).map(|(_, value)| value.clone());
-        if let Some(value) = kept.clone().filter(|_| !R::KEEPS || self.reel.is_some()) {
+        if let Some(value) = kept.clone().filter(|_| !R::KEEPS || self.stage_trace.is_some()) {
             observer.finished(stage, true);
             return Ok(value);
         }
@@ -94,7 +94,7 @@ impl<K: PartialEq, V: Clone> Slot<K, V> {
         if observer.cancelled() {
             return Err(Cancelled);
         }
-        self.reel = recorder.finish(stage).map(Arc::new);
+        self.stage_trace = recorder.finish(stage).map(Arc::new);
         observer.finished(stage, false);
         if let Some(value) = kept {
             return Ok(value);
@@ -116,13 +116,13 @@ impl Stages {
         let refine = params.refinements();
         let (masks, used) = self.masks::<R>(subject, params, observer)?;
         let image = &subject.image;
-        let scene = Scene::new(image, &masks, &used, refine);
+        let input = AnalysisInput::new(image, &masks, &used, refine);
 
         let key = |stage, before| (before, seen_up_to(stage, &used, refine));
 
         let after_masks = key(Stage::Classify, self.masks.generation);
         let windows = self.classify.get(Stage::Classify, after_masks, observer, |_, recorder: &mut R| {
-            Arc::new(classify_windows(&scene, recorder))
+            Arc::new(classify_windows(&input, recorder))
         })?;
         observer.made(StageOutput::Windows(windows.clone()));
         let after_classify = key(Stage::Merge, self.classify.generation);
@@ -137,30 +137,30 @@ impl Stages {
         let after_merge = key(Stage::Linear, self.merge.generation);
         let matte = self.linear.get(Stage::Linear, after_merge, observer, |observer, recorder: &mut R| {
             let stop = || observer.cancelled();
-            Arc::new(matte_regions(&scene.stopped_by(&stop), &windows, areas, recorder))
+            Arc::new(matte_regions(&input.stopped_by(&stop), &windows, areas, recorder))
         })?;
         observer.made(StageOutput::Matte(matte.clone()));
         let after_linear = key(Stage::Planar, self.linear.generation);
         let planar =
             self.planar.get(Stage::Planar, after_linear, observer, |observer, recorder: &mut R| {
                 let stop = || observer.cancelled();
-                Arc::new(planar_regions(&scene.stopped_by(&stop), &windows, areas, &matte, recorder))
+                Arc::new(planar_regions(&input.stopped_by(&stop), &windows, areas, &matte, recorder))
             })?;
         observer.made(StageOutput::Planar(planar.clone()));
         let after_planar = key(Stage::Clipping, self.planar.generation);
         let finals =
             self.clipping.get(Stage::Clipping, after_planar, observer, |observer, recorder: &mut R| {
                 let stop = || observer.cancelled();
-                let scene = scene.stopped_by(&stop);
-                let labels = clipping_regions(&scene, &planar, recorder);
-                Arc::new(final_regions(&scene, labels, &planar, recorder))
+                let input = input.stopped_by(&stop);
+                let labels = clipping_regions(&input, &planar, recorder);
+                Arc::new(final_regions(&input, labels, &planar, recorder))
             })?;
         observer.made(StageOutput::Finals(finals.clone()));
         let after_clipping = key(Stage::Split, self.clipping.generation);
         let intrinsic =
             self.split.get(Stage::Split, after_clipping, observer, |observer, recorder: &mut R| {
                 let stop = || observer.cancelled();
-                Arc::new(split(&scene.stopped_by(&stop), &finals, recorder))
+                Arc::new(split(&input.stopped_by(&stop), &finals, recorder))
             })?;
         observer.made(StageOutput::Intrinsic(intrinsic.clone()));
         let warnings = warnings(&finals.labels, &planar, &masks, subject.area.is_some());
@@ -171,17 +171,17 @@ impl Stages {
 
     /// The record of all stages; none where one has none.
     pub fn trace(&self, width: usize, height: usize) -> Option<Trace> {
-        let reels = [
-            &self.masks.reel,
-            &self.classify.reel,
-            &self.merge.reel,
-            &self.linear.reel,
-            &self.planar.reel,
-            &self.clipping.reel,
-            &self.split.reel,
+        let stage_traces = [
+            &self.masks.stage_trace,
+            &self.classify.stage_trace,
+            &self.merge.stage_trace,
+            &self.linear.stage_trace,
+            &self.planar.stage_trace,
+            &self.clipping.stage_trace,
+            &self.split.stage_trace,
         ];
-        let reels: Option<Vec<Arc<Reel>>> = reels.into_iter().cloned().collect();
-        Some(Trace::new(width, height, reels?))
+        let stage_traces: Option<Vec<Arc<StageTrace>>> = stage_traces.into_iter().cloned().collect();
+        Some(Trace::new(width, height, stage_traces?))
     }
 
     fn masks<R: Recorder>(
@@ -236,15 +236,15 @@ fn masks_made(masks: &Masks, limits: MaskLimits, pixels: usize, sigma: Option<f6
 }
 
 /// The paper's windows hold every pixel, refined ones the believable ones, and at least half of them.
-fn classify_windows<R: Recorder>(scene: &Scene, recorder: &mut R) -> Windows {
-    let size_px = scene.used.window_size as usize;
-    let mut classifier = Classifier::new(scene.used.camera_noise, scene.refine.tail_test);
-    if scene.refine.tail_test {
-        let valid = |pixel| scene.masks.usable(pixel);
-        classify(scene.pixels, valid, size_px, size_px * size_px / 2, &mut classifier, recorder)
+fn classify_windows<R: Recorder>(input: &AnalysisInput, recorder: &mut R) -> Windows {
+    let size_px = input.used.window_size as usize;
+    let mut classifier = Classifier::new(input.used.camera_noise, input.refine.tail_test);
+    if input.refine.tail_test {
+        let valid = |pixel| input.masks.usable(pixel);
+        classify(input.pixels, valid, size_px, size_px * size_px / 2, &mut classifier, recorder)
     } else {
-        let valid = |pixel| !scene.masks.invalid(pixel) && !scene.masks.outside(pixel);
-        classify(scene.pixels, valid, size_px, 2, &mut classifier, recorder)
+        let valid = |pixel| !input.masks.invalid(pixel) && !input.masks.outside(pixel);
+        classify(input.pixels, valid, size_px, 2, &mut classifier, recorder)
     }
 }
 
@@ -272,7 +272,7 @@ fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks, restricted
     let assigned = labels.as_slice().iter().filter(|&&label| label != 0).count();
     if labels.is_empty() || lit == 0 {
         let which = if restricted { "every pixel of the area" } else { "every pixel" };
-        warnings.push(format!("{which} is darker than the minimal intensity: nothing was analysed"));
+        warnings.push(format!("{which} is darker than the minimal intensity: nothing was analyzed"));
     } else if assigned == 0 {
         warnings.push(
             "no linear area was found: no window varies along one direction beyond the noise".to_owned(),
@@ -282,7 +282,7 @@ fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks, restricted
             LightFindings { planes: None, votes: None, .. } => "no highlight was found".to_owned(),
             light => light.reason(),
         };
-        warnings.push(format!("{why}: the light's colour is unknown and all is body reflection"));
+        warnings.push(format!("{why}: the light's color is unknown and all is body reflection"));
     }
     warnings
 }

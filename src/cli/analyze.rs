@@ -19,7 +19,7 @@ use std::io::IsTerminal;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-/// Analyse photographs: regions, illuminant, body, surface and noise images, and a report of each
+/// Analyze photographs: regions, illuminant, body, surface and noise images, and a report of each
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// Photographs, or folders that are searched for them
@@ -34,7 +34,7 @@ pub struct Arguments {
     /// Compare with a ground truth folder, or with those found under it by the results' names
     #[arg(long, value_name = "DIR")]
     truth: Option<PathBuf>,
-    /// Analyse only the pixels of the photographs that this picture of the same size shows as not black
+    /// Analyze only the pixels of the photographs that this picture of the same size shows as not black
     #[arg(long, value_name = "MASK")]
     area: Option<PathBuf>,
     /// Share of the surface reflection that the matte picture keeps: 0 none of it, 1 all

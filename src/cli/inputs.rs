@@ -1,4 +1,4 @@
-//! Which photographs to analyse, and what their results are called.
+//! Which photographs to analyze, and what their results are called.
 
 use anyhow::{Context, Result, bail};
 use dichroscope::export::is_result_folder;

@@ -2,10 +2,10 @@
 
 use anyhow::{Context, Result};
 use dichroscope::analysis::{Analysis, Observer, Session, Stage};
+use dichroscope::describe::{AreaFacts, ImageFacts, Report, Timings};
 use dichroscope::export::WholeResult;
 use dichroscope::photo::{self, Photo, ReadOptions};
 use dichroscope::raster::{Mask, Raster, UNASSIGNED};
-use dichroscope::report::{AreaFacts, ImageFacts, Report, Timings};
 use dichroscope::segment::Params;
 use dichroscope::truth::{GroundTruth, Outcome, score};
 use std::path::Path;
@@ -57,7 +57,7 @@ impl Reference {
     }
 }
 
-/// The pixels to analyse.
+/// The pixels to analyze.
 pub(super) struct Area {
     name: String,
     mask: Arc<Mask>,
@@ -81,7 +81,7 @@ impl Area {
     }
 }
 
-/// How a photograph is analysed and written.
+/// How a photograph is analyzed and written.
 pub(super) struct Plan<'a> {
     pub(super) params: &'a Params,
     pub(super) area: Option<&'a Area>,

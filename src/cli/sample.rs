@@ -1,4 +1,4 @@
-//! `dichroscope` alone: the embedded sample scene, analysed and compared with its ground truth.
+//! `dichroscope` alone: the embedded sample scene, analyzed and compared with its ground truth.
 
 use super::analyze::in_short;
 use super::one::{self, Plan, Reference, Shot};

@@ -8,7 +8,7 @@ use dichroscope::segment::{
 };
 use std::path::{Path, PathBuf};
 
-/// How to analyse.
+/// How to analyze.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Method and parameters")]
 pub(super) struct Settings {
@@ -32,7 +32,7 @@ pub(super) struct Settings {
     without: Vec<String>,
     #[command(flatten)]
     flags: ParameterFlags,
-    /// The colour of the light, of any length; every dichromatic plane turns to it [default: auto]
+    /// The color of the light, of any length; every dichromatic plane turns to it [default: auto]
     #[arg(long, value_name = "R,G,B|auto", allow_hyphen_values = true)]
     illuminant: Option<IlluminantSetting>,
     /// The ambient light, counts a band: found where the matte lines meet, given, or left alone [default: auto]

@@ -13,13 +13,13 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A photograph and how to analyse it.
+/// A photograph and how to analyze it.
 #[derive(Debug, Args)]
 pub(super) struct Subject {
-    /// Photograph to analyse
+    /// Photograph to analyze
     #[arg(index = 1)]
     pub(super) image: PathBuf,
-    /// Analyse only the pixels of the photograph that this picture of the same size shows as not black
+    /// Analyze only the pixels of the photograph that this picture of the same size shows as not black
     #[arg(long, value_name = "MASK")]
     area: Option<PathBuf>,
     /// Number of threads [default: one per core]
@@ -31,7 +31,7 @@ pub(super) struct Subject {
     reading: Reading,
 }
 
-/// A photograph that has been read and analysed, and the record of it.
+/// A photograph that has been read and analyzed, and the record of it.
 pub(super) struct Traced {
     pub(super) image: Arc<LinearImage>,
     pub(super) params: Params,
@@ -40,7 +40,7 @@ pub(super) struct Traced {
     pub(super) trace: Trace,
 }
 
-/// Why a photograph is not analysed: the call is wrong, or the file is.
+/// Why a photograph is not analyzed: the call is wrong, or the file is.
 pub(super) enum Trouble {
     Usage(anyhow::Error),
     File(anyhow::Error),

@@ -1,7 +1,7 @@
 //! Scores of several results, for people and for programs.
 
 use anyhow::Result;
-use dichroscope::report::Scores;
+use dichroscope::describe::Scores;
 use serde_json::{Map, Value, json};
 
 /// The means over the results that have a figure at all, by the figure's name.

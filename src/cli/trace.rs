@@ -5,7 +5,7 @@ use super::{Outcome, note};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use dichroscope::report::{Names, schema_line, trace_line};
+use dichroscope::describe::{Names, schema_line, trace_line};
 use dichroscope::trace::{Event, Stage, Step, lineage, pixel_history};
 use std::collections::BTreeSet;
 use std::fs::File;

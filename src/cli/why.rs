@@ -5,9 +5,9 @@ use super::{Outcome, note, print};
 use anyhow::Result;
 use clap::Args;
 use dichroscope::analysis::{WhatIfObserver, what_if};
+use dichroscope::describe::{Condensed, Names, condense, what_if_sentence};
 use dichroscope::intrinsic::PixelKind;
 use dichroscope::raster::UNASSIGNED;
-use dichroscope::report::{Condensed, Names, condense, what_if_sentence};
 use dichroscope::trace::{lineage, pixel_history};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Write;
@@ -106,7 +106,7 @@ fn history(traced: &Traced, pixel: usize) -> String {
     text
 }
 
-/// `pixel (12, 7), colour (120.3, 40.1, 38.8) counts: matte, in region 3`
+/// `pixel (12, 7), color (120.3, 40.1, 38.8) counts: matte, in region 3`
 fn headline(traced: &Traced, names: &Names, pixel: usize) -> String {
     let [r, g, b] = traced.image.pixels[pixel];
     let what = match traced.analysis.finals.labels[pixel] {
@@ -116,7 +116,7 @@ fn headline(traced: &Traced, names: &Names, pixel: usize) -> String {
             format!("{}, in region {region}", kind.name())
         }
     };
-    format!("pixel {}, colour ({r:.1}, {g:.1}, {b:.1}) counts: {what}\n", names.pixel(pixel as u32))
+    format!("pixel {}, color ({r:.1}, {g:.1}, {b:.1}) counts: {what}\n", names.pixel(pixel as u32))
 }
 
 /// The hypotheses that the pixel's region is made of, where they are more than one.

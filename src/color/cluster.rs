@@ -68,7 +68,7 @@ impl ClusterTest {
         self.tail_test
     }
 
-    /// Number of directions, 0…3, in which `n` colours of these variances (counts², largest first) vary beyond the noise.
+    /// Number of directions, 0…3, in which `n` colors of these variances (counts², largest first) vary beyond the noise.
     pub fn directions(&mut self, n: f64, eigenvalues: [f64; 3]) -> usize {
         if self.tail_test {
             (0..3).find(|&k| self.trial(k, n, eigenvalues).is_noise()).unwrap_or(3)
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn the_papers_test_looks_at_one_variance_and_the_tail_test_at_all_that_are_left() {
-        // 100 colours: χ²(99) at 5 % is 123.2, χ²(2·98) is 229.7.
+        // 100 colors: χ²(99) at 5 % is 123.2, χ²(2·98) is 229.7.
         let paper = ClusterTest::new(2.0, false).trials(100.0, [40.0, 1.0, 1.0]);
         assert_eq!(paper.iter().map(Trial::is_noise).collect::<Vec<_>>(), [false, true]);
         assert!((paper[0].statistic() - 99.0 * 40.0 / 4.0).abs() < 1e-9);

@@ -1,4 +1,4 @@
-//! Principal components of a colour cluster (section 5.2.1).
+//! Principal components of a color cluster (section 5.2.1).
 
 use super::Vec3;
 use nalgebra::{Matrix3, SymmetricEigen};
@@ -16,8 +16,8 @@ pub fn eigenvalues(matrix: &Matrix3<f64>) -> [f64; 3] {
     if p <= f64::MIN_POSITIVE {
         return [third; 3];
     }
-    let centred = (m - Matrix3::identity() * third) / p;
-    let angle = (centred.determinant() / 2.0).clamp(-1.0, 1.0).acos() / 3.0;
+    let centered = (m - Matrix3::identity() * third) / p;
+    let angle = (centered.determinant() / 2.0).clamp(-1.0, 1.0).acos() / 3.0;
     let largest = third + 2.0 * p * angle.cos();
     let smallest = third + 2.0 * p * (angle + std::f64::consts::TAU / 3.0).cos();
     [largest, 3.0 * third - largest - smallest, smallest]

@@ -1,11 +1,11 @@
-//! Straight lines through the colour cube, their robust fit, and the cylinders around them (section 5.3.2).
+//! Straight lines through the color cube, their robust fit, and the cylinders around them (section 5.3.2).
 
 use super::{Moments, Vec3, principal_axes};
 
-/// A line of the colour space: a matte or a highlight line.
+/// A line of the color space: a matte or a highlight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
-    /// A point on it: the mean of the colours it was fitted to, counts.
+    /// A point on it: the mean of the colors it was fitted to, counts.
     pub mean: Vec3,
     /// Unit direction, away from black.
     pub direction: Vec3,
@@ -41,12 +41,12 @@ impl Line {
         self.mean - self.direction * self.mean.dot(&self.direction)
     }
 
-    /// Distance of a colour from the line, counts.
+    /// Distance of a color from the line, counts.
     pub fn distance(&self, color: &Vec3) -> f64 {
         (color - self.mean).cross(&self.direction).norm()
     }
 
-    /// Direction that leads from the line into the cube, towards grey (section 5.4.1): highlights lie that way.
+    /// Direction that leads from the line into the cube, towards gray (section 5.4.1): highlights lie that way.
     pub fn inward(&self) -> Vec3 {
         let ones = Vec3::repeat(1.0);
         ones - self.direction * self.direction.sum()
@@ -101,7 +101,7 @@ pub fn closest_points(a: &Line, b: &Line) -> Option<(Vec3, Vec3)> {
     Some((a.mean + a.direction * s, b.mean + b.direction * t))
 }
 
-/// All colours within a radius of a line, in the precision of pixels.
+/// All colors within a radius of a line, in the precision of pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     mean: [f32; 3],
@@ -119,7 +119,7 @@ impl Cylinder {
         }
     }
 
-    /// Squared distance of a colour from the axis, counts².
+    /// Squared distance of a color from the axis, counts².
     #[inline]
     pub fn distance2(&self, color: [f32; 3]) -> f32 {
         let v = [color[0] - self.mean[0], color[1] - self.mean[1], color[2] - self.mean[2]];
@@ -130,13 +130,13 @@ impl Cylinder {
         x * x + y * y + z * z
     }
 
-    /// Whether a colour lies inside.
+    /// Whether a color lies inside.
     #[inline]
     pub fn contains(&self, color: [f32; 3]) -> bool {
         self.distance2(color) <= self.radius2
     }
 
-    /// Median distance of colours from the axis, from at most a thousand of them, evenly chosen.
+    /// Median distance of colors from the axis, from at most a thousand of them, evenly chosen.
     fn median_distance(&self, colors: &[[f32; 3]]) -> f64 {
         let step = colors.len().div_ceil(1000).max(1);
         let mut distances: Vec<f32> = colors.iter().step_by(step).map(|&c| self.distance2(c)).collect();
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_points_away_from_black_and_its_inside_is_grey() {
+    fn a_line_points_away_from_black_and_its_inside_is_gray() {
         let line = Line::new(Vec3::new(100.0, 10.0, 10.0), -Vec3::x());
         assert_eq!(line.direction, Vec3::x());
         assert!((line.foot() - Vec3::new(0.0, 10.0, 10.0)).norm() < 1e-12);

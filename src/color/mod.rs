@@ -1,6 +1,6 @@
 //! Points in the RGB cube: moments and eigenvectors of clusters, the χ² test, robust lines, cylinders.
 //!
-//! Colours are `[f32; 3]` in linear counts; what is fitted to them is computed and kept in `f64`.
+//! Colors are `[f32; 3]` in linear counts; what is fitted to them is computed and kept in `f64`.
 
 mod chi_square;
 mod cluster;
@@ -14,22 +14,22 @@ pub use eigen::{eigenvalues, principal_axes};
 pub use line::{Cylinder, Line, LineFit, closest_points};
 pub use moments::Moments;
 
-/// A vector or point of the colour space, for everything that is not one of millions of pixels.
+/// A vector or point of the color space, for everything that is not one of millions of pixels.
 pub type Vec3 = nalgebra::Vector3<f64>;
 
-/// A pixel's colour as a vector.
+/// A pixel's color as a vector.
 #[inline]
 pub fn vec3(color: [f32; 3]) -> Vec3 {
     Vec3::new(f64::from(color[0]), f64::from(color[1]), f64::from(color[2]))
 }
 
-/// A vector as a pixel's colour.
+/// A vector as a pixel's color.
 #[inline]
 pub fn rgb(vector: &Vec3) -> [f32; 3] {
     [vector.x as f32, vector.y as f32, vector.z as f32]
 }
 
-/// Scalar product of two colours.
+/// Scalar product of two colors.
 #[inline]
 pub fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

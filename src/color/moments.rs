@@ -3,7 +3,7 @@
 use super::Vec3;
 use nalgebra::Matrix3;
 
-/// Zeroth to second moments of a colour cluster.
+/// Zeroth to second moments of a color cluster.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
     /// Number of pixels (or the sum of their weights).
@@ -48,7 +48,7 @@ impl Moments {
         }
     }
 
-    /// Mean colour; black for an empty cluster.
+    /// Mean color; black for an empty cluster.
     pub fn mean(&self) -> Vec3 {
         if self.n > 0.0 { Vec3::from(self.sum) / self.n } else { Vec3::zeros() }
     }

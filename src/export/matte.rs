@@ -44,7 +44,7 @@ pub enum MatteError {
 /// 32 bits wide, samples of less than 8 bits and palettes as 8 bits, and a PNM whose maximum fits no PNG as 16 bits.
 /// At 0 the picture is `intrinsic.body`, at 1 the photograph again, but for restored pixels: they are body and surface as
 /// restored, as far as the file can hold them.
-/// A pixel whose colour equals the photograph keeps its samples exactly. A grey photograph stays grey if the body is.
+/// A pixel whose color equals the photograph keeps its samples exactly. A gray photograph stays gray if the body is.
 ///
 /// # Errors
 /// [`MatteError`]: sizes that differ, or a file that cannot be encoded or written.
@@ -120,7 +120,7 @@ fn coded(photo: &Photo, intrinsic: &Intrinsic, keep_surface: f32) -> Picture {
     }
 }
 
-/// A sample type, and when two samples are the same colour.
+/// A sample type, and when two samples are the same color.
 trait Sample: Copy + Send + Sync {
     fn same(self, other: Self) -> bool;
 }
@@ -182,9 +182,9 @@ impl Matte<'_> {
         wrap: impl Fn(Vec<T>) -> Samples,
     ) -> Picture {
         let layout = self.photo.source.layout;
-        let (stored, written) = (layout.channels(), layout.coloured().channels());
-        let mut coloured = vec![T::default(); self.intrinsic.body.len() * written];
-        coloured.par_chunks_mut(CHUNK * written).enumerate().for_each(|(chunk, out)| {
+        let (stored, written) = (layout.channels(), layout.colored().channels());
+        let mut colored = vec![T::default(); self.intrinsic.body.len() * written];
+        colored.par_chunks_mut(CHUNK * written).enumerate().for_each(|(chunk, out)| {
             for (offset, pixel) in out.chunks_exact_mut(written).enumerate() {
                 let index = chunk * CHUNK + offset;
                 self.write_pixel(
@@ -196,14 +196,14 @@ impl Matte<'_> {
                 );
             }
         });
-        let grey =
-            layout.is_grey() && coloured.chunks_exact(written).all(|p| p[0].same(p[1]) && p[1].same(p[2]));
-        if grey {
-            let samples = coloured.chunks_exact(written).flat_map(|pixel| &pixel[2..]).copied().collect();
-            // The last band and alpha are what a grey pixel holds.
+        let gray =
+            layout.is_gray() && colored.chunks_exact(written).all(|p| p[0].same(p[1]) && p[1].same(p[2]));
+        if gray {
+            let samples = colored.chunks_exact(written).flat_map(|pixel| &pixel[2..]).copied().collect();
+            // The last band and alpha are what a gray pixel holds.
             return Picture { layout, samples: wrap(samples) };
         }
-        Picture { layout: layout.coloured(), samples: wrap(coloured) }
+        Picture { layout: layout.colored(), samples: wrap(colored) }
     }
 
     /// Pixel `index`, which the file holds as `stored`, as three bands and alpha, if there is one.
@@ -227,7 +227,7 @@ impl Matte<'_> {
         let unchanged = self.keep_unchanged && color == self.photo.image.pixels[index];
         for band in 0..3 {
             pixel[band] = if unchanged || weight == 0.0 {
-                if source.layout.is_grey() { stored[0] } else { stored[band] }
+                if source.layout.is_gray() { stored[0] } else { stored[band] }
             } else {
                 code(band, color[band] / weight)
             };

@@ -17,10 +17,10 @@ mod whole;
 pub use matte::{MatteError, matte_bytes, write_matte};
 pub use palette::Palette;
 pub use pictures::write_pictures;
-pub use png::{png_of_grey, png_of_rgba};
+pub use png::{png_of_gray, png_of_rgba};
 pub use result::{ResultError, is_result_folder, read_report};
 pub use single::write_file;
-pub use stages::coloured;
+pub use stages::colored;
 pub use staging::{Staging, check_target};
 pub use whole::{Watch, WholeResult};
 

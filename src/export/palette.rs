@@ -1,7 +1,7 @@
-//! Colours that tell regions apart, for readers with and without red and green cones alike.
+//! Colors that tell regions apart, for readers with and without red and green cones alike.
 //!
 //! Hues are spread evenly in OKLCH (Ottosson 2020) on three levels of lightness: lightness is what remains where hue
-//! fails. How far two colours are apart is the smallest of their `OKLab` distances as seen with normal vision, with
+//! fails. How far two colors are apart is the smallest of their `OKLab` distances as seen with normal vision, with
 //! protanopia and with deuteranopia (Viénot, Brettel & Mollon 1999).
 
 use super::png::srgb_from_linear;
@@ -11,8 +11,8 @@ const LEVELS: [(f32, f32); 3] = [(0.74, 0.12), (0.50, 0.085), (0.88, 0.058)];
 const HUES: usize = 8;
 /// Far apart first, so that a picture of few regions uses the whole circle.
 const HUE_ORDER: [u8; HUES] = [0, 4, 2, 6, 1, 5, 3, 7];
-const COLOURS: usize = LEVELS.len() * HUES;
-/// `OKLab` distance from which on two neighbours are easily told apart; beyond it the rarer colour is preferred.
+const COLORS: usize = LEVELS.len() * HUES;
+/// `OKLab` distance from which on two neighbors are easily told apart; beyond it the rarer color is preferred.
 const EASY: f32 = 0.16;
 
 /// Linear sRGB as a protanope and a deuteranope see it.
@@ -21,10 +21,10 @@ const CONE_DEFICITS: [[[f32; 3]; 3]; 2] = [
     [[0.292_75, 0.707_25, 0.0], [0.292_75, 0.707_25, 0.0], [-0.022_34, 0.022_34, 1.0]],
 ];
 
-/// The colours and the distances between them.
+/// The colors and the distances between them.
 pub struct Palette {
-    colours: [[u8; 3]; COLOURS],
-    distances: [[f32; COLOURS]; COLOURS],
+    colors: [[u8; 3]; COLORS],
+    distances: [[f32; COLORS]; COLORS],
 }
 
 impl Default for Palette {
@@ -34,9 +34,9 @@ impl Default for Palette {
 }
 
 impl Palette {
-    /// Computes the colours and how far they are apart.
+    /// Computes the colors and how far they are apart.
     pub fn new() -> Self {
-        let linear: [[f32; 3]; COLOURS] = std::array::from_fn(|i| {
+        let linear: [[f32; 3]; COLORS] = std::array::from_fn(|i| {
             // Eight and three have no common divisor: every hue meets every level.
             let level = i % LEVELS.len();
             let (lightness, chroma) = LEVELS[level];
@@ -49,43 +49,43 @@ impl Palette {
             (0..3).map(|eye| euclidean(seen[a][eye], seen[b][eye])).fold(f32::INFINITY, f32::min)
         };
         Self {
-            colours: linear.map(|colour| colour.map(srgb_from_linear)),
+            colors: linear.map(|color| color.map(srgb_from_linear)),
             distances: std::array::from_fn(|a| std::array::from_fn(|b| distance(a, b))),
         }
     }
 
-    /// All colours as 8-bit sRGB.
-    pub fn colours(&self) -> &[[u8; 3]] {
-        &self.colours
+    /// All colors as 8-bit sRGB.
+    pub fn colors(&self) -> &[[u8; 3]] {
+        &self.colors
     }
 
-    /// One of the colours as 8-bit sRGB.
-    pub fn colour(&self, index: u8) -> [u8; 3] {
-        self.colours[usize::from(index)]
+    /// One of the colors as 8-bit sRGB.
+    pub fn color(&self, index: u8) -> [u8; 3] {
+        self.colors[usize::from(index)]
     }
 
-    /// The colour's index; none where it is not one of these.
-    pub fn index_of(&self, colour: [u8; 3]) -> Option<u8> {
-        self.colours.iter().position(|known| *known == colour).map(|index| index as u8)
+    /// The color's index; none where it is not one of these.
+    pub fn index_of(&self, color: [u8; 3]) -> Option<u8> {
+        self.colors.iter().position(|known| *known == color).map(|index| index as u8)
     }
 
-    /// A colour for each label, in ascending order: far from those of its neighbours, and the rarest of these.
-    pub fn assign(&self, neighbours: &[Vec<u32>]) -> Vec<u8> {
-        self.assign_keeping(neighbours, &[])
+    /// A color for each label, in ascending order: far from those of its neighbors, and the rarest of these.
+    pub fn assign(&self, neighbors: &[Vec<u32>]) -> Vec<u8> {
+        self.assign_keeping(neighbors, &[])
     }
 
-    /// [`Self::assign`], where the labels that have a colour in `kept` keep it and the others stay clear of it.
-    pub fn assign_keeping(&self, neighbours: &[Vec<u32>], kept: &[Option<u8>]) -> Vec<u8> {
+    /// [`Self::assign`], where the labels that have a color in `kept` keep it and the others stay clear of it.
+    pub fn assign_keeping(&self, neighbors: &[Vec<u32>], kept: &[Option<u8>]) -> Vec<u8> {
         let kept = |label: usize| kept.get(label).copied().flatten();
-        let mut chosen: Vec<u8> = (0..neighbours.len()).map(|label| kept(label).unwrap_or(0)).collect();
-        let mut uses = [0usize; COLOURS];
-        for index in (1..neighbours.len()).filter_map(kept) {
+        let mut chosen: Vec<u8> = (0..neighbors.len()).map(|label| kept(label).unwrap_or(0)).collect();
+        let mut uses = [0usize; COLORS];
+        for index in (1..neighbors.len()).filter_map(kept) {
             uses[usize::from(index)] += 1;
         }
-        for label in (1..neighbours.len()).filter(|&label| kept(label).is_none()) {
+        for label in (1..neighbors.len()).filter(|&label| kept(label).is_none()) {
             let settled = |other: usize| other < label || kept(other).is_some();
-            let mut clearance = [EASY; COLOURS];
-            for &other in neighbours[label].iter().filter(|&&other| settled(other as usize)) {
+            let mut clearance = [EASY; COLORS];
+            for &other in neighbors[label].iter().filter(|&&other| settled(other as usize)) {
                 let taken = &self.distances[usize::from(chosen[other as usize])];
                 for (clearance, distance) in clearance.iter_mut().zip(taken) {
                     *clearance = clearance.min(*distance);
@@ -94,7 +94,7 @@ impl Palette {
             let better = |a: &usize, b: &usize| {
                 clearance[*a].total_cmp(&clearance[*b]).then(uses[*b].cmp(&uses[*a])).then(b.cmp(a))
             };
-            let best = (0..COLOURS).max_by(better).unwrap_or(0);
+            let best = (0..COLORS).max_by(better).unwrap_or(0);
             uses[best] += 1;
             chosen[label] = best as u8;
         }
@@ -168,54 +168,54 @@ mod tests {
     }
 
     #[test]
-    fn every_colour_lies_inside_srgb() {
+    fn every_color_lies_inside_srgb() {
         for (lightness, chroma) in LEVELS {
             for step in 0..360 {
-                let colour = linear_srgb_from_oklch(lightness, chroma, (step as f32).to_radians());
+                let color = linear_srgb_from_oklch(lightness, chroma, (step as f32).to_radians());
                 assert!(
-                    colour.iter().all(|v| (-0.002..=1.002).contains(v)),
-                    "L {lightness} C {chroma} h {step}\u{b0}: {colour:?}"
+                    color.iter().all(|v| (-0.002..=1.002).contains(v)),
+                    "L {lightness} C {chroma} h {step}\u{b0}: {color:?}"
                 );
             }
         }
     }
 
     #[test]
-    fn neighbours_are_easily_told_apart_by_all_eyes() {
+    fn neighbors_are_easily_told_apart_by_all_eyes() {
         // Four labels that all touch each other, as far as a plane allows, and a ring around them.
-        let mut neighbours = vec![Vec::new(); 6];
+        let mut neighbors = vec![Vec::new(); 6];
         for a in 1..=4u32 {
-            neighbours[a as usize] = (1..=4).filter(|&b| b != a).collect();
+            neighbors[a as usize] = (1..=4).filter(|&b| b != a).collect();
         }
-        neighbours[5] = vec![1, 2, 3];
+        neighbors[5] = vec![1, 2, 3];
         let palette = Palette::new();
-        let colours = palette.assign(&neighbours);
-        for (label, list) in neighbours.iter().enumerate() {
+        let colors = palette.assign(&neighbors);
+        for (label, list) in neighbors.iter().enumerate() {
             for &other in list {
-                let (a, b) = (usize::from(colours[label]), usize::from(colours[other as usize]));
+                let (a, b) = (usize::from(colors[label]), usize::from(colors[other as usize]));
                 assert!(palette.distances[a][b] >= 0.1, "{label} and {other}: {}", palette.distances[a][b]);
             }
         }
     }
 
     #[test]
-    fn kept_colours_stay_and_their_neighbours_stay_clear_of_them() {
+    fn kept_colors_stay_and_their_neighbors_stay_clear_of_them() {
         let palette = Palette::new();
-        let neighbours = [vec![], vec![2, 3], vec![1, 3], vec![1, 2], vec![]];
-        let colours = palette.assign_keeping(&neighbours, &[None, None, None, Some(7), None]);
-        assert_eq!(colours[3], 7);
+        let neighbors = [vec![], vec![2, 3], vec![1, 3], vec![1, 2], vec![]];
+        let colors = palette.assign_keeping(&neighbors, &[None, None, None, Some(7), None]);
+        assert_eq!(colors[3], 7);
         for (a, b) in [(1, 2), (1, 3), (2, 3)] {
-            assert!(palette.distances[usize::from(colours[a])][usize::from(colours[b])] >= 0.1);
+            assert!(palette.distances[usize::from(colors[a])][usize::from(colors[b])] >= 0.1);
         }
-        assert_ne!(colours[4], 7, "the rarest");
-        assert!((0..COLOURS as u8).all(|index| palette.index_of(palette.colour(index)) == Some(index)));
+        assert_ne!(colors[4], 7, "the rarest");
+        assert!((0..COLORS as u8).all(|index| palette.index_of(palette.color(index)) == Some(index)));
         assert_eq!(palette.index_of([1, 2, 3]), None);
     }
 
     #[test]
     fn labels_that_touch_nothing_use_the_whole_palette() {
-        let mut colours = Palette::new().assign(&vec![Vec::new(); COLOURS + 1]).split_off(1);
-        colours.sort_unstable();
-        assert_eq!(colours, (0..COLOURS as u8).collect::<Vec<_>>());
+        let mut colors = Palette::new().assign(&vec![Vec::new(); COLORS + 1]).split_off(1);
+        colors.sort_unstable();
+        assert_eq!(colors, (0..COLORS as u8).collect::<Vec<_>>());
     }
 }

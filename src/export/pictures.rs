@@ -27,14 +27,14 @@ const PICTURES: [(&str, Writer); PICTURE_COUNT] = [
     ("noise.exr", |s, path| floats::write_single(path, &s.analysis.intrinsic.noise)),
     ("body.png", |s, path| png::write_rgb(path, &viewable(&s.analysis.intrinsic.body))),
     ("surface.png", |s, path| png::write_rgb(path, &viewable(&s.analysis.intrinsic.surface))),
-    ("noise.png", |s, path| png::write_grey(path, &viewable_noise(s.analysis))),
-    ("confidence.png", |s, path| png::write_grey(path, &viewable_share(&s.analysis.intrinsic.confidence))),
+    ("noise.png", |s, path| png::write_gray(path, &viewable_noise(s.analysis))),
+    ("confidence.png", |s, path| png::write_gray(path, &viewable_share(&s.analysis.intrinsic.confidence))),
     ("regions.png", |s, path| png::write_labels(path, &s.analysis.finals.labels)),
     ("stage-1-classification.png", |s, path| png::write_rgb(path, &stages::classification(s.analysis))),
-    ("stage-2-merged.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.areas))),
+    ("stage-2-merged.png", |s, path| png::write_rgb(path, &stages::colored(&s.analysis.areas))),
     ("stage-3-linear.png", |s, path| png::write_rgb(path, &like_the_last(s, &s.analysis.matte.labels))),
     ("stage-4-planar.png", |s, path| png::write_rgb(path, &like_the_last(s, &s.analysis.planar.labels))),
-    ("stage-5-clipping.png", |s, path| png::write_rgb(path, &stages::coloured(&s.analysis.finals.labels))),
+    ("stage-5-clipping.png", |s, path| png::write_rgb(path, &stages::colored(&s.analysis.finals.labels))),
 ];
 
 /// Writes everything of a result but the report and the matte photograph into `folder`, in parallel.
@@ -59,9 +59,9 @@ pub(super) fn write_pictures_watched(
     })
 }
 
-/// A stage's regions in the colours of the final ones.
+/// A stage's regions in the colors of the final ones.
 fn like_the_last(subject: &Subject, labels: &LabelMap) -> Raster<[u8; 3]> {
-    stages::coloured_like(labels, &subject.analysis.finals.labels)
+    stages::colored_like(labels, &subject.analysis.finals.labels)
 }
 
 /// Input − body − surface, counts.
@@ -77,15 +77,15 @@ fn residual(subject: &Subject) -> Raster<[f32; 3]> {
 
 /// Linear counts as sRGB values; what is brighter than 255 counts is white.
 fn viewable(counts: &Raster<[f32; 3]>) -> Raster<[u8; 3]> {
-    counts.map(|colour| colour.map(|value| srgb_from_linear(value / 255.0)))
+    counts.map(|color| color.map(|value| srgb_from_linear(value / 255.0)))
 }
 
-/// Shares as grey values, 0…1 as 0…255.
+/// Shares as gray values, 0…1 as 0…255.
 fn viewable_share(shares: &Raster<f32>) -> Raster<u8> {
     shares.map(|share| (255.0 * share).round() as u8)
 }
 
-/// ε as grey values: 128 where it is zero, 1 and 255 at the faces of the slice.
+/// ε as gray values: 128 where it is zero, 1 and 255 at the faces of the slice.
 fn viewable_noise(analysis: &Analysis) -> Raster<u8> {
     let half_width = analysis.used.slice_half_width_counts() as f32;
     analysis.intrinsic.noise.map(|epsilon| (128.0 + 127.0 * epsilon / half_width).round() as u8)
@@ -132,13 +132,13 @@ mod tests {
 
     /// The paper's slices are 4 × 2.5 = 10 counts to either side.
     #[test]
-    fn noise_is_grey_within_the_slice() {
+    fn noise_is_gray_within_the_slice() {
         let (_, analysis) = made_up();
         assert_eq!(viewable_noise(&analysis).row(0)[..4], [128, 255, 65, 0]);
     }
 
     #[test]
-    fn windows_have_the_papers_colours() {
+    fn windows_have_the_papers_colors() {
         let (_, analysis) = made_up();
         let picture = stages::classification(&analysis);
         assert_eq!((picture[9], picture[10]), ([255, 0, 0], [0, 0, 0]));

@@ -7,28 +7,28 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-/// Labels as 16-bit grey values: numbers, not colours, and therefore untagged.
+/// Labels as 16-bit gray values: numbers, not colors, and therefore untagged.
 pub(super) fn write_labels(path: &Path, labels: &LabelMap) -> Result<(), ExportError> {
     let bytes: Vec<u8> = labels.as_slice().iter().flat_map(|label| label.to_be_bytes()).collect();
-    let kind = Kind { colour: ColorType::Grayscale, depth: BitDepth::Sixteen, srgb: false };
+    let kind = Kind { color: ColorType::Grayscale, depth: BitDepth::Sixteen, srgb: false };
     write(path, (labels.width(), labels.height()), &kind, &bytes)
 }
 
 /// 8-bit sRGB values, tagged as such.
 pub(super) fn write_rgb(path: &Path, values: &Raster<[u8; 3]>) -> Result<(), ExportError> {
-    let kind = Kind { colour: ColorType::Rgb, depth: BitDepth::Eight, srgb: true };
+    let kind = Kind { color: ColorType::Rgb, depth: BitDepth::Eight, srgb: true };
     write(path, (values.width(), values.height()), &kind, values.as_slice().as_flattened())
 }
 
-/// 8-bit grey sRGB values, tagged as such.
-pub(super) fn write_grey(path: &Path, values: &Raster<u8>) -> Result<(), ExportError> {
-    let kind = Kind { colour: ColorType::Grayscale, depth: BitDepth::Eight, srgb: true };
+/// 8-bit gray sRGB values, tagged as such.
+pub(super) fn write_gray(path: &Path, values: &Raster<u8>) -> Result<(), ExportError> {
+    let kind = Kind { color: ColorType::Grayscale, depth: BitDepth::Eight, srgb: true };
     write(path, (values.width(), values.height()), &kind, values.as_slice())
 }
 
-/// 8-bit grey values as the bytes of a PNG without a colour space: a mask, not light.
-pub fn png_of_grey(values: &Raster<u8>) -> Vec<u8> {
-    let kind = Kind { colour: ColorType::Grayscale, depth: BitDepth::Eight, srgb: false };
+/// 8-bit gray values as the bytes of a PNG without a color space: a mask, not light.
+pub fn png_of_gray(values: &Raster<u8>) -> Vec<u8> {
+    let kind = Kind { color: ColorType::Grayscale, depth: BitDepth::Eight, srgb: false };
     let mut bytes = Vec::new();
     match encode(&mut bytes, (values.width(), values.height()), &kind, values.as_slice()) {
         Ok(()) => bytes,
@@ -39,7 +39,7 @@ pub fn png_of_grey(values: &Raster<u8>) -> Vec<u8> {
 
 /// 8-bit sRGB values with alpha, as the bytes of a PNG; `size` is columns and rows.
 pub fn png_of_rgba(size: [u32; 2], rgba: &[u8]) -> Vec<u8> {
-    let kind = Kind { colour: ColorType::Rgba, depth: BitDepth::Eight, srgb: true };
+    let kind = Kind { color: ColorType::Rgba, depth: BitDepth::Eight, srgb: true };
     let mut bytes = Vec::new();
     // Writing to memory fails only where the size does not fit the values: then there is no picture.
     match encode(&mut bytes, (size[0] as usize, size[1] as usize), &kind, rgba) {
@@ -56,7 +56,7 @@ pub(super) fn srgb_from_linear(linear: f32) -> u8 {
 }
 
 struct Kind {
-    colour: ColorType,
+    color: ColorType,
     depth: BitDepth,
     srgb: bool,
 }
@@ -74,7 +74,7 @@ fn encode(
     bytes: &[u8],
 ) -> Result<(), EncodingError> {
     let mut encoder = png::Encoder::new(&mut file, size.0 as u32, size.1 as u32);
-    encoder.set_color(kind.colour);
+    encoder.set_color(kind.color);
     encoder.set_depth(kind.depth);
     encoder.set_compression(Compression::Fast);
     if kind.srgb {

@@ -1,6 +1,6 @@
 //! Finding and reading back what was written.
 
-use crate::report::{FILE_NAME, Report, ReportError, is_report};
+use crate::describe::{FILE_NAME, Report, ReportError, is_report};
 use std::path::{Path, PathBuf};
 
 /// Why the report of a result folder could not be read.

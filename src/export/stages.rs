@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 const BLACK: [u8; 3] = [0; 3];
 
-/// The windows' classes in the paper's colours: point yellow, line red, plane green, volume blue, none black.
+/// The windows' classes in the paper's colors: point yellow, line red, plane green, volume blue, none black.
 pub(super) fn classification(analysis: &Analysis) -> Raster<[u8; 3]> {
     let (width, height) = (analysis.areas.width(), analysis.areas.height());
     let windows = &analysis.windows;
@@ -26,18 +26,18 @@ pub(super) fn classification(analysis: &Analysis) -> Raster<[u8; 3]> {
     picture
 }
 
-/// Labels in colours that keep neighbours apart, as 8-bit sRGB; 0 is black.
-pub fn coloured<T: Copy + Into<u32>>(labels: &Raster<T>) -> Raster<[u8; 3]> {
+/// Labels in colors that keep neighbors apart, as 8-bit sRGB; 0 is black.
+pub fn colored<T: Copy + Into<u32>>(labels: &Raster<T>) -> Raster<[u8; 3]> {
     let palette = Palette::new();
-    let colours = palette.assign(&neighbours(labels));
+    let colors = palette.assign(&neighbors(labels));
     labels.map(|&label| match label.into() {
         0 => BLACK,
-        label => palette.colour(colours[label as usize]),
+        label => palette.color(colors[label as usize]),
     })
 }
 
 /// `labels` renumbered to look like `finals`: each label becomes the final one that covers most of it, so that a region has
-/// one colour through all stages; labels that nothing final covers get numbers of their own.
+/// one color through all stages; labels that nothing final covers get numbers of their own.
 pub(super) fn aligned(labels: &LabelMap, finals: &LabelMap) -> Raster<u32> {
     let mut shared: BTreeMap<(u16, u16), usize> = BTreeMap::new();
     for (&label, &last) in labels.as_slice().iter().zip(finals.as_slice()) {
@@ -60,19 +60,19 @@ pub(super) fn aligned(labels: &LabelMap, finals: &LabelMap) -> Raster<u32> {
     labels.map(|label| numbers.get(label).copied().unwrap_or(0))
 }
 
-/// Labels in the colours that `finals` has, see [`aligned`].
-pub(super) fn coloured_like(labels: &LabelMap, finals: &LabelMap) -> Raster<[u8; 3]> {
+/// Labels in the colors that `finals` has, see [`aligned`].
+pub(super) fn colored_like(labels: &LabelMap, finals: &LabelMap) -> Raster<[u8; 3]> {
     let palette = Palette::new();
     let aligned = aligned(labels, finals);
-    let mut touching = neighbours(finals);
+    let mut touching = neighbors(finals);
     let largest = aligned.as_slice().iter().copied().max().unwrap_or(0) as usize;
     touching.resize(touching.len().max(largest + 1), Vec::new());
-    let colours = palette.assign(&touching);
-    aligned.map(|&label| if label == 0 { BLACK } else { palette.colour(colours[label as usize]) })
+    let colors = palette.assign(&touching);
+    aligned.map(|&label| if label == 0 { BLACK } else { palette.color(colors[label as usize]) })
 }
 
-/// The labels that each label touches (4-neighbourhood), ascending; 0 touches none.
-fn neighbours<T: Copy + Into<u32>>(labels: &Raster<T>) -> Vec<Vec<u32>> {
+/// The labels that each label touches (4-neighborhood), ascending; 0 touches none.
+fn neighbors<T: Copy + Into<u32>>(labels: &Raster<T>) -> Vec<Vec<u32>> {
     let at = |index: usize| -> u32 { labels[index].into() };
     let mut pairs = Vec::new();
     let mut largest = 0;
@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn labels_touch_across_edges_but_not_across_the_border_of_the_picture() {
         let labels = Raster::from_vec(3, 3, vec![1u16, 1, 2, 0, 3, 2, 4, 0, 2]).unwrap();
-        assert_eq!(neighbours(&labels), [vec![], vec![2, 3], vec![1, 3], vec![1, 2], vec![]]);
+        assert_eq!(neighbors(&labels), [vec![], vec![2, 3], vec![1, 3], vec![1, 2], vec![]]);
     }
 
     #[test]
@@ -114,13 +114,13 @@ mod tests {
         let finals = LabelMap::from_vec(6, 1, vec![2, 2, 1, 1, 0, 0]).unwrap();
         let labels = LabelMap::from_vec(6, 1, vec![7, 7, 7, 3, 5, 0]).unwrap();
         assert_eq!(aligned(&labels, &finals).as_slice(), [2, 2, 2, 1, 3, 0]);
-        assert_eq!(coloured_like(&labels, &finals)[0], coloured(&finals)[0]);
+        assert_eq!(colored_like(&labels, &finals)[0], colored(&finals)[0]);
     }
 
     #[test]
     fn unassigned_is_black_and_nothing_else_is() {
         let labels = Raster::from_vec(3, 1, vec![0u16, 1, 2]).unwrap();
-        let picture = coloured(&labels);
+        let picture = colored(&labels);
         assert_eq!(picture[0], BLACK);
         assert!(picture[1] != BLACK && picture[2] != BLACK && picture[1] != picture[2]);
     }

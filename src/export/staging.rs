@@ -1,7 +1,7 @@
 //! A folder that appears whole or not at all.
 
 use super::{ExportError, is_result_folder};
-use crate::report::{self, Report};
+use crate::describe::{self, Report};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -65,7 +65,7 @@ impl Staging {
     /// # Errors
     /// When the report cannot be written or the folder cannot be renamed; the earlier result then still stands.
     pub fn publish(self, report: &Report) -> Result<(), ExportError> {
-        let path = self.folder.join(report::FILE_NAME);
+        let path = self.folder.join(describe::FILE_NAME);
         match report.to_json() {
             Ok(text) => fs::write(&path, text).map_err(|source| ExportError::Io { path, source })?,
             Err(source) => return Err(ExportError::Json { path, source }),

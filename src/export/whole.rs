@@ -3,8 +3,8 @@
 use super::pictures::{PICTURE_COUNT, write_pictures_watched};
 use super::{ExportError, Staging, write_matte};
 use crate::analysis::Analysis;
+use crate::describe::Report;
 use crate::photo::Photo;
-use crate::report::Report;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;

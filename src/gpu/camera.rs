@@ -1,4 +1,4 @@
-//! The camera that circles the colour cube.
+//! The camera that circles the color cube.
 //!
 //! World units are counts / 255: black is the origin, white (1, 1, 1); x is red, y green, z blue. The camera looks at a
 //! target from a distance; its orientation is free, so that it can face any plane, and dragging brings blue back up.
@@ -18,9 +18,9 @@ pub const DISTANCE_RANGE: [f32; 2] = [0.01, 200.0];
 const LEVELLING_DEG: f32 = 30.0;
 /// Horizontal part of the viewing direction below which it counts as vertical.
 const POLE: f32 = 1e-3;
-/// Pictures with head room have colours well outside the unit cube: what lies within this distance is drawn.
+/// Pictures with head room have colors well outside the unit cube: what lies within this distance is drawn.
 const WORLD_RADIUS: f32 = 32.0;
-const CENTRE: [f32; 3] = [0.5; 3];
+const CENTER: [f32; 3] = [0.5; 3];
 /// Space around a framed sphere, as a factor of its radius.
 const MARGIN: f32 = 1.06;
 const BLUE: Vector3<f32> = Vector3::new(0.0, 0.0, 1.0);
@@ -48,13 +48,13 @@ pub enum Preset {
     Green,
     /// Along the blue axis, towards black: red to the right, green up.
     Blue,
-    /// From white to black: the cube is a hexagon, blue up, grey a point.
-    Grey,
+    /// From white to black: the cube is a hexagon, blue up, gray a point.
+    Gray,
 }
 
 impl Preset {
     /// All of them, in the order of a menu.
-    pub const ALL: [Self; 5] = [Self::Home, Self::Red, Self::Green, Self::Blue, Self::Grey];
+    pub const ALL: [Self; 5] = [Self::Home, Self::Red, Self::Green, Self::Blue, Self::Gray];
 
     /// Direction of view and what is up in it.
     pub fn direction_and_up(self) -> [[f32; 3]; 2] {
@@ -63,7 +63,7 @@ impl Preset {
             Self::Red => [[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
             Self::Green => [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             Self::Blue => [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
-            Self::Grey => [[-1.0, -1.0, -1.0], [0.0, 0.0, 1.0]],
+            Self::Gray => [[-1.0, -1.0, -1.0], [0.0, 0.0, 1.0]],
         }
     }
 }
@@ -88,7 +88,7 @@ impl Default for Orbit {
     /// The home view of the whole cube in a square window.
     fn default() -> Self {
         let mut camera = Self {
-            target: CENTRE,
+            target: CENTER,
             orientation: [0.0, 0.0, 0.0, 1.0],
             distance: 1.0,
             projection: Projection::Perspective,
@@ -186,16 +186,16 @@ impl Orbit {
 
     /// Moves the unit cube into the middle, as large as it goes on a screen of this aspect (width / height).
     pub fn fit(&mut self, aspect: f32) {
-        self.frame(CENTRE, 0.75_f32.sqrt(), aspect);
+        self.frame(CENTER, 0.75_f32.sqrt(), aspect);
     }
 
     /// Moves a sphere into the middle, as large as it goes on a screen of this aspect (width / height).
-    pub fn frame(&mut self, centre: [f32; 3], radius: f32, aspect: f32) {
+    pub fn frame(&mut self, center: [f32; 3], radius: f32, aspect: f32) {
         // The sphere's silhouette in perspective is a little larger than its great circle: hence the sine.
         let half_angle = (0.5 * FIELD_OF_VIEW_DEG).to_radians();
         let narrow = (half_angle.tan() * aspect.clamp(1e-3, 1.0)).atan();
         let distance = radius.max(0.0) * MARGIN / narrow.sin();
-        self.target = centre;
+        self.target = center;
         self.distance = distance.clamp(DISTANCE_RANGE[0], DISTANCE_RANGE[1]);
     }
 
@@ -249,7 +249,7 @@ impl Orbit {
 
     /// nalgebra's own matrices map depth to −1…1, wgpu wants 0…1.
     fn projection_matrix(&self, aspect: f32) -> Matrix4<f32> {
-        let reach = WORLD_RADIUS + (Vector3::from(self.target) - Vector3::from(CENTRE)).norm();
+        let reach = WORLD_RADIUS + (Vector3::from(self.target) - Vector3::from(CENTER)).norm();
         let aspect = if aspect > 0.0 { aspect } else { 1.0 };
         let mut matrix = Matrix4::zeros();
         match self.projection {

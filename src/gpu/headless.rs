@@ -18,7 +18,7 @@ pub struct Headless {
 /// Nothing here can draw.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error(
-    "no graphics device can draw the colour space ({0}); install the graphics card's Vulkan driver or, without a card, \
+    "no graphics device can draw the color space ({0}); install the graphics card's Vulkan driver or, without a card, \
      Mesa's software one (Debian and Ubuntu: apt install libvulkan1 mesa-vulkan-drivers)"
 )]
 pub struct NoAdapter(String);

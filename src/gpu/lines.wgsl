@@ -1,6 +1,6 @@
 // Lines as rectangles on the screen, with soft edges and round ends. Instances are `Segment`s of upload.rs.
 
-// Share of the colour that is left of a `Faint` line where something nearer hides it; 1 in the other pipelines.
+// Share of the color that is left of a `Faint` line where something nearer hides it; 1 in the other pipelines.
 override strength: f32 = 1.0;
 
 struct Stroke {

@@ -1,4 +1,4 @@
-//! The colour space in three dimensions: plain data in, pixels out.
+//! The color space in three dimensions: plain data in, pixels out.
 //!
 //! A [`Scene`] holds points, lines and translucent solids in world units (counts / 255); an [`Orbit`] camera looks at it;
 //! a [`Renderer`] draws it into a texture of its own, so that the window, picture files and tests show the same pixels.

@@ -16,7 +16,7 @@ pub struct Hit {
     pub depth: f32,
 }
 
-/// The point at the cursor: of the dots under it the front-most, otherwise the dot whose rim is nearest, if its centre is
+/// The point at the cursor: of the dots under it the front-most, otherwise the dot whose rim is nearest, if its center is
 /// within `radius_px`.
 pub fn nearest(points: &[Point], projector: &Projector, cursor: [f32; 2], radius_px: f32) -> Option<Hit> {
     let mut best: Option<Hit> = None;
@@ -37,7 +37,7 @@ pub fn nearest(points: &[Point], projector: &Projector, cursor: [f32; 2], radius
     best
 }
 
-/// The points whose centres are seen inside the polygon, in the order of the list; see [`encloses`].
+/// The points whose centers are seen inside the polygon, in the order of the list; see [`encloses`].
 pub fn inside_polygon(points: &[Point], projector: &Projector, polygon: &[[f32; 2]]) -> Vec<usize> {
     let low = [0, 1].map(|axis| polygon.iter().map(|p| p[axis]).fold(f32::INFINITY, f32::min));
     let high = [0, 1].map(|axis| polygon.iter().map(|p| p[axis]).fold(f32::NEG_INFINITY, f32::max));

@@ -64,7 +64,7 @@ impl Pipelines {
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: globals.as_entire_binding() }],
         });
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("colour space"),
+            label: Some("color space"),
             bind_group_layouts: &[Some(&bind_layout)],
             immediate_size: 0,
         });
@@ -142,7 +142,7 @@ fn pipeline(device: &wgpu::Device, layout: &wgpu::PipelineLayout, way: &Way) -> 
     let compilation_options =
         wgpu::PipelineCompilationOptions { constants: way.constants, ..Default::default() };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("colour space"),
+        label: Some("color space"),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module: way.shader,

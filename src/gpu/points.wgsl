@@ -2,7 +2,7 @@
 
 struct Dot {
     @builtin(position) position: vec4f,
-    // From the centre, physical pixels.
+    // From the center, physical pixels.
     @location(0) @interpolate(linear) offset_px: vec2f,
     @location(1) @interpolate(flat) color: vec4f,
     @location(2) @interpolate(flat) radius_px: f32,

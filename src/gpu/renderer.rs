@@ -113,7 +113,7 @@ impl Renderer {
 
     fn encode(&self, encoder: &mut wgpu::CommandEncoder, scene: &Scene, camera: &Orbit) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("colour space"),
+            label: Some("color space"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
                 view: &self.target.color_view,
                 depth_slice: None,
@@ -159,7 +159,7 @@ impl Renderer {
     /// Far solids before near ones, and each one's far side before its near side.
     fn encode_solids(&self, pass: &mut wgpu::RenderPass, meshes: &[Mesh], camera: &Orbit) {
         let [_, _, forward] = camera.right_up_forward();
-        let depth = |mesh: &Mesh| Vector3::from(mesh.centre).dot(&Vector3::from(forward));
+        let depth = |mesh: &Mesh| Vector3::from(mesh.center).dot(&Vector3::from(forward));
         let mut far_to_near: Vec<&Mesh> = meshes.iter().collect();
         far_to_near.sort_by(|one, other| depth(other).total_cmp(&depth(one)));
         for mesh in far_to_near {

@@ -1,6 +1,6 @@
 //! What is to be drawn, as plain data.
 //!
-//! Positions are in world units (counts / 255). Colours are sRGB bytes red, green, blue and straight alpha; they are
+//! Positions are in world units (counts / 255). Colors are sRGB bytes red, green, blue and straight alpha; they are
 //! blended as they are, like the window's own. Sizes and widths are in logical pixels: the renderer multiplies them with
 //! the screen's scale.
 
@@ -52,7 +52,7 @@ impl<T> Deref for Batch<T> {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Point {
-    /// Centre, world units.
+    /// Center, world units.
     pub position: [f32; 3],
     /// sRGB and straight alpha. A translucent point still hides what is drawn behind it later.
     pub color: [u8; 4],
@@ -105,7 +105,7 @@ pub struct Vertex {
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     pub(super) triangles: Batch<Vertex>,
-    pub(super) centre: [f32; 3],
+    pub(super) center: [f32; 3],
 }
 
 impl Mesh {
@@ -115,8 +115,8 @@ impl Mesh {
     /// intersect, close enough for the rest.
     pub fn new(triangles: Vec<Vertex>) -> Self {
         let n = triangles.len().max(1) as f32;
-        let centre = [0, 1, 2].map(|axis| triangles.iter().map(|v| v.position[axis]).sum::<f32>() / n);
-        Self { triangles: Batch::new(triangles), centre }
+        let center = [0, 1, 2].map(|axis| triangles.iter().map(|v| v.position[axis]).sum::<f32>() / n);
+        Self { triangles: Batch::new(triangles), center }
     }
 
     /// Its vertices, three a triangle.

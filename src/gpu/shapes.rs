@@ -44,10 +44,10 @@ pub fn cylinder(a: [f32; 3], b: [f32; 3], radius: f32, sides: usize, color: [u8;
         for (end, spoke) in [(a, from), (a, to), (b, to), (a, from), (b, to), (b, from)] {
             push(end + spoke * radius, spoke);
         }
-        for (centre, normal, spokes) in [(a, -axis, [to, from]), (b, axis, [from, to])] {
-            push(centre, normal);
+        for (center, normal, spokes) in [(a, -axis, [to, from]), (b, axis, [from, to])] {
+            push(center, normal);
             for spoke in spokes {
-                push(centre + spoke * radius, normal);
+                push(center + spoke * radius, normal);
             }
         }
     }
@@ -127,7 +127,7 @@ mod tests {
 
     const COLOR: [u8; 4] = [200, 100, 50, 90];
 
-    /// Every triangle turns the way its normals point, and closes with its neighbours: the faces' areas cancel out.
+    /// Every triangle turns the way its normals point, and closes with its neighbors: the faces' areas cancel out.
     #[track_caller]
     fn assert_closed_and_outward(triangles: &[Vertex]) {
         let mut total = Vector3::zeros();
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn the_plane_across_grey_is_a_hexagon() {
+    fn the_plane_across_gray_is_a_hexagon() {
         let hexagon = plane_in_cube([0.5; 3], [1.0; 3]);
         assert_eq!(hexagon.len(), 6);
         for (index, corner) in hexagon.iter().enumerate() {

@@ -16,7 +16,7 @@ fn vertex(
     return Surface(globals.clip_from_world * vec4f(position, 1.0), position, normal, color);
 }
 
-// Share of the colour that is left where the surface turns away from the viewer.
+// Share of the color that is left where the surface turns away from the viewer.
 const DIMMEST = 0.6;
 // Below this cosine the skin gets no thicker: the silhouette is a line of a few pixels, not a hard wall.
 const GRAZING = 0.18;

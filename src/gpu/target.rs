@@ -2,7 +2,7 @@
 
 use wgpu::{TextureFormat, TextureUsages};
 
-/// sRGB bytes as they are: colours are blended as the window blends its own.
+/// sRGB bytes as they are: colors are blended as the window blends its own.
 pub(super) const COLOR_FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 pub(super) const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
 
@@ -85,7 +85,7 @@ fn texture(
     usage: TextureUsages,
 ) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("colour space"),
+        label: Some("color space"),
         size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,

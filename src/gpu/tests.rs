@@ -62,8 +62,8 @@ impl Picture {
         self.camera.screen_from_world(world, size).expect("in view").at
     }
 
-    /// Sum over all pixels of how much of channel `c` is there, and its centre, in pixels.
-    fn mass_and_centre(&self, c: usize) -> (f32, [f32; 2]) {
+    /// Sum over all pixels of how much of channel `c` is there, and its center, in pixels.
+    fn mass_and_center(&self, c: usize) -> (f32, [f32; 2]) {
         let (mut mass, mut x_sum, mut y_sum) = (0.0, 0.0, 0.0);
         for (index, pixel) in self.rgba.as_chunks::<4>().0.iter().enumerate() {
             let amount = f32::from(pixel[c]) / 255.0;
@@ -130,7 +130,7 @@ fn points_are_where_the_camera_says() {
     for camera in [orthographic(), front(Projection::Perspective), askew] {
         for world in [[0.5; 3], [0.1, 0.2, 0.3], [0.9, 0.0, 0.2], [0.4, 1.0, 0.9]] {
             let Some(picture) = Picture::of(&scene_of(vec![dot(world, RED, 7.0)]), &camera) else { return };
-            let (_, [x, y]) = picture.mass_and_centre(0);
+            let (_, [x, y]) = picture.mass_and_center(0);
             let [x_expected, y_expected] = picture.place_px(world);
             assert!(
                 (x - x_expected).abs() < 0.1 && (y - y_expected).abs() < 0.1,
@@ -147,7 +147,7 @@ fn dots_are_round_and_as_large_as_they_say() {
         let scene = scene_of(vec![dot([0.5; 3], RED, size_px)]);
         let Some(picture) = Picture::sized(&scene, &orthographic(), SIZE, scale) else { return };
         let radius_px = 0.5 * size_px * scale;
-        let (area, [x, y]) = picture.mass_and_centre(0);
+        let (area, [x, y]) = picture.mass_and_center(0);
         let expected = std::f32::consts::PI * radius_px * radius_px;
         assert!((area / expected - 1.0).abs() < 0.06, "area {area}, expected {expected}");
         for step in 0..16 {
@@ -176,7 +176,7 @@ fn a_dot_smaller_than_a_pixel_is_fainter() {
     let Some(picture) = Picture::of(&scene_of(vec![dot([0.5; 3], RED, 0.5)]), &orthographic()) else {
         return;
     };
-    let (mass, _) = picture.mass_and_centre(0);
+    let (mass, _) = picture.mass_and_center(0);
     assert!((0.2..0.8).contains(&mass), "{mass}");
 }
 
@@ -188,7 +188,7 @@ fn nearer_dots_hide_farther_ones_whatever_the_order() {
         for points in [vec![near, far], vec![far, near]] {
             let Some(picture) = Picture::of(&scene_of(points), &camera) else { return };
             assert_eq!(picture.at_world([0.5; 3]), RED);
-            let (blue, _) = picture.mass_and_centre(2);
+            let (blue, _) = picture.mass_and_center(2);
             // Where two soft rims coincide, a little of both shows.
             assert!(blue < 15.0, "{blue} pixels of the dot behind shine around the one in front");
         }
@@ -210,10 +210,10 @@ fn lines_as_wide_as_they_say() {
     let Some(picture) = Picture::of(&scene, &front(Projection::Perspective)) else { return };
     let [a, b] = [[0.2, 0.5, 0.3], [0.8, 0.5, 0.7]].map(|end| picture.place_px(end));
     let length_px = (b[0] - a[0]).hypot(b[1] - a[1]);
-    let (area, centre) = picture.mass_and_centre(1);
+    let (area, center) = picture.mass_and_center(1);
     let expected = 5.0 * length_px + std::f32::consts::PI * 2.5 * 2.5;
     assert!((area / expected - 1.0).abs() < 0.02, "area {area}, expected {expected}");
-    assert!((centre[0] - 80.0).abs() < 0.1 && (centre[1] - 60.0).abs() < 0.1, "{centre:?}");
+    assert!((center[0] - 80.0).abs() < 0.1 && (center[1] - 60.0).abs() < 0.1, "{center:?}");
     assert_eq!(picture.at_world([0.35, 0.5, 0.4]), GREEN);
     assert_eq!(picture.at_world([0.5, 0.5, 0.4]), BLACK);
 }
@@ -224,7 +224,7 @@ fn dashes_leave_half_of_the_line() {
         Line { dash_px: 6.0, width_px: 1.0, ..line([0.0, 0.5, 0.5], [1.0, 0.5, 0.5], Overlay::Hidden) };
     let [whole, half] = [0.0, 6.0].map(|dash_px| {
         let scene = Scene { lines: Batch::new(vec![Line { dash_px, ..dashed }]), ..Scene::default() };
-        Picture::of(&scene, &orthographic()).map(|picture| picture.mass_and_centre(1).0)
+        Picture::of(&scene, &orthographic()).map(|picture| picture.mass_and_center(1).0)
     });
     let (Some(whole), Some(half)) = (whole, half) else { return };
     let share = half / whole;

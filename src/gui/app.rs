@@ -1,18 +1,19 @@
-//! The application: the workbench, the panels over it, and what comes in from the keyboard and the desktop.
+//! The application: the app, the panels over it, and what comes in from the keyboard and the desktop.
 
 use super::dock::{Dock, Pane, Panels};
 use super::files::{Dialogs, is_workspace};
-use super::portrait::Portraitist;
 use super::theme::{self, Tones};
+use super::view_export::ViewExporter;
 use super::{Cx, menu, notices, shortcuts};
-use crate::workbench::{Command, DebugCommand, Executor, Origin, Settings, State, Theme, Workbench};
+use crate::app::{Application, Command, DebugCommand, Executor, Settings, State};
+use crate::view::{Origin, Theme};
 use egui::{Event, Ui};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The window's content. It needs no window: tests show it in a harness.
 pub struct App {
-    bench: Workbench,
+    application: Application,
     front: Front,
     gpu: Option<egui_wgpu::RenderState>,
     dressed: Option<Theme>,
@@ -20,7 +21,7 @@ pub struct App {
     bell: Arc<Mutex<egui::Context>>,
 }
 
-/// What stands before the workbench: panels and what opens over them.
+/// What stands before the app: panels and what opens over them.
 #[derive(Default)]
 struct Front {
     dock: Dock,
@@ -30,7 +31,7 @@ struct Front {
     camera: String,
     panels: Panels,
     dialogs: Dialogs,
-    portraitist: Portraitist,
+    view_exporter: ViewExporter,
     help: bool,
     tap: shortcuts::SpaceTap,
     /// Whether somebody typed in the last frame.
@@ -40,7 +41,7 @@ struct Front {
 }
 
 impl App {
-    /// An application in which nothing is open. `gpu` draws the colour space; without it that panel says why it is empty.
+    /// An application in which nothing is open. `gpu` draws the color space; without it that panel says why it is empty.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -53,27 +54,27 @@ impl App {
         let bell = Arc::new(Mutex::new(ctx.clone()));
         let rung = Arc::clone(&bell);
         let ring = move || rung.lock().unwrap_or_else(PoisonError::into_inner).request_repaint();
-        let bench = Workbench::new(executor, ring)?;
-        Ok(Self { bench, front: Front::default(), gpu, dressed: None, bell })
+        let application = Application::new(executor, ring)?;
+        Ok(Self { application, front: Front::default(), gpu, dressed: None, bell })
     }
 
     /// Moves to another window, where the graphics device of the first was lost: all stays but what was uploaded.
     pub fn move_to(&mut self, ctx: &egui::Context, gpu: Option<egui_wgpu::RenderState>) {
         theme::load_fonts(ctx);
         *self.bell.lock().unwrap_or_else(PoisonError::into_inner) = ctx.clone();
-        let cube = self.front.panels.cube.likeness();
+        let cube = self.front.panels.cube.clone_view();
         self.front.panels = Panels { cube, ..Panels::default() };
         (self.gpu, self.dressed) = (gpu, None);
     }
 
     /// Puts back what was remembered from another session.
     pub fn remember(&mut self, settings: Settings) {
-        self.bench.remember(settings.view, settings.recent);
+        self.application.remember(settings.view, settings.recent);
     }
 
     /// Applies a command, as a panel would.
     pub fn apply(&mut self, command: Command) {
-        self.bench.apply(command);
+        self.application.apply(command);
     }
 
     /// Shows one panel alone, without menu and docking, or all of them again.
@@ -83,7 +84,7 @@ impl App {
 
     /// All that is shown.
     pub fn state(&self) -> &State {
-        self.bench.state()
+        self.application.state()
     }
 
     /// What the panels keep.
@@ -94,9 +95,9 @@ impl App {
 
     /// Shows everything, and obeys.
     pub fn show(&mut self, ui: &mut Ui) {
-        self.bench.poll();
+        self.application.poll();
         self.play(ui);
-        let theme = self.bench.state().view.theme;
+        let theme = self.application.state().view.theme;
         if self.dressed != Some(theme) {
             theme::apply(ui.ctx(), theme);
             self.dressed = Some(theme);
@@ -104,7 +105,7 @@ impl App {
         let tones = Tones::of(theme);
         let mut out = Vec::new();
         let mut cx = Cx {
-            state: self.bench.state(),
+            state: self.application.state(),
             tones: &tones,
             gpu: self.gpu.as_ref(),
             bare: false,
@@ -118,16 +119,16 @@ impl App {
             ui.ctx().request_repaint();
         }
         for command in out {
-            self.bench.apply(command);
+            self.application.apply(command);
         }
-        title(ui, self.bench.state());
+        title(ui, self.application.state());
     }
 
     /// Playing goes on with the time that has passed; nothing else moves by itself.
     fn play(&mut self, ui: &Ui) {
-        if self.bench.state().debugger.playing.is_some() {
+        if self.application.state().debugger.playing.is_some() {
             let seconds = f64::from(ui.input(|input| input.stable_dt));
-            self.bench.apply(Command::Debug(DebugCommand::Tick(seconds)));
+            self.application.apply(Command::Debug(DebugCommand::Tick(seconds)));
             ui.ctx().request_repaint();
         }
     }
@@ -176,11 +177,11 @@ impl Front {
         // egui takes the focus from what is typed in when Escape comes: the frame before tells who had it.
         let typed = std::mem::replace(&mut self.typing, false);
         let escape_is_meant = !typed && !egui::Popup::is_any_open(ui.ctx());
-        let listeners = shortcuts::Listeners::of(cx.state, self.panels.colours.take());
-        for deed in shortcuts::pressed(ui.ctx(), escape_is_meant, listeners, &mut self.tap) {
+        let listeners = shortcuts::Listeners::of(cx.state, self.panels.colors.take());
+        for action in shortcuts::pressed(ui.ctx(), escape_is_meant, listeners, &mut self.tap) {
             // A window that opens is measured unseen in its first frame.
             ui.ctx().request_repaint();
-            shortcuts::carry_out(deed, cx, &mut self.dialogs, &mut self.help);
+            shortcuts::carry_out(action, cx, &mut self.dialogs, &mut self.help);
         }
         if let Some(pane) = self.alone {
             let frame = egui::Frame::new().fill(cx.tones.panel);
@@ -193,10 +194,10 @@ impl Front {
         });
         let frame = egui::Frame::new().fill(cx.tones.line);
         egui::CentralPanel::default().frame(frame).show(ui, |ui| self.dock.show(ui, &mut self.panels, cx));
-        if let Some(sitting) = self.dialogs.show(ui, cx) {
-            self.portraitist.begin(ui.ctx(), sitting, cx, &self.panels.cube);
+        if let Some(view_export) = self.dialogs.show(ui, cx) {
+            self.view_exporter.begin(ui.ctx(), view_export, cx, &self.panels.cube);
         }
-        if let Some(command) = self.portraitist.done() {
+        if let Some(command) = self.view_exporter.done() {
             cx.send(command);
         }
         notices::show(ui, cx);
@@ -233,7 +234,7 @@ fn come_in(ui: &Ui, cx: &mut Cx) {
                 }
                 Err(reason) => {
                     let text = format!("{}: what was dropped cannot be read: {reason}", path.display());
-                    cx.send(Command::Notify(crate::workbench::Severity::Error, text));
+                    cx.send(Command::Notify(crate::app::Severity::Error, text));
                 }
             }
         }

@@ -2,9 +2,10 @@
 
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
-use crate::workbench::{
-    Breakpoint, CandidateCheck, Command, Condition, DebugCommand, DebugSettings, Item, SavedClass, State,
+use crate::app::{
+    Breakpoint, CandidateCheck, Command, Condition, DebugCommand, DebugSettings, SavedClass, State,
 };
+use crate::view::Item;
 use egui::accesskit::Role;
 use egui::{ComboBox, DragValue, Response, RichText, ScrollArea, Ui, WidgetInfo};
 
@@ -32,7 +33,7 @@ impl About {
             "hypothesis is rejected",
             "An area is passed over although it was large enough, or a region is given up, absorbed or dropped (5.3).",
         ),
-        (Self::Candidate, "candidate fails", "A neighbour fails a test of highlight candidates (5.4.1)."),
+        (Self::Candidate, "candidate fails", "A neighbor fails a test of highlight candidates (5.4.1)."),
         (Self::Class, "window has class", "A window is classified so (5.2.1)."),
         (Self::Conflict, "conflict between", "Two regions want the same pixel (5.3.2, 5.4.2)."),
     ];
@@ -220,8 +221,8 @@ fn pixel_controls(ui: &mut Ui, state: &State, number: usize, pixel: &mut u32) {
 /// A region by its number of birth, 0 being any.
 fn region_control(ui: &mut Ui, cx: &Cx, name: &str, region: &mut Option<u16>) {
     if let Some(region) = *region {
-        let colour = widgets::colour(cx.state.debugger.names.colour(region));
-        widgets::chip(ui, colour, &format!("colour of hypothesis {region}"));
+        let color = widgets::color(cx.state.debugger.names.color(region));
+        widgets::chip(ui, color, &format!("color of hypothesis {region}"));
     }
     let mut number = region.unwrap_or(0);
     let field = DragValue::new(&mut number)

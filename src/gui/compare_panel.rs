@@ -3,10 +3,9 @@
 use super::later::{AT_ONCE_PX, Later};
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
-use crate::report::Names;
-use crate::workbench::{
-    Command, Comparison, DebugCommand, Difference, Fate, ImageSettings, Item, Layer, compare,
-};
+use crate::app::{Command, DebugCommand, Difference};
+use crate::describe::Names;
+use crate::view::{Comparison, Fate, ImageSettings, Item, Layer, compare};
 use egui::{Grid, RichText, ScrollArea, Ui};
 
 /// The comparison.
@@ -65,7 +64,7 @@ fn verbs(ui: &mut Ui, cx: &mut Cx) {
         }
         if ui
             .button("Difference image")
-            .on_hover_text("The newest body reflection minus the pinned one, grey = none.")
+            .on_hover_text("The newest body reflection minus the pinned one, gray = none.")
             .clicked()
         {
             cx.send(Command::Image(ImageSettings {

@@ -1,11 +1,11 @@
-//! The colour space view: the photograph's colours as points in three dimensions, and what the model claims of them.
+//! The color space view: the photograph's colors as points in three dimensions, and what the model claims of them.
 
 mod bar;
+mod camera_controller;
 mod canvas;
 mod cloud;
 mod cursor;
 mod detail;
-mod eye;
 mod figure;
 mod frame;
 mod labels;
@@ -15,14 +15,15 @@ mod outline;
 mod tests;
 
 use super::{Cx, widgets};
+use crate::app::{Combine, Command};
 use crate::gpu::{Batch, Line, Orbit, Projector, Scene, pick};
-use crate::workbench::{Combine, Command, Item, Picture, Tool};
+use crate::view::{Item, Picture, Tool};
+use camera_controller::{CameraController, Plane};
 use canvas::Canvas;
 use cloud::Cloud;
 use cursor::Track;
 use detail::Detail;
 use egui::{Color32, EventFilter, Rect, Response, Sense, Stroke, Ui, vec2};
-use eye::{Eye, Plane};
 use figure::Figure;
 use frame::Frame;
 use outline::Outline;
@@ -36,7 +37,7 @@ const RING_PT: f32 = 7.0;
 /// The panel.
 #[derive(Default)]
 pub struct CubePanel {
-    eye: Eye,
+    camera_controller: CameraController,
     cloud: Cloud,
     track: Track,
     detail: Detail,
@@ -62,27 +63,27 @@ impl CubePanel {
 
     /// The camera, to be remembered.
     pub fn camera(&self) -> Orbit {
-        self.eye.orbit
+        self.camera_controller.orbit
     }
 
     /// Puts a remembered camera back, as if a hand had.
     pub fn set_camera(&mut self, camera: Orbit) {
-        self.eye.place(camera);
+        self.camera_controller.place(camera);
     }
 
     /// Another panel that sees the same.
-    pub fn likeness(&self) -> Self {
-        Self { eye: self.eye.clone(), ..Self::default() }
+    pub fn clone_view(&self) -> Self {
+        Self { camera_controller: self.camera_controller.clone(), ..Self::default() }
     }
 
     /// Shows it.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let Some(picture) = cx.state.picture.clone() else {
-            widgets::nothing(ui, cx.tones, "Open a photograph to see its colours.");
+            widgets::nothing(ui, cx.tones, "Open a photograph to see its colors.");
             return;
         };
         let Some(gpu) = cx.gpu else {
-            let text = "There is no graphics adapter, so the colour space cannot be drawn; all else works.";
+            let text = "There is no graphics adapter, so the color space cannot be drawn; all else works.";
             widgets::nothing(ui, cx.tones, text);
             return;
         };
@@ -90,7 +91,7 @@ impl CubePanel {
             egui::Frame::new().fill(cx.tones.panel).inner_margin(egui::Margin::symmetric(6, 3)).show(
                 ui,
                 |ui| {
-                    bar::show(ui, cx, &mut self.eye, self.size);
+                    bar::show(ui, cx, &mut self.camera_controller, self.size);
                     ui.allocate_space(vec2(ui.available_width(), 0.0));
                 },
             );
@@ -105,12 +106,12 @@ impl CubePanel {
         let full_counts = picture.histogram.full_counts;
         let other_space = self.frame.update(settings.space, full_counts, cx.state.view.theme);
         if other_space {
-            self.eye.enter(self.frame.lines.iter().flat_map(|line| [line.a, line.b]).collect());
+            self.camera_controller.enter(self.frame.lines.iter().flat_map(|line| [line.a, line.b]).collect());
         }
         self.turn(ui, cx, &response, rect);
         self.update(ui, cx, gpu, &picture, other_space);
-        self.canvas.show(ui, gpu, rect, &self.scene, &self.eye.orbit);
-        let projector = self.eye.orbit.projector(self.size);
+        self.canvas.show(ui, gpu, rect, &self.scene, &self.camera_controller.orbit);
+        let projector = self.camera_controller.orbit.projector(self.size);
         self.write(ui, cx, &projector, &response, &picture);
         self.point(cx, &response, &projector, rect);
         self.mark(ui, cx, &response, &projector, rect, &picture);
@@ -125,9 +126,9 @@ impl CubePanel {
         }
         let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
-        self.eye.arrive(self.size);
-        self.eye.follow(plane, settings.locked);
-        self.eye.obey(ui, response, rect, settings.tool == Tool::Pointer, plane);
+        self.camera_controller.arrive(self.size);
+        self.camera_controller.follow(plane, settings.locked);
+        self.camera_controller.obey(ui, response, rect, settings.tool == Tool::Pointer, plane);
     }
 
     /// What is to be drawn, as far as it has changed.
@@ -140,7 +141,7 @@ impl CubePanel {
         other_space: bool,
     ) {
         let settings = &cx.state.view.cube;
-        let moved = self.seen_from != Some(self.eye.orbit);
+        let moved = self.seen_from != Some(self.camera_controller.orbit);
         if moved {
             self.detail.stir();
         }
@@ -161,9 +162,9 @@ impl CubePanel {
         if moved || other_space || other_figure {
             let mut lines: Vec<Line> = self.frame.lines.clone();
             lines.extend(&self.figure.lines);
-            lines.extend(self.figure.silhouettes(&self.eye.orbit));
+            lines.extend(self.figure.silhouettes(&self.camera_controller.orbit));
             self.scene.lines = Batch::new(lines);
-            self.seen_from = Some(self.eye.orbit);
+            self.seen_from = Some(self.camera_controller.orbit);
         }
     }
 
@@ -172,15 +173,12 @@ impl CubePanel {
         let rect = response.rect;
         let settings = &cx.state.view.cube;
         let mut occupied = vec![legend::show(ui, cx, rect, self.cloud.fullest)];
-        if matches!(
-            settings.space,
-            crate::workbench::ColourSpace::Rgb | crate::workbench::ColourSpace::LogRgb
-        ) {
-            let axes = self.eye.orbit.right_up_forward();
+        if matches!(settings.space, crate::view::ColorSpace::Rgb | crate::view::ColorSpace::LogRgb) {
+            let axes = self.camera_controller.orbit.right_up_forward();
             occupied.push(frame::gizmo(ui, axes, rect, ["R", "G", "B"], cx.tones));
         }
         occupied.push(self.readout(ui, cx, rect, picture));
-        if let Some(test) = cx.state.followed().and_then(crate::workbench::test_at_cursor) {
+        if let Some(test) = cx.state.followed().and_then(crate::view::test_at_cursor) {
             let below = occupied[0].left_bottom() + vec2(0.0, 4.0);
             occupied.push(crate::gui::verdict::show(ui, cx.tones, cx.tones.background, below, test));
         }
@@ -191,28 +189,28 @@ impl CubePanel {
         self.ring(ui, cx, projector, rect, picture);
     }
 
-    /// The colour of what is hovered, in numbers; returns the room that it takes.
+    /// The color of what is hovered, in numbers; returns the room that it takes.
     fn readout(&self, ui: &Ui, cx: &Cx, rect: Rect, picture: &Picture) -> Rect {
         let corner = rect.right_bottom() - vec2(8.0, 6.0);
-        let Some((colour, count, region)) = self.hovered(cx, picture) else {
+        let Some((color, count, region)) = self.hovered(cx, picture) else {
             return Rect::from_min_max(corner, corner);
         };
-        let [r, g, b] = colour.map(|v| v.round() as i32);
+        let [r, g, b] = color.map(|v| v.round() as i32);
         let region = region.map_or(String::new(), |region| format!("  region {region}"));
         let text = format!("R {r}  G {g}  B {b}  {count} px{region}");
         let font = egui::FontId::proportional(crate::gui::theme::SMALL_PT);
         ui.painter_at(rect).text(corner, egui::Align2::RIGHT_BOTTOM, text, font, cx.tones.text)
     }
 
-    /// Colour, number of pixels and region of the pixel or bin that is hovered.
+    /// Color, number of pixels and region of the pixel or bin that is hovered.
     fn hovered(&self, cx: &Cx, picture: &Picture) -> Option<([f32; 3], u32, Option<u16>)> {
         let item = cx.state.hover?;
         // Where the debugger's cursor is followed, the result's regions are not there yet.
         let region = |region: Option<u16>| region.filter(|_| cx.state.followed().is_none());
         match item {
             Item::Pixel(pixel) => {
-                let colour = *picture.photo.image.pixels.as_slice().get(pixel as usize)?;
-                Some((colour, 1, region(cx.state.region_of(item))))
+                let color = *picture.photo.image.pixels.as_slice().get(pixel as usize)?;
+                Some((color, 1, region(cx.state.region_of(item))))
             }
             Item::Bin(bin) => {
                 let of = picture.histogram.bins.get(bin as usize)?;
@@ -223,8 +221,8 @@ impl CubePanel {
     }
 
     fn ring(&self, ui: &Ui, cx: &Cx, projector: &Projector, rect: Rect, picture: &Picture) {
-        let Some((colour, ..)) = self.hovered(cx, picture) else { return };
-        let world = cx.state.view.cube.space.place(colour, picture.histogram.full_counts);
+        let Some((color, ..)) = self.hovered(cx, picture) else { return };
+        let world = cx.state.view.cube.space.place(color, picture.histogram.full_counts);
         let Some(at) = frame::screen(projector, rect, world) else { return };
         let painter = ui.painter_at(rect);
         let (dark, accent) =
@@ -257,7 +255,7 @@ impl CubePanel {
         }
     }
 
-    /// Rectangle, lasso and polygon mark the pixels of the colours inside.
+    /// Rectangle, lasso and polygon mark the pixels of the colors inside.
     fn mark(
         &mut self,
         ui: &Ui,
@@ -282,5 +280,5 @@ impl CubePanel {
 
 fn describe(response: &Response) {
     response
-        .widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, "Colour space view"));
+        .widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, "Color space view"));
 }

@@ -1,13 +1,13 @@
 //! What a panel may see, and where it leaves its commands.
 
 use super::theme::Tones;
-use crate::workbench::{Command, State};
+use crate::app::{Command, State};
 
 /// Handed to every panel, every frame.
 pub struct Cx<'a> {
     /// All there is to show.
     pub state: &'a State,
-    /// The colours of the theme.
+    /// The colors of the theme.
     pub tones: &'a Tones,
     /// The graphics device, where there is one.
     pub gpu: Option<&'a egui_wgpu::RenderState>,

@@ -21,8 +21,9 @@ use serde::{Deserialize, Serialize};
 pub enum Pane {
     /// The photograph and its layers.
     Image,
-    /// The colour space.
-    Colours,
+    /// The color space.
+    #[serde(alias = "Colours")]
+    Colors,
     /// The dichromatic plane of one region.
     Plane,
     /// Body, surface and ε along a line.
@@ -49,7 +50,7 @@ impl Pane {
     /// All of them.
     pub const ALL: [Self; 12] = [
         Self::Image,
-        Self::Colours,
+        Self::Colors,
         Self::Plane,
         Self::Profile,
         Self::Parameters,
@@ -66,7 +67,7 @@ impl Pane {
     pub const fn title(self) -> &'static str {
         match self {
             Self::Image => "Image",
-            Self::Colours => "Colour space",
+            Self::Colors => "Color space",
             Self::Plane => "Plane",
             Self::Profile => "Profile",
             Self::Parameters => "Parameters",
@@ -86,7 +87,7 @@ impl Pane {
 pub struct Panels {
     /// The image view.
     pub image: ImagePanel,
-    /// The colour space view.
+    /// The color space view.
     pub cube: CubePanel,
     /// The plane view.
     pub plane: PlanePanel,
@@ -106,22 +107,22 @@ pub struct Panels {
     pub why: WhyPanel,
     /// Breakpoints.
     pub breakpoints: BreakpointsPanel,
-    /// Where the colour space was in the last frame; nowhere if it was not shown.
-    pub colours: Option<Rect>,
+    /// Where the color space was in the last frame; nowhere if it was not shown.
+    pub colors: Option<Rect>,
 }
 
 impl Panels {
     /// Shows one panel in all of `ui`.
     pub fn show(&mut self, pane: Pane, ui: &mut Ui, cx: &mut Cx) {
         let fill = match pane {
-            Pane::Image | Pane::Colours => cx.tones.background,
+            Pane::Image | Pane::Colors => cx.tones.background,
             _ => cx.tones.panel,
         };
         ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
         match pane {
             Pane::Image => self.image.show(ui, cx),
-            Pane::Colours => {
-                self.colours = Some(ui.max_rect());
+            Pane::Colors => {
+                self.colors = Some(ui.max_rect());
                 self.cube.show(ui, cx);
             }
             Pane::Plane => self.plane.show(ui, cx),
@@ -152,7 +153,7 @@ impl Default for Dock {
 impl Dock {
     /// Shows every panel in its place.
     pub fn show(&mut self, ui: &mut Ui, panels: &mut Panels, cx: &mut Cx) {
-        self.tree.ui(&mut Shown { panels, cx }, ui);
+        self.tree.ui(&mut DockBehavior { panels, cx }, ui);
     }
 
     /// Whether a panel is in the window at all.
@@ -201,7 +202,7 @@ impl Dock {
     }
 }
 
-/// Image over tables; colour space over plane and profile; parameters over questions; below them all the timeline.
+/// Image over tables; color space over plane and profile; parameters over questions; below them all the timeline.
 fn arranged() -> Tree<Pane> {
     let mut tiles = Tiles::default();
     let mut tabs = |panes: &[Pane]| {
@@ -211,12 +212,12 @@ fn arranged() -> Tree<Pane> {
     let image = tabs(&[Pane::Image]);
     let tables = tabs(&[Pane::Regions, Pane::Selection, Pane::Compare]);
     let questions = tabs(&[Pane::Why, Pane::Watch, Pane::Breakpoints]);
-    let colours = tabs(&[Pane::Colours]);
+    let colors = tabs(&[Pane::Colors]);
     let plots = tabs(&[Pane::Plane, Pane::Profile]);
     let parameters = tabs(&[Pane::Parameters]);
     let timeline = tabs(&[Pane::Timeline]);
     let left = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(image, 0.68), (tables, 0.32)]);
-    let middle = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(colours, 0.60), (plots, 0.40)]);
+    let middle = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(colors, 0.60), (plots, 0.40)]);
     let right = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(parameters, 0.52), (questions, 0.48)]);
     let views =
         split(&mut tiles, egui_tiles::LinearDir::Horizontal, &[(left, 0.39), (middle, 0.38), (right, 0.23)]);
@@ -232,12 +233,12 @@ fn split(tiles: &mut Tiles<Pane>, dir: egui_tiles::LinearDir, parts: &[(TileId, 
     tiles.insert_new(Tile::Container(linear.into()))
 }
 
-struct Shown<'a, 'b> {
+struct DockBehavior<'a, 'b> {
     panels: &'a mut Panels,
     cx: &'a mut Cx<'b>,
 }
 
-impl Behavior<Pane> for Shown<'_, '_> {
+impl Behavior<Pane> for DockBehavior<'_, '_> {
     fn pane_ui(&mut self, ui: &mut Ui, _id: TileId, pane: &mut Pane) -> UiResponse {
         self.panels.show(*pane, ui, self.cx);
         UiResponse::None

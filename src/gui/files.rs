@@ -4,16 +4,17 @@
 
 use super::Cx;
 use super::dock::Pane;
-use super::portrait::Sitting;
+use super::view_export::ViewExport;
+use crate::app::{Command, Export};
 use crate::truth::sample::SAMPLES;
-use crate::workbench::{Command, Export, Origin};
+use crate::view::Origin;
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Question {
+pub enum Dialog {
     /// A photograph.
     Open,
     /// A parameter file to read.
@@ -30,7 +31,7 @@ pub enum Question {
 
 /// What the export window offers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Ware {
+enum ExportChoice {
     Result,
     Matte,
     Layer,
@@ -42,9 +43,9 @@ enum Ware {
 }
 
 /// Views that can be drawn at any size.
-const VIEWS: [Pane; 3] = [Pane::Colours, Pane::Plane, Pane::Profile];
+const VIEWS: [Pane; 3] = [Pane::Colors, Pane::Plane, Pane::Profile];
 
-impl Ware {
+impl ExportChoice {
     const ALL: [Self; 8] = [
         Self::Matte,
         Self::Result,
@@ -67,13 +68,13 @@ impl Ware {
                 "The files of `dichroscope analyze`: body, surface and noise as floats, regions, stage pictures, report.",
             ),
             Self::Layer => ("Image view as PNG", "The layer that the image view shows, a pixel a pixel."),
-            Self::View => ("A view as PNG", "Colour space, plane or profile as they are now, at any size."),
+            Self::View => ("A view as PNG", "Color space, plane or profile as they are now, at any size."),
             Self::Selection => (
                 "Marked pixels",
-                "The marked pixels as a mask (.png), as a table (.csv) or as points in the colour cube (.ply).",
+                "The marked pixels as a mask (.png), as a table (.csv) or as points in the color cube (.ply).",
             ),
             Self::Area => {
-                ("Analysed area", "What the analysis is restricted to, as a mask for `analyze --area`.")
+                ("Analyzed area", "What the analysis is restricted to, as a mask for `analyze --area`.")
             }
             Self::Regions => ("Regions table", "The regions and their vectors, separated by tabs."),
             Self::Profile => ("Profile", "Input, body, surface and noise along the profile's line, as CSV."),
@@ -96,14 +97,14 @@ impl Ware {
 
 /// The windows that ask, and a system dialog that may be open.
 pub struct Dialogs {
-    question: Option<Question>,
+    question: Option<Dialog>,
     path: String,
-    ware: Ware,
+    ware: ExportChoice,
     keep_surface: f64,
     force: bool,
     view: Pane,
     size_px: [u32; 2],
-    sitting: Option<Sitting>,
+    view_export: Option<ViewExport>,
     browsing: Option<Receiver<Option<PathBuf>>>,
     focus: bool,
 }
@@ -113,12 +114,12 @@ impl Default for Dialogs {
         Self {
             question: None,
             path: String::new(),
-            ware: Ware::Matte,
+            ware: ExportChoice::Matte,
             keep_surface: 0.0,
             force: false,
-            view: Pane::Colours,
+            view: Pane::Colors,
             size_px: [1800, 1200],
-            sitting: None,
+            view_export: None,
             browsing: None,
             focus: false,
         }
@@ -127,14 +128,14 @@ impl Default for Dialogs {
 
 impl Dialogs {
     /// Opens the window for a question.
-    pub fn ask(&mut self, question: Question) {
+    pub fn ask(&mut self, question: Dialog) {
         (self.question, self.focus, self.force) = (Some(question), true, false);
         match question {
-            Question::Export | Question::Open | Question::LoadParameters | Question::OpenWorkspace => {
+            Dialog::Export | Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace => {
                 self.path.clear();
             }
-            Question::SaveParameters => "parameters.toml".clone_into(&mut self.path),
-            Question::SaveWorkspace => "workspace.dichroscope".clone_into(&mut self.path),
+            Dialog::SaveParameters => "parameters.toml".clone_into(&mut self.path),
+            Dialog::SaveWorkspace => "workspace.dichroscope".clone_into(&mut self.path),
         }
     }
 
@@ -146,16 +147,16 @@ impl Dialogs {
     }
 
     /// Shows what is open. A view that is to be drawn is handed out.
-    pub fn show(&mut self, ui: &Ui, cx: &mut Cx) -> Option<Sitting> {
+    pub fn show(&mut self, ui: &Ui, cx: &mut Cx) -> Option<ViewExport> {
         self.take_answer(ui);
         let question = self.question?;
         let title = match question {
-            Question::Open => "Open",
-            Question::LoadParameters => "Load parameters",
-            Question::SaveParameters => "Save parameters",
-            Question::OpenWorkspace => "Open workspace",
-            Question::SaveWorkspace => "Save workspace",
-            Question::Export => "Export",
+            Dialog::Open => "Open",
+            Dialog::LoadParameters => "Load parameters",
+            Dialog::SaveParameters => "Save parameters",
+            Dialog::OpenWorkspace => "Open workspace",
+            Dialog::SaveWorkspace => "Save workspace",
+            Dialog::Export => "Export",
         };
         let mut open = true;
         let window = egui::Window::new(title).open(&mut open).collapsible(false).resizable(false);
@@ -163,18 +164,18 @@ impl Dialogs {
             .default_width(480.0)
             .anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 64.0))
             .show(ui.ctx(), |ui| {
-                if question == Question::Export {
+                if question == Dialog::Export {
                     self.wares(ui, cx);
                 }
                 let answered = self.path_row(ui, question, cx);
-                if question == Question::Open { Self::shelf(ui, cx) || answered } else { answered }
+                if question == Dialog::Open { Self::shelf(ui, cx) || answered } else { answered }
             })
             .and_then(|shown| shown.inner)
             .unwrap_or(false);
         if answered || !open {
             self.question = None;
         }
-        self.sitting.take()
+        self.view_export.take()
     }
 
     /// What can be exported, with the options of what is chosen.
@@ -182,13 +183,13 @@ impl Dialogs {
         if self.path.is_empty() {
             self.path = proposed(self.ware, cx).display().to_string();
         }
-        for ware in Ware::ALL {
+        for ware in ExportChoice::ALL {
             let (name, tip) = ware.words();
             // What there is nothing of cannot be written.
             let there = match ware {
-                Ware::Selection => cx.state.document.selection.marked.is_some(),
-                Ware::Area => cx.state.document.area.is_some(),
-                Ware::View => cx.gpu.is_some(),
+                ExportChoice::Selection => cx.state.document.selection.marked.is_some(),
+                ExportChoice::Area => cx.state.document.area.is_some(),
+                ExportChoice::View => cx.gpu.is_some(),
                 _ => true,
             };
             let radio = ui.add_enabled(there, egui::RadioButton::new(self.ware == ware, name));
@@ -199,7 +200,7 @@ impl Dialogs {
         }
         ui.add_space(4.0);
         match self.ware {
-            Ware::Matte => {
+            ExportChoice::Matte => {
                 ui.spacing_mut().slider_width = 200.0;
                 let slider =
                     egui::Slider::new(&mut self.keep_surface, 0.0..=1.0).text("surface reflection kept");
@@ -210,12 +211,12 @@ impl Dialogs {
                     "0 %: no highlights. 100 %: the photograph as it was, but for restored pixels.",
                 );
             }
-            Ware::Result => {
+            ExportChoice::Result => {
                 ui.checkbox(&mut self.force, "replace the folder whatever it holds").on_hover_text(
                     "An earlier result is replaced anyway; this replaces any other folder too.",
                 );
             }
-            Ware::View => {
+            ExportChoice::View => {
                 ui.horizontal(|ui| {
                     for pane in VIEWS {
                         ui.selectable_value(&mut self.view, pane, pane.title());
@@ -234,12 +235,12 @@ impl Dialogs {
     }
 
     /// The field, the system's dialog and the verb. Whether the question is answered.
-    fn path_row(&mut self, ui: &mut Ui, question: Question, cx: &mut Cx) -> bool {
+    fn path_row(&mut self, ui: &mut Ui, question: Dialog, cx: &mut Cx) -> bool {
         let verb = match question {
-            Question::Open | Question::OpenWorkspace => "Open",
-            Question::LoadParameters => "Load",
-            Question::SaveParameters | Question::SaveWorkspace => "Save",
-            Question::Export => "Export",
+            Dialog::Open | Dialog::OpenWorkspace => "Open",
+            Dialog::LoadParameters => "Load",
+            Dialog::SaveParameters | Dialog::SaveWorkspace => "Save",
+            Dialog::Export => "Export",
         };
         let mut go = false;
         ui.horizontal(|ui| {
@@ -262,18 +263,18 @@ impl Dialogs {
         });
         if go {
             let path = expanded(self.path.trim());
-            if question == Question::Export && self.ware == Ware::View {
-                self.sitting = Some(Sitting { pane: self.view, size_px: self.size_px, path });
+            if question == Dialog::Export && self.ware == ExportChoice::View {
+                self.view_export = Some(ViewExport { pane: self.view, size_px: self.size_px, path });
                 return go;
             }
             cx.send(match question {
-                Question::Open if is_workspace(&path) => Command::OpenWorkspace(path),
-                Question::Open => Command::Open(Origin::File(path)),
-                Question::LoadParameters => Command::LoadParams(path),
-                Question::OpenWorkspace => Command::OpenWorkspace(path),
-                Question::SaveParameters => Command::Export(Export::Parameters { path }),
-                Question::SaveWorkspace => Command::Export(Export::Workspace { path }),
-                Question::Export => Command::Export(self.export(path, cx)),
+                Dialog::Open if is_workspace(&path) => Command::OpenWorkspace(path),
+                Dialog::Open => Command::Open(Origin::File(path)),
+                Dialog::LoadParameters => Command::LoadParams(path),
+                Dialog::OpenWorkspace => Command::OpenWorkspace(path),
+                Dialog::SaveParameters => Command::Export(Export::Parameters { path }),
+                Dialog::SaveWorkspace => Command::Export(Export::Workspace { path }),
+                Dialog::Export => Command::Export(self.export(path, cx)),
             });
         }
         go
@@ -281,14 +282,16 @@ impl Dialogs {
 
     fn export(&self, path: PathBuf, cx: &Cx) -> Export {
         match self.ware {
-            Ware::Result => Export::Result { folder: path, force: self.force },
-            Ware::Matte => Export::Matte { path, keep_surface: self.keep_surface },
+            ExportChoice::Result => Export::Result { folder: path, force: self.force },
+            ExportChoice::Matte => Export::Matte { path, keep_surface: self.keep_surface },
             // Views are drawn before they are written.
-            Ware::Layer | Ware::View => Export::Layer { path, settings: cx.state.view.image.clone() },
-            Ware::Selection => Export::Selection { path },
-            Ware::Area => Export::Area { path },
-            Ware::Regions => Export::Regions { path },
-            Ware::Profile => Export::Profile { path },
+            ExportChoice::Layer | ExportChoice::View => {
+                Export::Layer { path, settings: cx.state.view.image.clone() }
+            }
+            ExportChoice::Selection => Export::Selection { path },
+            ExportChoice::Area => Export::Area { path },
+            ExportChoice::Regions => Export::Regions { path },
+            ExportChoice::Profile => Export::Profile { path },
         }
     }
 
@@ -319,11 +322,10 @@ impl Dialogs {
         any
     }
 
-    fn browse(&mut self, ctx: &egui::Context, question: Question) {
+    fn browse(&mut self, ctx: &egui::Context, question: Dialog) {
         let (send, receive) = channel();
-        let (ctx, folder) = (ctx.clone(), question == Question::Export && self.ware == Ware::Result);
-        let writes =
-            matches!(question, Question::SaveParameters | Question::SaveWorkspace | Question::Export);
+        let (ctx, folder) = (ctx.clone(), question == Dialog::Export && self.ware == ExportChoice::Result);
+        let writes = matches!(question, Dialog::SaveParameters | Dialog::SaveWorkspace | Dialog::Export);
         let start = expanded(&self.path);
         let ask = move || {
             let mut dialog = rfd::AsyncFileDialog::new();
@@ -369,7 +371,7 @@ impl Dialogs {
 }
 
 /// Beside the photograph, or in the folder that the program runs in.
-fn proposed(ware: Ware, cx: &Cx) -> PathBuf {
+fn proposed(ware: ExportChoice, cx: &Cx) -> PathBuf {
     let picture = cx.state.picture.as_ref();
     let photo = picture.and_then(|picture| picture.origin.path());
     let folder = photo.and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();
@@ -377,7 +379,7 @@ fn proposed(ware: Ware, cx: &Cx) -> PathBuf {
         Path::new(&picture.origin.name()).file_stem().unwrap_or_default().to_string_lossy().into_owned()
     });
     let extension = match ware {
-        Ware::Matte => {
+        ExportChoice::Matte => {
             photo.and_then(Path::extension).map_or("png".to_owned(), |e| e.to_string_lossy().into_owned())
         }
         _ => return folder.join(format!("{stem}-{}", ware.file())),

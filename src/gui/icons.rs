@@ -21,7 +21,7 @@ pub enum Icon {
 /// Side of a button with a sign, points.
 pub const SIDE_PT: f32 = 22.0;
 
-/// A button that is on or off, named `name` for those who do not see its sign, which `draw` draws into a square in a colour.
+/// A button that is on or off, named `name` for those who do not see its sign, which `draw` draws into a square in a color.
 pub fn sign_button(
     ui: &mut Ui,
     tones: &Tones,
@@ -39,12 +39,12 @@ pub fn sign_button(
         (false, false) => Color32::TRANSPARENT,
     };
     ui.painter().rect_filled(rect, 3.0, ground);
-    let colour = match (ui.is_enabled(), on) {
+    let color = match (ui.is_enabled(), on) {
         (false, _) => tones.quiet.gamma_multiply(0.5),
         (true, true) => tones.text,
         (true, false) => tones.text.gamma_multiply(0.75),
     };
-    draw(ui.painter(), rect.shrink(4.0), colour);
+    draw(ui.painter(), rect.shrink(4.0), color);
     response.on_hover_text(tip)
 }
 
@@ -64,15 +64,15 @@ pub fn button(ui: &mut Ui, tones: &Tones, icon: Icon, selected: bool, name: &str
             egui::StrokeKind::Inside,
         );
     }
-    let colour = if selected { tones.accent } else { tones.text };
-    paint(ui.painter(), icon, rect.shrink(4.0), colour);
+    let color = if selected { tones.accent } else { tones.text };
+    paint(ui.painter(), icon, rect.shrink(4.0), color);
     response
 }
 
 /// Paints `icon` into a square.
-fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
+fn paint(painter: &Painter, icon: Icon, rect: Rect, color: Color32) {
     let at = |x: f32, y: f32| rect.min + vec2(x, y) * rect.size();
-    let stroke = Stroke::new(1.3, colour);
+    let stroke = Stroke::new(1.3, color);
     let closed = |points: Vec<Pos2>| Shape::closed_line(points, stroke);
     match icon {
         Icon::Arrow => {

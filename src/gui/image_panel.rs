@@ -5,26 +5,27 @@ mod geometry;
 mod icons;
 mod overlay;
 mod readout;
-mod sheets;
 #[cfg(test)]
 mod tests;
+mod textures;
 mod tiles;
 mod toolbar;
 mod tools;
 
 use super::status::PATIENCE;
 use super::{Cx, widgets};
-use crate::workbench::{Arrangement, Command, ImageSettings, Instant, Item, Layer, Tool};
-use cursor::Film;
+use crate::app::Command;
+use crate::view::{Arrangement, ImageSettings, Instant, Item, Layer, Tool};
+use cursor::InstantCache;
 use egui::accesskit::Role;
 use egui::{
     Align2, CentralPanel, Color32, CursorIcon, EventFilter, Frame, Key, Margin, Modifiers, Panel, Rect,
     Response, Sense, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 use geometry::Placement;
-use sheets::{Order, Sheets, Slot};
 use std::sync::Arc;
-use tools::{Hand, Spot};
+use textures::{PaintRequest, Sheets, Slot};
+use tools::{PointerContext, ToolState};
 
 /// Half the width of the wipe's handle, points.
 const HANDLE_PT: f32 = 6.0;
@@ -34,9 +35,9 @@ const STEP_PT: f32 = 40.0;
 /// The panel: what it has uploaded, and the gesture in progress.
 #[derive(Default)]
 pub struct ImagePanel {
-    sheets: Sheets,
-    film: Film,
-    hand: Hand,
+    textures: Sheets,
+    instant_cache: InstantCache,
+    hand: ToolState,
     /// The pixel that this panel last said the pointer is over.
     pointed: Option<u32>,
     /// The layer of the last frame, where the cursor was followed instead of it.
@@ -134,7 +135,7 @@ impl ImagePanel {
         let wiped = self.wipe(ui, settings, &place);
         let layer = if slot == Slot::Other { settings.other } else { settings.layer };
         let layer = wiped.filter(|&x| pointer_is_right_of(ui, x)).map_or(layer, |_| settings.other);
-        let spot = Spot { response: &response, place, layer };
+        let spot = PointerContext { response: &response, place, layer };
         self.hand.act(ui, &spot, cx, settings);
         travel(ui, &response, &place, settings);
         self.draw(ui, cx, &spot, slot, wiped);
@@ -165,7 +166,7 @@ impl ImagePanel {
         Some(x)
     }
 
-    fn draw(&mut self, ui: &Ui, cx: &Cx, spot: &Spot, slot: Slot, wiped: Option<f32>) {
+    fn draw(&mut self, ui: &Ui, cx: &Cx, spot: &PointerContext, slot: Slot, wiped: Option<f32>) {
         let (place, state) = (&spot.place, cx.state);
         let settings = &state.view.image;
         let painter = ui.painter_at(place.view);
@@ -179,28 +180,28 @@ impl ImagePanel {
                 Rect::from_min_max(pos2(x, place.view.top()), place.view.max),
             ));
         }
-        let large = place.size.x * place.size.y > sheets::LARGE_PX as f32;
-        let instant = self.film.instant(state, large && self.sheets.is_painting());
+        let large = place.size.x * place.size.y > textures::LARGE_PX as f32;
+        let instant = self.instant_cache.instant(state, large && self.textures.is_painting());
         for &(layer, slot, part) in &parts {
             let painter = painter.with_clip_rect(part);
             if let Some(instant) = instant.as_ref().filter(|_| slot == Slot::Layer) {
                 self.instant(ui, &painter, spot, state, instant);
                 continue;
             }
-            let order = Order::layer(state, layer, settings);
-            let sheet = order.and_then(|order| self.sheets.get(ui.ctx(), slot, &order));
-            if let Some(sheet) = sheet {
-                sheet.draw(&painter, place, tint(cx, layer));
-                overlay::values(&painter, place, state, layer, sheet);
+            let order = PaintRequest::layer(state, layer, settings);
+            let texture = order.and_then(|order| self.textures.get(ui.ctx(), slot, &order));
+            if let Some(texture) = texture {
+                texture.draw(&painter, place, tint(cx, layer));
+                overlay::values(&painter, place, state, layer, texture);
             }
         }
         overlay::grid(&painter, place);
         if place.zoom >= overlay::LINES {
             overlay::outlines(&painter, place, state);
-        } else if let Some(order) = Order::marks(state)
-            && let Some(sheet) = self.sheets.get(ui.ctx(), Slot::Marks, &order)
+        } else if let Some(order) = PaintRequest::marks(state)
+            && let Some(texture) = self.textures.get(ui.ctx(), Slot::Marks, &order)
         {
-            sheet.draw(&painter, place, Color32::WHITE);
+            texture.draw(&painter, place, Color32::WHITE);
         }
         overlay::profile(&painter, place, state);
         overlay::pixels(&painter, place, state, spot.response.contains_pointer());
@@ -218,18 +219,18 @@ impl ImagePanel {
         &mut self,
         ui: &Ui,
         painter: &egui::Painter,
-        spot: &Spot,
-        state: &crate::workbench::State,
+        spot: &PointerContext,
+        state: &crate::app::State,
         instant: &Arc<Instant>,
     ) {
         let settings = &state.view.image;
-        let photograph = Order::layer(state, Layer::Input, settings).map(|order| (Slot::Layer, order));
-        let over = Order::instant(state, instant).map(|order| (Slot::Instant, order));
+        let photograph = PaintRequest::layer(state, Layer::Input, settings).map(|order| (Slot::Layer, order));
+        let over = PaintRequest::instant(state, instant).map(|order| (Slot::Instant, order));
         for (slot, order) in photograph.into_iter().chain(over) {
-            if let Some(sheet) = self.sheets.get(ui.ctx(), slot, &order) {
-                sheet.draw(painter, &spot.place, Color32::WHITE);
+            if let Some(texture) = self.textures.get(ui.ctx(), slot, &order) {
+                texture.draw(painter, &spot.place, Color32::WHITE);
                 if slot == Slot::Layer {
-                    overlay::values(painter, &spot.place, state, Layer::Input, sheet);
+                    overlay::values(painter, &spot.place, state, Layer::Input, texture);
                 }
             }
         }
@@ -250,7 +251,7 @@ impl ImagePanel {
     }
 }
 
-/// Names of the layers where there are two, what their colours mean, and what the analysis warns of.
+/// Names of the layers where there are two, what their colors mean, and what the analysis warns of.
 fn words(
     ui: &Ui,
     painter: &egui::Painter,

@@ -1,13 +1,14 @@
 //! The menu bar: every deed by name, and the status line.
 
 use super::dock::{Dock, Pane};
-use super::files::{Dialogs, Question};
-use super::shortcuts::{DebugDeed, Deed, keys_of, move_cursor, selected};
+use super::files::{Dialog, Dialogs};
+use super::shortcuts::{Action, DebugDeed, keys_of, move_cursor, selected};
 use super::{Cx, status};
+use crate::app::{Command, Grain, analyze_call};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::segment::{Method, Preset};
 use crate::truth::sample::SAMPLES;
-use crate::workbench::{Command, Grain, Origin, Theme, analyze_call};
+use crate::view::{Origin, Theme};
 use egui::{Button, RadioButton, Ui};
 
 /// Shows the bar.
@@ -16,10 +17,10 @@ pub fn show(ui: &mut Ui, cx: &mut Cx, dock: &mut Dock, dialogs: &mut Dialogs, he
         ui.menu_button("File", |ui| file(ui, cx, dialogs));
         ui.menu_button("Edit", |ui| edit(ui, cx));
         ui.menu_button("View", |ui| view(ui, cx, dock));
-        ui.menu_button("Analyse", |ui| analyse(ui, cx, dialogs));
+        ui.menu_button("Analyze", |ui| analyze(ui, cx, dialogs));
         ui.menu_button("Decisions", |ui| decisions(ui, cx));
         ui.menu_button("Help", |ui| {
-            if item(ui, "Keyboard and pointer", Deed::Help, true) {
+            if item(ui, "Keyboard and pointer", Action::Help, true) {
                 *help = true;
             }
             ui.separator();
@@ -31,14 +32,14 @@ pub fn show(ui: &mut Ui, cx: &mut Cx, dock: &mut Dock, dialogs: &mut Dialogs, he
 }
 
 /// A row with its keys. Whether it was chosen.
-fn item(ui: &mut Ui, text: &str, deed: Deed, enabled: bool) -> bool {
-    let keys = keys_of(ui.ctx(), deed);
+fn item(ui: &mut Ui, text: &str, action: Action, enabled: bool) -> bool {
+    let keys = keys_of(ui.ctx(), action);
     ui.add_enabled(enabled, Button::new(text).shortcut_text(keys)).clicked()
 }
 
 fn file(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
-    if item(ui, "Open\u{2026}", Deed::Open, true) {
-        dialogs.ask(Question::Open);
+    if item(ui, "Open\u{2026}", Action::Open, true) {
+        dialogs.ask(Dialog::Open);
     }
     ui.menu_button("Open recent", |ui| {
         for path in &cx.state.recent {
@@ -62,14 +63,14 @@ fn file(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
     ui.menu_button("Read as", |ui| read_as(ui, cx));
     ui.separator();
     if ui.button("Open workspace\u{2026}").clicked() {
-        dialogs.ask(Question::OpenWorkspace);
+        dialogs.ask(Dialog::OpenWorkspace);
     }
     let open = cx.state.picture.is_some();
-    if item(ui, "Save workspace\u{2026}", Deed::Save, open) {
-        dialogs.ask(Question::SaveWorkspace);
+    if item(ui, "Save workspace\u{2026}", Action::Save, open) {
+        dialogs.ask(Dialog::SaveWorkspace);
     }
-    if item(ui, "Export\u{2026}", Deed::Export, cx.state.shown().is_some()) {
-        dialogs.ask(Question::Export);
+    if item(ui, "Export\u{2026}", Action::Export, cx.state.shown().is_some()) {
+        dialogs.ask(Dialog::Export);
     }
     ui.separator();
     if ui.button("Quit").clicked() {
@@ -116,25 +117,25 @@ fn read_as(ui: &mut Ui, cx: &mut Cx) {
 fn edit(ui: &mut Ui, cx: &mut Cx) {
     let state = cx.state;
     let marked = state.document.selection.marked.as_ref();
-    if item(ui, "Undo", Deed::Undo, state.history.can_undo()) {
+    if item(ui, "Undo", Action::Undo, state.history.can_undo()) {
         cx.send(Command::Undo);
     }
-    if item(ui, "Redo", Deed::Redo, state.history.can_redo()) {
+    if item(ui, "Redo", Action::Redo, state.history.can_redo()) {
         cx.send(Command::Redo);
     }
     ui.separator();
-    if item(ui, "Invert marked", Deed::Invert, state.picture.is_some()) {
+    if item(ui, "Invert marked", Action::Invert, state.picture.is_some()) {
         cx.send(Command::InvertMarked);
     }
-    if item(ui, "Select nothing", Deed::Escape, !state.document.selection.is_empty()) {
+    if item(ui, "Select nothing", Action::Escape, !state.document.selection.is_empty()) {
         cx.send(Command::ClearSelection);
     }
     ui.separator();
-    let restrict = ui.add_enabled(marked.is_some(), Button::new("Analyse only the marked pixels"));
+    let restrict = ui.add_enabled(marked.is_some(), Button::new("Analyze only the marked pixels"));
     if restrict.on_hover_text("Pixels outside are left out of every stage and stay as they are.").clicked() {
         cx.send(Command::RestrictTo(marked.cloned()));
     }
-    if ui.add_enabled(state.document.area.is_some(), Button::new("Analyse the whole picture")).clicked() {
+    if ui.add_enabled(state.document.area.is_some(), Button::new("Analyze the whole picture")).clicked() {
         cx.send(Command::RestrictTo(None));
     }
 }
@@ -159,16 +160,16 @@ fn view(ui: &mut Ui, cx: &mut Cx, dock: &mut Dock) {
 
 /// What moves the cursor in the recorded decisions, and what stops it.
 fn decisions(ui: &mut Ui, cx: &mut Cx) {
-    use crate::workbench::Direction::{Back, Forward};
+    use crate::app::Direction::{Back, Forward};
     let (traced, playing) = (cx.state.debugger.replay.is_some(), cx.state.debugger.playing);
     let any = cx.state.view.debug.breakpoints.iter().any(|breakpoint| breakpoint.enabled);
     let goal = traced && selected(cx.state).is_some();
     let record = if cx.state.view.debug.open { "Stop recording" } else { "Record" };
     let play = if playing.is_some() { "Pause" } else { "Play" };
     let back = if playing == Some(Back) { "Pause" } else { "Play backwards" };
-    let mut row = |ui: &mut Ui, words: &str, deed: DebugDeed, enabled: bool| {
-        if item(ui, words, Deed::Debug(deed), enabled) {
-            move_cursor(deed, cx);
+    let mut row = |ui: &mut Ui, words: &str, action: DebugDeed, enabled: bool| {
+        if item(ui, words, Action::Debug(action), enabled) {
+            move_cursor(action, cx);
         }
     };
     row(ui, record, DebugDeed::Record, true);
@@ -198,7 +199,7 @@ fn in_capitals(word: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-fn analyse(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
+fn analyze(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
     let method = cx.state.document.params.method;
     for (choice, name, tip) in [
         (Method::Refined, "Refined method", "The paper's algorithm with refinements, each a switch."),
@@ -221,18 +222,18 @@ fn analyse(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
         }
     });
     if ui.button("Load parameters\u{2026}").clicked() {
-        dialogs.ask(Question::LoadParameters);
+        dialogs.ask(Dialog::LoadParameters);
     }
     if ui.button("Save parameters\u{2026}").clicked() {
-        dialogs.ask(Question::SaveParameters);
+        dialogs.ask(Dialog::SaveParameters);
     }
     ui.separator();
     let pinned = cx.state.pinned.is_some();
     let words = if pinned { "Let the pinned result go" } else { "Pin this result to compare with" };
-    if item(ui, words, Deed::Pin, cx.state.newest.is_some()) {
+    if item(ui, words, Action::Pin, cx.state.newest.is_some()) {
         cx.send(Command::Pin(!pinned));
     }
-    if item(ui, "Show the other of the two", Deed::Swap, pinned) {
+    if item(ui, "Show the other of the two", Action::Swap, pinned) {
         cx.send(Command::ShowPinned(!cx.state.view.show_pinned));
     }
     ui.separator();

@@ -1,4 +1,4 @@
-//! The window: one file per panel, all of them over one [`crate::workbench::State`].
+//! The window: one file per panel, all of them over one [`crate::app::State`].
 //!
 //! A panel reads the state through a [`Cx`] and leaves commands there; it keeps nothing but what it has uploaded and the
 //! gesture that the pointer is in the middle of.
@@ -18,7 +18,6 @@ mod notices;
 mod offscreen;
 mod parameters;
 mod plane_panel;
-mod portrait;
 mod profile_panel;
 mod regions_panel;
 mod screenshot;
@@ -30,6 +29,7 @@ mod testing;
 mod theme;
 mod timeline_panel;
 mod verdict;
+mod view_export;
 mod watch_panel;
 mod why_panel;
 mod widgets;

@@ -1,7 +1,7 @@
 //! What happened, to what, and what to do: in the corner until dismissed, never in the way.
 
 use super::Cx;
-use crate::workbench::{Command, Severity};
+use crate::app::{Command, Severity};
 use egui::{Align2, Frame, RichText, Ui, vec2};
 
 /// Notices shown at once; older ones wait.

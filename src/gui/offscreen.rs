@@ -1,8 +1,8 @@
 //! The whole window without a window: drawn into a texture, for the gallery.
 
 use super::App;
+use crate::app::Executor;
 use crate::gpu::{Headless, NoAdapter, read_texture};
-use crate::workbench::Executor;
 use egui::{FullOutput, Pos2, RawInput, Rect, vec2};
 use egui_wgpu::{
     RenderState, RendererOptions, ScreenDescriptor, WgpuConfiguration, WgpuSetup, WgpuSetupExisting,
@@ -16,11 +16,11 @@ const MOST_FRAMES: usize = 200;
 pub struct Offscreen {
     /// The application.
     pub app: App,
-    easel: Easel,
+    offscreen_context: OffscreenContext,
 }
 
 /// An interface of its own with a texture to be drawn into.
-pub struct Easel {
+pub struct OffscreenContext {
     ctx: egui::Context,
     gpu: RenderState,
     size_px: [u32; 2],
@@ -49,15 +49,18 @@ impl Offscreen {
     /// Where there is no graphics adapter, not even a software one.
     pub fn new(size_px: [u32; 2], pixels_per_point: f32) -> Result<Self, OffscreenError> {
         let Headless { instance, adapter, device, queue } = Headless::new()?;
-        let easel =
-            Easel::new(WgpuSetupExisting { instance, adapter, device, queue }, size_px, pixels_per_point)?;
-        let app = App::new(&easel.ctx, Some(easel.gpu.clone()), Executor::Inline)?;
-        Ok(Self { app, easel })
+        let offscreen_context = OffscreenContext::new(
+            WgpuSetupExisting { instance, adapter, device, queue },
+            size_px,
+            pixels_per_point,
+        )?;
+        let app = App::new(&offscreen_context.ctx, Some(offscreen_context.gpu.clone()), Executor::Inline)?;
+        Ok(Self { app, offscreen_context })
     }
 
     /// Another size from the next frame on.
     pub fn resize(&mut self, size_px: [u32; 2]) {
-        self.easel.size_px = size_px;
+        self.offscreen_context.size_px = size_px;
     }
 
     /// Lets the application rest, and draws it: sRGB and alpha, row-major.
@@ -66,11 +69,11 @@ impl Offscreen {
     /// When the device is lost.
     pub fn picture(&mut self) -> Result<Vec<u8>, OffscreenError> {
         let app = &mut self.app;
-        self.easel.picture(|ui| app.show(ui))
+        self.offscreen_context.picture(|ui| app.show(ui))
     }
 }
 
-impl Easel {
+impl OffscreenContext {
     /// An interface that draws with a device of others.
     ///
     /// # Errors

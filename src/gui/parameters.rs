@@ -2,8 +2,8 @@
 
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
+use crate::app::{Command, Gesture};
 use crate::segment::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Setting};
-use crate::workbench::{Command, Gesture};
 use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Sense, Slider, Ui, vec2};
 
 /// Width of the labels' column, points.
@@ -119,7 +119,7 @@ impl Columns {
 }
 
 /// What a slider needs beyond the parameter's own specification: the range of the hand, and the paper's section.
-struct Feel {
+struct SliderSpec {
     title: &'static str,
     range: std::ops::RangeInclusive<f64>,
     step: f64,
@@ -128,8 +128,9 @@ struct Feel {
 }
 
 /// Typed values may leave the slider's range, as far as the parameter's own.
-fn feel(parameter: Parameter) -> Feel {
-    let of = |title, range, step, logarithmic, section| Feel { title, range, step, logarithmic, section };
+fn slider_spec(parameter: Parameter) -> SliderSpec {
+    let of =
+        |title, range, step, logarithmic, section| SliderSpec { title, range, step, logarithmic, section };
     match parameter {
         Parameter::ClipThreshold => of("clip threshold", 100.0..=255.0, 1.0, false, "section 4"),
         Parameter::BloomDensity => of("noise density", 1.0..=9.0, 1.0, false, "section 4"),
@@ -143,7 +144,7 @@ fn feel(parameter: Parameter) -> Feel {
 }
 
 fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
-    let (spec, feel) = (parameter.spec(), feel(parameter));
+    let (spec, row) = (parameter.spec(), slider_spec(parameter));
     let setting = cx.state.document.params.get(parameter);
     let used = cx.state.newest.as_ref().map(|shown| shown.analysis.used.get(parameter));
     let gesture = Gesture::Parameter(parameter);
@@ -151,24 +152,24 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
     let mut value = setting.value().or(used).filter(|value| value.is_finite()).unwrap_or(spec.paper);
     let tip = format!(
         "{}: {}.\nPaper, table 6: {} {}. Double-click: back to the default. ({})",
-        spec.name, spec.meaning, spec.paper, spec.unit, feel.section
+        spec.name, spec.meaning, spec.paper, spec.unit, row.section
     );
     let columns = Columns::of(ui);
     ui.scope(|ui| {
-        let name = egui::Label::new(feel.title).truncate().selectable(false).sense(Sense::click());
+        let name = egui::Label::new(row.title).truncate().selectable(false).sense(Sense::click());
         let name = columns.label.show(ui, name).on_hover_text(&tip);
         ui.spacing_mut().slider_width = columns.rail.0.width();
-        let slider = Slider::new(&mut value, feel.range.clone())
+        let slider = Slider::new(&mut value, row.range.clone())
             .show_value(false)
-            .step_by(feel.step)
-            .logarithmic(feel.logarithmic)
+            .step_by(row.step)
+            .logarithmic(row.logarithmic)
             .clamping(egui::SliderClamping::Never);
         // No tooltip here: it would hide the rows below from the hand that drags.
         let slider = widgets::clickable(&columns.rail.show(ui, slider));
-        slider.widget_info(|| egui::WidgetInfo::slider(true, value, feel.title));
-        let decimals = usize::from(feel.step < 1.0) * 2;
+        slider.widget_info(|| egui::WidgetInfo::slider(true, value, row.title));
+        let decimals = usize::from(row.step < 1.0) * 2;
         let typed = DragValue::new(&mut value)
-            .speed(feel.step)
+            .speed(row.step)
             .range(spec.range.0..=spec.range.1)
             .fixed_decimals(decimals);
         let typed = ui.put(columns.value.0, typed).on_hover_text(&tip);
@@ -185,7 +186,7 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
                 egui::accesskit::Role::CheckBox,
                 true,
                 automatic,
-                format!("{} auto", feel.title),
+                format!("{} auto", row.title),
             )
         });
         let auto = auto.on_hover_text("Estimated from the image; the slider shows what was used.");
@@ -215,7 +216,7 @@ fn by_hand(ui: &mut Ui, cx: &mut Cx) {
     let (area, marked) = (&cx.state.document.area, &cx.state.document.selection.marked);
     let narrow = ui.available_width() < NARROW_PT;
     ui.horizontal(|ui| {
-        label(ui, "area", "Only these pixels are analysed; the others stay as they are.");
+        label(ui, "area", "Only these pixels are analyzed; the others stay as they are.");
         match area {
             Some(area) => {
                 let pixels = area.as_slice().iter().filter(|&&inside| inside).count();
@@ -229,12 +230,12 @@ fn by_hand(ui: &mut Ui, cx: &mut Cx) {
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if area.is_some() {
-                if ui.small_button("Lift").on_hover_text("Analyse the whole picture again.").clicked() {
+                if ui.small_button("Lift").on_hover_text("Analyze the whole picture again.").clicked() {
                     cx.out.push(Command::RestrictTo(None));
                 }
             } else {
                 let take = ui.add_enabled(marked.is_some(), Button::new("To marked").small());
-                let tip = "Analyse only the marked pixels. Mark some with a tool of the image view.";
+                let tip = "Analyze only the marked pixels. Mark some with a tool of the image view.";
                 if take.on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
                     cx.out.push(Command::RestrictTo(marked.clone()));
                 }
@@ -255,7 +256,7 @@ fn illuminant(ui: &mut Ui, cx: &mut Cx) {
     let found =
         cx.state.newest.as_ref().and_then(|shown| shown.analysis.illuminant).map(|light| light.direction);
     let tip =
-        "The colour of the light. Found, or given: then every dichromatic plane turns to it (section 5.4).";
+        "The color of the light. Found, or given: then every dichromatic plane turns to it (section 5.4).";
     let mut direction = typed.or(found).unwrap_or([1.0, 1.0, 1.0].map(|v: f64| v / 3f64.sqrt()));
     let field = Bands { name: "illuminant", tip, most: 1.0, speed: 0.002, decimals: 3 };
     let [changed, rested] = field.show(ui, &mut direction, |ui| {

@@ -8,7 +8,8 @@ mod tests;
 
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
-use crate::workbench::{Command, Item, Picture, PlaneBranch, Point, RegionPlane, Shown, Theme, region_plane};
+use crate::app::Command;
+use crate::view::{Item, Picture, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, region_plane};
 use chart::Chart;
 use egui::{Align2, Color32, FontId, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
 use std::sync::Arc;
@@ -22,7 +23,7 @@ const SCROLL_PT: f32 = 260.0;
 /// The panel.
 #[derive(Default)]
 pub struct PlanePanel {
-    of: Option<(Arc<Shown>, u16)>,
+    of: Option<(Arc<ResultSnapshot>, u16)>,
     /// What of the debugger's cursor is shown in place of the result's region.
     frame: Option<cursor::Frame>,
     plane: Option<RegionPlane>,
@@ -81,7 +82,7 @@ impl PlanePanel {
         self.point(cx, &response, chart, rect);
     }
 
-    fn update(&mut self, shown: &Arc<Shown>, region: u16) {
+    fn update(&mut self, shown: &Arc<ResultSnapshot>, region: u16) {
         if self.frame.take().is_some() {
             (self.of, self.chart) = (None, None);
         }
@@ -127,7 +128,7 @@ fn navigate(ui: &Ui, response: &Response, plane: &RegionPlane, chart: Option<Cha
     chart
 }
 
-/// Two triangles a point, made anew when view or colours change.
+/// Two triangles a point, made anew when view or colors change.
 fn cloud(
     kept: &mut Option<Cloud>,
     cx: &Cx,
@@ -135,7 +136,7 @@ fn cloud(
     chart: Chart,
     rect: Rect,
 ) -> Arc<egui::Mesh> {
-    let by_label = cx.state.view.plane.colour_by_label;
+    let by_label = cx.state.view.plane.color_by_label;
     let look = (chart, rect, by_label, cx.state.view.theme);
     if let Some(cloud) = kept.as_ref().filter(|cloud| cloud.look == look) {
         return Arc::clone(&cloud.mesh);
@@ -146,13 +147,13 @@ fn cloud(
     for point in &plane.points {
         let at = chart.screen(plane.oblique(point.body, point.surface), rect);
         if rect.expand(4.0).contains(at) {
-            let colour = if by_label {
-                kinds::colour(point.kind, cx.state.view.theme)
+            let color = if by_label {
+                kinds::color(point.kind, cx.state.view.theme)
             } else {
-                widgets::own_colour(point.colour)
+                widgets::own_color(point.color)
             };
             let side = 1.7 + 0.5 * (point.count as f32).ln();
-            mesh.add_colored_rect(Rect::from_center_size(at, vec2(side, side)), colour);
+            mesh.add_colored_rect(Rect::from_center_size(at, vec2(side, side)), color);
         }
     }
     let mesh = Arc::new(mesh);
@@ -161,7 +162,7 @@ fn cloud(
 }
 
 /// Angle, slice and noise in the upper corner, or why there is no plane.
-fn edge_notes(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, shown: &Shown, rect: Rect) {
+fn edge_notes(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, shown: &ResultSnapshot, rect: Rect) {
     let region = &shown.analysis.intrinsic.regions[usize::from(plane.region) - 1];
     let rms = region.fit_rms_counts;
     let text = if plane.has_plane {
@@ -170,9 +171,9 @@ fn edge_notes(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, shown: &Sho
         format!("angle {angle:.1}\u{b0}\nslice \u{b1}{slice:.1} counts\n\u{3b5} {rms:.2} counts rms{several}")
     } else {
         let why = if shown.analysis.illuminant.is_none() {
-            "the light's colour is unknown, as no highlight was found"
+            "the light's color is unknown, as no highlight was found"
         } else {
-            "its body colour is the light's"
+            "its body color is the light's"
         };
         let radius = plane.radius;
         format!(
@@ -193,7 +194,7 @@ fn several_highlights(branches: &[PlaneBranch]) -> String {
     format!("\n{} highlight lines from m_b {}", shades.len(), shades.join(", "))
 }
 
-/// Rings the colour that is hovered anywhere, and tells its amounts.
+/// Rings the color that is hovered anywhere, and tells its amounts.
 fn hovered(
     painter: &egui::Painter,
     cx: &Cx,
@@ -202,18 +203,18 @@ fn hovered(
     picture: &Picture,
     rect: Rect,
 ) {
-    let colour: Option<Point> = match cx.state.hover {
+    let color: Option<Point> = match cx.state.hover {
         Some(Item::Pixel(pixel)) => picture.photo.image.pixels.as_slice().get(pixel as usize).copied(),
         Some(Item::Bin(bin)) => picture.histogram.bins.get(bin as usize).map(|bin| bin.mean),
         _ => None,
     };
-    let Some(amounts) = colour.map(|colour| plane.amounts(colour)) else { return };
+    let Some(amounts) = color.map(|color| plane.amounts(color)) else { return };
     let at = chart.screen(plane.oblique(amounts.body, amounts.surface), rect);
     let elsewhere = |item| matches!(item, Item::Pixel(_)) && cx.state.region_of(item) != Some(plane.region);
     let inside = !cx.state.hover.is_some_and(elsewhere);
-    let colour = if inside { cx.tones.accent } else { cx.tones.quiet };
+    let color = if inside { cx.tones.accent } else { cx.tones.quiet };
     painter.circle_stroke(at, RING_PT, Stroke::new(3.5, Color32::from_black_alpha(140)));
-    painter.circle_stroke(at, RING_PT, Stroke::new(1.6, colour));
+    painter.circle_stroke(at, RING_PT, Stroke::new(1.6, color));
     let other = if inside { "" } else { "   not in this region" };
     let [body, surface, noise] =
         [amounts.body, amounts.surface, amounts.noise].map(|v| format!("{v:.1}").replace('-', "\u{2212}"));

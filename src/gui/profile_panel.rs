@@ -1,7 +1,8 @@
-//! Body, surface and noise along a line, like the paper's colour figure 11.
+//! Body, surface and noise along a line, like the paper's color figure 11.
 
 use super::{Cx, widgets};
-use crate::workbench::{Command, Item, ProfileLine, ProfileSample, Tool, profile, profile_ends};
+use crate::app::Command;
+use crate::view::{Item, ProfileLine, ProfileSample, Tool, profile, profile_ends};
 use egui::{Color32, Ui};
 use egui_plot::{Corner, HoverPosition, Legend, Line, Plot, PlotPoints, VLine};
 
@@ -14,7 +15,7 @@ pub struct ProfilePanel {
     samples: Option<(Key, Vec<ProfileSample>)>,
 }
 
-/// A curve: its name, its colour, what it tells and its values.
+/// A curve: its name, its color, what it tells and its values.
 type Curve = (&'static str, Color32, fn(&ProfileSample) -> Option<f32>);
 
 const CURVES: [Curve; 6] = [
@@ -71,8 +72,7 @@ fn bar(ui: &mut Ui, cx: &mut Cx, ends: [[f32; 2]; 2], samples: &[ProfileSample],
         let drawn = matches!(now, ProfileLine::Between(..));
         let tip = "Along a line drawn in the image with the profile tool (P).";
         if ui.selectable_label(drawn, "line").on_hover_text(tip).clicked() {
-            let image =
-                crate::workbench::ImageSettings { tool: Tool::Profile, ..cx.state.view.image.clone() };
+            let image = crate::view::ImageSettings { tool: Tool::Profile, ..cx.state.view.image.clone() };
             cx.send(Command::Image(image));
         }
         let [[x0, y0], [x1, y1]] = ends.map(|end| end.map(f32::floor));
@@ -81,7 +81,7 @@ fn bar(ui: &mut Ui, cx: &mut Cx, ends: [[f32; 2]; 2], samples: &[ProfileSample],
         );
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if ui.small_button("Copy").on_hover_text("The numbers as CSV.").clicked() {
-                ui.ctx().copy_text(crate::workbench::profile_csv(samples, width));
+                ui.ctx().copy_text(crate::view::profile_csv(samples, width));
             }
         });
     });
@@ -101,10 +101,10 @@ fn plot(ui: &mut Ui, cx: &mut Cx, samples: &[ProfileSample], hovered: Option<u32
         })
         .allow_scroll(false);
     let response = plot.show(ui, |plot| {
-        for (name, colour, value) in CURVES {
+        for (name, color, value) in CURVES {
             // A curve has gaps where pixels are in no region.
             for part in runs(samples, value) {
-                plot.line(Line::new(name, PlotPoints::from(part)).color(colour).width(1.3));
+                plot.line(Line::new(name, PlotPoints::from(part)).color(color).width(1.3));
             }
         }
         let position = |pixel: u32| samples.iter().find(|sample| sample.pixel == pixel);

@@ -4,9 +4,10 @@ mod cursor;
 
 use super::theme::{SMALL_PT, Tones};
 use super::{Cx, widgets};
+use crate::app::Command;
 use crate::intrinsic::{HighlightBranch, RegionReflection};
 use crate::segment::{Illuminant, LightBasis, LightFindings, TEXTURE_CORRELATION};
-use crate::workbench::{Command, Item, Shown, regions_text};
+use crate::view::{Item, ResultSnapshot, regions_text};
 use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 
@@ -31,7 +32,7 @@ enum Key {
 
 /// A column: key, title, width in points, tooltip.
 const COLUMNS: [(Key, &str, f32, &str); 8] = [
-    (Key::Id, "#", 40.0, "The region's number; its colour is that of the Regions layer."),
+    (Key::Id, "#", 40.0, "The region's number; its color is that of the Regions layer."),
     (Key::Pixels, "pixels", 52.0, "All its pixels, restored ones included."),
     (
         Key::Body,
@@ -43,7 +44,7 @@ const COLUMNS: [(Key, &str, f32, &str); 8] = [
         Key::Surface,
         "surface C_s",
         96.0,
-        "Surface reflection vector: unit direction of the highlight line, the colour of the light (section 2.2, 6).",
+        "Surface reflection vector: unit direction of the highlight line, the color of the light (section 2.2, 6).",
     ),
     (
         Key::Angle,
@@ -79,7 +80,7 @@ impl RegionsPanel {
     /// Shows the table.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let Some(shown) = cx.state.shown().cloned() else {
-            return widgets::nothing(ui, cx.tones, "Regions appear when a photograph has been analysed.");
+            return widgets::nothing(ui, cx.tones, "Regions appear when a photograph has been analyzed.");
         };
         let state = cx.state;
         egui::Frame::new().inner_margin(egui::Margin::symmetric(8, 4)).show(ui, |ui| {
@@ -95,7 +96,7 @@ impl RegionsPanel {
         });
     }
 
-    fn table(&mut self, ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
+    fn table(&mut self, ui: &mut Ui, cx: &mut Cx, shown: &ResultSnapshot) {
         ui.spacing_mut().item_spacing = egui::vec2(6.0, 1.0);
         let selected = cx.state.selected_region();
         let order = self.order(&shown.analysis.intrinsic.regions);
@@ -170,7 +171,7 @@ impl RegionsPanel {
     }
 }
 
-/// Angle around the grey diagonal: what sorts colours as a person would.
+/// Angle around the gray diagonal: what sorts colors as a person would.
 fn hue_rad([r, g, b]: [f64; 3]) -> f64 {
     (3f64.sqrt() * (g - b)).atan2(2.0 * r - g - b)
 }
@@ -182,12 +183,12 @@ fn layout_of(key: Key) -> Layout {
     }
 }
 
-fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &Shown) {
+fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &ResultSnapshot) {
     let none = || RichText::new("\u{2013}").color(tones.quiet);
     let plain = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).selectable(false));
     cell(row, |ui| {
-        let colour = shown.region_colours.get(usize::from(region.id) - 1).copied().unwrap_or([128; 3]);
-        widgets::chip(ui, widgets::colour(colour), &format!("colour of region {}", region.id));
+        let color = shown.region_colors.get(usize::from(region.id) - 1).copied().unwrap_or([128; 3]);
+        widgets::chip(ui, widgets::color(color), &format!("color of region {}", region.id));
         plain(ui, RichText::new(region.id.to_string()));
     });
     let number = |row: &mut TableRow, text: RichText| {
@@ -252,33 +253,33 @@ fn cell(row: &mut TableRow, contents: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// A unit vector as three aligned columns after a chip of its colour.
+/// A unit vector as three aligned columns after a chip of its color.
 fn vector(ui: &mut Ui, tones: &Tones, vector: Option<[f64; 3]>) {
     ui.spacing_mut().item_spacing.x = 4.0;
     let Some(vector) = vector else {
         ui.label(RichText::new("\u{2013}").color(tones.quiet));
         return;
     };
-    widgets::chip(ui, shade(vector), "its colour");
+    widgets::chip(ui, shade(vector), "its color");
     for value in vector {
         ui.add(Label::new(RichText::new(format!("{value:.2}").replace("0.", "."))).selectable(false));
     }
 }
 
-/// A direction as the brightest colour that it points to.
+/// A direction as the brightest color that it points to.
 fn shade(direction: [f64; 3]) -> Color32 {
     let most = direction.iter().fold(1e-9f64, |most, &v| most.max(v));
     let [r, g, b] = direction.map(|v| (v / most).max(0.0) as f32);
     egui::Rgba::from_rgb(r, g, b).into()
 }
 
-/// The light's colour, what it rests on, and how far it is from the truth.
-fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
+/// The light's color, what it rests on, and how far it is from the truth.
+fn light(ui: &mut Ui, cx: &mut Cx, shown: &ResultSnapshot) {
     let findings = &shown.analysis.finals.light;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         let tip =
-            "The colour of the light: where the dichromatic planes of all objects intersect (section 5.4).";
+            "The color of the light: where the dichromatic planes of all objects intersect (section 5.4).";
         ui.label(RichText::new("light").color(cx.tones.quiet)).on_hover_text(tip);
         if let Some(light) = &shown.analysis.illuminant {
             vector(ui, cx.tones, Some(light.direction));
@@ -303,7 +304,7 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &Shown) {
 }
 
 /// What was subtracted as ambient light, where something was.
-fn ambient(ui: &mut Ui, cx: &Cx, shown: &Shown) {
+fn ambient(ui: &mut Ui, cx: &Cx, shown: &ResultSnapshot) {
     let ambient = &shown.analysis.intrinsic.ambient;
     let Some(counts) = ambient.subtracted else { return };
     let spread = ambient.meeting.map_or(String::new(), |meeting| {
@@ -341,7 +342,7 @@ fn rests_on(light: &Illuminant, findings: &LightFindings) -> String {
 }
 
 /// How far the result is from the ground truth, doing nothing beside it.
-fn accuracy(ui: &mut Ui, cx: &Cx, shown: &Shown) {
+fn accuracy(ui: &mut Ui, cx: &Cx, shown: &ResultSnapshot) {
     let Some(scores) = shown.accuracy().map(|accuracy| &accuracy.scores) else { return };
     let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {
         ui.label(RichText::new(name).size(SMALL_PT).color(cx.tones.quiet)).on_hover_text(tip);

@@ -2,11 +2,11 @@
 
 use super::dock::Pane;
 use super::offscreen::{Offscreen, OffscreenError};
+use crate::app::{Ask, Command, DebugCommand, Severity, State};
 use crate::export::png_of_rgba;
 use crate::trace::{Event, Step, Topic};
-use crate::workbench::{
-    Arrangement, Ask, ColourBy, Command, CubeSettings, DebugCommand, Fill, ImageSettings, Item, Layer,
-    Origin, ProfileLine, Severity, State, Theme,
+use crate::view::{
+    Arrangement, ColorBy, CubeSettings, Fill, ImageSettings, Item, Layer, Origin, ProfileLine, Theme,
 };
 use std::path::{Path, PathBuf};
 
@@ -96,9 +96,9 @@ fn image(name: &'static str, layer: Layer) -> Shot {
     Shot { pane: Some(Pane::Image), region: None, image, ..whole(name) }
 }
 
-fn colours(name: &'static str, region: Option<u16>, colour_by: ColourBy) -> Shot {
-    let cube = CubeSettings { colour_by, ..CubeSettings::default() };
-    Shot { pane: Some(Pane::Colours), region, cube, ..whole(name) }
+fn colors(name: &'static str, region: Option<u16>, color_by: ColorBy) -> Shot {
+    let cube = CubeSettings { color_by, ..CubeSettings::default() };
+    Shot { pane: Some(Pane::Colors), region, cube, ..whole(name) }
 }
 
 fn gallery() -> Vec<Shot> {
@@ -115,8 +115,8 @@ fn gallery() -> Vec<Shot> {
         image("image-classification", Layer::Classes),
         image("image-regions", Layer::Regions),
         image("image-surface", Layer::Surface),
-        colours("colours", None, ColourBy::Own),
-        colours("colours-region", Some(1), ColourBy::Region),
+        colors("colors", None, ColorBy::Own),
+        colors("colors-region", Some(1), ColorBy::Region),
         Shot { pane: Some(Pane::Plane), ..whole("plane") },
         Shot { pane: Some(Pane::Profile), ..whole("profile") },
         stopped("debugger-slice", Moment::Slice),

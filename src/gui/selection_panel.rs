@@ -1,11 +1,12 @@
-//! What is known of the selected pixels: how many, which colours, where.
+//! What is known of the selected pixels: how many, which colors, where.
 
 use super::later::{AT_ONCE_PX, Later};
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
+use crate::app::Command;
 use crate::raster::Mask;
 use crate::trace::Class;
-use crate::workbench::{Band, Command, Item, Statistics, statistics, statistics_of};
+use crate::view::{Band, Item, Statistics, statistics, statistics_of};
 use egui::{Color32, Label, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 use std::sync::Arc;
 
@@ -26,14 +27,14 @@ impl SelectionPanel {
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let state = cx.state;
         let Some(shown) = state.shown().cloned() else {
-            return widgets::nothing(ui, cx.tones, "Statistics appear when a photograph has been analysed.");
+            return widgets::nothing(ui, cx.tones, "Statistics appear when a photograph has been analyzed.");
         };
         let (marked, item) = (state.document.selection.marked.clone(), state.document.selection.item);
         let subject = match (&marked, item) {
             (Some(_), _) => "Marked pixels".to_owned(),
             (None, Some(item)) => name_of(item, shown.picture.size().0),
             (None, None) => {
-                let hint = "Click a region, or mark pixels with a tool of the image or the colour space.";
+                let hint = "Click a region, or mark pixels with a tool of the image or the color space.";
                 return widgets::nothing(ui, cx.tones, hint);
             }
         };
@@ -71,7 +72,7 @@ fn name_of(item: Item, width: usize) -> String {
         }
         Item::Window(window) => format!("Window {}", window + 1),
         Item::Region(region) => format!("Region {region}"),
-        Item::Bin(bin) => format!("Colour bin {}", bin + 1),
+        Item::Bin(bin) => format!("Color bin {}", bin + 1),
     }
 }
 
@@ -104,7 +105,7 @@ fn facts(ui: &mut Ui, cx: &Cx, found: &Statistics) {
         ui,
         "class",
         class.to_owned(),
-        "By the number of significant eigenvalues of their colours (section 5.2.1, table 1).",
+        "By the number of significant eigenvalues of their colors (section 5.2.1, table 1).",
     );
     let [a, b, c] = found.variances.map(f64::sqrt);
     let tip = "Standard deviations along the principal axes, counts: square roots of the eigenvalues (section 5.2.1).";
@@ -125,7 +126,7 @@ fn facts(ui: &mut Ui, cx: &Cx, found: &Statistics) {
     );
     let percent = |n: usize| format!("{:.1} %", 100.0 * n as f64 / found.pixels.max(1) as f64);
     fact(ui, "clipped", percent(found.clipped), "A band is at or above the clipping threshold (section 4).");
-    fact(ui, "dark", percent(found.dark), "Inside the dark sphere: not analysed (section 5.3).");
+    fact(ui, "dark", percent(found.dark), "Inside the dark sphere: not analyzed (section 5.3).");
     let regions: Vec<String> = found
         .regions
         .iter()
@@ -139,7 +140,7 @@ fn facts(ui: &mut Ui, cx: &Cx, found: &Statistics) {
 }
 
 fn bands(ui: &mut Ui, cx: &Cx, found: &Statistics) {
-    let colours = [
+    let colors = [
         ("R", Color32::from_rgb(0xD8, 0x6A, 0x5E)),
         ("G", Color32::from_rgb(0x6C, 0xB0, 0x6A)),
         ("B", Color32::from_rgb(0x6E, 0x96, 0xDE)),
@@ -150,19 +151,19 @@ fn bands(ui: &mut Ui, cx: &Cx, found: &Statistics) {
             ui.label(quiet(title));
         }
         ui.end_row();
-        for ((band, (name, colour)), mean) in found.bands.iter().zip(colours).zip(found.mean) {
-            ui.label(RichText::new(name).color(colour));
+        for ((band, (name, color)), mean) in found.bands.iter().zip(colors).zip(found.mean) {
+            ui.label(RichText::new(name).color(color));
             for value in [f64::from(band.min), f64::from(band.median), mean, f64::from(band.max)] {
                 widgets::number(ui, cx.tones, 44.0, &format!("{value:.1}"), "");
             }
-            histogram(ui, band, colour, cx.tones.well);
+            histogram(ui, band, color, cx.tones.well);
             ui.end_row();
         }
     });
 }
 
 /// How often each value occurs, from 0 to full scale; the tallest bar fills the height.
-fn histogram(ui: &mut Ui, band: &Band, colour: Color32, ground: Color32) {
+fn histogram(ui: &mut Ui, band: &Band, color: Color32, ground: Color32) {
     let size = vec2(ui.available_width().clamp(96.0, 220.0), HISTOGRAM_PT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     response
@@ -176,7 +177,7 @@ fn histogram(ui: &mut Ui, band: &Band, colour: Color32, ground: Color32) {
         // The square root lets rare values be seen beside frequent ones.
         let top = rect.bottom() - rect.height() * (count as f32 / most).sqrt().max(0.04);
         let bar = egui::Rect::from_min_max(pos2(left, top), pos2(left + width, rect.bottom()));
-        painter.rect_filled(bar, 0.0, colour);
+        painter.rect_filled(bar, 0.0, color);
     }
     response.on_hover_text("Share of pixels (square root) at each value, from 0 to full scale.");
 }

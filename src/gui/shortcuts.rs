@@ -6,12 +6,13 @@ pub use debug::{DebugDeed, Listeners, SpaceTap, move_cursor, selected};
 
 use super::theme::SMALL_PT;
 use super::{Cx, files};
-use crate::workbench::{Combine, Command, Item, Layer, Tool};
+use crate::app::{Combine, Command};
+use crate::view::{Item, Layer, Tool};
 use egui::{Key, KeyboardShortcut, Modifiers, RichText, Ui};
 
 /// What a key does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Deed {
+pub enum Action {
     /// Ask for a photograph.
     Open,
     /// Ask where to export to.
@@ -59,17 +60,17 @@ pub struct Shortcut {
     /// Modifiers and key.
     pub keys: KeyboardShortcut,
     /// What it does.
-    pub deed: Deed,
+    pub action: Action,
     /// What it does, in words.
     pub words: &'static str,
 }
 
-const fn plain(group: &'static str, key: Key, deed: Deed, words: &'static str) -> Shortcut {
-    Shortcut { group, keys: KeyboardShortcut::new(Modifiers::NONE, key), deed, words }
+const fn plain(group: &'static str, key: Key, action: Action, words: &'static str) -> Shortcut {
+    Shortcut { group, keys: KeyboardShortcut::new(Modifiers::NONE, key), action, words }
 }
 
-const fn command(group: &'static str, key: Key, deed: Deed, words: &'static str) -> Shortcut {
-    Shortcut { group, keys: KeyboardShortcut::new(Modifiers::COMMAND, key), deed, words }
+const fn command(group: &'static str, key: Key, action: Action, words: &'static str) -> Shortcut {
+    Shortcut { group, keys: KeyboardShortcut::new(Modifiers::COMMAND, key), action, words }
 }
 
 const SHIFT_COMMAND: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
@@ -84,44 +85,44 @@ const GENERAL: &[Shortcut] = &[
     Shortcut {
         group: "Edit",
         keys: KeyboardShortcut::new(SHIFT_COMMAND, Key::Z),
-        deed: Deed::Redo,
+        action: Action::Redo,
         words: "Redo",
     },
-    command("File", Key::O, Deed::Open, "Open a photograph"),
-    command("File", Key::E, Deed::Export, "Export"),
-    command("File", Key::S, Deed::Save, "Save the workspace"),
-    command("Edit", Key::Z, Deed::Undo, "Undo"),
-    command("Edit", Key::Y, Deed::Redo, "Redo"),
-    command("Edit", Key::I, Deed::Invert, "Invert the marked pixels"),
-    command("Edit", Key::A, Deed::MarkRegion, "Mark the pixels of the selected region"),
-    plain("Edit", Key::Escape, Deed::Escape, "Give up the gesture; select and mark nothing"),
-    plain("Edit", Key::CloseBracket, Deed::Region(true), "Select the next region"),
-    plain("Edit", Key::OpenBracket, Deed::Region(false), "Select the region before"),
-    plain("Image", Key::Num1, Deed::Layer(Layer::Input), "Input"),
-    plain("Image", Key::Num2, Deed::Layer(Layer::Masks), "Masks: dark, clipped, bloomed"),
-    plain("Image", Key::Num3, Deed::Layer(Layer::Classes), "Classification"),
-    plain("Image", Key::Num4, Deed::Layer(Layer::Areas), "Merged areas"),
-    plain("Image", Key::Num5, Deed::Layer(Layer::Linear), "Linear hypotheses"),
-    plain("Image", Key::Num6, Deed::Layer(Layer::Planar), "Planar hypotheses"),
-    plain("Image", Key::Num7, Deed::Layer(Layer::Regions), "Final regions"),
-    plain("Image", Key::Num8, Deed::Layer(Layer::Body), "Body reflection"),
-    plain("Image", Key::Num9, Deed::Layer(Layer::Surface), "Surface reflection"),
-    plain("Image", Key::Num0, Deed::Layer(Layer::Noise), "Noise"),
-    plain("Image", Key::F, Deed::Fit, "Fit the whole picture"),
-    plain("Image", Key::Z, Deed::OneToOne, "One point a pixel"),
-    plain("Image", Key::O, Deed::Outline, "Outlines or fills"),
-    plain("Tools", Key::V, Deed::Tool(Tool::Pointer), "Pointer: click selects, drag pans"),
-    plain("Tools", Key::R, Deed::Tool(Tool::Rectangle), "Rectangle"),
-    plain("Tools", Key::L, Deed::Tool(Tool::Lasso), "Lasso"),
-    plain("Tools", Key::G, Deed::Tool(Tool::Polygon), "Polygon"),
-    plain("Tools", Key::B, Deed::Tool(Tool::Brush), "Brush"),
-    plain("Tools", Key::P, Deed::Tool(Tool::Profile), "Profile line"),
-    plain("Tools", Key::W, Deed::Tool(Tool::WhitePatch), "White patch: pin the light's colour"),
-    plain("Compare", Key::K, Deed::Pin, "Pin the result, or let it go"),
-    plain("Compare", Key::A, Deed::Swap, "A/B: pinned or newest result"),
-    plain("Window", Key::T, Deed::Theme, "Light or dark"),
-    plain("Window", Key::Questionmark, Deed::Help, "This list"),
-    plain("Window", Key::F1, Deed::Help, "This list"),
+    command("File", Key::O, Action::Open, "Open a photograph"),
+    command("File", Key::E, Action::Export, "Export"),
+    command("File", Key::S, Action::Save, "Save the workspace"),
+    command("Edit", Key::Z, Action::Undo, "Undo"),
+    command("Edit", Key::Y, Action::Redo, "Redo"),
+    command("Edit", Key::I, Action::Invert, "Invert the marked pixels"),
+    command("Edit", Key::A, Action::MarkRegion, "Mark the pixels of the selected region"),
+    plain("Edit", Key::Escape, Action::Escape, "Give up the gesture; select and mark nothing"),
+    plain("Edit", Key::CloseBracket, Action::Region(true), "Select the next region"),
+    plain("Edit", Key::OpenBracket, Action::Region(false), "Select the region before"),
+    plain("Image", Key::Num1, Action::Layer(Layer::Input), "Input"),
+    plain("Image", Key::Num2, Action::Layer(Layer::Masks), "Masks: dark, clipped, bloomed"),
+    plain("Image", Key::Num3, Action::Layer(Layer::Classes), "Classification"),
+    plain("Image", Key::Num4, Action::Layer(Layer::Areas), "Merged areas"),
+    plain("Image", Key::Num5, Action::Layer(Layer::Linear), "Linear hypotheses"),
+    plain("Image", Key::Num6, Action::Layer(Layer::Planar), "Planar hypotheses"),
+    plain("Image", Key::Num7, Action::Layer(Layer::Regions), "Final regions"),
+    plain("Image", Key::Num8, Action::Layer(Layer::Body), "Body reflection"),
+    plain("Image", Key::Num9, Action::Layer(Layer::Surface), "Surface reflection"),
+    plain("Image", Key::Num0, Action::Layer(Layer::Noise), "Noise"),
+    plain("Image", Key::F, Action::Fit, "Fit the whole picture"),
+    plain("Image", Key::Z, Action::OneToOne, "One point a pixel"),
+    plain("Image", Key::O, Action::Outline, "Outlines or fills"),
+    plain("Tools", Key::V, Action::Tool(Tool::Pointer), "Pointer: click selects, drag pans"),
+    plain("Tools", Key::R, Action::Tool(Tool::Rectangle), "Rectangle"),
+    plain("Tools", Key::L, Action::Tool(Tool::Lasso), "Lasso"),
+    plain("Tools", Key::G, Action::Tool(Tool::Polygon), "Polygon"),
+    plain("Tools", Key::B, Action::Tool(Tool::Brush), "Brush"),
+    plain("Tools", Key::P, Action::Tool(Tool::Profile), "Profile line"),
+    plain("Tools", Key::W, Action::Tool(Tool::WhitePatch), "White patch: pin the light's color"),
+    plain("Compare", Key::K, Action::Pin, "Pin the result, or let it go"),
+    plain("Compare", Key::A, Action::Swap, "A/B: pinned or newest result"),
+    plain("Window", Key::T, Action::Theme, "Light or dark"),
+    plain("Window", Key::Questionmark, Action::Help, "This list"),
+    plain("Window", Key::F1, Action::Help, "This list"),
 ];
 
 /// A window of this width has room for four columns of keys, points.
@@ -130,7 +131,7 @@ const FOUR_COLUMNS_PT: f32 = 1200.0;
 /// Habits of the pointer, listed with the keys.
 const POINTER: &[(&str, &str)] = &[
     ("Scroll", "zoom at the pointer"),
-    ("Drag", "pan the image, orbit the colour space"),
+    ("Drag", "pan the image, orbit the color space"),
     ("Middle drag, Space drag", "pan, whatever the tool"),
     ("Double-click", "fit a view; reset a slider to its default"),
     ("Shift + click on the timeline", "run there, or to a breakpoint on the way"),
@@ -142,8 +143,8 @@ const POINTER: &[(&str, &str)] = &[
 ];
 
 /// The words for the keys of a deed, for menus and tooltips.
-pub fn keys_of(ctx: &egui::Context, deed: Deed) -> String {
-    let found = all().find(|shortcut| shortcut.deed == deed);
+pub fn keys_of(ctx: &egui::Context, action: Action) -> String {
+    let found = all().find(|shortcut| shortcut.action == action);
     found.map_or_else(String::new, |shortcut| written(ctx, shortcut.keys))
 }
 
@@ -166,63 +167,65 @@ pub fn pressed(
     escape_is_meant: bool,
     listeners: Listeners,
     tap: &mut SpaceTap,
-) -> Vec<Deed> {
+) -> Vec<Action> {
     if ctx.text_edit_focused() {
         return Vec::new();
     }
     let meant: Vec<&Shortcut> = all()
-        .filter(|shortcut| escape_is_meant || shortcut.deed != Deed::Escape)
+        .filter(|shortcut| escape_is_meant || shortcut.action != Action::Escape)
         .filter(|shortcut| listeners.leave(ctx, shortcut))
         .collect();
     let (taps, keys): (Vec<&Shortcut>, Vec<&Shortcut>) =
         meant.into_iter().partition(|shortcut| shortcut.keys.logical_key == Key::Space);
     let tapped = tap.heard(ctx, !taps.is_empty());
-    let mut deeds: Vec<Deed> = ctx.input_mut(|input| {
+    let mut actions: Vec<Action> = ctx.input_mut(|input| {
         keys.iter()
             .filter(|shortcut| input.consume_shortcut(&shortcut.keys))
-            .map(|shortcut| shortcut.deed)
+            .map(|shortcut| shortcut.action)
             .collect()
     });
-    deeds.extend(tapped.map(|direction| Deed::Debug(DebugDeed::Play(direction))));
-    deeds
+    actions.extend(tapped.map(|direction| Action::Debug(DebugDeed::Play(direction))));
+    actions
 }
 
 /// Carries a deed out, as far as it is a matter of the state.
-pub fn carry_out(deed: Deed, cx: &mut Cx, dialogs: &mut files::Dialogs, help: &mut bool) {
-    match deed {
-        Deed::Open => dialogs.ask(files::Question::Open),
-        Deed::Export => dialogs.ask(files::Question::Export),
-        Deed::Save => dialogs.ask(files::Question::SaveWorkspace),
-        Deed::Help => *help = !*help,
-        Deed::Undo => cx.send(Command::Undo),
-        Deed::Redo => cx.send(Command::Redo),
-        Deed::Invert => cx.send(Command::InvertMarked),
-        Deed::MarkRegion => mark_region(cx),
-        Deed::Escape => {
+pub fn carry_out(action: Action, cx: &mut Cx, dialogs: &mut files::Dialogs, help: &mut bool) {
+    match action {
+        Action::Open => dialogs.ask(files::Dialog::Open),
+        Action::Export => dialogs.ask(files::Dialog::Export),
+        Action::Save => dialogs.ask(files::Dialog::SaveWorkspace),
+        Action::Help => *help = !*help,
+        Action::Undo => cx.send(Command::Undo),
+        Action::Redo => cx.send(Command::Redo),
+        Action::Invert => cx.send(Command::InvertMarked),
+        Action::MarkRegion => mark_region(cx),
+        Action::Escape => {
             if *help {
                 *help = false;
             } else {
                 cx.send(Command::ClearSelection);
             }
         }
-        Deed::Region(next) => step_region(cx, next),
-        Deed::Pin => cx.send(Command::Pin(cx.state.pinned.is_none())),
-        Deed::Swap => cx.send(Command::ShowPinned(!cx.state.view.show_pinned)),
-        Deed::Theme => {
-            use crate::workbench::Theme::{Dark, Light};
+        Action::Region(next) => step_region(cx, next),
+        Action::Pin => cx.send(Command::Pin(cx.state.pinned.is_none())),
+        Action::Swap => cx.send(Command::ShowPinned(!cx.state.view.show_pinned)),
+        Action::Theme => {
+            use crate::view::Theme::{Dark, Light};
             cx.send(Command::Theme(if cx.state.view.theme == Dark { Light } else { Dark }));
         }
-        Deed::Debug(deed) => move_cursor(deed, cx),
-        Deed::Layer(_) | Deed::Tool(_) | Deed::Fit | Deed::OneToOne | Deed::Outline => look(deed, cx),
+        Action::Debug(action) => move_cursor(action, cx),
+        Action::Layer(_) | Action::Tool(_) | Action::Fit | Action::OneToOne | Action::Outline => {
+            look(action, cx)
+        }
     }
 }
 
-fn look(deed: Deed, cx: &mut Cx) {
-    use crate::workbench::Fill;
+fn look(action: Action, cx: &mut Cx) {
+    use crate::view::Fill;
     let mut image = cx.state.view.image.clone();
-    match deed {
-        Deed::Layer(layer) => image.layer = layer,
-        Deed::Tool(tool) => {
+    match action {
+        Action::Layer(layer) => image.layer = layer,
+        Action::Tool(tool) => {
             image.tool = tool;
             let mut cube = cx.state.view.cube.clone();
             if matches!(tool, Tool::Pointer | Tool::Rectangle | Tool::Lasso | Tool::Polygon) {
@@ -230,9 +233,9 @@ fn look(deed: Deed, cx: &mut Cx) {
                 cx.send(Command::Cube(cube));
             }
         }
-        Deed::Fit => (image.zoom, image.centre_px) = (None, None),
-        Deed::OneToOne => image.zoom = Some(1.0),
-        Deed::Outline => image.fill = if image.fill == Fill::Fill { Fill::Outline } else { Fill::Fill },
+        Action::Fit => (image.zoom, image.center_px) = (None, None),
+        Action::OneToOne => image.zoom = Some(1.0),
+        Action::Outline => image.fill = if image.fill == Fill::Fill { Fill::Outline } else { Fill::Fill },
         _ => {}
     }
     cx.send(Command::Image(image));

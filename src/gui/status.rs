@@ -1,9 +1,9 @@
-//! The line that tells what is open, how it is analysed, what was found and how long it took.
+//! The line that tells what is open, how it is analyzed, what was found and how long it took.
 
 use super::Cx;
 use super::theme::SMALL_PT;
+use crate::app::Command;
 use crate::segment::Parameter;
-use crate::workbench::Command;
 use egui::{Align, Layout, RichText, Ui};
 use std::time::Duration;
 

@@ -1,8 +1,9 @@
 //! The application in a harness, with a real graphics device where there is one.
 
 use super::App;
+use crate::app::{Command, Executor};
 use crate::truth::sample;
-use crate::workbench::{Command, Executor, Origin};
+use crate::view::Origin;
 use egui_kittest::Harness;
 use egui_kittest::wgpu::WgpuTestRenderer;
 use egui_wgpu::{RenderState, RendererOptions, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
@@ -36,7 +37,7 @@ pub fn harness() -> Option<(Harness<'static, App>, RenderState)> {
 pub fn open_sample(harness: &mut Harness<App>) {
     harness.state_mut().apply(Command::Open(Origin::Sample(sample::NAME.to_owned())));
     harness.run_steps(3);
-    assert!(harness.state().state().newest.is_some(), "the sample is analysed");
+    assert!(harness.state().state().newest.is_some(), "the sample is analyzed");
 }
 
 /// Vulkan alone: another interface gives slightly different pictures.

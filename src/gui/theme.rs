@@ -1,9 +1,9 @@
-//! Neutral greys around the pictures, one accent, two sizes of type.
+//! Neutral grays around the pictures, one accent, two sizes of type.
 
-use crate::workbench::Theme;
+use crate::view::Theme;
 use egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, Style, TextStyle, Visuals, vec2};
 
-/// The colours of a theme.
+/// The colors of a theme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tones {
     /// Around the pictures.
@@ -25,7 +25,7 @@ pub struct Tones {
 }
 
 impl Tones {
-    /// The colours of `theme`.
+    /// The colors of `theme`.
     pub fn of(theme: Theme) -> Self {
         match theme {
             Theme::Dark => Self {

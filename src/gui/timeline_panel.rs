@@ -10,9 +10,9 @@ mod transport;
 pub use track::track_id;
 
 use super::{Cx, widgets};
-use crate::report::Names;
+use crate::app::{Command, DebugCommand, DebugSettings};
+use crate::describe::Names;
 use crate::trace::Trace;
-use crate::workbench::{Command, DebugCommand, DebugSettings};
 use egui::{Frame, Margin, RichText, Ui};
 use track::Track;
 

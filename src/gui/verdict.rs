@@ -2,7 +2,7 @@
 
 use super::theme::{SMALL_PT, Tones};
 use crate::trace::CandidateTest;
-use crate::workbench::{Check, candidate_name, tee};
+use crate::view::{Check, candidate_name, skewed_t_view};
 use egui::accesskit::Role;
 use egui::{Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
@@ -14,9 +14,9 @@ pub fn show(ui: &Ui, tones: &Tones, ground: Color32, corner: Pos2, test: &Candid
     let halo = ground.gamma_multiply(0.8);
     let head = format!("highlight of {}: {}?", test.region, candidate_name(test.candidate));
     let tip =
-        "A neighbouring cluster is the region's highlight if both lines form a skewed T (section 5.4.1).";
+        "A neighboring cluster is the region's highlight if both lines form a skewed T (section 5.4.1).";
     let mut room = line(ui, (tones, halo), corner, &head, None, tip);
-    for Check { passed, text, tip } in tee(test, None).checks {
+    for Check { passed, text, tip } in skewed_t_view(test, None).checks {
         let below = room.left_bottom() + vec2(0.0, 1.0);
         room = room.union(line(ui, (tones, halo), below, &text, Some(passed), tip));
     }

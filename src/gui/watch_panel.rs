@@ -3,7 +3,7 @@
 use super::theme::{SMALL_PT, Tones};
 use super::{Cx, widgets};
 use crate::color::Vec3;
-use crate::workbench::{AxisDistance, Current, Watch, WatchedPixel, watch};
+use crate::view::{AxisDistance, Current, Watch, WatchedPixel, watch};
 use egui::{Align, Color32, Label, Layout, RichText, ScrollArea, Ui, vec2};
 
 /// Width of the names, points.
@@ -131,7 +131,7 @@ fn of_current(current: &Current) -> Vec<Line> {
     vec![
         Line::one("hypothesis", tip, number, ""),
         Line::one("pixels", "Pixels that it holds.", pixels, "px"),
-        Line::new("mean", "Mean colour of its line (5.3.1).", mean, "counts"),
+        Line::new("mean", "Mean color of its line (5.3.1).", mean, "counts"),
         Line::new("direction", "Unit direction of its cylinder's axis (5.3.1).", direction, ""),
         Line::one("radius", "Radius of its cylinder (5.3.2).", format!("{:.2}", current.radius), "counts"),
         Line::one("half width", "Half the thickness of its slice, once it has one (5.4.2).", half, "counts"),
@@ -147,14 +147,14 @@ fn of_pixel(pixel: &WatchedPixel, width: usize) -> Vec<Line> {
         Some(Some(class)) => class.name().to_owned(),
     };
     let holder = if pixel.region == 0 { none() } else { format!("hypothesis {}", pixel.region) };
-    let colour = pixel.color.map(|v| format!("{v:.1}")).to_vec();
+    let color = pixel.color.map(|v| format!("{v:.1}")).to_vec();
     let role = pixel.kind.name().to_owned();
     vec![
         Line::one("pixel", "The selected pixel: column, row.", format!("{x}, {y}"), ""),
-        Line::new("colour", "Linear counts, red green blue.", colour, "counts"),
+        Line::new("color", "Linear counts, red green blue.", color, "counts"),
         Line::one("class", "Class of its window, once it is known (5.2.1).", class, ""),
         Line::one("held by", "The region that has claimed it.", holder, ""),
-        Line::one("role", "Matte, highlight, restored: once it is labelled (6).", role, ""),
+        Line::one("role", "Matte, highlight, restored: once it is labeled (6).", role, ""),
     ]
 }
 
@@ -237,7 +237,7 @@ fn row(ui: &mut Ui, cx: &Cx, distance: &AxisDistance) {
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         ui.set_min_size(size);
         let region = distance.region;
-        widgets::chip(ui, widgets::colour(names.colour(region)), &format!("colour of hypothesis {region}"));
+        widgets::chip(ui, widgets::color(names.color(region)), &format!("color of hypothesis {region}"));
         ui.label(RichText::new(format!("hypothesis {region}")).color(tones.quiet));
     });
     let against = |[value, limit]: [f64; 2]| {

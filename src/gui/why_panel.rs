@@ -4,19 +4,20 @@ use super::later::{AT_ONCE_PX, Later};
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
 use crate::analysis::WhatIf;
-use crate::report::what_if_sentence;
+use crate::app::{Ask, Command, DebugCommand, WhatIfJob};
+use crate::describe::what_if_sentence;
 use crate::segment::Setting;
-use crate::workbench::{Account, Ask, Command, DebugCommand, Inquiry, Why, why};
+use crate::view::{Account, Why, why};
 use egui::{FontId, Response, RichText, ScrollArea, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
 /// What is asked: the result, the pixel, the hypothesis.
-type Question = (u64, Option<u32>, Option<u16>);
+type Dialog = (u64, Option<u32>, Option<u16>);
 
 /// The panel.
 #[derive(Default)]
 pub struct WhyPanel {
-    answers: Later<Question, Why>,
+    answers: Later<Dialog, Why>,
 }
 
 impl WhyPanel {
@@ -66,7 +67,7 @@ fn unrecorded(ui: &mut Ui, cx: &mut Cx) {
             .on_hover_text("Keeps every decision of the analysis, so that each can be asked for.")
             .clicked()
         {
-            let settings = crate::workbench::DebugSettings { open: true, ..cx.state.view.debug.clone() };
+            let settings = crate::app::DebugSettings { open: true, ..cx.state.view.debug.clone() };
             cx.send(Command::Debug(DebugCommand::Settings(settings)));
         }
     });
@@ -81,7 +82,7 @@ fn answers(ui: &mut Ui, cx: &mut Cx, found: &Why) {
     if let Some((birth, told)) = &found.hypothesis {
         let heading = widgets::heading(ui, cx.tones, &format!("Hypothesis {birth}"));
         heading.on_hover_text(
-            "5.3\u{2013}5.4: why it was chosen, which neighbours were tested as its highlight, how it ended.",
+            "5.3\u{2013}5.4: why it was chosen, which neighbors were tested as its highlight, how it ended.",
         );
         entries(ui, cx, told);
     }
@@ -94,17 +95,17 @@ fn answers(ui: &mut Ui, cx: &mut Cx, found: &Why) {
     }
 }
 
-/// Where the pixel is, its colour and where it ended.
+/// Where the pixel is, its color and where it ended.
 fn about_pixel(ui: &mut Ui, cx: &Cx, pixel: u32) {
     let (Some(picture), Some(shown)) = (&cx.state.picture, &cx.state.newest) else { return };
     let width = picture.size().0.max(1);
     let (x, y) = (pixel as usize % width, pixel as usize / width);
-    let colour = picture.photo.image.pixels[pixel as usize];
+    let color = picture.photo.image.pixels[pixel as usize];
     let region = shown.labels()[pixel as usize];
     ui.horizontal(|ui| {
-        widgets::chip(ui, widgets::own_colour(colour), "the pixel's colour");
+        widgets::chip(ui, widgets::own_color(color), "the pixel's color");
         ui.label(format!("Pixel {x}, {y}"));
-        let [r, g, b] = colour;
+        let [r, g, b] = color;
         ui.label(RichText::new(format!("{r:.0} {g:.0} {b:.0} counts")).color(cx.tones.quiet));
         let kind = shown.analysis.intrinsic.kinds[pixel as usize].name();
         let fate = if region == 0 { kind.to_owned() } else { format!("region {region}, {kind}") };
@@ -136,9 +137,9 @@ fn entry(ui: &mut Ui, cx: &Cx, account: &Account, now: bool) -> Response {
     let width = ui.available_width();
     let left = STAGE_PT + INDENT_PT * account.depth as f32;
     let font = FontId::proportional(SMALL_PT);
-    let colour = if now { cx.tones.accent } else { cx.tones.text };
+    let color = if now { cx.tones.accent } else { cx.tones.text };
     let galley =
-        ui.painter().layout(account.text.clone(), font.clone(), colour, (width - left - 4.0).max(40.0));
+        ui.painter().layout(account.text.clone(), font.clone(), color, (width - left - 4.0).max(40.0));
     let size = vec2(width, galley.size().y + 4.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     if response.hovered() || response.has_focus() {
@@ -151,7 +152,7 @@ fn entry(ui: &mut Ui, cx: &Cx, account: &Account, now: bool) -> Response {
     let top = rect.top() + 2.0;
     let stage = ui.painter().layout_no_wrap(account.stage.name().to_owned(), font, cx.tones.quiet);
     ui.painter().galley(pos2(rect.left() + 6.0, top), stage, cx.tones.quiet);
-    ui.painter().galley(pos2(rect.left() + left, top), galley, colour);
+    ui.painter().galley(pos2(rect.left() + left, top), galley, color);
     response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Link, true, &account.text));
     response
 }
@@ -160,10 +161,10 @@ fn entry(ui: &mut Ui, cx: &Cx, account: &Account, now: bool) -> Response {
 fn what_if(ui: &mut Ui, cx: &mut Cx, pixel: u32) {
     let heading = widgets::heading(ui, cx.tones, "What if");
     heading.on_hover_text(
-        "How far each parameter would have to move for this pixel to end otherwise, tried by analysing again.",
+        "How far each parameter would have to move for this pixel to end otherwise, tried by analyzing again.",
     );
-    let inquiry = cx.state.inquiry.as_ref().filter(|inquiry| inquiry.asked.pixel == pixel);
-    match inquiry {
+    let what_if_job = cx.state.what_if_job.as_ref().filter(|what_if_job| what_if_job.asked.pixel == pixel);
+    match what_if_job {
         None => {
             let ask = ui.button("Find what would change it");
             let ask =
@@ -172,7 +173,7 @@ fn what_if(ui: &mut Ui, cx: &mut Cx, pixel: u32) {
                 cx.send(Command::Ask(Ask::WhatIf(Some(pixel))));
             }
         }
-        Some(Inquiry { found: None, done, total, .. }) => {
+        Some(WhatIfJob { found: None, done, total, .. }) => {
             let share = *done as f32 / (*total).max(1) as f32;
             ui.horizontal(|ui| {
                 ui.add(egui::ProgressBar::new(share).desired_width(160.0));
@@ -181,7 +182,7 @@ fn what_if(ui: &mut Ui, cx: &mut Cx, pixel: u32) {
                 }
             });
         }
-        Some(Inquiry { found: Some(found), .. }) => {
+        Some(WhatIfJob { found: Some(found), .. }) => {
             let found = Arc::clone(found);
             alternatives(ui, cx, &found);
         }
@@ -198,7 +199,7 @@ fn alternatives(ui: &mut Ui, cx: &mut Cx, found: &[WhatIf]) {
         let text = what_if_sentence(what_if);
         let origin = if what_if.predicted { "from the recorded numbers" } else { "by search" };
         let hover =
-            format!("Found {origin}, and confirmed by analysing again. Click to set the parameter so.");
+            format!("Found {origin}, and confirmed by analyzing again. Click to set the parameter so.");
         let link = egui::Link::new(RichText::new(text).size(SMALL_PT));
         if ui.add(link).on_hover_text(hover).clicked() {
             cx.send(Command::SetParameter(what_if.parameter, Setting::Value(what_if.at), None));

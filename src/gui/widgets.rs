@@ -9,10 +9,10 @@ pub fn heading(ui: &mut Ui, tones: &Tones, text: &str) -> Response {
     ui.label(RichText::new(text).size(SMALL_PT).color(tones.quiet))
 }
 
-/// A square of colour.
-pub fn chip(ui: &mut Ui, colour: Color32, name: &str) -> Response {
+/// A square of color.
+pub fn chip(ui: &mut Ui, color: Color32, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
-    ui.painter().rect_filled(rect, 2.0, colour);
+    ui.painter().rect_filled(rect, 2.0, color);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, name));
     response
 }
@@ -40,8 +40,8 @@ pub fn nothing(ui: &mut Ui, tones: &Tones, text: &str) {
     ui.centered_and_justified(|ui| ui.label(RichText::new(text).color(tones.quiet)));
 }
 
-/// A sRGB triple as a colour.
-pub fn colour([r, g, b]: [u8; 3]) -> Color32 {
+/// A sRGB triple as a color.
+pub fn color([r, g, b]: [u8; 3]) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
@@ -59,7 +59,7 @@ pub fn grouped(number: usize) -> String {
 }
 
 /// Linear counts as the screen shows them.
-pub fn own_colour(counts: [f32; 3]) -> Color32 {
+pub fn own_color(counts: [f32; 3]) -> Color32 {
     let [r, g, b] = counts.map(|v| egui::ecolor::gamma_u8_from_linear_f32((v / 255.0).clamp(0.0, 1.0)));
     Color32::from_rgb(r, g, b)
 }

@@ -1,8 +1,9 @@
 //! The window on the desktop.
 
 use super::App;
+use crate::app::{Command, Executor, Settings, Severity};
 use crate::truth::sample;
-use crate::workbench::{Command, Executor, Origin, Settings, Severity};
+use crate::view::Origin;
 use egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};

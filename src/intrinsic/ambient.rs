@@ -1,18 +1,20 @@
 //! Section 7.5: ambient light adds a constant to every pixel, so that the matte lines meet away from black (Shafer's extended
 //! model; refinement `ambient_light`).
 //!
-//! Each region's matte line is refitted to what lies in its cylinder. The common point p minimises Σ ρ(|Q_k (p − m_k)|²/var_k),
+//! Each region's matte line is refitted to what lies in its cylinder. The common point p minimizes Σ ρ(|Q_k (p − m_k)|²/var_k),
 //! Q_k the projection across line k, m_k a point of it, var_k how well it is known near black: its own noise, .15 counts, and
 //! .1° of direction over the way there. ρ is Cauchy's, at three standard deviations. p is subtracted before the split if at
 //! least three lines tell of it, or two that clearly meet, it is significant (χ² with three degrees of freedom, .999) and above
-//! the noise, a colour that light can have, a better meeting point than black, and no brighter than the darkest pixels. After
+//! the noise, a color that light can have, a better meeting point than black, and no brighter than the darkest pixels. After
 //! the split it is added to the body image: ambient light that is reflected is body reflection too.
 //!
 //! On lab scenes it is at most .3 counts a band; veils of 3 to 12 counts are found to .4 counts (1.3 on one scene of three
 //! blue objects, within its own standard deviation), and the body image is as good as without them.
 
 use crate::color::{Cylinder, Line, LineFit, Moments, Vec3, principal_axes};
-use crate::segment::{AmbientSetting, FinalRegions, Members, POOR_FIT, Pixels, PlanarHypothesis, Scene};
+use crate::segment::{
+    AmbientSetting, AnalysisInput, FinalRegions, Members, POOR_FIT, Pixels, PlanarHypothesis,
+};
 use crate::trace::{Ambient, AmbientVerdict, Meeting};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -29,7 +31,7 @@ const LEAST_EXTENT: f64 = 8.0;
 /// Errors that averaging does not remove: of a line's place, counts, and of its direction, degrees.
 const PLACE_COUNTS: f64 = 0.15;
 const DIRECTION_DEG: f64 = 0.1;
-/// Neighbouring pixels err together: so many count as one.
+/// Neighboring pixels err together: so many count as one.
 const TOGETHER: f64 = 4.0;
 /// 99.9 % quantile of χ² with three degrees of freedom.
 const SIGNIFICANT: f64 = 16.27;
@@ -44,32 +46,32 @@ const TUNING: f64 = 4.7;
 const ITERATIONS: usize = 12;
 
 /// What a segmented picture tells of its ambient light.
-pub fn ambient(scene: &Scene, regions: &FinalRegions, members: &Members) -> Ambient {
-    match scene.used.ambient {
+pub fn ambient(input: &AnalysisInput, regions: &FinalRegions, members: &Members) -> Ambient {
+    match input.used.ambient {
         AmbientSetting::Given(counts) => {
             Ambient { subtracted: Some(counts), meeting: None, verdict: AmbientVerdict::Given }
         }
-        AmbientSetting::Auto if scene.refine.ambient_light => estimated(scene, regions, members),
+        AmbientSetting::Auto if input.refine.ambient_light => estimated(input, regions, members),
         AmbientSetting::Off | AmbientSetting::Auto => Ambient::default(),
     }
 }
 
-fn estimated(scene: &Scene, regions: &FinalRegions, members: &Members) -> Ambient {
+fn estimated(input: &AnalysisInput, regions: &FinalRegions, members: &Members) -> Ambient {
     let lines: Vec<MatteLine> = (1..=regions.hypotheses.len() as u16)
         .into_par_iter()
-        .filter_map(|id| MatteLine::new(scene, &regions.hypotheses[usize::from(id) - 1], members.region(id)))
+        .filter_map(|id| MatteLine::new(input, &regions.hypotheses[usize::from(id) - 1], members.region(id)))
         .collect();
     let meeting = meeting(&lines);
     let tells = |found: &Meeting| {
-        let known = found.sd_counts.iter().all(|sd| *sd <= scene.sigma());
-        found.lines >= LEAST_LINES || (known && found.miss_counts[0] <= CLOSE * scene.sigma())
+        let known = found.sd_counts.iter().all(|sd| *sd <= input.sigma());
+        found.lines >= LEAST_LINES || (known && found.miss_counts[0] <= CLOSE * input.sigma())
     };
     let Some(found) = meeting.filter(tells) else {
         return Ambient { subtracted: None, meeting, verdict: AmbientVerdict::FewLines };
     };
-    let colour = Vec3::from(found.counts);
-    let verdict = if found.chi_square <= SIGNIFICANT || colour.norm() <= scene.sigma() {
-        if found.miss_counts[0] > FAR * scene.sigma() {
+    let color = Vec3::from(found.counts);
+    let verdict = if found.chi_square <= SIGNIFICANT || color.norm() <= input.sigma() {
+        if found.miss_counts[0] > FAR * input.sigma() {
             AmbientVerdict::NoMeeting
         } else {
             AmbientVerdict::Black
@@ -78,7 +80,7 @@ fn estimated(scene: &Scene, regions: &FinalRegions, members: &Members) -> Ambien
         AmbientVerdict::Negative
     } else if found.miss_counts[0] > BETTER * found.miss_counts[1] {
         AmbientVerdict::NoMeeting
-    } else if brighter_than_the_darkest(scene, regions, &found.counts) {
+    } else if brighter_than_the_darkest(input, regions, &found.counts) {
         AmbientVerdict::DarkerPixels
     } else {
         AmbientVerdict::Subtracted
@@ -88,11 +90,11 @@ fn estimated(scene: &Scene, regions: &FinalRegions, members: &Members) -> Ambien
 }
 
 /// Whether more pixels of the regions than noise explains are darker in some band.
-fn brighter_than_the_darkest(scene: &Scene, regions: &FinalRegions, counts: &[f64; 3]) -> bool {
-    let least = counts.map(|band| (band - 3.0 * scene.sigma()) as f32);
+fn brighter_than_the_darkest(input: &AnalysisInput, regions: &FinalRegions, counts: &[f64; 3]) -> bool {
+    let least = counts.map(|band| (band - 3.0 * input.sigma()) as f32);
     let mut darker = [0usize; 3];
     let mut all = 0usize;
-    for (color, &label) in scene.pixels.as_slice().iter().zip(regions.labels.as_slice()) {
+    for (color, &label) in input.pixels.as_slice().iter().zip(regions.labels.as_slice()) {
         if label != crate::raster::UNASSIGNED {
             all += 1;
             (0..3).for_each(|band| darker[band] += usize::from(color[band] < least[band]));
@@ -112,25 +114,25 @@ struct MatteLine {
 
 impl MatteLine {
     /// Of one region; none where it has too few pixels on a line, or none that is long enough.
-    fn new(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: Pixels) -> Option<Self> {
-        let cylinder = Cylinder::new(&hypothesis.matte, scene.used.radius_counts());
+    fn new(input: &AnalysisInput, hypothesis: &PlanarHypothesis, pixels: Pixels) -> Option<Self> {
+        let cylinder = Cylinder::new(&hypothesis.matte, input.used.radius_counts());
         let colors: Vec<[f32; 3]> = pixels
             .sample(SAMPLES)
-            .filter(|&pixel| scene.masks.usable(pixel as usize))
-            .map(|pixel| scene.pixels[pixel as usize])
+            .filter(|&pixel| input.masks.usable(pixel as usize))
+            .map(|pixel| input.pixels[pixel as usize])
             .filter(|&color| cylinder.contains(color))
             .collect();
         if colors.len() < LEAST_PX {
             return None;
         }
-        let fit = LineFit { sigma: scene.sigma(), tuning: TUNING, iterations: ITERATIONS };
+        let fit = LineFit { sigma: input.sigma(), tuning: TUNING, iterations: ITERATIONS };
         let line = hypothesis.matte.refit(&colors, &fit);
-        let near = Cylinder::new(&line, POOR_FIT * 2.0 * scene.sigma());
+        let near = Cylinder::new(&line, POOR_FIT * 2.0 * input.sigma());
         let moments: Moments = colors.into_iter().filter(|&color| near.contains(color)).collect();
         let ([along, across, height], _) = principal_axes(&moments.covariance());
         let noise = f64::midpoint(across, height);
-        let long = along.max(0.0).sqrt() >= LEAST_EXTENT * scene.sigma();
-        let straight = noise.max(0.0).sqrt() <= POOR_FIT * scene.sigma();
+        let long = along.max(0.0).sqrt() >= LEAST_EXTENT * input.sigma();
+        let straight = noise.max(0.0).sqrt() <= POOR_FIT * input.sigma();
         let independent = moments.n / TOGETHER;
         (moments.n >= LEAST_PX as f64 && long && straight).then(|| Self {
             line,
@@ -159,9 +161,9 @@ fn meeting(lines: &[MatteLine]) -> Option<Meeting> {
         information = Matrix3::zeros();
         for line in lines {
             let (miss, variance) = line.miss(&point);
-            let doubt = miss.norm_squared() / (9.0 * variance);
+            let reject_reason = miss.norm_squared() / (9.0 * variance);
             let across = Matrix3::identity() - line.line.direction * line.line.direction.transpose();
-            let weighted = across / (variance * (1.0 + doubt));
+            let weighted = across / (variance * (1.0 + reject_reason));
             information += weighted;
             right += weighted * line.line.mean;
         }
@@ -221,7 +223,7 @@ mod tests {
         });
         let regions =
             FinalRegions { labels, hypotheses: hypotheses.collect(), light: LightFindings::default() };
-        ambient(&drawing.scene(), &regions, &members(&regions))
+        ambient(&drawing.input(), &regions, &members(&regions))
     }
 
     const RED: [f64; 3] = [0.9, 0.3, 0.2];

@@ -33,11 +33,11 @@ pub fn of_region(fit: &RegionFit, holds: bool, angle_deg: Option<f64>, sigma: f6
 }
 
 /// What the confidence of pixels is made from.
-pub struct Grounds<'a> {
+pub struct ConfidenceInput<'a> {
     /// Region of each pixel.
     pub labels: &'a LabelMap,
     /// Where the plane was used.
-    pub holding: &'a Mask,
+    pub explained_mask: &'a Mask,
     /// What each pixel is to its region.
     pub kinds: &'a Raster<PixelKind>,
     /// Distance from the plane, counts.
@@ -48,7 +48,7 @@ pub struct Grounds<'a> {
     pub sigma: f32,
 }
 
-impl Grounds<'_> {
+impl ConfidenceInput<'_> {
     /// Of each pixel. `local`: that of the local split where it found surface reflection, else 0.
     pub fn confidence(&self, local: Option<&Raster<f32>>) -> Raster<f32> {
         let width = self.labels.width();
@@ -56,7 +56,7 @@ impl Grounds<'_> {
         confidence.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
             for (x, confidence) in row.iter_mut().enumerate() {
                 let pixel = y * width + x;
-                *confidence = if self.holding[pixel] {
+                *confidence = if self.explained_mask[pixel] {
                     self.by_plane(pixel)
                 } else {
                     local.map_or(0.0, |local| local[pixel])

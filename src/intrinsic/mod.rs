@@ -2,7 +2,7 @@
 
 mod ambient;
 mod confidence;
-mod holding;
+mod explained_mask;
 mod local;
 mod reason;
 mod region;
@@ -68,7 +68,7 @@ pub struct RegionReflection {
     pub body: [f64; 3],
     /// Surface reflection vector C_s, unit; none where the region has no dichromatic plane.
     pub surface: Option<[f64; 3]>,
-    /// Mean colour of the matte pixels, counts.
+    /// Mean color of the matte pixels, counts.
     pub matte_mean: [f64; 3],
     /// Where the highlight line leaves the matte line, counts; that of the strongest branch.
     pub highlight_start: Option<[f64; 3]>,
@@ -90,7 +90,7 @@ pub struct RegionReflection {
     /// Whether body and surface can be told apart.
     pub separable: bool,
     /// Regions that it touches, ascending.
-    pub neighbours: Vec<u16>,
+    pub neighbors: Vec<u16>,
     /// What to beware of, in words.
     pub warnings: Vec<String>,
 }

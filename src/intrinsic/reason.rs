@@ -1,7 +1,7 @@
 //! Why a pixel is not explained by body and surface reflection of one region (sections 5.6 and 7.5).
 //!
-//! The paper names what it leaves unexplained: shadows and dark colours, inter-reflection, pixels that mix two objects, clipped
-//! ones, and grey objects whose matte line is the illuminant's. Printed textures are its section 7.5's.
+//! The paper names what it leaves unexplained: shadows and dark colors, inter-reflection, pixels that mix two objects, clipped
+//! ones, and gray objects whose matte line is the illuminant's. Printed textures are its section 7.5's.
 
 use super::RegionReflection;
 use crate::color::{Vec3, axis_angle_deg};
@@ -23,11 +23,11 @@ pub enum Reason {
     /// Nothing: its region's skewed T holds.
     #[default]
     Explained,
-    /// It is too dark to be analysed: shadow or background.
+    /// It is too dark to be analyzed: shadow or background.
     Shadow,
     /// It is lit, but on no matte line that was found.
     NoMatteLine,
-    /// It lies between regions, or between one and the dark, and mixes their colours.
+    /// It lies between regions, or between one and the dark, and mixes their colors.
     MixedBoundary,
     /// It lies off the plane, or its region does: inter-reflection, or more than one material.
     InterReflection,
@@ -35,7 +35,7 @@ pub enum Reason {
     Texture,
     /// It is the clipped highlight of another object than its region's.
     OtherObject,
-    /// Its body reflection has the light's colour: grey, white and metal.
+    /// Its body reflection has the light's color: gray, white and metal.
     Collinear,
     /// Every band is clipped.
     ClippedAllBands,
@@ -72,13 +72,13 @@ impl Reason {
 }
 
 /// What reasons are found from.
-pub struct Case<'a> {
+pub struct ReasonInput<'a> {
     /// Which pixels are believed.
     pub masks: &'a Masks,
     /// Region of each pixel.
     pub labels: &'a LabelMap,
     /// Where regions' planes were used.
-    pub holding: &'a Mask,
+    pub explained_mask: &'a Mask,
     /// What each pixel is to its region.
     pub kinds: &'a Raster<PixelKind>,
     /// Distance from the plane, counts.
@@ -91,7 +91,7 @@ pub struct Case<'a> {
     pub sigma: f32,
 }
 
-impl Case<'_> {
+impl ReasonInput<'_> {
     /// The reason of each pixel.
     pub fn reasons(&self) -> Raster<Reason> {
         let of_region: Vec<Reason> = self.regions.iter().map(|region| self.of_region(region)).collect();
@@ -109,7 +109,7 @@ impl Case<'_> {
         let collinear =
             |light: [f64; 3]| axis_angle_deg(&Vec3::from(region.body), &Vec3::from(light)) < COLLINEAR_DEG;
         let only_textured = f64::from(self.sigma) * POOR_FIT >= region.fit_rms_counts;
-        // A print of several colours lies off its plane as well: what it is says more than what it does.
+        // A print of several colors lies off its plane as well: what it is says more than what it does.
         if !region.holds && (only_textured || region.texture > TEXTURE_CORRELATION) {
             Reason::Texture
         } else if !region.holds {
@@ -134,7 +134,7 @@ impl Case<'_> {
         }
         let of_region = of_region.get(usize::from(label) - 1).copied().unwrap_or_default();
         match of_region {
-            Reason::Explained | Reason::Collinear if !self.holding[pixel] => Reason::OtherObject,
+            Reason::Explained | Reason::Collinear if !self.explained_mask[pixel] => Reason::OtherObject,
             Reason::Explained if self.noise[pixel].abs() > FAR_OFF * self.sigma => {
                 if self.at_a_border(pixel) { Reason::MixedBoundary } else { Reason::InterReflection }
             }
@@ -142,11 +142,11 @@ impl Case<'_> {
         }
     }
 
-    /// Whether a neighbour is of a region, and another is not of the same.
+    /// Whether a neighbor is of a region, and another is not of the same.
     fn at_a_border(&self, pixel: usize) -> bool {
         let mut first = None;
         let (mut assigned, mut differ) = (false, false);
-        self.labels.for_each_neighbour(pixel, |near| {
+        self.labels.for_each_neighbor(pixel, |near| {
             assigned |= self.labels[near] != UNASSIGNED;
             differ |= *first.get_or_insert(self.labels[near]) != self.labels[near];
         });
@@ -167,10 +167,10 @@ mod tests {
         let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 9 };
         let mut kinds = Raster::filled(7, 1, PixelKind::Matte);
         kinds[3] = PixelKind::Lost;
-        let found = Case {
+        let found = ReasonInput {
             masks: &Masks::new(&image, &limits),
             labels: &LabelMap::from_vec(7, 1, vec![0, 0, 1, 1, 0, 0, 0]).unwrap(),
-            holding: &Raster::filled(7, 1, true),
+            explained_mask: &Raster::filled(7, 1, true),
             kinds: &kinds,
             noise: &Raster::filled(7, 1, 0.0),
             regions: &[],

@@ -5,7 +5,7 @@ use super::split::Splitter;
 use super::{HighlightBranch, RegionReflection};
 use crate::color::Vec3;
 use crate::raster::Raster;
-use crate::segment::{POOR_FIT, Pixels, Scene};
+use crate::segment::{AnalysisInput, POOR_FIT, Pixels};
 use crate::trace::PixelKind;
 
 /// Below this angle body and surface reflection cannot be told apart at all, degrees.
@@ -14,7 +14,7 @@ pub const MIN_ANGLE_DEG: f64 = 3.0;
 const SMALL_ANGLE_DEG: f64 = 14.0;
 
 /// A region, split.
-pub struct Known<'a> {
+pub struct RegionSummary<'a> {
     /// Its label, from 1.
     pub id: u16,
     /// Its pixels.
@@ -23,9 +23,14 @@ pub struct Known<'a> {
     pub kinds: &'a Raster<PixelKind>,
 }
 
-impl Known<'_> {
+impl RegionSummary<'_> {
     /// What is known of the region.
-    pub fn report(&self, scene: &Scene, splitter: &Splitter, neighbours: Vec<u16>) -> RegionReflection {
+    pub fn report(
+        &self,
+        input: &AnalysisInput,
+        splitter: &Splitter,
+        neighbors: Vec<u16>,
+    ) -> RegionReflection {
         let pixels = self.pixels;
         let count = |test: &dyn Fn(usize) -> bool| pixels.iter().filter(|&p| test(p as usize)).count();
         let matte_pixels = count(&|pixel| self.kinds[pixel] == PixelKind::Matte);
@@ -35,14 +40,14 @@ impl Known<'_> {
         let angle_deg = surface.map(|surface| crate::color::axis_angle_deg(&vectors.body, &surface));
         let separable = splitter.transform.is_some();
         let fit = &splitter.fit;
-        let holds = !scene.refine.region_holds || fit.holds(scene.sigma());
-        let highlight_branches = self.branches(scene, splitter, highlight_pixels);
+        let holds = !input.refine.region_holds || fit.holds(input.sigma());
+        let highlight_branches = self.branches(input, splitter, highlight_pixels);
         RegionReflection {
             id: self.id,
             pixels: pixels.len(),
             matte_pixels,
             highlight_pixels,
-            clipped_pixels: count(&|pixel| scene.masks.clipped(pixel)),
+            clipped_pixels: count(&|pixel| input.masks.clipped(pixel)),
             body: vectors.body.into(),
             surface: surface.map(Into::into),
             matte_mean: vectors.matte_mean.into(),
@@ -51,18 +56,23 @@ impl Known<'_> {
             angle_deg,
             fit_rms_counts: fit.rms_counts,
             holds,
-            confidence: of_region(fit, holds, angle_deg.filter(|_| separable), scene.sigma()),
+            confidence: of_region(fit, holds, angle_deg.filter(|_| separable), input.sigma()),
             texture: fit.texture,
             separable,
-            neighbours,
-            warnings: self.warnings(scene, splitter, angle_deg, holds),
+            neighbors,
+            warnings: self.warnings(input, splitter, angle_deg, holds),
             highlight_branches,
         }
     }
 
     /// The region's highlight lines and their pixels: undistorted ones belong to the nearest line, others to the line of the
     /// highlight that they lie in or near.
-    fn branches(&self, scene: &Scene, splitter: &Splitter, highlight_pixels: usize) -> Vec<HighlightBranch> {
+    fn branches(
+        &self,
+        input: &AnalysisInput,
+        splitter: &Splitter,
+        highlight_pixels: usize,
+    ) -> Vec<HighlightBranch> {
         let Some(test) = &splitter.test else { return Vec::new() };
         let mut pixels = vec![0usize; splitter.starts.len()];
         if let [only] = pixels.as_mut_slice() {
@@ -70,8 +80,8 @@ impl Known<'_> {
         } else {
             for pixel in self.pixels.iter() {
                 match self.kinds[pixel as usize] {
-                    PixelKind::Highlight => pixels[test.nearest(scene.pixels[pixel as usize])] += 1,
-                    PixelKind::Restored | PixelKind::Lost => pixels[splitter.branch_near(scene, pixel)] += 1,
+                    PixelKind::Highlight => pixels[test.nearest(input.pixels[pixel as usize])] += 1,
+                    PixelKind::Restored | PixelKind::Lost => pixels[splitter.branch_near(input, pixel)] += 1,
                     PixelKind::Matte | PixelKind::Unassigned => {}
                 }
             }
@@ -87,7 +97,7 @@ impl Known<'_> {
 
     fn warnings(
         &self,
-        scene: &Scene,
+        input: &AnalysisInput,
         splitter: &Splitter,
         angle_deg: Option<f64>,
         holds: bool,
@@ -105,9 +115,9 @@ impl Known<'_> {
             )),
             Some(_) => {}
         }
-        if fit.poor(scene.sigma()) {
+        if fit.poor(input.sigma()) {
             let what = if splitter.transform.is_some() { "plane" } else { "matte line" };
-            let (rms, limit) = (fit.rms_counts, POOR_FIT * scene.sigma());
+            let (rms, limit) = (fit.rms_counts, POOR_FIT * input.sigma());
             warnings.push(format!(
                 "poor fit: pixels lie {rms:.1} counts from the {what} (rms), {limit:.1} is noise"
             ));
@@ -125,7 +135,7 @@ impl Known<'_> {
             );
         }
         let foot = splitter.hypothesis.matte.foot().norm();
-        if foot > scene.sigma() {
+        if foot > input.sigma() {
             warnings.push(format!(
                 "the matte line misses black by {foot:.1} counts: ambient light, inter-reflection or no single material"
             ));

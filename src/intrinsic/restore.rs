@@ -2,7 +2,7 @@
 //!
 //! The paper assumes that the smallest band does, and takes the pixel on the matte or highlight line with that value.
 //!
-//! Refined (`restore_prior`, 22 → 31 dB on clipped pixels): a band is good when none of the 8 neighbours and not the pixel
+//! Refined (`restore_prior`, 22 → 31 dB on clipped pixels): a band is good when none of the 8 neighbors and not the pixel
 //! itself clips there; where no band is, an unclipped one has to do. All good bands count, with the body reflection of the
 //! surroundings as prior (standard deviation 10 %): the most probable m_b and m_s. One good band is the paper's rule.
 //! Where every band clips, m_b is the prior and m_s the least that clips as seen; such pixels are flagged as lost.
@@ -16,7 +16,7 @@ const PRIOR_SD: f32 = 0.1;
 
 /// What restoration needs to know of the picture.
 pub struct Distorted<'a> {
-    /// Colours, counts.
+    /// Colors, counts.
     pub pixels: &'a Raster<[f32; 3]>,
     /// Which are distorted.
     pub masks: &'a Masks,
@@ -94,7 +94,7 @@ impl Distorted<'_> {
         Restored { components: Components { body: components.body.max(0.0), ..components }, lost: false }
     }
 
-    /// Bands in which neither the pixel nor any of its 8 neighbours clips; without one, those in which the pixel does not.
+    /// Bands in which neither the pixel nor any of its 8 neighbors clips; without one, those in which the pixel does not.
     fn good_bands(&self, pixel: usize) -> [bool; 3] {
         let mut good = [true; 3];
         for near in self.pixels.around(pixel) {
@@ -109,7 +109,7 @@ impl Distorted<'_> {
     }
 
     /// Body reflection to expect at each distorted pixel of a region: that of its undistorted surroundings (by `body`, from
-    /// their colours), carried inward ring by ring. NaN where no undistorted pixel reaches. `distorted` is row-major.
+    /// their colors), carried inward ring by ring. NaN where no undistorted pixel reaches. `distorted` is row-major.
     pub fn priors(&self, distorted: &[u32], body: impl Fn([f32; 3]) -> f32) -> Vec<f32> {
         let mut priors = vec![f32::NAN; distorted.len()];
         let (Some(&first), Some(&last)) = (distorted.first(), distorted.last()) else { return priors };
@@ -173,7 +173,7 @@ mod tests {
 
     const CLIP: f32 = 240.0;
 
-    /// Restores the middle of nine pixels of one colour, with a body reflection of 100 counts around it.
+    /// Restores the middle of nine pixels of one color, with a body reflection of 100 counts around it.
     fn restore(color: [f32; 3], transform: &ReflectionTransform) -> Restored {
         let image = LinearImage::new(Raster::filled(3, 3, color), Some(255.0));
         let limits = MaskLimits { min_intensity: 23.0, clip_threshold: f64::from(CLIP), bloom_density: 1 };

@@ -1,11 +1,11 @@
 //! Section 6: every pixel's amounts of body and surface reflection, by its region's T.
 
 use super::ambient::ambient;
-use super::confidence::Grounds;
-use super::holding::holding;
+use super::confidence::ConfidenceInput;
+use super::explained_mask::explained_mask;
 use super::local::split_locally;
-use super::reason::{Case, Reason};
-use super::region::{Known, MIN_ANGLE_DEG};
+use super::reason::{Reason, ReasonInput};
+use super::region::{MIN_ANGLE_DEG, RegionSummary};
 use super::restore::Distorted;
 use super::vectors::{Vectors, fit_vectors, matte_mean};
 use super::{Intrinsic, RegionReflection};
@@ -13,25 +13,25 @@ use crate::color::{Vec3, dot, rgb};
 use crate::raster::{Raster, UNASSIGNED};
 use crate::reflection::{Components, HighlightTest, ReflectionTransform};
 use crate::segment::{
-    BranchSearch, Branches, FinalRegions, Members, Pixels, PlanarHypothesis, RegionFit, Scene, members,
-    neighbours,
+    AnalysisInput, BranchSearch, Branches, FinalRegions, Members, Pixels, PlanarHypothesis, RegionFit,
+    members, neighbors,
 };
 use crate::trace::{Ambient, BranchesSought, Event, Pass, PixelKind, Recorder, VectorsFitted};
 use rayon::prelude::*;
 
 /// Splits the picture, without its ambient light.
-pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut R) -> Intrinsic {
+pub fn split<R: Recorder>(input: &AnalysisInput, regions: &FinalRegions, recorder: &mut R) -> Intrinsic {
     let members = members(regions);
-    let ambient = ambient(scene, regions, &members);
+    let ambient = ambient(input, regions, &members);
     if R::KEEPS {
         recorder.record(Event::PassBegan { pass: Pass::Ambient });
         recorder.record(Event::AmbientSought(Box::new(ambient)));
     }
     let Some(counts) = ambient.subtracted else {
-        return Intrinsic { ambient, ..split_from(&[0.0; 3], scene, regions, &members, recorder) };
+        return Intrinsic { ambient, ..split_from(&[0.0; 3], input, regions, &members, recorder) };
     };
     let less = counts.map(|band| band as f32);
-    let pixels = scene.pixels.map(|&color| std::array::from_fn(|band| color[band] - less[band]));
+    let pixels = input.pixels.map(|&color| std::array::from_fn(|band| color[band] - less[band]));
     let shifted = FinalRegions {
         labels: regions.labels.clone(),
         hypotheses: regions
@@ -41,7 +41,7 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
             .collect(),
         light: regions.light,
     };
-    let mut result = split_from(&counts, &scene.with_pixels(&pixels), &shifted, &members, recorder);
+    let mut result = split_from(&counts, &input.with_pixels(&pixels), &shifted, &members, recorder);
     result.ambient = ambient;
     for color in result.body.as_mut_slice() {
         *color = std::array::from_fn(|band| color[band] + less[band]);
@@ -54,10 +54,10 @@ pub fn split<R: Recorder>(scene: &Scene, regions: &FinalRegions, recorder: &mut 
     result
 }
 
-/// Splits a picture whose colours were measured from `origin`, counts.
+/// Splits a picture whose colors were measured from `origin`, counts.
 fn split_from<R: Recorder>(
     origin: &[f64; 3],
-    scene: &Scene,
+    input: &AnalysisInput,
     regions: &FinalRegions,
     members: &Members,
     recorder: &mut R,
@@ -68,14 +68,14 @@ fn split_from<R: Recorder>(
         .enumerate()
         .map(|(index, hypothesis)| {
             let id = index as u16 + 1;
-            Splitter::new(scene, regions, hypothesis, (id, members.region(id)))
+            Splitter::new(input, regions, hypothesis, (id, members.region(id)))
         })
         .collect();
-    let mut images = Images::split_undistorted(scene, regions, &splitters);
-    if scene.stopped() {
+    let mut images = Images::split_undistorted(input, regions, &splitters);
+    if input.stopped() {
         return images.unfinished();
     }
-    images.restore(origin, scene, regions, (&splitters, members));
+    images.restore(origin, input, regions, (&splitters, members));
     if R::KEEPS {
         recorder.record(Event::PassBegan { pass: Pass::Vectors });
         for (region, splitter) in (1..).zip(&splitters) {
@@ -83,45 +83,45 @@ fn split_from<R: Recorder>(
             if !cores.is_empty() {
                 recorder.record(Event::BranchesSought(Box::new(BranchesSought { region, cores, gaps })));
             }
-            recorder.record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(scene, region, origin))));
+            recorder.record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(input, region, origin))));
         }
     }
     let fits: Vec<RegionFit> = splitters.iter().map(|splitter| splitter.fit).collect();
-    let holding = holding(scene, regions, members, &fits, &images.kinds);
-    let local = split_locally((scene, origin), regions, &holding, &mut images, recorder);
+    let explained_mask = explained_mask(input, regions, members, &fits, &images.kinds);
+    let local = split_locally((input, origin), regions, &explained_mask, &mut images, recorder);
     if R::KEEPS {
         recorder.record(Event::PassBegan { pass: Pass::Labels });
         recorder.labels(&images.kinds);
     }
-    let touching = neighbours(&regions.labels, regions.hypotheses.len());
+    let touching = neighbors(&regions.labels, regions.hypotheses.len());
     let reflections: Vec<RegionReflection> = splitters
         .par_iter()
         .zip(touching)
         .enumerate()
-        .map(|(index, (splitter, neighbours))| {
+        .map(|(index, (splitter, neighbors))| {
             let id = index as u16 + 1;
-            let known = Known { id, pixels: members.region(id), kinds: &images.kinds };
-            known.report(scene, splitter, neighbours)
+            let known = RegionSummary { id, pixels: members.region(id), kinds: &images.kinds };
+            known.report(input, splitter, neighbors)
         })
         .collect();
-    let grounds = Grounds {
+    let grounds = ConfidenceInput {
         labels: &regions.labels,
-        holding: &holding,
+        explained_mask: &explained_mask,
         kinds: &images.kinds,
         noise: &images.noise,
         regions: &reflections,
-        sigma: scene.sigma() as f32,
+        sigma: input.sigma() as f32,
     };
     let confidence = grounds.confidence(local.as_ref());
-    let case = Case {
-        masks: scene.masks,
+    let case = ReasonInput {
+        masks: input.masks,
         labels: &regions.labels,
-        holding: &holding,
+        explained_mask: &explained_mask,
         kinds: &images.kinds,
         noise: &images.noise,
         regions: &reflections,
         light: regions.light.direction,
-        sigma: scene.sigma() as f32,
+        sigma: input.sigma() as f32,
     };
     let reasons = case.reasons();
     let Images { body, surface, noise, kinds } = images;
@@ -156,20 +156,20 @@ pub(super) struct Splitter {
 
 impl Splitter {
     fn new(
-        scene: &Scene,
+        input: &AnalysisInput,
         regions: &FinalRegions,
         hypothesis: &PlanarHypothesis,
         (region, pixels): (u16, Pixels),
     ) -> Self {
         let least_offset =
-            if scene.refine.no_negative_surface { scene.used.camera_noise as f32 } else { f32::NEG_INFINITY };
-        let vectors = fit_vectors(scene, hypothesis, pixels);
+            if input.refine.no_negative_surface { input.used.camera_noise as f32 } else { f32::NEG_INFINITY };
+        let vectors = fit_vectors(input, hypothesis, pixels);
         let transform = vectors
             .surface
             .filter(|surface| crate::color::axis_angle_deg(&vectors.body, surface) >= MIN_ANGLE_DEG)
             .and_then(|surface| ReflectionTransform::new(&vectors.body, &surface));
         let origin = (&Vec3::zeros(), &vectors.body, vectors.surface.as_ref());
-        let fit = RegionFit::new(scene, &regions.labels, (region, pixels), origin);
+        let fit = RegionFit::new(input, &regions.labels, (region, pixels), origin);
         let start_body = transform.map_or(0.0, |t| t.split(rgb(&hypothesis.start)).body.max(0.0));
         let splitter = Self {
             hypothesis: *hypothesis,
@@ -183,31 +183,31 @@ impl Splitter {
             start_bodies: vec![start_body],
             least_offset,
         };
-        let wanted = scene.refine.second_branch && fit.holds(scene.sigma()) && !scene.stopped();
+        let wanted = input.refine.second_branch && fit.holds(input.sigma()) && !input.stopped();
         let Some(transform) = transform.as_ref().filter(|_| wanted) else { return splitter };
         let search = BranchSearch {
-            scene,
+            input,
             labels: &regions.labels,
             region,
             transform,
             matte_length: hypothesis.matte_length,
             light_doubt_deg: regions.light.interval_deg,
         };
-        splitter.with_branches(scene, search.run(pixels), pixels)
+        splitter.with_branches(input, search.run(pixels), pixels)
     }
 
     /// The same with what its highlights say. Only more than one branch changes anything: how pixels are told apart, and the mean
     /// of the matte ones. The body vector rests on the outer edge of the cluster, where there is no highlight.
-    fn with_branches(mut self, scene: &Scene, branches: Branches, pixels: Pixels) -> Self {
+    fn with_branches(mut self, input: &AnalysisInput, branches: Branches, pixels: Pixels) -> Self {
         let bodies = branches.bodies();
         self.branches = branches;
         let Some(plane) = self.hypothesis.plane.filter(|_| bodies.len() > 1) else { return self };
         self.starts = bodies.iter().map(|&body| self.vectors.body * f64::from(body)).collect();
         self.start_bodies = bodies;
-        let clear = CLEAR * scene.used.camera_noise / plane.angle_rad.sin();
+        let clear = CLEAR * input.used.camera_noise / plane.angle_rad.sin();
         self.line_starts = self.starts.iter().map(|start| start + plane.surface * clear).collect();
         let test = HighlightTest::of_lines(&self.hypothesis.matte, &self.line_starts, &plane.surface);
-        self.vectors.matte_mean = matte_mean(scene, pixels, &test).unwrap_or(self.vectors.matte_mean);
+        self.vectors.matte_mean = matte_mean(input, pixels, &test).unwrap_or(self.vectors.matte_mean);
         self.test = Some(test);
         self
     }
@@ -225,7 +225,7 @@ impl Splitter {
         components
     }
 
-    fn vectors_fitted(&self, scene: &Scene, region: u16, origin: &[f64; 3]) -> VectorsFitted {
+    fn vectors_fitted(&self, input: &AnalysisInput, region: u16, origin: &[f64; 3]) -> VectorsFitted {
         let PlanarHypothesis { matte, start, .. } = self.hypothesis.from_origin(&-Vec3::from(*origin));
         VectorsFitted {
             region,
@@ -239,8 +239,8 @@ impl Splitter {
             rms_counts: self.fit.rms_counts,
             texture: self.fit.texture,
             texture_slope: self.fit.texture_slope,
-            limits: RegionFit::limits(scene.sigma()),
-            holds: !scene.refine.region_holds || self.fit.holds(scene.sigma()),
+            limits: RegionFit::limits(input.sigma()),
+            holds: !input.refine.region_holds || self.fit.holds(input.sigma()),
             origin: *origin,
         }
     }
@@ -254,7 +254,7 @@ impl Splitter {
     }
 }
 
-/// A pixel, its body and surface colour, and whether they are restored or lost.
+/// A pixel, its body and surface color, and whether they are restored or lost.
 type RestoredPixel = (u32, [[f32; 3]; 2], PixelKind);
 
 /// The intrinsic images while they are made.
@@ -267,8 +267,8 @@ pub(super) struct Images {
 
 impl Images {
     /// Splits undistorted pixels; rows in parallel.
-    fn split_undistorted(scene: &Scene, regions: &FinalRegions, splitters: &[Splitter]) -> Self {
-        let (width, height) = (scene.pixels.width(), scene.pixels.height());
+    fn split_undistorted(input: &AnalysisInput, regions: &FinalRegions, splitters: &[Splitter]) -> Self {
+        let (width, height) = (input.pixels.width(), input.pixels.height());
         let mut images = Self {
             body: Raster::filled(width, height, [0.0; 3]),
             surface: Raster::filled(width, height, [0.0; 3]),
@@ -282,13 +282,13 @@ impl Images {
             images.kinds.as_mut_slice().par_chunks_mut(width.max(1)),
         );
         rows.into_par_iter().enumerate().for_each(|(y, (body, surface, noise, kinds))| {
-            if scene.stopped() {
+            if input.stopped() {
                 return;
             }
             // Copied here and not all at once before, so that threads share the cost of fresh memory.
-            body.copy_from_slice(scene.pixels.row(y));
+            body.copy_from_slice(input.pixels.row(y));
             for (x, &label) in regions.labels.row(y).iter().enumerate() {
-                if label == UNASSIGNED || scene.masks.distorted(y * width + x) {
+                if label == UNASSIGNED || input.masks.distorted(y * width + x) {
                     continue;
                 }
                 let splitter = &splitters[usize::from(label) - 1];
@@ -315,23 +315,23 @@ impl Images {
     fn restore(
         &mut self,
         origin: &[f64; 3],
-        scene: &Scene,
+        input: &AnalysisInput,
         regions: &FinalRegions,
         (splitters, members): (&[Splitter], &Members),
     ) {
         let distorted = Distorted {
-            pixels: scene.pixels,
-            masks: scene.masks,
+            pixels: input.pixels,
+            masks: input.masks,
             labels: &regions.labels,
-            clip_thresholds: origin.map(|band| (scene.used.clip_threshold - band) as f32),
-            sigma: scene.sigma() as f32,
+            clip_thresholds: origin.map(|band| (input.used.clip_threshold - band) as f32),
+            sigma: input.sigma() as f32,
         };
         let restored: Vec<Vec<RestoredPixel>> = splitters
             .par_iter()
             .enumerate()
             .map(|(index, splitter)| {
                 let pixels = members.region(index as u16 + 1);
-                splitter.restore(scene, &distorted, pixels)
+                splitter.restore(input, &distorted, pixels)
             })
             .collect();
         for (pixel, [body, surface], kind) in restored.into_iter().flatten() {
@@ -344,7 +344,7 @@ impl Images {
 }
 
 impl Splitter {
-    /// The body and surface colours of components.
+    /// The body and surface colors of components.
     #[inline]
     fn colors(&self, components: Components) -> ([f32; 3], [f32; 3]) {
         let body = self.transform.map_or_else(|| rgb(&self.vectors.body), |t| t.body());
@@ -353,26 +353,26 @@ impl Splitter {
     }
 
     /// The branch of the highlight that a pixel lies in or nearest to.
-    pub(super) fn branch_near(&self, scene: &Scene, pixel: u32) -> usize {
-        let width = scene.pixels.width() as u32;
+    pub(super) fn branch_near(&self, input: &AnalysisInput, pixel: u32) -> usize {
+        let width = input.pixels.width() as u32;
         if self.starts.len() > 1 { self.branches.nearest(pixel % width, pixel / width) } else { 0 }
     }
 
-    /// Colours and kinds of the region's distorted pixels.
-    fn restore(&self, scene: &Scene, distorted: &Distorted, pixels: Pixels) -> Vec<RestoredPixel> {
+    /// Colors and kinds of the region's distorted pixels.
+    fn restore(&self, input: &AnalysisInput, distorted: &Distorted, pixels: Pixels) -> Vec<RestoredPixel> {
         let waiting: Vec<u32> =
-            pixels.iter().filter(|&pixel| scene.masks.distorted(pixel as usize)).collect();
+            pixels.iter().filter(|&pixel| input.masks.distorted(pixel as usize)).collect();
         let priors = distorted.priors(&waiting, |color| self.split(color).body);
         waiting
             .into_iter()
             .zip(priors)
             .map(|(pixel, prior)| {
                 let Some(transform) = &self.transform else {
-                    let color = scene.pixels[pixel as usize];
+                    let color = input.pixels[pixel as usize];
                     return (pixel, [color, [0.0; 3]], PixelKind::Lost);
                 };
-                let start_body = self.start_bodies[self.branch_near(scene, pixel)];
-                let restored = if scene.refine.restore_prior {
+                let start_body = self.start_bodies[self.branch_near(input, pixel)];
+                let restored = if input.refine.restore_prior {
                     let prior = if prior.is_nan() { start_body } else { prior };
                     distorted.most_probable(pixel as usize, transform, prior)
                 } else {

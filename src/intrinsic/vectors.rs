@@ -10,7 +10,7 @@
 use crate::color::{Line, Moments, Vec3, dot, rgb};
 use crate::photo::Masks;
 use crate::reflection::{DichromaticPlane, HighlightTest};
-use crate::segment::{Pixels, PlanarHypothesis, Scene};
+use crate::segment::{AnalysisInput, Pixels, PlanarHypothesis};
 
 /// Reflection vectors of one region.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Vectors {
     pub body: Vec3,
     /// C_s, unit; none without a dichromatic plane.
     pub surface: Option<Vec3>,
-    /// Mean colour of the matte pixels, counts.
+    /// Mean color of the matte pixels, counts.
     pub matte_mean: Vec3,
 }
 
@@ -29,20 +29,20 @@ const BANDWIDTH: f64 = 2.5;
 const FIT_SAMPLES: usize = 6000;
 
 /// Fits body and surface vector to the region's undistorted pixels.
-pub fn fit_vectors(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: Pixels) -> Vectors {
-    let colors = undistorted(scene.pixels.as_slice(), scene.masks, pixels);
+pub fn fit_vectors(input: &AnalysisInput, hypothesis: &PlanarHypothesis, pixels: Pixels) -> Vectors {
+    let colors = undistorted(input.pixels.as_slice(), input.masks, pixels);
     let test = hypothesis.highlight_test();
     let is_highlight = |&color: &[f32; 3]| test.is_some_and(|test| test.is_highlight(color));
     let (highlight, matte): (Vec<_>, Vec<_>) = colors.iter().copied().partition(is_highlight);
     let matte_moments: Moments = matte.iter().copied().collect();
     let matte_mean = if matte.is_empty() { hypothesis.matte.mean } else { matte_moments.mean() };
-    let body = if scene.refine.edge_body {
-        body_through_black(hypothesis, &matte, scene.sigma())
+    let body = if input.refine.edge_body {
+        body_through_black(hypothesis, &matte, input.sigma())
     } else {
         Line::principal(&matte_moments).map_or(hypothesis.matte.direction, |line| line.direction)
     };
     let surface = hypothesis.plane.map(|plane| {
-        if scene.refine.scene_illuminant || scene.used.illuminant.is_some() {
+        if input.refine.scene_illuminant || input.used.illuminant.is_some() {
             return plane.surface;
         }
         let own = Line::principal(&highlight.iter().copied().collect()).filter(|_| highlight.len() > 2);
@@ -51,9 +51,9 @@ pub fn fit_vectors(scene: &Scene, hypothesis: &PlanarHypothesis, pixels: Pixels)
     Vectors { body, surface, matte_mean }
 }
 
-/// Mean colour of the region's matte pixels, counts, where `test` tells its highlights; none without a matte pixel.
-pub fn matte_mean(scene: &Scene, pixels: Pixels, test: &HighlightTest) -> Option<Vec3> {
-    let mut matte = undistorted(scene.pixels.as_slice(), scene.masks, pixels);
+/// Mean color of the region's matte pixels, counts, where `test` tells its highlights; none without a matte pixel.
+pub fn matte_mean(input: &AnalysisInput, pixels: Pixels, test: &HighlightTest) -> Option<Vec3> {
+    let mut matte = undistorted(input.pixels.as_slice(), input.masks, pixels);
     matte.retain(|&color| !test.is_highlight(color));
     (!matte.is_empty()).then(|| matte.into_iter().collect::<Moments>().mean())
 }
@@ -132,7 +132,7 @@ mod tests {
     use crate::photo::{LinearImage, MaskLimits};
     use crate::raster::{LabelMap, Raster};
     use crate::segment::{FinalRegions, LightFindings, Parameter, Params, UsedParams};
-    use crate::trace::Silent;
+    use crate::trace::NoopRecorder;
     use proptest::prelude::*;
 
     const MATTE_PX: usize = 600;
@@ -145,10 +145,10 @@ mod tests {
         let highlight = (1..=HIGHLIGHT_PX).map(|i| [120.0, 90.0 * i as f64 / HIGHLIGHT_PX as f64]);
         let amounts: Vec<[f64; 2]> = matte.chain(highlight).collect();
         let normal = body.cross(surface).normalize();
-        let colour = |(i, [b, s]): (usize, &[f64; 2])| {
+        let color = |(i, [b, s]): (usize, &[f64; 2])| {
             rgb(&(body * *b + surface * *s + normal * if i % 2 == 0 { noise } else { -noise }))
         };
-        let pixels = amounts.iter().enumerate().map(colour).collect();
+        let pixels = amounts.iter().enumerate().map(color).collect();
         let image = LinearImage::new(Raster::from_vec(amounts.len(), 1, pixels).unwrap(), None);
         (amounts, image)
     }
@@ -169,21 +169,21 @@ mod tests {
         }
     }
 
-    fn colour_direction() -> impl Strategy<Value = Vec3> {
+    fn color_direction() -> impl Strategy<Value = Vec3> {
         prop::array::uniform3(0.05f64..1.0).prop_map(|v| Vec3::from(v).normalize())
     }
 
     proptest! {
         #[test]
         fn line_plane_and_split_recover_what_made_them(
-            body in colour_direction(), surface in colour_direction(), off in -0.01f64..0.01,
+            body in color_direction(), surface in color_direction(), off in -0.01f64..0.01,
         ) {
             prop_assume!(axis_angle_deg(&body, &surface) > 15.0);
             let (amounts, image) = skewed_t(&body, &surface, 0.8);
             let used = numbers();
             let limits = MaskLimits { min_intensity: 23.0, clip_threshold: f64::INFINITY, bloom_density: 9 };
             let masks = Masks::new(&image, &limits);
-            let scene = Scene::new(&image, &masks, &used, Params::default().refinements());
+            let input = AnalysisInput::new(&image, &masks, &used, Params::default().refinements());
             // The segmentation's line is a little off, as a fit to noise would be.
             let matte = Line::new(body * 90.0, body + Vec3::new(off, -off, off / 2.0));
             let plane = DichromaticPlane::new(&matte, &surface);
@@ -192,7 +192,7 @@ mod tests {
                 PlanarHypothesis { origin: 1, matte, matte_length: 150.0, plane, start, highlight: None, alive: true };
             let labels = LabelMap::filled(amounts.len(), 1, 1);
             let regions = FinalRegions { labels, hypotheses: vec![hypothesis], light: LightFindings::default() };
-            let result = split(&scene, &regions, &mut Silent);
+            let result = split(&input, &regions, &mut NoopRecorder);
             let found = &result.regions[0];
             prop_assert!(axis_angle_deg(&found.body.into(), &body) < 0.1);
             let normal = body.cross(&surface).normalize();

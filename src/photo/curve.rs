@@ -142,9 +142,9 @@ mod tests {
             assert!(curve.linear(0.0).abs() < 1e-12 && (curve.linear(1.0) - 1.0).abs() < 1e-9, "{curve:?}");
         }
         assert!((ToneCurve::Srgb.linear(0.5) - 0.214_041_140).abs() < 1e-8);
-        // H.273: V = 1.0993 · 0.18^0.45 − 0.0993 for a mid grey.
-        let mid_grey = 1.099_296_826_809_44 * 0.18f64.powf(0.45) - 0.099_296_826_809_44;
-        assert!((ToneCurve::Bt709.linear(mid_grey) - 0.18).abs() < 1e-12);
+        // H.273: V = 1.0993 · 0.18^0.45 − 0.0993 for a mid gray.
+        let mid_gray = 1.099_296_826_809_44 * 0.18f64.powf(0.45) - 0.099_296_826_809_44;
+        assert!((ToneCurve::Bt709.linear(mid_gray) - 0.18).abs() < 1e-12);
         // The two pieces meet.
         let (below, above) = (ToneCurve::Bt709.linear(0.081_242), ToneCurve::Bt709.linear(0.081_243));
         assert!(below < above && above - below < 1e-6);

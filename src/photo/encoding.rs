@@ -64,7 +64,7 @@ impl FromStr for EncodingChoice {
 /// The tone curves that were undone, and why these. Displayed as in `sRGB (assumed: the file does not say)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Encoding {
-    /// Of the red, green and blue band; of a grey picture three times the same.
+    /// Of the red, green and blue band; of a gray picture three times the same.
     pub curves: [ToneCurve; 3],
     /// Where they come from, in words.
     pub reason: String,
@@ -124,7 +124,7 @@ fn said(source: &Source) -> Option<Result<Encoding, String>> {
         return Some(said);
     }
     if let Some(profile) = &source.icc {
-        let curves = icc::tone_curves(profile, source.layout.is_grey());
+        let curves = icc::tone_curves(profile, source.layout.is_gray());
         return Some(curves.map(|curves| Encoding { curves, reason: "ICC profile".into() }));
     }
     if source.png.srgb.is_some() {

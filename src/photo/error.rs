@@ -161,7 +161,7 @@ impl From<png::DecodingError> for Fault {
 }
 
 /// What to do about a file that only we cannot read.
-pub(super) const CONVERT: &str = "convert it to plain grey or RGB with 8 or 16 bits or 32-bit float";
+pub(super) const CONVERT: &str = "convert it to plain gray or RGB with 8 or 16 bits or 32-bit float";
 
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").trim_end_matches('.').to_owned()

@@ -3,15 +3,15 @@
 use super::curve::ToneCurve;
 use moxcms::{ColorProfile, ToneReprCurve};
 
-/// The curves of the red, green and blue band (of a grey picture: three times the same).
+/// The curves of the red, green and blue band (of a gray picture: three times the same).
 ///
 /// # Errors
 /// In words, why the profile's tone curves cannot be used.
-pub(super) fn tone_curves(profile: &[u8], grey: bool) -> Result<[ToneCurve; 3], String> {
+pub(super) fn tone_curves(profile: &[u8], gray: bool) -> Result<[ToneCurve; 3], String> {
     let parsed = ColorProfile::new_from_slice(profile)
         .map_err(|error| format!("the ICC profile is broken ({error})"))?;
-    let bands = if grey {
-        // Some writers give grey pictures an RGB profile.
+    let bands = if gray {
+        // Some writers give gray pictures an RGB profile.
         let band = parsed.gray_trc.as_ref().or(parsed.green_trc.as_ref());
         [band, band, band]
     } else {
@@ -21,9 +21,9 @@ pub(super) fn tone_curves(profile: &[u8], grey: bool) -> Result<[ToneCurve; 3], 
         let has_lookup_table =
             [&parsed.lut_a_to_b_perceptual, &parsed.lut_a_to_b_colorimetric, &parsed.lut_a_to_b_saturation];
         return Err(if has_lookup_table.iter().any(|table| table.is_some()) {
-            "the ICC profile is a colour lookup table, not tone curves".into()
-        } else if grey {
-            "the ICC profile has no tone curve for a grey picture".into()
+            "the ICC profile is a color lookup table, not tone curves".into()
+        } else if gray {
+            "the ICC profile has no tone curve for a gray picture".into()
         } else {
             "the ICC profile has no tone curves for an RGB picture".into()
         });

@@ -9,11 +9,11 @@ use rayon::prelude::*;
 /// The limits of a believable pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MaskLimits {
-    /// Radius of the sphere around black whose colours are too dark, counts.
+    /// Radius of the sphere around black whose colors are too dark, counts.
     pub min_intensity: f64,
     /// A band at or above it is clipped, counts; infinite: none is.
     pub clip_threshold: f64,
-    /// This many clipped 8-neighbours make a pixel bloomed.
+    /// This many clipped 8-neighbors make a pixel bloomed.
     pub bloom_density: usize,
 }
 
@@ -52,7 +52,7 @@ impl Masks {
         Self { flags }
     }
 
-    /// Marks the pixels outside `area`, a mask of the same shape, as not to be analysed. Clipped ones among them still
+    /// Marks the pixels outside `area`, a mask of the same shape, as not to be analyzed. Clipped ones among them still
     /// bloom into the area.
     #[must_use]
     pub fn within(mut self, area: &Mask) -> Self {
@@ -68,13 +68,13 @@ impl Masks {
         (self.flags.width(), self.flags.height())
     }
 
-    /// Whether the colour can be believed: inside the area, and neither dark nor distorted.
+    /// Whether the color can be believed: inside the area, and neither dark nor distorted.
     #[inline]
     pub fn usable(&self, pixel: usize) -> bool {
         self.flags[pixel] == 0
     }
 
-    /// Whether there is nothing to analyse: the pixel is too dark, holds no value at all, or lies outside the area. All
+    /// Whether there is nothing to analyze: the pixel is too dark, holds no value at all, or lies outside the area. All
     /// other pixels are lit.
     #[inline]
     pub fn dark(&self, pixel: usize) -> bool {
@@ -112,7 +112,7 @@ impl Masks {
     }
 }
 
-/// Counts clipped 8-neighbours. Clipped pixels are few, so they are visited rather than every pixel's neighbours.
+/// Counts clipped 8-neighbors. Clipped pixels are few, so they are visited rather than every pixel's neighbors.
 fn mark_bloomed(flags: &mut Raster<u8>, density: usize) {
     if density > 8 {
         return;
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn bloomed_pixels_have_enough_clipped_neighbours() {
+    fn bloomed_pixels_have_enough_clipped_neighbors() {
         let picture = image(&[99.0, 255.0, 99.0, 99.0, 99.0, 255.0, 99.0, 99.0], 4);
         let row = |masks: &Masks| -> Vec<bool> {
             (0..8).map(|i| masks.distorted(i) && !masks.clipped(i)).collect()

@@ -12,7 +12,7 @@ mod error;
 mod format;
 mod icc;
 mod linear;
-mod linearise;
+mod linearize;
 mod masks;
 mod noise;
 mod orient;
@@ -27,7 +27,7 @@ pub use format::Format;
 pub use linear::LinearImage;
 pub use masks::{MaskLimits, Masks};
 pub use noise::estimate_sigma;
-pub use source::{AlphaKind, Layout, PngColour, Samples, Source};
+pub use source::{AlphaKind, Layout, PngColor, Samples, Source};
 
 use crate::raster::{Mask, Raster};
 use std::fs::File;
@@ -121,7 +121,7 @@ pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Ph
     };
     let encoding = Encoding::of(options.encoding, &source, &mut warnings);
     let full_scale = options.full_scale.unwrap_or(FULL_SCALE_COUNTS);
-    let pixels = linearise::linear_pixels(&source, &encoding.curves, full_scale);
+    let pixels = linearize::linear_pixels(&source, &encoding.curves, full_scale);
     let pixels = Raster::from_vec(width, height, pixels)
         .ok_or_else(|| error::Fault::damaged("its size does not fit its pixels").of(name_hint, format))?;
     let saturation = source.max.map(|_| full_scale as f32);
@@ -155,7 +155,7 @@ fn identify(bytes: &[u8], name: &str) -> Result<Format, ReadError> {
 fn pixel_warnings(source: &Source, image: &LinearImage) -> Vec<String> {
     let mut warnings = Vec::new();
     let pixels = image.pixels.len();
-    let transparent = linearise::count_transparent(source);
+    let transparent = linearize::count_transparent(source);
     if transparent > 0 {
         warnings.push(format!(
             "{transparent} of {pixels} pixels are not fully opaque: the picture was composited on black"

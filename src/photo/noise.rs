@@ -1,7 +1,7 @@
 //! The camera's noise, from the picture itself.
 //!
 //! The paper photographs a white board repeatedly (section 7.3). A single picture says as much: within a small window
-//! on one material the colours spread along at most two directions (shading, highlight), so what is left in the third is
+//! on one material the colors spread along at most two directions (shading, highlight), so what is left in the third is
 //! noise. The smallest eigenvalue of a window of n×n pixels is biased low, and textured windows are biased high; a low
 //! quantile over all windows and the factor 1 − 1.63/n (simulated with pure noise) undo both.
 

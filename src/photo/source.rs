@@ -9,7 +9,7 @@ pub struct Source {
     pub format: Format,
     /// The bands of each pixel.
     pub layout: Layout,
-    /// All samples, pixel after pixel, in the upright orientation; palettes are already looked up, and grey and
+    /// All samples, pixel after pixel, in the upright orientation; palettes are already looked up, and gray and
     /// palette samples of less than 8 bits are spread over 8.
     pub samples: Samples,
     /// The largest value that an integer sample can take; `None` for floats.
@@ -18,17 +18,17 @@ pub struct Source {
     pub alpha: AlphaKind,
     /// The embedded ICC profile.
     pub icc: Option<Vec<u8>>,
-    /// The colour chunks of a PNG other than the profile.
-    pub png: PngColour,
+    /// The color chunks of a PNG other than the profile.
+    pub png: PngColor,
 }
 
 /// The bands of a pixel, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
     /// One band.
-    Grey,
+    Gray,
     /// One band and alpha.
-    GreyAlpha,
+    GrayAlpha,
     /// Three bands.
     Rgb,
     /// Three bands and alpha.
@@ -39,8 +39,8 @@ impl Layout {
     /// Samples per pixel.
     pub const fn channels(self) -> usize {
         match self {
-            Self::Grey => 1,
-            Self::GreyAlpha => 2,
+            Self::Gray => 1,
+            Self::GrayAlpha => 2,
             Self::Rgb => 3,
             Self::Rgba => 4,
         }
@@ -48,24 +48,24 @@ impl Layout {
 
     /// Whether the last sample of a pixel is its alpha.
     pub const fn has_alpha(self) -> bool {
-        matches!(self, Self::GreyAlpha | Self::Rgba)
+        matches!(self, Self::GrayAlpha | Self::Rgba)
     }
 
     /// Whether there is one band, alpha aside.
-    pub const fn is_grey(self) -> bool {
-        matches!(self, Self::Grey | Self::GreyAlpha)
+    pub const fn is_gray(self) -> bool {
+        matches!(self, Self::Gray | Self::GrayAlpha)
     }
 
     /// The same with three bands.
-    pub(crate) const fn coloured(self) -> Self {
+    pub(crate) const fn colored(self) -> Self {
         if self.has_alpha() { Self::Rgba } else { Self::Rgb }
     }
 
     /// The layout of this many channels.
     pub(super) const fn of_channels(channels: usize) -> Option<Self> {
         match channels {
-            1 => Some(Self::Grey),
-            2 => Some(Self::GreyAlpha),
+            1 => Some(Self::Gray),
+            2 => Some(Self::GrayAlpha),
             3 => Some(Self::Rgb),
             4 => Some(Self::Rgba),
             _ => None,
@@ -119,9 +119,9 @@ pub enum AlphaKind {
     Associated,
 }
 
-/// The colour chunks of a PNG (PNG 3rd edition, 11.3.2), the embedded profile aside.
+/// The color chunks of a PNG (PNG 3rd edition, 11.3.2), the embedded profile aside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PngColour {
+pub struct PngColor {
     /// cICP: primaries, transfer characteristics, matrix, full range flag.
     pub cicp: Option<[u8; 4]>,
     /// sRGB: the rendering intent.

@@ -1,4 +1,4 @@
-//! The row-major rectangle itself and its 4-neighbourhoods.
+//! The row-major rectangle itself and its 4-neighborhoods.
 
 /// One value per pixel, row-major.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -80,7 +80,7 @@ impl<T> Raster<T> {
         Raster { width: self.width, height: self.height, data: self.data.iter().map(f).collect() }
     }
 
-    /// Pixel `index` and its 8 neighbours, row-major.
+    /// Pixel `index` and its 8 neighbors, row-major.
     pub fn around(&self, index: usize) -> impl Iterator<Item = usize> + use<T> {
         let (width, height) = (self.width, self.height);
         let (x, y) = (index % width.max(1), index / width.max(1));
@@ -89,10 +89,10 @@ impl<T> Raster<T> {
             .flat_map(move |v| columns.clone().map(move |u| v * width + u))
     }
 
-    /// Calls `visit` with the indices of the 4-neighbours of pixel `index`, in the order up, left, right, down.
+    /// Calls `visit` with the indices of the 4-neighbors of pixel `index`, in the order up, left, right, down.
     #[inline]
-    pub fn for_each_neighbour(&self, index: usize, visit: impl FnMut(usize)) {
-        for_each_neighbour(self.width, self.height, index, visit);
+    pub fn for_each_neighbor(&self, index: usize, visit: impl FnMut(usize)) {
+        for_each_neighbor(self.width, self.height, index, visit);
     }
 }
 
@@ -113,7 +113,7 @@ impl<T> std::ops::IndexMut<usize> for Raster<T> {
 }
 
 #[inline]
-fn for_each_neighbour(width: usize, height: usize, index: usize, mut visit: impl FnMut(usize)) {
+fn for_each_neighbor(width: usize, height: usize, index: usize, mut visit: impl FnMut(usize)) {
     let x = index % width;
     if index >= width {
         visit(index - width);
@@ -141,17 +141,17 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_stay_inside() {
+    fn neighbors_stay_inside() {
         let raster = Raster::filled(3, 2, 0);
         let of = |index| {
             let mut found = Vec::new();
-            raster.for_each_neighbour(index, |n| found.push(n));
+            raster.for_each_neighbor(index, |n| found.push(n));
             found
         };
         assert_eq!(of(0), [1, 3]);
         assert_eq!(of(1), [0, 2, 4]);
         assert_eq!(of(5), [2, 4]);
         let lonely = Raster::filled(1, 1, 0);
-        lonely.for_each_neighbour(0, |_| panic!("a single pixel has no neighbour"));
+        lonely.for_each_neighbor(0, |_| panic!("a single pixel has no neighbor"));
     }
 }

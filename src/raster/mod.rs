@@ -5,9 +5,9 @@
 mod blur;
 mod grid;
 mod morphology;
-mod window;
+mod roi;
 
 pub use blur::blur;
 pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};
 pub use morphology::dilate;
-pub use window::Window;
+pub use roi::Roi;

@@ -32,18 +32,18 @@ impl HighlightTest {
         }
     }
 
-    /// Whether a colour is nearer to a highlight line.
+    /// Whether a color is nearer to a highlight line.
     #[inline]
     pub fn is_highlight(&self, color: [f32; 3]) -> bool {
         self.highlight2(color).1 < self.matte2(color)
     }
 
-    /// Distances of a colour from the matte line and from the nearest highlight line, counts.
+    /// Distances of a color from the matte line and from the nearest highlight line, counts.
     pub fn distances(&self, color: [f32; 3]) -> [f32; 2] {
         [self.matte2(color), self.highlight2(color).1].map(|squared| squared.max(0.0).sqrt())
     }
 
-    /// Which highlight line is nearest to a colour: its place in `starts`.
+    /// Which highlight line is nearest to a color: its place in `starts`.
     pub fn nearest(&self, color: [f32; 3]) -> usize {
         self.highlight2(color).0
     }

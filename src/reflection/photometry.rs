@@ -1,6 +1,6 @@
 //! Section 3.2, equations (3)–(11): where on the matte line a highlight starts, for a sphere.
 //!
-//! A sphere of radius r is lit by a point light and seen by a camera, both at distance d from its centre and the
+//! A sphere of radius r is lit by a point light and seen by a camera, both at distance d from its center and the
 //! phase angle g apart. Its highlight lies where the normal bisects g, its brightest visible matte point as near to
 //! the light as the camera can see. The ratio of body reflection there, q, is the evidence behind the paper's 50 %
 //! heuristic (section 5.4): a highlight line starts in the upper half of the matte line.
@@ -22,7 +22,7 @@
 //! - "q does not drop below 0.5 for d ≥ 5r" holds nearly: (3)–(10) give a minimum of 0.4973 at d = 5r (g ≈ 145°) and of
 //!   0.4994 at d = 10r (g ≈ 163°), rising towards 0.5 with d. The heuristic has a margin for more than that.
 
-/// A sphere with a point light and a camera, both at the same distance from its centre (figure 3).
+/// A sphere with a point light and a camera, both at the same distance from its center (figure 3).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SphereGeometry {
     radius_over_distance: f64,

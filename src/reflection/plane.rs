@@ -1,6 +1,6 @@
 //! The dichromatic plane of one object (sections 3.1 and 5.4.2): matte line and illuminant span it.
 //!
-//! A colour has three coordinates there: `along` the matte direction from black, the in-plane `offset` from the matte line
+//! A color has three coordinates there: `along` the matte direction from black, the in-plane `offset` from the matte line
 //! towards the illuminant, and the signed `height` above the plane. Surface reflection is offset / sinθ, body reflection
 //! along − offset·cotθ, with θ the angle between both directions.
 
@@ -65,7 +65,7 @@ pub struct PlaneAxes {
     normal: [f32; 3],
 }
 
-/// Where a colour lies relative to a dichromatic plane, counts.
+/// Where a color lies relative to a dichromatic plane, counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanePoint {
     /// Along the matte direction, from black.
@@ -77,7 +77,7 @@ pub struct PlanePoint {
 }
 
 impl PlaneAxes {
-    /// The coordinates of a colour.
+    /// The coordinates of a color.
     #[inline]
     pub fn of(&self, color: [f32; 3]) -> PlanePoint {
         let v = [color[0] - self.mean[0], color[1] - self.mean[1], color[2] - self.mean[2]];
@@ -110,7 +110,7 @@ pub enum SliceBound {
     MatteEnd,
 }
 
-/// What keeps a colour out of a slice.
+/// What keeps a color out of a slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliceMiss {
     /// The side on which it lies outside.
@@ -131,7 +131,7 @@ struct Bounds {
 }
 
 impl Slice {
-    /// All colours within `half_width_counts` of the plane.
+    /// All colors within `half_width_counts` of the plane.
     pub fn unbounded(plane: &DichromaticPlane, half_width_counts: f64) -> Self {
         Self { axes: plane.coordinates(), half_width: half_width_counts as f32, bounds: None }
     }
@@ -153,7 +153,7 @@ impl Slice {
         Self { bounds: Some(bounds), ..Self::unbounded(plane, half_width_counts) }
     }
 
-    /// Whether a colour lies inside.
+    /// Whether a color lies inside.
     #[inline]
     pub fn contains(&self, color: [f32; 3]) -> bool {
         let point = self.axes.of(color);
@@ -164,7 +164,7 @@ impl Slice {
             })
     }
 
-    /// Which bound keeps a colour out, and by what; none where it lies inside.
+    /// Which bound keeps a color out, and by what; none where it lies inside.
     pub fn miss(&self, color: [f32; 3]) -> Option<SliceMiss> {
         let point = self.axes.of(color);
         let miss = |bound, value, limit| Some(SliceMiss { bound, value, limit });
@@ -186,7 +186,7 @@ impl Slice {
         })
     }
 
-    /// Distance of a colour from the plane, counts.
+    /// Distance of a color from the plane, counts.
     #[inline]
     pub fn distance(&self, color: [f32; 3]) -> f32 {
         self.axes.of(color).height.abs()
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn each_side_of_a_slice_can_keep_a_colour_out() {
+    fn each_side_of_a_slice_can_keep_a_color_out() {
         // Body along red, light along green: coordinates are the bands themselves.
         let plane = DichromaticPlane::new(&Line::new(Vec3::x() * 50.0, Vec3::x()), &Vec3::y()).unwrap();
         let slice = Slice::bounded(&plane, 6.0, 8.0, 100.0);

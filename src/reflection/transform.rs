@@ -1,12 +1,12 @@
 //! Section 6, equation 13 and figure 12: the coordinate system of body vector, surface vector and their normal.
 //!
-//! Every colour is m̃_b·C_b + m̃_s·C_s + ε·n with unit C_b and C_s. C_b × C_s is not of unit length; n is, so that ε is in
+//! Every color is m̃_b·C_b + m̃_s·C_s + ε·n with unit C_b and C_s. C_b × C_s is not of unit length; n is, so that ε is in
 //! counts.
 
 use crate::color::{Vec3, dot, rgb};
 use nalgebra::Matrix3;
 
-/// Transforms colours into amounts of body reflection, surface reflection and noise.
+/// Transforms colors into amounts of body reflection, surface reflection and noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReflectionTransform {
     body: [f32; 3],
@@ -16,7 +16,7 @@ pub struct ReflectionTransform {
     sine: f32,
 }
 
-/// A colour's components, counts.
+/// A color's components, counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Components {
     /// m̃_b: amount of body reflection.
@@ -47,7 +47,7 @@ impl ReflectionTransform {
         })
     }
 
-    /// The components of a colour (T applied).
+    /// The components of a color (T applied).
     #[inline]
     pub fn split(&self, color: [f32; 3]) -> Components {
         Components {
@@ -57,7 +57,7 @@ impl ReflectionTransform {
         }
     }
 
-    /// The colour of components (T⁻¹ applied).
+    /// The color of components (T⁻¹ applied).
     #[inline]
     pub fn join(&self, components: Components) -> [f32; 3] {
         std::array::from_fn(|band| {
@@ -67,7 +67,7 @@ impl ReflectionTransform {
         })
     }
 
-    /// What a colour is multiplied with for its amounts of body and surface reflection.
+    /// What a color is multiplied with for its amounts of body and surface reflection.
     pub fn amount_rows(&self) -> [[f32; 3]; 2] {
         [self.rows[0], self.rows[1]]
     }

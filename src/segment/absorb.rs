@@ -1,14 +1,14 @@
 //! Refinement of section 5.3 (`absorb_highlights`): a large linear area need not be matte.
 //!
 //! The paper takes every large linear cluster for a matte one (7.4). A broad highlight breaks that: its line misses black by
-//! more than the noise σ0 (its foothills may stay within the cylinder's radius) and meets its neighbour's matte line in the
+//! more than the noise σ0 (its foothills may stay within the cylinder's radius) and meets its neighbor's matte line in the
 //! upper part, going inward. Such a region goes back to the unclaimed pixels and is remembered as a highlight of the
-//! neighbour. Worth +11 dB of body image and ARI .957 → .995.
+//! neighbor. Worth +11 dB of body image and ARI .957 → .995.
 
 use super::borders::near_pairs;
-use super::ledger::{Ledger, Members};
+use super::input::AnalysisInput;
 use super::linear::{Hypothesis, matte_length};
-use super::scene::Scene;
+use super::recorded_labels::{Members, RecordedLabels};
 use crate::color::{Moments, Vec3, closest_points};
 use crate::raster::UNASSIGNED;
 use crate::trace::{CandidateSource, Event, Recorder};
@@ -23,19 +23,23 @@ const LOWEST_MEETING: f64 = 0.4;
 const NEGATIVE: f64 = -0.05;
 
 /// Absorbs broad highlights, the one farthest from black first. Returns whether there was one.
-pub fn absorb<R: Recorder>(scene: &Scene, hypotheses: &mut [Hypothesis], ledger: &mut Ledger<R>) -> bool {
+pub fn absorb<R: Recorder>(
+    input: &AnalysisInput,
+    hypotheses: &mut [Hypothesis],
+    recorded_labels: &mut RecordedLabels<R>,
+) -> bool {
     let mut order: Vec<u16> = (1..=hypotheses.len() as u16)
         .filter(|&id| {
             let hypothesis = &hypotheses[usize::from(id) - 1];
-            hypothesis.alive && hypothesis.line.foot().norm() > scene.used.camera_noise
+            hypothesis.alive && hypothesis.line.foot().norm() > input.used.camera_noise
         })
         .collect();
     if order.is_empty() {
         return false;
     }
     let mut any = false;
-    let pairs = near_pairs(&ledger.labels, REACH_PX);
-    let members = ledger.members(hypotheses.len());
+    let pairs = near_pairs(&recorded_labels.labels, REACH_PX);
+    let members = recorded_labels.members(hypotheses.len());
     let foot = |hypotheses: &[Hypothesis], id: u16| hypotheses[usize::from(id) - 1].line.foot().norm();
     order.sort_by(|&a, &b| foot(hypotheses, b).total_cmp(&foot(hypotheses, a)));
     for id in order {
@@ -43,10 +47,10 @@ pub fn absorb<R: Recorder>(scene: &Scene, hypotheses: &mut [Hypothesis], ledger:
             .iter()
             .filter_map(|&(a, b)| if a == id { Some(b) } else { (b == id).then_some(a) })
             .filter(|&other| hypotheses[usize::from(other) - 1].alive)
-            .filter_map(|other| highlight_gap(scene, hypotheses, &members, id, other).map(|gap| (other, gap)))
+            .filter_map(|other| highlight_gap(input, hypotheses, &members, id, other).map(|gap| (other, gap)))
             .min_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((by, gap)) = absorber {
-            give_up(scene, hypotheses, &members, (id, by, gap), ledger);
+            give_up(input, hypotheses, &members, (id, by, gap), recorded_labels);
             any = true;
         }
     }
@@ -55,7 +59,7 @@ pub fn absorb<R: Recorder>(scene: &Scene, hypotheses: &mut [Hypothesis], ledger:
 
 /// Distance between the two lines if region `id` looks like a highlight on region `on`.
 fn highlight_gap(
-    scene: &Scene,
+    input: &AnalysisInput,
     hypotheses: &[Hypothesis],
     members: &Members,
     id: u16,
@@ -69,32 +73,32 @@ fn highlight_gap(
     let gap = (on_matte - on_highlight).norm();
     let offset = highlight.mean - on_matte;
     let direction = highlight.direction * offset.dot(&highlight.direction).signum();
-    let meets = gap <= scene.used.radius_counts();
+    let meets = gap <= input.used.radius_counts();
     let inward = offset.dot(&matte.inward()) > 0.0;
     if !meets || !inward || !is_positive(&direction) {
         return None;
     }
-    let length = matte_length(scene, matte, members.region(on));
+    let length = matte_length(input, matte, members.region(on));
     (on_matte.dot(&matte.direction) > LOWEST_MEETING * length).then_some(gap)
 }
 
 /// Returns a region's pixels to nobody and notes their cluster as a highlight of the absorber.
 fn give_up<R: Recorder>(
-    scene: &Scene,
+    input: &AnalysisInput,
     hypotheses: &mut [Hypothesis],
     members: &Members,
     (id, by, gap): (u16, u16, f64),
-    ledger: &mut Ledger<R>,
+    recorded_labels: &mut RecordedLabels<R>,
 ) {
     let foot = |id: u16| hypotheses[usize::from(id) - 1].line.foot().norm();
     if R::KEEPS {
         let feet = [foot(id), foot(by)];
-        ledger.recorder.record(Event::Absorbed { region: id, by, feet, gap });
+        recorded_labels.recorder.record(Event::Absorbed { region: id, by, feet, gap });
     }
     let mut cluster = Moments::default();
     for pixel in members.region(id).iter() {
-        cluster.add(scene.pixels[pixel as usize]);
-        ledger.assign(pixel as usize, UNASSIGNED);
+        cluster.add(input.pixels[pixel as usize]);
+        recorded_labels.assign(pixel as usize, UNASSIGNED);
     }
     let absorbed = &mut hypotheses[usize::from(id) - 1];
     absorbed.alive = false;
@@ -113,7 +117,7 @@ mod tests {
     use super::*;
     use crate::color::Line;
     use crate::segment::testing::{Drawing, check, labels};
-    use crate::trace::Silent;
+    use crate::trace::NoopRecorder;
 
     /// A matte line (digits) and a highlight (letters) that leaves it at `start` counts, on one object.
     fn absorb_at(start: f64, after: &str) -> Vec<Hypothesis> {
@@ -129,10 +133,10 @@ mod tests {
             highlights: Vec::new(),
         };
         let mut hypotheses = vec![line(body * 90.0, body), line(body * start + surface * 42.0, surface)];
-        let mut silent = Silent;
-        let mut ledger = Ledger::new(labels(&["11111111222222"]), &mut silent);
-        absorb(&drawing.scene(), &mut hypotheses, &mut ledger);
-        check(&ledger.labels, &[after]);
+        let mut silent = NoopRecorder;
+        let mut recorded_labels = RecordedLabels::new(labels(&["11111111222222"]), &mut silent);
+        absorb(&drawing.input(), &mut hypotheses, &mut recorded_labels);
+        check(&recorded_labels.labels, &[after]);
         hypotheses
     }
 

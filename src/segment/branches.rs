@@ -4,15 +4,15 @@
 //! light falls there; a lamp that is near makes as much of a difference. In the dichromatic plane each is a line of its own,
 //! parallel to the surface vector, that leaves the matte line at another place.
 //!
-//! Colours alone cannot tell: under a single highlight of a curved surface the shading sweeps over a part of the matte line. So
+//! Colors alone cannot tell: under a single highlight of a curved surface the shading sweeps over a part of the matte line. So
 //! each highlight has to stand apart in the picture too. Its core is what lies above half of its strength, with its clipped
 //! heart; there the sweep is small and measured; a core that sweeps more than a tenth of the matte line has no line of its own (the
 //! sheen of ambient light at rims). Two cores belong to two branches if their body reflections differ by more than
 //! noise and sweep of both explain (so that a valley lies between them), by more than what the light's direction leaves open, and
 //! by a tenth of the matte line.
 
-use super::ledger::Pixels;
-use super::scene::Scene;
+use super::input::AnalysisInput;
+use super::recorded_labels::Pixels;
 use crate::raster::{LabelMap, Raster};
 use crate::reflection::{MOST_BRANCHES, ReflectionTransform};
 use crate::trace::HighlightCore;
@@ -39,7 +39,7 @@ const LEAST_DOUBT_DEG: f64 = 0.5;
 /// Where to look for a region's highlight branches.
 pub struct BranchSearch<'a> {
     /// The picture.
-    pub scene: &'a Scene<'a>,
+    pub input: &'a AnalysisInput<'a>,
     /// Region of each pixel.
     pub labels: &'a LabelMap,
     /// The region.
@@ -97,18 +97,18 @@ impl BranchSearch<'_> {
         Branches { cores, gaps }
     }
 
-    /// Pixels with clear surface reflection and distorted ones, away from the region's border, where colours mix; row-major.
+    /// Pixels with clear surface reflection and distorted ones, away from the region's border, where colors mix; row-major.
     fn strong(&self, pixels: Pixels) -> Vec<Strong> {
-        let Self { scene, labels, transform, .. } = self;
-        let least = LEAST_OFFSET * scene.sigma() as f32 / transform.sine();
+        let Self { input, labels, transform, .. } = self;
+        let least = LEAST_OFFSET * input.sigma() as f32 / transform.sine();
         let surface_row = transform.amount_rows()[1];
         let clear = |pixel: usize| {
-            scene.masks.distorted(pixel) || crate::color::dot(surface_row, scene.pixels[pixel]) > least
+            input.masks.distorted(pixel) || crate::color::dot(surface_row, input.pixels[pixel]) > least
         };
         let inside = |pixel: usize| labels.around(pixel).all(|near| labels[near] == self.region);
         let of = |pixel: u32| {
-            let amounts = (!scene.masks.distorted(pixel as usize)).then(|| {
-                let found = transform.split(scene.pixels[pixel as usize]);
+            let amounts = (!input.masks.distorted(pixel as usize)).then(|| {
+                let found = transform.split(input.pixels[pixel as usize]);
                 [found.body, found.surface, found.noise]
             });
             Strong { pixel, amounts }
@@ -163,7 +163,7 @@ impl BranchSearch<'_> {
         let (mean_body, surface) = (mean(|amounts| amounts[0]), mean(|amounts| amounts[1]));
         let variance = known.iter().map(|amounts| (amounts[0] - mean_body).powi(2)).sum::<f32>() / count;
         // Where the light is a little off, a highlight leaves the plane, and may leave its line as far within the plane.
-        let sigma = self.scene.sigma() as f32;
+        let sigma = self.input.sigma() as f32;
         let off_plane = (mean(|amounts| amounts[2] * amounts[2]) - sigma * sigma).max(0.0);
         let mut bodies: Vec<f32> = known.iter().map(|amounts| amounts[0]).collect();
         let middle = bodies.len() / 2;
@@ -181,7 +181,7 @@ impl BranchSearch<'_> {
         if let Some([_, surface, _]) = at.amounts {
             return surface;
         }
-        let color = self.scene.pixels[at.pixel as usize];
+        let color = self.input.pixels[at.pixel as usize];
         let band = (0..3).min_by(|&a, &b| color[a].total_cmp(&color[b])).unwrap_or(0);
         (color[band] - body * self.transform.body()[band]) / self.transform.surface()[band].max(1e-3)
     }
@@ -190,8 +190,9 @@ impl BranchSearch<'_> {
     fn gap(&self, low: &HighlightCore, high: &HighlightCore) -> [f32; 2] {
         let valley = VALLEY * low.deviation.hypot(high.deviation);
         let least = LEAST_GAP * self.matte_length as f32;
-        let doubt = self.light_doubt_deg.unwrap_or(0.0).max(LEAST_DOUBT_DEG).to_radians().sin() as f32;
-        let turned = doubt * (high.surface - low.surface).abs() / self.transform.sine();
+        let reject_reason =
+            self.light_doubt_deg.unwrap_or(0.0).max(LEAST_DOUBT_DEG).to_radians().sin() as f32;
+        let turned = reject_reason * (high.surface - low.surface).abs() / self.transform.sine();
         [high.body - low.body, valley.max(least) + turned]
     }
 }
@@ -212,7 +213,7 @@ fn span(pixels: impl Iterator<Item = u32>, width: u32) -> [u32; 4] {
 }
 
 /// Gives each core its branch: cores in a row without a gap that is wide enough are one; the one with most pixels is the first.
-/// Of too many branches the weakest go to their nearest neighbour.
+/// Of too many branches the weakest go to their nearest neighbor.
 fn number_branches(cores: &mut [HighlightCore], gaps: &[[f32; 2]]) {
     let mut ends: Vec<usize> =
         gaps.iter().enumerate().filter(|(_, [gap, limit])| gap > limit).map(|(i, _)| i + 1).collect();

@@ -1,19 +1,19 @@
-//! Section 5.4.1: which neighbour is the highlight of a matte region?
+//! Section 5.4.1: which neighbor is the highlight of a matte region?
 //!
 //! A highlight cluster meets the matte line in a skewed T: the lines pass near one another, in the upper 50 % of the matte
 //! line, and the highlight's direction is positive in every band. The 50 % test does the work: without it there are 415
 //! more false acceptances against 41 true ones.
 //!
-//! Neighbours are what linear growing left of the merged areas (whole areas: illuminant 2.93° instead of 2.61°),
-//! neighbouring linear regions, and regions absorbed as broad highlights.
+//! Neighbors are what linear growing left of the merged areas (whole areas: illuminant 2.93° instead of 2.61°),
+//! neighboring linear regions, and regions absorbed as broad highlights.
 
 use super::absorb::is_positive;
 use super::borders::near_pairs;
 use super::classify::{Classifier, Windows};
-use super::ledger::Members;
+use super::input::AnalysisInput;
 use super::linear::Hypothesis;
 use super::merge::Areas;
-use super::scene::Scene;
+use super::recorded_labels::Members;
 use crate::color::{Line, Moments, Vec3, closest_points};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::trace::{
@@ -23,7 +23,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Fewest pixels of a candidate.
 const MIN_PIXELS: f64 = 10.0;
-/// Pixels of a neighbouring region that its line is taken from, evenly chosen.
+/// Pixels of a neighboring region that its line is taken from, evenly chosen.
 const CLUSTER_SAMPLES: usize = 4000;
 /// The 50 % heuristic of section 3.2, and how far beyond the end of the matte line a meeting point may lie.
 const UPPER: [f64; 2] = [0.5, 1.1];
@@ -51,17 +51,17 @@ pub struct Found<'a> {
     pub hypotheses: &'a [Hypothesis],
 }
 
-/// Tests the neighbours of every region, whose pixels are `members` and whose matte lines are `lengths` long; `None` where no
+/// Tests the neighbors of every region, whose pixels are `members` and whose matte lines are `lengths` long; `None` where no
 /// candidate passed.
 pub fn highlight_lines<R: Recorder>(
-    scene: &Scene,
+    input: &AnalysisInput,
     found: &Found,
     members: &Members,
     lengths: &[f64],
     recorder: &mut R,
 ) -> Vec<Option<HighlightLine>> {
     let Found { labels, hypotheses, .. } = *found;
-    let mut neighbours = leftover_neighbours(scene, found.windows, found.areas, labels);
+    let mut neighbors = leftover_neighbors(input, found.windows, found.areas, labels);
     let mut clusters: BTreeMap<u16, Moments> = BTreeMap::new();
     for (a, b) in near_pairs(labels, 1) {
         for (own, other) in [(a, b), (b, a)] {
@@ -69,23 +69,23 @@ pub fn highlight_lines<R: Recorder>(
                 members
                     .region(other)
                     .sample(CLUSTER_SAMPLES)
-                    .map(|pixel| scene.pixels[pixel as usize])
+                    .map(|pixel| input.pixels[pixel as usize])
                     .collect()
             });
-            neighbours.entry(own).or_default().push((CandidateSource::Region(other), *cluster));
+            neighbors.entry(own).or_default().push((CandidateSource::Region(other), *cluster));
         }
     }
-    let mut classifier = Classifier::new(scene.used.camera_noise, scene.refine.tail_test);
+    let mut classifier = Classifier::new(input.used.camera_noise, input.refine.tail_test);
     (1..=hypotheses.len() as u16)
         .map(|id| {
             let hypothesis = &hypotheses[usize::from(id) - 1];
             if !hypothesis.alive {
                 return None;
             }
-            let mut clusters = neighbours.remove(&id).unwrap_or_default();
+            let mut clusters = neighbors.remove(&id).unwrap_or_default();
             clusters.extend_from_slice(&hypothesis.highlights);
             let length = lengths[usize::from(id) - 1];
-            let mut tests = Tests { scene, region: id, matte: hypothesis.line, length, recorder };
+            let mut tests = Tests { input, region: id, matte: hypothesis.line, length, recorder };
             let accepted: Vec<Accepted> = clusters
                 .iter()
                 .filter(|(_, cluster)| {
@@ -99,8 +99,8 @@ pub fn highlight_lines<R: Recorder>(
 }
 
 /// For each region, the leftovers of merged areas in its 4-ring.
-fn leftover_neighbours(
-    scene: &Scene,
+fn leftover_neighbors(
+    input: &AnalysisInput,
     windows: &Windows,
     areas: &Areas,
     labels: &LabelMap,
@@ -109,24 +109,24 @@ fn leftover_neighbours(
     let mut leftovers: BTreeMap<u32, Moments> = BTreeMap::new();
     let mut touching: BTreeSet<(u16, u32)> = BTreeSet::new();
     for pixel in 0..labels.len() {
-        if labels[pixel] != UNASSIGNED || !scene.masks.usable(pixel) {
+        if labels[pixel] != UNASSIGNED || !input.masks.usable(pixel) {
             continue;
         }
         let area = areas.of_window[windows.window_of(pixel, width)];
-        leftovers.entry(area).or_default().add(scene.pixels[pixel]);
-        labels.for_each_neighbour(pixel, |near| {
+        leftovers.entry(area).or_default().add(input.pixels[pixel]);
+        labels.for_each_neighbor(pixel, |near| {
             if labels[near] != UNASSIGNED {
                 touching.insert((labels[near], area));
             }
         });
     }
-    let mut neighbours: BTreeMap<u16, Vec<_>> = BTreeMap::new();
+    let mut neighbors: BTreeMap<u16, Vec<_>> = BTreeMap::new();
     for (region, area) in touching {
         if let Some(&cluster) = leftovers.get(&area) {
-            neighbours.entry(region).or_default().push((CandidateSource::Leftover(area), cluster));
+            neighbors.entry(region).or_default().push((CandidateSource::Leftover(area), cluster));
         }
     }
-    neighbours
+    neighbors
 }
 
 /// A candidate that passed.
@@ -137,9 +137,9 @@ struct Accepted {
     pixels: f64,
 }
 
-/// The skewed-T tests of one region's neighbours.
+/// The skewed-T tests of one region's neighbors.
 struct Tests<'a, 's, R: Recorder> {
-    scene: &'a Scene<'s>,
+    input: &'a AnalysisInput<'s>,
     region: u16,
     matte: Line,
     length: f64,
@@ -150,7 +150,7 @@ impl<R: Recorder> Tests<'_, '_, R> {
     fn run(&mut self, source: CandidateSource, cluster: &Moments) -> Option<Accepted> {
         let line = Line::principal(cluster)?;
         let (on_matte, on_candidate) = closest_points(&self.matte, &line)?;
-        let radius = self.scene.used.radius_counts();
+        let radius = self.input.used.radius_counts();
         let gap = (on_matte - on_candidate).norm();
         let position = on_matte.dot(&self.matte.direction);
         let verdict = CandidateVerdict {
@@ -208,7 +208,7 @@ mod tests {
     use super::*;
     use crate::color::rgb;
     use crate::segment::testing::Drawing;
-    use crate::trace::{Stage, Step, Tape};
+    use crate::trace::{Stage, Step, TraceRecorder};
 
     const LENGTH: f64 = 160.0;
 
@@ -220,22 +220,22 @@ mod tests {
         Vec3::repeat(1.0).normalize()
     }
 
-    /// The verdict on twenty colours from `start` on along `direction`: lines meet, upper half, positive, beyond.
+    /// The verdict on twenty colors from `start` on along `direction`: lines meet, upper half, positive, beyond.
     fn verdict(start: Vec3, direction: Vec3) -> [bool; 4] {
         let drawing = Drawing::new(&["."], |_| Vec3::zeros());
         let cluster: Moments =
             (1..=20).map(|step| rgb(&(start + direction * (f64::from(step) * 4.0)))).collect();
         let matte = Line::new(body() * LENGTH / 2.0, body());
-        let mut tape = Tape::default();
+        let mut recorder = TraceRecorder::default();
         let mut tests =
-            Tests { scene: &drawing.scene(), region: 1, matte, length: LENGTH, recorder: &mut tape };
+            Tests { input: &drawing.input(), region: 1, matte, length: LENGTH, recorder: &mut recorder };
         let accepted = tests.run(CandidateSource::Region(2), &cluster);
-        let reel = tape.finish(Stage::Planar).unwrap();
-        let Some(Step::Event(Event::CandidateTested(test))) = reel.step(0) else {
-            panic!("one test, one event: {reel:?}")
+        let stage_trace = recorder.finish(Stage::Planar).unwrap();
+        let Some(Step::Event(Event::CandidateTested(test))) = stage_trace.step(0) else {
+            panic!("one test, one event: {stage_trace:?}")
         };
         let verdict = test.verdict;
-        assert_eq!((reel.len(), accepted.is_some()), (1, verdict.accepted()));
+        assert_eq!((stage_trace.len(), accepted.is_some()), (1, verdict.accepted()));
         [verdict.lines_meet, verdict.upper_half, verdict.positive, verdict.beyond]
     }
 
@@ -261,10 +261,10 @@ mod tests {
             direction,
             pixels,
         };
-        let mut silent = crate::trace::Silent;
+        let mut silent = crate::trace::NoopRecorder;
         let matte = Line::new(body(), body());
         let mut tests =
-            Tests { scene: &drawing.scene(), region: 1, matte, length: LENGTH, recorder: &mut silent };
+            Tests { input: &drawing.input(), region: 1, matte, length: LENGTH, recorder: &mut silent };
         let few = accepted(0.5, Vec3::x(), 10.0);
         let many = accepted(0.9, Vec3::y(), 90.0);
         let chosen = tests.choose(&[few, many]).unwrap();

@@ -6,16 +6,16 @@
 //! that is not unusual. Where neither speaks, no light is known and nothing is split by planes: a picture without highlights
 //! stays as it is.
 
-use super::holds::RegionFit;
 use super::illuminant::white_offsets_deg;
-use super::ledger::Members;
+use super::input::AnalysisInput;
 use super::light::{Illuminant, LightBasis, LightFindings};
-use super::planar::{PlanarHypothesis, PlanarRegions, Stage};
-use super::scene::Scene;
+use super::model_fit::RegionFit;
+use super::planar::{PlanarHypothesis, PlanarRegions, PlanarState};
+use super::recorded_labels::Members;
 use super::vote_light::{LEAST_VOTERS, Votes};
 use crate::color::Vec3;
 use crate::raster::LabelMap;
-use crate::trace::{Elected, Event, LightChosen, LightLimits, Pass, Recorder, VotesCast};
+use crate::trace::{Event, LightChosen, LightLimits, Pass, Recorder, VoteResult, VotesCast};
 use rayon::prelude::*;
 
 /// What the ways to a light are held against.
@@ -33,11 +33,11 @@ pub struct ByPlanes {
     pub direction: Option<Vec3>,
     pub objects: usize,
     pub interval_deg: f64,
-    /// Whether it rests on the planes of the highlights alone, as faint surface reflection has another colour.
+    /// Whether it rests on the planes of the highlights alone, as faint surface reflection has another color.
     pub highlights_alone: bool,
 }
 
-impl<R: Recorder> Stage<'_, '_, R> {
+impl<R: Recorder> PlanarState<'_, '_, R> {
     /// Holds the planes' light against the votes, and finishes with the better one.
     pub fn choose(mut self, mut hypotheses: Vec<PlanarHypothesis>, planes: ByPlanes) -> PlanarRegions {
         let by_planes = planes.direction.filter(|_| planes.objects > 0);
@@ -50,11 +50,11 @@ impl<R: Recorder> Stage<'_, '_, R> {
             ..LightFindings::default()
         };
         let mut objects = planes.objects;
-        if self.scene.refine.vote_light && !self.scene.stopped() {
-            let votes = Votes::cast(self.scene);
+        if self.input.refine.vote_light && !self.input.stopped() {
+            let votes = Votes::cast(self.input);
             let elected = votes.as_ref().map(elected);
             light.votes = elected.map(|elected| elected.direction);
-            light.support = support(self.scene, &self.ledger.labels, &hypotheses);
+            light.support = support(self.input, &self.recorded_labels.labels, &hypotheses);
             light.basis = better(&light, elected.as_ref());
             light.direction = match light.basis {
                 LightBasis::Votes => light.votes,
@@ -75,26 +75,26 @@ impl<R: Recorder> Stage<'_, '_, R> {
                 }
                 _ => {
                     // Ways that contradict each other are not as sure as each is of itself.
-                    let doubt = light
+                    let reject_reason = light
                         .agreement_deg()
                         .filter(|_| light.support < 2.0 * LIGHT_LIMITS.support)
                         .unwrap_or(0.0);
-                    light.interval_deg = light.interval_deg.map(|interval| interval.max(doubt / 2.0));
+                    light.interval_deg = light.interval_deg.map(|interval| interval.max(reject_reason / 2.0));
                 }
             }
             let used = light.direction.map(Vec3::from);
             light.share = votes.zip(used).map_or(0.0, |(votes, used)| votes.share(&used));
         }
         let illuminant = light.direction.map(|direction| Illuminant { direction, objects, given: false });
-        PlanarRegions { labels: self.ledger.labels, hypotheses, illuminant, light }
+        PlanarRegions { labels: self.recorded_labels.labels, hypotheses, illuminant, light }
     }
 
     /// Records what was found, and which light is used.
-    fn tell(&mut self, light: &LightFindings, elected: Option<Elected>, objects: usize) {
-        self.ledger.begin(Pass::LightChoice);
+    fn tell(&mut self, light: &LightFindings, elected: Option<VoteResult>, objects: usize) {
+        self.recorded_labels.begin(Pass::LightChoice);
         if R::KEEPS {
             let votes = VotesCast { elected, least_voters: LEAST_VOTERS as u32 };
-            self.ledger.recorder.record(Event::VotesCast(Box::new(votes)));
+            self.recorded_labels.recorder.record(Event::VotesCast(Box::new(votes)));
             let chosen = LightChosen {
                 basis: light.basis,
                 direction: light.direction,
@@ -103,7 +103,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
                 support: light.support,
                 limits: LIGHT_LIMITS,
             };
-            self.ledger.recorder.record(Event::LightChosen(Box::new(chosen)));
+            self.recorded_labels.recorder.record(Event::LightChosen(Box::new(chosen)));
         }
     }
 
@@ -121,9 +121,9 @@ impl<R: Recorder> Stage<'_, '_, R> {
 }
 
 /// The light that votes are for.
-fn elected(votes: &Votes) -> Elected {
+fn elected(votes: &Votes) -> VoteResult {
     let winner = votes.winner();
-    Elected {
+    VoteResult {
         direction: winner.into(),
         voters: votes.voters() as u32,
         blobs: votes.blobs as u32,
@@ -133,7 +133,7 @@ fn elected(votes: &Votes) -> Elected {
 }
 
 /// What the light had better rest on.
-fn better(light: &LightFindings, elected: Option<&Elected>) -> LightBasis {
+fn better(light: &LightFindings, elected: Option<&VoteResult>) -> LightBasis {
     let Some(elected) = elected else { return light.basis };
     let limits = LIGHT_LIMITS;
     let usual = (0..2).all(|i| elected.offsets_deg[i].abs() <= limits.offsets_deg[i]);
@@ -147,7 +147,7 @@ fn better(light: &LightFindings, elected: Option<&Elected>) -> LightBasis {
 }
 
 /// Share of the lit pixels that lie in regions which hold and show a highlight.
-fn support(scene: &Scene, labels: &LabelMap, hypotheses: &[PlanarHypothesis]) -> f64 {
+fn support(input: &AnalysisInput, labels: &LabelMap, hypotheses: &[PlanarHypothesis]) -> f64 {
     let members = Members::of(labels, hypotheses.len());
     let supporting = (1..=hypotheses.len() as u16)
         .into_par_iter()
@@ -155,20 +155,20 @@ fn support(scene: &Scene, labels: &LabelMap, hypotheses: &[PlanarHypothesis]) ->
             let hypothesis = &hypotheses[usize::from(id) - 1];
             let pixels = members.region(id);
             let Some((plane, test)) = hypothesis.plane.zip(hypothesis.highlight_test()) else { return 0 };
-            if scene.stopped() || pixels.len() < HIGHLIGHT_PX {
+            if input.stopped() || pixels.len() < HIGHLIGHT_PX {
                 return 0;
             }
             let vectors = (&plane.matte.mean, &plane.matte.direction, Some(&plane.surface));
-            let usable = pixels.sample(SAMPLES).filter(|&pixel| scene.masks.usable(pixel as usize));
+            let usable = pixels.sample(SAMPLES).filter(|&pixel| input.masks.usable(pixel as usize));
             let (highlight, seen) = usable.fold((0, 0), |(highlight, seen), pixel| {
-                (highlight + usize::from(test.is_highlight(scene.pixels[pixel as usize])), seen + 1)
+                (highlight + usize::from(test.is_highlight(input.pixels[pixel as usize])), seen + 1)
             });
             let share = highlight as f64 / f64::from(seen.max(1));
             let shows = share >= HIGHLIGHT_SHARE && share * pixels.len() as f64 >= HIGHLIGHT_PX as f64;
-            let holds = shows && RegionFit::new(scene, labels, (id, pixels), vectors).holds(scene.sigma());
+            let holds = shows && RegionFit::new(input, labels, (id, pixels), vectors).holds(input.sigma());
             if holds { pixels.len() } else { 0 }
         })
         .sum::<usize>();
-    let lit = (0..labels.len()).filter(|&pixel| !scene.masks.dark(pixel)).count();
+    let lit = (0..labels.len()).filter(|&pixel| !input.masks.dark(pixel)).count();
     supporting as f64 / lit.max(1) as f64
 }

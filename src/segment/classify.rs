@@ -1,4 +1,4 @@
-//! Section 5.2.1: local colour variation in windows, in four classes.
+//! Section 5.2.1: local color variation in windows, in four classes.
 //!
 //! The test is [`crate::color::ClusterTest`]. In the paper dark and clipped pixels count.
 //!
@@ -26,7 +26,7 @@ impl Classifier {
         ([Class::Point, Class::Line, Class::Plane, Class::Volume][significant], lambda)
     }
 
-    /// Statistic and threshold of the test that decided the class of `pixels` colours of these variances, for the record.
+    /// Statistic and threshold of the test that decided the class of `pixels` colors of these variances, for the record.
     pub fn decided_by(&mut self, pixels: f64, eigenvalues: [f64; 3]) -> [f32; 2] {
         let trials = self.0.trials(pixels, eigenvalues);
         trials.last().map_or([0.0; 2], |trial| [trial.statistic() as f32, trial.threshold() as f32])
@@ -127,7 +127,7 @@ fn window_moments(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::Silent;
+    use crate::trace::NoopRecorder;
 
     /// A 10×10 window whose pixels spread by `amplitude` counts along the first `directions` of three fixed axes.
     fn window(directions: usize, amplitude: f32) -> Raster<[f32; 3]> {
@@ -155,7 +155,7 @@ mod tests {
             {
                 let mut classifier = Classifier::new(2.5, tail_test);
                 let found =
-                    classify(&window(directions, 20.0), |_| true, 10, 50, &mut classifier, &mut Silent);
+                    classify(&window(directions, 20.0), |_| true, 10, 50, &mut classifier, &mut NoopRecorder);
                 assert_eq!(found.classes.as_slice(), [Some(class)], "tail test {tail_test}");
             }
         }
@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn variation_below_the_noise_is_a_point() {
         let mut classifier = Classifier::new(2.5, false);
-        let found = classify(&window(3, 2.5), |_| true, 10, 50, &mut classifier, &mut Silent);
+        let found = classify(&window(3, 2.5), |_| true, 10, 50, &mut classifier, &mut NoopRecorder);
         assert_eq!(found.classes[0], Some(Class::Point));
     }
 
@@ -172,7 +172,7 @@ mod tests {
     fn windows_at_the_border_are_cut_and_sparse_ones_have_no_class() {
         let image = Raster::filled(25, 13, [50.0; 3]);
         let mut classifier = Classifier::new(2.5, true);
-        let found = classify(&image, |pixel| pixel % 25 < 14, 10, 50, &mut classifier, &mut Silent);
+        let found = classify(&image, |pixel| pixel % 25 < 14, 10, 50, &mut classifier, &mut NoopRecorder);
         assert_eq!((found.classes.width(), found.classes.height()), (3, 2));
         assert_eq!(
             found.moments.as_slice().iter().map(|m| m.n as u32).collect::<Vec<_>>(),

@@ -1,12 +1,12 @@
-//! Section 5.5: colours that clipping and blooming have moved out of the slices.
+//! Section 5.5: colors that clipping and blooming have moved out of the slices.
 //!
-//! Their colour cannot be used, so position is: from highlight pixels (nearer to the highlight line than to the matte line)
-//! a region grows into unassigned neighbours that are brighter than the meeting point of both lines. Then holes are
+//! Their color cannot be used, so position is: from highlight pixels (nearer to the highlight line than to the matte line)
+//! a region grows into unassigned neighbors that are brighter than the meeting point of both lines. Then holes are
 //! filled: clipped components that a region nearly surrounds, and unassigned ones that lie wholly inside it.
 
-use super::ledger::Ledger;
+use super::input::AnalysisInput;
 use super::planar::PlanarRegions;
-use super::scene::Scene;
+use super::recorded_labels::RecordedLabels;
 use crate::color::dot;
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 use crate::trace::{Event, Pass, Recorder};
@@ -17,49 +17,55 @@ use std::collections::BTreeMap;
 const SURROUNDED: f64 = 0.7;
 
 /// Grows the planar regions into what clipping and blooming have distorted.
-pub fn clipping_regions<R: Recorder>(scene: &Scene, planar: &PlanarRegions, recorder: &mut R) -> LabelMap {
-    let mut ledger = Ledger::new(planar.labels.clone(), recorder);
-    ledger.begin(Pass::Brightness);
-    let members = ledger.members(planar.hypotheses.len());
+pub fn clipping_regions<R: Recorder>(
+    input: &AnalysisInput,
+    planar: &PlanarRegions,
+    recorder: &mut R,
+) -> LabelMap {
+    let mut recorded_labels = RecordedLabels::new(planar.labels.clone(), recorder);
+    recorded_labels.begin(Pass::Brightness);
+    let members = recorded_labels.members(planar.hypotheses.len());
     let fronts: Vec<Vec<u32>> = planar
         .hypotheses
         .par_iter()
         .enumerate()
         .map(|(index, hypothesis)| {
             let Some(highlight) = hypothesis.highlight_test() else { return Vec::new() };
-            let is_highlight = |&pixel: &u32| highlight.is_highlight(scene.pixels[pixel as usize]);
+            let is_highlight = |&pixel: &u32| highlight.is_highlight(input.pixels[pixel as usize]);
             members.region(index as u16 + 1).iter().filter(is_highlight).collect()
         })
         .collect();
     for ((id, hypothesis), mut front) in (1..).zip(&planar.hypotheses).zip(fronts) {
-        if scene.stopped() {
-            return ledger.labels;
+        if input.stopped() {
+            return recorded_labels.labels;
         }
         let start2 = hypothesis.start.norm_squared() as f32;
         if R::KEEPS && !front.is_empty() {
-            ledger.recorder.record(Event::GrowthBegan { region: id, limit: start2.sqrt() });
+            recorded_labels.recorder.record(Event::GrowthBegan { region: id, limit: start2.sqrt() });
         }
-        ledger.grow(
+        recorded_labels.grow(
             id,
             &mut front,
-            || scene.stopped(),
+            || input.stopped(),
             |_, pixel, holder| {
-                let color = scene.pixels[pixel];
-                holder == UNASSIGNED && !scene.masks.dark(pixel) && dot(color, color) > start2
+                let color = input.pixels[pixel];
+                holder == UNASSIGNED && !input.masks.dark(pixel) && dot(color, color) > start2
             },
         );
     }
-    ledger.begin(Pass::ClippedHoles);
-    let clipped = |pixel: usize| scene.masks.distorted(pixel) && !scene.masks.dark(pixel);
-    fill(&mut ledger, clipped, |_, share| share >= SURROUNDED);
-    if scene.stopped() {
-        return ledger.labels;
+    recorded_labels.begin(Pass::ClippedHoles);
+    let clipped = |pixel: usize| input.masks.distorted(pixel) && !input.masks.dark(pixel);
+    fill(&mut recorded_labels, clipped, |_, share| share >= SURROUNDED);
+    if input.stopped() {
+        return recorded_labels.labels;
     }
-    ledger.begin(Pass::SmallHoles);
-    let largest_px = scene.used.min_area as usize;
-    let lit = |pixel: usize| !scene.masks.dark(pixel);
-    fill(&mut ledger, lit, |hole, share| !hole.open && share >= 1.0 && hole.pixels.len() <= largest_px);
-    ledger.labels
+    recorded_labels.begin(Pass::SmallHoles);
+    let largest_px = input.used.min_area as usize;
+    let lit = |pixel: usize| !input.masks.dark(pixel);
+    fill(&mut recorded_labels, lit, |hole, share| {
+        !hole.open && share >= 1.0 && hole.pixels.len() <= largest_px
+    });
+    recorded_labels.labels
 }
 
 /// A component of unassigned pixels, and who holds its border.
@@ -84,25 +90,26 @@ impl Hole {
 /// Gives components of unassigned pixels for which `member` holds to the region with most of their border, where `fits`
 /// accepts the hole and that share.
 fn fill<R: Recorder>(
-    ledger: &mut Ledger<R>,
+    recorded_labels: &mut RecordedLabels<R>,
     member: impl Fn(usize) -> bool,
     fits: impl Fn(&Hole, f64) -> bool,
 ) {
-    let mut seen: Mask = Raster::filled(ledger.labels.width(), ledger.labels.height(), false);
+    let mut seen: Mask =
+        Raster::filled(recorded_labels.labels.width(), recorded_labels.labels.height(), false);
     for start in 0..seen.len() {
-        if ledger.labels[start] != UNASSIGNED || seen[start] || !member(start) {
+        if recorded_labels.labels[start] != UNASSIGNED || seen[start] || !member(start) {
             continue;
         }
-        let hole = hole_at(start, &ledger.labels, &member, &mut seen);
+        let hole = hole_at(start, &recorded_labels.labels, &member, &mut seen);
         let Some((region, border_share)) = hole.holder().filter(|&(_, share)| fits(&hole, share)) else {
             continue;
         };
         if R::KEEPS {
             let (pixel, pixels) = (start as u32, hole.pixels.len() as u32);
-            ledger.recorder.record(Event::HoleFilled { region, pixel, pixels, border_share });
+            recorded_labels.recorder.record(Event::HoleFilled { region, pixel, pixels, border_share });
         }
         for pixel in hole.pixels {
-            ledger.assign(pixel as usize, region);
+            recorded_labels.assign(pixel as usize, region);
         }
     }
 }
@@ -117,7 +124,7 @@ fn hole_at(start: usize, labels: &LabelMap, member: impl Fn(usize) -> bool, seen
         next += 1;
         let (x, y) = (pixel as usize % width, pixel as usize / width);
         hole.open |= x == 0 || y == 0 || x + 1 == width || y + 1 == height;
-        labels.for_each_neighbour(pixel as usize, |near| {
+        labels.for_each_neighbor(pixel as usize, |near| {
             if labels[near] != UNASSIGNED {
                 *hole.border.entry(labels[near]).or_default() += 1;
             } else if !member(near) {
@@ -138,13 +145,13 @@ mod tests {
     use crate::reflection::DichromaticPlane;
     use crate::segment::testing::{Drawing, check, labels};
     use crate::segment::{LightFindings, PlanarHypothesis};
-    use crate::trace::Silent;
+    use crate::trace::NoopRecorder;
 
     fn body() -> Vec3 {
         Vec3::new(0.9, 0.3, 0.2).normalize()
     }
 
-    /// `m`atte, `h`ighlight, `w`hite and clipped, `d`im and of another colour.
+    /// `m`atte, `h`ighlight, `w`hite and clipped, `d`im and of another color.
     fn drawing(rows: &[&str]) -> Drawing {
         Drawing::new(rows, |c| match c {
             'm' => body() * 120.0,
@@ -172,7 +179,7 @@ mod tests {
             illuminant: None,
             light: LightFindings::default(),
         };
-        check(&clipping_regions(&drawing.scene(), &planar, &mut Silent), after);
+        check(&clipping_regions(&drawing.input(), &planar, &mut NoopRecorder), after);
     }
 
     #[test]
@@ -185,7 +192,7 @@ mod tests {
     #[test]
     fn a_clipped_hole_joins_whoever_holds_most_of_its_border() {
         let picture = drawing(&["mmmmmmmm", "mwwmmwwm", "mmmmmmmm"]);
-        // The second hole has two equal neighbours.
+        // The second hole has two equal neighbors.
         let most = ["11111122", "1..11..2", "11111122"];
         fill_in(&picture, &most, false, &["11111122", "11111..2", "11111122"]);
     }

@@ -4,15 +4,15 @@
 
 use super::illuminant::Constraint;
 use super::in_plane::{InPlane, Rise};
-use super::ledger::Pixels;
-use super::scene::Scene;
+use super::input::AnalysisInput;
+use super::recorded_labels::Pixels;
 use crate::color::Vec3;
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 use crate::reflection::DichromaticPlane;
 
 /// Unclaimed pixels on the inside of a plane, reached within 8 px of its matte region.
 pub fn nearby_highlight(
-    scene: &Scene,
+    input: &AnalysisInput,
     labels: &LabelMap,
     plane: &DichromaticPlane,
     matte_length: f64,
@@ -20,18 +20,18 @@ pub fn nearby_highlight(
 ) -> Vec<u32> {
     const REACH_PX: usize = 8;
     let axes = plane.coordinates();
-    let least_offset = 0.75 * scene.used.radius_counts() as f32;
+    let least_offset = 0.75 * input.used.radius_counts() as f32;
     let least_along = 0.3 * matte_length as f32;
     let mut seen: Mask = Raster::filled(labels.width(), labels.height(), false);
     let mut ring = Vec::new();
     let mut step = |from: &mut dyn Iterator<Item = u32>| -> Vec<u32> {
         let mut next = Vec::new();
         for pixel in from {
-            labels.for_each_neighbour(pixel as usize, |near| {
-                if labels[near] != UNASSIGNED || !scene.masks.usable(near) || seen[near] {
+            labels.for_each_neighbor(pixel as usize, |near| {
+                if labels[near] != UNASSIGNED || !input.masks.usable(near) || seen[near] {
                     return;
                 }
-                let point = axes.of(scene.pixels[near]);
+                let point = axes.of(input.pixels[near]);
                 let inside = point.offset > least_offset && point.height.abs() < point.offset / 2.0;
                 if inside && point.along > least_along {
                     seen[near] = true;
@@ -70,7 +70,7 @@ fn normal_of(plane: &DichromaticPlane, tangent: f64) -> Vec3 {
 
 /// The plane through all of a region's pixels off the matte line.
 pub fn plane_constraint(
-    scene: &Scene,
+    input: &AnalysisInput,
     region: u16,
     plane: &DichromaticPlane,
     matte_length: f64,
@@ -79,10 +79,10 @@ pub fn plane_constraint(
     const MIN_PIXELS: f64 = 10.0;
     const POOR_FIT: f64 = 2.0;
     let axes = plane.coordinates();
-    let (radius, sigma) = (scene.used.radius_counts() as f32, scene.sigma());
+    let (radius, sigma) = (input.used.radius_counts() as f32, input.sigma());
     let points: Vec<(f64, f64)> = pixels
-        .filter(|&pixel| scene.masks.usable(pixel as usize))
-        .map(|pixel| axes.of(scene.pixels[pixel as usize]))
+        .filter(|&pixel| input.masks.usable(pixel as usize))
+        .map(|pixel| axes.of(input.pixels[pixel as usize]))
         .filter(|p| p.offset > 0.75 * radius && p.height.abs() < p.offset / 2.0)
         .filter(|p| f64::from(p.along) > 0.3 * matte_length)
         .map(|p| (f64::from(p.offset), f64::from(p.height)))

@@ -5,7 +5,7 @@
 //! cups, 13.1° for the pink ones).
 //!
 //! Refined (`robust_illuminant`): every object says in which plane the illuminant lies (its normal n_k), some also where
-//! in that plane (a second normal q_k, see `in_plane`). The illuminant is the unit vector that minimises
+//! in that plane (a second normal q_k, see `in_plane`). The illuminant is the unit vector that minimizes
 //! Σ ρ(n_k·s)²/(var_k + 0.4°²) + Σ ρ(q_k·s)²/(var_k + floor²), Cauchy's ρ, by reweighted smallest eigenvectors.
 //! 0.1° is typical, a single sphere stays below 1°; two coplanar objects: 20° → 0.2°.
 //!
@@ -172,8 +172,8 @@ fn residual_deg(constraint: &Constraint, direction: &Vec3) -> f64 {
 }
 
 fn weight(constraint: &Constraint, direction: &Vec3) -> f64 {
-    let doubt = residual_deg(constraint, direction) / constraint.doubt_deg;
-    constraint.reliability / (constraint.variance_deg2 * (1.0 + doubt * doubt))
+    let reject_reason = residual_deg(constraint, direction) / constraint.doubt_deg;
+    constraint.reliability / (constraint.variance_deg2 * (1.0 + reject_reason * reject_reason))
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
-//! What is known of the light's colour, and from where.
+//! What is known of the light's color, and from where.
 
 pub use crate::trace::LightBasis;
 
-/// The colour of the scene's light.
+/// The color of the scene's light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Illuminant {
     /// Unit vector.
@@ -22,7 +22,7 @@ pub struct LightFindings {
     pub basis: LightBasis,
     /// The light by the dichromatic planes, unit.
     pub planes: Option<[f64; 3]>,
-    /// Whether the planes are those of the highlights alone, as faint surface reflection has another colour (7.5).
+    /// Whether the planes are those of the highlights alone, as faint surface reflection has another color (7.5).
     pub highlights_alone: bool,
     /// The light by the votes of small highlights, unit.
     pub votes: Option<[f64; 3]>,
@@ -53,7 +53,7 @@ impl LightFindings {
             LightBasis::Given => "it was given".to_owned(),
             LightBasis::Planes => {
                 let alone = if self.highlights_alone {
-                    ", those of the highlights alone, as faint surface reflection has another colour (ambient light)"
+                    ", those of the highlights alone, as faint surface reflection has another color (ambient light)"
                 } else {
                     ""
                 };

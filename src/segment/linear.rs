@@ -1,4 +1,4 @@
-//! Section 5.3: linear hypotheses. Large merged areas of class *line* become colour cylinders, and each cylinder segments
+//! Section 5.3: linear hypotheses. Large merged areas of class *line* become color cylinders, and each cylinder segments
 //! the image anew, pixel by pixel.
 //!
 //! Areas are taken by decreasing number of unclaimed pixels until the largest is below the minimal area. A cylinder ends
@@ -8,9 +8,9 @@
 //! from every pixel of the area that the cylinder holds, not from the one nearest to the mean.
 
 use super::classify::Windows;
-use super::ledger::{Ledger, Pixels};
+use super::input::AnalysisInput;
 use super::merge::Areas;
-use super::scene::Scene;
+use super::recorded_labels::{Pixels, RecordedLabels};
 use crate::color::{Cylinder, Line, LineFit, Moments};
 use crate::raster::UNASSIGNED;
 use crate::trace::{
@@ -53,185 +53,185 @@ const FIT_SAMPLES: usize = 4000;
 
 /// Generates and exploits linear hypotheses from merged areas, appending to `hypotheses`.
 pub fn linear<R: Recorder>(
-    scene: &Scene,
+    input: &AnalysisInput,
     windows: &Windows,
     areas: &Areas,
     choice: &Choice,
     hypotheses: &mut Vec<Hypothesis>,
-    ledger: &mut Ledger<R>,
+    recorded_labels: &mut RecordedLabels<R>,
 ) {
-    ledger.begin(Pass::Hypotheses);
-    let mut stock = Stock::new(scene, windows, areas, choice, ledger);
+    recorded_labels.begin(Pass::Hypotheses);
+    let mut seed_areas = SeedAreas::new(input, windows, areas, choice, recorded_labels);
     let mut rank = 0;
-    while let Some(area) = stock.largest(choice.min_area_px) {
-        let (pixels, colors) = stock.unclaimed(scene, area, ledger);
-        stock.retire(area);
-        if scene.stopped() {
+    while let Some(area) = seed_areas.largest(choice.min_area_px) {
+        let (pixels, colors) = seed_areas.unclaimed(input, area, recorded_labels);
+        seed_areas.retire(area);
+        if input.stopped() {
             return;
         }
-        let pass_over = |ledger: &mut Ledger<R>, reason| {
+        let pass_over = |recorded_labels: &mut RecordedLabels<R>, reason| {
             if R::KEEPS {
                 let (area, pixels, least) = (area as u32, pixels.len() as u32, choice.min_area_px as u32);
-                ledger.recorder.record(Event::HypothesisPassedOver { area, pixels, least, reason });
+                recorded_labels.recorder.record(Event::HypothesisPassedOver { area, pixels, least, reason });
             }
         };
         rank += 1;
         if pixels.len() < choice.min_area_px {
-            pass_over(ledger, PassedOver::Consumed);
+            pass_over(recorded_labels, PassedOver::Consumed);
             continue;
         }
         if hypotheses.len() >= MAX_REGIONS {
-            pass_over(ledger, PassedOver::NoNumberLeft);
+            pass_over(recorded_labels, PassedOver::NoNumberLeft);
             continue;
         }
-        let Some(line) = hypothesis_line(scene, areas.classes[area], &colors) else {
-            pass_over(ledger, PassedOver::NoExtent);
+        let Some(line) = hypothesis_line(input, areas.classes[area], &colors) else {
+            pass_over(recorded_labels, PassedOver::NoExtent);
             continue;
         };
-        if choice.through_black && line.foot().norm() > scene.used.radius_counts() {
-            pass_over(ledger, PassedOver::FarFromBlack);
+        if choice.through_black && line.foot().norm() > input.used.radius_counts() {
+            pass_over(recorded_labels, PassedOver::FarFromBlack);
             continue;
         }
         let region = hypotheses.len() as u16 + 1;
         if R::KEEPS {
-            ledger.recorder.record(Event::HypothesisChosen(Box::new(HypothesisChosen {
+            recorded_labels.recorder.record(Event::HypothesisChosen(Box::new(HypothesisChosen {
                 region,
                 area: area as u32,
                 rank: rank - 1,
                 pixels: pixels.len() as u32,
                 line,
-                radius: scene.used.radius_counts(),
+                radius: input.used.radius_counts(),
             })));
         }
         hypotheses.push(Hypothesis::new(line));
-        let claimed = exploit(scene, region, &pixels, hypotheses, ledger);
-        stock.take(&claimed, windows, ledger.labels.width());
+        let claimed = exploit(input, region, &pixels, hypotheses, recorded_labels);
+        seed_areas.take(&claimed, windows, recorded_labels.labels.width());
         if choice.through_black && claimed.len() < choice.min_area_px {
             hypotheses[usize::from(region) - 1].alive = false;
             for pixel in claimed {
-                ledger.assign(pixel as usize, UNASSIGNED);
+                recorded_labels.assign(pixel as usize, UNASSIGNED);
             }
-            pass_over(ledger, PassedOver::Barren);
+            pass_over(recorded_labels, PassedOver::Barren);
         }
     }
     if R::KEEPS {
         let least = choice.min_area_px as u32;
-        for (area, pixels, reason) in stock.remaining(least) {
-            ledger.recorder.record(Event::HypothesisPassedOver { area, pixels, least, reason });
+        for (area, pixels, reason) in seed_areas.remaining(least) {
+            recorded_labels.recorder.record(Event::HypothesisPassedOver { area, pixels, least, reason });
         }
     }
 }
 
 /// Mean and first eigenvector of an area's unclaimed pixels, robustly when refined.
-fn hypothesis_line(scene: &Scene, class: Option<Class>, colors: &[[f32; 3]]) -> Option<Line> {
+fn hypothesis_line(input: &AnalysisInput, class: Option<Class>, colors: &[[f32; 3]]) -> Option<Line> {
     let moments: Moments = colors.iter().copied().collect();
     if class == Some(Class::Point) {
         let mean = moments.mean();
         return (mean.norm() > 0.0).then(|| Line::new(mean, mean));
     }
     let line = Line::principal(&moments)?;
-    Some(if scene.refine.robust_lines { line.refit(colors, &line_fit(scene, 10)) } else { line })
+    Some(if input.refine.robust_lines { line.refit(colors, &line_fit(input, 10)) } else { line })
 }
 
 /// How this scene's lines are fitted.
-pub fn line_fit(scene: &Scene, iterations: usize) -> LineFit {
-    LineFit { sigma: scene.sigma(), tuning: 4.0, iterations }
+pub fn line_fit(input: &AnalysisInput, iterations: usize) -> LineFit {
+    LineFit { sigma: input.sigma(), tuning: 4.0, iterations }
 }
 
 /// Grows the newest hypothesis from an area's unclaimed pixels; refined: fits and grows once more. Returns its pixels.
 fn exploit<R: Recorder>(
-    scene: &Scene,
+    input: &AnalysisInput,
     region: u16,
     area_pixels: &[u32],
     hypotheses: &mut [Hypothesis],
-    ledger: &mut Ledger<R>,
+    recorded_labels: &mut RecordedLabels<R>,
 ) -> Vec<u32> {
     let index = usize::from(region) - 1;
-    let mut cylinders = cylinders(scene, hypotheses);
-    let mut claimed = seeds(scene, &hypotheses[index].line, cylinders[index], area_pixels);
+    let mut cylinders = cylinders(input, hypotheses);
+    let mut claimed = seeds(input, &hypotheses[index].line, cylinders[index], area_pixels);
     if R::KEEPS {
-        ledger.recorder.record(Event::SeedsPlaced { region, pixels: claimed.len() as u32 });
+        recorded_labels.recorder.record(Event::SeedsPlaced { region, pixels: claimed.len() as u32 });
     }
     for &pixel in &claimed {
-        ledger.assign(pixel as usize, region);
+        recorded_labels.assign(pixel as usize, region);
     }
-    grow_cylinder(scene, region, &cylinders, &mut claimed, ledger);
-    if !scene.refine.robust_lines || claimed.is_empty() {
+    grow_cylinder(input, region, &cylinders, &mut claimed, recorded_labels);
+    if !input.refine.robust_lines || claimed.is_empty() {
         return claimed;
     }
-    refit(scene, region, &claimed, hypotheses, ledger);
-    cylinders[index] = Cylinder::new(&hypotheses[index].line, scene.used.radius_counts());
+    refit(input, region, &claimed, hypotheses, recorded_labels);
+    cylinders[index] = Cylinder::new(&hypotheses[index].line, input.used.radius_counts());
     claimed.retain(|&pixel| {
-        let inside = cylinders[index].contains(scene.pixels[pixel as usize]);
+        let inside = cylinders[index].contains(input.pixels[pixel as usize]);
         if !inside {
-            ledger.assign(pixel as usize, UNASSIGNED);
+            recorded_labels.assign(pixel as usize, UNASSIGNED);
         }
         inside
     });
-    grow_cylinder(scene, region, &cylinders, &mut claimed, ledger);
+    grow_cylinder(input, region, &cylinders, &mut claimed, recorded_labels);
     claimed
 }
 
 /// Fits a region's line to its pixels.
 fn refit<R: Recorder>(
-    scene: &Scene,
+    input: &AnalysisInput,
     region: u16,
     pixels: &[u32],
     hypotheses: &mut [Hypothesis],
-    ledger: &mut Ledger<R>,
+    recorded_labels: &mut RecordedLabels<R>,
 ) {
-    let colors = sample(scene, pixels);
+    let colors = sample(input, pixels);
     let line = &mut hypotheses[usize::from(region) - 1].line;
-    *line = line.refit(&colors, &line_fit(scene, 6));
+    *line = line.refit(&colors, &line_fit(input, 6));
     if R::KEEPS {
-        ledger.recorder.record(Event::LineRefitted(Box::new(LineRefitted { region, line: *line })));
+        recorded_labels.recorder.record(Event::LineRefitted(Box::new(LineRefitted { region, line: *line })));
     }
 }
 
 /// Pixels that the length of a matte line is read from, evenly chosen from more.
 const LENGTH_SAMPLES: usize = 6000;
 
-/// Colours of at most [`FIT_SAMPLES`] of the pixels, evenly chosen.
-fn sample(scene: &Scene, pixels: &[u32]) -> Vec<[f32; 3]> {
+/// Colors of at most [`FIT_SAMPLES`] of the pixels, evenly chosen.
+fn sample(input: &AnalysisInput, pixels: &[u32]) -> Vec<[f32; 3]> {
     let step = pixels.len().div_ceil(FIT_SAMPLES).max(1);
-    pixels.iter().step_by(step).map(|&pixel| scene.pixels[pixel as usize]).collect()
+    pixels.iter().step_by(step).map(|&pixel| input.pixels[pixel as usize]).collect()
 }
 
 /// The cylinder of every hypothesis.
-pub fn cylinders(scene: &Scene, hypotheses: &[Hypothesis]) -> Vec<Cylinder> {
-    hypotheses.iter().map(|h| Cylinder::new(&h.line, scene.used.radius_counts())).collect()
+pub fn cylinders(input: &AnalysisInput, hypotheses: &[Hypothesis]) -> Vec<Cylinder> {
+    hypotheses.iter().map(|h| Cylinder::new(&h.line, input.used.radius_counts())).collect()
 }
 
 /// Where growth starts: every pixel inside the cylinder, or the one of them that is nearest to the mean.
-fn seeds(scene: &Scene, line: &Line, cylinder: Cylinder, area_pixels: &[u32]) -> Vec<u32> {
-    let inside = area_pixels.iter().copied().filter(|&p| cylinder.contains(scene.pixels[p as usize]));
-    if scene.refine.all_seeds {
+fn seeds(input: &AnalysisInput, line: &Line, cylinder: Cylinder, area_pixels: &[u32]) -> Vec<u32> {
+    let inside = area_pixels.iter().copied().filter(|&p| cylinder.contains(input.pixels[p as usize]));
+    if input.refine.all_seeds {
         return inside.collect();
     }
-    let from_mean = |pixel: &u32| (crate::color::vec3(scene.pixels[*pixel as usize]) - line.mean).norm();
+    let from_mean = |pixel: &u32| (crate::color::vec3(input.pixels[*pixel as usize]) - line.mean).norm();
     inside.min_by(|a, b| from_mean(a).total_cmp(&from_mean(b))).into_iter().collect()
 }
 
 /// Grows a region into what its cylinder holds; pixels of others only where its own axis is nearer.
 fn grow_cylinder<R: Recorder>(
-    scene: &Scene,
+    input: &AnalysisInput,
     region: u16,
     cylinders: &[Cylinder],
     claimed: &mut Vec<u32>,
-    ledger: &mut Ledger<R>,
+    recorded_labels: &mut RecordedLabels<R>,
 ) {
     let own = cylinders[usize::from(region) - 1];
     if R::KEEPS {
-        let limit = scene.used.radius_counts() as f32;
-        ledger.recorder.record(Event::GrowthBegan { region, limit });
+        let limit = input.used.radius_counts() as f32;
+        recorded_labels.recorder.record(Event::GrowthBegan { region, limit });
     }
-    ledger.grow(
+    recorded_labels.grow(
         region,
         claimed,
-        || scene.stopped(),
+        || input.stopped(),
         |recorder, pixel, holder| {
-            let color = scene.pixels[pixel];
-            if !scene.claimable(pixel) || !own.contains(color) {
+            let color = input.pixels[pixel];
+            if !input.claimable(pixel) || !own.contains(color) {
                 return false;
             }
             if holder == UNASSIGNED {
@@ -250,7 +250,7 @@ fn grow_cylinder<R: Recorder>(
 }
 
 /// The areas that may still become hypotheses, with the number of pixels that no region has claimed.
-struct Stock<'a> {
+struct SeedAreas<'a> {
     areas: &'a Areas,
     windows: &'a Windows,
     unclaimed: Vec<u32>,
@@ -259,13 +259,13 @@ struct Stock<'a> {
     retired: Vec<bool>,
 }
 
-impl<'a> Stock<'a> {
+impl<'a> SeedAreas<'a> {
     fn new<R: Recorder>(
-        scene: &Scene,
+        input: &AnalysisInput,
         windows: &'a Windows,
         areas: &'a Areas,
         choice: &Choice,
-        ledger: &Ledger<R>,
+        recorded_labels: &RecordedLabels<R>,
     ) -> Self {
         let mut unclaimed = vec![0u32; areas.classes.len()];
         let mut members = vec![Vec::new(); areas.classes.len()];
@@ -277,14 +277,15 @@ impl<'a> Stock<'a> {
             }
         }
         let retired = vec![false; members.len()];
-        let mut stock = Self { areas, windows, unclaimed, members, retired };
+        let mut seed_areas = Self { areas, windows, unclaimed, members, retired };
         // Window moments count valid pixels; what is claimable and free may be less.
-        for area in 0..stock.members.len() {
-            if stock.unclaimed[area] as usize >= choice.min_area_px {
-                stock.unclaimed[area] = stock.free_pixels(scene, area, ledger).count() as u32;
+        for area in 0..seed_areas.members.len() {
+            if seed_areas.unclaimed[area] as usize >= choice.min_area_px {
+                seed_areas.unclaimed[area] =
+                    seed_areas.free_pixels(input, area, recorded_labels).count() as u32;
             }
         }
-        stock
+        seed_areas
     }
 
     /// The area with the most unclaimed pixels, the first of equals, unless it is too small.
@@ -306,29 +307,29 @@ impl<'a> Stock<'a> {
 
     fn free_pixels<'b, R: Recorder>(
         &'b self,
-        scene: &'b Scene,
+        input: &'b AnalysisInput,
         area: usize,
-        ledger: &'b Ledger<R>,
+        recorded_labels: &'b RecordedLabels<R>,
     ) -> impl Iterator<Item = u32> + 'b {
-        let (width, height) = (scene.pixels.width(), scene.pixels.height());
+        let (width, height) = (input.pixels.width(), input.pixels.height());
         let (size, columns) = (self.windows.size_px, self.windows.classes.width());
         self.members[area].iter().flat_map(move |&window| {
             let (left, top) = (window as usize % columns * size, window as usize / columns * size);
             (top..(top + size).min(height))
                 .flat_map(move |y| y * width + left..y * width + (left + size).min(width))
-                .filter(|&pixel| ledger.labels[pixel] == UNASSIGNED && scene.claimable(pixel))
+                .filter(|&pixel| recorded_labels.labels[pixel] == UNASSIGNED && input.claimable(pixel))
                 .map(|pixel| pixel as u32)
         })
     }
 
     fn unclaimed<R: Recorder>(
         &self,
-        scene: &Scene,
+        input: &AnalysisInput,
         area: usize,
-        ledger: &Ledger<R>,
+        recorded_labels: &RecordedLabels<R>,
     ) -> (Vec<u32>, Vec<[f32; 3]>) {
-        let pixels: Vec<u32> = self.free_pixels(scene, area, ledger).collect();
-        let colors = sample(scene, &pixels);
+        let pixels: Vec<u32> = self.free_pixels(input, area, recorded_labels).collect();
+        let colors = sample(input, &pixels);
         (pixels, colors)
     }
 
@@ -348,14 +349,14 @@ impl<'a> Stock<'a> {
 
 /// Length of a region's matte line from black, counts: the 99.5 % quantile of C·d over its pixels on the outside of the
 /// line (5.4.1, figure 9: highlights grow inward, so the brightest matte point is sought outside).
-pub fn matte_length(scene: &Scene, line: &Line, pixels: Pixels) -> f64 {
+pub fn matte_length(input: &AnalysisInput, line: &Line, pixels: Pixels) -> f64 {
     let inward = crate::color::rgb(&line.inward());
     let direction = crate::color::rgb(&line.direction);
     let mean = crate::color::rgb(&line.mean);
     let at_mean = crate::color::dot(mean, inward);
     let mut lengths: Vec<f32> = pixels
         .sample(LENGTH_SAMPLES)
-        .map(|pixel| scene.pixels[pixel as usize])
+        .map(|pixel| input.pixels[pixel as usize])
         .filter(|&color| crate::color::dot(color, inward) <= at_mean)
         .map(|color| crate::color::dot(color, direction))
         .collect();
@@ -373,19 +374,19 @@ mod tests {
     use crate::color::Vec3;
     use crate::raster::LabelMap;
     use crate::segment::testing::{Drawing, check, labels};
-    use crate::trace::{Reel, Stage, Step, Tape};
+    use crate::trace::{Stage, StageTrace, Step, TraceRecorder};
 
     /// Grows region 1 from its pixels in `before`, with a cylinder around each axis, and returns the record.
-    fn grow(drawing: &Drawing, before: &LabelMap, axes: &[Vec3], after: &[&str]) -> Reel {
+    fn grow(drawing: &Drawing, before: &LabelMap, axes: &[Vec3], after: &[&str]) -> StageTrace {
         let hypotheses: Vec<Hypothesis> =
             axes.iter().map(|axis| Hypothesis::new(Line::new(axis * 100.0, *axis))).collect();
-        let mut tape = Tape::default();
-        let mut ledger = Ledger::new(before.clone(), &mut tape);
+        let mut recorder = TraceRecorder::default();
+        let mut recorded_labels = RecordedLabels::new(before.clone(), &mut recorder);
         let mut claimed: Vec<u32> = (0..before.len() as u32).filter(|&p| before[p as usize] == 1).collect();
-        let scene = drawing.scene();
-        grow_cylinder(&scene, 1, &cylinders(&scene, &hypotheses), &mut claimed, &mut ledger);
-        check(&ledger.labels, after);
-        tape.finish(Stage::Linear).unwrap()
+        let input = drawing.input();
+        grow_cylinder(&input, 1, &cylinders(&input, &hypotheses), &mut claimed, &mut recorded_labels);
+        check(&recorded_labels.labels, after);
+        recorder.finish(Stage::Linear).unwrap()
     }
 
     #[test]
@@ -411,8 +412,8 @@ mod tests {
             'y' => Vec3::new(100.0, 6.0, 0.0),
             _ => other * 100.0,
         });
-        let reel = grow(&drawing, &labels(&["1222"]), &[one, other], &["1122"]);
-        let verdicts: Vec<(u32, bool)> = reel
+        let stage_trace = grow(&drawing, &labels(&["1222"]), &[one, other], &["1122"]);
+        let verdicts: Vec<(u32, bool)> = stage_trace
             .steps()
             .filter_map(|step| match step {
                 Step::Claim { pixel, contest: Some(_), .. } => Some((pixel, true)),
@@ -432,8 +433,8 @@ mod tests {
         });
         let line = Line::new(red * 75.0, red);
         let cylinder = Cylinder::new(&line, 10.0);
-        assert_eq!(seeds(&drawing.scene(), &line, cylinder, &[0, 1, 2, 3, 4]), [0, 1, 2, 3]);
+        assert_eq!(seeds(&drawing.input(), &line, cylinder, &[0, 1, 2, 3, 4]), [0, 1, 2, 3]);
         drawing.refine.all_seeds = false;
-        assert_eq!(seeds(&drawing.scene(), &line, cylinder, &[0, 1, 2, 3, 4]), [3]);
+        assert_eq!(seeds(&drawing.input(), &line, cylinder, &[0, 1, 2, 3, 4]), [3]);
     }
 }

@@ -2,10 +2,10 @@
 
 use super::absorb::absorb;
 use super::classify::{Classifier, Windows, classify};
-use super::ledger::Ledger;
+use super::input::AnalysisInput;
 use super::linear::{Choice, Hypothesis, linear};
 use super::merge::{Areas, merge};
-use super::scene::Scene;
+use super::recorded_labels::RecordedLabels;
 use super::unite::{merge_regions, vote};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::trace::{Pass, Recorder};
@@ -24,57 +24,67 @@ pub struct MatteRegions {
 
 /// Finds the matte regions.
 pub fn matte_regions<R: Recorder>(
-    scene: &Scene,
+    input: &AnalysisInput,
     windows: &Windows,
     areas: &Areas,
     recorder: &mut R,
 ) -> MatteRegions {
-    let labels = LabelMap::filled(scene.pixels.width(), scene.pixels.height(), UNASSIGNED);
-    let mut ledger = Ledger::new(labels, recorder);
+    let labels = LabelMap::filled(input.pixels.width(), input.pixels.height(), UNASSIGNED);
+    let mut recorded_labels = RecordedLabels::new(labels, recorder);
     let mut hypotheses = Vec::new();
-    let min_area_px = scene.used.min_area as usize;
+    let min_area_px = input.used.min_area as usize;
     let first = Choice { min_area_px, points: false, through_black: false };
-    linear(scene, windows, areas, &first, &mut hypotheses, &mut ledger);
+    linear(input, windows, areas, &first, &mut hypotheses, &mut recorded_labels);
     for round in 0..3 {
-        if scene.refine.absorb_highlights {
-            ledger.begin(Pass::Absorbing);
+        if input.refine.absorb_highlights {
+            recorded_labels.begin(Pass::Absorbing);
         }
-        let released = scene.refine.absorb_highlights && absorb(scene, &mut hypotheses, &mut ledger);
+        let released = input.refine.absorb_highlights && absorb(input, &mut hypotheses, &mut recorded_labels);
         // Without newly released pixels another look would see what the last one saw.
         if round == 2 || (round == 1 && !released) {
             break;
         }
-        if scene.refine.second_look {
-            second_look(scene, &mut hypotheses, &mut ledger);
+        if input.refine.second_look {
+            second_look(input, &mut hypotheses, &mut recorded_labels);
         }
     }
-    if scene.refine.proximity_vote {
-        ledger.begin(Pass::Vote);
-        vote(scene, &hypotheses, &mut ledger);
+    if input.refine.proximity_vote {
+        recorded_labels.begin(Pass::Vote);
+        vote(input, &hypotheses, &mut recorded_labels);
     }
-    if scene.refine.merge_regions {
-        ledger.begin(Pass::Uniting);
-        merge_regions(scene, &mut hypotheses, &mut ledger);
+    if input.refine.merge_regions {
+        recorded_labels.begin(Pass::Uniting);
+        merge_regions(input, &mut hypotheses, &mut recorded_labels);
     }
-    MatteRegions { labels: ledger.labels, hypotheses }
+    MatteRegions { labels: recorded_labels.labels, hypotheses }
 }
 
 /// Repeats the stages so far on unexplained pixels, for what is smaller than the minimal area or too flat for a line.
-fn second_look<R: Recorder>(scene: &Scene, hypotheses: &mut Vec<Hypothesis>, ledger: &mut Ledger<R>) {
+fn second_look<R: Recorder>(
+    input: &AnalysisInput,
+    hypotheses: &mut Vec<Hypothesis>,
+    recorded_labels: &mut RecordedLabels<R>,
+) {
     for (size_px, min_area_px) in SECOND_LOOKS {
-        if scene.stopped() {
+        if input.stopped() {
             return;
         }
-        ledger.begin(Pass::SecondLook(size_px as u16));
-        let min_area_px = min_area_px.min(scene.used.min_area as usize);
-        let mut classifier = Classifier::new(scene.used.camera_noise, scene.refine.tail_test);
-        let labels = &ledger.labels;
-        let unexplained = |pixel: usize| labels[pixel] == UNASSIGNED && scene.masks.usable(pixel);
+        recorded_labels.begin(Pass::SecondLook(size_px as u16));
+        let min_area_px = min_area_px.min(input.used.min_area as usize);
+        let mut classifier = Classifier::new(input.used.camera_noise, input.refine.tail_test);
+        let labels = &recorded_labels.labels;
+        let unexplained = |pixel: usize| labels[pixel] == UNASSIGNED && input.masks.usable(pixel);
         let min_valid = size_px * size_px / 2;
-        let windows =
-            classify(scene.pixels, unexplained, size_px, min_valid, &mut classifier, ledger.recorder);
-        let areas = merge(&windows, &mut classifier, ledger.recorder);
+        let windows = classify(
+            input.pixels,
+            unexplained,
+            size_px,
+            min_valid,
+            &mut classifier,
+            recorded_labels.recorder,
+        );
+        let areas = merge(&windows, &mut classifier, recorded_labels.recorder);
         let choice = Choice { min_area_px, points: true, through_black: true };
-        linear(scene, &windows, &areas, &choice, hypotheses, ledger);
+        linear(input, &windows, &areas, &choice, hypotheses, recorded_labels);
     }
 }

@@ -1,4 +1,4 @@
-//! Section 5.2.2: neighbouring areas of one class become one while their union keeps the class.
+//! Section 5.2.2: neighboring areas of one class become one while their union keeps the class.
 //!
 //! Row-major, pair after pair, until nothing merges. Volumes never merge. Areas carry moments, so that a union is
 //! tested without looking at a pixel again.
@@ -19,7 +19,7 @@ pub struct Areas {
     pub classes: Vec<Option<Class>>,
 }
 
-/// Merges neighbouring windows.
+/// Merges neighboring windows.
 pub fn merge<R: Recorder>(windows: &Windows, classifier: &mut Classifier, recorder: &mut R) -> Areas {
     let (columns, count) = (windows.classes.width(), windows.classes.len());
     let mut forest = Forest::new(windows);
@@ -27,9 +27,9 @@ pub fn merge<R: Recorder>(windows: &Windows, classifier: &mut Classifier, record
         let mut merged = false;
         for window in 0..count {
             let right = (window + 1) % columns.max(1) != 0;
-            let neighbours = [right.then_some(window + 1), Some(window + columns)];
-            for neighbour in neighbours.into_iter().flatten().filter(|&n| n < count) {
-                merged |= forest.try_union(window, neighbour, classifier, recorder);
+            let neighbors = [right.then_some(window + 1), Some(window + columns)];
+            for neighbor in neighbors.into_iter().flatten().filter(|&n| n < count) {
+                merged |= forest.try_union(window, neighbor, classifier, recorder);
             }
         }
         if !merged {
@@ -123,9 +123,9 @@ mod tests {
     use super::*;
     use crate::color::Vec3;
     use crate::segment::classify::classify;
-    use crate::trace::Silent;
+    use crate::trace::NoopRecorder;
 
-    /// Windows of 5×5 pixels drawn as letters: each letter a matte line of its own colour, `.` dark.
+    /// Windows of 5×5 pixels drawn as letters: each letter a matte line of its own color, `.` dark.
     fn areas_of(grid: &[&str]) -> String {
         let (columns, rows) = (grid[0].len(), grid.len());
         let mut image = Raster::filled(columns * 5, rows * 5, [0.0f32; 3]);
@@ -139,8 +139,9 @@ mod tests {
             image[pixel] = crate::color::rgb(&(color * (80.0 + 4.0 * ((x * 3 + y * 5) % 17) as f64)));
         }
         let mut classifier = Classifier::new(2.5, true);
-        let windows = classify(&image, |pixel| image[pixel][0] > 0.0, 5, 12, &mut classifier, &mut Silent);
-        let areas = merge(&windows, &mut classifier, &mut Silent);
+        let windows =
+            classify(&image, |pixel| image[pixel][0] > 0.0, 5, 12, &mut classifier, &mut NoopRecorder);
+        let areas = merge(&windows, &mut classifier, &mut NoopRecorder);
         let mut names = std::collections::BTreeMap::new();
         let mut text = String::new();
         for (window, &area) in areas.of_window.as_slice().iter().enumerate() {

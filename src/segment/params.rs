@@ -78,7 +78,7 @@ impl Parameter {
                 (1.0, 1e6),
                 false,
                 240.0,
-                "a pixel with a band at or above it is clipped: its colour is not believed",
+                "a pixel with a band at or above it is clipped: its color is not believed",
             ),
             Self::BloomDensity => (
                 "bloom_density",
@@ -86,7 +86,7 @@ impl Parameter {
                 (1.0, 9.0),
                 true,
                 1.0,
-                "a pixel with this many clipped 8-neighbours is bloomed (9: blooming is ignored)",
+                "a pixel with this many clipped 8-neighbors is bloomed (9: blooming is ignored)",
             ),
             Self::CameraNoise => (
                 "camera_noise",
@@ -102,7 +102,7 @@ impl Parameter {
                 (0.0, 441.0),
                 false,
                 23.0,
-                "radius of the dark sphere: colours nearer to black are not analysed",
+                "radius of the dark sphere: colors nearer to black are not analyzed",
             ),
             Self::CylinderWidth => (
                 "cylinder_width",
@@ -110,7 +110,7 @@ impl Parameter {
                 (0.5, 32.0),
                 false,
                 4.0,
-                "radius of the colour cylinder of a linear hypothesis",
+                "radius of the color cylinder of a linear hypothesis",
             ),
             Self::SliceWidth => (
                 "slice_width",
@@ -126,7 +126,7 @@ impl Parameter {
                 (3.0, 64.0),
                 true,
                 10.0,
-                "side of the windows whose local colour variation is classified",
+                "side of the windows whose local color variation is classified",
             ),
             Self::MinArea => (
                 "min_area",
@@ -158,7 +158,7 @@ pub struct Params {
     pub slice_width: Setting,
     pub window_size: Setting,
     pub min_area: Setting,
-    /// The colour of the light: estimated, or given.
+    /// The color of the light: estimated, or given.
     pub illuminant: IlluminantSetting,
     /// The ambient light: estimated, given, or left alone.
     pub ambient: AmbientSetting,
@@ -232,7 +232,7 @@ impl Params {
         }
     }
 
-    /// Every number finite, in range and whole where it must be, and the light a colour.
+    /// Every number finite, in range and whole where it must be, and the light a color.
     ///
     /// # Errors
     /// The first parameter that is not, with its value and what was expected.
@@ -246,16 +246,14 @@ impl Params {
             }
         }
         match self.illuminant {
-            IlluminantSetting::Given(colour) if self.illuminant.direction().is_none() => {
-                return Err(InvalidParameter::Illuminant(colour));
+            IlluminantSetting::Given(color) if self.illuminant.direction().is_none() => {
+                return Err(InvalidParameter::Illuminant(color));
             }
             _ => {}
         }
         match self.ambient {
-            AmbientSetting::Given(colour)
-                if colour.iter().any(|band| !(0.0..=MOST_AMBIENT).contains(band)) =>
-            {
-                Err(InvalidParameter::Ambient(colour))
+            AmbientSetting::Given(color) if color.iter().any(|band| !(0.0..=MOST_AMBIENT).contains(band)) => {
+                Err(InvalidParameter::Ambient(color))
             }
             _ => Ok(()),
         }
@@ -295,7 +293,7 @@ impl UsedParams {
         }
     }
 
-    /// Radius of the colour cylinders, counts.
+    /// Radius of the color cylinders, counts.
     pub fn radius_counts(&self) -> f64 {
         self.cylinder_width * self.camera_noise
     }
@@ -318,10 +316,10 @@ pub enum InvalidParameter {
         /// The value that it does not accept.
         value: f64,
     },
-    /// A light that is no colour.
+    /// A light that is no color.
     #[error("illuminant = {0:?}: expected `auto` or three numbers from 0 on, not all of them 0")]
     Illuminant([f64; 3]),
-    /// Ambient light that is no colour.
+    /// Ambient light that is no color.
     #[error("ambient = {0:?}: expected `auto`, `off` or three numbers from 0 to {MOST_AMBIENT} counts")]
     Ambient([f64; 3]),
 }
@@ -350,18 +348,18 @@ mod tests {
 
     #[test]
     fn a_light_has_any_positive_length_and_no_negative_band() {
-        let with = |colour| Params { illuminant: IlluminantSetting::Given(colour), ..Params::default() };
-        for colour in [[1.0, 0.9, 0.7], [255.0, 0.0, 0.0], [1e-300; 3], [f64::MAX; 3]] {
-            assert!(with(colour).validate().is_ok(), "{colour:?}");
+        let with = |color| Params { illuminant: IlluminantSetting::Given(color), ..Params::default() };
+        for color in [[1.0, 0.9, 0.7], [255.0, 0.0, 0.0], [1e-300; 3], [f64::MAX; 3]] {
+            assert!(with(color).validate().is_ok(), "{color:?}");
         }
-        for colour in [[0.0; 3], [1.0, -0.1, 1.0], [f64::NAN, 1.0, 1.0], [f64::INFINITY, 1.0, 1.0]] {
-            let message = with(colour).validate().unwrap_err().to_string();
-            assert!(message.starts_with(&format!("illuminant = {colour:?}: expected")), "{message}");
+        for color in [[0.0; 3], [1.0, -0.1, 1.0], [f64::NAN, 1.0, 1.0], [f64::INFINITY, 1.0, 1.0]] {
+            let message = with(color).validate().unwrap_err().to_string();
+            assert!(message.starts_with(&format!("illuminant = {color:?}: expected")), "{message}");
         }
-        for colour in [[-1.0, 0.0, 0.0], [0.0, f64::NAN, 0.0], [0.0, 0.0, 201.0]] {
-            let params = Params { ambient: AmbientSetting::Given(colour), ..Params::default() };
+        for color in [[-1.0, 0.0, 0.0], [0.0, f64::NAN, 0.0], [0.0, 0.0, 201.0]] {
+            let params = Params { ambient: AmbientSetting::Given(color), ..Params::default() };
             let message = params.validate().unwrap_err().to_string();
-            assert!(message.starts_with(&format!("ambient = {colour:?}: expected")), "{message}");
+            assert!(message.starts_with(&format!("ambient = {color:?}: expected")), "{message}");
         }
     }
 

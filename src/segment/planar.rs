@@ -1,7 +1,7 @@
 //! Section 5.4: planar hypotheses. Matte line and illuminant span each object's dichromatic plane; extended by the noise
 //! into a slice it segments the image anew, now with the highlights.
 //!
-//! Special provision for coplanar colours: pixels that were recognised as another region's matte pixels are only taken
+//! Special provision for coplanar colors: pixels that were recognized as another region's matte pixels are only taken
 //! inside the own matte cylinder and nearer to the own axis. Where two slices hold a pixel, the nearer plane wins.
 //!
 //! Refined: the illuminant from `illuminant` and `in_plane`, then slices, then both again from the grown regions until it rests
@@ -16,19 +16,19 @@ use super::classify::Windows;
 use super::evidence::{nearby_highlight, plane_constraint};
 use super::illuminant::{Constraint, Prior, average_direction, intersect, weighted_direction};
 use super::in_plane::InPlaneSearch;
-use super::ledger::{Ledger, Members};
+use super::input::AnalysisInput;
 use super::light::{Illuminant, LightFindings};
 use super::linear::{Hypothesis, cylinders, matte_length};
 use super::matte::MatteRegions;
 use super::merge::Areas;
-use super::scene::Scene;
+use super::recorded_labels::{Members, RecordedLabels};
 use super::two_lights::{Evidence, light_of};
 use super::unite::merge_regions;
 use crate::color::{Cylinder, Line, Vec3, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::reflection::{DichromaticPlane, HighlightTest, Slice};
 use crate::trace::{
-    Contest, Contribution, Event, IlluminantEstimated, Measure, Outshone, Pass, Recorder, SliceMade,
+    Contest, Contribution, Event, IlluminantEstimated, Measure, Pass, Recorder, SliceMade, TwoLightTest,
 };
 use rayon::prelude::*;
 
@@ -63,7 +63,7 @@ pub struct PlanarHypothesis {
 }
 
 impl PlanarHypothesis {
-    /// The same with colours measured from `origin`, counts.
+    /// The same with colors measured from `origin`, counts.
     #[must_use]
     pub fn from_origin(&self, origin: &Vec3) -> Self {
         let moved = |line: Line| Line { mean: line.mean - origin, ..line };
@@ -94,7 +94,7 @@ pub struct PlanarRegions {
 
 /// Grows matte regions into planar ones.
 pub fn planar_regions<R: Recorder>(
-    scene: &Scene,
+    input: &AnalysisInput,
     windows: &Windows,
     areas: &Areas,
     matte: &MatteRegions,
@@ -103,25 +103,25 @@ pub fn planar_regions<R: Recorder>(
     let members = Members::of(&matte.labels, matte.hypotheses.len());
     let lengths: Vec<f64> = (1..=matte.hypotheses.len() as u16)
         .into_par_iter()
-        .map(|id| matte_length(scene, &matte.hypotheses[usize::from(id) - 1].line, members.region(id)))
+        .map(|id| matte_length(input, &matte.hypotheses[usize::from(id) - 1].line, members.region(id)))
         .collect();
     if R::KEEPS {
         recorder.record(Event::PassBegan { pass: Pass::Candidates });
     }
     let found = Found { windows, areas, labels: &matte.labels, hypotheses: &matte.hypotheses };
-    let lines = highlight_lines(scene, &found, &members, &lengths, recorder);
-    let mut stage = Stage {
-        scene,
+    let lines = highlight_lines(input, &found, &members, &lengths, recorder);
+    let mut stage = PlanarState {
+        input,
         matte_labels: matte.labels.clone(),
         matte: matte.hypotheses.clone(),
         lengths,
         lines,
-        ledger: Ledger::new(matte.labels.clone(), recorder),
+        recorded_labels: RecordedLabels::new(matte.labels.clone(), recorder),
     };
-    if let Some(direction) = scene.used.illuminant {
+    if let Some(direction) = input.used.illuminant {
         return stage.under_given_light(direction);
     }
-    if !scene.refine.robust_illuminant {
+    if !input.refine.robust_illuminant {
         let objects = stage.lines.iter().flatten().count();
         let direction = average_direction(&stage.lines);
         stage.announce(direction, Vec::new(), None);
@@ -134,7 +134,7 @@ pub fn planar_regions<R: Recorder>(
     let mut found = stage.first_illuminant(&members);
     let mut hypotheses = stage.slices(found.direction);
     for _ in 0..ROUNDS {
-        let Some(before) = found.direction.filter(|_| !scene.stopped()) else { break };
+        let Some(before) = found.direction.filter(|_| !input.stopped()) else { break };
         let next;
         (next, found) = stage.illuminant_again(&hypotheses, &before);
         stage.unite();
@@ -148,46 +148,46 @@ pub fn planar_regions<R: Recorder>(
     stage.choose(hypotheses, found)
 }
 
-pub(super) struct Stage<'a, 's, R: Recorder> {
-    pub(super) scene: &'a Scene<'s>,
+pub(super) struct PlanarState<'a, 's, R: Recorder> {
+    pub(super) input: &'a AnalysisInput<'s>,
     matte_labels: LabelMap,
     matte: Vec<Hypothesis>,
     /// Lengths of the matte lines from black, counts.
     lengths: Vec<f64>,
     lines: Vec<Option<HighlightLine>>,
-    pub(super) ledger: Ledger<'a, R>,
+    pub(super) recorded_labels: RecordedLabels<'a, R>,
 }
 
-impl<R: Recorder> Stage<'_, '_, R> {
+impl<R: Recorder> PlanarState<'_, '_, R> {
     /// Slices that all turn to a light that is known: nothing is estimated, and one round settles it.
     fn under_given_light(mut self, direction: [f64; 3]) -> PlanarRegions {
-        self.ledger.begin(Pass::Illuminant);
+        self.recorded_labels.begin(Pass::Illuminant);
         if R::KEEPS {
-            self.ledger.recorder.record(Event::IlluminantGiven { direction });
+            self.recorded_labels.recorder.record(Event::IlluminantGiven { direction });
         }
         let given = Some(Vec3::from(direction));
         let mut hypotheses = self.slices(given);
-        if self.scene.refine.robust_illuminant {
+        if self.input.refine.robust_illuminant {
             self.unite();
             hypotheses = self.hypotheses(given);
         }
         let illuminant = Some(Illuminant { direction, objects: 0, given: true });
         let light = LightFindings::given(direction);
-        PlanarRegions { labels: self.ledger.labels, hypotheses, illuminant, light }
+        PlanarRegions { labels: self.recorded_labels.labels, hypotheses, illuminant, light }
     }
 
     pub(super) fn announce(
         &mut self,
         direction: Option<Vec3>,
         contributions: Vec<Contribution>,
-        outshone: Option<Outshone>,
+        outshone: Option<TwoLightTest>,
     ) {
-        self.ledger.begin(Pass::Illuminant);
+        self.recorded_labels.begin(Pass::Illuminant);
         if R::KEEPS
             && let Some(direction) = direction
         {
             let estimated = IlluminantEstimated { direction: direction.into(), contributions, outshone };
-            self.ledger.recorder.record(Event::IlluminantEstimated(Box::new(estimated)));
+            self.recorded_labels.recorder.record(Event::IlluminantEstimated(Box::new(estimated)));
         }
     }
 
@@ -198,14 +198,14 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let start = candidates.unwrap_or(white);
         let constraints: Vec<Constraint> = (1..=self.matte.len() as u16)
             .into_par_iter()
-            .filter(|&id| self.matte[usize::from(id) - 1].alive && !self.scene.stopped())
+            .filter(|&id| self.matte[usize::from(id) - 1].alive && !self.input.stopped())
             .filter_map(|id| {
                 let line = &self.matte[usize::from(id) - 1].line;
                 let plane = DichromaticPlane::new(line, &start)?;
                 let length = self.lengths[usize::from(id) - 1];
                 let nearby =
-                    nearby_highlight(self.scene, &self.matte_labels, &plane, length, members.region(id));
-                plane_constraint(self.scene, id, &plane, length, nearby.into_iter())
+                    nearby_highlight(self.input, &self.matte_labels, &plane, length, members.region(id));
+                plane_constraint(self.input, id, &plane, length, nearby.into_iter())
             })
             .collect();
         if constraints.is_empty() && candidates.is_none() {
@@ -225,19 +225,19 @@ impl<R: Recorder> Stage<'_, '_, R> {
 
     /// The illuminant from the grown regions.
     fn illuminant_again(&mut self, hypotheses: &[PlanarHypothesis], before: &Vec3) -> (Vec3, ByPlanes) {
-        let members = Members::of(&self.ledger.labels, hypotheses.len());
+        let members = Members::of(&self.recorded_labels.labels, hypotheses.len());
         let budget = BRANCH_SAMPLES / hypotheses.iter().filter(|h| h.plane.is_some()).count().max(1);
         let evidence: Vec<Evidence> = (1..=hypotheses.len() as u16)
             .into_par_iter()
             .filter_map(|id| {
                 let hypothesis = &hypotheses[usize::from(id) - 1];
-                let wanted = hypothesis.alive && !self.scene.stopped();
+                let wanted = hypothesis.alive && !self.input.stopped();
                 let plane = hypothesis.plane.filter(|_| wanted)?;
                 let (pixels, length) = (members.region(id), hypothesis.matte_length);
-                let lies_in = plane_constraint(self.scene, id, &plane, length, pixels.iter())?;
+                let lies_in = plane_constraint(self.input, id, &plane, length, pixels.iter())?;
                 let search = InPlaneSearch {
-                    scene: self.scene,
-                    labels: &self.ledger.labels,
+                    input: self.input,
+                    labels: &self.recorded_labels.labels,
                     region: id,
                     plane: &plane,
                     matte_length: length,
@@ -252,7 +252,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
             Some(direction) if branches == 0 => Prior { direction, sd_deg: 8.0 },
             _ => Prior { direction: *before, sd_deg: 30.0 },
         };
-        let (found, outshone) = light_of(self.scene, &evidence, &prior);
+        let (found, outshone) = light_of(self.input, &evidence, &prior);
         let highlights_alone = outshone.is_some_and(|outshone| outshone.taken);
         self.announce(Some(found.direction), found.contributions, outshone);
         let direction = Some(found.direction);
@@ -262,11 +262,11 @@ impl<R: Recorder> Stage<'_, '_, R> {
 
     /// Joins parts that have grown together.
     pub(super) fn unite(&mut self) {
-        if !self.scene.refine.merge_regions {
+        if !self.input.refine.merge_regions {
             return;
         }
-        self.ledger.begin(Pass::Uniting);
-        let into = merge_regions(self.scene, &mut self.matte, &mut self.ledger);
+        self.recorded_labels.begin(Pass::Uniting);
+        let into = merge_regions(self.input, &mut self.matte, &mut self.recorded_labels);
         if into.iter().enumerate().all(|(id, &into)| id == usize::from(into)) {
             return;
         }
@@ -276,15 +276,15 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let members = Members::of(&self.matte_labels, self.matte.len());
         for (id, hypothesis) in (1..).zip(&self.matte) {
             self.lengths[usize::from(id) - 1] =
-                matte_length(self.scene, &hypothesis.line, members.region(id));
+                matte_length(self.input, &hypothesis.line, members.region(id));
         }
     }
 
     /// Takes the labels back to the matte regions.
     pub(super) fn reset(&mut self) {
-        self.ledger.begin(Pass::Reset);
+        self.recorded_labels.begin(Pass::Reset);
         for pixel in 0..self.matte_labels.len() {
-            self.ledger.assign(pixel, self.matte_labels[pixel]);
+            self.recorded_labels.assign(pixel, self.matte_labels[pixel]);
         }
     }
 
@@ -298,24 +298,24 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let members = Members::of(&self.matte_labels, self.matte.len());
         let hypotheses = self.hypotheses(illuminant);
         let slices: Vec<Option<Slice>> = hypotheses.iter().map(|h| self.slice(h)).collect();
-        let cylinders = cylinders(self.scene, &self.matte);
-        self.ledger.begin(Pass::Slices);
+        let cylinders = cylinders(self.input, &self.matte);
+        self.recorded_labels.begin(Pass::Slices);
         let mut order: Vec<u16> = (1..=hypotheses.len() as u16).collect();
         order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
         for id in order {
-            if self.scene.stopped() {
+            if self.input.stopped() {
                 break;
             }
             if let (Some(slice), Some(plane)) =
                 (&slices[usize::from(id) - 1], &hypotheses[usize::from(id) - 1].plane)
             {
                 if R::KEEPS {
-                    self.ledger.recorder.record(Event::SliceMade(Box::new(SliceMade {
+                    self.recorded_labels.recorder.record(Event::SliceMade(Box::new(SliceMade {
                         region: id,
                         plane: *plane,
                         matte_length: self.lengths[usize::from(id) - 1],
                         start: hypotheses[usize::from(id) - 1].start,
-                        half_width: self.scene.used.slice_half_width_counts(),
+                        half_width: self.input.used.slice_half_width_counts(),
                         slice: *slice,
                     })));
                 }
@@ -330,9 +330,9 @@ impl<R: Recorder> Stage<'_, '_, R> {
         let matte_length = self.lengths[index];
         let own = self.lines[index];
         let plane = illuminant
-            .filter(|_| alive && (own.is_some() || self.scene.refine.extend_planes))
+            .filter(|_| alive && (own.is_some() || self.input.refine.extend_planes))
             .and_then(|light| DichromaticPlane::new(&line, &light))
-            .filter(|plane| plane.angle_deg() >= MIN_ANGLE_DEG || !self.scene.refine.extend_planes);
+            .filter(|plane| plane.angle_deg() >= MIN_ANGLE_DEG || !self.input.refine.extend_planes);
         let start = own.map_or(line.foot() + line.direction * (DEFAULT_START * matte_length), |o| o.start);
         PlanarHypothesis {
             origin: index as u16 + 1,
@@ -347,9 +347,9 @@ impl<R: Recorder> Stage<'_, '_, R> {
 
     fn slice(&self, hypothesis: &PlanarHypothesis) -> Option<Slice> {
         let plane = hypothesis.plane?;
-        let half_width = self.scene.used.slice_half_width_counts();
-        Some(if self.scene.refine.slice_bounds {
-            Slice::bounded(&plane, half_width, self.scene.used.radius_counts(), hypothesis.matte_length)
+        let half_width = self.input.used.slice_half_width_counts();
+        Some(if self.input.refine.slice_bounds {
+            Slice::bounded(&plane, half_width, self.input.used.radius_counts(), hypothesis.matte_length)
         } else {
             Slice::unbounded(&plane, half_width)
         })
@@ -362,21 +362,21 @@ impl<R: Recorder> Stage<'_, '_, R> {
         (slices, cylinders): (&[Option<Slice>], &[Cylinder]),
         members: &Members,
     ) {
-        let scene = self.scene;
+        let input = self.input;
         let own = cylinders[usize::from(id) - 1];
         let matte_labels = &self.matte_labels;
-        let mut front = self.ledger.border(id, members.region(id));
+        let mut front = self.recorded_labels.border(id, members.region(id));
         if R::KEEPS {
-            let limit = scene.used.slice_half_width_counts() as f32;
-            self.ledger.recorder.record(Event::GrowthBegan { region: id, limit });
+            let limit = input.used.slice_half_width_counts() as f32;
+            self.recorded_labels.recorder.record(Event::GrowthBegan { region: id, limit });
         }
-        self.ledger.grow(
+        self.recorded_labels.grow(
             id,
             &mut front,
-            || scene.stopped(),
+            || input.stopped(),
             |recorder, pixel, holder| {
-                let color = scene.pixels[pixel];
-                if !scene.claimable(pixel) || !slice.contains(color) {
+                let color = input.pixels[pixel];
+                if !input.claimable(pixel) || !slice.contains(color) {
                     return false;
                 }
                 if holder == UNASSIGNED {
@@ -389,7 +389,7 @@ impl<R: Recorder> Stage<'_, '_, R> {
                         let contest = Contest {
                             measure: Measure::ForeignMatte,
                             challenger: own.distance2(color).sqrt(),
-                            holder: scene.used.radius_counts() as f32,
+                            holder: input.used.radius_counts() as f32,
                         };
                         recorder.contest(pixel as u32, holder, id, false, contest);
                     }

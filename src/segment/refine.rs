@@ -21,7 +21,7 @@ pub struct Refine {
     pub robust_lines: bool,
     /// Growth starts from every pixel of the area inside the cylinder, not from one. Body vectors .021° → .019°.
     pub all_seeds: bool,
-    /// A large linear area that is a broad highlight of its neighbour is absorbed by it.
+    /// A large linear area that is a broad highlight of its neighbor is absorbed by it.
     /// Body +1.2 and +8.8 dB, restored pixels +3.4 and +7.9 dB, illuminant 10.2° → .16°.
     pub absorb_highlights: bool,
     /// The linear stage is repeated on unexplained pixels with smaller areas. For small objects: none of the scenes measured has
@@ -35,14 +35,14 @@ pub struct Refine {
     /// The illuminant is a robust intersection of the dichromatic planes, not the mean of highlight directions.
     /// Illuminant 14.6° → .16° and 2.3° → .18°, body +6.1 and +2.8 dB.
     pub robust_illuminant: bool,
-    /// Where faint surface reflection has another colour than the highlights, the planes are those of the highlights.
+    /// Where faint surface reflection has another color than the highlights, the planes are those of the highlights.
     /// A scene with ambient light: illuminant 4.9° → .5°, body +.8 dB, restored pixels +9.5 dB; without, nothing changes.
     pub two_lights: bool,
     /// A region without a highlight candidate still gets a slice once the illuminant is known.
     /// Illuminant 10.1° → .16°, body +2.7 dB.
     pub extend_planes: bool,
     /// Slices end where body and surface reflection would be negative or the matte line ends. At most .001 dB on the scenes
-    /// measured; it keeps neighbours' highlights out where planes cross.
+    /// measured; it keeps neighbors' highlights out where planes cross.
     pub slice_bounds: bool,
     /// The body vector is the matte line through black, seen from the outer edge of the cluster.
     /// Body vectors .231° → .019° and .347° → .039°, body +0.4 and +0.8 dB.
@@ -133,7 +133,7 @@ impl Refine {
                 "Growth starts from every pixel of the area that lies in the cylinder, not from one (5.3)."
             }
             "absorb_highlights" => {
-                "A linear area that is a broad highlight of its neighbour is absorbed by it (5.3, 5.4)."
+                "A linear area that is a broad highlight of its neighbor is absorbed by it (5.3, 5.4)."
             }
             "second_look" => "The linear stage is repeated on unexplained pixels with smaller areas (5.3).",
             "proximity_vote" => "Pixels that two cylinders hold go the way of their surroundings (5.3).",
@@ -144,7 +144,7 @@ impl Refine {
                 "The light is where the dichromatic planes intersect, not the mean of highlight directions (5.4)."
             }
             "two_lights" => {
-                "Where faint surface reflection has another colour than the highlights, these tell the light (7.5)."
+                "Where faint surface reflection has another color than the highlights, these tell the light (7.5)."
             }
             "extend_planes" => {
                 "A region without a highlight candidate gets a plane once the light is known (5.4)."

@@ -1,14 +1,14 @@
 //! From labels to final regions: what is too small goes, what lies apart is separated, numbers are given by size.
 //!
-//! `split_components`: two parts of a region that lie apart are two objects of one colour when background lies between
+//! `split_components`: two parts of a region that lie apart are two objects of one color when background lies between
 //! them, and one object behind another when the other's pixels do (a cup seen through a handle stays one). Shadow is dark
 //! like background; a part that lies nearer than its own size is taken to lie behind a shadow, one that lies farther than
 //! twice its size to be another object. Regions of one matte line that were found apart are joined by the same rule.
 
-use super::ledger::{Ledger, Members, Pixels};
+use super::input::AnalysisInput;
 use super::light::LightFindings;
 use super::planar::{PlanarHypothesis, PlanarRegions};
-use super::scene::Scene;
+use super::recorded_labels::{Members, Pixels, RecordedLabels};
 use super::unite::{MAX_ANGLE_DEG, matte_cluster, one_line};
 use crate::color::{Moments, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
@@ -39,29 +39,29 @@ pub struct FinalRegions {
 
 /// Drops, separates and numbers the regions.
 pub fn final_regions<R: Recorder>(
-    scene: &Scene,
+    input: &AnalysisInput,
     labels: LabelMap,
     planar: &PlanarRegions,
     recorder: &mut R,
 ) -> FinalRegions {
     let mut hypotheses = planar.hypotheses.clone();
-    let mut ledger = Ledger::new(labels, recorder);
-    if scene.refine.merge_regions {
-        ledger.begin(Pass::Joining);
-        join_across(scene, &hypotheses, &mut ledger);
+    let mut recorded_labels = RecordedLabels::new(labels, recorder);
+    if input.refine.merge_regions {
+        recorded_labels.begin(Pass::Joining);
+        join_across(input, &hypotheses, &mut recorded_labels);
     }
-    if scene.refine.split_components {
-        ledger.begin(Pass::Separating);
-        let members = ledger.members(hypotheses.len());
+    if input.refine.split_components {
+        recorded_labels.begin(Pass::Separating);
+        let members = recorded_labels.members(hypotheses.len());
         for id in 1..=hypotheses.len() as u16 {
-            if scene.stopped() {
+            if input.stopped() {
                 break;
             }
-            separate(id, members.region(id), &mut hypotheses, &mut ledger);
+            separate(id, members.region(id), &mut hypotheses, &mut recorded_labels);
         }
     }
-    ledger.begin(Pass::Numbering);
-    let members = ledger.members(hypotheses.len());
+    recorded_labels.begin(Pass::Numbering);
+    let members = recorded_labels.members(hypotheses.len());
     let mut order: Vec<u16> = (1..=hypotheses.len() as u16).collect();
     order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
     let mut finals = vec![UNASSIGNED; hypotheses.len()];
@@ -73,14 +73,14 @@ pub fn final_regions<R: Recorder>(
             finals[usize::from(id) - 1] = kept.len() as u16;
         } else if !pixels.is_empty() {
             if R::KEEPS {
-                ledger.recorder.record(Event::Dropped { region: id, pixels: pixels.len() as u32 });
+                recorded_labels.recorder.record(Event::Dropped { region: id, pixels: pixels.len() as u32 });
             }
             for pixel in pixels.iter() {
-                ledger.assign(pixel as usize, UNASSIGNED);
+                recorded_labels.assign(pixel as usize, UNASSIGNED);
             }
         }
     }
-    let mut labels = ledger.labels;
+    let mut labels = recorded_labels.labels;
     for label in labels.as_mut_slice().iter_mut().filter(|label| **label != UNASSIGNED) {
         *label = finals[usize::from(*label) - 1];
     }
@@ -91,8 +91,12 @@ pub fn final_regions<R: Recorder>(
 }
 
 /// Joins regions on one matte line that an occluder or a shadow parts.
-fn join_across<R: Recorder>(scene: &Scene, hypotheses: &[PlanarHypothesis], ledger: &mut Ledger<R>) {
-    let members = ledger.members(hypotheses.len());
+fn join_across<R: Recorder>(
+    input: &AnalysisInput,
+    hypotheses: &[PlanarHypothesis],
+    recorded_labels: &mut RecordedLabels<R>,
+) {
+    let members = recorded_labels.members(hypotheses.len());
     let mut order: Vec<u16> =
         (1..=hypotheses.len() as u16).filter(|&id| members.region(id).len() >= MIN_REGION_PX).collect();
     order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
@@ -101,7 +105,7 @@ fn join_across<R: Recorder>(scene: &Scene, hypotheses: &[PlanarHypothesis], ledg
     let mut clusters: BTreeMap<u16, Moments> = BTreeMap::new();
     let mut into_of: Vec<u16> = (0..=hypotheses.len() as u16).collect();
     for (i, &into) in order.iter().enumerate() {
-        if scene.stopped() {
+        if input.stopped() {
             break;
         }
         for &from in &order[i + 1..] {
@@ -111,25 +115,32 @@ fn join_across<R: Recorder>(scene: &Scene, hypotheses: &[PlanarHypothesis], ledg
                 continue;
             }
             for id in [from, into] {
-                outlines.entry(id).or_insert_with(|| Outline::new(&ledger.labels, members.region(id).iter()));
+                outlines
+                    .entry(id)
+                    .or_insert_with(|| Outline::new(&recorded_labels.labels, members.region(id).iter()));
             }
-            if !same_object(&ledger.labels, &outlines[&into], &outlines[&from]) {
+            if !same_object(&recorded_labels.labels, &outlines[&into], &outlines[&from]) {
                 continue;
             }
             let cluster = clusters
                 .entry(from)
-                .or_insert_with(|| matte_cluster(scene, line(from), members.region(from)));
-            if let Some(rms) = one_line(scene, cluster, line(from), line(into)) {
+                .or_insert_with(|| matte_cluster(input, line(from), members.region(from)));
+            if let Some(rms) = one_line(input, cluster, line(from), line(into)) {
                 into_of[usize::from(from)] = into;
                 if R::KEEPS {
-                    ledger.recorder.record(Event::RegionsMerged { region: from, into, angle_deg, rms });
+                    recorded_labels.recorder.record(Event::RegionsMerged {
+                        region: from,
+                        into,
+                        angle_deg,
+                        rms,
+                    });
                 }
             }
         }
     }
     for &from in order.iter().filter(|&&from| into_of[usize::from(from)] != from) {
         for pixel in members.region(from).iter() {
-            ledger.assign(pixel as usize, into_of[usize::from(from)]);
+            recorded_labels.assign(pixel as usize, into_of[usize::from(from)]);
         }
     }
 }
@@ -139,17 +150,19 @@ fn separate<R: Recorder>(
     id: u16,
     pixels: Pixels,
     hypotheses: &mut Vec<PlanarHypothesis>,
-    ledger: &mut Ledger<R>,
+    recorded_labels: &mut RecordedLabels<R>,
 ) {
-    let mut parts = parts(ledger.labels.width(), pixels);
+    let mut parts = parts(recorded_labels.labels.width(), pixels);
     parts.sort_by_key(|part| std::cmp::Reverse(part.len()));
-    let outline = |part: &[u32]| Outline::new(&ledger.labels, part.iter().copied());
+    let outline = |part: &[u32]| Outline::new(&recorded_labels.labels, part.iter().copied());
     // Parts that belong together, the largest of each group first.
     let mut groups: Vec<Vec<Vec<u32>>> = Vec::new();
     for part in parts {
         let home = groups.iter().position(|group| {
             part.len() < MIN_REGION_PX
-                || group.iter().any(|other| same_object(&ledger.labels, &outline(other), &outline(&part)))
+                || group
+                    .iter()
+                    .any(|other| same_object(&recorded_labels.labels, &outline(other), &outline(&part)))
         });
         match home {
             Some(home) => groups[home].push(part),
@@ -164,10 +177,10 @@ fn separate<R: Recorder>(
         let part = hypotheses.len() as u16;
         if R::KEEPS {
             let pixels = group.iter().map(Vec::len).sum::<usize>() as u32;
-            ledger.recorder.record(Event::ComponentSplit { region: id, part, pixels });
+            recorded_labels.recorder.record(Event::ComponentSplit { region: id, part, pixels });
         }
         for pixel in group.into_iter().flatten() {
-            ledger.assign(pixel as usize, part);
+            recorded_labels.assign(pixel as usize, part);
         }
     }
 }
@@ -236,7 +249,7 @@ impl Outline {
             outline.columns = [outline.columns[0].min(x), outline.columns[1].max(x)];
             outline.rows = [outline.rows[0].min(y), outline.rows[1].max(y)];
             let mut edge = false;
-            labels.for_each_neighbour(pixel as usize, |near| edge |= labels[near] != own);
+            labels.for_each_neighbor(pixel as usize, |near| edge |= labels[near] != own);
             if edge {
                 outline.border.push((x, y));
             }
@@ -287,7 +300,7 @@ fn same_object(labels: &LabelMap, one: &Outline, other: &Outline) -> bool {
 }
 
 /// Which regions touch each region: ascending lists, region `id` at index `id − 1`.
-pub fn neighbours(labels: &LabelMap, regions: usize) -> Vec<Vec<u16>> {
+pub fn neighbors(labels: &LabelMap, regions: usize) -> Vec<Vec<u16>> {
     let mut lists = vec![Vec::new(); regions];
     for (a, b) in super::borders::near_pairs(labels, 1) {
         lists[usize::from(a) - 1].push(b);
@@ -310,7 +323,7 @@ mod tests {
     use crate::color::{Line, Vec3};
     use crate::raster::Raster;
     use crate::segment::testing::Drawing;
-    use crate::trace::Silent;
+    use crate::trace::NoopRecorder;
 
     const SIZE_PX: [usize; 2] = [360, 60];
 
@@ -341,7 +354,7 @@ mod tests {
         };
         let row = ".".repeat(SIZE_PX[0]);
         let drawing = Drawing::new(&[row.as_str(); SIZE_PX[1]], |_| Vec3::zeros());
-        let found = final_regions(&drawing.scene(), labels, &planar, &mut Silent);
+        let found = final_regions(&drawing.input(), labels, &planar, &mut NoopRecorder);
         rectangles.iter().map(|&[left, top, ..]| found.labels[top * SIZE_PX[0] + left]).collect()
     }
 

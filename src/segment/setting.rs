@@ -81,7 +81,7 @@ impl<'de> Deserialize<'de> for Setting {
     }
 }
 
-/// The colour of the light: estimated from the highlights, or given.
+/// The color of the light: estimated from the highlights, or given.
 ///
 /// In TOML and JSON `"auto"` or three numbers, as a flag `auto` or `R,G,B`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -95,16 +95,16 @@ pub enum IlluminantSetting {
 }
 
 impl IlluminantSetting {
-    /// The unit direction of a given light; `None` when none is given, or one that is no colour: a band that is negative or
+    /// The unit direction of a given light; `None` when none is given, or one that is no color: a band that is negative or
     /// not finite, or no light at all.
     pub fn direction(self) -> Option<[f64; 3]> {
-        let Self::Given(colour) = self else { return None };
-        let largest = colour.iter().copied().fold(0.0, f64::max);
-        if largest == 0.0 || colour.iter().any(|band| !band.is_finite() || *band < 0.0) {
+        let Self::Given(color) = self else { return None };
+        let largest = color.iter().copied().fold(0.0, f64::max);
+        if largest == 0.0 || color.iter().any(|band| !band.is_finite() || *band < 0.0) {
             return None;
         }
         // Relative to the largest band first: squares of huge and tiny lengths are no numbers.
-        let relative = colour.map(|band| band / largest);
+        let relative = color.map(|band| band / largest);
         let length = relative.iter().map(|band| band * band).sum::<f64>().sqrt();
         Some(relative.map(|band| band / length))
     }
@@ -136,7 +136,7 @@ impl std::str::FromStr for IlluminantSetting {
 #[derive(Serialize, Deserialize)]
 #[serde(untagged, expecting = "expected three numbers or a word such as \"auto\"")]
 enum Written {
-    Colour([f64; 3]),
+    Color([f64; 3]),
     Word(String),
 }
 
@@ -145,7 +145,7 @@ impl TryFrom<Written> for IlluminantSetting {
 
     fn try_from(written: Written) -> Result<Self, Self::Error> {
         match written {
-            Written::Colour(colour) => Ok(Self::Given(colour)),
+            Written::Color(color) => Ok(Self::Given(color)),
             Written::Word(word) if word == "auto" => Ok(Self::Auto),
             Written::Word(word) => Err(format!("{word:?} is neither three numbers nor `auto`")),
         }
@@ -156,7 +156,7 @@ impl From<IlluminantSetting> for Written {
     fn from(setting: IlluminantSetting) -> Self {
         match setting {
             IlluminantSetting::Auto => Self::Word("auto".to_owned()),
-            IlluminantSetting::Given(colour) => Self::Colour(colour),
+            IlluminantSetting::Given(color) => Self::Color(color),
         }
     }
 }
@@ -205,7 +205,7 @@ impl TryFrom<Written> for AmbientSetting {
 
     fn try_from(written: Written) -> Result<Self, Self::Error> {
         match written {
-            Written::Colour(colour) => Ok(Self::Given(colour)),
+            Written::Color(color) => Ok(Self::Given(color)),
             Written::Word(word) if word == "auto" => Ok(Self::Auto),
             Written::Word(word) if word == "off" => Ok(Self::Off),
             Written::Word(word) => Err(format!("{word:?} is neither three numbers nor `auto` nor `off`")),
@@ -216,7 +216,7 @@ impl TryFrom<Written> for AmbientSetting {
 impl From<AmbientSetting> for Written {
     fn from(setting: AmbientSetting) -> Self {
         match setting {
-            AmbientSetting::Given(colour) => Self::Colour(colour),
+            AmbientSetting::Given(color) => Self::Color(color),
             word => Self::Word(word.to_string()),
         }
     }

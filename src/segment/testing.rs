@@ -1,8 +1,8 @@
 //! Pictures and label maps drawn as text, for the tests of single stages.
 
+use super::input::AnalysisInput;
 use super::params::{Params, UsedParams};
 use super::refine::Refine;
-use super::scene::Scene;
 use crate::color::{Vec3, rgb};
 use crate::photo::{LinearImage, MaskLimits, Masks};
 use crate::raster::{LabelMap, Raster};
@@ -16,7 +16,7 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// Colours the characters by `palette`; `.` is black. Table 6's numbers but for blooming, which is ignored, and the
+    /// Colors the characters by `palette`; `.` is black. Table 6's numbers but for blooming, which is ignored, and the
     /// minimal area: every refinement is on.
     pub fn new(rows: &[&str], palette: impl Fn(char) -> Vec3) -> Self {
         let colors = rows.iter().flat_map(|row| row.chars());
@@ -24,9 +24,9 @@ impl Drawing {
         Self::of(Raster::from_vec(rows[0].len(), rows.len(), colors).unwrap())
     }
 
-    /// A square picture, coloured by column and row; the numbers are those of [`Drawing::new`].
-    pub fn by_place(side_px: usize, colour: impl Fn(f64, f64) -> Vec3) -> Self {
-        let place = |i: usize| rgb(&colour((i % side_px) as f64, (i / side_px) as f64));
+    /// A square picture, colored by column and row; the numbers are those of [`Drawing::new`].
+    pub fn by_place(side_px: usize, color: impl Fn(f64, f64) -> Vec3) -> Self {
+        let place = |i: usize| rgb(&color((i % side_px) as f64, (i / side_px) as f64));
         let colors = (0..side_px * side_px).map(place).collect();
         Self::of(Raster::from_vec(side_px, side_px, colors).unwrap())
     }
@@ -50,8 +50,8 @@ impl Drawing {
     }
 
     /// What the stages look at.
-    pub fn scene(&self) -> Scene<'_> {
-        Scene::new(&self.image, &self.masks, &self.used, self.refine)
+    pub fn input(&self) -> AnalysisInput<'_> {
+        AnalysisInput::new(&self.image, &self.masks, &self.used, self.refine)
     }
 }
 

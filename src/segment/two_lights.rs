@@ -1,7 +1,7 @@
 //! Do all reflections off the surface come from one light? (section 7.5; refinement `two_lights`)
 //!
 //! Ambient light is reflected by the surface too, faintly and everywhere, the lamp in few pixels and strongly. Where both have
-//! another colour, the plane of all pixels off the matte line turns towards the ambient light, by up to 7° on a rendered cup,
+//! another color, the plane of all pixels off the matte line turns towards the ambient light, by up to 7° on a rendered cup,
 //! and the light with it, by 5°; the plane in which a highlight itself rises above its surroundings does not.
 //!
 //! So the light is sought a second time, with the highlights' planes, and that one is taken where it explains the pixels that
@@ -11,10 +11,10 @@
 use super::evidence::{branch_constraint, plane_of_highlights};
 use super::illuminant::{Constraint, Intersection, Prior, intersect};
 use super::in_plane::InPlane;
-use super::scene::Scene;
+use super::input::AnalysisInput;
 use crate::color::Vec3;
 use crate::reflection::DichromaticPlane;
-use crate::trace::Outshone;
+use crate::trace::TwoLightTest;
 
 /// Mean squared distance of outshone pixels, σ², up to which a light explains them …
 const EXPLAINED: f64 = 3.0;
@@ -53,18 +53,23 @@ impl Evidence {
 }
 
 /// The light of the highlights, by what all regions say, and how it was chosen; none of that where few pixels can tell.
-pub fn light_of(scene: &Scene, evidence: &[Evidence], prior: &Prior) -> (Intersection, Option<Outshone>) {
+pub fn light_of(
+    input: &AnalysisInput,
+    evidence: &[Evidence],
+    prior: &Prior,
+) -> (Intersection, Option<TwoLightTest>) {
     let meeting = |lies_in: &dyn Fn(&Evidence) -> Constraint| {
         let constraints: Vec<Constraint> =
             evidence.iter().flat_map(|evidence| evidence.constraints(lies_in(evidence))).collect();
         intersect(&constraints, prior)
     };
     let of_all = meeting(&|evidence| evidence.lies_in);
-    let misfit_of = |light: &Vec3| misfit(evidence, light, scene.sigma());
-    let Some((by_all, pixels)) = misfit_of(&of_all.direction).filter(|_| scene.refine.two_lights) else {
+    let misfit_of = |light: &Vec3| misfit(evidence, light, input.sigma());
+    let Some((by_all, pixels)) = misfit_of(&of_all.direction).filter(|_| input.refine.two_lights) else {
         return (of_all, None);
     };
-    let told = Outshone { pixels, by_all, by_highlights: None, limits: [EXPLAINED, BETTER], taken: false };
+    let told =
+        TwoLightTest { pixels, by_all, by_highlights: None, limits: [EXPLAINED, BETTER], taken: false };
     if by_all < BETTER {
         return (of_all, Some(told));
     }
@@ -74,7 +79,7 @@ pub fn light_of(scene: &Scene, evidence: &[Evidence], prior: &Prior) -> (Interse
     });
     let by_highlights = misfit_of(&of_highlights.direction).map_or(FAR, |(misfit, _)| misfit);
     let taken = by_highlights < EXPLAINED && BETTER * by_highlights < by_all;
-    let told = Outshone { by_highlights: Some(by_highlights), taken, ..told };
+    let told = TwoLightTest { by_highlights: Some(by_highlights), taken, ..told };
     (if taken { of_highlights } else { of_all }, Some(told))
 }
 
@@ -93,7 +98,7 @@ mod tests {
     use crate::segment::in_plane::Rise;
     use crate::segment::testing::Drawing;
 
-    /// What three bodies say whose faint surface reflection has the colour of `faint` and whose highlights that of `lamp`.
+    /// What three bodies say whose faint surface reflection has the color of `faint` and whose highlights that of `lamp`.
     fn light(faint: &Vec3, lamp: &Vec3, printed: bool) -> (Vec3, bool) {
         let asked = Vec3::repeat(1.0).normalize();
         let bodies = [[0.9, 0.3, 0.2], [0.2, 0.8, 0.3], [0.3, 0.3, 0.9]];
@@ -128,12 +133,12 @@ mod tests {
             })
             .collect();
         let drawing = Drawing::by_place(4, |_, _| Vec3::repeat(99.0));
-        let (found, told) = light_of(&drawing.scene(), &evidence, &Prior { direction: asked, sd_deg: 30.0 });
+        let (found, told) = light_of(&drawing.input(), &evidence, &Prior { direction: asked, sd_deg: 30.0 });
         (found.direction, told.unwrap().taken)
     }
 
     #[test]
-    fn highlights_of_another_colour_than_faint_reflection_tell_the_light() {
+    fn highlights_of_another_color_than_faint_reflection_tell_the_light() {
         let (faint, lamp) = (Vec3::new(0.65, 0.58, 0.5).normalize(), Vec3::new(0.55, 0.57, 0.61).normalize());
         let (found, taken) = light(&faint, &lamp, false);
         assert!(taken && axis_angle_deg(&found, &lamp) < 0.3, "{found}");

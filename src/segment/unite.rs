@@ -6,9 +6,9 @@
 //! majority of its 5×5 surroundings (no salt and pepper at σ ≥ 2.5).
 
 use super::borders::near_pairs;
-use super::ledger::{Ledger, Members, Pixels};
+use super::input::AnalysisInput;
 use super::linear::{Hypothesis, cylinders};
-use super::scene::Scene;
+use super::recorded_labels::{Members, Pixels, RecordedLabels};
 use crate::color::{Cylinder, Line, Moments, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::trace::{Contest, Event, Measure, Recorder};
@@ -26,15 +26,15 @@ const RMS_FLOOR: f64 = 0.6;
 const VOTE_RADIUS: usize = 2;
 const MAJORITY_PERCENT: usize = 60;
 
-/// Unites neighbouring regions whose matte lines cannot be told apart, smaller into larger. Returns the new owner of each
+/// Unites neighboring regions whose matte lines cannot be told apart, smaller into larger. Returns the new owner of each
 /// region's pixels, by number.
 pub fn merge_regions<R: Recorder>(
-    scene: &Scene,
+    input: &AnalysisInput,
     hypotheses: &mut [Hypothesis],
-    ledger: &mut Ledger<R>,
+    recorded_labels: &mut RecordedLabels<R>,
 ) -> Vec<u16> {
     let mut into_of: Vec<u16> = (0..=hypotheses.len() as u16).collect();
-    let pairs: Vec<(u16, u16)> = near_pairs(&ledger.labels, REACH_PX)
+    let pairs: Vec<(u16, u16)> = near_pairs(&recorded_labels.labels, REACH_PX)
         .into_iter()
         .filter(|&(a, b)| {
             let direction = |id: u16| &hypotheses[usize::from(id) - 1].line.direction;
@@ -44,7 +44,7 @@ pub fn merge_regions<R: Recorder>(
     if pairs.is_empty() {
         return into_of;
     }
-    let members = ledger.members(hypotheses.len());
+    let members = recorded_labels.members(hypotheses.len());
     let mut clusters: BTreeMap<u16, Moments> = BTreeMap::new();
     for (a, b) in pairs {
         let (a, b) = (into_of[usize::from(a)], into_of[usize::from(b)]);
@@ -53,7 +53,7 @@ pub fn merge_regions<R: Recorder>(
         }
         let line = |id: u16| hypotheses[usize::from(id) - 1].line;
         let mut cluster =
-            |id| *clusters.entry(id).or_insert_with(|| matte_cluster(scene, &line(id), members.region(id)));
+            |id| *clusters.entry(id).or_insert_with(|| matte_cluster(input, &line(id), members.region(id)));
         let angle_deg = axis_angle_deg(&line(a).direction, &line(b).direction);
         if angle_deg >= MAX_ANGLE_DEG {
             continue;
@@ -61,9 +61,9 @@ pub fn merge_regions<R: Recorder>(
         let (of_a, of_b) = (cluster(a), cluster(b));
         let (into, from) = if of_a.n >= of_b.n { (a, b) } else { (b, a) };
         let from_cluster = if from == a { of_a } else { of_b };
-        let Some(rms) = one_line(scene, &from_cluster, &line(from), &line(into)) else { continue };
+        let Some(rms) = one_line(input, &from_cluster, &line(from), &line(into)) else { continue };
         if R::KEEPS {
-            ledger.recorder.record(Event::RegionsMerged { region: from, into, angle_deg, rms });
+            recorded_labels.recorder.record(Event::RegionsMerged { region: from, into, angle_deg, rms });
         }
         clusters.insert(into, of_a.merged(&of_b));
         let vanished = &mut hypotheses[usize::from(from) - 1];
@@ -74,23 +74,23 @@ pub fn merge_regions<R: Recorder>(
             *owner = into;
         }
     }
-    reassign(&members, &into_of, ledger);
+    reassign(&members, &into_of, recorded_labels);
     into_of
 }
 
 /// Whether a cluster lies on another's line as well as on its own: its root mean square distance from the other's.
-pub fn one_line(scene: &Scene, cluster: &Moments, own: &Line, other: &Line) -> Option<f64> {
+pub fn one_line(input: &AnalysisInput, cluster: &Moments, own: &Line, other: &Line) -> Option<f64> {
     let angle_deg = axis_angle_deg(&own.direction, &other.direction);
     let rms = rms_from(cluster, other);
-    let limit = RMS_RATIO * rms_from(cluster, own).max(RMS_FLOOR * scene.used.camera_noise);
+    let limit = RMS_RATIO * rms_from(cluster, own).max(RMS_FLOOR * input.used.camera_noise);
     (angle_deg < MAX_ANGLE_DEG && rms < limit).then_some(rms)
 }
 
-/// The believable colours of a region inside its cylinder.
-pub fn matte_cluster(scene: &Scene, line: &Line, pixels: Pixels) -> Moments {
-    let cylinder = Cylinder::new(line, scene.used.radius_counts());
-    let usable = pixels.iter().map(|pixel| pixel as usize).filter(|&pixel| scene.masks.usable(pixel));
-    usable.map(|pixel| scene.pixels[pixel]).filter(|&color| cylinder.contains(color)).collect()
+/// The believable colors of a region inside its cylinder.
+pub fn matte_cluster(input: &AnalysisInput, line: &Line, pixels: Pixels) -> Moments {
+    let cylinder = Cylinder::new(line, input.used.radius_counts());
+    let usable = pixels.iter().map(|pixel| pixel as usize).filter(|&pixel| input.masks.usable(pixel));
+    usable.map(|pixel| input.pixels[pixel]).filter(|&color| cylinder.contains(color)).collect()
 }
 
 /// Root mean square distance of a cluster from a line.
@@ -104,37 +104,41 @@ fn rms_from(cluster: &Moments, line: &Line) -> f64 {
     (across + offset).max(0.0).sqrt()
 }
 
-fn reassign<R: Recorder>(members: &Members, into_of: &[u16], ledger: &mut Ledger<R>) {
+fn reassign<R: Recorder>(members: &Members, into_of: &[u16], recorded_labels: &mut RecordedLabels<R>) {
     for (region, &into) in into_of.iter().enumerate().skip(1) {
         if usize::from(into) != region {
             for pixel in members.region(region as u16).iter() {
-                ledger.assign(pixel as usize, into);
+                recorded_labels.assign(pixel as usize, into);
             }
         }
     }
 }
 
 /// Lets contested pixels follow the majority around them.
-pub fn vote<R: Recorder>(scene: &Scene, hypotheses: &[Hypothesis], ledger: &mut Ledger<R>) {
-    let before = ledger.labels.clone();
-    let cylinders = cylinders(scene, hypotheses);
+pub fn vote<R: Recorder>(
+    input: &AnalysisInput,
+    hypotheses: &[Hypothesis],
+    recorded_labels: &mut RecordedLabels<R>,
+) {
+    let before = recorded_labels.labels.clone();
+    let cylinders = cylinders(input, hypotheses);
     for pixel in contested(&before) {
         let (winner, count, total) = majority(&before, pixel);
         if winner != before[pixel]
             && count * 100 >= total * MAJORITY_PERCENT
-            && cylinders[usize::from(winner) - 1].contains(scene.pixels[pixel])
+            && cylinders[usize::from(winner) - 1].contains(input.pixels[pixel])
         {
             if R::KEEPS {
                 let (challenger, holder) = (count as f32, total as f32);
                 let contest = Contest { measure: Measure::Vote, challenger, holder };
-                ledger.recorder.contest(pixel as u32, before[pixel], winner, true, contest);
+                recorded_labels.recorder.contest(pixel as u32, before[pixel], winner, true, contest);
             }
-            ledger.assign(pixel, winner);
+            recorded_labels.assign(pixel, winner);
         }
     }
 }
 
-/// Pixels of which a 4-neighbour belongs to another region, ascending.
+/// Pixels of which a 4-neighbor belongs to another region, ascending.
 fn contested(labels: &LabelMap) -> Vec<usize> {
     let width = labels.width();
     let differ = |a: u16, b: u16| a != b && a != UNASSIGNED && b != UNASSIGNED;
@@ -186,7 +190,7 @@ mod tests {
     use super::*;
     use crate::color::Vec3;
     use crate::segment::testing::{Drawing, check, labels};
-    use crate::trace::Silent;
+    use crate::trace::NoopRecorder;
 
     const RED: [f64; 3] = [0.9, 0.3, 0.2];
     const GREEN: [f64; 3] = [0.2, 0.9, 0.3];
@@ -209,43 +213,47 @@ mod tests {
     }
 
     #[test]
-    fn a_contested_pixel_follows_a_clear_majority_that_holds_its_colour() {
-        let silent = &mut Silent;
+    fn a_contested_pixel_follows_a_clear_majority_that_holds_its_color() {
+        let silent = &mut NoopRecorder;
         let lonely = ["11111", "11211", "11111"];
-        let mut ledger = Ledger::new(labels(&lonely), silent);
-        vote(&drawing(&["rrrrr"; 3]).scene(), &hypotheses(&[RED, RED]), &mut ledger);
-        check(&ledger.labels, &["11111"; 3]);
-        let mut ledger = Ledger::new(labels(&lonely), silent);
-        vote(&drawing(&["rrrrr", "rrgrr", "rrrrr"]).scene(), &hypotheses(&[RED, GREEN]), &mut ledger);
-        check(&ledger.labels, &lonely);
+        let mut recorded_labels = RecordedLabels::new(labels(&lonely), silent);
+        vote(&drawing(&["rrrrr"; 3]).input(), &hypotheses(&[RED, RED]), &mut recorded_labels);
+        check(&recorded_labels.labels, &["11111"; 3]);
+        let mut recorded_labels = RecordedLabels::new(labels(&lonely), silent);
+        vote(
+            &drawing(&["rrrrr", "rrgrr", "rrrrr"]).input(),
+            &hypotheses(&[RED, GREEN]),
+            &mut recorded_labels,
+        );
+        check(&recorded_labels.labels, &lonely);
     }
 
     #[test]
     fn half_of_the_surroundings_are_no_majority() {
         let halves = ["111222"; 5];
-        let silent = &mut Silent;
-        let mut ledger = Ledger::new(labels(&halves), silent);
-        vote(&drawing(&["rrrrrr"; 5]).scene(), &hypotheses(&[RED, RED]), &mut ledger);
-        check(&ledger.labels, &halves);
+        let silent = &mut NoopRecorder;
+        let mut recorded_labels = RecordedLabels::new(labels(&halves), silent);
+        vote(&drawing(&["rrrrrr"; 5]).input(), &hypotheses(&[RED, RED]), &mut recorded_labels);
+        check(&recorded_labels.labels, &halves);
     }
 
     #[test]
     fn near_parts_with_one_line_unite_into_the_larger() {
-        let silent = &mut Silent;
-        let mut ledger = Ledger::new(labels(&["11..2222....3", "11..2222....3"]), silent);
+        let silent = &mut NoopRecorder;
+        let mut recorded_labels = RecordedLabels::new(labels(&["11..2222....3", "11..2222....3"]), silent);
         let mut found = hypotheses(&[RED, RED, RED]);
-        let into = merge_regions(&drawing(&["rr..rrrr....r"; 2]).scene(), &mut found, &mut ledger);
-        check(&ledger.labels, &["22..2222....3", "22..2222....3"]);
+        let into = merge_regions(&drawing(&["rr..rrrr....r"; 2]).input(), &mut found, &mut recorded_labels);
+        check(&recorded_labels.labels, &["22..2222....3", "22..2222....3"]);
         assert_eq!(into, [0, 2, 2, 3]);
         assert_eq!(found.iter().map(|h| h.alive).collect::<Vec<_>>(), [false, true, true]);
     }
 
     #[test]
     fn other_directions_stay_apart() {
-        let silent = &mut Silent;
-        let mut ledger = Ledger::new(labels(&["1122"; 2]), silent);
+        let silent = &mut NoopRecorder;
+        let mut recorded_labels = RecordedLabels::new(labels(&["1122"; 2]), silent);
         let mut found = hypotheses(&[RED, GREEN]);
-        merge_regions(&drawing(&["rrgg"; 2]).scene(), &mut found, &mut ledger);
-        check(&ledger.labels, &["1122"; 2]);
+        merge_regions(&drawing(&["rrgg"; 2]).input(), &mut found, &mut recorded_labels);
+        check(&recorded_labels.labels, &["1122"; 2]);
     }
 }

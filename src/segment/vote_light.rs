@@ -1,6 +1,6 @@
 //! The light by the votes of small highlights, whatever regions there are (beyond the paper; refinement `vote_light`).
 //!
-//! Where a highlight is small, D = G1(I) − G3(I) is its own colour, the light's, and B = G3(I) that of the body under it: the
+//! Where a highlight is small, D = G1(I) − G3(I) is its own color, the light's, and B = G3(I) that of the body under it: the
 //! light lies in the plane of both. Voters are unclipped pixels with D and B positive in every band, ΣD above
 //! max(98 % quantile of the lit ones, 8σ), and more than 2° between D and B; fewer than 30 are no vote. A voter's plane has
 //! the unit normal n = D × B, and the weight min(1, 60 / pixels of its blob). A light s has
@@ -13,9 +13,9 @@
 //! where planes of printed objects are 8–18° off; on plain objects the planes are better (0.1°).
 
 use super::illuminant::unusualness;
-use super::scene::Scene;
+use super::input::AnalysisInput;
 use crate::color::{Vec3, vec3};
-use crate::raster::{Mask, Raster, Window, blur, dilate};
+use crate::raster::{Mask, Raster, Roi, blur, dilate};
 use rayon::prelude::*;
 
 /// Widths of the two Gaussians, pixels.
@@ -83,26 +83,26 @@ impl Votes {
     }
 
     /// Asks the picture; none where too few pixels have anything to say.
-    pub fn cast(scene: &Scene) -> Option<Self> {
-        let size = (scene.pixels.width(), scene.pixels.height());
+    pub fn cast(input: &AnalysisInput) -> Option<Self> {
+        let size = (input.pixels.width(), input.pixels.height());
         let margin_px = (4.0 * COARSE_PX) as usize;
-        let window = Window::around(size, margin_px, |pixel| !scene.masks.dark(pixel))?;
-        let clipped = dilate(&scene.masks.mask(crate::photo::Masks::clipped), CLIP_MARGIN_PX);
-        let known = |pixel: usize| !scene.masks.invalid(pixel) && !scene.masks.outside(pixel);
+        let window = Roi::around(size, margin_px, |pixel| !input.masks.dark(pixel))?;
+        let clipped = dilate(&input.masks.mask(crate::photo::Masks::clipped), CLIP_MARGIN_PX);
+        let known = |pixel: usize| !input.masks.invalid(pixel) && !input.masks.outside(pixel);
         let valid = |pixel: usize| !clipped[pixel] && known(pixel);
         let weighted = window.raster(|pixel| {
-            let [r, g, b] = scene.pixels[pixel];
+            let [r, g, b] = input.pixels[pixel];
             if valid(pixel) { [r, g, b, 1.0] } else { [0.0; 4] }
         });
         let coarse = blur(&weighted, COARSE_PX);
         let fine = blur(&weighted, FINE_PX);
         let lit = |index: usize| {
             let pixel = window.pixel(index);
-            !scene.masks.dark(pixel) && valid(pixel)
+            !input.masks.dark(pixel) && valid(pixel)
         };
         let (fine, coarse) = (fine.as_slice(), coarse.as_slice());
         let rise = |index: usize| {
-            let (fine, coarse) = (normalised(fine[index]), normalised(coarse[index]));
+            let (fine, coarse) = (normalized(fine[index]), normalized(coarse[index]));
             std::array::from_fn::<f32, 3, _>(|band| fine[band] - coarse[band])
         };
         let sums: Vec<f32> = (0..window.len())
@@ -110,10 +110,10 @@ impl Votes {
             .with_min_len(1 << 12)
             .map(|index| if lit(index) { rise(index).iter().sum() } else { f32::NEG_INFINITY })
             .collect();
-        let least = least_rise(&sums)?.max(LEAST_RISE * scene.sigma() as f32);
+        let least = least_rise(&sums)?.max(LEAST_RISE * input.sigma() as f32);
         let votes = |index: usize| {
-            let (d, b) = (rise(index), normalised(coarse[index]));
-            (d.iter().chain(&b).all(|band| *band > 0.0)).then(|| Voter::new(d, b, scene.sigma())).flatten()
+            let (d, b) = (rise(index), normalized(coarse[index]));
+            (d.iter().chain(&b).all(|band| *band > 0.0)).then(|| Voter::new(d, b, input.sigma())).flatten()
         };
         let found: Vec<(usize, Voter)> = (0..window.len())
             .filter(|&index| sums[index] > least)
@@ -237,9 +237,9 @@ impl Voter {
     }
 }
 
-/// A weighted colour, normalised.
+/// A weighted color, normalized.
 #[inline]
-fn normalised([r, g, b, weight]: [f32; 4]) -> [f32; 3] {
+fn normalized([r, g, b, weight]: [f32; 4]) -> [f32; 3] {
     // So little weight means that the window holds clipped pixels only.
     if weight > 1e-3 { [r / weight, g / weight, b / weight] } else { [0.0; 3] }
 }
@@ -252,10 +252,10 @@ fn least_rise(sums: &[f32]) -> Option<f32> {
 }
 
 /// Directions around one, on a grid of `step_deg`, that have something of every band.
-fn cone(centre: &Vec3, reach_deg: f64, step_deg: f64) -> Vec<Vec3> {
-    let side = if centre.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() };
-    let u = centre.cross(&side).normalize();
-    let v = centre.cross(&u);
+fn cone(center: &Vec3, reach_deg: f64, step_deg: f64) -> Vec<Vec3> {
+    let side = if center.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() };
+    let u = center.cross(&side).normalize();
+    let v = center.cross(&u);
     let steps = (reach_deg / step_deg).round() as i32;
     let mut lights = Vec::new();
     for i in -steps..=steps {
@@ -267,7 +267,7 @@ fn cone(centre: &Vec3, reach_deg: f64, step_deg: f64) -> Vec<Vec3> {
             }
             let (sine, cosine) = reach.to_radians().sin_cos();
             let across = if reach > 0.0 { (u * a + v * b) / reach } else { Vec3::zeros() };
-            let light = centre * cosine + across * sine;
+            let light = center * cosine + across * sine;
             if light.min() > LEAST_BAND {
                 lights.push(light);
             }
@@ -317,14 +317,14 @@ mod tests {
     use crate::segment::testing::Drawing;
 
     #[test]
-    fn small_highlights_on_two_colours_elect_their_light() {
+    fn small_highlights_on_two_colors_elect_their_light() {
         let light = Vec3::new(0.65, 0.57, 0.5).normalize();
         let drawing = Drawing::by_place(60, |x, y| {
             let body = if x < 30.0 { Vec3::new(0.8, 0.3, 0.2) } else { Vec3::new(0.2, 0.5, 0.7) };
             let d2 = ((x % 30.0) - 15.0).powi(2) + ((y % 30.0) - 15.0).powi(2);
             body * (80.0 + 0.3 * y) + light * (150.0 * (-d2 / 8.0).exp())
         });
-        let votes = Votes::cast(&drawing.scene()).unwrap();
+        let votes = Votes::cast(&drawing.input()).unwrap();
         let winner = votes.winner();
         assert!(axis_angle_deg(&winner, &light) < 1.5, "{winner}");
         assert!(votes.share(&winner) > 0.1 && votes.blobs == 4, "{} {}", votes.share(&winner), votes.blobs);
@@ -335,6 +335,6 @@ mod tests {
     fn shading_alone_does_not_vote() {
         let drawing =
             Drawing::by_place(60, |x, y| Vec3::new(0.8, 0.3, 0.2) * (60.0 + x + 20.0 * (y / 9.0).sin()));
-        assert_eq!(Votes::cast(&drawing.scene()), None);
+        assert_eq!(Votes::cast(&drawing.input()), None);
     }
 }

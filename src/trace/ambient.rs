@@ -14,7 +14,7 @@ pub struct Ambient {
 /// The point nearest to all matte lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Meeting {
-    /// Its colour, counts.
+    /// Its color, counts.
     pub counts: [f64; 3],
     /// Its standard deviation in each band, counts.
     pub sd_counts: [f64; 3],
@@ -40,7 +40,7 @@ pub enum AmbientVerdict {
     FewLines,
     /// The lines meet in black, as far as they can tell.
     Black,
-    /// The lines meet in a colour that no light has: it is negative in some band.
+    /// The lines meet in a color that no light has: it is negative in some band.
     Negative,
     /// The lines meet nowhere.
     NoMeeting,
@@ -74,7 +74,7 @@ impl AmbientVerdict {
             }
             Self::Black => "the matte lines meet in black, as far as they can tell",
             Self::Negative => {
-                "the matte lines meet in a colour that no light has: inter-reflection, or ambient light that differs from place to place"
+                "the matte lines meet in a color that no light has: inter-reflection, or ambient light that differs from place to place"
             }
             Self::NoMeeting => "the matte lines do not meet in one point",
             Self::DarkerPixels => "some pixels are darker than the point where the matte lines meet",

@@ -1,10 +1,10 @@
 //! The words in which decisions are recorded.
 //!
 //! Events are kept by the hundred thousand, so what is rare and large is boxed. Claims, conflicts and labels are kept by the
-//! million: they are no events, see [`super::Reel`].
+//! million: they are no events, see [`super::StageTrace`].
 
 use super::{
-    Ambient, BranchesSought, Class, LightChosen, LocalDecision, Outshone, Stage, VectorsFitted, VotesCast,
+    Ambient, BranchesSought, Class, LightChosen, LocalDecision, Stage, TwoLightTest, VectorsFitted, VotesCast,
 };
 use crate::color::{Line, Vec3};
 use crate::photo::MaskLimits;
@@ -42,7 +42,7 @@ pub enum Event {
         /// Its class, unless it holds too few valid pixels.
         class: Option<Class>,
     },
-    /// Two neighbouring areas were tested for union (5.2.2).
+    /// Two neighboring areas were tested for union (5.2.2).
     MergeTried {
         /// First window of the area that would remain.
         into: u32,
@@ -80,7 +80,7 @@ pub enum Event {
         /// How many.
         pixels: u32,
     },
-    /// A region starts to grow: the claims that follow were reached from a neighbour.
+    /// A region starts to grow: the claims that follow were reached from a neighbor.
     GrowthBegan {
         /// The region.
         region: u16,
@@ -90,7 +90,7 @@ pub enum Event {
     },
     /// A region's line was fitted again to what it had grown into.
     LineRefitted(Box<LineRefitted>),
-    /// A linear region turned out to be the broad highlight of its neighbour.
+    /// A linear region turned out to be the broad highlight of its neighbor.
     Absorbed {
         /// The highlight, a region no longer.
         region: u16,
@@ -112,13 +112,13 @@ pub enum Event {
         /// Root mean square distance of the vanished region's pixels from the other's line, counts.
         rms: f64,
     },
-    /// A neighbour was tested as a region's highlight (5.4.1).
+    /// A neighbor was tested as a region's highlight (5.4.1).
     CandidateTested(Box<CandidateTest>),
     /// A region's highlight line was chosen from the candidates that passed.
     CandidateChosen(Box<CandidateChosen>),
-    /// The colour of the light was estimated (5.4.1).
+    /// The color of the light was estimated (5.4.1).
     IlluminantEstimated(Box<IlluminantEstimated>),
-    /// The colour of the light was given: none was estimated.
+    /// The color of the light was given: none was estimated.
     IlluminantGiven {
         /// Unit direction.
         direction: [f64; 3],
@@ -184,9 +184,9 @@ pub enum Pass {
     Vote,
     /// Regions on one matte line become one (refines 5.3.2).
     Uniting,
-    /// Neighbours are tested as highlights (5.4.1).
+    /// Neighbors are tested as highlights (5.4.1).
     Candidates,
-    /// The light's colour is estimated (5.4.1), for the first time or once more.
+    /// The light's color is estimated (5.4.1), for the first time or once more.
     Illuminant,
     /// Planes or votes: which light is used (refines 5.4.1).
     LightChoice,
@@ -252,7 +252,7 @@ impl Pass {
 pub struct MasksMade {
     /// The limits that pixels were held against.
     pub limits: MaskLimits,
-    /// Pixels too dark to be analysed, invalid ones and those outside the area included.
+    /// Pixels too dark to be analyzed, invalid ones and those outside the area included.
     pub dark: u32,
     /// Other pixels that are clipped or bloomed.
     pub distorted: u32,
@@ -317,17 +317,17 @@ pub struct LineRefitted {
 pub struct CandidateTest {
     /// The region.
     pub region: u16,
-    /// The neighbour.
+    /// The neighbor.
     pub candidate: CandidateSource,
-    /// Pixels of the neighbour.
+    /// Pixels of the neighbor.
     pub pixels: u32,
     /// The region's matte line.
     pub matte: Line,
     /// Its length from black, counts.
     pub matte_length: f64,
-    /// The neighbour's line.
+    /// The neighbor's line.
     pub line: Line,
-    /// The points of both lines that are nearest to one another: on the matte line, on the neighbour's.
+    /// The points of both lines that are nearest to one another: on the matte line, on the neighbor's.
     pub meeting: [Vec3; 2],
     /// Distance between the two lines, counts, and the largest allowed.
     pub gap: [f64; 2],
@@ -346,7 +346,7 @@ pub struct CandidateTest {
 pub struct CandidateChosen {
     /// The region.
     pub region: u16,
-    /// The neighbour whose meeting point lies nearest to the mean of all.
+    /// The neighbor whose meeting point lies nearest to the mean of all.
     pub candidate: CandidateSource,
     /// Weighted mean of the meeting points, counts.
     pub meeting_point: Vec3,
@@ -362,7 +362,7 @@ pub struct IlluminantEstimated {
     /// Each region that had a say.
     pub contributions: Vec<Contribution>,
     /// Whether all pixels off the matte lines or the highlights alone had it, where both were held against each other.
-    pub outshone: Option<Outshone>,
+    pub outshone: Option<TwoLightTest>,
 }
 
 /// What one region said about the light.
@@ -402,7 +402,7 @@ pub enum PassedOver {
     Consumed,
     /// Its line passes farther from black than the cylinder's radius.
     FarFromBlack,
-    /// Its colours have no extent to fit a line to.
+    /// Its colors have no extent to fit a line to.
     NoExtent,
     /// Growing from it claimed too few pixels, which were given back.
     Barren,
@@ -415,7 +415,7 @@ pub enum PassedOver {
 pub enum CandidateSource {
     /// What growing left of a merged area (its first window).
     Leftover(u32),
-    /// A neighbouring linear region.
+    /// A neighboring linear region.
     Region(u16),
     /// A region that was absorbed as a broad highlight.
     Absorbed(u16),

@@ -64,7 +64,7 @@ pub enum Kind {
     /// A candidate highlight was judged.
     Blob,
     /// It was tested whether highlights are believable.
-    Belief,
+    Plausibility,
     /// A clipped blob was filled, or not.
     Repair,
     /// A pixel changed hands.
@@ -107,7 +107,7 @@ impl Kind {
         Self::LocalSplit,
         Self::Blobs,
         Self::Blob,
-        Self::Belief,
+        Self::Plausibility,
         Self::Repair,
         Self::Claim,
         Self::Refusal,
@@ -146,7 +146,7 @@ impl Kind {
             Self::LocalSplit => "local split",
             Self::Blobs => "blobs",
             Self::Blob => "blob",
-            Self::Belief => "belief",
+            Self::Plausibility => "belief",
             Self::Repair => "clip repair",
             Self::Claim => "claim",
             Self::Refusal => "refusal",
@@ -188,7 +188,7 @@ impl Event {
             Self::Local(LocalDecision::Began(_)) => Kind::LocalSplit,
             Self::Local(LocalDecision::Blobs { .. }) => Kind::Blobs,
             Self::Local(LocalDecision::Blob(_)) => Kind::Blob,
-            Self::Local(LocalDecision::Belief(_)) => Kind::Belief,
+            Self::Local(LocalDecision::Plausibility(_)) => Kind::Plausibility,
             Self::Local(LocalDecision::Repair(_)) => Kind::Repair,
         }
     }

@@ -28,7 +28,7 @@ impl LightBasis {
 
 /// The light that small highlights vote for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Elected {
+pub struct VoteResult {
     /// Unit direction.
     pub direction: [f64; 3],
     /// Pixels that were heard.
@@ -45,7 +45,7 @@ pub struct Elected {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VotesCast {
     /// The light with most votes; none where too few pixels have anything to say.
-    pub elected: Option<Elected>,
+    pub elected: Option<VoteResult>,
     /// Fewest pixels that make a vote.
     pub least_voters: u32,
 }
@@ -60,7 +60,7 @@ pub struct LightChosen {
     /// The light by the dichromatic planes, unit, and how many objects it rests on.
     pub planes: Option<([f64; 3], u32)>,
     /// The light by the votes.
-    pub votes: Option<Elected>,
+    pub votes: Option<VoteResult>,
     /// Share of the lit pixels in regions that hold and show highlights under the planes' light, 0…1.
     pub support: f64,
     /// What decided.
@@ -83,7 +83,7 @@ pub struct LightLimits {
 /// How well two lights explain the pixels that the light outshines (7.5): that of all pixels off the matte lines, and that of
 /// the highlights alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outshone {
+pub struct TwoLightTest {
     /// Outshone pixels.
     pub pixels: u32,
     /// Their mean squared distance from the planes under the one light, σ² …

@@ -158,7 +158,7 @@ pub struct HypothesisStory<'a> {
     pub separated: Option<(usize, u16, u32)>,
     /// Its line after each fit that followed the first.
     pub refits: Vec<(usize, &'a LineRefitted)>,
-    /// Its neighbours, tested as its highlight (5.4.1).
+    /// Its neighbors, tested as its highlight (5.4.1).
     pub tests: Vec<(usize, &'a CandidateTest)>,
     /// The highlight that was chosen.
     pub highlight: Option<(usize, &'a CandidateChosen)>,

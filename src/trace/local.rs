@@ -3,7 +3,7 @@
 //! Blobs are recorded one by one, as far as their numbers go; smaller ones than may count are only counted. What each pixel was
 //! judged by is kept beside the events, 8 bytes for a pixel of the window that was looked at; its limits are computed again.
 
-use crate::raster::{Mask, Raster, Window};
+use crate::raster::{Mask, Raster, Roi};
 
 /// A step of the local split.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub enum LocalDecision {
     /// A candidate highlight was judged (hysteresis).
     Blob(BlobJudged),
     /// Are there highlights at all, under this light?
-    Belief(Box<BeliefTested>),
+    Plausibility(Box<PlausibilityTested>),
     /// A blob of clipped pixels was filled from what is around it, or not.
     Repair(RepairTried),
 }
@@ -53,7 +53,7 @@ pub struct LocalBegan {
     pub least: u32,
     /// The light, unit.
     pub light: Option<[f64; 3]>,
-    /// Where colours are measured from: black, or the ambient light, counts.
+    /// Where colors are measured from: black, or the ambient light, counts.
     pub origin: [f64; 3],
     /// What pixels are held against.
     pub limits: LocalLimits,
@@ -122,9 +122,9 @@ pub struct BlobJudged {
     pub kept: bool,
 }
 
-/// What [`LocalDecision::Belief`] says. What was not measured is none: the first doubt ends it.
+/// What [`LocalDecision::Plausibility`] says. What was not measured is none: the first doubt ends it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BeliefTested {
+pub struct PlausibilityTested {
     /// Share of the votes for the light, 0…1; none where regions that hold vouch for it, or it was given, or no votes are asked for.
     pub share: Option<f64>,
     /// Share of all light there that would be surface reflection, 0…1.
@@ -132,14 +132,14 @@ pub struct BeliefTested {
     /// Share of the strong highlight pixels that outshine the body under them, 0…1, and how many strong ones there are.
     pub outshining: Option<(f64, u32)>,
     /// Up to where each may go; of the share, from where on.
-    pub limits: BeliefLimits,
+    pub limits: PlausibilityLimits,
     /// Why nothing is split; none: highlights are believed.
-    pub doubt: Option<Doubt>,
+    pub reject_reason: Option<RejectReason>,
 }
 
-/// See [`BeliefTested`].
+/// See [`PlausibilityTested`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BeliefLimits {
+pub struct PlausibilityLimits {
     /// Least share of the votes, 0…1.
     pub share: f64,
     /// Largest share of surface reflection, 0…1.
@@ -150,7 +150,7 @@ pub struct BeliefLimits {
 
 /// Why no highlight is believed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Doubt {
+pub enum RejectReason {
     /// Small highlights do not speak for the light.
     NoVote,
     /// Too much would be surface reflection.
@@ -159,7 +159,7 @@ pub enum Doubt {
     Outshining,
 }
 
-impl Doubt {
+impl RejectReason {
     /// Its name in trace lines.
     pub const fn name(self) -> &'static str {
         match self {
@@ -286,7 +286,7 @@ pub enum LocalRecord {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalPoints {
     /// Which.
-    pub window: Window,
+    pub roi: Roi,
     /// One of each.
     pub of: Raster<LocalPoint>,
 }
@@ -302,15 +302,15 @@ impl LocalRecord {
 
     /// What a pixel was judged by; none for one that was not looked at.
     pub fn point(&self, pixel: usize) -> Option<&LocalPoint> {
-        let Self::Points(LocalPoints { window, of }) = self else { return None };
-        of.as_slice().get(window.index(pixel)?)
+        let Self::Points(LocalPoints { roi, of }) = self else { return None };
+        of.as_slice().get(roi.index(pixel)?)
     }
 
     /// The pixels of a blob by its number, ascending.
     pub fn blob(&self, blob: u16) -> Vec<u32> {
-        let Self::Points(LocalPoints { window, of }) = self else { return Vec::new() };
+        let Self::Points(LocalPoints { roi, of }) = self else { return Vec::new() };
         let own = of.as_slice().iter().enumerate().filter(|(_, point)| blob != 0 && point.blob == blob);
-        own.map(|(index, _)| window.pixel(index) as u32).collect()
+        own.map(|(index, _)| roi.pixel(index) as u32).collect()
     }
 
     /// Memory that it takes, bytes.
@@ -343,10 +343,10 @@ mod tests {
 
     #[test]
     fn a_blob_is_found_by_its_number() {
-        let window = Window::around((4, 3), 0, |pixel| [5, 6, 9, 10].contains(&pixel)).unwrap();
+        let roi = Roi::around((4, 3), 0, |pixel| [5, 6, 9, 10].contains(&pixel)).unwrap();
         let mut of = Raster::filled(2, 2, LocalPoint::new(true, None, 0.0));
         (of[1].blob, of[2].blob) = (7, 7);
-        let record = LocalRecord::Points(LocalPoints { window, of });
+        let record = LocalRecord::Points(LocalPoints { roi, of });
         assert_eq!(record.blob(7), [6, 9]);
         assert!(record.blob(0).is_empty());
         assert_eq!(record.point(6).map(|point| point.blob), Some(7));

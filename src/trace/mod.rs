@@ -1,7 +1,7 @@
 //! Decisions as data: what was decided, about what, on which numbers.
 //!
-//! The stages tell a [`Recorder`] what they decide. [`Silent`] listens to nothing at no cost; [`Tape`] keeps everything, a
-//! [`Reel`] a stage. A [`Trace`] is all reels in order; a [`Replay`] is a cursor in it that goes forward and back and shows
+//! The stages tell a [`Recorder`] what they decide. [`NoopRecorder`] listens to nothing at no cost; [`TraceRecorder`] keeps everything, a
+//! [`StageTrace`] a stage. A [`Trace`] is all reels in order; a [`Replay`] is a cursor in it that goes forward and back and shows
 //! what stood at that instant.
 
 mod ambient;
@@ -13,9 +13,9 @@ mod light;
 mod lineage;
 mod local;
 mod recorder;
-mod reel;
 mod replay;
-mod standing;
+mod replay_state;
+mod stage_trace;
 mod step;
 mod terms;
 mod timeline;
@@ -28,20 +28,20 @@ pub use event::{
     IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver, SliceMade, WindowsLaid,
 };
 pub use history::{
-    Barrier, Happening, LocalFate, LocalStory, MaskVerdict, MergeRefusal, MergeStory, Reach, Release,
-    SplitStory, Unfit, What, WindowStory, pixel_history,
+    Barrier, HistoryEntry, HistoryKind, LocalFate, LocalStory, MaskVerdict, MergeRefusal, MergeStory, Reach,
+    Release, SplitStory, Unfit, WindowStory, pixel_history,
 };
 pub use kind::Kind;
-pub use light::{Elected, LightBasis, LightChosen, LightLimits, Outshone, VotesCast};
+pub use light::{LightBasis, LightChosen, LightLimits, TwoLightTest, VoteResult, VotesCast};
 pub use lineage::{Ancestor, Birth, HypothesisStory, Joined, JoinedHow, final_numbers, lineage, story};
 pub use local::{
-    BeliefLimits, BeliefTested, BlobJudged, Doubt, LocalBegan, LocalDecision, LocalLimits, LocalPoint,
-    LocalPoints, LocalRecord, LocalStart, RepairTried, RepairVerdict,
+    BlobJudged, LocalBegan, LocalDecision, LocalLimits, LocalPoint, LocalPoints, LocalRecord, LocalStart,
+    PlausibilityLimits, PlausibilityTested, RejectReason, RepairTried, RepairVerdict,
 };
-pub use recorder::{Recorder, Silent, Tape};
-pub use reel::{Reel, Steps};
+pub use recorder::{NoopRecorder, Recorder, TraceRecorder};
 pub use replay::Replay;
-pub use standing::{End, Grid, Hypothesis};
+pub use replay_state::{End, Grid, Hypothesis};
+pub use stage_trace::{StageTrace, Steps};
 pub use step::{Contest, Measure, Step};
 pub use terms::{Class, PixelKind, Stage};
 pub use timeline::{Block, PassSpan, Topic, Trace};

@@ -1,9 +1,9 @@
 //! Who listens to the decisions while they are made.
 
-use super::{Contest, Event, LocalRecord, PixelKind, Reel, Stage};
+use super::{Contest, Event, LocalRecord, PixelKind, Stage, StageTrace};
 use crate::raster::Raster;
 
-/// Takes one stage's decisions in their order. Stages are generic over it, so that [`Silent`] costs nothing.
+/// Takes one stage's decisions in their order. Stages are generic over it, so that [`NoopRecorder`] costs nothing.
 pub trait Recorder: Default {
     /// Whether anything is kept: what is recorded is put together only then.
     const KEEPS: bool;
@@ -24,14 +24,14 @@ pub trait Recorder: Default {
     fn local(&mut self, record: LocalRecord);
 
     /// The record of what was heard; none where nothing was kept.
-    fn finish(self, stage: Stage) -> Option<Reel>;
+    fn finish(self, stage: Stage) -> Option<StageTrace>;
 }
 
 /// Keeps nothing.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
+pub struct NoopRecorder;
 
-impl Recorder for Silent {
+impl Recorder for NoopRecorder {
     const KEEPS: bool = false;
 
     #[inline]
@@ -49,16 +49,16 @@ impl Recorder for Silent {
     #[inline]
     fn local(&mut self, _record: LocalRecord) {}
 
-    fn finish(self, _stage: Stage) -> Option<Reel> {
+    fn finish(self, _stage: Stage) -> Option<StageTrace> {
         None
     }
 }
 
 /// Keeps everything, compactly.
 #[derive(Clone, Debug, Default)]
-pub struct Tape(Reel);
+pub struct TraceRecorder(StageTrace);
 
-impl Recorder for Tape {
+impl Recorder for TraceRecorder {
     const KEEPS: bool = true;
 
     fn record(&mut self, event: Event) {
@@ -83,7 +83,7 @@ impl Recorder for Tape {
         self.0.set_local(record);
     }
 
-    fn finish(self, stage: Stage) -> Option<Reel> {
+    fn finish(self, stage: Stage) -> Option<StageTrace> {
         Some(self.0.finished(stage))
     }
 }

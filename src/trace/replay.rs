@@ -3,8 +3,8 @@
 //! Claims are played on the label map one by one, in either direction; everything else is a stack per thing, pushed forward
 //! and popped back. A long way is shortened by starting from a keyframe: labels as they were at one of a few steps.
 
-use super::standing::{EventId, Grid, Hypothesis, Standing};
-use super::{CandidateChosen, Event, Pass, PixelKind, Reel, SliceMade, Stage, Step, Trace};
+use super::replay_state::{EventId, Grid, Hypothesis, ReplayState};
+use super::{CandidateChosen, Event, Pass, PixelKind, SliceMade, Stage, StageTrace, Step, Trace};
 use crate::raster::{LabelMap, UNASSIGNED};
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ pub struct Replay {
     labels: LabelMap,
     /// Pixels of each region, by its number of birth; the first: of none.
     sizes: Vec<u32>,
-    standing: Standing,
+    standing: ReplayState,
     keyframes: Vec<Keyframe>,
 }
 
@@ -36,7 +36,7 @@ impl Replay {
     pub fn new(trace: Arc<Trace>) -> Self {
         let labels = LabelMap::filled(trace.width(), trace.height(), UNASSIGNED);
         let sizes = vec![labels.len() as u32];
-        Self { trace, at: 0, labels, sizes, standing: Standing::default(), keyframes: Vec::new() }
+        Self { trace, at: 0, labels, sizes, standing: ReplayState::default(), keyframes: Vec::new() }
     }
 
     /// What it is a cursor in.
@@ -132,17 +132,19 @@ impl Replay {
 
     /// A pixel's role; none as long as it has none.
     pub fn kind(&self, pixel: usize) -> PixelKind {
-        let Some(reel) = self.trace.reel(Stage::Split).filter(|_| self.standing.labelled > 0) else {
+        let Some(stage_trace) = self.trace.stage_trace(Stage::Split).filter(|_| self.standing.labeled > 0)
+        else {
             return PixelKind::Unassigned;
         };
-        let kind = reel.kinds().and_then(|kinds| kinds.as_slice().get(pixel)).copied().unwrap_or_default();
-        if pixel < reel.labelled_pixel(self.standing.labelled) { kind } else { PixelKind::Unassigned }
+        let kind =
+            stage_trace.kinds().and_then(|kinds| kinds.as_slice().get(pixel)).copied().unwrap_or_default();
+        if pixel < stage_trace.labeled_pixel(self.standing.labeled) { kind } else { PixelKind::Unassigned }
     }
 
     /// All pixels before this one have their role.
-    pub fn labelled_up_to(&self) -> usize {
-        let reel = self.trace.reel(Stage::Split).filter(|_| self.standing.labelled > 0);
-        reel.map_or(0, |reel| reel.labelled_pixel(self.standing.labelled))
+    pub fn labeled_up_to(&self) -> usize {
+        let stage_trace = self.trace.stage_trace(Stage::Split).filter(|_| self.standing.labeled > 0);
+        stage_trace.map_or(0, |stage_trace| stage_trace.labeled_pixel(self.standing.labeled))
     }
 
     /// Takes a step; false at the end.
@@ -205,11 +207,11 @@ impl Replay {
 
     /// Changes of hands among the first `n` steps.
     fn moves_before(&self, n: usize) -> usize {
-        let reels = self.trace.reels().iter().zip(self.trace.starts());
-        reels
-            .map(|(reel, &start)| {
-                let local = n.saturating_sub(start).min(reel.len());
-                (local - reel.events_before(local)).min(reel.moves().len())
+        let stage_traces = self.trace.stage_traces().iter().zip(self.trace.starts());
+        stage_traces
+            .map(|(stage_trace, &start)| {
+                let local = n.saturating_sub(start).min(stage_trace.len());
+                (local - stage_trace.events_before(local)).min(stage_trace.moves().len())
             })
             .sum()
     }
@@ -217,11 +219,11 @@ impl Replay {
     /// The step after which so many hands have changed.
     fn step_of_move(&self, moves: usize) -> usize {
         let mut left = moves;
-        for (reel, &start) in self.trace.reels().iter().zip(self.trace.starts()) {
-            if left < reel.moves().len() {
-                return start + reel.step_of_move(left);
+        for (stage_trace, &start) in self.trace.stage_traces().iter().zip(self.trace.starts()) {
+            if left < stage_trace.moves().len() {
+                return start + stage_trace.step_of_move(left);
             }
-            left -= reel.moves().len();
+            left -= stage_trace.moves().len();
         }
         self.trace.len()
     }
@@ -235,22 +237,28 @@ impl Replay {
 
     fn play_moves(&mut self, from: usize, to: usize) {
         let trace = Arc::clone(&self.trace);
-        let spans = trace.reels().iter().zip(trace.starts());
-        let range = |reel: &Reel, start: usize, n: usize| {
-            let local = n.saturating_sub(start).min(reel.len());
-            (local - reel.events_before(local)).min(reel.moves().len())
+        let spans = trace.stage_traces().iter().zip(trace.starts());
+        let range = |stage_trace: &StageTrace, start: usize, n: usize| {
+            let local = n.saturating_sub(start).min(stage_trace.len());
+            (local - stage_trace.events_before(local)).min(stage_trace.moves().len())
         };
         if from <= to {
-            for (reel, &start) in spans {
-                for change in &reel.moves()[range(reel, start, from)..range(reel, start, to)] {
+            for (stage_trace, &start) in spans {
+                for change in
+                    &stage_trace.moves()[range(stage_trace, start, from)..range(stage_trace, start, to)]
+                {
                     if let Some((before, after)) = change.hands() {
                         self.hand_over(change.pixel(), before, after);
                     }
                 }
             }
         } else {
-            for (reel, &start) in spans.rev() {
-                for change in reel.moves()[range(reel, start, to)..range(reel, start, from)].iter().rev() {
+            for (stage_trace, &start) in spans.rev() {
+                for change in stage_trace.moves()
+                    [range(stage_trace, start, to)..range(stage_trace, start, from)]
+                    .iter()
+                    .rev()
+                {
                     if let Some((before, after)) = change.hands() {
                         self.hand_over(change.pixel(), after, before);
                     }
@@ -274,37 +282,39 @@ impl Replay {
     fn play_events(&mut self, to: usize) {
         let trace = Arc::clone(&self.trace);
         let from = std::mem::replace(&mut self.at, to);
-        let spans: Vec<(usize, &Arc<Reel>, usize)> = trace
-            .reels()
+        let spans: Vec<(usize, &Arc<StageTrace>, usize)> = trace
+            .stage_traces()
             .iter()
             .zip(trace.starts())
             .enumerate()
-            .map(|(i, (reel, &start))| (i, reel, start))
+            .map(|(i, (stage_trace, &start))| (i, stage_trace, start))
             .collect();
-        let before =
-            |reel: &Reel, start: usize, n: usize| reel.events_before(n.saturating_sub(start).min(reel.len()));
-        let labels = |reel: &Reel, start: usize, n: usize| {
-            let local = n.saturating_sub(start).min(reel.len());
-            (local - reel.events_before(local)).saturating_sub(reel.moves().len())
+        let before = |stage_trace: &StageTrace, start: usize, n: usize| {
+            stage_trace.events_before(n.saturating_sub(start).min(stage_trace.len()))
         };
-        self.standing.labelled = spans.iter().map(|&(_, reel, start)| labels(reel, start, to)).sum();
+        let labels = |stage_trace: &StageTrace, start: usize, n: usize| {
+            let local = n.saturating_sub(start).min(stage_trace.len());
+            (local - stage_trace.events_before(local)).saturating_sub(stage_trace.moves().len())
+        };
+        self.standing.labeled =
+            spans.iter().map(|&(_, stage_trace, start)| labels(stage_trace, start, to)).sum();
         if from <= to {
-            for (index, reel, start) in spans {
-                for event in before(reel, start, from)..before(reel, start, to) {
-                    self.standing.take(reel.event(event), (index, event));
+            for (index, stage_trace, start) in spans {
+                for event in before(stage_trace, start, from)..before(stage_trace, start, to) {
+                    self.standing.take(stage_trace.event(event), (index, event));
                 }
             }
         } else {
-            for (_, reel, start) in spans.into_iter().rev() {
-                for event in (before(reel, start, to)..before(reel, start, from)).rev() {
-                    self.standing.take_back(reel.event(event));
+            for (_, stage_trace, start) in spans.into_iter().rev() {
+                for event in (before(stage_trace, start, to)..before(stage_trace, start, from)).rev() {
+                    self.standing.take_back(stage_trace.event(event));
                 }
             }
         }
     }
 
-    fn find(&self, (reel, event): EventId) -> &Event {
-        self.trace.reels()[reel].event(event)
+    fn find(&self, (stage_trace, event): EventId) -> &Event {
+        self.trace.stage_traces()[stage_trace].event(event)
     }
 }
 

@@ -16,7 +16,7 @@ pub struct Contest {
 /// By what a contest was decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Measure {
-    /// Distances of the colour from both axes, counts: the nearer wins (5.3.2).
+    /// Distances of the color from both axes, counts: the nearer wins (5.3.2).
     Axis,
     /// Distances from both planes, counts: the nearer wins (5.4.2).
     Plane,

@@ -38,7 +38,7 @@ impl Stage {
     }
 }
 
-/// Class of a colour cluster by its number of significant eigenvalues (section 5.2.1, table 1).
+/// Class of a color cluster by its number of significant eigenvalues (section 5.2.1, table 1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Class {
     /// None: no variation beyond the noise.
@@ -73,7 +73,7 @@ pub enum PixelKind {
     Matte,
     /// Nearer to the highlight line.
     Highlight,
-    /// Clipped or bloomed, its colour restored from the bands that can be believed.
+    /// Clipped or bloomed, its color restored from the bands that can be believed.
     Restored,
     /// Clipped in every band: nothing to restore it from but its surroundings.
     Lost,

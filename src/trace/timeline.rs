@@ -1,6 +1,6 @@
 //! Stages, passes and blocks: the stretches into which a trace divides.
 
-use super::{Event, Pass, PassedOver, Reel, Stage, Step};
+use super::{Event, Pass, PassedOver, Stage, StageTrace, Step};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use std::sync::Arc;
 pub struct Trace {
     width: usize,
     height: usize,
-    reels: Vec<Arc<Reel>>,
+    stage_traces: Vec<Arc<StageTrace>>,
     /// First step of each reel, and the end.
     starts: Vec<usize>,
 }
@@ -39,7 +39,7 @@ pub enum Topic {
     Hypothesis(u16),
     /// A broad highlight goes back to its object.
     Absorption(u16),
-    /// The neighbours of a region are tested as its highlight (5.4.1).
+    /// The neighbors of a region are tested as its highlight (5.4.1).
     Candidates(u16),
     /// A region's slice is made and grows (5.4.2).
     Slice(u16),
@@ -68,14 +68,14 @@ impl Topic {
 
 impl Trace {
     /// The reels of a picture of `width × height` pixels, in the order of the stages.
-    pub fn new(width: usize, height: usize, reels: Vec<Arc<Reel>>) -> Self {
+    pub fn new(width: usize, height: usize, stage_traces: Vec<Arc<StageTrace>>) -> Self {
         let mut starts = vec![0];
         let mut end = 0;
-        for reel in &reels {
-            end += reel.len();
+        for stage_trace in &stage_traces {
+            end += stage_trace.len();
             starts.push(end);
         }
-        Self { width, height, reels, starts }
+        Self { width, height, stage_traces, starts }
     }
 
     /// Columns of the picture.
@@ -100,13 +100,13 @@ impl Trace {
 
     /// Memory that it takes, bytes.
     pub fn bytes(&self) -> usize {
-        self.reels.iter().map(|reel| reel.bytes()).sum()
+        self.stage_traces.iter().map(|stage_trace| stage_trace.bytes()).sum()
     }
 
     /// What happened at step `n`; none from [`Trace::len`] on.
     pub fn step(&self, n: usize) -> Option<Step<'_>> {
         let (index, local) = self.locate(n)?;
-        self.reels[index].step(local)
+        self.stage_traces[index].step(local)
     }
 
     /// All steps, numbered, from either end.
@@ -116,17 +116,18 @@ impl Trace {
 
     /// The steps in a range, numbered, from either end.
     pub fn steps_in(&self, range: Range<usize>) -> impl DoubleEndedIterator<Item = (usize, Step<'_>)> {
-        self.numbered().flat_map(move |(start, reel)| {
-            let from = range.start.saturating_sub(start).min(reel.len());
-            let to = range.end.saturating_sub(start).min(reel.len());
-            (start + from..start + to).zip(reel.steps_in(from..to))
+        self.numbered().flat_map(move |(start, stage_trace)| {
+            let from = range.start.saturating_sub(start).min(stage_trace.len());
+            let to = range.end.saturating_sub(start).min(stage_trace.len());
+            (start + from..start + to).zip(stage_trace.steps_in(from..to))
         })
     }
 
     /// All events, with their steps.
     pub fn events(&self) -> impl DoubleEndedIterator<Item = (usize, &Event)> {
-        self.numbered()
-            .flat_map(|(start, reel)| reel.events().map(move |(step, event)| (start + step, event)))
+        self.numbered().flat_map(|(start, stage_trace)| {
+            stage_trace.events().map(move |(step, event)| (start + step, event))
+        })
     }
 
     /// The event at step `n`; none where it is something else.
@@ -140,12 +141,15 @@ impl Trace {
     /// The stages with their steps.
     pub fn stages(&self) -> impl Iterator<Item = (Stage, Range<usize>)> + '_ {
         let spans = self.starts.windows(2).map(|pair| pair[0]..pair[1]);
-        self.reels.iter().zip(spans).filter_map(|(reel, span)| Some((reel.stage()?, span)))
+        self.stage_traces
+            .iter()
+            .zip(spans)
+            .filter_map(|(stage_trace, span)| Some((stage_trace.stage()?, span)))
     }
 
     /// The stage in which step `n` lies; none outside.
     pub fn stage_at(&self, n: usize) -> Option<Stage> {
-        self.locate(n).and_then(|(index, _)| self.reels[index].stage())
+        self.locate(n).and_then(|(index, _)| self.stage_traces[index].stage())
     }
 
     /// One stage's steps; empty where it is not there.
@@ -154,14 +158,15 @@ impl Trace {
     }
 
     /// One stage's decisions.
-    pub fn reel(&self, stage: Stage) -> Option<&Arc<Reel>> {
-        self.reels.iter().find(|reel| reel.stage() == Some(stage))
+    pub fn stage_trace(&self, stage: Stage) -> Option<&Arc<StageTrace>> {
+        self.stage_traces.iter().find(|stage_trace| stage_trace.stage() == Some(stage))
     }
 
     /// The passes, in order.
     pub fn passes(&self) -> impl DoubleEndedIterator<Item = PassSpan> + '_ {
-        self.numbered().flat_map(|(start, reel)| {
-            reel.passes()
+        self.numbered().flat_map(|(start, stage_trace)| {
+            stage_trace
+                .passes()
                 .iter()
                 .map(move |span| PassSpan { steps: shifted(&span.steps, start), pass: span.pass })
         })
@@ -169,8 +174,9 @@ impl Trace {
 
     /// The blocks, in order.
     pub fn blocks(&self) -> impl DoubleEndedIterator<Item = Block> + '_ {
-        self.numbered().flat_map(|(start, reel)| {
-            reel.blocks()
+        self.numbered().flat_map(|(start, stage_trace)| {
+            stage_trace
+                .blocks()
                 .iter()
                 .map(move |block| Block { steps: shifted(&block.steps, start), topic: block.topic })
         })
@@ -179,7 +185,7 @@ impl Trace {
     /// The pass in which step `n` lies.
     pub fn pass_at(&self, n: usize) -> Option<PassSpan> {
         let (index, local) = self.locate(n)?;
-        let passes = self.reels[index].passes();
+        let passes = self.stage_traces[index].passes();
         let last = passes.partition_point(|span| span.steps.start <= local).checked_sub(1)?;
         let PassSpan { steps, pass } = &passes[last];
         steps.contains(&local).then(|| PassSpan { steps: shifted(steps, self.starts[index]), pass: *pass })
@@ -188,7 +194,7 @@ impl Trace {
     /// The block in which step `n` lies.
     pub fn block_at(&self, n: usize) -> Option<Block> {
         let (index, local) = self.locate(n)?;
-        let blocks = self.reels[index].blocks();
+        let blocks = self.stage_traces[index].blocks();
         let last = blocks.partition_point(|block| block.steps.start <= local).checked_sub(1)?;
         let Block { steps, topic } = &blocks[last];
         steps.contains(&local).then(|| Block { steps: shifted(steps, self.starts[index]), topic: *topic })
@@ -196,17 +202,19 @@ impl Trace {
 
     /// Contested claims, refusals and events among these steps: what is more than one pixel joining without a word.
     pub fn decisions_in(&self, steps: Range<usize>) -> usize {
-        let within = |start: usize, reel: &Reel| {
-            let (from, to) =
-                (steps.start.max(start) - start, steps.end.min(start + reel.len()).saturating_sub(start));
-            if from < to { reel.decisions_before(to) - reel.decisions_before(from) } else { 0 }
+        let within = |start: usize, stage_trace: &StageTrace| {
+            let (from, to) = (
+                steps.start.max(start) - start,
+                steps.end.min(start + stage_trace.len()).saturating_sub(start),
+            );
+            if from < to { stage_trace.decisions_before(to) - stage_trace.decisions_before(from) } else { 0 }
         };
-        self.numbered().map(|(start, reel)| within(start, reel)).sum()
+        self.numbered().map(|(start, stage_trace)| within(start, stage_trace)).sum()
     }
 
     /// The first step at which two traces differ; none where they are the same. Reels that both share are not looked at.
     pub fn first_difference(&self, other: &Self) -> Option<usize> {
-        for (index, (one, two)) in self.reels.iter().zip(&other.reels).enumerate() {
+        for (index, (one, two)) in self.stage_traces.iter().zip(&other.stage_traces).enumerate() {
             if Arc::ptr_eq(one, two) || one == two {
                 continue;
             }
@@ -217,11 +225,11 @@ impl Trace {
             });
             return Some(self.starts[index] + same.count());
         }
-        (self.reels.len() != other.reels.len()).then(|| self.len().min(other.len()))
+        (self.stage_traces.len() != other.stage_traces.len()).then(|| self.len().min(other.len()))
     }
 
-    pub(super) fn reels(&self) -> &[Arc<Reel>] {
-        &self.reels
+    pub(super) fn stage_traces(&self) -> &[Arc<StageTrace>] {
+        &self.stage_traces
     }
 
     pub(super) fn starts(&self) -> &[usize] {
@@ -237,8 +245,8 @@ impl Trace {
         Some((index, n - self.starts[index]))
     }
 
-    fn numbered(&self) -> impl DoubleEndedIterator<Item = (usize, &Reel)> + '_ {
-        self.reels.iter().enumerate().map(|(index, reel)| (self.starts[index], &**reel))
+    fn numbered(&self) -> impl DoubleEndedIterator<Item = (usize, &StageTrace)> + '_ {
+        self.stage_traces.iter().enumerate().map(|(index, stage_trace)| (self.starts[index], &**stage_trace))
     }
 }
 

@@ -15,7 +15,7 @@ pub struct GroundTruth {
     pub body: Raster<[f32; 3]>,
     /// Surface reflection without noise or clipping, counts.
     pub surface: Raster<[f32; 3]>,
-    /// Colour of the light, of any length.
+    /// Color of the light, of any length.
     pub illuminant: [f64; 3],
     /// The objects by ascending id.
     pub objects: Vec<TruthObject>,

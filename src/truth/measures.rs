@@ -56,7 +56,7 @@ pub fn angle_deg(u: [f64; 3], v: [f64; 3]) -> f64 {
     (dot(u, v).abs() / dot(u, u).sqrt() / dot(v, v).sqrt()).clamp(-1.0, 1.0).acos().to_degrees()
 }
 
-/// Pixels more than `steps` 4-neighbour steps inside an object: each object's mask eroded `steps` times by a
+/// Pixels more than `steps` 4-neighbor steps inside an object: each object's mask eroded `steps` times by a
 /// cross, with nothing beyond the border.
 ///
 /// Objects are those for which `is_object` holds.
@@ -67,7 +67,7 @@ pub fn erode_labels(labels: &LabelMap, steps: usize, is_object: impl Fn(u16) -> 
         for pixel in (0..labels.len()).filter(|&pixel| inside[pixel]) {
             let mut alike = 0;
             labels
-                .for_each_neighbour(pixel, |q| alike += usize::from(inside[q] && labels[q] == labels[pixel]));
+                .for_each_neighbor(pixel, |q| alike += usize::from(inside[q] && labels[q] == labels[pixel]));
             next[pixel] = alike == 4;
         }
         inside = next;

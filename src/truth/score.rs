@@ -2,8 +2,8 @@
 
 use super::folder::GroundTruth;
 use super::measures::{Contingency, angle_deg, contingency, erode_labels, marginal, psnr_db, rand_index_of};
+use crate::describe::{Report, Scores};
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
-use crate::report::{Report, Scores};
 use std::collections::BTreeMap;
 
 /// Camera pixels nearer to black are dark, counts.
@@ -196,8 +196,8 @@ fn psnr_between(a: &Raster<[f32; 3]>, b: &Raster<[f32; 3]>, pixels: &[usize]) ->
     )
 }
 
-fn norm(colour: [f32; 3]) -> f64 {
-    colour.iter().map(|&v| f64::from(v).powi(2)).sum::<f64>().sqrt()
+fn norm(color: [f32; 3]) -> f64 {
+    color.iter().map(|&v| f64::from(v).powi(2)).sum::<f64>().sqrt()
 }
 
 fn mean(values: impl IntoIterator<Item = f64>) -> Option<f64> {
@@ -209,14 +209,14 @@ fn mean(values: impl IntoIterator<Item = f64>) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::analysis::Session;
+    use crate::describe::{ImageFacts, RegionFacts};
     use crate::photo::LinearImage;
-    use crate::report::{ImageFacts, RegionFacts};
     use crate::segment::Params;
     use crate::truth::TruthObject;
     use std::sync::Arc;
 
     const SIZE: (usize, usize) = (40, 20);
-    const COLOURS: [[f32; 3]; 3] = [[0.0; 3], [100.0, 0.0, 0.0], [0.0, 0.0, 60.0]];
+    const COLORS: [[f32; 3]; 3] = [[0.0; 3], [100.0, 0.0, 0.0], [0.0, 0.0, 60.0]];
 
     /// Two objects side by side, 18 columns each, with background between them and a clipped pixel in the first.
     struct Scene {
@@ -232,7 +232,7 @@ mod tests {
             _ => 0,
         };
         let labels = Raster::from_vec(SIZE.0, SIZE.1, (0..SIZE.0 * SIZE.1).map(label).collect()).unwrap();
-        let body = labels.map(|&id| COLOURS[usize::from(id)]);
+        let body = labels.map(|&id| COLORS[usize::from(id)]);
         let mut camera = body.clone();
         camera[5 * SIZE.0 + 5] = [250.0, 5.0, 5.0];
         let surface = Raster::filled(SIZE.0, SIZE.1, [0.0; 3]);

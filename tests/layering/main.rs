@@ -21,9 +21,10 @@ const ORDER: &[&[&str]] = &[
     &["segment"],
     &["intrinsic"],
     &["analysis"],
-    &["report"],
+    &["describe"],
     &["truth", "baseline", "export"],
-    &["workbench"],
+    &["view"],
+    &["app"],
     &["gui"],
 ];
 
@@ -46,7 +47,7 @@ const AT_HOME: &[(&[&str], &[&str], bool)] = &[
 
 /// Rooms whose results depend on their arguments alone; their tests may do as they like.
 const PURE: &[&str] =
-    &["raster", "color", "reflection", "trace", "segment", "intrinsic", "analysis", "report"];
+    &["raster", "color", "reflection", "trace", "segment", "intrinsic", "analysis", "describe"];
 
 /// What a pure room leaves alone.
 const IMPURE: &[&[&str]] = &[
@@ -140,7 +141,7 @@ fn may_use(user: &str, used: &str) -> bool {
     match (user, used) {
         _ if user == used => true,
         ("gpu", _) | (_, "cli") => false,
-        ("cli", _) => !["gui", "workbench", "gpu"].contains(&used),
+        ("cli", _) => !["gui", "view", "app", "gpu"].contains(&used),
         (_, "gpu") => user == "gui",
         _ => rank(used) < rank(user),
     }
@@ -211,17 +212,19 @@ mod the_checker_can_fail {
 
     #[test]
     fn the_table() {
-        for (user, used) in [("gui", "gpu"), ("gui", "workbench"), ("cli", "export"), ("export", "report")] {
+        for (user, used) in [("gui", "gpu"), ("gui", "app"), ("cli", "export"), ("export", "describe")] {
             assert!(may_use(user, used), "{user} → {used}");
         }
         let forbidden = [
             ("raster", "color"),
             ("truth", "export"),
             ("cli", "gui"),
-            ("cli", "workbench"),
+            ("cli", "app"),
+            ("cli", "view"),
+            ("view", "app"),
             ("cli", "gpu"),
-            ("workbench", "gpu"),
-            ("workbench", "cli"),
+            ("app", "gpu"),
+            ("app", "cli"),
             ("gpu", "raster"),
             ("photo", "segment"),
         ];
@@ -272,11 +275,7 @@ mod the_checker_can_fail {
     #[test]
     fn crates_in_foreign_rooms() {
         assert_complaints("src/gui/cube.rs", "use {egui_extras::Table, wgpu::Device};", &[]);
-        assert_complaints(
-            "src/workbench/mod.rs",
-            "//! W\nuse egui::Ui;",
-            &["src/workbench/mod.rs:2: workbench → egui"],
-        );
+        assert_complaints("src/app/mod.rs", "//! W\nuse egui::Ui;", &["src/app/mod.rs:2: app → egui"]);
         assert_complaints(
             "src/cli/mod.rs",
             "//! C\nfn f() { ::wgpu::x(); }",

@@ -1,8 +1,9 @@
 //! Whatever can be acted on has a name.
 
 use crate::window::{Window, apply, press, state, tiny, tiny_window, window, with_gpu};
+use dichroscope::app::Command;
 use dichroscope::gui::Pane;
-use dichroscope::workbench::{Arrangement, Command, ImageSettings, Item, Origin, Tool};
+use dichroscope::view::{Arrangement, ImageSettings, Item, Origin, Tool};
 use egui::accesskit::{Action, Role};
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -63,12 +64,12 @@ fn everything_has_a_name_in_every_panel() {
 }
 
 #[test]
-fn everything_has_a_name_in_the_colour_space() {
+fn everything_has_a_name_in_the_color_space() {
     let Some(mut window) = with_gpu(vec2(900.0, 600.0)) else { return };
     apply(&mut window, Command::Open(Origin::File(tiny())));
-    window.state_mut().show_alone(Some(Pane::Colours));
+    window.state_mut().show_alone(Some(Pane::Colors));
     window.run_steps(3);
-    check(&window, "colour space");
+    check(&window, "color space");
     for menu in ["Show", "Views"] {
         window.get_by_role_and_label(Role::Button, menu).click();
         window.run_steps(3);
@@ -80,7 +81,7 @@ fn everything_has_a_name_in_the_colour_space() {
 #[test]
 fn everything_has_a_name_in_menus_and_windows() {
     let mut window = tiny_window();
-    for menu in ["File", "Edit", "View", "Analyse", "Help"] {
+    for menu in ["File", "Edit", "View", "Analyze", "Help"] {
         window.get_by_role_and_label(Role::Button, menu).click();
         window.run_steps(3);
         check(&window, menu);

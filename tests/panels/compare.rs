@@ -1,7 +1,7 @@
 //! A pinned result, and the newest beside it.
 
 use crate::window::{click, named, press, says, shown, state, tiny_window};
-use dichroscope::workbench::Layer;
+use dichroscope::view::Layer;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use std::sync::Arc;

@@ -4,9 +4,10 @@ use crate::window::{
     Window, apply, at, click, inside, item, named, says, shown, state, tiny_window, with_software_driver,
     zoom_in,
 };
+use dichroscope::app::{Command, DebugCommand};
 use dichroscope::gui::Pane;
 use dichroscope::trace::{Block, Event, Stage, Topic, Trace};
-use dichroscope::workbench::{Command, DebugCommand, Item};
+use dichroscope::view::Item;
 use egui::accesskit::Role;
 use egui::vec2;
 use egui_kittest::SnapshotOptions;
@@ -87,16 +88,16 @@ fn the_table_lists_windows_then_hypotheses() {
     assert!(says(&window, "not estimated yet"));
     let block = block(&window, |topic| topic == Topic::Hypothesis(2));
     seek(&mut window, block.steps.end - 1);
-    assert!(says(&window, "colour of hypothesis 2") && says(&window, "at work"));
-    assert!(!says(&window, "colour of hypothesis 3") && !says(&window, "colour of region 1"));
-    click(&mut window, Role::Label, "colour of hypothesis 1");
+    assert!(says(&window, "color of hypothesis 2") && says(&window, "at work"));
+    assert!(!says(&window, "color of hypothesis 3") && !says(&window, "color of region 1"));
+    click(&mut window, Role::Label, "color of hypothesis 1");
     let names = Arc::clone(&state(&window).debugger.names);
     assert_eq!(state(&window).debugger.chosen, Some(1));
     assert_eq!(item(&window), Some(Item::Region(names.final_number(1))));
     for heading in ["pixels", "direction", "radius", "status", "result", "#"] {
         click(&mut window, Role::Button, heading);
     }
-    assert!(says(&window, "colour of hypothesis 1"));
+    assert!(says(&window, "color of hypothesis 1"));
 }
 
 #[test]
@@ -118,10 +119,10 @@ fn a_skewed_t_test_is_drawn_with_its_checks() {
 }
 
 #[test]
-fn the_colour_space_shows_what_the_step_looks_at() {
+fn the_color_space_shows_what_the_step_looks_at() {
     let Some(mut window) = with_software_driver(vec2(700.0, 500.0)) else { return };
-    window.state_mut().show_alone(Some(Pane::Colours));
-    apply(&mut window, Command::Open(dichroscope::workbench::Origin::File(crate::window::tiny())));
+    window.state_mut().show_alone(Some(Pane::Colors));
+    apply(&mut window, Command::Open(dichroscope::view::Origin::File(crate::window::tiny())));
     let n = accepted(&window);
     seek(&mut window, n);
     for name in ["candidate", "upper 50 %", "gap ", "passed: gap"] {
@@ -139,7 +140,7 @@ fn the_colour_space_shows_what_the_step_looks_at() {
 fn what_an_instant_looks_like() {
     let Some(mut window) = with_software_driver(vec2(420.0, 300.0)) else { return };
     window.state_mut().show_alone(Some(Pane::Image));
-    apply(&mut window, Command::Open(dichroscope::workbench::Origin::File(crate::window::tiny())));
+    apply(&mut window, Command::Open(dichroscope::view::Origin::File(crate::window::tiny())));
     let block = block(&window, |topic| topic == Topic::Hypothesis(2));
     seek(&mut window, block.steps.start + block.steps.len() * 3 / 5);
     window.run_steps(6);

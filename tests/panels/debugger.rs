@@ -3,11 +3,10 @@
 use crate::window::{
     Window, apply, at, choose, click, drag, item, named, press, says, state, tiny_window, with_gpu, zoom_in,
 };
+use dichroscope::app::{Breakpoint, Command, Condition, DebugCommand, DebugSettings, Direction, Goal, Grain};
 use dichroscope::gui::Pane;
 use dichroscope::trace::{Kind, Replay, Step, Topic, Trace};
-use dichroscope::workbench::{
-    Breakpoint, Command, Condition, DebugCommand, DebugSettings, Direction, Goal, Grain, Item, watch,
-};
+use dichroscope::view::{Item, watch};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::kittest::Queryable;
@@ -180,7 +179,7 @@ fn the_track_is_dragged_clicked_and_zoomed() {
     // A click on a block selects its region and goes to its first decision.
     let (region, steps) = hypothesis(&window);
     let number = state(&window).debugger.names.final_number(region);
-    let axis = dichroscope::workbench::TimelineAxis::of(&trace(&window));
+    let axis = dichroscope::view::TimelineAxis::of(&trace(&window));
     let share = axis.place_of(usize::midpoint(steps.start, steps.end)) as f32;
     let block = spot(share, 0.8);
     window.hover_at(block);
@@ -350,11 +349,11 @@ fn recording_is_switched_off_and_on() {
 }
 
 #[test]
-fn keys_of_the_colour_space_stay_its_own() {
+fn keys_of_the_color_space_stay_its_own() {
     let Some(mut window) = with_gpu(vec2(1200.0, 800.0)) else { return };
-    apply(&mut window, Command::Open(dichroscope::workbench::Origin::File(crate::window::tiny())));
+    apply(&mut window, Command::Open(dichroscope::view::Origin::File(crate::window::tiny())));
     seek(&mut window, 500);
-    let view = window.get_by_role_and_label(Role::Canvas, "Colour space view").rect();
+    let view = window.get_by_role_and_label(Role::Canvas, "Color space view").rect();
     window.hover_at(view.center());
     window.run_steps(3);
     plain(&mut window, Key::D);

@@ -5,10 +5,11 @@ use crate::window::{
     state, tiny, tiny_window,
 };
 use assert_cmd::cargo::cargo_bin_cmd;
+use dichroscope::app::Command;
 use dichroscope::export::write_matte;
 use dichroscope::segment::Setting;
 use dichroscope::truth::sample;
-use dichroscope::workbench::{Command, Item, Layer, regions_text};
+use dichroscope::view::{Item, Layer, regions_text};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use std::fs;
@@ -108,7 +109,7 @@ fn a_workspace_is_saved_and_opened_again() {
     let mut window = tiny_window();
     named(&window, Role::Slider, "camera noise \u{3c3}0").set_value_accesskit(4.0);
     window.run_steps(3);
-    click(&mut window, Role::Label, "colour of region 2");
+    click(&mut window, Role::Label, "color of region 2");
     press(&mut window, Modifiers::COMMAND, Key::A);
     press(&mut window, Modifiers::NONE, Key::Num7);
     choose(&mut window, "View", "Profile");

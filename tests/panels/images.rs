@@ -1,7 +1,7 @@
 //! The image view: layers, marks, and the area that an analysis is restricted to.
 
 use crate::window::{at, click, drag, marked, named, press, shown, size, state, tiny_window, undo, zoom_in};
-use dichroscope::workbench::{Arrangement, Fill, Layer, Tool};
+use dichroscope::view::{Arrangement, Fill, Layer, Tool};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 
@@ -51,7 +51,7 @@ fn layers_are_chosen_by_name_one_or_two_of_them() {
 }
 
 #[test]
-fn a_rectangle_is_marked_inverted_analysed_alone_and_all_of_it_taken_back() {
+fn a_rectangle_is_marked_inverted_analyzed_alone_and_all_of_it_taken_back() {
     let mut window = tiny_window();
     zoom_in(&mut window);
     press(&mut window, Modifiers::NONE, Key::R);
@@ -118,5 +118,5 @@ fn a_white_patch_pins_the_light() {
     let light = state(&window).document.params.illuminant.direction().unwrap();
     let body = shown(&window).analysis.intrinsic.regions[0].body;
     let cosine: f64 = light.iter().zip(body).map(|(a, b)| a * b).sum();
-    assert!(cosine > 0.95, "the mean of a matte patch lies near its body colour: {light:?}, {body:?}");
+    assert!(cosine > 0.95, "the mean of a matte patch lies near its body color: {light:?}, {body:?}");
 }

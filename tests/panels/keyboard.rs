@@ -1,7 +1,8 @@
 //! Keys, help, and the theme.
 
 use crate::window::{Window, apply, choose, press, says, state, tiny_window, window};
-use dichroscope::workbench::{Command, Severity, Theme, Tool};
+use dichroscope::app::{Command, Severity};
+use dichroscope::view::{Theme, Tool};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;

@@ -1,13 +1,13 @@
 //! The whole window without a screen: found by accessible names, clicked, dragged and typed in, and looked at.
 //!
-//! Work is done in the call itself ([`dichroscope::workbench::Executor::Inline`]), so that no test waits for a thread.
-//! Only what draws the colour space or takes pictures needs a graphics adapter, see [`window::with_gpu`].
+//! Work is done in the call itself ([`dichroscope::app::Executor::Inline`]), so that no test waits for a thread.
+//! Only what draws the color space or takes pictures needs a graphics adapter, see [`window::with_gpu`].
 
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 
 mod accessibility;
-mod colours;
+mod colors;
 mod compare;
 mod cursor;
 mod debugger;

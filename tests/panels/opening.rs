@@ -4,9 +4,10 @@ use crate::window::{
     Window, answer, apply, choose, click, notice, open_sample, press, says, shown, sigma, size, state, tiny,
     tiny_window, window,
 };
+use dichroscope::app::{Command, Severity};
 use dichroscope::segment::Setting;
 use dichroscope::truth::sample;
-use dichroscope::workbench::{Command, Item, Origin, Severity};
+use dichroscope::view::{Item, Origin};
 use egui::accesskit::Role;
 use egui::{Color32, ColorImage, Event, Key, Modifiers};
 use std::path::{Path, PathBuf};
@@ -17,8 +18,8 @@ fn nothing_is_open_and_every_panel_says_so() {
     let window = window();
     for sentence in [
         "Open a photograph: Ctrl+O, drop a file here, or paste",
-        "Open a photograph to see its colours.",
-        "Regions appear when a photograph has been analysed.",
+        "Open a photograph to see its colors.",
+        "Regions appear when a photograph has been analyzed.",
         "Select a region to see its dichromatic plane.",
     ] {
         assert!(says(&window, sentence), "{sentence}");
@@ -29,7 +30,7 @@ fn nothing_is_open_and_every_panel_says_so() {
 fn without_a_graphics_adapter_one_panel_says_so_and_all_else_works() {
     let window = tiny_window();
     assert!(says(&window, "There is no graphics adapter"));
-    assert!(says(&window, "colour of region 1"));
+    assert!(says(&window, "color of region 1"));
 }
 
 #[test]
@@ -37,7 +38,7 @@ fn each_sample_opens_from_the_menu_with_its_accuracy() {
     let mut window = window();
     for sample in &sample::SAMPLES {
         open_sample(&mut window, sample.name);
-        assert!(says(&window, "off by") && says(&window, "colour of region 1"), "{}", sample.name);
+        assert!(says(&window, "off by") && says(&window, "color of region 1"), "{}", sample.name);
         assert!(shown(&window).coverage > 0.8, "{}", sample.name);
     }
 }
@@ -143,11 +144,11 @@ fn a_path_pasted_into_a_field_stays_there() {
     assert!(says(&window, "elsewhere.png"));
 }
 
-/// A PPM of one colour a column.
-fn plain(name: &str, colour: impl Fn(usize) -> [u8; 3]) -> Origin {
+/// A PPM of one color a column.
+fn plain(name: &str, color: impl Fn(usize) -> [u8; 3]) -> Origin {
     let (width, height) = (96, 64);
     let mut bytes = format!("P6 {width} {height} 255\n").into_bytes();
-    bytes.extend((0..width * height).flat_map(|pixel| colour(pixel % width)));
+    bytes.extend((0..width * height).flat_map(|pixel| color(pixel % width)));
     Origin::Bytes { name: name.to_owned(), bytes: bytes.into() }
 }
 
@@ -158,7 +159,7 @@ fn without_a_highlight_the_light_is_unknown() {
     apply(&mut window, Command::Open(plain("matte.ppm", shade)));
     assert!(!shown(&window).analysis.intrinsic.regions.is_empty());
     assert!(says(&window, "unknown: no highlight was found"));
-    click(&mut window, Role::Label, "colour of region 1");
+    click(&mut window, Role::Label, "color of region 1");
     assert!(says(&window, "Dichromatic plane of region 1"), "its matte line is shown nevertheless");
 }
 

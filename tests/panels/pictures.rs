@@ -3,12 +3,10 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test --test panels` makes them anew. Nothing in them tells the time.
 
 use crate::window::{Window, apply, named, tiny, with_software_driver};
+use dichroscope::app::{Command, DebugCommand};
 use dichroscope::gui::Pane;
 use dichroscope::segment::{Parameter, Setting};
-use dichroscope::workbench::{
-    Arrangement, ColourBy, Command, DebugCommand, Fill, ImageSettings, Item, Layer, Origin, ProfileLine,
-    Theme,
-};
+use dichroscope::view::{Arrangement, ColorBy, Fill, ImageSettings, Item, Layer, Origin, ProfileLine, Theme};
 use egui::accesskit::Role;
 use egui::{Rect, Vec2, pos2, vec2};
 use egui_kittest::{SnapshotOptions, image_snapshot_options};
@@ -62,17 +60,17 @@ fn the_image_view() {
 }
 
 #[test]
-fn the_colour_space_view() {
-    let Some(mut window) = opened(PANEL, Some(Pane::Colours)) else { return };
-    compare(&mut window, "colours");
+fn the_color_space_view() {
+    let Some(mut window) = opened(PANEL, Some(Pane::Colors)) else { return };
+    compare(&mut window, "colors");
     apply(&mut window, Command::Select(Some(Item::Region(1))));
-    compare(&mut window, "colours-region");
+    compare(&mut window, "colors-region");
     let mut cube = window.state().state().view.cube.clone();
-    cube.colour_by = ColourBy::Density;
+    cube.color_by = ColorBy::Density;
     apply(&mut window, Command::Cube(cube));
     apply(&mut window, Command::Select(None));
     apply(&mut window, Command::Theme(Theme::Light));
-    compare(&mut window, "colours-density-light");
+    compare(&mut window, "colors-density-light");
 }
 
 #[test]

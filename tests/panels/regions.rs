@@ -4,8 +4,9 @@ use crate::window::{
     Window, apply, at, click, drag, inside, item, named, pointer, press, says, shown, state, tiny_window,
     undo, words, zoom_in,
 };
+use dichroscope::app::Command;
 use dichroscope::gui::Pane;
-use dichroscope::workbench::{Command, Item};
+use dichroscope::view::Item;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Node;
@@ -14,7 +15,7 @@ use egui_kittest::kittest::NodeT;
 /// The regions in the order of the table's rows.
 fn rows(window: &Window) -> Vec<u16> {
     let of_row = |node: Node<'_>| {
-        let id = words(&node)?.strip_prefix("colour of region ")?.parse().ok()?;
+        let id = words(&node)?.strip_prefix("color of region ")?.parse().ok()?;
         Some((node.rect().center().y, id))
     };
     let mut rows: Vec<(f32, u16)> = window.root().children_recursive().filter_map(of_row).collect();
@@ -26,7 +27,7 @@ fn rows(window: &Window) -> Vec<u16> {
 fn a_row_selects_the_region_everywhere() {
     let mut window = tiny_window();
     assert!(says(&window, "Select a region to see its dichromatic plane."));
-    click(&mut window, Role::Label, "colour of region 2");
+    click(&mut window, Role::Label, "color of region 2");
     assert_eq!((item(&window), state(&window).selected_region()), (Some(Item::Region(2)), Some(2)));
     assert!(says(&window, "Dichromatic plane of region 2"));
     click(&mut window, Role::Button, "Selection");
@@ -48,8 +49,8 @@ fn grouped(number: usize) -> String {
 #[test]
 fn a_second_click_on_the_row_lets_it_go() {
     let mut window = tiny_window();
-    click(&mut window, Role::Label, "colour of region 1");
-    click(&mut window, Role::Label, "colour of region 1");
+    click(&mut window, Role::Label, "color of region 1");
+    click(&mut window, Role::Label, "color of region 1");
     assert_eq!(item(&window), None);
 }
 

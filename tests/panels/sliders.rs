@@ -4,9 +4,9 @@ use crate::window::{
     Window, apply, choose, click, double_click, drag, named, notice, press, shown, sigma, state, tiny,
     tiny_window, undo,
 };
+use dichroscope::app::{Command, Export};
 use dichroscope::gui::Pane;
 use dichroscope::segment::{AmbientSetting, Method, Parameter, Params, Preset, Setting};
-use dichroscope::workbench::{Command, Export};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, Rect};
 use egui_kittest::kittest::Queryable;
@@ -25,7 +25,7 @@ fn typed(window: &mut Window, name: &str, text: &str) {
 }
 
 #[test]
-fn a_drag_of_the_slider_is_one_step_and_is_analysed_all_along() {
+fn a_drag_of_the_slider_is_one_step_and_is_analyzed_all_along() {
     let mut window = tiny_window();
     let (before, generation) = (sigma(&window), state(&window).generation);
     let rail = rail(&window);
@@ -34,7 +34,7 @@ fn a_drag_of_the_slider_is_one_step_and_is_analysed_all_along() {
     drag(&mut window, &points, Modifiers::NONE);
     let Setting::Value(after) = sigma(&window) else { panic!("a drag sets a value") };
     assert!((3.0..8.0).contains(&after), "{after}");
-    assert!(state(&window).generation >= generation + 4, "each movement is analysed");
+    assert!(state(&window).generation >= generation + 4, "each movement is analyzed");
     assert!(state(&window).is_current());
     assert!((shown(&window).analysis.used.camera_noise - after).abs() < 1e-9);
     undo(&mut window);
@@ -146,7 +146,7 @@ fn methods_and_switches_are_chosen_and_reset() {
 fn presets_are_in_the_menu_and_parameters_travel_through_a_file() {
     let mut window = tiny_window();
     let preset = Preset::ALL[1];
-    choose(&mut window, "Analyse", "Presets of table 6");
+    choose(&mut window, "Analyze", "Presets of table 6");
     click(&mut window, Role::Button, preset.title());
     assert_eq!(state(&window).document.params, preset.params());
     let folder = tempfile::tempdir().unwrap();
@@ -154,11 +154,11 @@ fn presets_are_in_the_menu_and_parameters_travel_through_a_file() {
     apply(&mut window, Command::Export(Export::Parameters { path: path.clone() }));
     undo(&mut window);
     assert_eq!(state(&window).document.params, Params::default());
-    choose(&mut window, "Analyse", "Load parameters");
+    choose(&mut window, "Analyze", "Load parameters");
     crate::window::answer(&mut window, &path);
     assert_eq!(state(&window).document.params, preset.params());
     std::fs::write(&path, "window_size = \n").unwrap();
-    choose(&mut window, "Analyse", "Load parameters");
+    choose(&mut window, "Analyze", "Load parameters");
     crate::window::answer(&mut window, &path);
     assert!(notice(&window).contains("p.toml"), "{}", notice(&window));
     assert_eq!(state(&window).document.params, preset.params());
@@ -190,7 +190,7 @@ fn the_call_of_what_is_shown_can_be_copied() {
     let mut window = tiny_window();
     named(&window, Role::Slider, SIGMA).set_value_accesskit(4.0);
     window.run_steps(3);
-    window.get_by_role_and_label(Role::Button, "Analyse").click();
+    window.get_by_role_and_label(Role::Button, "Analyze").click();
     window.run_steps(3);
     named(&window, Role::Button, "Copy as command line").click();
     let mut copied = Vec::new();

@@ -1,9 +1,10 @@
 //! Why a pixel is what it is: its history as links, and what would change it.
 
 use crate::window::{Window, apply, click, named, says, state, tiny_window};
+use dichroscope::app::{Ask, Command};
 use dichroscope::gui::Pane;
 use dichroscope::trace::Stage;
-use dichroscope::workbench::{Ask, Command, Item, why};
+use dichroscope::view::{Item, why};
 use egui::accesskit::Role;
 
 /// A pixel of the largest region.
@@ -48,9 +49,9 @@ fn what_would_change_a_pixel_is_found_and_a_click_sets_it() {
     apply(&mut window, Command::Select(Some(Item::Pixel(pixel))));
     alone(&mut window);
     click(&mut window, Role::Button, "Find what would change it");
-    let found = state(&window).inquiry.as_ref().unwrap().found.clone().unwrap();
+    let found = state(&window).what_if_job.as_ref().unwrap().found.clone().unwrap();
     let first = found[0];
-    let sentence = dichroscope::report::what_if_sentence(&first);
+    let sentence = dichroscope::describe::what_if_sentence(&first);
     named(&window, Role::Link, &sentence);
     click(&mut window, Role::Link, &sentence);
     let params = &state(&window).document.params;

@@ -1,8 +1,9 @@
 //! A window to act on: what a person sees, points at and types.
 
+use dichroscope::app::{Command, Executor, State};
 use dichroscope::gui::App;
 use dichroscope::segment::{Parameter, Setting};
-use dichroscope::workbench::{Command, Executor, Item, Origin, Shown, State};
+use dichroscope::view::{Item, Origin, ResultSnapshot};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -102,7 +103,7 @@ pub fn state(window: &Window) -> &State {
     window.state().state()
 }
 
-pub fn shown(window: &Window) -> Arc<Shown> {
+pub fn shown(window: &Window) -> Arc<ResultSnapshot> {
     Arc::clone(state(window).shown().expect("a result is shown"))
 }
 
@@ -238,7 +239,7 @@ pub fn double_click(window: &mut Window, pos: Pos2) {
 pub fn zoom_in(window: &mut Window) {
     let (width, height) = size(window);
     let mut image = state(window).view.image.clone();
-    (image.zoom, image.centre_px) = (Some(2.0), Some([width as f32 / 2.0, height as f32 / 2.0]));
+    (image.zoom, image.center_px) = (Some(2.0), Some([width as f32 / 2.0, height as f32 / 2.0]));
     apply(window, Command::Image(image));
 }
 

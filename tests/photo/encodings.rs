@@ -10,7 +10,7 @@ fn auto(bytes: &[u8]) -> Photo {
     read_with(bytes, &ReadOptions::default())
 }
 
-/// A mid-grey pixel with these colour chunks.
+/// A mid-gray pixel with these color chunks.
 fn tagged(chunks: &[([u8; 4], &[u8])], icc: Option<&[u8]>) -> Photo {
     auto(&Png { size: (1, 1), bits: 8, data: &[128; 3], chunks, icc, ..Png::default() }.bytes())
 }
@@ -128,8 +128,8 @@ fn profiles_are_found_in_other_formats() {
     let jpeg = auto(&files::jpeg((8, 8), Rgb8, &[128; 192], Some(&linear)));
     assert_eq!(jpeg.encoding.to_string(), "linear (ICC profile)");
     assert_eq!(pixels(&jpeg)[0], [128.0; 3]);
-    let grey_profile = icc(*b"GRAY", &[(*b"kTRC", curv(&[]))]);
-    let jpeg = auto(&files::jpeg((8, 8), L8, &[128; 64], Some(&grey_profile)));
+    let gray_profile = icc(*b"GRAY", &[(*b"kTRC", curv(&[]))]);
+    let jpeg = auto(&files::jpeg((8, 8), L8, &[128; 64], Some(&gray_profile)));
     assert_eq!(pixels(&jpeg)[0], [128.0; 3]);
     let tiff = auto(&files::tiff::<colortype::RGB16>((1, 1), &[257, 514, 771], &[], &[], Some(&linear)));
     assert_eq!(pixels(&tiff)[0], [1.0, 2.0, 3.0]);

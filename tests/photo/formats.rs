@@ -1,7 +1,7 @@
 //! Every format, depth and layout, read to exact counts.
 
 use crate::files::{self, Png};
-use crate::{grey, pixels, read_linear, read_with};
+use crate::{gray, pixels, read_linear, read_with};
 use dichroscope::photo::{Format, Layout, ReadOptions, Samples, decode};
 use exr::image::FlatSamples;
 use exr::prelude::f16;
@@ -20,12 +20,12 @@ fn png_of_every_depth() {
         assert_eq!(photo.source.format, Format::Png);
         pixels(&photo).to_vec()
     };
-    assert_eq!(read(Grayscale, 1, &[0b1000_0000]), grey(&[255.0, 0.0]));
-    assert_eq!(read(Grayscale, 2, &[0b0110_0000]), grey(&[85.0, 170.0]));
-    assert_eq!(read(Grayscale, 4, &[0x1F]), grey(&[17.0, 255.0]));
-    assert_eq!(read(Grayscale, 8, &[37, 255]), grey(&[37.0, 255.0]));
-    assert_eq!(read(Grayscale, 16, &[1, 1, 255, 255]), grey(&[1.0, 255.0]));
-    assert_eq!(read(GrayscaleAlpha, 8, &[9, 255, 8, 255]), grey(&[9.0, 8.0]));
+    assert_eq!(read(Grayscale, 1, &[0b1000_0000]), gray(&[255.0, 0.0]));
+    assert_eq!(read(Grayscale, 2, &[0b0110_0000]), gray(&[85.0, 170.0]));
+    assert_eq!(read(Grayscale, 4, &[0x1F]), gray(&[17.0, 255.0]));
+    assert_eq!(read(Grayscale, 8, &[37, 255]), gray(&[37.0, 255.0]));
+    assert_eq!(read(Grayscale, 16, &[1, 1, 255, 255]), gray(&[1.0, 255.0]));
+    assert_eq!(read(GrayscaleAlpha, 8, &[9, 255, 8, 255]), gray(&[9.0, 8.0]));
     assert_eq!(read(Rgb, 8, &[1, 2, 3, 4, 5, 6]), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
     assert_eq!(read(Rgba, 8, &[1, 2, 3, 255, 4, 5, 6, 255]), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
     let deep = read(Rgb, 16, &[0, 0, 1, 1, 2, 2, 0, 1, 0x80, 0, 255, 255]);
@@ -73,7 +73,7 @@ fn transparency_is_composited_on_black_and_mentioned() {
     };
     assert!(rgba(&[1, 2, 3, 255, 4, 5, 6, 255]).warnings.is_empty());
     let photo = rgba(&[255, 255, 255, 51, 9, 9, 9, 0]);
-    assert_eq!(pixels(&photo), grey(&[51.0, 0.0]), "linear light × alpha");
+    assert_eq!(pixels(&photo), gray(&[51.0, 0.0]), "linear light × alpha");
     assert!(photo.warnings[0].starts_with("2 of 2 pixels are not fully opaque"), "{:?}", photo.warnings);
     let photo = read_linear(&files::webp((1, 1), Rgba8, &[200, 100, 50, 102]));
     assert_eq!(pixels(&photo), [[200.0f32 * 0.4, 100.0 * 0.4, 50.0 * 0.4]]);
@@ -99,18 +99,18 @@ fn transparency_is_composited_on_black_and_mentioned() {
 
 #[test]
 fn pnm_keeps_its_own_maximum() {
-    assert_eq!(pixels(&read_linear(b"P1\n2 1\n1 0\n")), grey(&[0.0, 255.0]));
-    assert_eq!(pixels(&read_linear(b"P4\n2 1\n\x80")), grey(&[0.0, 255.0]));
-    assert_eq!(pixels(&read_linear(b"P2\n# a comment\n2 1 100\n100 20\n")), grey(&[255.0, 51.0]));
+    assert_eq!(pixels(&read_linear(b"P1\n2 1\n1 0\n")), gray(&[0.0, 255.0]));
+    assert_eq!(pixels(&read_linear(b"P4\n2 1\n\x80")), gray(&[0.0, 255.0]));
+    assert_eq!(pixels(&read_linear(b"P2\n# a comment\n2 1 100\n100 20\n")), gray(&[255.0, 51.0]));
     assert_eq!(pixels(&read_linear(b"P3\n1 1\n15\n15 1 0\n")), [[255.0, 17.0, 0.0]]);
-    assert_eq!(pixels(&read_linear(b"P5\n1 1\n255\n\x25")), grey(&[37.0]));
-    assert_eq!(pixels(&read_linear(b"P5\n2 1\n1023\n\x03\xff\x00\x00")), grey(&[255.0, 0.0]));
+    assert_eq!(pixels(&read_linear(b"P5\n1 1\n255\n\x25")), gray(&[37.0]));
+    assert_eq!(pixels(&read_linear(b"P5\n2 1\n1023\n\x03\xff\x00\x00")), gray(&[255.0, 0.0]));
     assert_eq!(pixels(&read_linear(b"P6\n1 1\n65535\n\x01\x01\x02\x02\xff\xff")), [[1.0, 2.0, 255.0]]);
     let pam = b"P7\nWIDTH 1\nHEIGHT 1\nDEPTH 4\nMAXVAL 100\nTUPLTYPE RGB_ALPHA\nENDHDR\n\x64\x14\x00\x64";
     assert_eq!(pixels(&read_linear(pam)), [[255.0, 51.0, 0.0]]);
     let pam = b"P7\nWIDTH 2\nHEIGHT 1\nDEPTH 1\nMAXVAL 1\nTUPLTYPE BLACKANDWHITE\nENDHDR\n\x01\x00";
-    assert_eq!(pixels(&read_linear(pam)), grey(&[255.0, 0.0]));
-    assert_eq!(pixels(&read_linear(b"P5\n1 1\n100\n\xC8")), grey(&[255.0]), "above its own maximum");
+    assert_eq!(pixels(&read_linear(pam)), gray(&[255.0, 0.0]));
+    assert_eq!(pixels(&read_linear(b"P5\n1 1\n100\n\xC8")), gray(&[255.0]), "above its own maximum");
 }
 
 #[test]
@@ -135,14 +135,14 @@ fn bmp_webp_and_jpeg() {
         pixels(&read_linear(&files::bmp((2, 1), Rgb8, &[1, 2, 3, 4, 5, 6]))),
         [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]
     );
-    assert_eq!(pixels(&read_linear(&files::bmp((2, 1), L8, &[7, 9]))), grey(&[7.0, 9.0]));
+    assert_eq!(pixels(&read_linear(&files::bmp((2, 1), L8, &[7, 9]))), gray(&[7.0, 9.0]));
     assert_eq!(
         pixels(&read_linear(&files::webp((1, 2), Rgb8, &[1, 2, 3, 4, 5, 6]))),
         [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]
     );
     let photo = read_linear(&files::jpeg((8, 8), L8, &[128; 64], None));
-    assert_eq!(photo.source.layout, Layout::Grey);
-    assert_eq!(pixels(&photo), grey(&[128.0; 64]));
+    assert_eq!(photo.source.layout, Layout::Gray);
+    assert_eq!(pixels(&photo), gray(&[128.0; 64]));
     let photo = read_linear(&files::jpeg((8, 8), Rgb8, &[90; 192], None));
     assert_eq!(photo.source.layout, Layout::Rgb);
     assert!(pixels(&photo).iter().flatten().all(|c| (c - 90.0).abs() <= 1.0));
@@ -154,22 +154,22 @@ fn tiff_of_every_depth() {
     let alpha = [ExtraSamples::UnassociatedAlpha];
     assert_eq!(
         pixels(&read_linear(&files::raw_tiff((3, 2), 1, 1, &[], &[0b1010_0000, 0b0100_0000]))),
-        grey(&[255.0, 0.0, 255.0, 0.0, 255.0, 0.0])
+        gray(&[255.0, 0.0, 255.0, 0.0, 255.0, 0.0])
     );
-    assert_eq!(pixels(&read_linear(&files::raw_tiff((2, 1), 4, 1, &[], &[0x1F]))), grey(&[17.0, 255.0]));
+    assert_eq!(pixels(&read_linear(&files::raw_tiff((2, 1), 4, 1, &[], &[0x1F]))), gray(&[17.0, 255.0]));
     assert_eq!(
         pixels(&read_linear(&files::raw_tiff((2, 1), 8, 0, &[], &[255, 5]))),
-        grey(&[0.0, 250.0]),
+        gray(&[0.0, 250.0]),
         "white is zero"
     );
-    let grey8 = files::tiff::<colortype::Gray8>(size, &[7, 9], &[], &[], None);
-    assert_eq!(pixels(&read_linear(&grey8)), grey(&[7.0, 9.0]));
-    let grey_alpha = files::tiff::<colortype::Gray8>(size, &[7, 255, 10, 51], &alpha, &[], None);
-    assert_eq!(pixels(&read_linear(&grey_alpha)), grey(&[7.0, 2.0]));
-    let grey16 = files::tiff::<colortype::Gray16>(size, &[257, 65535], &[], &[], None);
-    assert_eq!(pixels(&read_linear(&grey16)), grey(&[1.0, 255.0]));
-    let grey32 = files::tiff::<colortype::Gray32>(size, &[u32::MAX / 255, u32::MAX], &[], &[], None);
-    assert_eq!(pixels(&read_linear(&grey32)), grey(&[1.0, 255.0]));
+    let gray8 = files::tiff::<colortype::Gray8>(size, &[7, 9], &[], &[], None);
+    assert_eq!(pixels(&read_linear(&gray8)), gray(&[7.0, 9.0]));
+    let gray_alpha = files::tiff::<colortype::Gray8>(size, &[7, 255, 10, 51], &alpha, &[], None);
+    assert_eq!(pixels(&read_linear(&gray_alpha)), gray(&[7.0, 2.0]));
+    let gray16 = files::tiff::<colortype::Gray16>(size, &[257, 65535], &[], &[], None);
+    assert_eq!(pixels(&read_linear(&gray16)), gray(&[1.0, 255.0]));
+    let gray32 = files::tiff::<colortype::Gray32>(size, &[u32::MAX / 255, u32::MAX], &[], &[], None);
+    assert_eq!(pixels(&read_linear(&gray32)), gray(&[1.0, 255.0]));
     let rgb16 = files::tiff::<colortype::RGB16>(size, &[0, 257, 514, 65535, 0, 0], &[], &[], None);
     assert_eq!(pixels(&read_linear(&rgb16)), [[0.0, 1.0, 2.0], [255.0, 0.0, 0.0]]);
     let unspecified = [ExtraSamples::Unspecified];
@@ -187,7 +187,7 @@ fn floats_are_linear_and_know_no_saturation() {
     assert_eq!(photo.image.invalid.as_slice(), [false, true]);
     assert!(photo.warnings[0].starts_with("1 of 2 pixels"), "{:?}", photo.warnings);
     let tiff = files::tiff::<colortype::Gray64Float>((2, 1), &[0.5, f64::NAN], &[], &[], None);
-    assert_eq!(pixels(&read_with(&tiff, &default)), grey(&[127.5, 0.0]));
+    assert_eq!(pixels(&read_with(&tiff, &default)), gray(&[127.5, 0.0]));
 
     let half = |values: [f32; 2]| FlatSamples::F16(values.map(f16::from_f32).to_vec());
     let exr = files::exr(
@@ -199,10 +199,10 @@ fn floats_are_linear_and_know_no_saturation() {
     assert_eq!(photo.encoding.to_string(), "linear (OpenEXR is linear light)");
     let float = |values: [f32; 2]| FlatSamples::F32(values.to_vec());
     let exr = files::exr((2, 1), &[("Y", float([1.0, 0.2]))]);
-    assert_eq!(pixels(&read_with(&exr, &default)), grey(&[255.0, 51.0]));
+    assert_eq!(pixels(&read_with(&exr, &default)), gray(&[255.0, 51.0]));
     let exr = files::exr((2, 1), &[("Y", float([1.0, 0.2])), ("A", float([1.0, 0.5]))]);
     let photo = read_with(&exr, &default);
-    assert_eq!(pixels(&photo), grey(&[255.0, 51.0]), "OpenEXR is multiplied by alpha already");
+    assert_eq!(pixels(&photo), gray(&[255.0, 51.0]), "OpenEXR is multiplied by alpha already");
     assert!(photo.warnings[0].contains("opaque"));
     let exr = files::exr((2, 1), &[("depth", float([1.0, 0.2]))]);
     let message = decode(&exr, "d.exr", &default).unwrap_err().to_string();
@@ -231,7 +231,7 @@ fn full_scale_is_what_the_user_says() {
 
 #[test]
 fn pictures_are_turned_upright() {
-    let (stored, upright) = ([1, 2, 3, 4, 5, 6], grey(&[5.0, 3.0, 1.0, 6.0, 4.0, 2.0]));
+    let (stored, upright) = ([1, 2, 3, 4, 5, 6], gray(&[5.0, 3.0, 1.0, 6.0, 4.0, 2.0]));
     let check = |bytes: &[u8]| {
         let photo = read_linear(bytes);
         assert_eq!((photo.image.width(), photo.image.height()), (3, 2));
@@ -267,7 +267,7 @@ fn pictures_are_turned_upright() {
 #[test]
 fn a_wrong_extension_opens_with_a_warning() {
     let photo = decode(&files::bmp((1, 1), L8, &[7]), "some/photo.JPG", &crate::linear()).unwrap();
-    assert_eq!(pixels(&photo), grey(&[7.0]));
+    assert_eq!(pixels(&photo), gray(&[7.0]));
     assert!(photo.warnings[0].contains(".jpg") && photo.warnings[0].contains("BMP"), "{:?}", photo.warnings);
 }
 

@@ -31,7 +31,7 @@ fn pixels(photo: &Photo) -> &[[f32; 3]] {
     photo.image.pixels.as_slice()
 }
 
-/// Grey pixels of these counts.
-fn grey(counts: &[f32]) -> Vec<[f32; 3]> {
+/// Gray pixels of these counts.
+fn gray(counts: &[f32]) -> Vec<[f32; 3]> {
     counts.iter().map(|&c| [c; 3]).collect()
 }

@@ -63,13 +63,13 @@ fn lossless() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     ppm.extend(bytes(45).iter().map(|v| v % 52));
     vec![
         ("png rgb8", files::rgb8_png(size, &bytes(45)), "matte.png"),
-        ("png grey 2", png(Grayscale, 2, &bytes(6), &[], None), "matte.png"),
+        ("png gray 2", png(Grayscale, 2, &bytes(6), &[], None), "matte.png"),
         (
-            "png grey 16",
+            "png gray 16",
             png(Grayscale, 16, &deep[..30], &[(*b"gAMA", &100_000u32.to_be_bytes())], None),
             "matte.png",
         ),
-        ("png grey alpha", png(GrayscaleAlpha, 8, &bytes(30), &[(*b"cICP", &cicp)], None), "matte.png"),
+        ("png gray alpha", png(GrayscaleAlpha, 8, &bytes(30), &[(*b"cICP", &cicp)], None), "matte.png"),
         ("png rgba16", png(Rgba, 16, &deep, &[(*b"sRGB", &[1])], Some(&profile)), "matte.png"),
         ("bmp", files::bmp(tiny, Rgb8, &bytes(45)), "matte.png"),
         ("webp", files::webp(tiny, Rgba8, &bytes(60)), "matte.png"),
@@ -142,7 +142,7 @@ fn what_changes_comes_back_within_half_a_code() {
 #[test]
 fn jpegs_stay_jpegs() {
     let profile = rgb_icc(&curv(&[]));
-    for (color, data, layout) in [(L8, bytes(64), Layout::Grey), (Rgb8, bytes(192), Layout::Rgb)] {
+    for (color, data, layout) in [(L8, bytes(64), Layout::Gray), (Rgb8, bytes(192), Layout::Rgb)] {
         let smooth: Vec<u8> = data.iter().map(|v| 100 + v / 32).collect();
         let icc = (layout == Layout::Rgb).then_some(&profile[..]);
         let photo = read_with(&files::jpeg((8, 8), color, &smooth, icc), &ReadOptions::default());
@@ -156,12 +156,12 @@ fn jpegs_stay_jpegs() {
 }
 
 #[test]
-fn a_grey_photograph_becomes_coloured_only_with_its_body() {
+fn a_gray_photograph_becomes_colored_only_with_its_body() {
     let bytes =
         Png { size: (2, 1), color: Some(Grayscale), bits: 8, data: &[40, 80], ..Png::default() }.bytes();
     let photo = decode(&bytes, "x.png", &crate::linear()).unwrap();
     let body = Raster::from_vec(2, 1, vec![[40.0; 3], [79.9, 80.1, 80.0]]).unwrap();
-    assert_eq!(written(&photo, &body, &crate::linear()).0.source.layout, Layout::Grey);
+    assert_eq!(written(&photo, &body, &crate::linear()).0.source.layout, Layout::Gray);
     let body = Raster::from_vec(2, 1, vec![[40.0; 3], [10.0, 20.0, 30.0]]).unwrap();
     let (again, _) = written(&photo, &body, &crate::linear());
     assert_eq!(again.source.layout, Layout::Rgb);

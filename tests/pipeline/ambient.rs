@@ -5,7 +5,7 @@ use crate::prints::photograph;
 use crate::synthetic::{Rendered, Scene};
 use dichroscope::analysis::Session;
 use dichroscope::segment::{AmbientSetting, Params};
-use dichroscope::trace::{AmbientVerdict, What, pixel_history};
+use dichroscope::trace::{AmbientVerdict, HistoryKind, pixel_history};
 use std::sync::Arc;
 
 const VEIL: [f32; 3] = [5.0, 7.0, 9.0];
@@ -64,7 +64,7 @@ fn the_history_of_a_pixel_counts_from_the_ambient_light() {
     let pixel = matte.unwrap();
     let history = pixel_history(&trace, &image, &analysis.masks, pixel);
     let split = history.iter().find_map(|happening| match &happening.what {
-        What::Split(story) => Some(**story),
+        HistoryKind::Split(story) => Some(**story),
         _ => None,
     });
     let story = split.unwrap();

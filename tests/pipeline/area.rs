@@ -47,7 +47,7 @@ proptest! {
         let assigned: usize = report.regions.iter().map(|region| region.pixels).sum();
         let inside = area.as_slice().iter().filter(|&&inside| inside).count();
         prop_assert_eq!(assigned + report.unassigned_pixels, inside);
-        // Other colours outside, darker ones so that none blooms into the area: the same regions.
+        // Other colors outside, darker ones so that none blooms into the area: the same regions.
         for pixel in (0..image.pixels.len()).filter(|&pixel| !area[pixel] && !analysis.masks.clipped(pixel)) {
             image.pixels[pixel] = image.pixels[pixel].map(|band| 100.0 - band / 3.0);
         }

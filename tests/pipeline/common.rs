@@ -2,9 +2,9 @@
 
 use crate::synthetic::{Rendered, Scene};
 use dichroscope::analysis::{Analysis, Session};
+use dichroscope::describe::{ImageFacts, Report, Scores};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::{Raster, UNASSIGNED};
-use dichroscope::report::{ImageFacts, Report, Scores};
 use dichroscope::segment::{Method, Params};
 use dichroscope::trace::PixelKind;
 use dichroscope::truth::{GroundTruth, Outcome, TruthObject, score};
@@ -101,7 +101,7 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
                 let input = image.pixels[pixel][band];
                 (body[band] + surface[band] - input).abs() <= 1e-5 * input.max(1.0) && body[band] <= input
             };
-            expect((0..3).all(whole), "an unassigned pixel lost some of its colour");
+            expect((0..3).all(whole), "an unassigned pixel lost some of its color");
             expect(intrinsic.noise[pixel] == 0.0, "an unassigned pixel is noisy");
         }
     }
@@ -126,11 +126,11 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
         expect(region.fit_rms_counts.is_finite(), "a fit is not finite");
         expect((0.0..=1.0).contains(&region.confidence), "a region's confidence is no share");
         expect(region.texture.is_finite(), "a texture is no number");
-        expect(region.neighbours.is_sorted(), "neighbours are not sorted");
+        expect(region.neighbors.is_sorted(), "neighbors are not sorted");
         let mutual = |&other: &u16| {
-            regions.get(usize::from(other) - 1).is_some_and(|other| other.neighbours.contains(&region.id))
+            regions.get(usize::from(other) - 1).is_some_and(|other| other.neighbors.contains(&region.id))
         };
-        expect(region.neighbours.iter().all(mutual), "a neighbour does not know its neighbour");
+        expect(region.neighbors.iter().all(mutual), "a neighbor does not know its neighbor");
     }
     expect(
         analysis.illuminant.is_none_or(|light| is_unit(light.direction)),

@@ -5,12 +5,12 @@ use crate::marbled;
 use crate::prints::printed;
 use crate::synthetic::{Scene, unit};
 use dichroscope::analysis::{Analysis, Session};
+use dichroscope::describe::{Names, trace_line};
 use dichroscope::photo::LinearImage;
-use dichroscope::report::{Names, trace_line};
 use dichroscope::segment::{LightBasis, Params, Refine};
 use dichroscope::trace::{
-    Doubt, Event, Kind, LocalDecision, LocalFate, PixelKind, RepairVerdict, Replay, Stage, Step, Trace, What,
-    pixel_history,
+    Event, HistoryKind, Kind, LocalDecision, LocalFate, PixelKind, RejectReason, RepairVerdict, Replay,
+    Stage, Step, Trace, pixel_history,
 };
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -36,8 +36,8 @@ impl Traced {
 
     fn marbled(params: &Params, body_share: f64) -> Self {
         let [width, height] = marbled::SIZE_PX;
-        let colours = marbled::marbled(body_share);
-        Self::new(picture(width, height, |x, y| colours[y * width + x].map(f32::from)), params)
+        let colors = marbled::marbled(body_share);
+        Self::new(picture(width, height, |x, y| colors[y * width + x].map(f32::from)), params)
     }
 
     fn decisions(&self) -> impl Iterator<Item = &LocalDecision> {
@@ -47,7 +47,7 @@ impl Traced {
         })
     }
 
-    fn history(&self, pixel: usize) -> Vec<What> {
+    fn history(&self, pixel: usize) -> Vec<HistoryKind> {
         let history = pixel_history(&self.trace, &self.image, &self.analysis.masks, pixel);
         history.into_iter().map(|happening| happening.what).collect()
     }
@@ -93,7 +93,7 @@ fn the_light_that_is_chosen_is_the_results_and_its_figures_decide() {
 #[test]
 fn every_highlight_found_locally_is_of_a_blob_that_was_kept_or_filled() {
     let traced = Traced::marbled(&Params::default(), 1.0);
-    let record = traced.trace.reel(Stage::Split).unwrap().local().unwrap();
+    let record = traced.trace.stage_trace(Stage::Split).unwrap().local().unwrap();
     let (mut kept, mut filled) = (BTreeSet::new(), BTreeSet::new());
     for decision in traced.decisions() {
         match decision {
@@ -128,16 +128,16 @@ fn every_highlight_found_locally_is_of_a_blob_that_was_kept_or_filled() {
 #[test]
 fn what_is_told_of_a_pixel_is_what_it_got() {
     let traced = Traced::marbled(&Params::default(), 1.0);
-    let record = traced.trace.reel(Stage::Split).unwrap().local().unwrap();
+    let record = traced.trace.stage_trace(Stage::Split).unwrap().local().unwrap();
     let mut fates = BTreeSet::new();
     for pixel in (0..traced.image.pixels.len()).step_by(3) {
         let history = traced.history(pixel);
         let story = history.iter().find_map(|what| match what {
-            What::Surroundings(story) => Some(**story),
+            HistoryKind::Surroundings(story) => Some(**story),
             _ => None,
         });
         let unfit = history.iter().find_map(|what| match what {
-            What::Split(split) => split.unfit,
+            HistoryKind::Split(split) => split.unfit,
             _ => None,
         });
         let assigned = traced.analysis.finals.labels[pixel] != 0;
@@ -148,7 +148,7 @@ fn what_is_told_of_a_pixel_is_what_it_got() {
         let Some(story) = story else { continue };
         fates.insert(format!("{:?}", story.fate));
         let filled = history.iter().any(|what| match what {
-            What::Decided(event) => matches!(
+            HistoryKind::Decided(event) => matches!(
                 &**event,
                 Event::Local(LocalDecision::Repair(tried)) if tried.verdict == RepairVerdict::Filled
             ),
@@ -179,23 +179,23 @@ fn what_is_told_of_a_pixel_is_what_it_got() {
 #[test]
 fn what_is_not_believed_is_not_split_and_told_so() {
     let traced = Traced::marbled(&Params::default(), 0.3);
-    let doubt = traced.decisions().find_map(|decision| match decision {
-        LocalDecision::Belief(tested) => tested.doubt,
+    let reject_reason = traced.decisions().find_map(|decision| match decision {
+        LocalDecision::Plausibility(tested) => tested.reject_reason,
         _ => None,
     });
-    assert_eq!(doubt, Some(Doubt::TooMuch));
-    let record = traced.trace.reel(Stage::Split).unwrap().local().unwrap();
+    assert_eq!(reject_reason, Some(RejectReason::TooMuch));
+    let record = traced.trace.stage_trace(Stage::Split).unwrap().local().unwrap();
     let outside: Vec<usize> = (0..traced.image.pixels.len()).filter(|&pixel| record.outside(pixel)).collect();
     assert!(outside.len() > 1000 && outside.iter().all(|&pixel| traced.surface(pixel) == 0.0));
     for &pixel in outside.iter().step_by(97) {
         let history = traced.history(pixel);
-        let is_belief = |what: &What| match what {
-            What::Decided(event) => matches!(&**event, Event::Local(LocalDecision::Belief(_))),
+        let is_belief = |what: &HistoryKind| match what {
+            HistoryKind::Decided(event) => matches!(&**event, Event::Local(LocalDecision::Plausibility(_))),
             _ => false,
         };
         assert!(history.iter().any(is_belief), "pixel {pixel}: {history:?}");
         let surface = history.iter().find_map(|what| match what {
-            What::Split(split) => Some(split.unfit.unwrap().surface),
+            HistoryKind::Split(split) => Some(split.unfit.unwrap().surface),
             _ => None,
         });
         assert!(surface.is_none_or(|surface| surface == Some(0.0)), "pixel {pixel}");
@@ -236,7 +236,7 @@ fn a_record_of_prints_is_played_forward_and_back_and_ends_in_the_result() {
 
 #[test]
 fn a_light_that_is_not_known_after_all_is_none_in_the_last_state() {
-    // Shaded noise of many colours: planes without any right, and votes for no light in particular.
+    // Shaded noise of many colors: planes without any right, and votes for no light in particular.
     let image = picture(160, 120, |x, y| {
         let hue = (x / 20 * 7 + y / 20 * 13) as f32;
         let shade = 40.0 + (x % 20) as f32 * 6.0 + ((x * 31 + y * 17) % 11) as f32;
@@ -279,7 +279,7 @@ fn every_decision_is_a_sentence_and_a_line() {
         Kind::LocalSplit,
         Kind::Blobs,
         Kind::Blob,
-        Kind::Belief,
+        Kind::Plausibility,
         Kind::Repair,
     ];
     assert!(new.iter().all(|kind| seen.contains(kind)), "{seen:?}");

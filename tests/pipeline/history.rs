@@ -2,14 +2,14 @@
 
 use crate::synthetic::Scene;
 use dichroscope::analysis::{Analysis, Session};
+use dichroscope::describe::{Names, condense, trace_line};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::UNASSIGNED;
 use dichroscope::reflection::{SliceBound, SliceMiss};
-use dichroscope::report::{Names, condense, trace_line};
 use dichroscope::segment::{Method, Params, Setting};
 use dichroscope::trace::{
-    Barrier, Birth, Event, Happening, JoinedHow, Pass, PixelKind, Reach, Replay, Stage, Step, Trace, What,
-    lineage, pixel_history, story,
+    Barrier, Birth, Event, HistoryEntry, HistoryKind, JoinedHow, Pass, PixelKind, Reach, Replay, Stage, Step,
+    Trace, lineage, pixel_history, story,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -27,7 +27,7 @@ impl Traced {
         Self { image, analysis, trace: Arc::new(trace) }
     }
 
-    fn history(&self, pixel: usize) -> Vec<Happening> {
+    fn history(&self, pixel: usize) -> Vec<HistoryEntry> {
         pixel_history(&self.trace, &self.image, &self.analysis.masks, pixel)
     }
 
@@ -37,7 +37,7 @@ impl Traced {
         let mut border = Vec::new();
         for pixel in 0..labels.len() {
             let mut edge = false;
-            labels.for_each_neighbour(pixel, |near| edge |= labels[near] != labels[pixel]);
+            labels.for_each_neighbor(pixel, |near| edge |= labels[near] != labels[pixel]);
             if edge {
                 border.push(pixel);
             }
@@ -58,16 +58,16 @@ fn random_params() -> impl Strategy<Value = Params> {
 }
 
 /// The owner that a happening leaves a pixel with; none where it leaves it as it was.
-fn owner_after(what: &What) -> Option<u16> {
+fn owner_after(what: &HistoryKind) -> Option<u16> {
     match *what {
-        What::Seeded { region, .. }
-        | What::Claimed { region, .. }
-        | What::Voted { region, .. }
-        | What::Filled { region, .. } => Some(region),
-        What::Released { .. } => Some(UNASSIGNED),
-        What::Merged { into, .. } => Some(into),
-        What::Reset { to, .. } => Some(to),
-        What::Separated { part, .. } => Some(part),
+        HistoryKind::Seeded { region, .. }
+        | HistoryKind::Claimed { region, .. }
+        | HistoryKind::Voted { region, .. }
+        | HistoryKind::Filled { region, .. } => Some(region),
+        HistoryKind::Released { .. } => Some(UNASSIGNED),
+        HistoryKind::Merged { into, .. } => Some(into),
+        HistoryKind::Reset { to, .. } => Some(to),
+        HistoryKind::Separated { part, .. } => Some(part),
         _ => None,
     }
 }
@@ -92,7 +92,7 @@ proptest! {
                 history.iter().filter_map(|h| Some((h.step, owner_after(&h.what)?))).collect();
             prop_assert_eq!(&told, &claims[pixel], "pixel {}", pixel);
             let split = history.iter().find_map(|h| match &h.what {
-                What::Split(story) => Some((story.number, story.kind)),
+                HistoryKind::Split(story) => Some((story.number, story.kind)),
                 _ => None,
             });
             let label = traced.analysis.finals.labels[pixel];
@@ -105,14 +105,14 @@ proptest! {
     fn the_numbers_told_are_those_that_decided(seed in any::<u64>(), params in random_params()) {
         let traced = Traced::new(seed, &params);
         for pixel in traced.pixels() {
-            for Happening { step, what, .. } in traced.history(pixel) {
+            for HistoryEntry { step, what, .. } in traced.history(pixel) {
                 let holds = match &what {
-                    What::Seeded { reach, .. } | What::Claimed { reach, .. } => match *reach {
+                    HistoryKind::Seeded { reach, .. } | HistoryKind::Claimed { reach, .. } => match *reach {
                         Reach::Axis { distance, radius } => f64::from(distance) <= radius + 1e-3,
                         Reach::Plane { distance, half_width } => f64::from(distance) <= half_width + 1e-3,
                         Reach::Brightness { brightness, start } => brightness >= start - 1e-3,
                     },
-                    What::Refused { barrier, .. } => match *barrier {
+                    HistoryKind::Refused { barrier, .. } => match *barrier {
                         Barrier::Cylinder { distance, radius } => f64::from(distance) >= radius - 1e-3,
                         Barrier::Slice(SliceMiss { bound: SliceBound::Surface | SliceBound::Black, value, limit }) => {
                             value < limit
@@ -120,7 +120,7 @@ proptest! {
                         Barrier::Slice(SliceMiss { value, limit, .. }) => value > limit,
                         Barrier::Darker { brightness, start } => brightness <= start + 1e-3,
                     },
-                    What::Split(story) => {
+                    HistoryKind::Split(story) => {
                         let nearer = story.lines.is_none_or(|[matte, highlight]| {
                             (story.kind == PixelKind::Highlight) == (highlight < matte) || (highlight - matte).abs() < 1e-2
                         });
@@ -132,7 +132,7 @@ proptest! {
                                 && (amounts.noise - intrinsic.noise[pixel]).abs() < 0.05
                         })
                     }
-                    What::Window(story) => {
+                    HistoryKind::Window(story) => {
                         let directions = story.trials.iter().filter(|trial| !trial.is_noise()).count();
                         story.class.is_none_or(|class| class as usize == directions)
                     }
@@ -149,7 +149,7 @@ proptest! {
     ) {
         let traced = Traced::new(seed, &params);
         let pixels: Vec<usize> = traced.pixels().into_iter().step_by(7).collect();
-        let histories: Vec<Vec<Happening>> = pixels.iter().map(|&pixel| traced.history(pixel)).collect();
+        let histories: Vec<Vec<HistoryEntry>> = pixels.iter().map(|&pixel| traced.history(pixel)).collect();
         let mut replay = Replay::new(Arc::clone(&traced.trace));
         let events: Vec<(usize, &Event)> = traced.trace.events().collect();
         for (index, &(step, event)) in events.iter().enumerate() {
@@ -163,7 +163,7 @@ proptest! {
             for (&pixel, history) in pixels.iter().zip(&histories) {
                 let labels = replay.labels();
                 let mut beside = false;
-                labels.for_each_neighbour(pixel, |near| beside |= labels[near] == region);
+                labels.for_each_neighbor(pixel, |near| beside |= labels[near] == region);
                 if !beside || labels[pixel] == region {
                     continue;
                 }
@@ -171,9 +171,9 @@ proptest! {
                 let told = history.iter().any(|happening| {
                     let here = (step..end).contains(&happening.step);
                     match &happening.what {
-                        What::Refused { region: by, .. } => here && *by == region,
-                        What::Kept { challenger, .. } => here && *challenger == region,
-                        What::Unclaimable { regions } => {
+                        HistoryKind::Refused { region: by, .. } => here && *by == region,
+                        HistoryKind::Kept { challenger, .. } => here && *challenger == region,
+                        HistoryKind::Unclaimable { regions } => {
                             Some(happening.stage) == stage && regions.contains(&region)
                         }
                         _ => false,
@@ -232,6 +232,6 @@ fn a_dark_pixel_has_a_short_history() {
     let traced = Traced::new(5, &Params::default());
     let dark = (0..traced.image.pixels.len()).find(|&pixel| traced.analysis.masks.dark(pixel)).unwrap();
     let history = traced.history(dark);
-    assert!(matches!(history[0].what, What::Masked(_)) && history[0].stage == Stage::Masks);
+    assert!(matches!(history[0].what, HistoryKind::Masked(_)) && history[0].stage == Stage::Masks);
     assert!(history.len() < 4, "{history:?}");
 }

@@ -2,7 +2,7 @@
 
 use crate::common::{analyze, assert_valid, report, scores_of, truth_of};
 use crate::synthetic::Scene;
-use dichroscope::report::Scores;
+use dichroscope::describe::Scores;
 use dichroscope::segment::{Method, Parameter, Params, Refine};
 
 fn scores(scene: &Scene, method: Method) -> Scores {

@@ -2,8 +2,8 @@
 
 use crate::common::{analyze, assert_valid, scores_of, truth_of};
 use crate::synthetic::{Ball, Scene, unit};
+use dichroscope::describe::Scores;
 use dichroscope::photo::{ReadOptions, read};
-use dichroscope::report::Scores;
 use dichroscope::segment::{Params, Refine};
 use dichroscope::truth::GroundTruth;
 use proptest::prelude::*;
@@ -136,12 +136,12 @@ fn six_balls_in_yellow_light() {
 }
 
 /// Figure 11: under white light a red and a cyan object share one dichromatic plane, so that each one's slice holds the
-/// other's colours.
+/// other's colors.
 #[test]
-fn coplanar_neighbours_keep_their_pixels() {
+fn coplanar_neighbors_keep_their_pixels() {
     let mut scene = Scene::one_ball([150, 100], [0.9, 0.25, 0.25]);
-    let red = Ball { centre_px: [50.0, 50.0], body: unit([0.9, 0.25, 0.25]), ..scene.balls[0] };
-    let cyan = Ball { centre_px: [102.0, 50.0], radius_px: 36.0, body: unit([0.2, 0.8, 0.8]), ..red };
+    let red = Ball { center_px: [50.0, 50.0], body: unit([0.9, 0.25, 0.25]), ..scene.balls[0] };
+    let cyan = Ball { center_px: [102.0, 50.0], radius_px: 36.0, body: unit([0.2, 0.8, 0.8]), ..red };
     scene = Scene { balls: vec![red, cyan], noise_sigma: 1.25, eight_bit: true, ..scene };
     let rendered = scene.render();
     // Nothing but the provision keeps them apart when slices have no ends.

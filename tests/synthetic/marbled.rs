@@ -1,23 +1,23 @@
-//! A marbled sheet under small highlights, some of them clipped, with grey specks printed along its lower edge: no region holds, and
+//! A marbled sheet under small highlights, some of them clipped, with gray specks printed along its lower edge: no region holds, and
 //! every rule for what to do then has something to decide.
 
 /// Columns and rows.
 pub const SIZE_PX: [usize; 2] = [240, 160];
 
-/// Eight-bit colours, row by row, with so much of the body reflection; the noise is a fixed pattern.
+/// Eight-bit colors, row by row, with so much of the body reflection; the noise is a fixed pattern.
 pub fn marbled(body_share: f64) -> Vec<[u8; 3]> {
     let [width, height] = SIZE_PX;
-    (0..width * height).map(|pixel| colour(pixel % width, pixel / width, body_share)).collect()
+    (0..width * height).map(|pixel| color(pixel % width, pixel / width, body_share)).collect()
 }
 
-fn colour(x: usize, y: usize, body_share: f64) -> [u8; 3] {
+fn color(x: usize, y: usize, body_share: f64) -> [u8; 3] {
     let light = [0.633, 0.576, 0.518];
     let (u, v) = (x as f64, y as f64);
     let share = 0.5 + 0.5 * (u / 9.0 + 2.0 * (v / 17.0).sin()).sin();
     let mut body = [0, 1, 2].map(|k| share * [0.85, 0.35, 0.2][k] + (1.0 - share) * [0.35, 0.55, 0.25][k]);
     if y >= 128 && (x / 4).is_multiple_of(2) && (y / 4).is_multiple_of(2) {
-        let grey = body.iter().sum::<f64>() / 3.0;
-        body = body.map(|band| 0.4 * band + 0.6 * grey);
+        let gray = body.iter().sum::<f64>() / 3.0;
+        body = body.map(|band| 0.4 * band + 0.6 * gray);
     }
     let shade = body_share * (90.0 + 0.2 * u + 0.2 * v);
     let mut surface = 0.0;

@@ -1,9 +1,9 @@
 //! Skewed T's with known truth: images of shiny balls, ray-cast analytically.
 //!
 //! Each ball is a sphere under parallel light, seen along −z by an orthographic camera: x runs right, y down, z towards
-//! the camera, in pixels. Where the light reaches, its colour is C = m_b·C_b + m_s·C_s with a Lambertian body
+//! the camera, in pixels. Where the light reaches, its color is C = m_b·C_b + m_s·C_s with a Lambertian body
 //! m_b = cos i and a Beckmann lobe m_s = exp(−tan²δ/m²), δ the angle between the normal and the bisector of light and
-//! view. Every pixel is sampled at its centre, so that no pixel mixes two objects and the model holds exactly before
+//! view. Every pixel is sampled at its center, so that no pixel mixes two objects and the model holds exactly before
 //! noise, clipping and rounding. No cast shadows, no inter-reflection. The same scene gives the same bytes everywhere.
 //!
 //! A test takes it with `mod synthetic;`, a benchmark with `#[path]`.
@@ -19,8 +19,8 @@ pub const FULL_SCALE: f64 = 255.0;
 /// A shiny sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
-    /// Column and row of its centre; its depth is that of all others, so that the larger one covers the smaller.
-    pub centre_px: [f64; 2],
+    /// Column and row of its center; its depth is that of all others, so that the larger one covers the smaller.
+    pub center_px: [f64; 2],
     /// Radius.
     pub radius_px: f64,
     /// Body reflection vector C_b, unit.
@@ -42,7 +42,7 @@ pub struct Scene {
     pub balls: Vec<Ball>,
     /// Towards the light, unit.
     pub light: [f64; 3],
-    /// Surface reflection vector C_s, the colour of the light, unit.
+    /// Surface reflection vector C_s, the color of the light, unit.
     pub illuminant: [f64; 3],
     /// Standard deviation of the camera's Gaussian noise, counts.
     pub noise_sigma: f64,
@@ -70,7 +70,7 @@ impl Scene {
     pub fn one_ball(size_px: [usize; 2], body: [f64; 3]) -> Self {
         let [width, height] = size_px.map(|n| n as f64);
         let ball = Ball {
-            centre_px: [width / 2.0, height / 2.0],
+            center_px: [width / 2.0, height / 2.0],
             radius_px: 0.4 * width.min(height),
             body: unit(body),
             body_counts: 180.0,
@@ -88,18 +88,18 @@ impl Scene {
         }
     }
 
-    /// As [`Scene::one_ball`], with `columns × rows` balls of random colour, size, strength and gloss, and 8-bit noise.
+    /// As [`Scene::one_ball`], with `columns × rows` balls of random color, size, strength and gloss, and 8-bit noise.
     pub fn grid_of_balls(size_px: [usize; 2], columns: usize, rows: usize, seed: u64) -> Self {
         let mut random = Random::new(seed);
         let cell_px = [size_px[0] as f64 / columns as f64, size_px[1] as f64 / rows as f64];
         let balls = (0..columns * rows)
             .map(|i| Ball {
-                centre_px: [
+                center_px: [
                     ((i % columns) as f64 + 0.5) * cell_px[0],
                     ((i / columns) as f64 + 0.5) * cell_px[1],
                 ],
                 radius_px: cell_px[0].min(cell_px[1]) * random.between(0.35, 0.5),
-                body: random.saturated_colour(),
+                body: random.saturated_color(),
                 body_counts: random.between(120.0, 240.0),
                 surface_counts: random.between(120.0, 300.0),
                 roughness: random.between(0.1, 0.25),
@@ -117,9 +117,9 @@ impl Scene {
         let mut photograph = body.clone();
         let mut noise = Random::new(self.seed);
         for index in 0..labels.len() {
-            let centre_px = [(index % width) as f64 + 0.5, (index / width) as f64 + 0.5];
+            let center_px = [(index % width) as f64 + 0.5, (index / width) as f64 + 0.5];
             let mut seen = [[0.0; 3]; 2];
-            if let Some((number, normal)) = self.hit(centre_px) {
+            if let Some((number, normal)) = self.hit(center_px) {
                 labels[index] = number as u16 + 1;
                 seen = self.reflection(&self.balls[number], normal);
             }
@@ -134,7 +134,7 @@ impl Scene {
     /// The foremost ball at this place, and its normal there.
     fn hit(&self, at_px: [f64; 2]) -> Option<(usize, [f64; 3])> {
         let hits = self.balls.iter().enumerate().filter_map(|(number, ball)| {
-            let [x, y] = [0, 1].map(|axis| (at_px[axis] - ball.centre_px[axis]) / ball.radius_px);
+            let [x, y] = [0, 1].map(|axis| (at_px[axis] - ball.center_px[axis]) / ball.radius_px);
             let z_squared = 1.0 - x * x - y * y;
             (z_squared > 0.0).then(|| (number, [x, y, z_squared.sqrt()]))
         });
@@ -174,7 +174,7 @@ impl Random {
     /// A source that depends on `seed` alone.
     pub fn new(seed: u64) -> Self {
         let mut random = Self(seed);
-        // Neighbouring seeds differ in their low bits, which take a step to rise.
+        // Neighboring seeds differ in their low bits, which take a step to rise.
         random.unit();
         random.unit();
         random
@@ -199,7 +199,7 @@ impl Random {
     }
 
     /// A unit vector with one strong, one medium and one weak band in random order.
-    pub fn saturated_colour(&mut self) -> [f64; 3] {
+    pub fn saturated_color(&mut self) -> [f64; 3] {
         let mut bands = [self.between(0.8, 1.0), self.between(0.25, 0.7), self.between(0.05, 0.2)];
         bands.rotate_left((self.unit() * 3.0) as usize);
         if self.unit() < 0.5 {

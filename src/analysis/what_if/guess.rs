@@ -3,7 +3,7 @@
 use super::Direction;
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::segment::{Parameter, Params, UsedParams};
-use crate::trace::{Barrier, Happening, MaskVerdict, PassedOver, Reach, Release, What};
+use crate::trace::{Barrier, HistoryEntry, HistoryKind, MaskVerdict, PassedOver, Reach, Release};
 
 /// A value at which one threshold would decide otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub(super) struct Guess {
 const BEYOND: f64 = 1e-6;
 
 /// The guesses that a pixel's history gives rise to.
-pub(super) fn guesses(history: &[Happening], params: &Params, used: &UsedParams) -> Vec<Guess> {
+pub(super) fn guesses(history: &[HistoryEntry], params: &Params, used: &UsedParams) -> Vec<Guess> {
     let mut found =
         Guesses { used, noise_moves_width: params.cylinder_width.value().is_some(), list: Vec::new() };
     for happening in history {
@@ -52,29 +52,37 @@ impl Guesses<'_> {
         }
     }
 
-    fn hear(&mut self, what: &What) {
+    fn hear(&mut self, what: &HistoryKind) {
         match what {
-            What::Masked(verdict) => self.hear_mask(verdict),
-            What::Seeded { reach, .. } | What::Claimed { reach, .. } => self.hear_reach(*reach),
-            What::Released { why: Release::Refit { distance, .. }, .. } => self.wider(f64::from(*distance)),
-            What::Refused { barrier: Barrier::Cylinder { distance, .. }, .. } => {
+            HistoryKind::Masked(verdict) => self.hear_mask(verdict),
+            HistoryKind::Seeded { reach, .. } | HistoryKind::Claimed { reach, .. } => self.hear_reach(*reach),
+            HistoryKind::Released { why: Release::Refit { distance, .. }, .. } => {
+                self.wider(f64::from(*distance))
+            }
+            HistoryKind::Refused { barrier: Barrier::Cylinder { distance, .. }, .. } => {
                 self.wider(f64::from(*distance));
             }
-            What::Refused { barrier: Barrier::Slice(SliceMiss { bound, value, .. }), .. } => match bound {
-                SliceBound::Height => {
-                    self.up(Parameter::SliceWidth, f64::from(*value) / self.used.camera_noise);
+            HistoryKind::Refused { barrier: Barrier::Slice(SliceMiss { bound, value, .. }), .. } => {
+                match bound {
+                    SliceBound::Height => {
+                        self.up(Parameter::SliceWidth, f64::from(*value) / self.used.camera_noise);
+                    }
+                    SliceBound::Surface => self.wider(f64::from(-*value)),
+                    SliceBound::Black | SliceBound::MatteEnd => {}
                 }
-                SliceBound::Surface => self.wider(f64::from(-*value)),
-                SliceBound::Black | SliceBound::MatteEnd => {}
-            },
-            What::AreaPassedOver { pixels, reason: PassedOver::TooSmall | PassedOver::Consumed, .. } => {
+            }
+            HistoryKind::AreaPassedOver {
+                pixels,
+                reason: PassedOver::TooSmall | PassedOver::Consumed,
+                ..
+            } => {
                 self.list.push(Guess {
                     parameter: Parameter::MinArea,
                     direction: Direction::Down,
                     value: f64::from(*pixels),
                 });
             }
-            What::AreaChosen { pixels, .. } => self.list.push(Guess {
+            HistoryKind::AreaChosen { pixels, .. } => self.list.push(Guess {
                 parameter: Parameter::MinArea,
                 direction: Direction::Up,
                 value: f64::from(*pixels) + 1.0,
@@ -95,7 +103,7 @@ impl Guesses<'_> {
                 self.down(Parameter::MinIntensity, from_black);
             }
             MaskVerdict::Clipped { largest: [largest, _] } => self.up(Parameter::ClipThreshold, largest),
-            MaskVerdict::Bloomed { neighbours: [clipped, _] } => self.list.push(Guess {
+            MaskVerdict::Bloomed { neighbors: [clipped, _] } => self.list.push(Guess {
                 parameter: Parameter::BloomDensity,
                 direction: Direction::Up,
                 value: clipped as f64 + 1.0,

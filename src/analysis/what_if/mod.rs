@@ -3,7 +3,7 @@
 //! Where one threshold decided, the trace holds the number that it decided on: a pixel 12.4 counts from an axis joins at a
 //! cylinder width of 12.4/σ0. Such guesses are tried first. Where they do not hold, because lines are fitted to other
 //! pixels or another region comes first, and where there is none, the parameter is moved in ever larger steps until the
-//! fate changes, and the place is narrowed down. Every value told has been analysed, and so has the one on its near side.
+//! fate changes, and the place is narrowed down. Every value told has been analyzed, and so has the one on its near side.
 //!
 //! A fate may change back further on, and a change that lies between two steps of the search and changes back there is
 //! missed: "nearest" means nearest of what was tried.

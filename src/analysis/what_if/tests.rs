@@ -1,4 +1,4 @@
-//! What is told has been analysed: at the value the fate is another, before it the same.
+//! What is told has been analyzed: at the value the fate is another, before it the same.
 
 use super::*;
 use crate::photo::LinearImage;
@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const WIDTH: usize = 48;
 const HEIGHT: usize = 32;
 
-/// A red ramp, a green one, a strip of dark grey between them, and one pixel of the red that is a little off its line.
+/// A red ramp, a green one, a strip of dark gray between them, and one pixel of the red that is a little off its line.
 fn image() -> LinearImage {
     let color = |pixel: usize| {
         let (x, y) = (pixel % WIDTH, pixel / WIDTH);

@@ -55,7 +55,7 @@ fn jpeg(
     if let Some(profile) = icc {
         encoder.set_icc_profile(profile.to_vec()).map_err(image::ImageError::Unsupported)?;
     }
-    let color = if layout.is_grey() { ExtendedColorType::L8 } else { ExtendedColorType::Rgb8 };
+    let color = if layout.is_gray() { ExtendedColorType::L8 } else { ExtendedColorType::Rgb8 };
     encoder.write_image(samples, width, height, color)?;
     Ok(bytes)
 }
@@ -82,8 +82,8 @@ fn png(
 ) -> Result<Vec<u8>, png::EncodingError> {
     let mut info = png::Info::with_size(photo.image.width() as u32, photo.image.height() as u32);
     info.color_type = match layout {
-        Layout::Grey => png::ColorType::Grayscale,
-        Layout::GreyAlpha => png::ColorType::GrayscaleAlpha,
+        Layout::Gray => png::ColorType::Grayscale,
+        Layout::GrayAlpha => png::ColorType::GrayscaleAlpha,
         Layout::Rgb => png::ColorType::Rgb,
         Layout::Rgba => png::ColorType::Rgba,
     };
@@ -120,7 +120,7 @@ fn tiff(
         AlphaKind::Straight => ExtraSamples::UnassociatedAlpha,
         AlphaKind::Associated => ExtraSamples::AssociatedAlpha,
     });
-    match (samples, layout.is_grey()) {
+    match (samples, layout.is_gray()) {
         (Samples::U8(v), true) => tiff_of::<colortype::Gray8>(size, alpha, v, icc),
         (Samples::U8(v), false) => tiff_of::<colortype::RGB8>(size, alpha, v, icc),
         (Samples::U16(v), true) => tiff_of::<colortype::Gray16>(size, alpha, v, icc),

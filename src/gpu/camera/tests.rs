@@ -168,7 +168,7 @@ fn presets_show_the_axes_where_they_say() {
         (Preset::Green, [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
         (Preset::Blue, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
         (
-            Preset::Grey,
+            Preset::Gray,
             [-0.5_f32.sqrt(), 0.5_f32.sqrt(), 0.0],
             [-1.0, -1.0, 2.0].map(|c: f32| c / 6_f32.sqrt()),
         ),
@@ -180,7 +180,7 @@ fn presets_show_the_axes_where_they_say() {
         assert_near(up_found, up, 1e-5);
     }
     let mut camera = Orbit { projection: Projection::Orthographic, ..Orbit::default() };
-    camera.preset(Preset::Grey);
+    camera.preset(Preset::Gray);
     assert_near(screen(&camera, [0.0; 3]), screen(&camera, [1.0; 3]), 1e-2);
 }
 

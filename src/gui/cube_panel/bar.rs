@@ -1,10 +1,11 @@
-//! The row above the colour space.
+//! The row above the color space.
 
-use super::eye::{Eye, Plane, Sight};
+use super::camera_controller::{CameraController, Plane, Sight};
+use crate::app::Command;
 use crate::gpu::Projection;
 use crate::gui::Cx;
 use crate::gui::icons::{self, Icon};
-use crate::workbench::{ColourBy, ColourSpace, Command, CubeSettings, Tool};
+use crate::view::{ColorBy, ColorSpace, CubeSettings, Tool};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, ComboBox, PopupCloseBehavior, Ui, WidgetInfo};
 
@@ -15,42 +16,42 @@ const TOOLS: [(Tool, Icon, &str, &str); 4] = [
     (
         Tool::Pointer,
         Icon::Arrow,
-        "Colour space: pointer",
-        "Drag orbits, Shift-drag pans, a click selects the region (Alt: the colours alone).",
+        "Color space: pointer",
+        "Drag orbits, Shift-drag pans, a click selects the region (Alt: the colors alone).",
     ),
     (
         Tool::Rectangle,
         Icon::Rectangle,
-        "Colour space: rectangle",
-        "Drag a rectangle: its colours' pixels are marked. Shift adds, Alt takes away.",
+        "Color space: rectangle",
+        "Drag a rectangle: its colors' pixels are marked. Shift adds, Alt takes away.",
     ),
     (
         Tool::Lasso,
         Icon::Lasso,
-        "Colour space: lasso",
-        "Draw around colours: their pixels are marked. Shift adds, Alt takes away.",
+        "Color space: lasso",
+        "Draw around colors: their pixels are marked. Shift adds, Alt takes away.",
     ),
     (
         Tool::Polygon,
         Icon::Polygon,
-        "Colour space: polygon",
+        "Color space: polygon",
         "Click corner by corner, Enter or double-click closes. Shift adds, Alt takes away.",
     ),
 ];
 
 /// Shows the row; `size` is the view's, for the views that frame something.
-pub fn show(ui: &mut Ui, cx: &mut Cx, eye: &mut Eye, size: [f32; 2]) {
+pub fn show(ui: &mut Ui, cx: &mut Cx, camera_controller: &mut CameraController, size: [f32; 2]) {
     let before = &cx.state.view.cube;
     let mut settings = before.clone();
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.spacing_mut().button_padding.x = 5.0;
         let narrow = ui.available_width() < NARROW_PT;
-        colour_by(ui, &mut settings);
+        color_by(ui, &mut settings);
         space(ui, &mut settings);
         tools(ui, cx, &mut settings, narrow);
         stays_open("Show").ui(ui, |ui| what_to_show(ui, &mut settings));
-        ui.menu_button("Views", |ui| views(ui, eye, Plane::of(cx.state), size)).response.on_hover_text(
+        ui.menu_button("Views", |ui| views(ui, camera_controller, Plane::of(cx.state), size)).response.on_hover_text(
             "Views with a name: along an axis, onto the selected dichromatic plane, in perspective or not.",
         );
         let lock = icons::button(ui, cx.tones, Icon::Lock(settings.locked), settings.locked, "Lock the view");
@@ -72,39 +73,39 @@ fn stays_open(text: &str) -> MenuButton<'_> {
     MenuButton::new(text).config(MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside))
 }
 
-fn colour_by(ui: &mut Ui, settings: &mut CubeSettings) {
-    const CHOICES: [(ColourBy, &str, &str); 4] = [
-        (ColourBy::Own, "Own", "Each point in the colour that it stands for."),
-        (ColourBy::Region, "Region", "In the colour of the region that most of its pixels are in."),
+fn color_by(ui: &mut Ui, settings: &mut CubeSettings) {
+    const CHOICES: [(ColorBy, &str, &str); 4] = [
+        (ColorBy::Own, "Own", "Each point in the color that it stands for."),
+        (ColorBy::Region, "Region", "In the color of the region that most of its pixels are in."),
         (
-            ColourBy::Class,
+            ColorBy::Class,
             "Class",
             "By the class of most of its pixels' windows: point, line, plane or volume (section 5.2.1).",
         ),
-        (ColourBy::Density, "Density", "By how many pixels have it, on a logarithmic scale."),
+        (ColorBy::Density, "Density", "By how many pixels have it, on a logarithmic scale."),
     ];
     let now =
-        CHOICES.iter().find(|(choice, ..)| *choice == settings.colour_by).map_or("", |(_, name, _)| name);
-    combo(ui, "Colour by", now, 58.0, |ui| {
+        CHOICES.iter().find(|(choice, ..)| *choice == settings.color_by).map_or("", |(_, name, _)| name);
+    combo(ui, "Color by", now, 58.0, |ui| {
         for (choice, name, tip) in CHOICES {
-            ui.selectable_value(&mut settings.colour_by, choice, name).on_hover_text(tip);
+            ui.selectable_value(&mut settings.color_by, choice, name).on_hover_text(tip);
         }
     });
 }
 
 fn space(ui: &mut Ui, settings: &mut CubeSettings) {
-    combo(ui, "Colour space shown", short(settings.space), 58.0, |ui| {
-        for space in ColourSpace::ALL {
+    combo(ui, "Color space shown", short(settings.space), 58.0, |ui| {
+        for space in ColorSpace::ALL {
             ui.selectable_value(&mut settings.space, space, space.name()).on_hover_text(space.meaning());
         }
     });
 }
 
 /// A name that fits the button.
-const fn short(space: ColourSpace) -> &'static str {
+const fn short(space: ColorSpace) -> &'static str {
     match space {
-        ColourSpace::Lab => "L*a*b*",
-        ColourSpace::Chromaticity => "r\u{2013}g",
+        ColorSpace::Lab => "L*a*b*",
+        ColorSpace::Chromaticity => "r\u{2013}g",
         other => other.name(),
     }
 }
@@ -124,7 +125,7 @@ fn tools(ui: &mut Ui, cx: &Cx, settings: &mut CubeSettings, narrow: bool) {
     if narrow {
         ui.menu_button("Tool", |ui| {
             for (tool, _, name, tip) in TOOLS {
-                let name = name.trim_start_matches("Colour space: ");
+                let name = name.trim_start_matches("Color space: ");
                 if ui.radio(settings.tool == tool, name).on_hover_text(tip).clicked() {
                     settings.tool = tool;
                 }
@@ -148,9 +149,9 @@ fn what_to_show(ui: &mut Ui, settings: &mut CubeSettings) {
     row(
         &mut settings.show_cylinder,
         "Cylinder and dark sphere",
-        "The colours that the linear hypothesis claims, from where it is bright enough (section 5.3.2).",
+        "The colors that the linear hypothesis claims, from where it is bright enough (section 5.3.2).",
     );
-    row(&mut settings.show_slice, "Slice", "The colours that the planar hypothesis claims (section 5.4.2).");
+    row(&mut settings.show_slice, "Slice", "The colors that the planar hypothesis claims (section 5.4.2).");
     row(
         &mut settings.show_lines,
         "Matte and highlight line",
@@ -159,7 +160,7 @@ fn what_to_show(ui: &mut Ui, settings: &mut CubeSettings) {
     row(
         &mut settings.show_illuminant,
         "Illuminant",
-        "The light's colour as a line through black (section 5.4).",
+        "The light's color as a line through black (section 5.4).",
     );
     row(
         &mut settings.show_ellipsoid,
@@ -174,12 +175,12 @@ fn what_to_show(ui: &mut Ui, settings: &mut CubeSettings) {
     );
     row(
         &mut settings.full_detail,
-        "Every colour at rest",
-        "Each colour that occurs instead of 64 \u{d7} 64 \u{d7} 64 bins, when the camera rests.",
+        "Every color at rest",
+        "Each color that occurs instead of 64 \u{d7} 64 \u{d7} 64 bins, when the camera rests.",
     );
 }
 
-fn views(ui: &mut Ui, eye: &mut Eye, plane: Option<Plane>, size: [f32; 2]) {
+fn views(ui: &mut Ui, camera_controller: &mut CameraController, plane: Option<Plane>, size: [f32; 2]) {
     for (sight, key, name, tip) in Sight::ALL {
         let of_plane = matches!(sight, Sight::FaceOn | Sight::EdgeOn);
         let button = Button::new(name).shortcut_text(key.name());
@@ -188,12 +189,12 @@ fn views(ui: &mut Ui, eye: &mut Eye, plane: Option<Plane>, size: [f32; 2]) {
             .on_hover_text(tip)
             .on_disabled_hover_text("Select a region that has a dichromatic plane, in the RGB space.");
         if response.clicked() {
-            eye.look(sight, plane, size);
+            camera_controller.look(sight, plane, size);
         }
     }
-    let mut perspective = eye.orbit.projection == Projection::Perspective;
+    let mut perspective = camera_controller.orbit.projection == Projection::Perspective;
     let tip = "Farther is smaller; otherwise parallel lines stay parallel. Key M.";
     if ui.checkbox(&mut perspective, "Perspective").on_hover_text(tip).changed() {
-        eye.toggle_projection();
+        camera_controller.toggle_projection();
     }
 }

@@ -1,11 +1,12 @@
-//! The photograph's colours as points: what is looked at in full, the rest as its ghost.
+//! The photograph's colors as points: what is looked at in full, the rest as its ghost.
 
+use crate::app::State;
 use crate::gpu::{Batch, Point};
 use crate::gui::theme::Tones;
 use crate::raster::Mask;
 use crate::trace::Class;
-use crate::workbench::{
-    ColourBy, ColourSpace, CubeSettings, Item, Picture, Shown, State, Theme, UniqueColour, marking,
+use crate::view::{
+    ColorBy, ColorSpace, CubeSettings, Item, Picture, ResultSnapshot, Theme, UniqueColor, marking,
 };
 use egui::Color32;
 use std::sync::Arc;
@@ -34,7 +35,7 @@ pub struct Cloud {
 /// What most pixels of each bin are.
 #[derive(Default)]
 struct Tally {
-    of: Option<(Arc<Picture>, Option<Arc<Shown>>)>,
+    of: Option<(Arc<Picture>, Option<Arc<ResultSnapshot>>)>,
     /// Their region; 0 is none.
     regions: Vec<u16>,
     /// The class of their windows.
@@ -43,8 +44,8 @@ struct Tally {
 
 impl Tally {
     /// Counts anew where picture or result are others.
-    fn update(&mut self, picture: &Arc<Picture>, shown: Option<&Arc<Shown>>) {
-        let same = |(counted, result): &(Arc<Picture>, Option<Arc<Shown>>)| {
+    fn update(&mut self, picture: &Arc<Picture>, shown: Option<&Arc<ResultSnapshot>>) {
+        let same = |(counted, result): &(Arc<Picture>, Option<Arc<ResultSnapshot>>)| {
             Arc::ptr_eq(counted, picture) && same_arc(result.as_ref(), shown)
         };
         if self.of.as_ref().is_some_and(same) {
@@ -63,38 +64,33 @@ impl Tally {
 #[derive(Clone)]
 struct Inputs {
     picture: Arc<Picture>,
-    shown: Option<Arc<Shown>>,
+    shown: Option<Arc<ResultSnapshot>>,
     marked: Option<Arc<Mask>>,
     item: Option<Item>,
-    look: (ColourSpace, ColourBy, bool, bool, Theme),
-    detail: Option<Arc<[UniqueColour]>>,
+    look: (ColorSpace, ColorBy, bool, bool, Theme),
+    detail: Option<Arc<[UniqueColor]>>,
     /// Whether all points are ghosts: the debugger's cursor stands on something else.
     ghostly: bool,
 }
 
 impl Inputs {
-    fn of(
-        state: &State,
-        picture: &Arc<Picture>,
-        detail: Option<&Arc<[UniqueColour]>>,
-        ghostly: bool,
-    ) -> Self {
+    fn of(state: &State, picture: &Arc<Picture>, detail: Option<&Arc<[UniqueColor]>>, ghostly: bool) -> Self {
         let CubeSettings { space, size_by_count, ghost_rest, .. } = state.view.cube;
-        let colour_by = colour_by(state);
+        let color_by = color_by(state);
         let selection = &state.document.selection;
         Self {
             picture: Arc::clone(picture),
             shown: state.shown().cloned(),
             marked: selection.marked.clone(),
             item: selection.item,
-            look: (space, colour_by, size_by_count, ghost_rest, state.view.theme),
+            look: (space, color_by, size_by_count, ghost_rest, state.view.theme),
             detail: detail.cloned(),
             ghostly,
         }
     }
 
     fn is(&self, other: &Self) -> bool {
-        let same = same_arc::<Shown>;
+        let same = same_arc::<ResultSnapshot>;
         Arc::ptr_eq(&self.picture, &other.picture)
             && same(self.shown.as_ref(), other.shown.as_ref())
             && same_arc(self.marked.as_ref(), other.marked.as_ref())
@@ -103,12 +99,12 @@ impl Inputs {
     }
 }
 
-/// What gives the points their colour: regions and classes are the result's, which is not there yet where the debugger's
+/// What gives the points their color: regions and classes are the result's, which is not there yet where the debugger's
 /// cursor is followed.
-pub fn colour_by(state: &State) -> ColourBy {
-    match state.view.cube.colour_by {
-        ColourBy::Region | ColourBy::Class if state.followed().is_some() => ColourBy::Own,
-        colour_by => colour_by,
+pub fn color_by(state: &State) -> ColorBy {
+    match state.view.cube.color_by {
+        ColorBy::Region | ColorBy::Class if state.followed().is_some() => ColorBy::Own,
+        color_by => color_by,
     }
 }
 
@@ -121,14 +117,14 @@ fn same_arc<T: ?Sized>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
 }
 
 impl Cloud {
-    /// Brings the points up to date; `detail` are all unique colours, where they are to be drawn. All are ghosts where
+    /// Brings the points up to date; `detail` are all unique colors, where they are to be drawn. All are ghosts where
     /// that is wanted.
     pub fn update(
         &mut self,
         state: &State,
         tones: &Tones,
         picture: &Arc<Picture>,
-        detail: Option<&Arc<[UniqueColour]>>,
+        detail: Option<&Arc<[UniqueColor]>>,
         ghostly: bool,
     ) {
         let inputs = Inputs::of(state, picture, detail, ghostly);
@@ -146,8 +142,8 @@ impl Cloud {
                 let points = self.bins.iter().copied().enumerate();
                 Brush::split(points.map(|(bin, point)| (point, looked_at(focus.as_deref(), bin))))
             }
-            Some(colours) => Brush::split(colours.iter().map(|unique| {
-                let mut point = brush.point(unique.bin as usize, unique.colour, unique.count);
+            Some(colors) => Brush::split(colors.iter().map(|unique| {
+                let mut point = brush.point(unique.bin as usize, unique.color, unique.count);
                 point.size_px = point.size_px.min(PLAIN_PT);
                 (point, looked_at(focus.as_deref(), unique.bin as usize))
             })),
@@ -193,27 +189,27 @@ struct Brush<'a> {
 
 impl Brush<'_> {
     fn point(&self, bin: usize, counts: [f32; 3], pixels: u32) -> Point {
-        let (space, colour_by, size_by_count, ..) = self.inputs.look;
+        let (space, color_by, size_by_count, ..) = self.inputs.look;
         let full = self.inputs.picture.histogram.full_counts;
         let share = (pixels as f32).ln_1p() / (self.fullest as f32).ln_1p().max(1e-6);
-        let colour = match colour_by {
-            ColourBy::Own => crate::gui::widgets::own_colour(counts),
-            ColourBy::Region => self.region_colour(bin),
-            ColourBy::Class => {
-                self.tally.classes.get(bin).copied().flatten().map_or(self.tones.quiet, class_colour)
+        let color = match color_by {
+            ColorBy::Own => crate::gui::widgets::own_color(counts),
+            ColorBy::Region => self.region_color(bin),
+            ColorBy::Class => {
+                self.tally.classes.get(bin).copied().flatten().map_or(self.tones.quiet, class_color)
             }
-            ColourBy::Density => density_colour(share, self.inputs.look.4),
+            ColorBy::Density => density_color(share, self.inputs.look.4),
         };
         let size_px =
             if size_by_count { SIZES_PT[0] + (SIZES_PT[1] - SIZES_PT[0]) * share * share } else { PLAIN_PT };
-        Point { position: space.place(counts, full), color: colour.to_array(), size_px }
+        Point { position: space.place(counts, full), color: color.to_array(), size_px }
     }
 
-    fn region_colour(&self, bin: usize) -> Color32 {
+    fn region_color(&self, bin: usize) -> Color32 {
         let region = self.tally.regions.get(bin).copied().unwrap_or(0);
-        let colours = self.inputs.shown.as_ref().map(|shown| shown.region_colours.as_slice());
-        let colour = colours.and_then(|colours| colours.get(usize::from(region).checked_sub(1)?));
-        colour.map_or(self.tones.quiet, |&colour| crate::gui::widgets::colour(colour))
+        let colors = self.inputs.shown.as_ref().map(|shown| shown.region_colors.as_slice());
+        let color = colors.and_then(|colors| colors.get(usize::from(region).checked_sub(1)?));
+        color.map_or(self.tones.quiet, |&color| crate::gui::widgets::color(color))
     }
 
     /// What is looked at, and the ghosts.
@@ -232,8 +228,8 @@ impl Brush<'_> {
     }
 }
 
-/// The paper's colours: point yellow, line red, plane green, volume blue.
-pub const fn class_colour(class: Class) -> Color32 {
+/// The paper's colors: point yellow, line red, plane green, volume blue.
+pub const fn class_color(class: Class) -> Color32 {
     match class {
         Class::Point => Color32::from_rgb(0xF0, 0xD0, 0x30),
         Class::Line => Color32::from_rgb(0xE8, 0x4A, 0x40),
@@ -243,7 +239,7 @@ pub const fn class_colour(class: Class) -> Color32 {
 }
 
 /// From few pixels (0) to the fullest bin (1): away from the background, hue and lightness together.
-pub fn density_colour(share: f32, theme: Theme) -> Color32 {
+pub fn density_color(share: f32, theme: Theme) -> Color32 {
     // Viridis at quarters (Smith & van der Walt 2015).
     const STOPS: [[f32; 3]; 5] = [
         [68.0, 1.0, 84.0],

@@ -1,12 +1,13 @@
-//! The colour space at the debugger's cursor: the pixels that the step looks at, and the shapes that stand there.
+//! The color space at the debugger's cursor: the pixels that the step looks at, and the shapes that stand there.
 
-use super::figure::Pen;
+use super::figure::ShapeBuilder;
+use crate::app::State;
 use crate::gpu::{Batch, Point};
 use crate::gui::theme::Tones;
 use crate::gui::widgets;
 use crate::trace::Replay;
-use crate::workbench::{
-    self, CubeSettings, Picture, Role, Shown, State, Theme, beside_colour, candidate_reach, looked_at,
+use crate::view::{
+    self, CubeSettings, Picture, ResultSnapshot, Role, Theme, beside_color, candidate_reach, looked_at,
     test_at_cursor,
 };
 use egui::Color32;
@@ -62,10 +63,10 @@ impl Track {
         let focus = state.debugger.focus();
         let (space, full) = (state.view.cube.space, picture.histogram.full_counts);
         for (role, pixels) in looked_at(replay, focus, colors, masks, MOST) {
-            let (colour, size_px) = look(role, own(state), tones);
+            let (color, size_px) = look(role, own(state), tones);
             let point = |&pixel: &u32| Point {
                 position: space.place(colors.as_slice()[pixel as usize], full),
-                color: colour.to_array(),
+                color: color.to_array(),
                 size_px,
             };
             self.drawn.push(Batch::new(pixels.iter().map(point).collect::<Vec<_>>()));
@@ -84,47 +85,47 @@ impl Track {
     }
 }
 
-/// The colour of the region in focus.
+/// The color of the region in focus.
 fn own(state: &State) -> Option<[u8; 3]> {
-    state.debugger.focus().map(|focus| state.debugger.names.colour(focus))
+    state.debugger.focus().map(|focus| state.debugger.names.color(focus))
 }
 
 fn look(role: Role, own: Option<[u8; 3]>, tones: &Tones) -> (Color32, f32) {
-    let accent = |colour: Option<[u8; 3]>| colour.map_or(tones.accent, widgets::colour);
+    let accent = |color: Option<[u8; 3]>| color.map_or(tones.accent, widgets::color);
     match role {
         Role::Own => (accent(own), OWN_PT),
         Role::Newest => (tones.text, BESIDE_PT),
-        Role::Beside => (widgets::colour(beside_colour(own.unwrap_or(workbench::ACCENT))), BESIDE_PT),
+        Role::Beside => (widgets::color(beside_color(own.unwrap_or(view::ACCENT))), BESIDE_PT),
         Role::Ignored => (tones.quiet, QUIET_PT),
-        Role::Window(class) => (class.map_or(tones.quiet, super::cloud::class_colour), BESIDE_PT),
+        Role::Window(class) => (class.map_or(tones.quiet, super::cloud::class_color), BESIDE_PT),
     }
 }
 
-impl Pen<'_> {
+impl ShapeBuilder<'_> {
     /// The shapes at the cursor.
-    pub fn instant(&mut self, state: &State, replay: &Replay, shown: &Shown, tones: &Tones) {
+    pub fn instant(&mut self, state: &State, replay: &Replay, shown: &ResultSnapshot, tones: &Tones) {
         let show = &state.view.cube;
         let focus = state.debugger.focus();
-        let shapes = workbench::cursor_shapes(replay, focus, shown);
-        let colour = own(state).map_or(tones.quiet, widgets::colour);
+        let shapes = view::cursor_shapes(replay, focus, shown);
+        let color = own(state).map_or(tones.quiet, widgets::color);
         if show.show_lines {
             for (region, axis) in &shapes.others {
-                let colour = widgets::colour(state.debugger.names.colour(*region)).gamma_multiply(0.7);
-                self.line(axis, colour, THIN_PT, 0.0);
+                let color = widgets::color(state.debugger.names.color(*region)).gamma_multiply(0.7);
+                self.line(axis, color, THIN_PT, 0.0);
             }
         }
         if let Some(ends) = shapes.light.filter(|_| show.show_illuminant) {
-            let tip = "The colour of the light as it is estimated so far (section 5.4).";
+            let tip = "The color of the light as it is estimated so far (section 5.4).";
             self.light(&ends, tones.text, "illuminant so far", tip);
         }
         if let Some(solid) = shapes.cylinder.as_ref().filter(|_| show.show_cylinder) {
-            self.body(solid, colour, "cylinder", "The colours that the region may claim (section 5.3.2).");
+            self.body(solid, color, "cylinder", "The colors that the region may claim (section 5.3.2).");
         }
         if let Some(solid) = shapes.slice.as_ref().filter(|_| show.show_slice) {
-            self.body(solid, colour, "slice", "The colours that the region may claim (section 5.4.2).");
+            self.body(solid, color, "slice", "The colors that the region may claim (section 5.4.2).");
         }
         if let Some(test) = test_at_cursor(replay) {
-            self.test(test, replay, shown, colour, tones);
+            self.test(test, replay, shown, color, tones);
         } else if let Some(axis) = shapes.axis.filter(|_| show.show_lines) {
             self.line(&axis, tones.text, THICK_PT, 0.0);
             if let Some(start) = shapes.start {
@@ -138,13 +139,13 @@ impl Pen<'_> {
     }
 
     /// The window that was classified last.
-    fn window(&mut self, replay: &Replay, shown: &Shown, tones: &Tones) {
+    fn window(&mut self, replay: &Replay, shown: &ResultSnapshot, tones: &Tones) {
         let colors = &shown.picture.photo.image.pixels;
         let groups = looked_at(replay, None, colors, &shown.analysis.masks, usize::MAX);
         let Some((Role::Window(_), pixels)) = groups.first() else { return };
         let colors = pixels.iter().map(|&pixel| colors.as_slice()[pixel as usize]);
-        if let Some(solid) = workbench::cluster_ellipsoid(colors) {
-            let tip = "The window's colours at two standard deviations: what its class is decided from (section 5.2.1).";
+        if let Some(solid) = view::cluster_ellipsoid(colors) {
+            let tip = "The window's colors at two standard deviations: what its class is decided from (section 5.2.1).";
             self.body(&solid, tones.accent, "window", tip);
         }
     }
@@ -154,26 +155,26 @@ impl Pen<'_> {
         &mut self,
         test: &crate::trace::CandidateTest,
         replay: &Replay,
-        shown: &Shown,
-        colour: Color32,
+        shown: &ResultSnapshot,
+        color: Color32,
         tones: &Tones,
     ) {
         let colors = shown.picture.photo.image.pixels.as_slice();
-        let pixels = workbench::candidate_pixels(replay, test.candidate, &shown.analysis.masks);
+        let pixels = view::candidate_pixels(replay, test.candidate, &shown.analysis.masks);
         let reach = candidate_reach(test, pixels.iter().map(|&pixel| colors[pixel as usize]));
-        let tee = workbench::tee(test, reach);
-        self.line(&tee.upper, colour, MARK_PT, 0.0);
-        self.spine(&tee.matte, tones.text, THICK_PT);
-        self.line(&tee.line, tones.text, THICK_PT, 0.0);
-        self.line(&tee.gap, tones.accent, THICK_PT, 0.0);
+        let skewed_t_view = view::skewed_t_view(test, reach);
+        self.line(&skewed_t_view.upper, color, MARK_PT, 0.0);
+        self.spine(&skewed_t_view.matte, tones.text, THICK_PT);
+        self.line(&skewed_t_view.line, tones.text, THICK_PT, 0.0);
+        self.line(&skewed_t_view.gap, tones.accent, THICK_PT, 0.0);
         let [gap, limit] = test.gap;
         let tip = "The shortest way between both lines, against the longest allowed (section 5.4.1).";
-        self.note(tee.gap[0], format!("gap {gap:.1} of {limit:.1}"), tip, true);
+        self.note(skewed_t_view.gap[0], format!("gap {gap:.1} of {limit:.1}"), tip, true);
         let tip = "The end of the matte line: the brightest pixel on its outside, but for half a percent (section 5.4.1).";
-        self.note(tee.matte[1], "brightest matte point", tip, true);
-        let tip = "The first eigenvector of the neighbouring cluster, through its mean (section 5.4.1).";
-        self.note(tee.line[1], "candidate", tip, false);
+        self.note(skewed_t_view.matte[1], "brightest matte point", tip, true);
+        let tip = "The first eigenvector of the neighboring cluster, through its mean (section 5.4.1).";
+        self.note(skewed_t_view.line[1], "candidate", tip, false);
         let tip = "Where the highlight line may leave the matte line: the 50 % heuristic (section 5.4.1).";
-        self.note(tee.upper[0], "upper 50 %", tip, false);
+        self.note(skewed_t_view.upper[0], "upper 50 %", tip, false);
     }
 }

@@ -1,6 +1,6 @@
-//! Every unique colour, found on a thread of its own when it is first asked for.
+//! Every unique color, found on a thread of its own when it is first asked for.
 
-use crate::workbench::{Picture, UniqueColour};
+use crate::view::{Picture, UniqueColor};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
@@ -8,12 +8,12 @@ use std::time::{Duration, Instant};
 /// The camera rests when it has not moved for this long.
 pub const REST: Duration = Duration::from_millis(200);
 
-/// The unique colours of one photograph.
+/// The unique colors of one photograph.
 #[derive(Default)]
 pub struct Detail {
     of: Option<Arc<Picture>>,
-    found: Option<Arc<[UniqueColour]>>,
-    coming: Option<Receiver<Arc<[UniqueColour]>>>,
+    found: Option<Arc<[UniqueColor]>>,
+    coming: Option<Receiver<Arc<[UniqueColor]>>>,
     moved: Option<Instant>,
 }
 
@@ -23,13 +23,13 @@ impl Detail {
         self.moved = Some(Instant::now());
     }
 
-    /// The colours, once they are known and the camera rests; `swift`: the graphics device need not wait for that.
+    /// The colors, once they are known and the camera rests; `swift`: the graphics device need not wait for that.
     pub fn get(
         &mut self,
         ctx: &egui::Context,
         picture: &Arc<Picture>,
         swift: bool,
-    ) -> Option<Arc<[UniqueColour]>> {
+    ) -> Option<Arc<[UniqueColor]>> {
         if !self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, picture)) {
             *self = Self { of: Some(Arc::clone(picture)), ..Self::default() };
             self.coming = ask(ctx, picture);
@@ -49,7 +49,7 @@ impl Detail {
     }
 }
 
-fn ask(ctx: &egui::Context, picture: &Arc<Picture>) -> Option<Receiver<Arc<[UniqueColour]>>> {
+fn ask(ctx: &egui::Context, picture: &Arc<Picture>) -> Option<Receiver<Arc<[UniqueColor]>>> {
     let (send, receive) = channel();
     let (ctx, picture) = (ctx.clone(), Arc::clone(picture));
     let find = move || {
@@ -57,5 +57,5 @@ fn ask(ctx: &egui::Context, picture: &Arc<Picture>) -> Option<Receiver<Arc<[Uniq
         let _ = send.send(picture.histogram.unique(&picture.photo.image).into());
         ctx.request_repaint();
     };
-    std::thread::Builder::new().name("unique colours".to_owned()).spawn(find).ok().map(|_| receive)
+    std::thread::Builder::new().name("unique colors".to_owned()).spawn(find).ok().map(|_| receive)
 }

@@ -1,11 +1,12 @@
 //! What the model claims of one region, drawn in the space: cylinder, slice, skewed T, illuminant, window ellipsoid.
 
 use super::labels::{Label, all_around};
+use crate::app::State;
 use crate::gpu::{self, Line, Orbit, Overlay, Projection, Projector, Vertex};
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::gui::widgets;
-use crate::workbench::{
-    self, ColourSpace, CubeSettings, Item, Mesh, Picture, Point, RegionShapes, Shown, Solid, State, Theme,
+use crate::view::{
+    self, ColorSpace, CubeSettings, Item, Mesh, Picture, Point, RegionShapes, ResultSnapshot, Solid, Theme,
 };
 use egui::{Color32, Rect, Stroke, Ui};
 use std::borrow::Cow;
@@ -48,13 +49,13 @@ struct Inputs {
     shown: Same,
     region: Option<u16>,
     window: Option<u32>,
-    view: (ColourSpace, [bool; 5], Theme),
+    view: (ColorSpace, [bool; 5], Theme),
     /// The instant at the debugger's cursor, in place of the result.
     frame: Option<super::cursor::Frame>,
 }
 
 #[derive(Clone)]
-struct Same(Arc<Shown>);
+struct Same(Arc<ResultSnapshot>);
 
 impl PartialEq for Same {
     fn eq(&self, other: &Self) -> bool {
@@ -103,40 +104,39 @@ impl Figure {
             return true;
         };
         let tones = Tones::of(theme);
-        let mut pen = Pen { figure: self, space, full: picture.histogram.full_counts };
+        let mut pen = ShapeBuilder { figure: self, space, full: picture.histogram.full_counts };
         if let Some(replay) = state.followed() {
             pen.instant(state, replay, &shown, &tones);
             return true;
         }
         let [cylinder, slice, lines, illuminant, ellipsoid] = show;
         if let Some(region) = region
-            && let Some(shapes) = workbench::region_shapes(&shown, region)
+            && let Some(shapes) = view::region_shapes(&shown, region)
         {
-            let colour = shown.region_colours.get(usize::from(region) - 1);
-            let colour = colour.map_or(tones.quiet, |&colour| widgets::colour(colour));
+            let color = shown.region_colors.get(usize::from(region) - 1);
+            let color = color.map_or(tones.quiet, |&color| widgets::color(color));
             if cylinder {
-                pen.cylinder(&shown, &shapes, colour, tones.quiet);
+                pen.cylinder(&shown, &shapes, color, tones.quiet);
             }
             if let Some(solid) = shapes.slice.as_ref().filter(|_| slice) {
-                pen.solid(solid, colour, SLICE_ALPHA);
+                pen.solid(solid, color, SLICE_ALPHA);
                 pen.note_at_corner(
                     solid,
                     "slice",
-                    "The colours within the slice's half width of the dichromatic plane (section 5.4.2).",
+                    "The colors within the slice's half width of the dichromatic plane (section 5.4.2).",
                 );
             }
             if lines {
                 pen.skewed_t(&shapes, tones.text);
             }
         }
-        if let Some(ends) = workbench::illuminant_line(&shown).filter(|_| illuminant) {
-            let tip = "The colour of the light, common to all highlights (section 5.4).";
+        if let Some(ends) = view::illuminant_line(&shown).filter(|_| illuminant) {
+            let tip = "The color of the light, common to all highlights (section 5.4).";
             pen.light(&ends, tones.text, "illuminant", tip);
         }
-        if let Some(solid) = window.filter(|_| ellipsoid).and_then(|w| workbench::window_ellipsoid(&shown, w))
-        {
+        if let Some(solid) = window.filter(|_| ellipsoid).and_then(|w| view::window_ellipsoid(&shown, w)) {
             pen.solid(&solid, tones.accent, ELLIPSOID_ALPHA);
-            pen.note_at_corner(&solid, "window", "The window's colours at two standard deviations: what its class is decided from (section 5.2.1).");
+            pen.note_at_corner(&solid, "window", "The window's colors at two standard deviations: what its class is decided from (section 5.2.1).");
         }
         true
     }
@@ -144,8 +144,8 @@ impl Figure {
     /// The lines in which the smooth bodies turn away from the viewer.
     pub fn silhouettes(&self, orbit: &Orbit) -> Vec<Line> {
         let mut lines = Vec::new();
-        for (mesh, colour) in &self.smooth {
-            silhouette(mesh, orbit, |a, b| lines.push(outline(a, b, *colour)));
+        for (mesh, color) in &self.smooth {
+            silhouette(mesh, orbit, |a, b| lines.push(outline(a, b, *color)));
         }
         lines
     }
@@ -167,7 +167,7 @@ impl Figure {
                 at,
                 sides: sides.clone(),
                 leader: true,
-                colour: tones.text,
+                color: tones.text,
                 size_pt: SMALL_PT,
                 tip: note.tip,
             })
@@ -177,28 +177,28 @@ impl Figure {
 }
 
 /// Puts shapes in counts into the space.
-pub struct Pen<'a> {
+pub struct ShapeBuilder<'a> {
     figure: &'a mut Figure,
-    space: ColourSpace,
+    space: ColorSpace,
     full: f32,
 }
 
-impl Pen<'_> {
-    fn cylinder(&mut self, shown: &Shown, shapes: &RegionShapes, colour: Color32, dark: Color32) {
+impl ShapeBuilder<'_> {
+    fn cylinder(&mut self, shown: &ResultSnapshot, shapes: &RegionShapes, color: Color32, dark: Color32) {
         if let Some(solid) = &shapes.cylinder {
-            self.solid(solid, colour, CYLINDER_ALPHA);
+            self.solid(solid, color, CYLINDER_ALPHA);
             self.note_at_corner(
                 solid,
                 "cylinder",
-                "The colours within the cylinder's radius of the matte line (section 5.3.2).",
+                "The colors within the cylinder's radius of the matte line (section 5.3.2).",
             );
         }
-        if let Some(solid) = workbench::dark_sphere(shown) {
+        if let Some(solid) = view::dark_sphere(shown) {
             self.solid(&solid, dark, DARK_ALPHA);
         }
     }
 
-    fn skewed_t(&mut self, shapes: &RegionShapes, colour: Color32) {
+    fn skewed_t(&mut self, shapes: &RegionShapes, color: Color32) {
         for &place in &shapes.meeting_points {
             let tip = if shapes.meeting_point_found {
                 "Where the highlight line leaves the matte line: the body reflection under the highlight (section 3.1)."
@@ -209,7 +209,7 @@ impl Pen<'_> {
         }
         let tip = "The end of the matte line, where the surface faces the light (section 5.4.1).";
         self.note(shapes.brightest_matte, "brightest matte point", tip, true);
-        self.spine(&shapes.matte_line, colour, LINE_PT);
+        self.spine(&shapes.matte_line, color, LINE_PT);
         let third = along(shapes.matte_line, 0.35);
         self.note(
             third,
@@ -218,28 +218,28 @@ impl Pen<'_> {
             false,
         );
         for &ends in &shapes.highlight_lines {
-            self.line(&ends, colour, LINE_PT, 0.0);
+            self.line(&ends, color, LINE_PT, 0.0);
             let tip = "Body reflection of one shade plus more and more light reflected at the surface (section 3.1).";
             self.note(along(ends, 0.75), "highlight line", tip, false);
         }
     }
 
-    /// The line of the light's colour.
-    pub fn light(&mut self, ends: &[Point; 2], colour: Color32, name: &'static str, tip: &'static str) {
-        let dash = if self.space == ColourSpace::Rgb { DASH_PT } else { 0.0 };
-        self.line(ends, colour, OUTLINE_PT, dash);
+    /// The line of the light's color.
+    pub fn light(&mut self, ends: &[Point; 2], color: Color32, name: &'static str, tip: &'static str) {
+        let dash = if self.space == ColorSpace::Rgb { DASH_PT } else { 0.0 };
+        self.line(ends, color, OUTLINE_PT, dash);
         self.note(ends[1], name, tip, false);
     }
 
     /// The matte line, beside which names stand.
-    pub fn spine(&mut self, ends: &[Point; 2], colour: Color32, width_px: f32) {
-        self.line(ends, colour, width_px, 0.0);
+    pub fn spine(&mut self, ends: &[Point; 2], color: Color32, width_px: f32) {
+        self.line(ends, color, width_px, 0.0);
         self.figure.spine = Some(ends.map(|end| self.space.place(end, self.full)));
     }
 
     /// A translucent body with its name.
-    pub fn body(&mut self, solid: &Solid, colour: Color32, name: &'static str, tip: &'static str) {
-        self.solid(solid, colour, CYLINDER_ALPHA);
+    pub fn body(&mut self, solid: &Solid, color: Color32, name: &'static str, tip: &'static str) {
+        self.solid(solid, color, CYLINDER_ALPHA);
         self.note_at_corner(solid, name, tip);
     }
 
@@ -257,12 +257,12 @@ impl Pen<'_> {
     }
 
     /// Straight lines from place to place.
-    pub fn line(&mut self, counts: &[Point], colour: Color32, width_px: f32, dash_px: f32) {
+    pub fn line(&mut self, counts: &[Point], color: Color32, width_px: f32, dash_px: f32) {
         let curve = self.space.polyline(counts, self.full);
         let pieces = curve.windows(2).map(|ends| Line {
             a: ends[0],
             b: ends[1],
-            color: colour.to_array(),
+            color: color.to_array(),
             width_px,
             dash_px,
             overlay: Overlay::Over,
@@ -270,9 +270,9 @@ impl Pen<'_> {
         self.figure.lines.extend(pieces);
     }
 
-    fn solid(&mut self, solid: &Solid, colour: Color32, alpha: u8) {
+    fn solid(&mut self, solid: &Solid, color: Color32, alpha: u8) {
         let surface = self.space.surface(&solid.surface, self.full);
-        let [r, g, b, _] = colour.to_array();
+        let [r, g, b, _] = color.to_array();
         let corner = |&index: &u32| Vertex {
             position: surface.points[index as usize],
             normal: surface.normals[index as usize],
@@ -281,14 +281,14 @@ impl Pen<'_> {
         self.figure.meshes.push(gpu::Mesh::new(surface.triangles.iter().flatten().map(corner).collect()));
         for edge in &solid.outlines {
             let curve = self.space.polyline(edge, self.full);
-            self.figure.lines.extend(curve.windows(2).map(|ends| outline(ends[0], ends[1], colour)));
+            self.figure.lines.extend(curve.windows(2).map(|ends| outline(ends[0], ends[1], color)));
         }
-        self.figure.smooth.push((surface, colour));
+        self.figure.smooth.push((surface, color));
     }
 }
 
-fn outline(a: Point, b: Point, colour: Color32) -> Line {
-    let [r, g, b_, _] = colour.to_array();
+fn outline(a: Point, b: Point, color: Color32) -> Line {
+    let [r, g, b_, _] = color.to_array();
     let color = [r, g, b_, OUTLINE_ALPHA];
     Line { a, b, color, width_px: OUTLINE_PT, dash_px: 0.0, overlay: Overlay::Faint }
 }
@@ -300,13 +300,13 @@ fn along([a, b]: [Point; 2], t: f32) -> Point {
 /// Where the interpolated normal is at right angles to the line of sight (Hertzmann & Zorin 2000).
 fn silhouette(mesh: &Mesh, orbit: &Orbit, mut add: impl FnMut(Point, Point)) {
     let [_, _, forward] = orbit.right_up_forward();
-    let eye = orbit.eye();
+    let camera_controller = orbit.eye();
     let facing: Vec<f32> = mesh
         .points
         .iter()
         .zip(&mesh.normals)
         .map(|(point, normal)| match orbit.projection {
-            Projection::Perspective => (0..3).map(|i| normal[i] * (eye[i] - point[i])).sum(),
+            Projection::Perspective => (0..3).map(|i| normal[i] * (camera_controller[i] - point[i])).sum(),
             Projection::Orthographic => (0..3).map(|i| -normal[i] * forward[i]).sum::<f32>(),
         })
         .collect();

@@ -3,7 +3,7 @@
 use super::labels::Label;
 use crate::gpu::{Line, Overlay, Projector};
 use crate::gui::theme::{SMALL_PT, Tones};
-use crate::workbench::{Axis, ColourSpace, Theme};
+use crate::view::{Axis, ColorSpace, Theme};
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
 const EDGE_PT: f32 = 1.0;
@@ -16,7 +16,7 @@ const GIZMO_PT: f32 = 22.0;
 /// The space's edges and axes.
 #[derive(Default)]
 pub struct Frame {
-    of: Option<(ColourSpace, u32, Theme)>,
+    of: Option<(ColorSpace, u32, Theme)>,
     /// The edges and axes as lines.
     pub lines: Vec<Line>,
     axes: Vec<Axis>,
@@ -24,7 +24,7 @@ pub struct Frame {
 
 impl Frame {
     /// Builds anew what depends on the space; whether that was needed.
-    pub fn update(&mut self, space: ColourSpace, full_counts: f32, theme: Theme) -> bool {
+    pub fn update(&mut self, space: ColorSpace, full_counts: f32, theme: Theme) -> bool {
         let inputs = Some((space, full_counts.to_bits(), theme));
         if self.of == inputs {
             return false;
@@ -64,7 +64,7 @@ impl Frame {
                 text: format!("{}{unit}", axis.name),
                 at: to,
                 sides: vec![side, outward(along, from, middle), -outward(along, from, middle)],
-                colour: tones.text,
+                color: tones.text,
                 size_pt: SMALL_PT + 0.5,
                 tip: axis.meaning,
                 leader: false,
@@ -85,14 +85,14 @@ impl Frame {
                     text: format!("{}{}", tick.label, if axis.unit == "\u{b0}" { "\u{b0}" } else { "" }),
                     at,
                     sides: vec![side],
-                    colour: tones.quiet,
+                    color: tones.quiet,
                     size_pt: SMALL_PT - 1.0,
                     tip: "",
                     leader: false,
                 });
             }
         }
-        if let (Some((ColourSpace::Rgb, ..)), Some(at)) = (self.of, on_screen([0.0; 3])) {
+        if let (Some((ColorSpace::Rgb, ..)), Some(at)) = (self.of, on_screen([0.0; 3])) {
             painter.circle(at, 3.5, Color32::BLACK, Stroke::new(1.2, tones.text));
             names.push(black(at, middle, tones));
         }
@@ -107,7 +107,7 @@ fn black(at: Pos2, middle: Pos2, tones: &Tones) -> Label {
         text: "black".to_owned(),
         at,
         sides: vec![(at - middle).normalized(), vec2(0.0, 1.0), vec2(-1.0, 0.0)],
-        colour: tones.quiet,
+        color: tones.quiet,
         size_pt: SMALL_PT,
         tip: "No light at all: every matte line starts here (section 3.1).",
         leader: false,
@@ -138,15 +138,15 @@ pub fn gizmo(
     for axis in order {
         let tip = vec2(right[axis], -up[axis]);
         let end = room.center() + tip * GIZMO_PT;
-        let colour = if forward[axis] > 0.05 { mixed(tones.background, hues[axis], 0.6) } else { hues[axis] };
-        painter.line_segment([room.center(), end], Stroke::new(1.8, colour));
+        let color = if forward[axis] > 0.05 { mixed(tones.background, hues[axis], 0.6) } else { hues[axis] };
+        painter.line_segment([room.center(), end], Stroke::new(1.8, color));
         let beyond = if tip.length() < 0.2 { vec2(0.3, -0.3) } else { tip.normalized() * 0.32 };
         painter.text(
             end + beyond * GIZMO_PT,
             egui::Align2::CENTER_CENTER,
             names[axis],
             FontId::proportional(SMALL_PT - 1.0),
-            colour,
+            color,
         );
     }
     room
@@ -158,11 +158,11 @@ pub fn screen(projector: &Projector, rect: Rect, world: [f32; 3]) -> Option<Pos2
 }
 
 /// A polyline as lines behind the points.
-fn pieces(curve: &[[f32; 3]], colour: Color32, width_px: f32) -> impl Iterator<Item = Line> + '_ {
+fn pieces(curve: &[[f32; 3]], color: Color32, width_px: f32) -> impl Iterator<Item = Line> + '_ {
     curve.windows(2).map(move |ends| Line {
         a: ends[0],
         b: ends[1],
-        color: colour.to_array(),
+        color: color.to_array(),
         width_px,
         dash_px: 0.0,
         overlay: Overlay::Hidden,

@@ -16,10 +16,10 @@ pub struct Label {
     pub text: String,
     /// The place that it names, on the screen.
     pub at: Pos2,
-    /// Where it may stand, seen from there, the best first; zero: centred on it.
+    /// Where it may stand, seen from there, the best first; zero: centered on it.
     pub sides: Vec<Vec2>,
-    /// Its colour.
-    pub colour: Color32,
+    /// Its color.
+    pub color: Color32,
     /// Size of type, points.
     pub size_pt: f32,
     /// What it means, in one sentence.
@@ -65,7 +65,7 @@ pub fn show(ui: &Ui, id: Id, labels: &[Label], bounds: Rect, occupied: &[Rect], 
     let galleys: Vec<_> = labels
         .iter()
         .map(|label| {
-            painter.layout_no_wrap(label.text.clone(), FontId::proportional(label.size_pt), label.colour)
+            painter.layout_no_wrap(label.text.clone(), FontId::proportional(label.size_pt), label.color)
         })
         .collect();
     let sized: Vec<(&Label, Vec2)> =
@@ -75,14 +75,10 @@ pub fn show(ui: &Ui, id: Id, labels: &[Label], bounds: Rect, occupied: &[Rect], 
         let Some(place) = place else { continue };
         if label.leader {
             let end = place.clamp(label.at);
-            painter.line_segment([label.at, end], egui::Stroke::new(1.0, label.colour.gamma_multiply(0.6)));
+            painter.line_segment([label.at, end], egui::Stroke::new(1.0, label.color.gamma_multiply(0.6)));
         }
         painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, halo);
-        painter.galley(
-            Align2::LEFT_TOP.align_size_within_rect(place.size(), place).min,
-            galley,
-            label.colour,
-        );
+        painter.galley(Align2::LEFT_TOP.align_size_within_rect(place.size(), place).min, galley, label.color);
         if !label.tip.is_empty() {
             let response = ui.interact(place, id.with(index), Sense::hover());
             response.widget_info(|| {
@@ -103,7 +99,7 @@ mod tests {
             text: String::new(),
             at: pos2(x, y),
             sides,
-            colour: Color32::WHITE,
+            color: Color32::WHITE,
             size_pt: 11.0,
             tip: "",
             leader: false,

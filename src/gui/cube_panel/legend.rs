@@ -1,10 +1,10 @@
-//! What the points' colours mean, where they are not their own.
+//! What the points' colors mean, where they are not their own.
 
-use super::cloud::{class_colour, colour_by, density_colour};
+use super::cloud::{class_color, color_by, density_color};
 use crate::gui::Cx;
 use crate::gui::theme::SMALL_PT;
 use crate::trace::Class;
-use crate::workbench::ColourBy;
+use crate::view::ColorBy;
 use egui::{Align2, FontId, Mesh, Painter, Rect, Ui, pos2, vec2};
 
 const RAMP_PT: egui::Vec2 = vec2(96.0, 6.0);
@@ -14,10 +14,10 @@ const STEPS: usize = 24;
 pub fn show(ui: &Ui, cx: &Cx, rect: Rect, fullest: u32) -> Rect {
     let painter = ui.painter_at(rect);
     let corner = rect.min + vec2(8.0, 6.0);
-    match colour_by(cx.state) {
-        ColourBy::Class => classes(&painter, cx, corner),
-        ColourBy::Density => density(&painter, cx, corner, fullest),
-        ColourBy::Own | ColourBy::Region => Rect::from_min_max(corner, corner),
+    match color_by(cx.state) {
+        ColorBy::Class => classes(&painter, cx, corner),
+        ColorBy::Density => density(&painter, cx, corner, fullest),
+        ColorBy::Own | ColorBy::Region => Rect::from_min_max(corner, corner),
     }
 }
 
@@ -29,7 +29,7 @@ fn classes(painter: &Painter, cx: &Cx, corner: egui::Pos2) -> Rect {
         painter.rect_filled(
             Rect::from_min_size(left + vec2(0.0, 3.0), vec2(9.0, 9.0)),
             2.0,
-            class_colour(class),
+            class_color(class),
         );
         let font = FontId::proportional(SMALL_PT);
         let text = painter.text(left + vec2(13.0, 0.0), Align2::LEFT_TOP, name, font, cx.tones.text);
@@ -44,9 +44,9 @@ fn density(painter: &Painter, cx: &Cx, corner: egui::Pos2, fullest: u32) -> Rect
     for step in 0..=STEPS {
         let share = step as f32 / STEPS as f32;
         let x = bar.left() + share * bar.width();
-        let colour = density_colour(share, cx.state.view.theme);
-        ramp.colored_vertex(pos2(x, bar.top()), colour);
-        ramp.colored_vertex(pos2(x, bar.bottom()), colour);
+        let color = density_color(share, cx.state.view.theme);
+        ramp.colored_vertex(pos2(x, bar.top()), color);
+        ramp.colored_vertex(pos2(x, bar.bottom()), color);
         if step > 0 {
             let last = 2 * step as u32;
             ramp.add_triangle(last - 2, last - 1, last);

@@ -2,7 +2,7 @@
 
 use crate::gpu::{Projector, pick};
 use crate::raster::Mask;
-use crate::workbench::{Picture, Tool, marking};
+use crate::view::{Picture, Tool, marking};
 use egui::{Color32, Key, Painter, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui};
 
 /// Corners of a lasso are at least this far apart.
@@ -102,7 +102,7 @@ impl Outline {
     }
 }
 
-/// The pixels of the bins whose centres are seen inside an outline.
+/// The pixels of the bins whose centers are seen inside an outline.
 pub fn mask_of(
     picture: &Picture,
     bins: &[crate::gpu::Point],

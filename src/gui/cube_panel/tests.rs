@@ -1,11 +1,12 @@
 //! The panel in a harness: opened, turned, pointed at, drawn in.
 
 use super::CubePanel;
+use crate::app::Command;
 use crate::gpu::{Point, Projector};
 use crate::gui::App;
 use crate::gui::testing::{harness, open_sample};
 use crate::trace::Class;
-use crate::workbench::{ColourSpace, Command, Item, Picture, Tool};
+use crate::view::{ColorSpace, Item, Picture, Tool};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, vec2};
 use egui_kittest::Harness;
@@ -28,11 +29,11 @@ fn picture(harness: &Harness<App>) -> Arc<Picture> {
 }
 
 fn canvas(harness: &Harness<App>) -> Rect {
-    harness.get_by_role_and_label(Role::Canvas, "Colour space view").rect()
+    harness.get_by_role_and_label(Role::Canvas, "Color space view").rect()
 }
 
 fn projector(harness: &Harness<App>) -> Projector {
-    panel(harness).eye.orbit.projector(canvas(harness).size().into())
+    panel(harness).camera_controller.orbit.projector(canvas(harness).size().into())
 }
 
 /// Where each bin is seen.
@@ -109,7 +110,7 @@ fn hovering_a_bin_tells_everybody_and_leaving_it_too() {
 }
 
 #[test]
-fn a_click_selects_the_region_and_with_alt_the_colour() {
+fn a_click_selects_the_region_and_with_alt_the_color() {
     let Some((mut harness, _)) = opened() else { return };
     let at = place_of(&harness, fullest_bin(&harness, 2));
     hover(&mut harness, at);
@@ -129,7 +130,7 @@ fn a_click_selects_the_region_and_with_alt_the_colour() {
 #[test]
 fn views_have_names() {
     let Some((mut harness, _)) = opened() else { return };
-    let forward = |harness: &Harness<App>| panel(harness).eye.orbit.right_up_forward()[2];
+    let forward = |harness: &Harness<App>| panel(harness).camera_controller.orbit.right_up_forward()[2];
     harness.get_by_label("Views").click();
     harness.run_steps(3);
     harness.get_by_label_contains("Along blue").click();
@@ -166,42 +167,45 @@ fn the_camera_is_kept_in_the_view_and_comes_back_from_there() {
     let Some((mut harness, _)) = opened() else { return };
     harness.run_steps(3);
     let before = harness.state().state().view.camera.clone();
-    assert_eq!(serde_json::from_str::<crate::gpu::Orbit>(&before).unwrap(), panel(&harness).eye.orbit);
-    let mut turned = panel(&harness).eye.orbit;
+    assert_eq!(
+        serde_json::from_str::<crate::gpu::Orbit>(&before).unwrap(),
+        panel(&harness).camera_controller.orbit
+    );
+    let mut turned = panel(&harness).camera_controller.orbit;
     turned.orbit([90.0, 20.0]);
     harness.state_mut().apply(Command::Camera(serde_json::to_string(&turned).unwrap()));
     harness.run_steps(3);
-    assert_eq!(panel(&harness).eye.orbit, turned);
+    assert_eq!(panel(&harness).camera_controller.orbit, turned);
     harness.state_mut().apply(Command::Camera("nonsense".to_owned()));
     harness.run_steps(3);
-    assert_eq!(panel(&harness).eye.orbit, turned, "what is no camera moves nothing");
+    assert_eq!(panel(&harness).camera_controller.orbit, turned, "what is no camera moves nothing");
 }
 
 #[test]
 fn a_drag_orbits_and_home_comes_back() {
     let Some((mut harness, _)) = opened() else { return };
-    let home = panel(&harness).eye.orbit;
+    let home = panel(&harness).camera_controller.orbit;
     let middle = canvas(&harness).center() + vec2(0.0, -20.0);
     hover(&mut harness, middle);
     press(&mut harness, middle, true, Modifiers::NONE);
     hover(&mut harness, middle + vec2(80.0, 10.0));
     press(&mut harness, middle + vec2(80.0, 10.0), false, Modifiers::NONE);
-    assert_ne!(panel(&harness).eye.orbit, home);
+    assert_ne!(panel(&harness).camera_controller.orbit, home);
     assert_eq!(harness.state().state().document.selection.item, None, "a drag is not a click");
     harness.key_press(Key::Home);
     harness.run_steps(2);
-    assert_eq!(panel(&harness).eye.orbit, home);
+    assert_eq!(panel(&harness).camera_controller.orbit, home);
 }
 
 #[test]
-fn a_lasso_marks_the_pixels_whose_colours_are_inside() {
+fn a_lasso_marks_the_pixels_whose_colors_are_inside() {
     let Some((mut harness, _)) = opened() else { return };
     tool(&mut harness, Tool::Lasso);
-    let centre = place_of(&harness, fullest_bin(&harness, 1));
+    let center = place_of(&harness, fullest_bin(&harness, 1));
     let corners: Vec<Pos2> = (0..=24)
         .map(|i| {
             let (y, x) = (std::f32::consts::TAU * i as f32 / 24.0).sin_cos();
-            centre + vec2(34.0 * x, 26.0 * y)
+            center + vec2(34.0 * x, 26.0 * y)
         })
         .collect();
     hover(&mut harness, corners[0]);
@@ -214,7 +218,7 @@ fn a_lasso_marks_the_pixels_whose_colours_are_inside() {
     let (picture, places) = (picture(&harness), places(&harness));
     // An ellipse that the lasso follows to a point or two.
     let radius = |bin: usize| {
-        let off = places[bin] - centre;
+        let off = places[bin] - center;
         vec2(off.x / 34.0, off.y / 26.0).length()
     };
     let pixels_within = |most: f32| {
@@ -243,7 +247,7 @@ fn a_lasso_marks_the_pixels_whose_colours_are_inside() {
 fn other_spaces_are_drawn_with_the_shapes_that_they_become() {
     let Some((mut harness, gpu)) = opened() else { return };
     harness.state_mut().apply(Command::Select(Some(Item::Region(1))));
-    for space in ColourSpace::ALL {
+    for space in ColorSpace::ALL {
         let mut cube = harness.state().state().view.cube.clone();
         cube.space = space;
         harness.state_mut().apply(Command::Cube(cube));
@@ -258,7 +262,7 @@ fn other_spaces_are_drawn_with_the_shapes_that_they_become() {
 }
 
 #[test]
-fn at_rest_every_colour_is_drawn_where_that_is_asked_for() {
+fn at_rest_every_color_is_drawn_where_that_is_asked_for() {
     let Some((mut harness, _)) = opened() else { return };
     let drawn =
         |harness: &Harness<App>| panel(harness).cloud.drawn.iter().map(|batch| batch.len()).sum::<usize>();

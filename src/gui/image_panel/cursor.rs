@@ -3,10 +3,11 @@
 use super::geometry::Placement;
 use super::icons::{corners, cross};
 use super::overlay::{self, MARK};
+use crate::app::{Command, DebugCommand, DebugSettings, State};
 use crate::gui::Cx;
 use crate::gui::theme::{SMALL_PT, Tones};
-use crate::gui::widgets::{colour, grouped};
-use crate::workbench::{Command, DebugCommand, DebugSettings, Instant, State, cursor_place, instant_legend};
+use crate::gui::widgets::{color, grouped};
+use crate::view::{Instant, cursor_place, instant_legend};
 use egui::accesskit::Role;
 use egui::{Align2, Button, Color32, Painter, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 use std::sync::Arc;
@@ -16,14 +17,14 @@ const FRAMED: f32 = 8.0;
 
 /// The instant that is shown, taken out of the cursor once.
 #[derive(Default)]
-pub struct Film {
+pub struct InstantCache {
     shown: Option<(Frame, Arc<Instant>)>,
 }
 
 /// What tells instants apart.
 type Frame = (u64, usize, Option<u16>);
 
-impl Film {
+impl InstantCache {
     /// The instant at the cursor, where it is followed; an older one while `busy`, so that a large picture is not copied
     /// more often than it is painted.
     pub fn instant(&mut self, state: &State, busy: bool) -> Option<Arc<Instant>> {
@@ -53,7 +54,7 @@ pub fn toggle(ui: &mut Ui, state: &State, settings: &mut DebugSettings) {
     if state.debugger.stopped().is_none() {
         return;
     }
-    let tip = "Image, colour space and tables show the instant at the debugger's cursor, not the result.";
+    let tip = "Image, color space and tables show the instant at the debugger's cursor, not the result.";
     let button = Button::selectable(settings.follow, "Follow");
     if ui.add(button).on_hover_text(tip).clicked() {
         settings.follow = !settings.follow;
@@ -88,7 +89,7 @@ pub fn spot(painter: &Painter, place: &Placement, instant: &Instant) {
     }
 }
 
-/// Where the cursor stands, in the upper left corner, and what the colours mean, along the lower edge.
+/// Where the cursor stands, in the upper left corner, and what the colors mean, along the lower edge.
 pub fn words(ui: &Ui, painter: &Painter, tones: &Tones, view: Rect, state: &State, instant: &Instant) {
     let Some(replay) = state.followed() else { return };
     let text = format!("at step {}: {}", grouped(replay.at()), cursor_place(replay));
@@ -119,6 +120,6 @@ fn chosen(painter: &Painter, tones: &Tones, beside: Rect, state: &State) {
     );
     painter.rect_filled(area, 3.0, tones.panel.gamma_multiply(0.86));
     let chip = Rect::from_center_size(area.left_center() + vec2(9.5, 0.0), vec2(9.0, 9.0));
-    painter.rect_filled(chip, 2.0, colour(names.colour(focus)));
+    painter.rect_filled(chip, 2.0, color(names.color(focus)));
     painter.galley(area.min + vec2(18.0, 2.0), galley, tones.quiet);
 }

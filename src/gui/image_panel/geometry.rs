@@ -1,6 +1,6 @@
 //! Where the picture lies on the screen. A pixel covers the unit square right and below of its column and row.
 
-use crate::workbench::ImageSettings;
+use crate::view::ImageSettings;
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
 
 /// Screen points that stay free around a picture that fits.
@@ -20,34 +20,34 @@ pub struct Placement {
     /// Screen points a pixel.
     pub zoom: f32,
     /// The point of the picture in the middle of the view.
-    pub centre: Pos2,
+    pub center: Pos2,
 }
 
 impl Placement {
     /// The place that the settings ask for, as far as the picture stays in sight.
     pub fn new(view: Rect, size: Vec2, settings: &ImageSettings) -> Self {
         let zoom = settings.zoom.unwrap_or_else(|| fit(view, size));
-        let centre = match (settings.zoom, settings.centre_px) {
+        let center = match (settings.zoom, settings.center_px) {
             (Some(_), Some([x, y])) => pos2(x, y),
             _ => (size / 2.0).to_pos2(),
         };
-        Self { view, size, zoom, centre }.clamped()
+        Self { view, size, zoom, center }.clamped()
     }
 
     /// The settings that put the picture here.
     pub fn put(&self, settings: &mut ImageSettings) {
         settings.zoom = Some(self.zoom);
-        settings.centre_px = Some(self.centre.into());
+        settings.center_px = Some(self.center.into());
     }
 
     /// Where a point of the picture is on the screen.
     pub fn screen_from_image(&self, point: Pos2) -> Pos2 {
-        self.view.center() + (point - self.centre) * self.zoom
+        self.view.center() + (point - self.center) * self.zoom
     }
 
     /// The point of the picture that a point of the screen shows.
     pub fn image_from_screen(&self, point: Pos2) -> Pos2 {
-        self.centre + (point - self.view.center()) / self.zoom
+        self.center + (point - self.view.center()) / self.zoom
     }
 
     /// Where the picture is on the screen.
@@ -85,13 +85,13 @@ impl Placement {
         let fixed = self.image_from_screen(anchor);
         let [least, most] = limits(self.view, self.size);
         self.zoom = (self.zoom * factor).clamp(least, most);
-        self.centre = fixed - (anchor - self.view.center()) / self.zoom;
+        self.center = fixed - (anchor - self.view.center()) / self.zoom;
         self.clamped()
     }
 
     /// Moved on the screen.
     pub fn panned(mut self, by: Vec2) -> Self {
-        self.centre -= by / self.zoom;
+        self.center -= by / self.zoom;
         self.clamped()
     }
 
@@ -99,7 +99,7 @@ impl Placement {
     fn clamped(mut self) -> Self {
         let [least, most] = limits(self.view, self.size);
         self.zoom = self.zoom.clamp(least, most);
-        self.centre = self.centre.clamp(Pos2::ZERO, self.size.to_pos2());
+        self.center = self.center.clamp(Pos2::ZERO, self.size.to_pos2());
         self
     }
 }
@@ -148,7 +148,7 @@ mod tests {
     fn from_the_screen_to_the_picture_and_back() {
         for zoom in [None, Some(0.3), Some(1.0), Some(17.3)] {
             let settings =
-                ImageSettings { zoom, centre_px: Some([130.5, 77.25]), ..ImageSettings::default() };
+                ImageSettings { zoom, center_px: Some([130.5, 77.25]), ..ImageSettings::default() };
             let place = placed(&settings);
             for point in [pos2(100.0, 50.0), pos2(333.3, 222.2), pos2(699.0, 449.0)] {
                 let back = place.screen_from_image(place.image_from_screen(point));

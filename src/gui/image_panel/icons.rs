@@ -2,7 +2,7 @@
 
 use crate::gui::icons::sign_button;
 use crate::gui::theme::Tones;
-use crate::workbench::{Arrangement, Fill, Tool};
+use crate::view::{Arrangement, Fill, Tool};
 use egui::{Color32, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
 
 pub use crate::gui::icons::SIDE_PT;
@@ -22,12 +22,12 @@ pub enum Sign {
 
 /// A button that is on or off, named `name` for those who do not see its sign.
 pub fn toggle(ui: &mut Ui, tones: &Tones, sign: Sign, on: bool, name: &str, tip: &str) -> Response {
-    sign_button(ui, tones, on, name, tip, |painter, square, colour| draw(painter, square, sign, colour))
+    sign_button(ui, tones, on, name, tip, |painter, square, color| draw(painter, square, sign, color))
 }
 
 /// Points of a sign are given in a square of 14 × 14.
-fn draw(painter: &Painter, square: Rect, sign: Sign, colour: Color32) {
-    let stroke = Stroke::new(1.3, colour);
+fn draw(painter: &Painter, square: Rect, sign: Sign, color: Color32) {
+    let stroke = Stroke::new(1.3, color);
     let at = |x: f32, y: f32| square.min + vec2(x, y) * (square.width() / 14.0);
     let part = |x0, y0, x1, y1| Rect::from_min_max(at(x0, y0), at(x1, y1));
     let frame = |rect| painter.rect_stroke(rect, 1.0, stroke, egui::StrokeKind::Middle);
@@ -38,7 +38,7 @@ fn draw(painter: &Painter, square: Rect, sign: Sign, colour: Color32) {
         }
         Sign::Arrangement(Arrangement::Wipe(_)) => {
             frame(part(1.5, 2.5, 12.5, 11.5));
-            painter.rect_filled(part(7.0, 2.5, 12.5, 11.5), 0.0, colour.gamma_multiply(0.55));
+            painter.rect_filled(part(7.0, 2.5, 12.5, 11.5), 0.0, color.gamma_multiply(0.55));
             painter.line_segment([at(7.0, 0.5), at(7.0, 13.5)], stroke);
         }
         Sign::Arrangement(Arrangement::SideBySide) => {
@@ -46,7 +46,7 @@ fn draw(painter: &Painter, square: Rect, sign: Sign, colour: Color32) {
             frame(part(7.8, 3.0, 13.2, 11.0));
         }
         Sign::Fill(Fill::Fill) => {
-            painter.rect_filled(part(2.0, 2.0, 12.0, 12.0), 2.0, colour.gamma_multiply(0.7));
+            painter.rect_filled(part(2.0, 2.0, 12.0, 12.0), 2.0, color.gamma_multiply(0.7));
         }
         Sign::Fill(Fill::Outline) => {
             frame(part(2.5, 2.5, 11.5, 11.5));
@@ -57,7 +57,7 @@ fn draw(painter: &Painter, square: Rect, sign: Sign, colour: Color32) {
                 let angle = (i as f32 / 12.0 - 0.5) * std::f32::consts::PI;
                 at(7.0 + 5.4 * angle.cos(), 7.0 + 5.4 * angle.sin())
             };
-            painter.add(Shape::convex_polygon((0..=12).map(turn).collect(), colour, Stroke::NONE));
+            painter.add(Shape::convex_polygon((0..=12).map(turn).collect(), color, Stroke::NONE));
         }
     }
 }
@@ -107,19 +107,19 @@ fn draw_tool(painter: &Painter, tool: Tool, stroke: Stroke, at: impl Fn(f32, f32
 }
 
 /// A small cross at a point: quiet, and seen on any ground.
-pub fn cross(painter: &Painter, at: Pos2, colour: Color32) {
-    for (width, colour) in [(3.0, Color32::from_black_alpha(150)), (1.2, colour)] {
+pub fn cross(painter: &Painter, at: Pos2, color: Color32) {
+    for (width, color) in [(3.0, Color32::from_black_alpha(150)), (1.2, color)] {
         for (dx, dy) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
             let direction = vec2(dx, dy);
-            painter.line_segment([at + direction * 4.0, at + direction * 11.0], (width, colour));
+            painter.line_segment([at + direction * 4.0, at + direction * 11.0], (width, color));
         }
     }
 }
 
 /// A line that is seen on any ground.
-pub fn dashed(painter: &Painter, points: &[Pos2], colour: Color32) {
+pub fn dashed(painter: &Painter, points: &[Pos2], color: Color32) {
     painter.add(Shape::line(points.to_vec(), Stroke::new(2.6, Color32::from_black_alpha(140))));
-    painter.extend(Shape::dashed_line(points, Stroke::new(1.4, colour), 5.0, 3.0));
+    painter.extend(Shape::dashed_line(points, Stroke::new(1.4, color), 5.0, 3.0));
 }
 
 /// The corners of a rectangle, the first once more at the end.

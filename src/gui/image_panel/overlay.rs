@@ -2,9 +2,10 @@
 
 use super::geometry::Placement;
 use super::icons::{corners, cross};
-use super::sheets::Sheet;
+use super::textures::LayerTexture;
+use crate::app::State;
 use crate::gui::theme::{SMALL_PT, Tones};
-use crate::workbench::{ACCENT, Item, Layer, LegendEntry, ProfileLine, State, Tool, legend};
+use crate::view::{ACCENT, Item, Layer, LegendEntry, ProfileLine, Tool, legend};
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
 /// The accent over pictures, the same in both themes: a picture is as dark in either.
@@ -34,8 +35,8 @@ pub fn grid(painter: &Painter, place: &Placement) {
     }
 }
 
-/// The numbers behind the colours, in the pixels: those of the layer where it has numbers, otherwise the photograph's.
-pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer, sheet: &Sheet) {
+/// The numbers behind the colors, in the pixels: those of the layer where it has numbers, otherwise the photograph's.
+pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer, texture: &LayerTexture) {
     if place.zoom < VALUES {
         return;
     }
@@ -53,7 +54,7 @@ pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer,
                 (Layer::Confidence, Some(found)) => vec![found.confidence[pixel]],
                 _ => picture.photo.image.pixels[pixel].to_vec(),
             };
-            let tone = readable_on(sheet.colour(pixel));
+            let tone = readable_on(texture.color(pixel));
             let middle = place.screen_from_image(pos2(x as f32 + 0.5, y as f32 + 0.5));
             for (line, value) in lines.iter().enumerate() {
                 let down = (line as f32 - (lines.len() as f32 - 1.0) / 2.0) * size * 1.2;
@@ -70,7 +71,7 @@ pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer,
     }
 }
 
-/// Black or white, whichever has more contrast with a sRGB colour: they are equal on a luminance of 0.18.
+/// Black or white, whichever has more contrast with a sRGB color: they are equal on a luminance of 0.18.
 fn readable_on([r, g, b, _]: [u8; 4]) -> Color32 {
     // A square is near enough to sRGB's curve.
     let light = |code: u8| (f32::from(code) / 255.0).powi(2);
@@ -89,27 +90,27 @@ pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
     }
     // Regions and windows are the result's: there are none where the cursor is followed.
     let shown = state.shown().filter(|_| state.followed().is_none());
-    for (item, colour) in [(selection.item, MARK), (state.hover, Color32::WHITE)] {
+    for (item, color) in [(selection.item, MARK), (state.hover, Color32::WHITE)] {
         match (item, shown) {
             (Some(Item::Region(region)), Some(shown)) => {
-                edges(painter, place, colour, |x, y| shown.labels().get(x, y) == Some(&region));
+                edges(painter, place, color, |x, y| shown.labels().get(x, y) == Some(&region));
             }
             (Some(Item::Window(window)), Some(shown)) => {
                 let (side_px, columns) = (shown.window_px(), shown.classes().width().max(1));
                 let at = [window as usize % columns, window as usize / columns].map(|k| (k * side_px) as f32);
                 let square = Rect::from_min_size(at.into(), egui::Vec2::splat(side_px as f32));
-                frame(painter, place.screen_rect_of(square), colour);
+                frame(painter, place.screen_rect_of(square), color);
             }
             (Some(Item::Bin(bin)), _) => {
                 let of_bin = |x, y| picture.histogram.bin_of(y * width + x) == Some(bin);
-                fill(painter, place, colour.gamma_multiply(0.8), of_bin);
+                fill(painter, place, color.gamma_multiply(0.8), of_bin);
             }
             _ => {}
         }
     }
 }
 
-fn fill(painter: &Painter, place: &Placement, colour: Color32, inside: impl Fn(usize, usize) -> bool) {
+fn fill(painter: &Painter, place: &Placement, color: Color32, inside: impl Fn(usize, usize) -> bool) {
     let [columns, rows] = place.visible();
     for y in rows {
         let mut from = None;
@@ -120,7 +121,7 @@ fn fill(painter: &Painter, place: &Placement, colour: Color32, inside: impl Fn(u
                 (Some(start), false) => {
                     let run =
                         Rect::from_min_max(pos2(start as f32, y as f32), pos2(x as f32, y as f32 + 1.0));
-                    painter.rect_filled(place.screen_rect_of(run), 0.0, colour);
+                    painter.rect_filled(place.screen_rect_of(run), 0.0, color);
                     from = None;
                 }
                 _ => {}
@@ -130,9 +131,9 @@ fn fill(painter: &Painter, place: &Placement, colour: Color32, inside: impl Fn(u
 }
 
 /// Lines between pixels that are inside and pixels that are not.
-fn edges(painter: &Painter, place: &Placement, colour: Color32, inside: impl Fn(usize, usize) -> bool) {
+fn edges(painter: &Painter, place: &Placement, color: Color32, inside: impl Fn(usize, usize) -> bool) {
     let [columns, rows] = place.visible();
-    let stroke = Stroke::new(1.5, colour);
+    let stroke = Stroke::new(1.5, color);
     let line = |a: (usize, usize), b: (usize, usize)| {
         let on_screen = |(x, y): (usize, usize)| place.screen_from_image(pos2(x as f32, y as f32));
         painter.line_segment([on_screen(a), on_screen(b)], stroke);
@@ -158,20 +159,20 @@ fn edges(painter: &Painter, place: &Placement, colour: Color32, inside: impl Fn(
     }
 }
 
-fn frame(painter: &Painter, area: Rect, colour: Color32) {
+fn frame(painter: &Painter, area: Rect, color: Color32) {
     painter.add(Shape::line(corners(area).to_vec(), Stroke::new(3.0, Color32::from_black_alpha(140))));
-    painter.add(Shape::line(corners(area).to_vec(), Stroke::new(1.4, colour)));
+    painter.add(Shape::line(corners(area).to_vec(), Stroke::new(1.4, color)));
 }
 
 /// The pixel that is pointed at, unless the pointer itself is here, and the one that is selected.
 pub fn pixels(painter: &Painter, place: &Placement, state: &State, pointer_here: bool) {
-    let show = |item: Option<Item>, colour: Color32, from_afar: bool| {
+    let show = |item: Option<Item>, color: Color32, from_afar: bool| {
         let Some(Item::Pixel(pixel)) = item else { return };
         let square = place.screen_rect_of(place.square_of(pixel));
         if place.zoom >= GRID {
-            frame(painter, square, colour);
+            frame(painter, square, color);
         } else if from_afar {
-            cross(painter, square.center(), colour);
+            cross(painter, square.center(), color);
         }
     };
     show(state.asked_pixel().map(Item::Pixel), MARK, true);
@@ -220,12 +221,12 @@ pub fn tag(painter: &Painter, tones: &Tones, at: Pos2, align: Align2, text: &str
     area
 }
 
-/// What the colours of a layer stand for, along the lower edge.
+/// What the colors of a layer stand for, along the lower edge.
 pub fn key(painter: &Painter, tones: &Tones, view: Rect, layer: Layer) {
     entries(painter, tones, view, &legend(layer));
 }
 
-/// Colours and their names, along the lower edge, in as many lines as they need.
+/// Colors and their names, along the lower edge, in as many lines as they need.
 pub fn entries(painter: &Painter, tones: &Tones, view: Rect, entries: &[LegendEntry]) {
     const LINE_PT: f32 = 18.0;
     let font = FontId::proportional(SMALL_PT);
@@ -250,7 +251,7 @@ pub fn entries(painter: &Painter, tones: &Tones, view: Rect, entries: &[LegendEn
         let mut x = area.left() + 6.0;
         for (entry, galley) in line {
             let chip = Rect::from_center_size(pos2(x + 4.5, area.center().y), vec2(9.0, 9.0));
-            painter.rect_filled(chip, 2.0, crate::gui::widgets::colour(entry.colour));
+            painter.rect_filled(chip, 2.0, crate::gui::widgets::color(entry.color));
             let (text, step) =
                 (pos2(x + 13.0, area.center().y - galley.size().y / 2.0), galley.size().x + 24.0);
             painter.galley(text, galley, tones.text);

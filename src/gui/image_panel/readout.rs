@@ -1,9 +1,10 @@
 //! The numbers of one pixel, each always in its place.
 
+use crate::app::State;
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::intrinsic::PixelKind;
 use crate::trace::{Class, Replay};
-use crate::workbench::{Item, Picture, RegionNames, Shown, State};
+use crate::view::{Item, Picture, RegionNames, ResultSnapshot};
 use egui::accesskit::Role;
 use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -30,7 +31,7 @@ const CELLS: [Cell; 11] = [
     cell("R", 34.0, "Red of the photograph, linear counts"),
     cell("G", 34.0, "Green of the photograph, linear counts"),
     cell("B", 34.0, "Blue of the photograph, linear counts"),
-    cell("", 38.0, "Class of its window: the shape of the colour cluster (section 5.2.1)"),
+    cell("", 38.0, "Class of its window: the shape of the color cluster (section 5.2.1)"),
     cell(
         "",
         26.0,
@@ -99,9 +100,9 @@ fn place(ui: &Ui, tones: &Tones, at: egui::Pos2, index: usize, value: &str, chip
     painter.text(pos2(at.x, middle), Align2::LEFT_CENTER, cell.name, font.clone(), tones.quiet);
     let left = at.x + name_width(ui, cell.name);
     let right = left + cell.width;
-    if let Some(colour) = chip.filter(|_| index == 6) {
+    if let Some(color) = chip.filter(|_| index == 6) {
         let square = Rect::from_center_size(pos2(left + 5.0, middle), vec2(9.0, 9.0));
-        painter.rect_filled(square, 2.0, colour);
+        painter.rect_filled(square, 2.0, color);
     }
     let (x, align) = match index {
         5 | 10 => (left, Align2::LEFT_CENTER),
@@ -126,7 +127,7 @@ fn sentence(values: &[String; 11]) -> String {
 /// What is known of a pixel.
 struct Facts {
     at: [usize; 2],
-    colour: [f32; 3],
+    color: [f32; 3],
     found: Option<Found>,
     chip: Option<Color32>,
 }
@@ -146,38 +147,38 @@ struct Split {
 }
 
 impl Facts {
-    fn of(picture: &Picture, shown: Option<&Shown>, pixel: usize) -> Option<Self> {
+    fn of(picture: &Picture, shown: Option<&ResultSnapshot>, pixel: usize) -> Option<Self> {
         let image = &picture.photo.image;
-        let colour = *image.pixels.as_slice().get(pixel)?;
+        let color = *image.pixels.as_slice().get(pixel)?;
         let at = [pixel % image.width(), pixel / image.width()];
         let found = shown.map(|shown| Found::of(shown, pixel, at));
         let chip = found.as_ref().and_then(|found| found.region).zip(shown).and_then(|(region, shown)| {
-            let colour = shown.region_colours.get(usize::from(region).wrapping_sub(1))?;
-            Some(crate::gui::widgets::colour(*colour))
+            let color = shown.region_colors.get(usize::from(region).wrapping_sub(1))?;
+            Some(crate::gui::widgets::color(*color))
         });
-        Some(Self { at, colour, found, chip })
+        Some(Self { at, color, found, chip })
     }
 
     /// What is known at the debugger's cursor; the region by its number of birth.
     fn at_cursor(picture: &Picture, replay: &Replay, names: &RegionNames, pixel: usize) -> Option<Self> {
         let image = &picture.photo.image;
-        let colour = *image.pixels.as_slice().get(pixel)?;
+        let color = *image.pixels.as_slice().get(pixel)?;
         let class = replay.first_grid().and_then(|grid| {
             let window = grid.window_of(pixel, image.width());
             grid.classes.as_slice().get(window).copied().flatten().flatten()
         });
         let region = Some(*replay.labels().as_slice().get(pixel)?).filter(|&region| region != 0);
         let found = Found { class, kind: replay.kind(pixel), region, split: None };
-        let chip = region.map(|region| crate::gui::widgets::colour(names.colour(region)));
+        let chip = region.map(|region| crate::gui::widgets::color(names.color(region)));
         let at = [pixel % image.width(), pixel / image.width()];
-        Some(Self { at, colour, found: Some(found), chip })
+        Some(Self { at, color, found: Some(found), chip })
     }
 
     fn values(&self) -> [String; 11] {
         let counts = |value: f32| format!("{value:.1}");
         let mut values: [String; 11] = Default::default();
         (values[0], values[1]) = (self.at[0].to_string(), self.at[1].to_string());
-        for (value, &band) in values[2..5].iter_mut().zip(&self.colour) {
+        for (value, &band) in values[2..5].iter_mut().zip(&self.color) {
             *value = counts(band);
         }
         let Some(found) = &self.found else { return values };
@@ -197,12 +198,12 @@ impl Facts {
 }
 
 impl Found {
-    fn of(shown: &Shown, pixel: usize, [x, y]: [usize; 2]) -> Self {
+    fn of(shown: &ResultSnapshot, pixel: usize, [x, y]: [usize; 2]) -> Self {
         let intrinsic = &shown.analysis.intrinsic;
         let label = shown.labels()[pixel];
         let reflection = intrinsic.regions.get(usize::from(label).wrapping_sub(1));
         // Along a unit vector, the component is the amount.
-        let along = |colour: [f32; 3], vector: [f64; 3]| crate::color::dot(colour, vector.map(|v| v as f32));
+        let along = |color: [f32; 3], vector: [f64; 3]| crate::color::dot(color, vector.map(|v| v as f32));
         Self {
             class: shown.classes().get(x / shown.window_px(), y / shown.window_px()).copied().flatten(),
             kind: intrinsic.kinds[pixel],

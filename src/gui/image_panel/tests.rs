@@ -1,11 +1,10 @@
 //! The panel in a harness: opened, looked at, clicked and drawn in.
 
 use super::geometry::Placement;
+use crate::app::{Command, ViewSettings};
 use crate::gui::App;
 use crate::gui::testing::{harness, open_sample};
-use crate::workbench::{
-    Arrangement, Command, ImageSettings, Item, Layer, Picture, ProfileLine, Tool, View, marking,
-};
+use crate::view::{Arrangement, ImageSettings, Item, Layer, Picture, ProfileLine, Tool, marking};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, pos2, vec2};
 use egui_kittest::Harness;
@@ -19,7 +18,7 @@ fn opened() -> Option<Harness<'static, App>> {
     Some(harness)
 }
 
-fn view(harness: &Harness<App>) -> View {
+fn view(harness: &Harness<App>) -> ViewSettings {
     harness.state().state().view.clone()
 }
 
@@ -130,13 +129,13 @@ fn scrolling_zooms_at_the_pointer_and_keys_travel() {
     harness.key_press(Key::Minus);
     harness.run_steps(3);
     assert!((place(&harness).zoom - after.zoom / 1.25).abs() < 1e-3);
-    let centre = place(&harness).centre;
+    let center = place(&harness).center;
     // Without the focus arrows step through the decisions.
     harness.get_by_label("Picture").focus();
     harness.run_steps(1);
     harness.key_press(Key::ArrowRight);
     harness.run_steps(3);
-    assert!(place(&harness).centre.x > centre.x);
+    assert!(place(&harness).center.x > center.x);
     harness.get_by_label("Fit").click();
     harness.run_steps(3);
     assert_eq!(view(&harness).image.zoom, None);
@@ -170,10 +169,10 @@ fn a_click_selects_a_region_a_pixel_or_nothing() {
 fn dragging_pans_and_two_clicks_fit() {
     let Some(mut harness) = opened() else { return };
     look(&mut harness, |settings| settings.zoom = Some(3.0));
-    let before = place(&harness).centre;
+    let before = place(&harness).center;
     let at = screen(&harness, before.x, before.y);
     drag(&mut harness, &[at, at + vec2(20.0, 0.0), at + vec2(60.0, 30.0)], Modifiers::NONE);
-    let moved = before - place(&harness).centre;
+    let moved = before - place(&harness).center;
     assert!((moved - vec2(20.0, 10.0)).length() < 0.1, "{moved:?}");
     move_to(&mut harness, at);
     harness.run_steps(8);

@@ -46,9 +46,9 @@ impl Tile {
     pub fn cut(&self, texels: &Raster<[u8; 4]>) -> ColorImage {
         let columns = self.outer.min.x as usize..self.outer.max.x as usize;
         let rows = self.outer.min.y as usize..self.outer.max.y as usize;
-        // Neighbours are mostly alike in overlays.
+        // Neighbors are mostly alike in overlays.
         let mut last = ([0u8; 4], Color32::TRANSPARENT);
-        let mut colour = |&texel: &[u8; 4]| {
+        let mut color = |&texel: &[u8; 4]| {
             if texel != last.0 {
                 let [r, g, b, a] = texel;
                 last = (texel, Color32::from_rgba_unmultiplied(r, g, b, a));
@@ -57,7 +57,7 @@ impl Tile {
         };
         let size = [columns.len(), rows.len()];
         let mut pixels = Vec::with_capacity(columns.len() * rows.len());
-        let mut add = |y: usize| pixels.extend(texels.row(y)[columns.clone()].iter().map(&mut colour));
+        let mut add = |y: usize| pixels.extend(texels.row(y)[columns.clone()].iter().map(&mut color));
         rows.for_each(&mut add);
         ColorImage::new(size, pixels)
     }

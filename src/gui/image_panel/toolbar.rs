@@ -1,10 +1,11 @@
 //! What is shown, how, and what a drag does: the row over the picture and the column beside it.
 
 use super::icons::{self, Sign};
-use crate::gui::shortcuts::{Deed, keys_of};
+use crate::app::{DebugSettings, State};
+use crate::gui::shortcuts::{Action, keys_of};
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::gui::widgets::clickable;
-use crate::workbench::{Arrangement, DebugSettings, Fill, ImageSettings, Layer, State, Tool};
+use crate::view::{Arrangement, Fill, ImageSettings, Layer, Tool};
 use egui::accesskit::Role;
 use egui::{
     Button, ComboBox, DragValue, Label, Popup, PopupCloseBehavior, Response, RichText, Sense, Slider, Ui,
@@ -19,7 +20,7 @@ const TOOLS: [(Tool, &str, &str); 7] = [
     (Tool::Polygon, "Polygon", "Marks a polygon, corner by corner; double-click or Enter closes it."),
     (Tool::Brush, "Brush", "Marks what it sweeps over; Shift adds, Alt takes away."),
     (Tool::Profile, "Profile line", "The line of the profile; Shift keeps it in a row or column."),
-    (Tool::WhitePatch, "White patch", "Pins the light's colour to the mean of a white patch (section 6)."),
+    (Tool::WhitePatch, "White patch", "Pins the light's color to the mean of a white patch (section 6)."),
 ];
 
 /// The paper's word for a layer.
@@ -28,9 +29,9 @@ const fn tip(layer: Layer) -> &'static str {
         Layer::Input => "The photograph.",
         Layer::Masks => "Pixels not to believe: dark, clipped, bloomed (section 4).",
         Layer::Classes => {
-            "Windows by the shape of their colour cluster: point, line, plane, volume (section 5.2.1)."
+            "Windows by the shape of their color cluster: point, line, plane, volume (section 5.2.1)."
         }
-        Layer::Areas => "Neighbouring windows of one class merged (section 5.2.2).",
+        Layer::Areas => "Neighboring windows of one class merged (section 5.2.2).",
         Layer::Linear => "Regions grown from linear hypotheses: matte pixels in a cylinder (section 5.3).",
         Layer::Planar => {
             "Regions grown from planar hypotheses: matte and highlight in a slice (section 5.4)."
@@ -38,12 +39,12 @@ const fn tip(layer: Layer) -> &'static str {
         Layer::Regions => "The final regions, clipped pixels included (section 5.5).",
         Layer::Body => "Body reflection: the photograph without highlights (section 6).",
         Layer::Surface => "Surface reflection: the highlights alone (section 6).",
-        Layer::Noise => "Distance \u{3b5} from the dichromatic plane; grey is 0 (section 6).",
+        Layer::Noise => "Distance \u{3b5} from the dichromatic plane; gray is 0 (section 6).",
         Layer::Confidence => {
             "How far the split of each pixel is to be believed: black not at all, white fully."
         }
         Layer::Reasons => "Why pixels are not explained by one region's skewed T (sections 5.6 and 7.5).",
-        Layer::Difference => "Body reflection minus that of the pinned result; grey is 0.",
+        Layer::Difference => "Body reflection minus that of the pinned result; gray is 0.",
     }
 }
 
@@ -82,7 +83,7 @@ fn layer(ui: &mut Ui, state: &State, name: &str, layer: &mut Layer, followed: bo
     let shown = combo.show_ui(ui, |ui| {
         for choice in Layer::ALL {
             let possible = choice != Layer::Difference || state.pinned.is_some();
-            let keys = keys_of(ui.ctx(), Deed::Layer(choice));
+            let keys = keys_of(ui.ctx(), Action::Layer(choice));
             let button = Button::selectable(!followed && *layer == choice, choice.name()).shortcut_text(keys);
             let button = ui.add_enabled(possible, button).on_hover_text(tip(choice));
             if button.on_disabled_hover_text("Pin a result first (K).").clicked() {
@@ -120,7 +121,7 @@ fn fill(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
     let outline = settings.fill == Fill::Outline;
     let tip = format!(
         "Outlines instead of fills, of areas over the photograph ({})",
-        keys_of(ui.ctx(), Deed::Outline)
+        keys_of(ui.ctx(), Action::Outline)
     );
     ui.add_enabled_ui(overlay, |ui| {
         let sign = Sign::Fill(Fill::Outline);
@@ -133,11 +134,11 @@ fn fill(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
 fn zooming(ui: &mut Ui, settings: &mut ImageSettings, zoom: f32) {
     ui.spacing_mut().button_padding.x = 5.0;
     let fit = Button::selectable(settings.zoom.is_none(), "Fit");
-    let tip = format!("The whole picture ({}, double-click)", keys_of(ui.ctx(), Deed::Fit));
+    let tip = format!("The whole picture ({}, double-click)", keys_of(ui.ctx(), Action::Fit));
     if ui.add(fit).on_hover_text(tip).clicked() {
-        (settings.zoom, settings.centre_px) = (None, None);
+        (settings.zoom, settings.center_px) = (None, None);
     }
-    let tip = format!("One screen point a pixel ({})", keys_of(ui.ctx(), Deed::OneToOne));
+    let tip = format!("One screen point a pixel ({})", keys_of(ui.ctx(), Action::OneToOne));
     let same = settings.zoom == Some(1.0);
     if ui.add(Button::selectable(same, "1:1")).on_hover_text(tip).clicked() {
         settings.zoom = Some(1.0);
@@ -199,7 +200,7 @@ fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> bool {
 pub fn column(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
     ui.spacing_mut().item_spacing.y = 2.0;
     for (tool, name, tip) in TOOLS {
-        let tip = format!("{name} ({}). {tip}", keys_of(ui.ctx(), Deed::Tool(tool)));
+        let tip = format!("{name} ({}). {tip}", keys_of(ui.ctx(), Action::Tool(tool)));
         if icons::toggle(ui, tones, Sign::Tool(tool), settings.tool == tool, name, &tip).clicked() {
             settings.tool = tool;
         }

@@ -3,12 +3,11 @@
 use super::geometry::Placement;
 use super::icons::{corners, dashed};
 use super::overlay::MARK;
+use crate::app::{Ask, Combine, Command, Gesture, Severity, State};
 use crate::gui::Cx;
 use crate::raster::Mask;
-use crate::workbench::marking::{brush, outline, rectangle};
-use crate::workbench::{
-    Ask, Combine, Command, Gesture, ImageSettings, Item, Layer, ProfileLine, Severity, State, Tool,
-};
+use crate::view::marking::{brush, outline, rectangle};
+use crate::view::{ImageSettings, Item, Layer, ProfileLine, Tool};
 use egui::{
     Color32, CursorIcon, Key, Modifiers, Painter, PointerButton, Pos2, Rect, Response, Stroke, Ui, pos2,
 };
@@ -37,7 +36,7 @@ enum Draft {
 
 /// The hand that holds the tool.
 #[derive(Default)]
-pub struct Hand {
+pub struct ToolState {
     draft: Draft,
     tool: Tool,
     /// The pointer, in pixels of the picture.
@@ -45,7 +44,7 @@ pub struct Hand {
 }
 
 /// Where something happens.
-pub struct Spot<'a> {
+pub struct PointerContext<'a> {
     /// The view.
     pub response: &'a Response,
     /// The picture's place in it.
@@ -54,7 +53,7 @@ pub struct Spot<'a> {
     pub layer: Layer,
 }
 
-impl Hand {
+impl ToolState {
     /// Gives up what is being drawn.
     pub fn give_up(&mut self) {
         self.draft = Draft::None;
@@ -66,11 +65,11 @@ impl Hand {
     }
 
     /// Follows the pointer in one view.
-    pub fn act(&mut self, ui: &Ui, spot: &Spot, cx: &mut Cx, settings: &mut ImageSettings) {
+    pub fn act(&mut self, ui: &Ui, spot: &PointerContext, cx: &mut Cx, settings: &mut ImageSettings) {
         if self.tool != settings.tool {
             (self.draft, self.tool) = (Draft::None, settings.tool);
         }
-        let Spot { response, place, .. } = spot;
+        let PointerContext { response, place, .. } = spot;
         let (pointer, modifiers, pressed, released, space) = ui.input(|input| {
             let pointer = &input.pointer;
             let space = input.key_down(Key::Space);
@@ -192,7 +191,7 @@ impl Hand {
         }
     }
 
-    fn polygon(&mut self, ui: &Ui, spot: &Spot, cx: &mut Cx, modifiers: Modifiers) {
+    fn polygon(&mut self, ui: &Ui, spot: &PointerContext, cx: &mut Cx, modifiers: Modifiers) {
         let (response, place) = (spot.response, &spot.place);
         let at = self.at;
         let mut closes = ui.input(|input| input.key_pressed(Key::Enter));
@@ -245,19 +244,19 @@ impl Hand {
             _ => {}
         }
         if let Some(radius_px) = brush_px {
-            let centre = place.screen_from_image(self.at);
+            let center = place.screen_from_image(self.at);
             let radius = (radius_px * place.zoom).max(1.5);
-            painter.circle_stroke(centre, radius, Stroke::new(2.6, Color32::from_black_alpha(140)));
-            painter.circle_stroke(centre, radius, Stroke::new(1.2, MARK));
+            painter.circle_stroke(center, radius, Stroke::new(2.6, Color32::from_black_alpha(140)));
+            painter.circle_stroke(center, radius, Stroke::new(1.2, MARK));
         }
     }
 }
 
 /// Selects by a click, and fits by two.
-fn point(spot: &Spot, cx: &mut Cx, settings: &mut ImageSettings, modifiers: Modifiers) {
+fn point(spot: &PointerContext, cx: &mut Cx, settings: &mut ImageSettings, modifiers: Modifiers) {
     let response = spot.response;
     if response.double_clicked_by(PointerButton::Primary) {
-        (settings.zoom, settings.centre_px) = (None, None);
+        (settings.zoom, settings.center_px) = (None, None);
     } else if response.clicked_by(PointerButton::Primary) {
         let pixel = response.interact_pointer_pos().and_then(|at| spot.place.pixel_at(at));
         let item = pixel.and_then(|pixel| item_at(cx.state, spot.layer, pixel, modifiers.alt));
@@ -306,7 +305,7 @@ fn unmark(cx: &mut Cx, modifiers: Modifiers) {
     }
 }
 
-/// Pins the light's colour to the mean of the pixels that can be believed.
+/// Pins the light's color to the mean of the pixels that can be believed.
 fn pin(cx: &mut Cx, mask: &Mask) {
     cx.send(match mean_direction(cx.state, mask) {
         Some(direction) => Command::PinIlluminant(Some(direction), None),
@@ -322,14 +321,14 @@ fn mean_direction(state: &State, mask: &Mask) -> Option<[f64; 3]> {
     let image = &state.picture.as_ref()?.photo.image;
     let masks = state.newest.as_ref().map(|shown| &shown.analysis.masks);
     let full = image.saturation.unwrap_or(f32::INFINITY);
-    let usable = |pixel: usize, colour: &[f32; 3]| match masks {
+    let usable = |pixel: usize, color: &[f32; 3]| match masks {
         Some(masks) => !masks.distorted(pixel) && !masks.invalid(pixel),
-        None => !image.invalid[pixel] && colour.iter().all(|&band| band < full),
+        None => !image.invalid[pixel] && color.iter().all(|&band| band < full),
     };
     let mut sum = [0.0f64; 3];
-    for (pixel, colour) in image.pixels.as_slice().iter().enumerate() {
-        if mask[pixel] && usable(pixel, colour) {
-            for (sum, &band) in sum.iter_mut().zip(colour) {
+    for (pixel, color) in image.pixels.as_slice().iter().enumerate() {
+        if mask[pixel] && usable(pixel, color) {
+            for (sum, &band) in sum.iter_mut().zip(color) {
                 *sum += f64::from(band);
             }
         }

@@ -1,7 +1,7 @@
 //! The plane on the screen: where counts lie, the oblique axes, and the skewed T.
 
 use crate::gui::theme::{SMALL_PT, Tones};
-use crate::workbench::RegionPlane;
+use crate::view::RegionPlane;
 use egui::{Align2, FontId, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
 /// Between ticks, at least, points.
@@ -15,7 +15,7 @@ const SCALES: [f32; 2] = [0.002, 20.0];
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chart {
     /// What lies in the middle, in oblique counts, see [`RegionPlane::oblique`].
-    pub centre: [f32; 2],
+    pub center: [f32; 2],
     /// Counts that a point of the screen spans.
     pub counts_per_pt: f32,
 }
@@ -36,24 +36,24 @@ impl Chart {
         }
         let free = (rect.size() - 2.0 * MARGIN_PT).max(vec2(20.0, 20.0));
         let needed = room.size().max(vec2(1.0, 1.0)) / free;
-        Self { centre: room.center().into(), counts_per_pt: needed.max_elem().clamp(SCALES[0], SCALES[1]) }
+        Self { center: room.center().into(), counts_per_pt: needed.max_elem().clamp(SCALES[0], SCALES[1]) }
     }
 
     /// Where oblique counts are on the screen; the second axis points up.
     pub fn screen(self, [x, y]: [f32; 2], rect: Rect) -> Pos2 {
-        rect.center() + vec2(x - self.centre[0], self.centre[1] - y) / self.counts_per_pt
+        rect.center() + vec2(x - self.center[0], self.center[1] - y) / self.counts_per_pt
     }
 
     /// What lies at a place of the screen, in oblique counts.
     pub fn oblique(self, at: Pos2, rect: Rect) -> [f32; 2] {
         let from_middle = (at - rect.center()) * self.counts_per_pt;
-        [self.centre[0] + from_middle.x, self.centre[1] - from_middle.y]
+        [self.center[0] + from_middle.x, self.center[1] - from_middle.y]
     }
 
     /// Moves what is shown by points of the screen.
     pub fn pan(&mut self, delta: Vec2) {
-        self.centre[0] -= delta.x * self.counts_per_pt;
-        self.centre[1] += delta.y * self.counts_per_pt;
+        self.center[0] -= delta.x * self.counts_per_pt;
+        self.center[1] += delta.y * self.counts_per_pt;
     }
 
     /// Enlarges by `factor`; what lies under the pointer stays there.
@@ -62,7 +62,7 @@ impl Chart {
             let under = self.oblique(pointer, rect);
             self.counts_per_pt = (self.counts_per_pt / factor).clamp(SCALES[0], SCALES[1]);
             let now = self.oblique(pointer, rect);
-            self.centre = [self.centre[0] + under[0] - now[0], self.centre[1] + under[1] - now[1]];
+            self.center = [self.center[0] + under[0] - now[0], self.center[1] + under[1] - now[1]];
         }
     }
 
@@ -147,7 +147,7 @@ impl Chart {
             at: self.top_of_axis(plane, rect),
             anchor: Align2::RIGHT_TOP,
             text: axis,
-            tip: "Amount of surface reflection, in the direction of the light's colour (equation 13).",
+            tip: "Amount of surface reflection, in the direction of the light's color (equation 13).",
         });
         names.push(Name {
             at: matte[0].lerp(matte[1], 0.3) + vec2(0.0, 16.0),
@@ -288,7 +288,7 @@ mod tests {
     #[test]
     fn zooming_keeps_what_is_under_the_pointer() {
         let rect = Rect::from_min_size(pos2(10.0, 20.0), vec2(300.0, 200.0));
-        let mut chart = Chart { centre: [100.0, 30.0], counts_per_pt: 0.8 };
+        let mut chart = Chart { center: [100.0, 30.0], counts_per_pt: 0.8 };
         let pointer = pos2(60.0, 150.0);
         let before = chart.oblique(pointer, rect);
         chart.zoom(2.5, pointer, rect);

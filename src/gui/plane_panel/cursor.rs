@@ -2,9 +2,10 @@
 //! grows in its slice.
 
 use super::{PlanePanel, cloud, hovered, kinds, navigate, quiet};
+use crate::app::State;
 use crate::gui::{Cx, verdict, widgets};
 use crate::trace::{PixelKind, Replay};
-use crate::workbench::{State, growing_plane, test_at_cursor, test_plane};
+use crate::view::{growing_plane, test_at_cursor, test_plane};
 use egui::{Sense, Stroke, Ui, vec2};
 
 /// A kind, its name and what it means.
@@ -25,7 +26,7 @@ const TESTED: [Name; 3] = [
     (
         PixelKind::Highlight,
         "candidate",
-        "The neighbouring cluster that is tested as its highlight (section 5.4.1).",
+        "The neighboring cluster that is tested as its highlight (section 5.4.1).",
     ),
 ];
 
@@ -36,7 +37,7 @@ const GROWING: [Name; 3] = [
     (
         PixelKind::Lost,
         "not taken",
-        "Neighbours whose colours lie outside of its cylinder or slice (section 5.3.2, 5.4.2).",
+        "Neighbors whose colors lie outside of its cylinder or slice (section 5.3.2, 5.4.2).",
     ),
 ];
 
@@ -117,12 +118,12 @@ impl PlanePanel {
     }
 }
 
-/// What the points' colours mean.
+/// What the points' colors mean.
 fn bar(ui: &mut Ui, cx: &Cx, names: [Name; 3]) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         for (kind, name, tip) in names {
-            widgets::chip(ui, kinds::colour(kind, cx.state.view.theme), name).on_hover_text(tip);
+            widgets::chip(ui, kinds::color(kind, cx.state.view.theme), name).on_hover_text(tip);
             ui.label(quiet(cx, name)).on_hover_text(tip);
             ui.add_space(6.0);
         }

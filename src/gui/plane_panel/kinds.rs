@@ -1,10 +1,11 @@
-//! What a pixel is to its region: colours, names, and the row that explains them.
+//! What a pixel is to its region: colors, names, and the row that explains them.
 
 use super::quiet;
+use crate::app::Command;
 use crate::gui::Cx;
 use crate::gui::widgets;
 use crate::intrinsic::PixelKind;
-use crate::workbench::{Command, PlaneSettings, RegionPlane, Theme};
+use crate::view::{PlaneSettings, RegionPlane, Theme};
 use egui::{Color32, Ui};
 
 /// The kinds, their names and what they mean.
@@ -23,8 +24,8 @@ const KINDS: [(PixelKind, &str, &str); 4] = [
     (PixelKind::Lost, "lost", "Clipped in every band: restored from its surroundings alone (section 6)."),
 ];
 
-/// The colour of a kind: apart in hue and in lightness.
-pub fn colour(kind: PixelKind, theme: Theme) -> Color32 {
+/// The color of a kind: apart in hue and in lightness.
+pub fn color(kind: PixelKind, theme: Theme) -> Color32 {
     let [r, g, b] = match (kind, theme) {
         (PixelKind::Matte, Theme::Dark) => [0x5C, 0x96, 0xC8],
         (PixelKind::Matte, Theme::Light) => [0x2A, 0x66, 0x98],
@@ -37,25 +38,25 @@ pub fn colour(kind: PixelKind, theme: Theme) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// Own colours or labels, and what the labels' colours mean.
+/// Own colors or labels, and what the labels' colors mean.
 pub fn bar(ui: &mut Ui, cx: &mut Cx, plane: &RegionPlane) {
-    let by_label = cx.state.view.plane.colour_by_label;
+    let by_label = cx.state.view.plane.color_by_label;
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.spacing_mut().button_padding.x = 5.0;
         for (choice, name, tip) in [
-            (true, "By label", "Points in the colour of what they are to the region."),
-            (false, "Own colour", "Points in the colour that was measured."),
+            (true, "By label", "Points in the color of what they are to the region."),
+            (false, "Own color", "Points in the color that was measured."),
         ] {
             if ui.selectable_label(by_label == choice, name).on_hover_text(tip).clicked() {
-                cx.send(Command::Plane(PlaneSettings { colour_by_label: choice }));
+                cx.send(Command::Plane(PlaneSettings { color_by_label: choice }));
             }
         }
         if by_label {
             ui.add_space(6.0);
             for (kind, name, tip) in KINDS {
                 if plane.points.iter().any(|point| point.kind == kind) {
-                    widgets::chip(ui, colour(kind, cx.state.view.theme), name).on_hover_text(tip);
+                    widgets::chip(ui, color(kind, cx.state.view.theme), name).on_hover_text(tip);
                     ui.label(quiet(cx, name)).on_hover_text(tip);
                     ui.add_space(6.0);
                 }

@@ -1,8 +1,9 @@
 //! The panel in a harness.
 
+use crate::app::Command;
 use crate::gui::App;
 use crate::gui::testing::{harness, open_sample};
-use crate::workbench::{Command, Item};
+use crate::view::Item;
 use egui::accesskit::Role;
 use egui::{Event, Modifiers, PointerButton, vec2};
 use egui_kittest::Harness;
@@ -59,6 +60,6 @@ fn hovering_a_point_hovers_its_pixel_and_a_drag_pans() {
         harness.run_steps(2);
     }
     let moved = harness.state().panels().plane.chart.unwrap();
-    assert!((moved.centre[0] - chart.centre[0] + 30.0 * chart.counts_per_pt).abs() < 0.5);
-    assert!((moved.centre[1] - chart.centre[1] - 12.0 * chart.counts_per_pt).abs() < 0.5);
+    assert!((moved.center[0] - chart.center[0] + 30.0 * chart.counts_per_pt).abs() < 0.5);
+    assert!((moved.center[1] - chart.center[1] - 12.0 * chart.counts_per_pt).abs() < 0.5);
 }

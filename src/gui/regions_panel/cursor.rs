@@ -1,12 +1,13 @@
 //! The table at the debugger's cursor: the hypotheses so far; before there are any, the windows and areas.
 
 use super::{ROW_PT, cell, vector};
+use crate::app::{Command, DebugCommand};
 use crate::gui::theme::Tones;
 use crate::gui::{Cx, widgets};
 use crate::trace::Replay;
-use crate::workbench::{
-    Command, DebugCommand, HypothesisRow, Item, LegendEntry, RegionNames, Status, WindowCounts,
-    class_entries, hypothesis_rows, window_counts,
+use crate::view::{
+    HypothesisRow, Item, LegendEntry, RegionNames, Status, WindowCounts, class_entries, hypothesis_rows,
+    window_counts,
 };
 use egui::{Align, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -29,7 +30,7 @@ const COLUMNS: [(Key, &str, f32, &str); 6] = [
         Key::Birth,
         "#",
         40.0,
-        "The hypothesis' number, in the order of birth; its colour is that of what becomes of it.",
+        "The hypothesis' number, in the order of birth; its color is that of what becomes of it.",
     ),
     (Key::Pixels, "pixels", 52.0, "Pixels that it has at the cursor."),
     (
@@ -156,8 +157,8 @@ fn cells(row: &mut TableRow, tones: &Tones, of: &HypothesisRow, names: &RegionNa
         });
     };
     cell(row, |ui| {
-        let colour = widgets::colour(names.colour(of.region));
-        widgets::chip(ui, colour, &format!("colour of hypothesis {}", of.region));
+        let color = widgets::color(names.color(of.region));
+        widgets::chip(ui, color, &format!("color of hypothesis {}", of.region));
         plain(ui, of.region.to_string());
     });
     number(row, widgets::grouped(of.pixels as usize));
@@ -177,7 +178,7 @@ fn cells(row: &mut TableRow, tones: &Tones, of: &HypothesisRow, names: &RegionNa
 fn light(ui: &mut Ui, tones: &Tones, replay: &Replay) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
-        let tip = "The colour of the light as it is estimated up to the cursor (section 5.4).";
+        let tip = "The color of the light as it is estimated up to the cursor (section 5.4).";
         ui.label(RichText::new("light so far").color(tones.quiet)).on_hover_text(tip);
         match replay.light() {
             Some(direction) => vector(ui, tones, Some(direction)),
@@ -193,7 +194,7 @@ fn windows(ui: &mut Ui, tones: &Tones, counts: &WindowCounts) {
     ui.add_space(4.0);
     let row = |ui: &mut Ui, entry: Option<LegendEntry>, name: &str, tip: &str, count: usize| {
         match entry {
-            Some(entry) => widgets::chip(ui, widgets::colour(entry.colour), name),
+            Some(entry) => widgets::chip(ui, widgets::color(entry.color), name),
             None => ui.label(""),
         };
         ui.label(name).on_hover_text(tip);
@@ -215,7 +216,7 @@ fn windows(ui: &mut Ui, tones: &Tones, counts: &WindowCounts) {
             "Windows that come after the cursor (section 5.2.1).",
             counts.waiting,
         );
-        let tip = "Neighbouring windows of one class whose union is of that class too (section 5.2.2).";
+        let tip = "Neighboring windows of one class whose union is of that class too (section 5.2.2).";
         row(ui, None, "areas so far", tip, counts.areas);
     });
 }

@@ -1,10 +1,9 @@
 //! The debugger's keys: when they are meant, and what they do.
 
-use super::{Deed, Shortcut};
+use super::{Action, Shortcut};
+use crate::app::{Command, DebugCommand, DebugSettings, Direction, Goal, Grain, Severity, State};
 use crate::gui::{Cx, timeline_panel};
-use crate::workbench::{
-    Command, DebugCommand, DebugSettings, Direction, Goal, Grain, Item, Severity, State, Tool,
-};
+use crate::view::{Item, Tool};
 use Direction::{Back, Forward};
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, Rect};
 
@@ -29,9 +28,9 @@ pub enum DebugDeed {
     Record,
 }
 
-const fn key(modifiers: Modifiers, key: Key, deed: DebugDeed, words: &'static str) -> Shortcut {
+const fn key(modifiers: Modifiers, key: Key, action: DebugDeed, words: &'static str) -> Shortcut {
     let keys = KeyboardShortcut::new(modifiers, key);
-    Shortcut { group: "Decisions", keys, deed: Deed::Debug(deed), words }
+    Shortcut { group: "Decisions", keys, action: Action::Debug(action), words }
 }
 
 /// All of them, those with modifiers first.
@@ -66,8 +65,8 @@ pub const KEYS: &[Shortcut] = &[
 /// Who else may mean a key.
 #[derive(Clone, Copy, Debug)]
 pub struct Listeners {
-    /// Where the colour space is: it has keys of its own.
-    pub colours: Option<Rect>,
+    /// Where the color space is: it has keys of its own.
+    pub colors: Option<Rect>,
     /// Whether there is a trace to move in.
     pub traced: bool,
     /// Whether Enter closes an outline.
@@ -75,33 +74,33 @@ pub struct Listeners {
 }
 
 impl Listeners {
-    /// The listeners of a state, the colour space being shown at `colours`.
-    pub fn of(state: &State, colours: Option<Rect>) -> Self {
+    /// The listeners of a state, the color space being shown at `colors`.
+    pub fn of(state: &State, colors: Option<Rect>) -> Self {
         let outlining = [state.view.image.tool, state.view.cube.tool].contains(&Tool::Polygon);
-        Self { colours, traced: state.debugger.replay.is_some(), outlining }
+        Self { colors, traced: state.debugger.replay.is_some(), outlining }
     }
 
     /// Whether a key is the debugger's now.
     pub fn leave(&self, ctx: &Context, shortcut: &Shortcut) -> bool {
-        let Deed::Debug(deed) = shortcut.deed else { return true };
+        let Action::Debug(action) = shortcut.action else { return true };
         if ctx.text_edit_focused() || egui::Popup::is_any_open(ctx) {
             return false;
         }
         let focused = ctx.memory(egui::Memory::focused).filter(|&id| id != timeline_panel::track_id());
         let holder = focused.and_then(|id| ctx.read_response(id));
-        // What hears clicks and drags is a view: the image, the colour space. It is not pressed by a key, as a button is.
+        // What hears clicks and drags is a view: the image, the color space. It is not pressed by a key, as a button is.
         let on_view = holder.as_ref().is_none_or(|it| it.sense.senses_click() && it.sense.senses_drag());
         let held = holder.map(|holder| holder.rect.center());
         let spots = [ctx.pointer_hover_pos(), held];
-        let in_colours = spots.iter().flatten().any(|&at| self.colours.is_some_and(|rect| rect.contains(at)));
+        let in_colors = spots.iter().flatten().any(|&at| self.colors.is_some_and(|rect| rect.contains(at)));
         let free = match shortcut.keys.logical_key {
             Key::ArrowLeft | Key::ArrowRight if shortcut.keys.modifiers.is_none() => focused.is_none(),
             Key::ArrowLeft | Key::ArrowRight | Key::Space | Key::End => on_view,
             Key::Enter => on_view && !self.outlining,
-            Key::Home | Key::D => on_view && !in_colours,
+            Key::Home | Key::D => on_view && !in_colors,
             _ => true,
         };
-        free && (self.traced || deed == DebugDeed::Record)
+        free && (self.traced || action == DebugDeed::Record)
     }
 }
 
@@ -141,9 +140,9 @@ impl SpaceTap {
 }
 
 /// Does it.
-pub fn move_cursor(deed: DebugDeed, cx: &mut Cx) {
+pub fn move_cursor(action: DebugDeed, cx: &mut Cx) {
     let state = cx.state;
-    let command = match deed {
+    let command = match action {
         DebugDeed::Play(direction) => {
             let rests = state.debugger.playing.is_some_and(|way| way == direction || direction == Forward);
             DebugCommand::Play((!rests).then_some(direction))

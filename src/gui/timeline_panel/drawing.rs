@@ -79,7 +79,7 @@ fn names_of_empty(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, t
     }
 }
 
-/// Hypotheses, slices, candidates and holes in the colours of their regions.
+/// Hypotheses, slices, candidates and holes in the colors of their regions.
 fn blocks(painter: &Painter, cx: &Cx, scale: &Scale, lane: Rect, trace: &Trace) {
     let (state, names) = (cx.state, &cx.state.debugger.names);
     let (selected, hovered) = (state.selected_region(), state.hover.and_then(|item| state.region_of(item)));
@@ -94,7 +94,7 @@ fn blocks(painter: &Painter, cx: &Cx, scale: &Scale, lane: Rect, trace: &Trace) 
         drawn = (rect.left() + 1.0).max(rect.right());
         let region = block.topic.region();
         let number = Some(names.final_number(region)).filter(|&number| number > 0);
-        let mut fill = widgets::colour(names.colour(region));
+        let mut fill = widgets::color(names.color(region));
         if selected.is_some() && number != selected {
             fill = fill.gamma_multiply(0.55);
         }

@@ -1,9 +1,9 @@
 //! What is said of the place under the pointer.
 
+use crate::describe::Names;
 use crate::gui::widgets::grouped;
-use crate::report::Names;
 use crate::trace::{Topic, Trace};
-use crate::workbench::RegionNames;
+use crate::view::RegionNames;
 
 /// What happened at a step: where in the run, in which block, and the decision itself.
 pub fn lines(trace: &Trace, regions: &RegionNames, names: &Names, step: usize) -> Vec<String> {

@@ -1,8 +1,8 @@
 //! The signs of the transport controls.
 
+use crate::app::Direction;
 use crate::gui::icons::sign_button;
 use crate::gui::theme::Tones;
-use crate::workbench::Direction;
 use egui::{Color32, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
 
 pub use crate::gui::icons::SIDE_PT;
@@ -32,13 +32,13 @@ pub enum Sign {
 
 /// A button that is on or off, named `name` for those who do not see its sign.
 pub fn button(ui: &mut Ui, tones: &Tones, sign: Sign, on: bool, name: &str, tip: &str) -> Response {
-    sign_button(ui, tones, on, name, tip, |painter, square, colour| {
-        draw(painter, square, sign, colour, tones);
+    sign_button(ui, tones, on, name, tip, |painter, square, color| {
+        draw(painter, square, sign, color, tones);
     })
 }
 
 /// Points of a sign are given in a square of 14 × 14, as it points forward.
-fn draw(painter: &Painter, square: Rect, sign: Sign, colour: Color32, tones: &Tones) {
+fn draw(painter: &Painter, square: Rect, sign: Sign, color: Color32, tones: &Tones) {
     let back = matches!(
         sign,
         Sign::Limit(Direction::Back)
@@ -48,10 +48,10 @@ fn draw(painter: &Painter, square: Rect, sign: Sign, colour: Color32, tones: &To
             | Sign::Play(Direction::Back)
     );
     let at = |x: f32, y: f32| square.min + vec2(if back { 14.0 - x } else { x }, y) * (square.width() / 14.0);
-    let stroke = Stroke::new(1.4, colour);
+    let stroke = Stroke::new(1.4, color);
     let wedge = |left: f32, right: f32, half: f32| {
         let points = vec![at(left, 7.0 - half), at(right, 7.0), at(left, 7.0 + half)];
-        painter.add(Shape::convex_polygon(points, colour, Stroke::NONE));
+        painter.add(Shape::convex_polygon(points, color, Stroke::NONE));
     };
     let bar = |x: f32, half: f32| {
         painter.line_segment([at(x, 7.0 - half), at(x, 7.0 + half)], stroke);
@@ -76,7 +76,7 @@ fn draw(painter: &Painter, square: Rect, sign: Sign, colour: Color32, tones: &To
         Sign::Play(_) => wedge(3.0, 12.0, 5.5),
         Sign::Pause => {
             for x in [4.5, 9.5] {
-                painter.line_segment([at(x, 2.5), at(x, 11.5)], Stroke::new(2.6, colour));
+                painter.line_segment([at(x, 2.5), at(x, 11.5)], Stroke::new(2.6, color));
             }
         }
         Sign::Into => {

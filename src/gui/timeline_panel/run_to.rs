@@ -1,10 +1,10 @@
 //! The menu of places to run to.
 
+use crate::app::{Command, DebugCommand, Direction, Goal};
 use crate::gui::Cx;
-use crate::gui::shortcuts::{DebugDeed, Deed, keys_of, selected};
+use crate::gui::shortcuts::{Action, DebugDeed, keys_of, selected};
 use crate::gui::theme::SMALL_PT;
 use crate::trace::Kind;
-use crate::workbench::{Command, DebugCommand, Direction, Goal};
 use egui::{Button, RichText, Ui};
 
 /// Kinds of steps, by what they are about.
@@ -31,7 +31,7 @@ const GROUPS: [(&str, &[Kind]); 7] = [
         "Clipping, numbers, vectors (5.5, 6)",
         &[Kind::Hole, Kind::Dropped, Kind::Part, Kind::Numbers, Kind::Ambient, Kind::Branches, Kind::Vectors],
     ),
-    ("Where no region holds", &[Kind::LocalSplit, Kind::Blobs, Kind::Blob, Kind::Belief, Kind::Repair]),
+    ("Where no region holds", &[Kind::LocalSplit, Kind::Blobs, Kind::Blob, Kind::Plausibility, Kind::Repair]),
     ("Pixels", &[Kind::Claim, Kind::Refusal, Kind::Label]),
 ];
 
@@ -47,13 +47,13 @@ pub fn show(ui: &mut Ui, cx: &mut Cx) {
             Some(_) => "Next change of the selected region",
             None => "Next change of what is selected",
         };
-        let keys = keys_of(ui.ctx(), Deed::Debug(DebugDeed::Change(Direction::Forward)));
+        let keys = keys_of(ui.ctx(), Action::Debug(DebugDeed::Change(Direction::Forward)));
         let button = ui.add_enabled(goal.is_some(), Button::new(words).shortcut_text(keys));
         if button.on_disabled_hover_text("Select a region, or with Alt + click a pixel.").clicked() {
             chosen = goal;
         }
         let any = cx.state.view.debug.breakpoints.iter().any(|breakpoint| breakpoint.enabled);
-        let keys = keys_of(ui.ctx(), Deed::Debug(DebugDeed::Breakpoint(Direction::Forward)));
+        let keys = keys_of(ui.ctx(), Action::Debug(DebugDeed::Breakpoint(Direction::Forward)));
         let button = ui.add_enabled(any, Button::new("Next breakpoint").shortcut_text(keys));
         if button.on_disabled_hover_text("There is none that is enabled.").clicked() {
             chosen = Some(Goal::Breakpoint);

@@ -2,12 +2,11 @@
 
 use super::drawing::draw;
 use super::hint;
+use crate::app::{Command, DebugCommand, Direction, Goal};
+use crate::describe::Names;
 use crate::gui::Cx;
-use crate::report::Names;
 use crate::trace::{Block, Replay};
-use crate::workbench::{
-    Command, DebugCommand, Direction, Goal, Item, TimelineAxis, TimelineSection, timeline_density,
-};
+use crate::view::{Item, TimelineAxis, TimelineSection, timeline_density};
 use egui::accesskit::{Action, ActionData};
 use egui::{
     CursorIcon, EventFilter, Id, PointerButton, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo,

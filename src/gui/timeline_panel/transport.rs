@@ -2,12 +2,12 @@
 
 use super::icons::{self, Sign};
 use super::run_to;
-use crate::gui::shortcuts::{self, DebugDeed, Deed, keys_of};
+use crate::app::{Command, DebugCommand, DebugSettings, Direction, Grain};
+use crate::describe::Names;
+use crate::gui::shortcuts::{self, Action, DebugDeed, keys_of};
 use crate::gui::widgets::grouped;
 use crate::gui::{Cx, theme::SMALL_PT};
-use crate::report::Names;
 use crate::trace::Replay;
-use crate::workbench::{Command, DebugCommand, DebugSettings, Direction, Grain};
 use Direction::{Back, Forward};
 use egui::accesskit::Role;
 use egui::{ComboBox, DragValue, Label, RichText, Slider, Ui, WidgetInfo, vec2};
@@ -98,10 +98,10 @@ pub fn show(ui: &mut Ui, cx: &mut Cx, replay: &Replay, names: &Names) {
 }
 
 fn controls(ui: &mut Ui, cx: &mut Cx, controls: &[Control]) {
-    for &(sign, name, deed, tip) in controls {
-        let keys = keys_of(ui.ctx(), Deed::Debug(deed));
+    for &(sign, name, action, tip) in controls {
+        let keys = keys_of(ui.ctx(), Action::Debug(action));
         if icons::button(ui, cx.tones, sign, false, name, &format!("{tip} ({keys})")).clicked() {
-            shortcuts::move_cursor(deed, cx);
+            shortcuts::move_cursor(action, cx);
         }
     }
 }

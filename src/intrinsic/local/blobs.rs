@@ -5,7 +5,7 @@
 
 use super::shade::Shades;
 use crate::raster::{Mask, Raster, dilate};
-use crate::segment::Scene;
+use crate::segment::AnalysisInput;
 use crate::trace::{BlobJudged, LocalPoint, Recorder};
 
 /// Texture at which surface reflection begins to lose weight, and over which it loses all.
@@ -27,7 +27,7 @@ pub struct Highlights {
 
 /// Finds them; `outside`: what holds no region.
 pub fn highlights<R: Recorder>(
-    scene: &Scene,
+    input: &AnalysisInput,
     shades: &Shades,
     texture: Option<&Raster<f32>>,
     outside: &Mask,
@@ -35,26 +35,26 @@ pub fn highlights<R: Recorder>(
     let points = &shades.points;
     let texture_at = |pixel: usize| texture.map_or(0.0, |texture| texture[pixel]);
     let weight = |pixel: usize| 1.0 - ((texture_at(pixel) - TEXTURE.0) / TEXTURE.1).clamp(0.0, 1.0);
-    let window = shades.window;
+    let roi = shades.roi;
     let size = (points.width(), points.height());
     let strong = |pixel: usize| points[pixel].surface > points[pixel].high && points[pixel].high > 0.0;
     let calm = |pixel: usize| texture_at(pixel) < CORE_TEXTURE;
     let mut judged = Judged::default();
-    let kept = if scene.refine.hysteresis {
+    let kept = if input.refine.hysteresis {
         let faint = opened(&mask(size, |pixel| {
             points[pixel].surface > points[pixel].low && points[pixel].low > 0.0 && weight(pixel) > 0.0
         }));
         let core = opened(&mask(size, |pixel| strong(pixel) && calm(pixel)));
-        let clipped = window.raster(|pixel| scene.masks.clipped(pixel));
+        let clipped = roi.raster(|pixel| input.masks.clipped(pixel));
         with_core(&faint, &core, &clipped, |component, kept| {
             // What lies in regions that hold is theirs.
-            if R::KEEPS && component.iter().any(|&pixel| outside[window.pixel(pixel)]) {
+            if R::KEEPS && component.iter().any(|&pixel| outside[roi.pixel(pixel)]) {
                 let count = |test: &dyn Fn(usize) -> bool| {
                     component.iter().filter(|&&pixel| test(pixel)).count() as u32
                 };
                 judged.hear(component, &faint, |blob, pixels| BlobJudged {
                     blob,
-                    pixel: window.pixel(component[0]) as u32,
+                    pixel: roi.pixel(component[0]) as u32,
                     pixels,
                     clipped: count(&|pixel| clipped[pixel]),
                     strong: count(&|pixel| faint[pixel] && strong(pixel)),
@@ -67,7 +67,7 @@ pub fn highlights<R: Recorder>(
     } else {
         mask(size, strong)
     };
-    let share = |pixel: usize| if kept[pixel] && outside[window.pixel(pixel)] { weight(pixel) } else { 0.0 };
+    let share = |pixel: usize| if kept[pixel] && outside[roi.pixel(pixel)] { weight(pixel) } else { 0.0 };
     let data = (0..points.len()).map(share).collect();
     let weights = Raster::from_vec(points.width(), points.height(), data).unwrap_or_default();
     Highlights { weights, judged }
@@ -139,7 +139,7 @@ fn with_core(faint: &Mask, core: &Mask, clipped: &Mask, mut judged: impl FnMut(&
             at += 1;
             faint_px += usize::from(faint[pixel]);
             believed |= clipped[pixel] || (core[pixel] && faint[pixel]);
-            faint.for_each_neighbour(pixel, |near| {
+            faint.for_each_neighbor(pixel, |near| {
                 if !seen[near] && (faint[near] || clipped[near]) {
                     seen[near] = true;
                     component.push(near);

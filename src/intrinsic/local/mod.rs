@@ -1,30 +1,30 @@
 //! Where no region holds: what can be said of a pixel from its surroundings alone (real photographs; beyond the paper).
 //!
 //! Printed cups, fruit and skin break "one object, one skewed T", and a plane fitted to them makes the body image worse than
-//! the input. What still holds there is the dichromatic model at a point: surface reflection adds the light's colour, and so
+//! the input. What still holds there is the dichromatic model at a point: surface reflection adds the light's color, and so
 //! lowers a pixel's saturation below what the same hue has around it. `shade` measures that, `texture` and `blobs` decide
-//! where it is a highlight, `belief` whether this picture has any, and `repair` fills what has clipped.
+//! where it is a highlight, `plausibility` whether this picture has any, and `repair` fills what has clipped.
 //!
 //! Body is the input less what is found, so that input = body + surface, and never more than the input. On a rendered scene of
 //! printed objects the body image goes from 19.6 dB (planes alone; doing nothing: 30.2 dB) to 41 dB.
 
-mod belief;
 mod blobs;
+mod plausibility;
 mod repair;
 mod shade;
 mod texture;
-mod told;
+mod trace_writer;
 
 use super::confidence::LOCAL;
 use super::split::Images;
 use crate::color::Vec3;
-use crate::raster::{Mask, Raster, Window};
-use crate::segment::{FinalRegions, Scene};
+use crate::raster::{Mask, Raster, Roi};
+use crate::segment::{AnalysisInput, FinalRegions};
 use crate::trace::{LocalStart, PixelKind, Recorder};
 use blobs::Highlights;
 use rayon::prelude::*;
 use shade::Shades;
-use told::Told;
+use trace_writer::LocalTraceWriter;
 
 /// Fewest lit pixels that are worth a look, and the least share of all that are lit.
 const LEAST_PIXELS: usize = 64;
@@ -35,65 +35,67 @@ const MARGIN_PX: usize = 24;
 /// Takes the planes' split back where it does not hold, and splits locally there. Returns the confidence of the pixels that
 /// were split so, 0 elsewhere; none where no pixel was. `origin`: the ambient light that was subtracted from the scene, counts.
 pub fn split_locally<R: Recorder>(
-    (scene, origin): (&Scene, &[f64; 3]),
+    (input, origin): (&AnalysisInput, &[f64; 3]),
     regions: &FinalRegions,
-    holding: &Mask,
+    explained_mask: &Mask,
     images: &mut Images,
     recorder: &mut R,
 ) -> Option<Raster<f32>> {
-    let outside = take_back(scene, holding, images);
-    let mut told = Told::new(recorder, *origin);
-    let confidence = split_outside(scene, regions, &outside, images, &mut told);
-    told.finish(outside);
+    let outside = take_back(input, explained_mask, images);
+    let mut trace_writer = LocalTraceWriter::new(recorder, *origin);
+    let confidence = split_outside(input, regions, &outside, images, &mut trace_writer);
+    trace_writer.finish(outside);
     confidence
 }
 
 /// Splits what lies outside of what holds.
 fn split_outside<R: Recorder>(
-    scene: &Scene,
+    input: &AnalysisInput,
     regions: &FinalRegions,
     outside: &Mask,
     images: &mut Images,
-    told: &mut Told<R>,
+    trace_writer: &mut LocalTraceWriter<R>,
 ) -> Option<Raster<f32>> {
     let pixels = outside.as_slice().iter().filter(|&&outside| outside).count();
-    let lit = (0..outside.len()).filter(|&pixel| !scene.masks.dark(pixel)).count();
+    let lit = (0..outside.len()).filter(|&pixel| !input.masks.dark(pixel)).count();
     let few = pixels < LEAST_PIXELS || (pixels as f64) < LEAST_SHARE * lit as f64;
     let light = regions.light.direction.map(Vec3::from);
-    let shades = light.filter(|_| scene.refine.local_split && !few && !scene.stopped()).and_then(|light| {
-        let window = Window::around((outside.width(), outside.height()), MARGIN_PX, |pixel| outside[pixel])?;
-        Some((light, Shades::new(scene, &light, window)?))
+    let shades = light.filter(|_| input.refine.local_split && !few && !input.stopped()).and_then(|light| {
+        let roi = Roi::around((outside.width(), outside.height()), MARGIN_PX, |pixel| outside[pixel])?;
+        Some((light, Shades::new(input, &light, roi)?))
     });
     let start = match shades {
         Some(_) => LocalStart::Begins,
-        None if !scene.refine.local_split => LocalStart::Off,
+        None if !input.refine.local_split => LocalStart::Off,
         None if few => LocalStart::Few,
         None => LocalStart::NoLight,
     };
-    told.began(scene, start, [pixels, lit], regions.light.direction);
+    trace_writer.began(input, start, [pixels, lit], regions.light.direction);
     let (light, shades) = shades?;
-    let texture = scene.refine.texture_test.then(|| texture::texture(&shades, scene.sigma()));
-    let Highlights { weights, judged } = blobs::highlights::<R>(scene, &shades, texture.as_ref(), outside);
-    told.judged(scene, &shades, texture.as_ref(), outside, &judged);
-    if scene.refine.belief {
-        let tested = belief::test(scene, &regions.light, &shades, &weights, outside);
-        let doubted = tested.doubt.is_some();
-        told.believed(tested);
+    let texture = input.refine.texture_test.then(|| texture::texture(&shades, input.sigma()));
+    let Highlights { weights, judged } = blobs::highlights::<R>(input, &shades, texture.as_ref(), outside);
+    trace_writer.judged(input, &shades, texture.as_ref(), outside, &judged);
+    if input.refine.belief {
+        let tested = plausibility::test(input, &regions.light, &shades, &weights, outside);
+        let doubted = tested.reject_reason.is_some();
+        trace_writer.believed(tested);
         if doubted {
             return None;
         }
     }
     let mut confidence = apply(&light, &shades, &weights, images);
-    if scene.refine.clip_repair {
-        told.repairs();
-        repair::repair(scene, outside, images, &mut confidence, |tried, blob| told.repair(tried, blob));
+    if input.refine.clip_repair {
+        trace_writer.repairs();
+        repair::repair(input, outside, images, &mut confidence, |tried, blob| {
+            trace_writer.repair(tried, blob)
+        });
     }
     Some(confidence)
 }
 
 /// Gives lit pixels outside of what holds their input back, and tells which they are.
-fn take_back(scene: &Scene, holding: &Mask, images: &mut Images) -> Mask {
-    let (width, height) = (holding.width(), holding.height());
+fn take_back(input: &AnalysisInput, explained_mask: &Mask, images: &mut Images) -> Mask {
+    let (width, height) = (explained_mask.width(), explained_mask.height());
     let mut outside = Raster::filled(width, height, false);
     let rows = (
         images.body.as_mut_slice().par_chunks_mut(width.max(1)),
@@ -105,14 +107,14 @@ fn take_back(scene: &Scene, holding: &Mask, images: &mut Images) -> Mask {
     rows.into_par_iter().enumerate().for_each(|(y, (body, surface, noise, kinds, outside))| {
         for x in 0..width {
             let pixel = y * width + x;
-            if holding[pixel] {
+            if explained_mask[pixel] {
                 continue;
             }
-            outside[x] = !scene.masks.dark(pixel);
+            outside[x] = !input.masks.dark(pixel);
             if kinds[x] == PixelKind::Unassigned {
                 continue;
             }
-            (body[x], surface[x], noise[x]) = (scene.pixels[pixel], [0.0; 3], 0.0);
+            (body[x], surface[x], noise[x]) = (input.pixels[pixel], [0.0; 3], 0.0);
             // Nothing was restored there.
             if kinds[x] == PixelKind::Restored {
                 kinds[x] = PixelKind::Lost;
@@ -126,7 +128,7 @@ fn take_back(scene: &Scene, holding: &Mask, images: &mut Images) -> Mask {
 fn apply(light: &Vec3, shades: &Shades, weights: &Raster<f32>, images: &mut Images) -> Raster<f32> {
     let width = images.body.width();
     let mut confidence = Raster::filled(width, images.body.height(), 0.0);
-    let window = shades.window;
+    let roi = shades.roi;
     let per_amount: [f32; 3] = std::array::from_fn(|band| (3f64.sqrt() * light[band]) as f32);
     let rows = (
         images.body.as_mut_slice().par_chunks_mut(width.max(1)),
@@ -134,10 +136,10 @@ fn apply(light: &Vec3, shades: &Shades, weights: &Raster<f32>, images: &mut Imag
         images.kinds.as_mut_slice().par_chunks_mut(width.max(1)),
         confidence.as_mut_slice().par_chunks_mut(width.max(1)),
     );
-    let rows = rows.into_par_iter().skip(window.top).take(window.height);
+    let rows = rows.into_par_iter().skip(roi.top).take(roi.height);
     rows.enumerate().for_each(|(row, (body, surface, kinds, confidence))| {
         let found = weights.row(row).iter().zip(shades.points.row(row));
-        for (x, (&weight, point)) in (window.left..).zip(found).filter(|(_, (weight, _))| **weight > 0.0) {
+        for (x, (&weight, point)) in (roi.left..).zip(found).filter(|(_, (weight, _))| **weight > 0.0) {
             let amount = weight * point.surface;
             // Never more than there is in any band.
             surface[x] = std::array::from_fn(|band| (amount * per_amount[band]).min(body[x][band].max(0.0)));
@@ -157,7 +159,7 @@ mod tests {
     use crate::photo::{LinearImage, MaskLimits, Masks};
     use crate::raster::LabelMap;
     use crate::segment::{LightBasis, LightFindings, Parameter, Params, UsedParams};
-    use crate::trace::Silent;
+    use crate::trace::NoopRecorder;
     use proptest::prelude::*;
 
     const SIDE_PX: usize = 96;
@@ -184,10 +186,10 @@ mod tests {
     }
 
     /// Splits a picture in which no region was found, under a light that is known.
-    fn local(colour: impl Fn(f64, f64) -> Vec3) -> (LinearImage, crate::intrinsic::Intrinsic) {
+    fn local(color: impl Fn(f64, f64) -> Vec3) -> (LinearImage, crate::intrinsic::Intrinsic) {
         let place = |i: usize| ((i % SIDE_PX) as f64, (i / SIDE_PX) as f64);
         let data = (0..SIDE_PX * SIDE_PX).map(|i| {
-            let color = colour(place(i).0, place(i).1);
+            let color = color(place(i).0, place(i).1);
             // A fixed pattern in the place of noise: well within it, and the same in every run.
             let noise = ((i * 7919 % 13) as f32 - 6.0) * 0.15;
             crate::color::rgb(&color).map(|band| (band + noise).clamp(0.0, 255.0))
@@ -197,7 +199,7 @@ mod tests {
         let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 1 };
         let masks = Masks::new(&image, &limits);
         let used = numbers();
-        let scene = Scene::new(&image, &masks, &used, Params::default().refinements());
+        let input = AnalysisInput::new(&image, &masks, &used, Params::default().refinements());
         let light = LightFindings {
             direction: Some(light().into()),
             basis: LightBasis::Votes,
@@ -206,7 +208,7 @@ mod tests {
         };
         let labels = LabelMap::filled(SIDE_PX, SIDE_PX, 0);
         let regions = FinalRegions { labels, hypotheses: Vec::new(), light };
-        let result = split(&scene, &regions, &mut Silent);
+        let result = split(&input, &regions, &mut NoopRecorder);
         (image, result)
     }
 
@@ -243,8 +245,8 @@ mod tests {
     #[test]
     fn a_print_without_highlights_is_left_alone() {
         let check = |x: f64, y: f64| ((x / 9.0).floor() + (y / 9.0).floor()) as i64 % 2 == 0;
-        let colours = [Vec3::new(0.8, 0.3, 0.2), Vec3::new(0.6, 0.5, 0.45)];
-        let (image, result) = local(|x, y| colours[usize::from(check(x, y))] * (110.0 + 0.5 * x));
+        let colors = [Vec3::new(0.8, 0.3, 0.2), Vec3::new(0.6, 0.5, 0.45)];
+        let (image, result) = local(|x, y| colors[usize::from(check(x, y))] * (110.0 + 0.5 * x));
         let changed = result.surface.as_slice().iter().filter(|s| s.iter().sum::<f32>() > 6.0).count();
         assert!(changed < image.pixels.len() / 200, "{changed} pixels");
         let (image, result) = local(slope);
@@ -255,11 +257,11 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(12))]
         #[test]
         fn body_is_never_more_than_the_input_and_surface_is_the_rest(
-            colours in prop::array::uniform2(prop::array::uniform3(0.05f64..1.0)), period in 3.0f64..20.0, peak in 0.0f64..500.0,
+            colors in prop::array::uniform2(prop::array::uniform3(0.05f64..1.0)), period in 3.0f64..20.0, peak in 0.0f64..500.0,
         ) {
             let (image, result) = local(|x, y| {
                 let first = ((x / period).floor() + (y / period).floor()) as i64 % 2 == 0;
-                Vec3::from(colours[usize::from(first)]) * (60.0 + x) + highlight(x, y, peak)
+                Vec3::from(colors[usize::from(first)]) * (60.0 + x) + highlight(x, y, peak)
             });
             for (pixel, input) in image.pixels.as_slice().iter().enumerate() {
                 for (band, input) in input.iter().enumerate() {

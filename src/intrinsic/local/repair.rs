@@ -6,7 +6,7 @@
 
 use crate::intrinsic::split::Images;
 use crate::raster::{Mask, Raster};
-use crate::segment::Scene;
+use crate::segment::AnalysisInput;
 use crate::trace::{PixelKind, RepairTried, RepairVerdict};
 
 /// Least share of the ring that is highlight.
@@ -16,30 +16,30 @@ const MOST_PX: usize = 40_000;
 /// Confidence of a repaired pixel.
 const CONFIDENCE: f32 = 0.3;
 
-/// Fills the clipped blobs of `outside` that are highlights; `told` hears of each blob and its pixels.
+/// Fills the clipped blobs of `outside` that are highlights; `trace_writer` hears of each blob and its pixels.
 pub fn repair(
-    scene: &Scene,
+    input: &AnalysisInput,
     outside: &Mask,
     images: &mut Images,
     confidence: &mut Raster<f32>,
-    mut told: impl FnMut(RepairTried, &[usize]),
+    mut trace_writer: impl FnMut(RepairTried, &[usize]),
 ) {
-    let mut blobs = Blobs { scene, mark: outside.map(|_| 0) };
+    let mut blobs = Blobs { input, mark: outside.map(|_| 0) };
     for start in 0..outside.len() {
-        let wanted = |pixel: usize| outside[pixel] && scene.masks.clipped(pixel);
-        if !wanted(start) || blobs.mark[start] != 0 || scene.stopped() {
+        let wanted = |pixel: usize| outside[pixel] && input.masks.clipped(pixel);
+        if !wanted(start) || blobs.mark[start] != 0 || input.stopped() {
             continue;
         }
         let blob = blobs.flood(start, wanted);
         let rings = blobs.rings(&blob);
         let tried = tried(&blob, &rings, &images.surface);
-        told(tried, &blob);
+        trace_writer(tried, &blob);
         if tried.verdict != RepairVerdict::Filled {
             continue;
         }
         let filled = blobs.harmonic(&blob, &rings, &images.body);
         for (&pixel, fill) in blob.iter().zip(filled) {
-            let input = scene.pixels[pixel];
+            let input = input.pixels[pixel];
             images.body[pixel] = std::array::from_fn(|band| fill[band].clamp(0.0, input[band].max(0.0)));
             images.surface[pixel] = std::array::from_fn(|band| input[band] - images.body[pixel][band]);
             if images.kinds[pixel] != PixelKind::Unassigned {
@@ -80,7 +80,7 @@ fn tried(blob: &[usize], [inner, outer]: &[Vec<usize>; 2], surface: &Raster<[f32
 
 /// Blobs of clipped pixels, found one after the other.
 struct Blobs<'a> {
-    scene: &'a Scene<'a>,
+    input: &'a AnalysisInput<'a>,
     /// What has been reached: blobs 1; rings are marked while they are walked.
     mark: Raster<u8>,
 }
@@ -116,7 +116,7 @@ impl Blobs<'_> {
 
     /// Whether a pixel tells what is around a blob.
     fn known(&self, pixel: usize) -> bool {
-        let masks = self.scene.masks;
+        let masks = self.input.masks;
         !masks.clipped(pixel) && !masks.invalid(pixel) && !masks.outside(pixel)
     }
 
@@ -133,7 +133,7 @@ impl Blobs<'_> {
         ring
     }
 
-    /// The values inside a blob that are the mean of their neighbours, by successive over-relaxation.
+    /// The values inside a blob that are the mean of their neighbors, by successive over-relaxation.
     fn harmonic(&self, blob: &[usize], rings: &[Vec<usize>; 2], body: &Raster<[f32; 3]>) -> Vec<[f32; 3]> {
         let ring = || rings.iter().flatten().map(|&pixel| body[pixel]);
         let count = ring().count() as f32;
@@ -145,13 +145,13 @@ impl Blobs<'_> {
             let found = order.binary_search_by_key(&pixel, |&index| blob[index]);
             found.ok().map(|at| order[at])
         };
-        // Of each pixel: its neighbours inside, and the sum and number of those outside.
+        // Of each pixel: its neighbors inside, and the sum and number of those outside.
         let mut near = vec![[usize::MAX; 4]; blob.len()];
         let mut fixed = vec![([0.0f32; 3], 0.0f32); blob.len()];
         for (index, &pixel) in blob.iter().enumerate() {
             let (border, weight) = &mut fixed[index];
             let mut inside = 0;
-            body.for_each_neighbour(pixel, |next| {
+            body.for_each_neighbor(pixel, |next| {
                 if let Some(other) = place(next) {
                     near[index][inside] = other;
                     inside += 1;

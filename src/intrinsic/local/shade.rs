@@ -1,7 +1,7 @@
 //! Rule `local_split`: how much less saturated is a pixel than others of its hue nearby?
 //!
 //! J = I / (√3 s) makes the light s white. a is the mean of J, c the length of its chromatic part, φ that part's angle: the
-//! hue. Surface reflection adds to a alone. A histogram of ln(a/c) over (cells × hues), smoothed over its neighbours, says
+//! hue. Surface reflection adds to a alone. A histogram of ln(a/c) over (cells × hues), smoothed over its neighbors, says
 //! what a/c the body has: κ, its 30 % quantile there. Then ms = max(a − κc, 0), and m_b = κc. How far the median lies above
 //! κ says how much a/c varies without any highlight.
 //!
@@ -10,9 +10,9 @@
 //! and more; with one κ for all hues of a cell 10 dB.
 
 use crate::color::Vec3;
-use crate::raster::{Raster, Window};
-use crate::reflection::paleness_limits;
-use crate::segment::Scene;
+use crate::raster::{Raster, Roi};
+use crate::reflection::desaturation_limits;
+use crate::segment::AnalysisInput;
 use crate::trace::LocalPoint;
 use rayon::prelude::*;
 
@@ -49,7 +49,7 @@ pub struct Shade {
 /// The shade of each pixel of a window.
 pub struct Shades {
     /// Which.
-    pub window: Window,
+    pub roi: Roi,
     /// Dark pixels have none.
     pub points: Raster<Shade>,
     axes: Axes,
@@ -58,40 +58,39 @@ pub struct Shades {
 
 impl Shades {
     /// Under a light; none where the light lacks a band.
-    pub fn new(scene: &Scene, light: &Vec3, window: Window) -> Option<Self> {
+    pub fn new(input: &AnalysisInput, light: &Vec3, roi: Roi) -> Option<Self> {
         let axes = Axes::new(light)?;
-        let histogram = Histogram::new(scene, &axes).smoothed();
+        let histogram = Histogram::new(input, &axes).smoothed();
         let ratios = histogram.ratios();
-        let mut points = Raster::filled(window.width, window.height, Shade::default());
-        let sigma = scene.sigma() as f32;
-        points.as_mut_slice().par_chunks_mut(window.width).enumerate().for_each(|(row, points)| {
-            if scene.stopped() {
+        let mut points = Raster::filled(roi.width, roi.height, Shade::default());
+        let sigma = input.sigma() as f32;
+        points.as_mut_slice().par_chunks_mut(roi.width).enumerate().for_each(|(row, points)| {
+            if input.stopped() {
                 return;
             }
             for (column, point) in points.iter_mut().enumerate() {
-                let pixel = window.at(column, row);
-                if scene.masks.dark(pixel) {
+                let pixel = roi.at(column, row);
+                if input.masks.dark(pixel) {
                     continue;
                 }
-                let seen = axes.of(scene.pixels[pixel]);
-                let place = (window.left + column, window.top + row);
+                let seen = axes.of(input.pixels[pixel]);
+                let place = (roi.left + column, roi.top + row);
                 let Some([ratio, median]) = ratios.read(place, seen.hue) else { continue };
                 point.body = ratio * seen.chroma;
-                if seen.has_hue(sigma) && !scene.masks.clipped(pixel) {
+                if seen.has_hue(sigma) && !input.masks.clipped(pixel) {
                     point.surface = (seen.mean - point.body).max(0.0);
-                    [point.low, point.high] = paleness_limits(sigma, [ratio, median], point.body);
+                    [point.low, point.high] = desaturation_limits(sigma, [ratio, median], point.body);
                 }
             }
         });
-        Some(Self { window, points, axes, ratios })
+        Some(Self { roi, points, axes, ratios })
     }
 
     /// κ and the median around a pixel of the window; none where nothing near has its hue.
-    pub fn ratios(&self, scene: &Scene, index: usize) -> Option<[f32; 2]> {
-        let pixel = self.window.pixel(index);
-        let place =
-            (self.window.left + index % self.window.width, self.window.top + index / self.window.width);
-        self.ratios.read(place, self.axes.of(scene.pixels[pixel]).hue)
+    pub fn ratios(&self, input: &AnalysisInput, index: usize) -> Option<[f32; 2]> {
+        let pixel = self.roi.pixel(index);
+        let place = (self.roi.left + index % self.roi.width, self.roi.top + index / self.roi.width);
+        self.ratios.read(place, self.axes.of(input.pixels[pixel]).hue)
     }
 }
 
@@ -117,7 +116,7 @@ impl Seen {
     }
 }
 
-/// From colours to J.
+/// From colors to J.
 struct Axes {
     gain: [f32; 3],
 }
@@ -184,18 +183,18 @@ impl Row {
 }
 
 impl Histogram {
-    fn new(scene: &Scene, axes: &Axes) -> Self {
-        let (width, height) = (scene.pixels.width(), scene.pixels.height());
+    fn new(input: &AnalysisInput, axes: &Axes) -> Self {
+        let (width, height) = (input.pixels.width(), input.pixels.height());
         let scale = ((width * height) as f64 / MEGAPIXEL).sqrt().max(1.0);
         let cell_px = (CELL_PX * scale).round() as usize;
         let columns = width.div_ceil(cell_px);
-        let sigma = scene.sigma() as f32;
+        let sigma = input.sigma() as f32;
         let counted = |row: usize| {
             let mut counts = Row::empty(columns);
             for y in row * cell_px..((row + 1) * cell_px).min(height) {
-                for (x, &color) in scene.pixels.row(y).iter().enumerate() {
+                for (x, &color) in input.pixels.row(y).iter().enumerate() {
                     let pixel = y * width + x;
-                    if scene.masks.dark(pixel) || scene.masks.clipped(pixel) {
+                    if input.masks.dark(pixel) || input.masks.clipped(pixel) {
                         continue;
                     }
                     let seen = axes.of(color);

@@ -20,7 +20,7 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let layer = |wanted: &[&str]| {
         chunks.headers().iter().filter(flat).find(|header| wanted.iter().all(|name| has(header, name)))
     };
-    let (header, grey) = match (layer(&["R", "G", "B"]), layer(&["Y"])) {
+    let (header, gray) = match (layer(&["R", "G", "B"]), layer(&["Y"])) {
         (Some(header), _) => (header, false),
         (None, Some(header)) if !has(header, "RY") => (header, true),
         _ => {
@@ -40,16 +40,16 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
         warnings
             .push("the OpenEXR file's data window differs from its display window: the data are read".into());
     }
-    let (layout, data) = match (grey, with_alpha) {
+    let (layout, data) = match (gray, with_alpha) {
         (false, false) => (Layout::Rgb, rgb(chunks)?),
         (false, true) => (Layout::Rgba, rgba(chunks)?),
-        (true, false) => (Layout::Grey, luminance(chunks)?),
-        (true, true) => (Layout::GreyAlpha, luminance_alpha(chunks)?),
+        (true, false) => (Layout::Gray, luminance(chunks)?),
+        (true, true) => (Layout::GrayAlpha, luminance_alpha(chunks)?),
     };
     if data.len() != size.0 * size.1 * layout.channels() {
         return Err(Fault::damaged("its pixels do not fill its size"));
     }
-    // "Technical Introduction to OpenEXR", premultiplied vs. un-premultiplied: colour is multiplied by alpha.
+    // "Technical Introduction to OpenEXR", premultiplied vs. un-premultiplied: color is multiplied by alpha.
     let alpha = AlphaKind::Associated;
     Ok(Decoded { alpha, warnings, ..Decoded::plain(size, layout, Samples::F32(data)) })
 }

@@ -1,4 +1,4 @@
-//! JPEG. The decoder fills what is missing with grey, so that the file's own structure is walked first.
+//! JPEG. The decoder fills what is missing with gray, so that the file's own structure is walked first.
 
 use super::{Budget, Decoded};
 use crate::photo::error::Fault;
@@ -9,7 +9,7 @@ use std::io::Cursor;
 
 pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     if components(bytes)? == 4 {
-        return Err(Fault::unsupported("CMYK, the colours of a printing press", "convert it to RGB"));
+        return Err(Fault::unsupported("CMYK, the colors of a printing press", "convert it to RGB"));
     }
     let mut decoder = JpegDecoder::new(Cursor::new(bytes))?;
     let (width, height) = decoder.dimensions();
@@ -24,7 +24,7 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     Ok(Decoded { icc, orientation, ..Decoded::plain(size, layout, Samples::U8(data)) })
 }
 
-/// The number of colour components, from a file that is complete (ITU-T T.81, annex B).
+/// The number of color components, from a file that is complete (ITU-T T.81, annex B).
 fn components(bytes: &[u8]) -> Result<u8, Fault> {
     let cut = || Fault::damaged("it ends before its end marker");
     let mut found = None;

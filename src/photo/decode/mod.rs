@@ -8,7 +8,7 @@ mod tiff;
 
 use super::error::Fault;
 use super::format::Format;
-use super::source::{AlphaKind, Layout, PngColour, Samples};
+use super::source::{AlphaKind, Layout, PngColor, Samples};
 use image::metadata::Orientation;
 
 /// What a decoder hands out.
@@ -23,7 +23,7 @@ pub(super) struct Decoded {
     pub max: Option<u32>,
     pub alpha: AlphaKind,
     pub icc: Option<Vec<u8>>,
-    pub png: PngColour,
+    pub png: PngColor,
     /// What turns the stored picture upright.
     pub orientation: Orientation,
     pub warnings: Vec<String>,
@@ -39,7 +39,7 @@ impl Decoded {
             samples,
             alpha: AlphaKind::Straight,
             icc: None,
-            png: PngColour::default(),
+            png: PngColor::default(),
             orientation: Orientation::NoTransforms,
             warnings: Vec::new(),
         }

@@ -1,8 +1,8 @@
-//! PNG (3rd edition), through the `png` crate, which hands out the colour chunks that `image` keeps to itself.
+//! PNG (3rd edition), through the `png` crate, which hands out the color chunks that `image` keeps to itself.
 
 use super::{Budget, Decoded};
 use crate::photo::error::Fault;
-use crate::photo::source::{Layout, PngColour, Samples};
+use crate::photo::source::{Layout, PngColor, Samples};
 use image::metadata::Orientation;
 use png::{BitDepth, ColorType, Decoder, Info, Limits, Transformations};
 use std::io::Cursor;
@@ -22,8 +22,8 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
 
     let (color, depth) = reader.output_color_type();
     let layout = match color {
-        ColorType::Grayscale => Layout::Grey,
-        ColorType::GrayscaleAlpha => Layout::GreyAlpha,
+        ColorType::Grayscale => Layout::Gray,
+        ColorType::GrayscaleAlpha => Layout::GrayAlpha,
         ColorType::Rgb => Layout::Rgb,
         ColorType::Rgba => Layout::Rgba,
         ColorType::Indexed => return Err(Fault::damaged("its palette is missing")),
@@ -35,7 +35,7 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     };
     let info = reader.info();
     let mut decoded = Decoded::plain(size, layout, samples);
-    decoded.png = colour_chunks(info);
+    decoded.png = color_chunks(info);
     decoded.icc = info.icc_profile.as_ref().map(|profile| profile.to_vec());
     decoded.orientation = info
         .exif_metadata
@@ -48,8 +48,8 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     Ok(decoded)
 }
 
-fn colour_chunks(info: &Info) -> PngColour {
-    PngColour {
+fn color_chunks(info: &Info) -> PngColor {
+    PngColor {
         cicp: info.coding_independent_code_points.map(|points| {
             let range = u8::from(points.is_video_full_range_image);
             [points.color_primaries, points.transfer_function, points.matrix_coefficients, range]

@@ -1,4 +1,4 @@
-//! TIFF 6.0 and `BigTIFF`, through the `tiff` crate: grey, palette and RGB of 1 to 32 bits, half to double floats.
+//! TIFF 6.0 and `BigTIFF`, through the `tiff` crate: gray, palette and RGB of 1 to 32 bits, half to double floats.
 
 mod palette;
 
@@ -27,8 +27,8 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let (layout, samples) = match palette::of(&mut reader)? {
         None => read_samples(&mut reader, size)?,
         Some(palette) => {
-            let as_grey = palette::indices_as_grey(bytes)?;
-            let mut reader = Decoder::new(Cursor::new(&as_grey[..]))?.with_limits(limits);
+            let as_gray = palette::indices_as_gray(bytes)?;
+            let mut reader = Decoder::new(Cursor::new(&as_gray[..]))?.with_limits(limits);
             (Layout::Rgb, palette.look_up(&indices(&mut reader, size)?)?)
         }
     };
@@ -57,17 +57,17 @@ fn extra_samples(reader: &mut Reader) -> Result<Vec<u16>, Fault> {
 fn stored_layout(reader: &mut Reader) -> Result<(Layout, u8), Fault> {
     let color = reader.colortype()?;
     match color {
-        ColorType::Gray(bits) => Ok((Layout::Grey, bits)),
-        ColorType::GrayA(bits) => Ok((Layout::GreyAlpha, bits)),
+        ColorType::Gray(bits) => Ok((Layout::Gray, bits)),
+        ColorType::GrayA(bits) => Ok((Layout::GrayAlpha, bits)),
         ColorType::RGB(bits) => Ok((Layout::Rgb, bits)),
         ColorType::RGBA(bits) => Ok((Layout::Rgba, bits)),
         ColorType::Multiband { bit_depth, .. } => {
-            // Grey with more samples; the second counts if it is said to be alpha.
+            // Gray with more samples; the second counts if it is said to be alpha.
             let has_alpha = matches!(extra_samples(reader)?.first(), Some(1 | 2));
-            Ok((if has_alpha { Layout::GreyAlpha } else { Layout::Grey }, bit_depth))
+            Ok((if has_alpha { Layout::GrayAlpha } else { Layout::Gray }, bit_depth))
         }
         ColorType::CMYK(_) | ColorType::CMYKA(_) => {
-            Err(Fault::unsupported("CMYK, the colours of a printing press", "convert it to RGB"))
+            Err(Fault::unsupported("CMYK, the colors of a printing press", "convert it to RGB"))
         }
         other => Err(Fault::unsupported(format!("{other:?} pixels"), CONVERT)),
     }
@@ -97,7 +97,7 @@ fn read_samples(reader: &mut Reader, (width, height): (usize, usize)) -> Result<
     Ok((layout, samples))
 }
 
-/// Palette indices that the file calls grey.
+/// Palette indices that the file calls gray.
 fn indices(reader: &mut Reader, (width, height): (usize, usize)) -> Result<Vec<u8>, Fault> {
     let (_, bits) = stored_layout(reader)?;
     let (buffer, planes) = read_buffer(reader)?;

@@ -31,11 +31,11 @@ fn search(amounts: impl Fn(f64, f64) -> (f64, f64), seed: u64, label: impl Fn(us
         let (b, s) = amounts(x, y);
         body * b + surface * s + Vec3::from_fn(|_, _| 1.25 * gauss(&noise))
     });
-    let scene = drawing.scene();
+    let input = drawing.input();
     let labels: Vec<u16> = (0..SIDE_PX * SIDE_PX).map(label).collect();
     let labels = LabelMap::from_vec(SIDE_PX, SIDE_PX, labels).unwrap();
     let search = BranchSearch {
-        scene: &scene,
+        input: &input,
         labels: &labels,
         region: 1,
         transform: &ReflectionTransform::new(&body, &surface).unwrap(),
@@ -134,7 +134,7 @@ fn specks_sheen_and_mixed_borders_are_no_highlights() {
         (faces(170.0, 110.0)(x, y), shine(&[(LEFT.0, LEFT.1, 300.0)], x, y) + ambient)
     };
     assert_eq!(search(veiled, 5, |_| 1).cores.len(), 1);
-    // A column of mixed colours beside another region.
+    // A column of mixed colors beside another region.
     let mixed = |x: f64, y: f64| {
         let s = if (79.0..80.0).contains(&x) { 90.0 } else { shine(&[LEFT], x, y) };
         (faces(60.0, 130.0)(x, y), s)

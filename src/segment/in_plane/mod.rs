@@ -1,6 +1,6 @@
 //! Where in its dichromatic plane does an object put the illuminant? (refinement `robust_illuminant`)
 //!
-//! Within a plane, colour alone cannot tell a highlight from brighter body reflection of another colour; position can:
+//! Within a plane, color alone cannot tell a highlight from brighter body reflection of another color; position can:
 //! body reflection varies smoothly over the surface, a highlight does not. Around each highlight the coordinate along the
 //! matte line is regressed on a polynomial of the position, for the body, plus cotθ times the in-plane offset, for the
 //! highlight. cotθ is where the illuminant lies. The offset is noisy itself, which would pull cotθ towards zero: its share
@@ -12,13 +12,13 @@
 //! quartic leaves of the offset little but noise, a cubic over a ring twice as wide is tried.
 //!
 //! The height above the plane is regressed in the same way. Ambient light is reflected by the surface too, faintly and
-//! everywhere; the plane through all pixels off the matte line then turns towards its colour (7° on a rendered cup), the one
+//! everywhere; the plane through all pixels off the matte line then turns towards its color (7° on a rendered cup), the one
 //! that the highlight itself rises in does not.
 
 mod regress;
 
-use super::ledger::Pixels;
-use super::scene::Scene;
+use super::input::AnalysisInput;
+use super::recorded_labels::Pixels;
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED, dilate};
 use crate::reflection::DichromaticPlane;
 use regress::{CUBIC, QUADRATIC, QUARTIC, Sample, regress};
@@ -28,7 +28,7 @@ use std::ops::Range;
 const MIN_BLOB_PX: usize = 12;
 /// Most highlights of one region that are looked at, the largest.
 const MAX_BLOBS: usize = 6;
-/// Pixels that lie farther inside the plane show the light's colour by themselves, σ.
+/// Pixels that lie farther inside the plane show the light's color by themselves, σ.
 const STRONG: f64 = 24.0;
 
 /// Where one object's highlights put the illuminant.
@@ -57,7 +57,7 @@ pub struct Rise {
 #[derive(Clone, Copy)]
 pub struct InPlaneSearch<'a> {
     /// The picture.
-    pub scene: &'a Scene<'a>,
+    pub input: &'a AnalysisInput<'a>,
     /// Region of each pixel.
     pub labels: &'a LabelMap,
     /// The region.
@@ -79,7 +79,7 @@ impl InPlaneSearch<'_> {
         for blob in blobs {
             let radius_px = (blob.len() as f64 / std::f64::consts::PI).sqrt().clamp(3.0, 24.0) as usize;
             let blob = Blob::new(&blob, 2 * radius_px, self.labels.width(), self.labels.height());
-            let sigma = self.scene.sigma();
+            let sigma = self.input.sigma();
             let around = self.samples(&blob, radius_px);
             let outshone = around.iter().filter(|sample| sample.offset > STRONG * sigma);
             strong.extend(outshone.map(|sample| [sample.offset, sample.height]));
@@ -116,7 +116,7 @@ impl InPlaneSearch<'_> {
                 let local = pixel as usize - first;
                 let mut found = [usize::MAX; 4];
                 let mut count = 0;
-                bright.for_each_neighbour(local, |near| {
+                bright.for_each_neighbor(local, |near| {
                     if bright[near] {
                         found[count] = near;
                         count += 1;
@@ -138,16 +138,16 @@ impl InPlaneSearch<'_> {
 
     /// Which pixels of some rows are highlights of the region, or distorted and not another's.
     fn bright_rows(&self, rows: Range<usize>) -> Mask {
-        let Self { scene, labels, region, .. } = *self;
+        let Self { input, labels, region, .. } = *self;
         let axes = self.plane.coordinates();
-        let least = scene.used.radius_counts() as f32;
+        let least = input.used.radius_counts() as f32;
         let width = labels.width();
         let bright = |pixel: usize| {
             let label = labels[pixel];
             if label != region && label != UNASSIGNED {
                 return false;
             }
-            scene.masks.distorted(pixel) || (label == region && axes.of(scene.pixels[pixel]).offset > least)
+            input.masks.distorted(pixel) || (label == region && axes.of(input.pixels[pixel]).offset > least)
         };
         let data = (rows.start * width..rows.end * width).map(bright).collect();
         Raster::from_vec(width, rows.len(), data).unwrap_or_default()
@@ -155,9 +155,9 @@ impl InPlaneSearch<'_> {
 
     /// The believable pixels of the region within `radius_px` of a highlight.
     fn samples(&self, blob: &Blob, radius_px: usize) -> Vec<Sample> {
-        let Self { scene, labels, region, .. } = *self;
+        let Self { input, labels, region, .. } = *self;
         let axes = self.plane.coordinates();
-        let thickness = scene.used.radius_counts() as f32;
+        let thickness = input.used.radius_counts() as f32;
         let least_along = (0.3 * self.matte_length) as f32;
         let near = dilate(&blob.mask, radius_px);
         let width = near.width();
@@ -166,10 +166,10 @@ impl InPlaneSearch<'_> {
             let (x, y) = (index % width + blob.left, index / width + blob.top);
             let pixel = y * labels.width() + x;
             let label = labels[pixel];
-            if (label != region && label != UNASSIGNED) || !scene.masks.usable(pixel) {
+            if (label != region && label != UNASSIGNED) || !input.masks.usable(pixel) {
                 continue;
             }
-            let point = axes.of(scene.pixels[pixel]);
+            let point = axes.of(input.pixels[pixel]);
             // A plane that is off loses the strongest pixels first: what lies inside it at a small angle is looked at too.
             let inside = point.height.abs() < (point.offset / 2.0).max(thickness);
             let own = label == region || point.offset > thickness;

@@ -42,7 +42,7 @@ pub fn regress<const N: usize, const M: usize>(samples: &[Sample], sigma: f64) -
     if samples.len() < 4 * N {
         return None;
     }
-    let samples = centred(samples);
+    let samples = centered(samples);
     let mut sums = Sums::default();
     for sample in &samples {
         sums.add(sample, 1.0);
@@ -91,12 +91,12 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The samples with positions from −1 to 1 about their mean, which keeps the normal equations well conditioned.
-fn centred(samples: &[Sample]) -> Vec<Sample> {
+fn centered(samples: &[Sample]) -> Vec<Sample> {
     let n = samples.len() as f64;
-    let centre = samples.iter().fold((0.0, 0.0), |c, s| (c.0 + s.x / n, c.1 + s.y / n));
-    let from_centre = |s: &Sample| (s.x - centre.0, s.y - centre.1);
-    let spread = samples.iter().map(from_centre).map(|(x, y)| x.abs().max(y.abs())).fold(1.0, f64::max);
-    let scaled = |s: &Sample| Sample { x: (s.x - centre.0) / spread, y: (s.y - centre.1) / spread, ..*s };
+    let center = samples.iter().fold((0.0, 0.0), |c, s| (c.0 + s.x / n, c.1 + s.y / n));
+    let from_center = |s: &Sample| (s.x - center.0, s.y - center.1);
+    let spread = samples.iter().map(from_center).map(|(x, y)| x.abs().max(y.abs())).fold(1.0, f64::max);
+    let scaled = |s: &Sample| Sample { x: (s.x - center.0) / spread, y: (s.y - center.1) / spread, ..*s };
     samples.iter().map(scaled).collect()
 }
 

@@ -45,7 +45,7 @@ pub(super) fn verdicts(
         found.push(MaskVerdict::Clipped { largest });
     } else if masks.distorted(pixel) {
         let clipped = image.pixels.around(pixel).filter(|&near| near != pixel && masks.clipped(near)).count();
-        found.push(MaskVerdict::Bloomed { neighbours: [clipped, limits.bloom_density] });
+        found.push(MaskVerdict::Bloomed { neighbors: [clipped, limits.bloom_density] });
     }
     if found.is_empty() {
         found.push(MaskVerdict::Believed { brightness, largest });
@@ -53,7 +53,7 @@ pub(super) fn verdicts(
     found
 }
 
-/// A believed colour's amounts (equation 13), and the surface reflection that was cut, counts off the body line.
+/// A believed color's amounts (equation 13), and the surface reflection that was cut, counts off the body line.
 pub(super) fn amounts(fitted: &VectorsFitted, color: [f32; 3]) -> (Components, Option<f32>) {
     let color = std::array::from_fn(|band| color[band] - fitted.origin[band] as f32);
     let transform = fitted.surface.and_then(|surface| ReflectionTransform::new(&fitted.body, &surface));

@@ -68,7 +68,7 @@ pub(super) enum Reaching<'a> {
 }
 
 impl Reaching<'_> {
-    /// How far inside a colour lies.
+    /// How far inside a color lies.
     pub(super) fn reach(&self, color: [f32; 3]) -> Reach {
         match *self {
             Self::Cylinder(cylinder, radius) => {
@@ -81,7 +81,7 @@ impl Reaching<'_> {
         }
     }
 
-    /// What keeps a colour out; none where it lies inside.
+    /// What keeps a color out; none where it lies inside.
     pub(super) fn barrier(&self, color: [f32; 3]) -> Option<Barrier> {
         match *self {
             Self::Cylinder(cylinder, radius) => (!cylinder.contains(color))
@@ -94,7 +94,7 @@ impl Reaching<'_> {
     }
 }
 
-/// Distance of a colour from black, counts.
+/// Distance of a color from black, counts.
 pub(super) fn brightness(color: [f32; 3]) -> f32 {
     dot(color, color).sqrt()
 }

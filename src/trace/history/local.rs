@@ -1,16 +1,16 @@
 //! What was decided about a pixel that lies outside of what holds: under which light, by what around it, in which blob.
 
-use super::{Happening, LocalFate, LocalStory, What};
+use super::{HistoryEntry, HistoryKind, LocalFate, LocalStory};
 use crate::photo::{LinearImage, Masks};
-use crate::reflection::paleness_limits;
+use crate::reflection::desaturation_limits;
 use crate::trace::{
-    BeliefTested, Event, LocalBegan, LocalDecision, LocalPoint, LocalStart, RepairVerdict, Stage, Trace,
+    Event, LocalBegan, LocalDecision, LocalPoint, LocalStart, PlausibilityTested, RepairVerdict, Stage, Trace,
 };
 
 /// What is told, and what came of it.
 pub(super) struct Outside {
     /// Oldest first.
-    pub(super) told: Vec<Happening>,
+    pub(super) told: Vec<HistoryEntry>,
     /// Amount of surface reflection m_s that was found, counts; none where it was filled from what is around it.
     pub(super) surface: Option<f32>,
 }
@@ -18,7 +18,7 @@ pub(super) struct Outside {
 impl Outside {
     /// None for a pixel that a region explains, or that is dark.
     pub(super) fn of(trace: &Trace, image: &LinearImage, masks: &Masks, pixel: usize) -> Option<Self> {
-        let record = trace.reel(Stage::Split)?.local()?;
+        let record = trace.stage_trace(Stage::Split)?.local()?;
         if !record.outside(pixel) {
             return None;
         }
@@ -44,11 +44,11 @@ struct Case<'a> {
     light: Option<(usize, Stage, &'a Event)>,
     began: Option<(usize, &'a LocalBegan)>,
     least_px: u32,
-    /// Its blob's judgement, whether it is kept, and what else was decided.
+    /// Its blob's judgment, whether it is kept, and what else was decided.
     decided: Vec<(usize, &'a Event)>,
     kept: bool,
     filled: bool,
-    belief: Option<(usize, &'a Event, &'a BeliefTested)>,
+    plausibility: Option<(usize, &'a Event, &'a PlausibilityTested)>,
 }
 
 impl<'a> Case<'a> {
@@ -76,32 +76,37 @@ impl<'a> Case<'a> {
                 self.filled = tried.verdict == RepairVerdict::Filled;
                 self.decided.push((step, event));
             }
-            Event::Local(LocalDecision::Belief(tested)) => self.belief = Some((step, event, tested)),
+            Event::Local(LocalDecision::Plausibility(tested)) => {
+                self.plausibility = Some((step, event, tested))
+            }
             _ => {}
         }
     }
 
     fn told(mut self) -> Outside {
-        let doubted = self.belief.is_some_and(|(.., tested)| tested.doubt.is_some());
+        let doubted = self.plausibility.is_some_and(|(.., tested)| tested.reject_reason.is_some());
         let story = self.began.filter(|_| self.point.is_some()).map(|(step, began)| {
             let story = self.story(began, doubted);
             (step, story)
         });
         let surface = story.as_ref().map_or(0.0, |(_, story)| if doubted { 0.0 } else { story.surface() });
-        if let Some((step, event, _)) = self.belief.filter(|_| doubted || surface > 0.0 || self.filled) {
+        if let Some((step, event, _)) = self.plausibility.filter(|_| doubted || surface > 0.0 || self.filled)
+        {
             self.decided.push((step, event));
         }
-        let light =
-            self.light.map(|(step, stage, event)| (step, stage, What::Decided(Box::new(event.clone()))));
-        let story = story.map(|(step, story)| (step, Stage::Split, What::Surroundings(Box::new(story))));
+        let light = self
+            .light
+            .map(|(step, stage, event)| (step, stage, HistoryKind::Decided(Box::new(event.clone()))));
+        let story =
+            story.map(|(step, story)| (step, Stage::Split, HistoryKind::Surroundings(Box::new(story))));
         let decided = self.decided.into_iter();
         let decided =
-            decided.map(|(step, event)| (step, Stage::Split, What::Decided(Box::new(event.clone()))));
-        let mut told: Vec<Happening> = light
+            decided.map(|(step, event)| (step, Stage::Split, HistoryKind::Decided(Box::new(event.clone()))));
+        let mut told: Vec<HistoryEntry> = light
             .into_iter()
             .chain(story)
             .chain(decided)
-            .map(|(step, stage, what)| Happening { step, stage, what })
+            .map(|(step, stage, what)| HistoryEntry { step, stage, what })
             .collect();
         told.sort_by_key(|happening| happening.step);
         Outside { told, surface: (!self.filled).then_some(surface) }
@@ -118,7 +123,8 @@ impl<'a> Case<'a> {
         let has_hue = mean > limits.mean && chroma > limits.chroma;
         let known = ratios.filter(|_| has_hue && !self.clipped);
         let body = ratios.map_or(0.0, |[ratio, _]| ratio * chroma);
-        let [noise, variation] = known.map_or([0.0; 2], |ratios| paleness_limits(limits.sigma, ratios, body));
+        let [noise, variation] =
+            known.map_or([0.0; 2], |ratios| desaturation_limits(limits.sigma, ratios, body));
         let mut story = LocalStory {
             mean,
             chroma,
@@ -144,7 +150,7 @@ impl<'a> Case<'a> {
         }
         let has_hue = story.mean > story.limits.mean && story.chroma > story.limits.chroma;
         if !has_hue {
-            return LocalFate::Grey;
+            return LocalFate::Gray;
         }
         if point.ratios().is_none() {
             return LocalFate::Alone;

@@ -1,18 +1,18 @@
 //! The history of one pixel: what was decided about it, by which numbers, and why it was refused where it was.
 //!
 //! Claims, contests and events are in the trace. What the trace leaves out is computed again, exactly, from the recorded line
-//! or plane and the pixel's colour: how far it lay from the axis that claimed it, and why a region that grew beside it did
-//! not take it. A region's growth visits the 4-neighbours of all it starts from and takes (5.3.2, 5.4.2, 5.5), so that a
-//! neighbour which was neither taken nor contested was refused by its mask or by its colour.
+//! or plane and the pixel's color: how far it lay from the axis that claimed it, and why a region that grew beside it did
+//! not take it. A region's growth visits the 4-neighbors of all it starts from and takes (5.3.2, 5.4.2, 5.5), so that a
+//! neighbor which was neither taken nor contested was refused by its mask or by its color.
 //!
-//! One pass over the trace suffices: the changes of hands of the pixel and of its four neighbours, and the events.
+//! One pass over the trace suffices: the changes of hands of the pixel and of its four neighbors, and the events.
 
+mod builder;
 mod facts;
 mod growth;
 mod local;
 mod patch;
 mod split;
-mod teller;
 #[cfg(test)]
 mod tests;
 
@@ -25,23 +25,23 @@ use crate::reflection::SliceMiss;
 
 /// Something that was decided about a pixel.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Happening {
+pub struct HistoryEntry {
     /// The step of the trace at which it was decided.
     pub step: usize,
     /// The stage of that step.
     pub stage: Stage,
     /// What was decided.
-    pub what: What,
+    pub what: HistoryKind,
 }
 
 /// What was decided about a pixel. Regions by their numbers of birth unless said otherwise; 0 is no region.
 #[derive(Clone, Debug, PartialEq)]
-pub enum What {
-    /// Its colour is believed, or why not (section 4).
+pub enum HistoryKind {
+    /// Its color is believed, or why not (section 4).
     Masked(MaskVerdict),
     /// Its window was classified (5.2.1).
     Window(Box<WindowStory>),
-    /// Its window's area was tried with its neighbours (5.2.2).
+    /// Its window's area was tried with its neighbors (5.2.2).
     Merging(Box<MergeStory>),
     /// Its area started a hypothesis (5.3.1).
     AreaChosen {
@@ -170,7 +170,7 @@ pub enum What {
     Decided(Box<Event>),
 }
 
-/// Whether a colour is believed (section 4).
+/// Whether a color is believed (section 4).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MaskVerdict {
     /// Neither dark nor distorted.
@@ -194,10 +194,10 @@ pub enum MaskVerdict {
         /// The largest band, counts, and that from which a pixel is clipped.
         largest: [f64; 2],
     },
-    /// Too many of its 8 neighbours are clipped.
+    /// Too many of its 8 neighbors are clipped.
     Bloomed {
-        /// Clipped neighbours, and so many make a pixel bloomed.
-        neighbours: [usize; 2],
+        /// Clipped neighbors, and so many make a pixel bloomed.
+        neighbors: [usize; 2],
     },
 }
 
@@ -238,8 +238,8 @@ pub struct MergeStory {
 pub struct MergeRefusal {
     /// The step at which it was.
     pub step: usize,
-    /// Valid pixels of the neighbour.
-    pub neighbour_pixels: u32,
+    /// Valid pixels of the neighbor.
+    pub neighbor_pixels: u32,
     /// What the union would have been.
     pub union: Class,
     /// The χ² test that showed one direction too many.
@@ -330,10 +330,10 @@ pub enum Release {
 /// picture.
 ///
 /// `image` and `masks` are those that the trace was made from.
-pub fn pixel_history(trace: &Trace, image: &LinearImage, masks: &Masks, pixel: usize) -> Vec<Happening> {
+pub fn pixel_history(trace: &Trace, image: &LinearImage, masks: &Masks, pixel: usize) -> Vec<HistoryEntry> {
     let shape = (trace.width(), trace.height());
     if shape != (image.width(), image.height()) || shape != masks.shape() || pixel >= image.pixels.len() {
         return Vec::new();
     }
-    teller::Teller::new(trace, image, masks, pixel).tell()
+    builder::HistoryBuilder::new(trace, image, masks, pixel).tell()
 }

@@ -1,6 +1,6 @@
 //! The window that a pixel lies in, and its area.
 
-use super::{MergeRefusal, MergeStory, What, WindowStory};
+use super::{HistoryKind, MergeRefusal, MergeStory, WindowStory};
 use crate::color::ClusterTest;
 use crate::trace::{Class, Event, WindowsLaid};
 
@@ -28,7 +28,7 @@ impl<'a> Patch<'a> {
     }
 
     /// What an event says about the window.
-    pub(super) fn hear(&mut self, step: usize, event: &Event) -> Option<What> {
+    pub(super) fn hear(&mut self, step: usize, event: &Event) -> Option<HistoryKind> {
         match event {
             Event::WindowClassified { window, pixels, eigenvalues, class, .. } if *window == self.window => {
                 self.class = *class;
@@ -36,7 +36,7 @@ impl<'a> Patch<'a> {
                     Some(_) => self.test.trials(f64::from(*pixels), eigenvalues.map(f64::from)),
                     None => Vec::new(),
                 };
-                Some(What::Window(Box::new(WindowStory {
+                Some(HistoryKind::Window(Box::new(WindowStory {
                     size_px: self.laid.size_px,
                     pixels: [*pixels, self.laid.least_pixels],
                     eigenvalues: *eigenvalues,
@@ -71,7 +71,7 @@ impl<'a> Patch<'a> {
             let trials = self.test.trials(f64::from(both), eigenvalues.map(f64::from));
             story.refusal = Some(MergeRefusal {
                 step,
-                neighbour_pixels: pixels[1 - own],
+                neighbor_pixels: pixels[1 - own],
                 union: *union,
                 trial: trials.into_iter().rev().find(|trial| !trial.is_noise()),
             });
@@ -79,7 +79,7 @@ impl<'a> Patch<'a> {
     }
 
     /// How the area grew, once that is over, and the last step of it.
-    pub(super) fn merged(&mut self) -> Option<(usize, What)> {
-        self.merging.take().map(|(step, story)| (step, What::Merging(Box::new(story))))
+    pub(super) fn merged(&mut self) -> Option<(usize, HistoryKind)> {
+        self.merging.take().map(|(step, story)| (step, HistoryKind::Merging(Box::new(story))))
     }
 }

@@ -11,9 +11,9 @@ pub struct SplitStory {
     /// What it is to its region.
     pub kind: PixelKind,
     /// Distances from the matte and from the highlight line, counts; the nearer decides. None without a highlight line, and
-    /// where the colour is not believed.
+    /// where the color is not believed.
     pub lines: Option<[f32; 2]>,
-    /// Its amounts m_b, m_s and ε (equation 13), counts. None where the colour is not believed: it was restored.
+    /// Its amounts m_b, m_s and ε (equation 13), counts. None where the color is not believed: it was restored.
     pub amounts: Option<Components>,
     /// Surface reflection that was taken for none, as it lies less than [`SplitStory::least_offset`] off the body line,
     /// counts across that line.
@@ -85,8 +85,8 @@ impl LocalStory {
 pub enum LocalFate {
     /// It is clipped: only what surrounds it can tell.
     Clipped,
-    /// It is too dark or too grey to have a hue.
-    Grey,
+    /// It is too dark or too gray to have a hue.
+    Gray,
     /// Nothing around it has its hue.
     Alone,
     /// It is no paler than noise explains.

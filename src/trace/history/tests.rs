@@ -7,7 +7,7 @@ use crate::raster::Raster;
 use crate::reflection::{Components, DichromaticPlane, Slice, SliceBound};
 use crate::trace::{
     Event, FitLimits, HypothesisChosen, LineRefitted, MasksMade, Measure, Pass, PixelKind, Recorder,
-    SliceMade, Tape, VectorsFitted, WindowsLaid,
+    SliceMade, TraceRecorder, VectorsFitted, WindowsLaid,
 };
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ const RADIUS: f64 = 10.0;
 struct Strip {
     image: LinearImage,
     masks: Masks,
-    reels: Vec<Arc<super::super::Reel>>,
+    stage_traces: Vec<Arc<super::super::StageTrace>>,
 }
 
 impl Strip {
@@ -26,12 +26,12 @@ impl Strip {
         let image =
             LinearImage::new(Raster::from_vec(colors.len(), 1, colors.to_vec()).unwrap(), Some(255.0));
         let masks = Masks::new(&image, &LIMITS);
-        let strip = Self { masks, image, reels: Vec::new() };
+        let strip = Self { masks, image, stage_traces: Vec::new() };
         let made = MasksMade { limits: LIMITS, dark: 0, distorted: 0, sigma: None };
-        strip.stage(Stage::Masks, |tape| tape.record(Event::MasksMade(Box::new(made.clone())))).stage(
+        strip.stage(Stage::Masks, |recorder| recorder.record(Event::MasksMade(Box::new(made.clone())))).stage(
             Stage::Classify,
-            |tape| {
-                tape.record(Event::WindowsLaid(Box::new(WindowsLaid {
+            |recorder| {
+                recorder.record(Event::WindowsLaid(Box::new(WindowsLaid {
                     size_px: 2,
                     columns: colors.len().div_ceil(2) as u32,
                     rows: 1,
@@ -43,24 +43,24 @@ impl Strip {
         )
     }
 
-    fn stage(mut self, stage: Stage, record: impl FnOnce(&mut Tape)) -> Self {
-        let mut tape = Tape::default();
-        tape.record(Event::StageBegan { stage });
-        record(&mut tape);
-        self.reels.extend(tape.finish(stage).map(Arc::new));
+    fn stage(mut self, stage: Stage, record: impl FnOnce(&mut TraceRecorder)) -> Self {
+        let mut recorder = TraceRecorder::default();
+        recorder.record(Event::StageBegan { stage });
+        record(&mut recorder);
+        self.stage_traces.extend(recorder.finish(stage).map(Arc::new));
         self
     }
 
     /// What happened to a pixel after the masks were made.
-    fn history(&self, pixel: usize) -> Vec<What> {
-        let trace = Trace::new(self.image.width(), 1, self.reels.clone());
+    fn history(&self, pixel: usize) -> Vec<HistoryKind> {
+        let trace = Trace::new(self.image.width(), 1, self.stage_traces.clone());
         let history = pixel_history(&trace, &self.image, &self.masks, pixel);
         assert!(history.is_sorted_by_key(|happening| happening.step));
         for happening in &history {
             assert_eq!(trace.stage_at(happening.step), Some(happening.stage), "{happening:?}");
         }
         let what = history.into_iter().map(|happening| happening.what);
-        what.filter(|what| !matches!(what, What::Masked(_))).collect()
+        what.filter(|what| !matches!(what, HistoryKind::Masked(_))).collect()
     }
 }
 
@@ -68,33 +68,33 @@ fn red() -> Line {
     Line::new(Vec3::x() * 100.0, Vec3::x())
 }
 
-fn chosen(tape: &mut Tape, region: u16, line: Line) {
+fn chosen(recorder: &mut TraceRecorder, region: u16, line: Line) {
     let chosen = HypothesisChosen { region, area: 99, rank: 0, pixels: 4, line, radius: RADIUS };
-    tape.record(Event::HypothesisChosen(Box::new(chosen)));
+    recorder.record(Event::HypothesisChosen(Box::new(chosen)));
 }
 
-fn grows(tape: &mut Tape, region: u16, claims: &[(u32, u16)]) {
-    tape.record(Event::GrowthBegan { region, limit: RADIUS as f32 });
+fn grows(recorder: &mut TraceRecorder, region: u16, claims: &[(u32, u16)]) {
+    recorder.record(Event::GrowthBegan { region, limit: RADIUS as f32 });
     for &(pixel, before) in claims {
-        tape.claim(pixel, before, region);
+        recorder.claim(pixel, before, region);
     }
 }
 
 #[test]
 fn a_pixel_beside_a_cylinder_is_refused_by_its_distance_from_the_axis() {
     let strip = Strip::new(&[[100.0, 0.0, 0.0], [120.0, 3.0, 4.0], [120.0, 0.0, 12.4], [90.0, 0.0, 0.0]]);
-    let strip = strip.stage(Stage::Linear, |tape| {
-        chosen(tape, 1, red());
-        tape.record(Event::SeedsPlaced { region: 1, pixels: 1 });
-        tape.claim(0, 0, 1);
-        grows(tape, 1, &[(1, 0)]);
+    let strip = strip.stage(Stage::Linear, |recorder| {
+        chosen(recorder, 1, red());
+        recorder.record(Event::SeedsPlaced { region: 1, pixels: 1 });
+        recorder.claim(0, 0, 1);
+        grows(recorder, 1, &[(1, 0)]);
     });
-    let seeded = What::Seeded { region: 1, reach: Reach::Axis { distance: 0.0, radius: RADIUS } };
+    let seeded = HistoryKind::Seeded { region: 1, reach: Reach::Axis { distance: 0.0, radius: RADIUS } };
     assert_eq!(strip.history(0), [seeded]);
     let reach = Reach::Axis { distance: 5.0, radius: RADIUS };
-    assert_eq!(strip.history(1), [What::Claimed { region: 1, from: 0, reach, contest: None }]);
+    assert_eq!(strip.history(1), [HistoryKind::Claimed { region: 1, from: 0, reach, contest: None }]);
     let barrier = Barrier::Cylinder { distance: 12.4, radius: RADIUS };
-    assert_eq!(strip.history(2), [What::Refused { region: 1, barrier }]);
+    assert_eq!(strip.history(2), [HistoryKind::Refused { region: 1, barrier }]);
     // Growth never came here.
     assert_eq!(strip.history(3), []);
 }
@@ -102,21 +102,21 @@ fn a_pixel_beside_a_cylinder_is_refused_by_its_distance_from_the_axis() {
 #[test]
 fn dark_and_clipped_pixels_wait_and_the_regions_beside_them_are_listed_once() {
     let strip = Strip::new(&[[100.0, 0.0, 0.0], [9.0, 0.0, 0.0], [100.0, 0.0, 0.0]]);
-    let strip = strip.stage(Stage::Linear, |tape| {
+    let strip = strip.stage(Stage::Linear, |recorder| {
         for (region, seed) in [(1, 0), (2, 2)] {
-            chosen(tape, region, red());
-            tape.record(Event::SeedsPlaced { region, pixels: 1 });
-            tape.claim(seed, 0, region);
-            grows(tape, region, &[]);
-            tape.record(Event::LineRefitted(Box::new(LineRefitted { region, line: red() })));
-            grows(tape, region, &[]);
+            chosen(recorder, region, red());
+            recorder.record(Event::SeedsPlaced { region, pixels: 1 });
+            recorder.claim(seed, 0, region);
+            grows(recorder, region, &[]);
+            recorder.record(Event::LineRefitted(Box::new(LineRefitted { region, line: red() })));
+            grows(recorder, region, &[]);
         }
     });
-    assert_eq!(strip.history(1), [What::Unclaimable { regions: vec![1, 2] }]);
-    let trace = Trace::new(3, 1, strip.reels.clone());
+    assert_eq!(strip.history(1), [HistoryKind::Unclaimable { regions: vec![1, 2] }]);
+    let trace = Trace::new(3, 1, strip.stage_traces.clone());
     let first = &pixel_history(&trace, &strip.image, &strip.masks, 1)[0];
     let brightness = [9.0, LIMITS.min_intensity];
-    assert_eq!(first.what, What::Masked(MaskVerdict::Dark { brightness }));
+    assert_eq!(first.what, HistoryKind::Masked(MaskVerdict::Dark { brightness }));
 }
 
 #[test]
@@ -126,34 +126,34 @@ fn conflicts_carry_both_distances_and_a_refit_lets_go() {
     let away = Line::new(Vec3::new(100.0, -30.0, 0.0), Vec3::x());
     let lost = Contest { measure: Measure::Axis, challenger: 6.0, holder: 3.0 };
     let won = Contest { measure: Measure::Axis, challenger: 0.0, holder: 6.0 };
-    let strip = strip.stage(Stage::Linear, |tape| {
-        chosen(tape, 1, red());
-        tape.record(Event::SeedsPlaced { region: 1, pixels: 1 });
-        tape.claim(0, 0, 1);
-        grows(tape, 1, &[(1, 0)]);
-        chosen(tape, 2, shifted);
-        tape.record(Event::SeedsPlaced { region: 2, pixels: 1 });
-        tape.claim(2, 0, 2);
-        tape.record(Event::GrowthBegan { region: 2, limit: RADIUS as f32 });
+    let strip = strip.stage(Stage::Linear, |recorder| {
+        chosen(recorder, 1, red());
+        recorder.record(Event::SeedsPlaced { region: 1, pixels: 1 });
+        recorder.claim(0, 0, 1);
+        grows(recorder, 1, &[(1, 0)]);
+        chosen(recorder, 2, shifted);
+        recorder.record(Event::SeedsPlaced { region: 2, pixels: 1 });
+        recorder.claim(2, 0, 2);
+        recorder.record(Event::GrowthBegan { region: 2, limit: RADIUS as f32 });
         // The same refusal from two sides is one.
-        tape.contest(1, 1, 2, false, lost);
-        tape.contest(1, 1, 2, false, lost);
-        chosen(tape, 3, Line::new(Vec3::new(100.0, 6.0, 0.0), Vec3::x()));
-        tape.record(Event::GrowthBegan { region: 3, limit: RADIUS as f32 });
-        tape.contest(1, 1, 3, true, won);
-        tape.claim(1, 1, 3);
-        tape.record(Event::LineRefitted(Box::new(LineRefitted { region: 3, line: away })));
-        tape.claim(1, 3, 0);
+        recorder.contest(1, 1, 2, false, lost);
+        recorder.contest(1, 1, 2, false, lost);
+        chosen(recorder, 3, Line::new(Vec3::new(100.0, 6.0, 0.0), Vec3::x()));
+        recorder.record(Event::GrowthBegan { region: 3, limit: RADIUS as f32 });
+        recorder.contest(1, 1, 3, true, won);
+        recorder.claim(1, 1, 3);
+        recorder.record(Event::LineRefitted(Box::new(LineRefitted { region: 3, line: away })));
+        recorder.claim(1, 3, 0);
     });
     let own = Reach::Axis { distance: 6.0, radius: RADIUS };
     let third = Reach::Axis { distance: 0.0, radius: RADIUS };
     assert_eq!(
         strip.history(1),
         [
-            What::Claimed { region: 1, from: 0, reach: own, contest: None },
-            What::Kept { holder: 1, challenger: 2, contest: lost },
-            What::Claimed { region: 3, from: 1, reach: third, contest: Some(won) },
-            What::Released { region: 3, why: Release::Refit { distance: 36.0, radius: RADIUS } },
+            HistoryKind::Claimed { region: 1, from: 0, reach: own, contest: None },
+            HistoryKind::Kept { holder: 1, challenger: 2, contest: lost },
+            HistoryKind::Claimed { region: 3, from: 1, reach: third, contest: Some(won) },
+            HistoryKind::Released { region: 3, why: Release::Refit { distance: 36.0, radius: RADIUS } },
         ]
     );
 }
@@ -163,21 +163,21 @@ fn a_slice_says_on_which_side_a_pixel_lies_and_growth_for_nothing_is_given_back(
     let strip = Strip::new(&[[100.0, 0.0, 0.0], [100.0, 50.0, 13.0], [30.0, 0.0, 0.0]]);
     let plane = DichromaticPlane::new(&red(), &Vec3::y()).unwrap();
     let strip = strip
-        .stage(Stage::Linear, |tape| {
-            chosen(tape, 1, red());
-            tape.record(Event::SeedsPlaced { region: 1, pixels: 2 });
-            tape.claim(0, 0, 1);
-            chosen(tape, 2, red());
-            tape.record(Event::SeedsPlaced { region: 2, pixels: 1 });
-            tape.claim(2, 0, 2);
-            tape.record(Event::GrowthBegan { region: 2, limit: RADIUS as f32 });
-            tape.claim(2, 2, 0);
+        .stage(Stage::Linear, |recorder| {
+            chosen(recorder, 1, red());
+            recorder.record(Event::SeedsPlaced { region: 1, pixels: 2 });
+            recorder.claim(0, 0, 1);
+            chosen(recorder, 2, red());
+            recorder.record(Event::SeedsPlaced { region: 2, pixels: 1 });
+            recorder.claim(2, 0, 2);
+            recorder.record(Event::GrowthBegan { region: 2, limit: RADIUS as f32 });
+            recorder.claim(2, 2, 0);
             let (area, reason) = (99, PassedOver::Barren);
-            tape.record(Event::HypothesisPassedOver { area, pixels: 4, least: 72, reason });
+            recorder.record(Event::HypothesisPassedOver { area, pixels: 4, least: 72, reason });
         })
-        .stage(Stage::Planar, |tape| {
-            tape.record(Event::PassBegan { pass: Pass::Slices });
-            tape.record(Event::SliceMade(Box::new(SliceMade {
+        .stage(Stage::Planar, |recorder| {
+            recorder.record(Event::PassBegan { pass: Pass::Slices });
+            recorder.record(Event::SliceMade(Box::new(SliceMade {
                 region: 1,
                 plane,
                 matte_length: 120.0,
@@ -185,12 +185,12 @@ fn a_slice_says_on_which_side_a_pixel_lies_and_growth_for_nothing_is_given_back(
                 half_width: 8.0,
                 slice: Slice::bounded(&plane, 8.0, RADIUS, 120.0),
             })));
-            tape.record(Event::GrowthBegan { region: 1, limit: 8.0 });
+            recorder.record(Event::GrowthBegan { region: 1, limit: 8.0 });
         });
     let miss = SliceMiss { bound: SliceBound::Height, value: 13.0, limit: 8.0 };
     let past = strip.history(1);
-    assert_eq!(past.last(), Some(&What::Refused { region: 1, barrier: Barrier::Slice(miss) }));
-    let barren = What::Released { region: 2, why: Release::Barren { pixels: 4, least: 72 } };
+    assert_eq!(past.last(), Some(&HistoryKind::Refused { region: 1, barrier: Barrier::Slice(miss) }));
+    let barren = HistoryKind::Released { region: 2, why: Release::Barren { pixels: 4, least: 72 } };
     assert_eq!(strip.history(2).last(), Some(&barren));
 }
 
@@ -198,15 +198,15 @@ fn a_slice_says_on_which_side_a_pixel_lies_and_growth_for_nothing_is_given_back(
 fn the_end_is_a_number_a_role_and_amounts() {
     let strip = Strip::new(&[[100.0, 20.0, 3.0], [100.0, 1.0, 0.0]]);
     let strip = strip
-        .stage(Stage::Linear, |tape| {
-            chosen(tape, 1, red());
-            tape.record(Event::SeedsPlaced { region: 1, pixels: 2 });
-            tape.claim(0, 0, 1);
-            tape.claim(1, 0, 1);
+        .stage(Stage::Linear, |recorder| {
+            chosen(recorder, 1, red());
+            recorder.record(Event::SeedsPlaced { region: 1, pixels: 2 });
+            recorder.claim(0, 0, 1);
+            recorder.claim(1, 0, 1);
         })
-        .stage(Stage::Clipping, |tape| tape.record(Event::Renumbered { finals: [1].into() }))
-        .stage(Stage::Split, |tape| {
-            tape.record(Event::VectorsFitted(Box::new(VectorsFitted {
+        .stage(Stage::Clipping, |recorder| recorder.record(Event::Renumbered { finals: [1].into() }))
+        .stage(Stage::Split, |recorder| {
+            recorder.record(Event::VectorsFitted(Box::new(VectorsFitted {
                 region: 1,
                 body: Vec3::x(),
                 surface: Some(Vec3::y()),
@@ -223,10 +223,10 @@ fn the_end_is_a_number_a_role_and_amounts() {
                 origin: [0.0; 3],
             })));
             let kinds = vec![PixelKind::Highlight, PixelKind::Matte];
-            tape.labels(&Raster::from_vec(2, 1, kinds).unwrap());
+            recorder.labels(&Raster::from_vec(2, 1, kinds).unwrap());
         });
     let split = |pixel| match strip.history(pixel).pop() {
-        Some(What::Split(story)) => *story,
+        Some(HistoryKind::Split(story)) => *story,
         other => panic!("{other:?}"),
     };
     let highlight = split(0);
@@ -238,14 +238,14 @@ fn the_end_is_a_number_a_role_and_amounts() {
     // One count off the body line is noise, not surface reflection.
     let matte = split(1);
     assert_eq!((matte.amounts.map(|a| a.surface), matte.cut), (Some(0.0), Some(1.0)));
-    assert_eq!(strip.history(0)[1], What::Numbered { region: 1, number: 1 });
+    assert_eq!(strip.history(0)[1], HistoryKind::Numbered { region: 1, number: 1 });
 }
 
 #[test]
 fn nothing_is_told_of_what_is_not_there() {
     let strip = Strip::new(&[[100.0, 0.0, 0.0]]);
     assert_eq!(strip.history(1), []);
-    let trace = Trace::new(2, 2, strip.reels.clone());
+    let trace = Trace::new(2, 2, strip.stage_traces.clone());
     assert_eq!(pixel_history(&trace, &strip.image, &strip.masks, 0), [], "of another picture");
     let empty = LinearImage::new(Raster::filled(0, 0, [0.0; 3]), None);
     let trace = Trace::new(0, 0, Vec::new());

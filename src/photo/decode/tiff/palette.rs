@@ -1,4 +1,4 @@
-//! Palette pictures (TIFF 6.0, section 5), which the `tiff` crate refuses although their indices are stored as grey is.
+//! Palette pictures (TIFF 6.0, section 5), which the `tiff` crate refuses although their indices are stored as gray is.
 
 use super::Reader;
 use crate::photo::error::Fault;
@@ -24,11 +24,11 @@ pub(super) fn of(reader: &mut Reader) -> Result<Option<Palette>, Fault> {
 impl Palette {
     /// R, G and B of each index; with 8 bits if the palette says no more than that.
     pub(super) fn look_up(&self, indices: &[u8]) -> Result<Samples, Fault> {
-        let colours = self.0.len() / 3;
-        if indices.iter().any(|&index| usize::from(index) >= colours) {
-            return Err(Fault::damaged("it uses colours that its palette lacks"));
+        let colors = self.0.len() / 3;
+        if indices.iter().any(|&index| usize::from(index) >= colors) {
+            return Err(Fault::damaged("it uses colors that its palette lacks"));
         }
-        let bands = |index: u8| (0..3).map(move |band| self.0[band * colours + usize::from(index)]);
+        let bands = |index: u8| (0..3).map(move |band| self.0[band * colors + usize::from(index)]);
         let samples = indices.iter().flat_map(|&index| bands(index));
         Ok(if self.0.iter().all(|value| value % 257 == 0) {
             Samples::U8(samples.map(|value| (value / 257) as u8).collect())
@@ -38,8 +38,8 @@ impl Palette {
     }
 }
 
-/// A copy of the file whose first picture calls itself grey.
-pub(super) fn indices_as_grey(bytes: &[u8]) -> Result<Vec<u8>, Fault> {
+/// A copy of the file whose first picture calls itself gray.
+pub(super) fn indices_as_gray(bytes: &[u8]) -> Result<Vec<u8>, Fault> {
     let directory = Directory::of(bytes);
     let value_at = directory
         .and_then(|d| d.value_of(262))

@@ -1,0 +1,315 @@
+//! The worker that analyses. The newest request wins.
+
+use super::{Command, DebugCommand};
+use crate::analysis::{Analysis, Observer, Session, Stage, StageOutput};
+use crate::raster::Mask;
+use crate::segment::Params;
+use crate::trace::Replay;
+use crate::view::{Picture, ResultSnapshot};
+use std::sync::mpsc::Sender;
+use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
+
+/// What is to be analyzed, and how.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Its number; larger is newer.
+    pub generation: u64,
+    /// The photograph.
+    pub picture: Arc<Picture>,
+    /// The parameters.
+    pub params: Params,
+    /// The pixels that it is restricted to.
+    pub area: Option<Arc<Mask>>,
+    /// Whether its decisions are recorded.
+    pub tracing: Tracing,
+}
+
+/// When decisions are recorded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tracing {
+    /// Never: nobody asks for them.
+    Never,
+    /// When no slider moves.
+    AtRest,
+    /// With the result: a cursor stands in the middle of them.
+    AtOnce,
+}
+
+/// Where one request waits for the worker; a newer one takes its place.
+#[derive(Default)]
+pub(super) struct LatestRequest {
+    waiting: Mutex<Waiting>,
+    arrived: Condvar,
+}
+
+#[derive(Default)]
+struct Waiting {
+    request: Option<Request>,
+    closed: bool,
+}
+
+impl LatestRequest {
+    /// Leaves a request; one that still waits is dropped.
+    pub(super) fn leave(&self, request: Request) {
+        self.lock().request = Some(request);
+        self.arrived.notify_one();
+    }
+
+    /// Sends the worker home.
+    pub(super) fn close(&self) {
+        self.lock().closed = true;
+        self.arrived.notify_one();
+    }
+
+    /// Waits for a request; none when the desk closes.
+    fn take(&self) -> Option<Request> {
+        let mut waiting = self.lock();
+        loop {
+            if waiting.closed {
+                return None;
+            }
+            if let Some(request) = waiting.request.take() {
+                return Some(request);
+            }
+            waiting = self.arrived.wait(waiting).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Whether no request comes for so long.
+    fn rests(&self, quiet: Duration) -> bool {
+        let nothing = |waiting: &mut Waiting| !waiting.closed && waiting.request.is_none();
+        let waited = self.arrived.wait_timeout_while(self.lock(), quiet, nothing);
+        waited.unwrap_or_else(PoisonError::into_inner).1.timed_out()
+    }
+
+    /// Whether the request at work has been overtaken.
+    fn is_overtaken(&self) -> bool {
+        let waiting = self.lock();
+        waiting.closed || waiting.request.is_some()
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Waiting> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A hand that has not moved for so long rests.
+const QUIET: Duration = Duration::from_millis(200);
+
+/// Works at the desk until it closes.
+pub(super) fn work(
+    latest_request: &LatestRequest,
+    report: &Sender<Command>,
+    wake: &(dyn Fn() + Send + Sync),
+) {
+    let mut analysis_worker = AnalysisWorker::default();
+    while let Some(request) = latest_request.take() {
+        let tell = |command| {
+            // Nobody listens any more when the window closes: then there is nothing to say.
+            let _ = report.send(command);
+            wake();
+        };
+        if let Some(shown) = analysis_worker.analyze(&request, &tell, &|| latest_request.is_overtaken()) {
+            tell(Command::Analyzed(Arc::clone(&shown)));
+            if request.tracing == Tracing::AtOnce {
+                analysis_worker.trace(&request, &shown, &tell, &|| latest_request.is_overtaken());
+            }
+            // Scoring and recording take as long as the analysis: they wait until no slider moves.
+            let records = request.tracing == Tracing::AtRest;
+            if (records || shown.picture.truth.is_some()) && latest_request.rests(QUIET) {
+                if records {
+                    analysis_worker.trace(&request, &shown, &tell, &|| latest_request.is_overtaken());
+                }
+                if shown.picture.truth.is_some() {
+                    shown.measure();
+                    wake();
+                }
+            }
+        }
+    }
+}
+
+/// Keeps the session of one photograph, and its last result.
+#[derive(Default)]
+pub(super) struct AnalysisWorker {
+    session: Option<(Arc<Picture>, Session)>,
+    last: Option<Arc<ResultSnapshot>>,
+}
+
+impl AnalysisWorker {
+    /// The whole result; none when it was overtaken.
+    pub(super) fn analyze(
+        &mut self,
+        request: &Request,
+        tell: &(dyn Fn(Command) + Sync),
+        overtaken: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Arc<ResultSnapshot>> {
+        let same = |session: &(Arc<Picture>, Session)| Arc::ptr_eq(&session.0, &request.picture);
+        if !self.session.as_ref().is_some_and(same) {
+            let image = Arc::new(request.picture.photo.image.clone());
+            self.session = Some((Arc::clone(&request.picture), Session::new(image)));
+            self.last = None;
+        }
+        let (_, session) = self.session.as_mut()?;
+        if session.restrict(request.area.clone()).is_err() {
+            // The reducer forgets the areas of other pictures; one that comes all the same restricts nothing.
+            session.restrict(None).ok()?;
+        }
+        let mut watch = Watch {
+            request,
+            begun: Instant::now(),
+            stage_begun: None,
+            took_ms: [None; Stage::ALL.len()],
+            partial: self.last.as_deref().map(|last| last.analysis.clone()),
+            base: self.last.as_deref(),
+            owes: self.last.is_some(),
+            tell,
+            overtaken,
+        };
+        let (analysis, trace) = if request.tracing == Tracing::AtOnce {
+            let (analysis, trace) = session.run_traced(&request.params, &mut watch).ok()?;
+            (analysis, Some(Arc::new(trace)))
+        } else {
+            (session.run(&request.params, &mut watch).ok()?, None)
+        };
+        let took_ms = watch.took_ms;
+        let shown = Arc::new(show(request, analysis, took_ms, self.last.as_deref()));
+        if let Some(trace) = trace {
+            shown.trace.get_or_init(|| trace);
+        }
+        self.last = Some(Arc::clone(&shown));
+        Some(shown)
+    }
+
+    /// Records the decisions that led to a result, where that is wanted and has not been done, and hands a cursor out.
+    pub(super) fn trace(
+        &mut self,
+        request: &Request,
+        shown: &ResultSnapshot,
+        tell: &(dyn Fn(Command) + Sync),
+        overtaken: &(dyn Fn() -> bool + Sync),
+    ) {
+        let Some((_, session)) = self.session.as_mut().filter(|_| request.tracing != Tracing::Never) else {
+            return;
+        };
+        if shown.trace.get().is_none() {
+            let Ok((_, trace)) = session.run_traced(&request.params, &mut Quietly(overtaken)) else { return };
+            shown.trace.get_or_init(|| Arc::new(trace));
+        }
+        let Some(trace) = shown.trace.get() else { return };
+        let mut replay = Replay::new(Arc::clone(trace));
+        replay.prepare();
+        let traced = DebugCommand::Traced { generation: request.generation, replay: Box::new(replay) };
+        tell(Command::Debug(traced));
+    }
+}
+
+/// Watches for a newer request, and nothing else.
+struct Quietly<'a>(&'a (dyn Fn() -> bool + Sync));
+
+impl Observer for Quietly<'_> {
+    fn cancelled(&self) -> bool {
+        (self.0)()
+    }
+}
+
+fn show(
+    request: &Request,
+    analysis: Analysis,
+    took_ms: [Option<f64>; 7],
+    last: Option<&ResultSnapshot>,
+) -> ResultSnapshot {
+    let before = last.map(|last| (last.labels(), last.region_colors.as_slice()));
+    let region_colors = crate::view::region_colors(&analysis, before);
+    let coverage = coverage(&analysis);
+    ResultSnapshot {
+        generation: request.generation,
+        picture: Arc::clone(&request.picture),
+        params: request.params,
+        area: request.area.clone(),
+        analysis,
+        stale_from: None,
+        coverage,
+        region_colors,
+        took_ms,
+        trace: OnceLock::new(),
+        accuracy: OnceLock::new(),
+    }
+}
+
+fn coverage(analysis: &Analysis) -> f64 {
+    let labels = analysis.finals.labels.as_slice().iter().enumerate();
+    let (lit, assigned) = labels
+        .filter(|&(pixel, _)| !analysis.masks.dark(pixel))
+        .fold((0u64, 0u64), |sums, (_, &label)| (sums.0 + 1, sums.1 + u64::from(label != 0)));
+    assigned as f64 / lit.max(1) as f64
+}
+
+/// A run that takes longer shows its stages as they come.
+const SHOW_STAGES_AFTER: Duration = Duration::from_millis(60);
+
+/// Takes the time of each stage, tells of it, and stops for a newer request.
+struct Watch<'a> {
+    request: &'a Request,
+    begun: Instant,
+    stage_begun: Option<Instant>,
+    took_ms: [Option<f64>; Stage::ALL.len()],
+    /// The last result, with the stages that have been made anew in their places.
+    partial: Option<Analysis>,
+    base: Option<&'a ResultSnapshot>,
+    /// Whether nothing new has been shown yet: then the run goes on although it has been overtaken, or a hand that never
+    /// rests would see nothing of a large picture.
+    owes: bool,
+    tell: &'a (dyn Fn(Command) + Sync),
+    overtaken: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Observer for Watch<'_> {
+    fn started(&mut self, stage: Stage) {
+        self.stage_begun = Some(Instant::now());
+        (self.tell)(Command::Progress { generation: self.request.generation, stage });
+    }
+
+    fn finished(&mut self, stage: Stage, reused: bool) {
+        let took = self.stage_begun.take().map(|begun| begun.elapsed().as_secs_f64() * 1e3);
+        self.took_ms[stage as usize] = took.filter(|_| !reused);
+    }
+
+    fn made(&mut self, output: StageOutput) {
+        let stage = output.stage();
+        let Some(partial) = &mut self.partial else { return };
+        match output {
+            StageOutput::Masks { masks, used } => (partial.masks, partial.used) = (masks, used),
+            StageOutput::Windows(windows) => partial.windows = windows,
+            StageOutput::Areas(areas) => partial.areas = areas,
+            StageOutput::Matte(matte) => partial.matte = matte,
+            StageOutput::Planar(planar) => partial.planar = planar,
+            // Labels and what is known of the regions change together, at the end.
+            StageOutput::Finals(_) | StageOutput::Intrinsic(_) => return,
+        }
+        let anew = self.took_ms[stage as usize].is_some();
+        let Some(base) = self.base.filter(|_| anew && self.begun.elapsed() > SHOW_STAGES_AFTER) else {
+            return;
+        };
+        let next = Stage::ALL.iter().copied().find(|&later| later > stage);
+        (self.tell)(Command::Analyzed(Arc::new(ResultSnapshot {
+            generation: self.request.generation,
+            picture: Arc::clone(&self.request.picture),
+            params: self.request.params,
+            area: self.request.area.clone(),
+            analysis: partial.clone(),
+            stale_from: next,
+            coverage: base.coverage,
+            region_colors: base.region_colors.clone(),
+            took_ms: self.took_ms,
+            trace: OnceLock::new(),
+            accuracy: OnceLock::new(),
+        })));
+        self.owes = false;
+    }
+
+    fn cancelled(&self) -> bool {
+        !self.owes && (self.overtaken)()
+    }
+}

@@ -1,0 +1,159 @@
+//! What is on the screen as a call of `dichroscope analyze`.
+
+use super::State;
+use super::write::AREA_FILE;
+use crate::segment::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine};
+use crate::view::Origin;
+use std::path::Path;
+
+/// The call that analyses the open photograph as the window does, for a POSIX shell. Only what differs from the defaults is
+/// said. A comment at its end names files that must be exported first.
+pub fn analyze_call(state: &State) -> String {
+    let mut words = vec!["dichroscope".to_owned(), "analyze".to_owned()];
+    let mut hints = Vec::new();
+    match state.picture.as_ref().map(|picture| &picture.origin) {
+        Some(Origin::File(path)) => words.push(quoted_path(path)),
+        Some(Origin::Sample(name)) => {
+            words.push("camera8.png".to_owned());
+            hints.push(format!("camera8.png: the sample scene, assets/{name}/camera8.png in the source"));
+        }
+        Some(Origin::Bytes { name, .. }) => {
+            words.push("PHOTO".to_owned());
+            hints.push(format!("PHOTO: {name} came without a file, save it first"));
+        }
+        None => words.push("PHOTO".to_owned()),
+    }
+    words.extend(["--out".to_owned(), "results".to_owned()]);
+    words.extend(reading_words(state));
+    words.extend(params_words(&state.document.params));
+    if state.document.area.is_some() {
+        words.extend(["--area".to_owned(), AREA_FILE.to_owned()]);
+        hints.push(format!("{AREA_FILE}: export the area under this name first"));
+    }
+    let call = words.join(" ");
+    if hints.is_empty() { call } else { format!("{call}  # {}", hints.join("; ").replace('\n', " ")) }
+}
+
+/// How the photograph is read, and the ground truth beside it.
+fn reading_words(state: &State) -> Vec<String> {
+    let Some(picture) = &state.picture else { return Vec::new() };
+    let mut words = Vec::new();
+    let encoding = picture.reading.encoding.to_string();
+    if encoding != "auto" {
+        words.extend(["--encoding".to_owned(), encoding]);
+    }
+    if let Some(full_scale) = picture.reading.full_scale {
+        words.extend(["--full-scale".to_owned(), full_scale.to_string()]);
+    }
+    if let (Some(_), Some(folder)) = (&picture.truth, picture.origin.path().and_then(Path::parent)) {
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        words.extend(["--truth".to_owned(), quoted_path(folder)]);
+    }
+    words
+}
+
+fn params_words(params: &Params) -> Vec<String> {
+    let mut words = Vec::new();
+    if params.method == Method::Paper {
+        words.extend(["--method".to_owned(), "paper".to_owned()]);
+    }
+    let usual = Params::of(params.method);
+    for parameter in Parameter::ALL {
+        if params.get(parameter) != usual.get(parameter) {
+            words.push(format!("--{}", parameter.spec().name.replace('_', "-")));
+            words.push(params.get(parameter).to_string());
+        }
+    }
+    if params.illuminant != IlluminantSetting::Auto {
+        words.extend(["--illuminant".to_owned(), params.illuminant.to_string()]);
+    }
+    if params.ambient != AmbientSetting::Auto {
+        words.extend(["--ambient".to_owned(), params.ambient.to_string()]);
+    }
+    // The paper's method refines nothing, whatever the switches say.
+    if params.method == Method::Refined {
+        let (mut asked, mut usual) = (params.refine, Refine::default());
+        for ((name, asked), (_, usual)) in asked.switches().into_iter().zip(usual.switches()) {
+            if asked != usual {
+                words.push(if *asked { "--with" } else { "--without" }.to_owned());
+                words.push(name.to_owned());
+            }
+        }
+    }
+    words
+}
+
+fn quoted_path(path: &Path) -> String {
+    let text = path.display().to_string();
+    // A name that begins like a flag is none behind its folder.
+    quoted(&if text.starts_with('-') { format!("./{text}") } else { text })
+}
+
+/// A word as a POSIX shell reads it back.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_@%+=:,./-".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::photo::{EncodingChoice, ReadOptions};
+    use crate::segment::Setting;
+    use crate::view::Picture;
+    use crate::view::testing::gray;
+    use std::sync::Arc;
+
+    fn open(path: &str, change: impl FnOnce(&mut Picture)) -> State {
+        let mut picture = Arc::into_inner(gray(&["."], 9)).unwrap();
+        (picture.origin, picture.reading) = (Origin::File(path.into()), ReadOptions::default());
+        change(&mut picture);
+        State { picture: Some(Arc::new(picture)), ..State::default() }
+    }
+
+    #[test]
+    fn defaults_need_no_words() {
+        assert_eq!(analyze_call(&State::default()), "dichroscope analyze PHOTO --out results");
+        assert_eq!(analyze_call(&open("a/b.png", |_| ())), "dichroscope analyze a/b.png --out results");
+    }
+
+    #[test]
+    fn what_differs_is_said() {
+        let mut state = open("my photo's.png", |picture| {
+            picture.reading.encoding = EncodingChoice::Gamma(2.2);
+            picture.reading.full_scale = Some(2040.0);
+        });
+        let params = &mut state.document.params;
+        params.camera_noise = Setting::Value(3.5);
+        params.min_area = Setting::Auto;
+        params.refine.second_look = false;
+        params.illuminant = IlluminantSetting::Given([1.0, 0.5, 0.25]);
+        params.ambient = AmbientSetting::Off;
+        state.document.area = Some(Arc::new(crate::raster::Raster::filled(1, 1, true)));
+        assert_eq!(
+            analyze_call(&state),
+            "dichroscope analyze 'my photo'\\''s.png' --out results --encoding gamma:2.2 --full-scale 2040 \
+             --camera-noise 3.5 --min-area auto --illuminant 1,0.5,0.25 --ambient off --without second_look --area area.png  \
+             # area.png: export the area under this name first"
+        );
+    }
+
+    #[test]
+    fn the_papers_method_has_its_own_defaults_and_no_switches() {
+        let mut state = open("-a.png", |_| ());
+        state.document.params = Params::paper();
+        state.document.params.refine.second_look = false;
+        assert_eq!(analyze_call(&state), "dichroscope analyze ./-a.png --out results --method paper");
+    }
+
+    #[test]
+    fn what_has_no_file_is_said() {
+        let mut state = open("x", |picture| picture.origin = Origin::Sample("plastic8_white".into()));
+        assert!(analyze_call(&state).contains("# camera8.png: the sample scene"));
+        state = State { picture: Some(gray(&["."], 9)), ..State::default() };
+        assert!(analyze_call(&state).ends_with("# PHOTO: made.ppm came without a file, save it first"));
+    }
+}

@@ -1,0 +1,117 @@
+//! The corresponding place in another trace: where a cursor goes when a parameter moves.
+
+use crate::raster::LabelMap;
+use crate::trace::{Block, Event, Kind, Replay, Stage, Topic, Trace};
+use crate::view::RegionNames;
+use std::mem::discriminant;
+
+/// Where a cursor stood, in terms that mean something in another trace too.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Anchor {
+    stage: Stage,
+    /// Place within the stage, 0…1: the last resort.
+    share: f64,
+    block: Option<BlockAnchor>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct BlockAnchor {
+    topic: Topic,
+    /// What the region became; 0: nothing.
+    final_number: u16,
+    /// The area that it started from.
+    area: Option<u32>,
+    /// How many blocks about the same had come before.
+    turn: usize,
+    /// Place within the block, 0…1.
+    share: f64,
+    /// The decision on which the cursor stood: its kind, and how many of them came before in the block.
+    decision: Option<(Kind, usize)>,
+}
+
+impl Anchor {
+    /// Where a cursor stands.
+    pub fn of(replay: &Replay, names: &RegionNames) -> Option<Self> {
+        let (trace, last) = (replay.trace(), replay.at().checked_sub(1)?);
+        let stage = trace.stage_at(last)?;
+        let share =
+            |steps: &std::ops::Range<usize>| (last + 1 - steps.start) as f64 / steps.len().max(1) as f64;
+        let block = trace.block_at(last).map(|block| {
+            let region = block.topic.region();
+            let turn = trace.blocks().filter(|b| b.topic == block.topic && b.steps.start < block.steps.start);
+            BlockAnchor {
+                topic: block.topic,
+                final_number: names.final_number(region),
+                area: replay.hypothesis(region).and_then(|hypothesis| hypothesis.area),
+                turn: turn.count(),
+                share: share(&block.steps),
+                decision: trace.event(last).map(|event| {
+                    (event.kind(), events_of(trace, block.steps.start..last, event.kind()).count())
+                }),
+            }
+        });
+        Some(Self { stage, share: share(&trace.steps_of(stage)), block })
+    }
+
+    /// The corresponding number of steps in another trace. `best_overlaps` gives for each final number of the first trace the one
+    /// that covers most of its pixels.
+    pub fn find(&self, trace: &Trace, names: &RegionNames, best_overlaps: &[u16]) -> usize {
+        let steps = trace.steps_of(self.stage);
+        let found = self.block.as_ref().and_then(|block| block.find(trace, names, best_overlaps));
+        found.unwrap_or_else(|| steps.start + (self.share * steps.len() as f64).round() as usize)
+    }
+}
+
+impl BlockAnchor {
+    fn find(&self, trace: &Trace, names: &RegionNames, best_overlaps: &[u16]) -> Option<usize> {
+        let blocks = |region: u16| {
+            let alike = |block: &Block| discriminant(&block.topic) == discriminant(&self.topic);
+            trace.blocks().filter(move |block| alike(block) && block.topic.region() == region)
+        };
+        let best_overlap =
+            best_overlaps.get(usize::from(self.final_number)).copied().filter(|_| self.final_number != 0);
+        // The hypothesis from the same area, if it became the same object; else any that did.
+        let from_area = self.area.and_then(|area| born_of(trace, area));
+        let from_area = from_area.filter(|&region| {
+            best_overlap.is_none_or(|best_overlap| names.final_number(region) == best_overlap)
+        });
+        let region = from_area.filter(|&region| blocks(region).next().is_some()).or_else(|| {
+            let best_overlap = best_overlap.filter(|&best_overlap| best_overlap != 0)?;
+            names.births_of(best_overlap).find(|&region| blocks(region).next().is_some())
+        })?;
+        let block = blocks(region).nth(self.turn).or_else(|| blocks(region).next_back())?;
+        Some(self.place_in(trace, &block))
+    }
+
+    fn place_in(&self, trace: &Trace, block: &Block) -> usize {
+        let decision = self.decision.and_then(|(kind, before)| {
+            let alike = events_of(trace, block.steps.clone(), kind);
+            alike.take(before + 1).last().map(|n| n + 1)
+        });
+        decision.unwrap_or_else(|| {
+            let within = (self.share * block.steps.len() as f64).round() as usize;
+            block.steps.start + within.clamp(1, block.steps.len().max(1))
+        })
+    }
+}
+
+/// The region that started from an area of the picture's own grid.
+fn born_of(trace: &Trace, area: u32) -> Option<u16> {
+    trace.events().find_map(|(_, event)| match event {
+        Event::HypothesisChosen(chosen) if chosen.area == area => Some(chosen.region),
+        _ => None,
+    })
+}
+
+/// The steps in a range that are events of a kind.
+fn events_of(trace: &Trace, steps: std::ops::Range<usize>, kind: Kind) -> impl Iterator<Item = usize> + '_ {
+    trace.events().filter(move |(n, event)| steps.contains(n) && event.kind() == kind).map(|(n, _)| n)
+}
+
+/// For each final number of the earlier result the one of the later that covers most of its pixels.
+pub fn best_overlaps(before: &LabelMap, after: &LabelMap) -> Vec<u16> {
+    if (before.width(), before.height()) != (after.width(), after.height()) {
+        return Vec::new();
+    }
+    crate::view::best_overlaps(before, after)
+}

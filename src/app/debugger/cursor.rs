@@ -1,0 +1,162 @@
+//! Where the cursor goes.
+
+use crate::trace::{Event, Kind, Stage, Step, Trace};
+use serde::{Deserialize, Serialize};
+
+/// Forward or back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// Towards the result.
+    Forward,
+    /// Towards the beginning.
+    Back,
+}
+
+/// What a step of the cursor is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Grain {
+    /// A single step: a pixel's claim, a window's class.
+    Claim,
+    /// To the next decision that is more than a pixel.
+    Event,
+    /// A ring of a region's growth.
+    #[default]
+    Ring,
+    /// A hypothesis, a slice, a region's candidates.
+    Hypothesis,
+    /// A part of a stage.
+    Pass,
+    /// A stage.
+    Stage,
+}
+
+impl Grain {
+    /// All of them, finest first.
+    pub const ALL: [Self; 6] =
+        [Self::Claim, Self::Event, Self::Ring, Self::Hypothesis, Self::Pass, Self::Stage];
+
+    /// Its name in menus.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Claim => "claim",
+            Self::Event => "event",
+            Self::Ring => "ring",
+            Self::Hypothesis => "hypothesis",
+            Self::Pass => "pass",
+            Self::Stage => "stage",
+        }
+    }
+}
+
+/// Something to run to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Goal {
+    /// A step of this kind.
+    Kind(Kind),
+    /// A step about this pixel.
+    Pixel(u32),
+    /// A step about this region, by its number of birth.
+    Region(u16),
+    /// The next breakpoint.
+    Breakpoint,
+    /// After this many steps, or a breakpoint on the way.
+    Place(usize),
+}
+
+/// Where a step of this grain leads from `at`; rings are the caller's.
+pub fn stepped(trace: &Trace, at: usize, grain: Grain, direction: Direction) -> usize {
+    let len = trace.len();
+    match (grain, direction) {
+        (Grain::Claim | Grain::Ring, Direction::Forward) => (at + 1).min(len),
+        (Grain::Claim | Grain::Ring, Direction::Back) => at.saturating_sub(1),
+        (Grain::Event, direction) => next_event(trace, at, direction),
+        (Grain::Hypothesis, direction) => {
+            let spans = trace.blocks().map(|block| block.steps);
+            edge(spans, at, direction).unwrap_or_else(|| stepped(trace, at, Grain::Stage, direction))
+        }
+        (Grain::Pass, direction) => {
+            let passes = trace.passes().map(|span| span.steps);
+            let stages = trace.stages().map(|(_, steps)| steps);
+            edge(passes.chain(stages), at, direction).unwrap_or(at)
+        }
+        (Grain::Stage, direction) => {
+            edge(trace.stages().map(|(_, steps)| steps), at, direction).unwrap_or(at)
+        }
+    }
+}
+
+/// The nearest end after `at`, or the nearest beginning before it.
+fn edge(
+    spans: impl Iterator<Item = std::ops::Range<usize>>,
+    at: usize,
+    direction: Direction,
+) -> Option<usize> {
+    match direction {
+        Direction::Forward => spans.map(|span| span.end).filter(|&end| end > at).min(),
+        Direction::Back => spans.map(|span| span.start).filter(|&start| start < at).max(),
+    }
+}
+
+fn next_event(trace: &Trace, at: usize, direction: Direction) -> usize {
+    let found = match direction {
+        Direction::Forward => {
+            first(trace.steps_in(at..trace.len()), |_, step| matches!(step, Step::Event(_)))
+        }
+        Direction::Back => {
+            first(trace.steps_in(0..at.saturating_sub(1)).rev(), |_, step| matches!(step, Step::Event(_)))
+        }
+    };
+    found.unwrap_or(match direction {
+        Direction::Forward => trace.len(),
+        Direction::Back => 0,
+    })
+}
+
+/// After the first of these steps for which `test` holds.
+fn first<'a>(
+    mut steps: impl Iterator<Item = (usize, Step<'a>)>,
+    test: impl Fn(usize, &Step) -> bool,
+) -> Option<usize> {
+    steps.find(|(n, step)| test(*n, step)).map(|(n, _)| n + 1)
+}
+
+/// After the next step that a goal means, or the last one before; none where there is none. Breakpoints are not its matter.
+pub fn found(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Option<usize> {
+    let windows = match goal {
+        Goal::Pixel(pixel) => concerning(trace, pixel),
+        _ => Vec::new(),
+    };
+    let meant = |n: usize, step: &Step| match goal {
+        Goal::Kind(kind) => step.kind() == kind,
+        Goal::Pixel(pixel) => step.pixel() == Some(pixel) || windows.binary_search(&n).is_ok(),
+        Goal::Region(region) => step.concerns(region),
+        Goal::Breakpoint | Goal::Place(_) => false,
+    };
+    match direction {
+        Direction::Forward => first(trace.steps_in(at..trace.len()), meant),
+        Direction::Back => first(trace.steps_in(0..at.saturating_sub(1)).rev(), meant),
+    }
+}
+
+/// The steps at which windows and blobs that hold a pixel were judged, ascending.
+fn concerning(trace: &Trace, pixel: u32) -> Vec<usize> {
+    let (x, y) = (pixel as usize % trace.width().max(1), pixel as usize / trace.width().max(1));
+    let mut holding = None;
+    let local = trace.stage_trace(Stage::Split).and_then(|stage_trace| stage_trace.local());
+    let own_blob = local.and_then(|local| local.point(pixel as usize)).map(|point| point.blob);
+    let mut found = Vec::new();
+    for (n, event) in trace.events() {
+        match event {
+            Event::WindowsLaid(laid) => {
+                let size = (laid.size_px as usize).max(1);
+                holding = Some((y / size * laid.columns as usize + x / size) as u32);
+            }
+            Event::WindowClassified { window, .. } if holding == Some(*window) => found.push(n),
+            Event::Local(decision) if decision.blob().is_some_and(|blob| Some(blob) == own_blob) => {
+                found.push(n);
+            }
+            _ => {}
+        }
+    }
+    found
+}

@@ -1,0 +1,38 @@
+//! The application without a screen.
+//!
+//! A [`State`] is all there is to show. A [`Command`] is the only way to change it, and [`reduce()`] the only function that
+//! does; it is pure but for the [`Effect`]s it asks for, and is tested without a window. An [`Application`] carries the effects
+//! out: on a named worker where the newest request wins, or inline in tests. Panels read the state and return commands.
+
+mod analysis_worker;
+mod application;
+mod command;
+mod command_line;
+mod debugger;
+mod document;
+mod jobs;
+mod read;
+mod reduce;
+mod settings;
+mod state;
+mod view_settings;
+mod what_if_job;
+mod workspace;
+mod write;
+
+pub use analysis_worker::Request;
+pub use application::{Application, Executor};
+pub use command::{Combine, Command, Gesture};
+pub use command_line::analyze_call;
+pub use debugger::{
+    Breakpoint, CandidateCheck, Condition, DebugCommand, DebugSettings, Debugger, Difference, Direction,
+    Goal, Grain, SavedClass,
+};
+pub use document::{Document, History};
+pub use jobs::{Export, Job, JobState};
+pub use reduce::{Effect, reduce};
+pub use settings::Settings;
+pub use state::{Notice, Severity, State};
+pub use view_settings::ViewSettings;
+pub use what_if_job::{Ask, Asked, WhatIfJob, WhatIfProgress};
+pub use workspace::Workspace;

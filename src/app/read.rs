@@ -1,0 +1,70 @@
+//! Reads photographs, parameters and workspaces for the state.
+
+use super::{Command, Severity, Workspace};
+use crate::photo::{self, ReadOptions};
+use crate::segment::Params;
+use crate::truth::{GroundTruth, sample::Sample};
+use crate::view::{Histogram, Origin, Picture};
+use std::path::Path;
+use std::time::Instant;
+
+/// The photograph at `origin`, with its ground truth where a sample or the file's folder holds one.
+///
+/// # Errors
+/// A sentence that names the file.
+pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, String> {
+    let begun = Instant::now();
+    let (photo, sha256) = match &origin {
+        Origin::File(path) => {
+            let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+            let name = path.display().to_string();
+            (photo::decode(&bytes, &name, &options), photo::sha256_hex(&bytes))
+        }
+        Origin::Sample(name) if Sample::find(name).is_some() => {
+            let bytes = Sample::find(name).map_or(&[][..], |sample| sample.camera);
+            (photo::decode(bytes, "camera8.png", &options), photo::sha256_hex(bytes))
+        }
+        Origin::Sample(name) => return Err(format!("{name}: there is no such sample scene")),
+        Origin::Bytes { name, bytes } => (photo::decode(bytes, name, &options), photo::sha256_hex(bytes)),
+    };
+    let photo = photo.map_err(|error| error.to_string())?;
+    let read_ms = begun.elapsed().as_secs_f64() * 1e3;
+    let truth = truth(&origin);
+    let histogram = Histogram::of(&photo.image);
+    Ok(Picture { origin, reading: options, photo, sha256, read_ms, histogram, truth })
+}
+
+/// A scene's ground truth lies beside its photograph.
+fn truth(origin: &Origin) -> Option<GroundTruth> {
+    match origin {
+        Origin::Sample(name) => Sample::find(name)?.truth().ok(),
+        Origin::File(path) => {
+            let folder = path.parent()?;
+            folder.join("truth.json").is_file().then(|| GroundTruth::read(folder).ok())?
+        }
+        Origin::Bytes { .. } => None,
+    }
+}
+
+/// Parameters from a TOML file, as the command that sets them.
+pub(super) fn params(path: &Path) -> Command {
+    let read = || -> Result<Params, String> {
+        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let params: Params =
+            toml::from_str(&text).map_err(|error| format!("{}: {}", path.display(), error.message()))?;
+        params.validate().map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(params)
+    };
+    match read() {
+        Ok(params) => Command::SetParams(Box::new(params)),
+        Err(reason) => Command::Notify(Severity::Error, reason),
+    }
+}
+
+/// A workspace file, as the command that restores it.
+pub(super) fn workspace(path: &Path) -> Command {
+    match Workspace::load(path) {
+        Ok(workspace) => Command::Restore(Box::new(workspace)),
+        Err(reason) => Command::Notify(Severity::Error, reason),
+    }
+}

@@ -1,0 +1,259 @@
+//! A workspace: the photograph, how it is analyzed and shown, and what is selected, as a file to come back to.
+
+use super::{State, ViewSettings};
+use crate::photo::{EncodingChoice, ReadOptions};
+use crate::segment::Params;
+use crate::view::{Item, MaskRuns, Origin};
+use serde::{Deserialize, Serialize};
+use std::path::{Component, Path, PathBuf};
+
+/// Version of the file; it rises when a field changes its name or its meaning.
+const SCHEMA: u32 = 1;
+
+/// What a workspace file holds, as JSON.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Workspace {
+    schema: u32,
+    /// Version of the program that wrote it.
+    program: String,
+    /// The photograph; in the file, a path is relative to the file's folder where it can be.
+    pub origin: Origin,
+    /// What the photograph's values mean, as `--encoding` takes it.
+    pub encoding: String,
+    /// Counts of full scale, where it is not 255.
+    #[serde(default)]
+    pub full_scale: Option<f64>,
+    /// What is asked of the analysis, a given illuminant included.
+    pub params: Params,
+    /// The parameters of the pinned result.
+    #[serde(default)]
+    pub pinned: Option<Params>,
+    /// The pixels that the analysis is restricted to.
+    #[serde(default)]
+    pub area: Option<MaskRuns>,
+    /// The selected item.
+    #[serde(default)]
+    pub item: Option<Item>,
+    /// The marked pixels.
+    #[serde(default)]
+    pub marked: Option<MaskRuns>,
+    /// How things are shown.
+    #[serde(default)]
+    pub view: ViewSettings,
+}
+
+/// The fields by which a workspace is known, whatever else its schema holds.
+#[derive(Deserialize)]
+struct Stamp {
+    schema: u32,
+    #[serde(rename = "origin")]
+    _origin: serde::de::IgnoredAny,
+}
+
+impl Workspace {
+    /// The workspace as it is.
+    ///
+    /// # Errors
+    /// A sentence, where no photograph is open or the open one is in no file that could be opened again.
+    pub fn of(state: &State) -> Result<Self, String> {
+        let picture =
+            state.picture.as_ref().ok_or("there is no workspace to save: open a photograph first")?;
+        if let Origin::Bytes { name, .. } = &picture.origin {
+            return Err(format!(
+                "{name}: came without a file, and a workspace names one: save the picture and open it from there"
+            ));
+        }
+        let selection = &state.document.selection;
+        let runs = |mask: &std::sync::Arc<crate::raster::Mask>| MaskRuns::of(mask);
+        Ok(Self {
+            schema: SCHEMA,
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+            origin: picture.origin.clone(),
+            encoding: picture.reading.encoding.to_string(),
+            full_scale: picture.reading.full_scale,
+            params: state.document.params,
+            pinned: state.pinned.as_ref().map(|pinned| pinned.params),
+            area: state.document.area.as_ref().map(runs),
+            item: selection.item,
+            marked: selection.marked.as_ref().map(runs),
+            view: state.view.clone(),
+        })
+    }
+
+    /// How the photograph is to be read.
+    ///
+    /// # Errors
+    /// A sentence, where the encoding is none.
+    pub fn reading(&self) -> Result<ReadOptions, String> {
+        let encoding: EncodingChoice = self.encoding.parse().map_err(|error| format!("{error}"))?;
+        Ok(ReadOptions { encoding, full_scale: self.full_scale, ..ReadOptions::default() })
+    }
+
+    /// The text of the file at `path`.
+    ///
+    /// # Errors
+    /// A sentence that names `path`.
+    pub fn to_json(&self, path: &Path) -> Result<String, String> {
+        let mut written = self.clone();
+        if let Origin::File(photo) = &self.origin {
+            written.origin = Origin::File(relative_to_file(photo, path));
+        }
+        let text = serde_json::to_string_pretty(&written);
+        text.map(|text| text + "\n")
+            .map_err(|error| format!("{}: cannot be written: {error}", path.display()))
+    }
+
+    /// Reads the file at `path`; the photograph's path is then whole.
+    ///
+    /// # Errors
+    /// A sentence that names the file, what is wrong with it and what to do.
+    pub fn load(path: &Path) -> Result<Self, String> {
+        let file = path.display();
+        let text = std::fs::read(path)
+            .map_err(|error| format!("{file}: the workspace cannot be read: {error}; choose another file"))?;
+        let foreign =
+            |error| format!("{file}: is no workspace of Dichroscope ({error}); choose another file");
+        let stamp: Stamp = serde_json::from_slice(&text).map_err(foreign)?;
+        if stamp.schema != SCHEMA {
+            return Err(format!(
+                "{file}: has schema {}, this program reads {SCHEMA}; open it with the version that wrote it",
+                stamp.schema
+            ));
+        }
+        let mut workspace: Self = serde_json::from_slice(&text).map_err(foreign)?;
+        workspace.params.validate().map_err(|error| format!("{file}: {error}; correct it there"))?;
+        workspace.reading().map_err(|error| format!("{file}: {error}; correct it there"))?;
+        if let Some(pinned) = &workspace.pinned {
+            pinned.validate().map_err(|error| format!("{file}: pinned {error}; correct it there"))?;
+        }
+        if let Origin::File(photo) = &workspace.origin {
+            let photo = path.parent().unwrap_or(Path::new("")).join(photo);
+            if !photo.is_file() {
+                return Err(format!(
+                    "{file}: its photograph {} is not there; put it back, or open it from where it is now",
+                    photo.display()
+                ));
+            }
+            // `scenes/../photo.png` is `photo.png` for everybody.
+            workspace.origin = Origin::File(without_detours(&photo));
+        }
+        Ok(workspace)
+    }
+}
+
+/// A path without detours, as whole as it was.
+fn without_detours(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(plain.components().next_back(), Some(Component::Normal(_))) => {
+                plain.pop();
+            }
+            other => plain.push(other),
+        }
+    }
+    plain
+}
+
+/// The way to `photo` from the folder of `file`; whole where there is none (another drive).
+fn relative_to_file(photo: &Path, file: &Path) -> PathBuf {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let (Ok(whole), Ok(folder)) = (std::path::absolute(photo), std::path::absolute(folder)) else {
+        return photo.to_owned();
+    };
+    let (whole, folder) = (without_detours(&whole), without_detours(&folder));
+    let shared = whole.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    // Less than a root in common is nothing in common.
+    if shared == 0 || !whole.components().take(shared).any(|part| part == Component::RootDir) {
+        return whole;
+    }
+    let up = folder.components().skip(shared).map(|_| Component::ParentDir);
+    up.chain(whole.components().skip(shared)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::segment::{Parameter, Setting};
+    use crate::view::testing::gray;
+    use std::sync::Arc;
+
+    const PHOTO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
+
+    fn workspace(photo: &Path) -> Workspace {
+        let mut picture = Arc::into_inner(gray(&["...", "..."], 90)).unwrap();
+        picture.origin = Origin::File(photo.to_owned());
+        let mut state = State { picture: Some(Arc::new(picture)), ..State::default() };
+        *state.document.params.slot(Parameter::CameraNoise) = Setting::Value(3.25);
+        let mask =
+            crate::raster::Raster::from_vec(3, 2, vec![true, false, true, true, false, false]).unwrap();
+        state.document.selection.marked = Some(Arc::new(mask));
+        state.document.selection.item = Some(Item::Region(2));
+        state.view.image.exposure_ev = 0.3;
+        state.view.layout = "opaque".into();
+        Workspace::of(&state).unwrap()
+    }
+
+    #[test]
+    fn a_workspace_comes_back_from_its_file() {
+        let root = tempfile::tempdir().unwrap();
+        std::fs::create_dir(root.path().join("photos")).unwrap();
+        std::fs::create_dir(root.path().join("work")).unwrap();
+        let (photo, file) = (root.path().join("photos/a.png"), root.path().join("work/a.dichroscope"));
+        std::fs::copy(PHOTO, &photo).unwrap();
+        let saved = workspace(&photo);
+        let text = saved.to_json(&file).unwrap();
+        assert!(text.contains("../photos/a.png"), "{text}");
+        std::fs::write(&file, text).unwrap();
+        assert_eq!(Workspace::load(&file).unwrap(), saved);
+
+        // The whole folder may move.
+        let moved = tempfile::tempdir().unwrap();
+        for part in ["photos", "work"] {
+            std::fs::rename(root.path().join(part), moved.path().join(part)).unwrap();
+        }
+        let found = Workspace::load(&moved.path().join("work/a.dichroscope")).unwrap();
+        assert_eq!(found.origin, Origin::File(moved.path().join("photos/a.png")));
+        std::fs::remove_file(moved.path().join("photos/a.png")).unwrap();
+        let error = Workspace::load(&moved.path().join("work/a.dichroscope")).unwrap_err();
+        assert!(error.contains("a.png is not there"), "{error}");
+    }
+
+    #[test]
+    fn what_is_no_workspace_is_said() {
+        let root = tempfile::tempdir().unwrap();
+        let file = root.path().join("x.dichroscope");
+        let says = |text: Option<&str>, expected: &str| {
+            if let Some(text) = text {
+                std::fs::write(&file, text).unwrap();
+            }
+            let error = Workspace::load(&file).unwrap_err();
+            assert!(error.starts_with(&file.display().to_string()) && error.contains(expected), "{error}");
+        };
+        says(None, "cannot be read");
+        says(Some("{}"), "is no workspace");
+        says(Some(r#"{"schema": 7, "origin": {}}"#), "has schema 7, this program reads 1");
+        let good = workspace(Path::new(PHOTO)).to_json(&file).unwrap();
+        says(Some(&good.replace("3.25", "-3.25")), "camera_noise");
+        says(Some(&good.replace("\"auto\"", "\"rec709\"")), "");
+        says(Some(&good[..good.len() / 2]), "is no workspace");
+    }
+
+    #[test]
+    fn what_cannot_be_opened_again_cannot_be_saved() {
+        let message = Workspace::of(&State::default()).unwrap_err();
+        assert!(message.contains("open a photograph"), "{message}");
+        let state = State { picture: Some(gray(&["."], 1)), ..State::default() };
+        assert!(Workspace::of(&state).unwrap_err().contains("came without a file"));
+    }
+
+    #[test]
+    fn ways_between_files_are_short() {
+        let way = |photo: &str, file: &str| relative_to_file(Path::new(photo), Path::new(file));
+        assert_eq!(way("/a/b/c.png", "/a/b/w.d"), Path::new("c.png"));
+        assert_eq!(way("/a/b/c.png", "/a/x/y/w.d"), Path::new("../../b/c.png"));
+        assert_eq!(way("c.png", "w.d"), Path::new("c.png"));
+        assert_eq!(without_detours(Path::new("/a/./b/../c/d/../e.png")), Path::new("/a/c/e.png"));
+    }
+}

@@ -1,0 +1,215 @@
+//! Writes exports: whole folders and single files, each of which appears whole or not at all.
+
+use super::Export;
+use super::jobs::{ExportInput, Stop};
+use crate::describe::{AreaFacts, ImageFacts, Report, Timings};
+use crate::export::{ExportError, WholeResult, matte_bytes, png_of_rgba, write_file};
+use crate::truth::{Outcome, score};
+use crate::view::{Look, Picture, ResultSnapshot, paint, profile, profile_csv, regions_text, selected};
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+/// The name that an area has in reports and in calls of `analyze`.
+pub(super) const AREA_FILE: &str = "area.png";
+
+/// Writes something, telling `tell` how many files of how many are done. The sentence says what was written, or what failed,
+/// why, and what to do.
+pub(super) fn write(
+    export: &Export,
+    input: &ExportInput,
+    stop: &Stop,
+    tell: &(dyn Fn(usize, usize) + Sync),
+) -> Result<String, String> {
+    if let Export::Result { folder, force } = export {
+        return write_result(folder, *force, input, stop, tell);
+    }
+    let Contents { path, bytes, what } = contents(export, input)?;
+    if stop.stopped() {
+        return Ok(stopped(&path));
+    }
+    match write_file(&path, &bytes) {
+        Ok(()) => Ok(format!("wrote {what} to {}", path.display())),
+        Err(error) => Err(format!("{}; choose another place", whole_reason(&error))),
+    }
+}
+
+fn stopped(path: &Path) -> String {
+    format!("stopped: {} was not written", path.display())
+}
+
+/// An error with its causes, in one line.
+pub(super) fn whole_reason(error: &dyn Error) -> String {
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        text = format!("{text}: {error}");
+        cause = error.source();
+    }
+    text
+}
+
+/// What goes into a file.
+struct Contents {
+    path: PathBuf,
+    bytes: Vec<u8>,
+    /// What it is, in words.
+    what: String,
+}
+
+fn contents(export: &Export, input: &ExportInput) -> Result<Contents, String> {
+    let of = |path: &Path, bytes: Vec<u8>, what: &str| {
+        Ok(Contents { path: path.to_owned(), bytes, what: what.to_owned() })
+    };
+    match export {
+        Export::Result { folder, .. } => Err(format!("{}: is a folder", folder.display())),
+        Export::Matte { path, keep_surface } => matte(path, *keep_surface, input),
+        Export::Selection { path } => selection(path, input),
+        Export::Area { path } => {
+            let area = input.document.area.as_ref();
+            let area = area.ok_or("no area to export: the analysis is not restricted to one")?;
+            of(path, selected::mask_png(area), "the area as a mask")
+        }
+        Export::Regions { path } => of(path, regions_text(shown(input)?).into_bytes(), "the regions table"),
+        Export::Profile { path } => {
+            let picture = picture(input)?;
+            let ends = input.profile.unwrap_or([[0.5; 2]; 2]);
+            let samples = profile(picture, input.shown.as_deref(), ends);
+            of(path, profile_csv(&samples, picture.size().0).into_bytes(), "the profile")
+        }
+        Export::Layer { path, settings } => {
+            let picture = picture(input)?;
+            let look = Look::of(settings, input.selected_region);
+            let (shown, pinned) = (input.shown.as_deref(), input.pinned.as_deref());
+            let painted = paint(settings.layer, picture, shown, pinned, &look);
+            let size = [painted.width() as u32, painted.height() as u32];
+            let what = format!("the layer \u{201c}{}\u{201d}", settings.layer.name());
+            of(path, png_of_rgba(size, painted.as_slice().as_flattened()), &what)
+        }
+        Export::Picture { path, size, rgba } => {
+            let what = format!("a picture of {} \u{d7} {} pixels", size[0], size[1]);
+            match png_of_rgba(*size, rgba) {
+                bytes if bytes.is_empty() => Err(format!("{}: the picture is empty", path.display())),
+                bytes => of(path, bytes, &what),
+            }
+        }
+        Export::Parameters { path } => {
+            let text = toml::to_string(&input.document.params);
+            let text = text.map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
+            of(path, text.into_bytes(), "the parameters")
+        }
+        Export::Workspace { path } => {
+            let workspace = input.workspace.as_ref().map_err(String::clone)?;
+            of(path, workspace.to_json(path)?.into_bytes(), "the workspace")
+        }
+    }
+}
+
+fn picture(input: &ExportInput) -> Result<&Picture, String> {
+    input.picture.as_deref().ok_or_else(|| "nothing to export: open a photograph first".to_owned())
+}
+
+/// The result shown, if it is all of one piece.
+fn shown(input: &ExportInput) -> Result<&ResultSnapshot, String> {
+    picture(input)?;
+    match input.shown.as_deref() {
+        Some(shown) if shown.stale_from.is_none() => Ok(shown),
+        _ => {
+            Err("nothing to export yet: the analysis is still under way; try again when it has ended".into())
+        }
+    }
+}
+
+fn matte(path: &Path, keep_surface: f64, input: &ExportInput) -> Result<Contents, String> {
+    let shown = shown(input)?;
+    let (extension, bytes) = matte_bytes(&shown.picture.photo, &shown.analysis.intrinsic, keep_surface)
+        .map_err(|error| whole_reason(&error))?;
+    // The format is the photograph's own, or the one that can hold it.
+    let fits = |given: &str| match extension {
+        "jpg" => ["jpg", "jpeg"].contains(&given),
+        "tif" => ["tif", "tiff"].contains(&given),
+        other => other == given,
+    };
+    let given = extension_of(path);
+    let path = if fits(&given) { path.to_owned() } else { path.with_extension(extension) };
+    let kept = (keep_surface.clamp(0.0, 1.0) * 100.0).round();
+    let what = if kept > 0.0 {
+        format!("the photograph with {kept} % of its surface reflection")
+    } else {
+        "the photograph without highlights".to_owned()
+    };
+    Ok(Contents { path, bytes, what })
+}
+
+fn selection(path: &Path, input: &ExportInput) -> Result<Contents, String> {
+    let (picture, shown) = (picture(input)?, input.shown.as_deref());
+    let mask = selected::selected_pixels(&input.document.selection, picture, shown)
+        .ok_or("nothing is selected: mark pixels or select a region, then export again")?;
+    let (bytes, what) = match extension_of(path).as_str() {
+        "png" => (selected::mask_png(&mask), "the selection as a mask"),
+        "csv" => (selected::csv(&mask, picture, shown).into_bytes(), "the selected pixels as a table"),
+        "ply" => (selected::ply(&mask, picture), "the selected pixels as points"),
+        _ => {
+            let path = path.display();
+            return Err(format!(
+                "{path}: a selection is written as .png (mask), .csv (table) or .ply (points)"
+            ));
+        }
+    };
+    Ok(Contents { path: path.to_owned(), bytes, what: what.to_owned() })
+}
+
+fn extension_of(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
+}
+
+/// The files of `analyze`, as it would write them for the photograph and parameters of the result shown.
+fn write_result(
+    folder: &Path,
+    force: bool,
+    input: &ExportInput,
+    stop: &Stop,
+    tell: &(dyn Fn(usize, usize) + Sync),
+) -> Result<String, String> {
+    let shown = shown(input)?;
+    let report = report(shown)?;
+    let whole = WholeResult { photo: &shown.picture.photo, analysis: &shown.analysis, keep_surface: 0.0 };
+    let watch = |done, total| {
+        tell(done, total);
+        !stop.stopped()
+    };
+    match whole.write(report, folder, force, &watch) {
+        Ok(_) => Ok(format!("wrote the result to {}", folder.display())),
+        Err(ExportError::Stopped) => Ok(stopped(folder)),
+        Err(ExportError::Occupied(folder)) => Err(format!(
+            "{} holds something else than an earlier result: choose another folder, or let it be replaced",
+            folder.display()
+        )),
+        Err(error @ ExportError::NotAFolder(_)) => Err(format!("{error}; choose another place")),
+        Err(error) => Err(format!("{}; choose another place", whole_reason(&error))),
+    }
+}
+
+fn report(shown: &ResultSnapshot) -> Result<Report, String> {
+    let Picture { photo, sha256, read_ms, truth, .. } = &*shown.picture;
+    let facts = ImageFacts::of(photo, sha256);
+    let mut report = Report::new(facts, &shown.params, &shown.analysis, &photo.warnings);
+    report.area = shown.area.as_ref().map(|area| AreaFacts {
+        file: AREA_FILE.to_owned(),
+        pixels: area.as_slice().iter().filter(|&&inside| inside).count(),
+    });
+    report.timings_ms = Timings { read: Some(*read_ms), ..Timings::default() };
+    for (stage, took_ms) in crate::analysis::Stage::ALL.into_iter().zip(shown.took_ms) {
+        // Of a stage whose earlier output still stood, the time that it took now.
+        *report.timings_ms.slot(stage) = Some(took_ms.unwrap_or(0.0));
+    }
+    if let Some(truth) = truth {
+        let intrinsic = &shown.analysis.intrinsic;
+        let (body, surface) = (&intrinsic.body, &intrinsic.surface);
+        let outcome = Outcome { regions: shown.labels(), body, surface, report: &report };
+        report.scores = Some(score(truth, &photo.image.pixels, &outcome).map_err(|error| error.to_string())?);
+    }
+    Ok(report)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,429 @@
+//! The schema itself.
+
+use super::scores::Scores;
+use crate::analysis::{Analysis, Stage};
+use crate::intrinsic::{Ambient, HighlightBranch, Reason, RegionReflection};
+use crate::photo::Photo;
+use crate::raster::UNASSIGNED;
+use crate::segment::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine, Setting};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Version of the schema; it rises when a field changes its name or its meaning.
+pub const SCHEMA: u32 = 1;
+
+/// Everything that is said about one analyzed image.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// [`SCHEMA`].
+    pub schema: u32,
+    /// Version of the program that wrote it.
+    pub program: String,
+    /// The file and how it was read.
+    pub image: ImageFacts,
+    /// The area that the analysis was restricted to, if it was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area: Option<AreaFacts>,
+    /// What was asked for and what was used.
+    pub params: ParamsFacts,
+    /// The color of the light.
+    pub illuminant: IlluminantFacts,
+    /// The ambient light; absent in reports of versions that did not ask.
+    #[serde(default)]
+    pub ambient: AmbientFacts,
+    /// The regions; region `id` of `regions.png` is at index `id − 1`.
+    pub regions: Vec<RegionFacts>,
+    /// Pixels in no region; of an area only those inside.
+    pub unassigned_pixels: usize,
+    /// Pixels by what keeps them from being explained, by name; of an area only those inside.
+    #[serde(default)]
+    pub reasons: BTreeMap<String, usize>,
+    /// What to beware of, in words: of the file first, then of the analysis.
+    pub warnings: Vec<String>,
+    /// How it compares with a ground truth, when there was one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scores: Option<Scores>,
+    /// Wall time of each step.
+    pub timings_ms: Timings,
+}
+
+impl Report {
+    /// The report of one run. `file_warnings` come from reading the image; area, scores and timings are still empty.
+    pub fn new(image: ImageFacts, params: &Params, analysis: &Analysis, file_warnings: &[String]) -> Self {
+        let labels = analysis.finals.labels.as_slice();
+        let is_unassigned =
+            |&(pixel, &id): &(usize, &u16)| id == UNASSIGNED && !analysis.masks.outside(pixel);
+        let unassigned = labels.iter().enumerate().filter(is_unassigned).count();
+        Self {
+            schema: SCHEMA,
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+            image,
+            area: None,
+            params: ParamsFacts::new(params, analysis),
+            illuminant: IlluminantFacts::new(analysis),
+            ambient: AmbientFacts::new(analysis),
+            regions: analysis.intrinsic.regions.iter().map(RegionFacts::from).collect(),
+            unassigned_pixels: unassigned,
+            reasons: reasons(analysis),
+            warnings: file_warnings.iter().chain(&analysis.warnings).cloned().collect(),
+            scores: None,
+            timings_ms: Timings::default(),
+        }
+    }
+}
+
+/// How many pixels have which reason.
+fn reasons(analysis: &Analysis) -> BTreeMap<String, usize> {
+    let mut counts = [0usize; Reason::ALL.len()];
+    for (pixel, &reason) in analysis.intrinsic.reasons.as_slice().iter().enumerate() {
+        counts[reason as usize] += usize::from(!analysis.masks.outside(pixel));
+    }
+    Reason::ALL.iter().zip(counts).map(|(reason, count)| (reason.name().to_owned(), count)).collect()
+}
+
+/// The file and how it was read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ImageFacts {
+    /// File name, without folders.
+    pub file: String,
+    /// SHA-256 of the file's bytes, lower-case hexadecimal.
+    pub sha256: String,
+    /// Columns, after the file's orientation was applied.
+    pub width: usize,
+    /// Rows, after the file's orientation was applied.
+    pub height: usize,
+    /// Encoding that was undone, in words.
+    pub encoding: String,
+    /// Counts that the file's full scale stands for.
+    pub full_scale: f64,
+}
+
+impl ImageFacts {
+    /// Of a photograph, and of the SHA-256 of its file.
+    pub fn of(photo: &Photo, sha256: &str) -> Self {
+        let file = Path::new(&photo.name).file_name().unwrap_or_default();
+        Self {
+            file: file.to_string_lossy().into_owned(),
+            sha256: sha256.to_owned(),
+            width: photo.image.width(),
+            height: photo.image.height(),
+            encoding: photo.encoding.to_string(),
+            full_scale: photo.full_scale,
+        }
+    }
+}
+
+/// The area that an analysis was restricted to.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AreaFacts {
+    /// Name of the mask's file, without folders.
+    pub file: String,
+    /// Pixels inside.
+    pub pixels: usize,
+}
+
+/// A parameter as it was asked for and as it was used.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ParameterFacts {
+    /// A number or `auto`.
+    pub asked: Setting,
+    /// The number that the run worked with; null where it was off (infinite).
+    pub used: Option<f64>,
+}
+
+/// The light as it was asked for and as it was used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LightFacts {
+    /// Three numbers of any length, or `auto`.
+    pub asked: IlluminantSetting,
+    /// The unit vector that the run worked with; null where nothing in the image told of it.
+    pub used: Option<[f64; 3]>,
+}
+
+/// The ambient light as it was asked for and as it was used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AmbientAsked {
+    /// Three numbers in counts, `auto` or `off`.
+    pub asked: AmbientSetting,
+    /// What was subtracted before the split, counts; null: nothing.
+    pub used: Option<[f64; 3]>,
+}
+
+/// Method, parameters and refinements of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "Parameter::spec describes each")]
+pub struct ParamsFacts {
+    pub method: Method,
+    pub clip_threshold: ParameterFacts,
+    pub bloom_density: ParameterFacts,
+    pub camera_noise: ParameterFacts,
+    pub min_intensity: ParameterFacts,
+    pub cylinder_width: ParameterFacts,
+    pub slice_width: ParameterFacts,
+    pub window_size: ParameterFacts,
+    pub min_area: ParameterFacts,
+    /// Absent in reports of versions that could not be told the light.
+    #[serde(default)]
+    pub illuminant: LightFacts,
+    /// Absent in reports of versions that did not ask.
+    #[serde(default)]
+    pub ambient: AmbientAsked,
+    /// The refinements in force: all off under the paper's method.
+    pub refine: Refine,
+}
+
+impl ParamsFacts {
+    fn new(params: &Params, analysis: &Analysis) -> Self {
+        let facts = |parameter| {
+            let number = analysis.used.get(parameter);
+            ParameterFacts { asked: params.get(parameter), used: number.is_finite().then_some(number) }
+        };
+        Self {
+            method: params.method,
+            clip_threshold: facts(Parameter::ClipThreshold),
+            bloom_density: facts(Parameter::BloomDensity),
+            camera_noise: facts(Parameter::CameraNoise),
+            min_intensity: facts(Parameter::MinIntensity),
+            cylinder_width: facts(Parameter::CylinderWidth),
+            slice_width: facts(Parameter::SliceWidth),
+            window_size: facts(Parameter::WindowSize),
+            min_area: facts(Parameter::MinArea),
+            illuminant: LightFacts {
+                asked: params.illuminant,
+                used: analysis.illuminant.map(|light| light.direction),
+            },
+            ambient: AmbientAsked { asked: params.ambient, used: analysis.intrinsic.ambient.subtracted },
+            refine: params.refinements(),
+        }
+    }
+}
+
+/// The ambient light (section 7.5).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AmbientFacts {
+    /// Subtracted before the split and added to the body image after it, counts; null: nothing.
+    pub subtracted: Option<[f64; 3]>,
+    /// Why it was subtracted, or why not: `off`, `given`, `subtracted`, `few_lines`, `black`, `negative`, `no_meeting` or
+    /// `darker_pixels`.
+    pub verdict: String,
+    /// The same in words.
+    pub reason: String,
+    /// Where the matte lines meet, counts; null where it was not asked, or fewer than two lines are known.
+    pub meeting: Option<[f64; 3]>,
+    /// Its standard deviation in each band, counts.
+    pub sd_counts: Option<[f64; 3]>,
+    /// Lines that it rests on.
+    pub lines: usize,
+    /// Root mean square distance of the lines from it, counts.
+    pub miss_counts: Option<f64>,
+    /// Root mean square distance of the lines from black, counts.
+    pub miss_of_black_counts: Option<f64>,
+    /// Its squared distance from black, in variances: 16.3 is significant.
+    pub chi_square: Option<f64>,
+}
+
+impl AmbientFacts {
+    fn new(analysis: &Analysis) -> Self {
+        let Ambient { subtracted, meeting, verdict } = analysis.intrinsic.ambient;
+        Self {
+            subtracted,
+            verdict: verdict.name().to_owned(),
+            reason: verdict.reason().to_owned(),
+            meeting: meeting.map(|meeting| meeting.counts),
+            sd_counts: meeting.map(|meeting| meeting.sd_counts),
+            lines: meeting.map_or(0, |meeting| meeting.lines),
+            miss_counts: meeting.map(|meeting| meeting.miss_counts[0]),
+            miss_of_black_counts: meeting.map(|meeting| meeting.miss_counts[1]),
+            chi_square: meeting.map(|meeting| meeting.chi_square),
+        }
+    }
+}
+
+/// The color of the light and what it rests on.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct IlluminantFacts {
+    /// Unit vector; null where nothing in the image told of it.
+    pub direction: Option<[f64; 3]>,
+    /// Number of regions whose highlights it rests on; 0 where it was given.
+    pub objects: usize,
+    /// Whether it was given and not estimated.
+    #[serde(default)]
+    pub given: bool,
+    /// What it rests on: `given`, `planes`, `votes` or `none`.
+    #[serde(default)]
+    pub basis: String,
+    /// Why this light was used and no other, or why none was.
+    #[serde(default)]
+    pub reason: String,
+    /// Within so many degrees the light lies, as far as the evidence itself can tell; null where it was given or is unknown.
+    #[serde(default)]
+    pub interval_deg: Option<f64>,
+    /// The light by the dichromatic planes, unit.
+    #[serde(default)]
+    pub planes: Option<[f64; 3]>,
+    /// Whether the planes are those of the highlights alone, as faint surface reflection has another color.
+    #[serde(default)]
+    pub highlights_alone: bool,
+    /// The light by the votes of small highlights, unit.
+    #[serde(default)]
+    pub votes: Option<[f64; 3]>,
+    /// Degrees between both.
+    #[serde(default)]
+    pub agreement_deg: Option<f64>,
+    /// Share of the votes that the light used has, 0…1.
+    #[serde(default)]
+    pub vote_share: f64,
+    /// Share of the lit pixels in regions that hold and show highlights, 0…1.
+    #[serde(default)]
+    pub support: f64,
+}
+
+impl IlluminantFacts {
+    fn new(analysis: &Analysis) -> Self {
+        let light = &analysis.planar.light;
+        Self {
+            direction: analysis.illuminant.map(|light| light.direction),
+            objects: analysis.illuminant.map_or(0, |light| light.objects),
+            given: analysis.illuminant.is_some_and(|light| light.given),
+            basis: light.basis.name().to_owned(),
+            reason: light.reason(),
+            interval_deg: light.interval_deg,
+            planes: light.planes,
+            highlights_alone: light.highlights_alone,
+            votes: light.votes,
+            agreement_deg: light.agreement_deg(),
+            vote_share: light.share,
+            support: light.support,
+        }
+    }
+}
+
+/// One region, as [`RegionReflection`] describes it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "RegionReflection describes each")]
+pub struct RegionFacts {
+    pub id: u16,
+    pub pixels: usize,
+    pub matte_pixels: usize,
+    pub highlight_pixels: usize,
+    pub clipped_pixels: usize,
+    pub body: [f64; 3],
+    pub surface: Option<[f64; 3]>,
+    pub matte_mean: [f64; 3],
+    pub highlight_start: Option<[f64; 3]>,
+    /// Empty in reports of versions that did not look for it.
+    #[serde(default)]
+    pub highlight_branches: Vec<HighlightBranchFacts>,
+    pub plane_normal: Option<[f64; 3]>,
+    pub angle_deg: Option<f64>,
+    pub fit_rms_counts: f64,
+    /// True in reports of versions that did not ask.
+    #[serde(default = "yes")]
+    pub holds: bool,
+    #[serde(default)]
+    pub confidence: f64,
+    #[serde(default)]
+    pub texture: f64,
+    pub separable: bool,
+    pub neighbors: Vec<u16>,
+    pub warnings: Vec<String>,
+}
+
+/// One highlight line of a region, as [`HighlightBranch`] describes it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "HighlightBranch describes each")]
+pub struct HighlightBranchFacts {
+    pub start_counts: [f64; 3],
+    pub body_counts: f64,
+    pub pixels: usize,
+    pub share: f64,
+}
+
+impl From<&HighlightBranch> for HighlightBranchFacts {
+    fn from(branch: &HighlightBranch) -> Self {
+        Self {
+            start_counts: branch.start,
+            body_counts: branch.body,
+            pixels: branch.pixels,
+            share: branch.share,
+        }
+    }
+}
+
+const fn yes() -> bool {
+    true
+}
+
+impl From<&RegionReflection> for RegionFacts {
+    fn from(region: &RegionReflection) -> Self {
+        Self {
+            id: region.id,
+            pixels: region.pixels,
+            matte_pixels: region.matte_pixels,
+            highlight_pixels: region.highlight_pixels,
+            clipped_pixels: region.clipped_pixels,
+            body: region.body,
+            surface: region.surface,
+            matte_mean: region.matte_mean,
+            highlight_start: region.highlight_start,
+            highlight_branches: region.highlight_branches.iter().map(HighlightBranchFacts::from).collect(),
+            plane_normal: region.plane_normal,
+            angle_deg: region.angle_deg,
+            fit_rms_counts: region.fit_rms_counts,
+            holds: region.holds,
+            confidence: region.confidence,
+            texture: region.texture,
+            separable: region.separable,
+            neighbors: region.neighbors.clone(),
+            warnings: region.warnings.clone(),
+        }
+    }
+}
+
+/// Wall time of each step in milliseconds; a step that did not take place is left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+#[allow(missing_docs, reason = "Stage describes each")]
+pub struct Timings {
+    /// From the file's bytes to linear light.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub read: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mask: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub classify: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub merge: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub linear: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub planar: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clipping: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub split: Option<f64>,
+    /// All files of the result but the report itself, which cannot hold the time it has yet to take.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub write: Option<f64>,
+}
+
+impl Timings {
+    /// The time of one stage, to be set.
+    pub fn slot(&mut self, stage: Stage) -> &mut Option<f64> {
+        match stage {
+            Stage::Masks => &mut self.mask,
+            Stage::Classify => &mut self.classify,
+            Stage::Merge => &mut self.merge,
+            Stage::Linear => &mut self.linear,
+            Stage::Planar => &mut self.planar,
+            Stage::Clipping => &mut self.clipping,
+            Stage::Split => &mut self.split,
+        }
+    }
+
+    /// All stages together, reading and writing apart.
+    pub fn analysis_ms(mut self) -> f64 {
+        Stage::ALL.iter().filter_map(|&stage| *self.slot(stage)).sum()
+    }
+}

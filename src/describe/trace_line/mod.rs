@@ -1,0 +1,143 @@
+//! Trace lines: a run's decisions for scripts, one JSON object a line.
+//!
+//! `{"seq", "stage", "kind", "ids", "values", "thresholds"}`: the step's number, its stage, what kind of decision it is, what
+//! it is about (regions by their numbers of birth, pixels as `[column, row]`, windows and areas by index), what was measured,
+//! and what it was held against. Colors and distances are in counts, variances in counts², angles in degrees; a number
+//! that is not finite is `null`. A first line says which schema this is.
+
+mod event;
+mod local;
+
+use super::Names;
+use crate::trace::{Contest, Measure, Stage, Step, Trace};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Version of the trace lines; it rises when a name changes or its meaning.
+pub const TRACE_SCHEMA: u32 = 1;
+
+/// What comes before all steps: schema, program, size of the picture, number of steps and each stage's first one, and the
+/// final number of each region by its number of birth (0: not in the result).
+pub fn schema_line(trace: &Trace, program: &str) -> String {
+    let stages: serde_json::Map<String, Value> = trace
+        .stages()
+        .map(|(stage, steps)| (stage.name().to_owned(), json!([steps.start, steps.end])))
+        .collect();
+    let regions = crate::trace::final_numbers(trace).unwrap_or_default();
+    json!({
+        "schema": TRACE_SCHEMA,
+        "program": program,
+        "fields": ["seq", "stage", "kind", "ids", "values", "thresholds"],
+        "width": trace.width(),
+        "height": trace.height(),
+        "steps": trace.len(),
+        "stages": stages,
+        "regions": regions,
+    })
+    .to_string()
+}
+
+/// One step as a line, without its end, appended to `out`.
+pub fn trace_line(names: &Names, seq: usize, stage: Stage, step: &Step, out: &mut String) {
+    // Claims and labels come by the million: they are written in place. Writing to a string cannot fail.
+    let begin = |out: &mut String, kind: &str| {
+        let _ = write!(out, "{{\"seq\":{seq},\"stage\":\"{}\",\"kind\":\"{kind}\",", stage.name());
+    };
+    begin(out, step.kind().name());
+    let pixel = |pixel: u32| {
+        let (x, y) = names.place(pixel);
+        format!("\"pixel\":[{x},{y}]")
+    };
+    let _ = match *step {
+        Step::Event(event) => {
+            let (ids, values, thresholds) = event::parts(names, event);
+            write!(out, "\"ids\":{ids},\"values\":{values},\"thresholds\":{thresholds}}}")
+        }
+        Step::Claim { pixel: at, before, after, contest } => {
+            let (values, thresholds) = contest.map_or_else(nothing, |contest| contest_parts(&contest));
+            let at = pixel(at);
+            write!(
+                out,
+                "\"ids\":{{{at},\"region\":{after},\"from\":{before}}},\"values\":{values},\"thresholds\":{thresholds}}}"
+            )
+        }
+        Step::Refusal { pixel: at, holder, challenger, contest } => {
+            let (values, thresholds) = contest_parts(&contest);
+            let at = pixel(at);
+            write!(
+                out,
+                "\"ids\":{{{at},\"region\":{holder},\"challenger\":{challenger}}},\"values\":{values},\
+                 \"thresholds\":{thresholds}}}"
+            )
+        }
+        Step::Label { pixel: at, kind } => {
+            let at = pixel(at);
+            let kind = kind.name();
+            write!(out, "\"ids\":{{{at}}},\"values\":{{\"role\":\"{kind}\"}},\"thresholds\":{{}}}}")
+        }
+    };
+}
+
+fn nothing() -> (String, String) {
+    ("{}".to_owned(), "{}".to_owned())
+}
+
+fn contest_parts(contest: &Contest) -> (String, String) {
+    let Contest { measure, challenger, holder } = *contest;
+    let (name, against) = match measure {
+        Measure::Axis => ("axis", "holder"),
+        Measure::Plane => ("plane", "holder"),
+        Measure::ForeignMatte => ("foreign_matte", "radius"),
+        Measure::Vote => ("vote", "all"),
+    };
+    let (challenger, holder) = (short(challenger), short(holder));
+    (format!("{{\"measure\":\"{name}\",\"challenger\":{challenger}}}"), format!("{{\"{against}\":{holder}}}"))
+}
+
+/// A number as short as it can be read back; `null` where it is none.
+fn short(number: f32) -> Value {
+    if !number.is_finite() {
+        return Value::Null;
+    }
+    // By way of its digits: as a double it would carry digits that were never measured.
+    number.to_string().parse::<f64>().map_or(Value::Null, Value::from)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::{Event, Pass, PixelKind};
+
+    fn line(step: &Step) -> Value {
+        let mut text = String::new();
+        trace_line(&Names::default(), 7, Stage::Linear, step, &mut text);
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
+    }
+
+    #[test]
+    fn a_contested_claim_says_what_was_measured_against_what() {
+        let contest = Contest { measure: Measure::Axis, challenger: 2.1, holder: 6.25 };
+        let step = Step::Claim { pixel: 3, before: 1, after: 2, contest: Some(contest) };
+        let expected = json!({
+            "seq": 7, "stage": "linear", "kind": "claim",
+            "ids": {"pixel": [0, 3], "region": 2, "from": 1},
+            "values": {"measure": "axis", "challenger": 2.1},
+            "thresholds": {"holder": 6.25},
+        });
+        assert_eq!(line(&step), expected);
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_null_and_names_are_text() {
+        let contest = Contest { measure: Measure::Vote, challenger: f32::NAN, holder: f32::INFINITY };
+        let refusal = line(&Step::Refusal { pixel: 0, holder: 1, challenger: 2, contest });
+        assert_eq!(
+            (&refusal["values"]["challenger"], &refusal["thresholds"]["all"]),
+            (&Value::Null, &Value::Null)
+        );
+        let pass = line(&Step::Event(&Event::PassBegan { pass: Pass::SecondLook(6) }));
+        assert_eq!(pass["values"], json!({"pass": "second look", "window_size": 6}));
+        let label = line(&Step::Label { pixel: 1, kind: PixelKind::Lost });
+        assert_eq!(label["values"]["role"], "lost");
+    }
+}

@@ -1,0 +1,302 @@
+//! What was decided about a pixel, in words.
+
+use super::event::{ordinal, passed_over, variances};
+use super::local::{surroundings, unfit};
+use super::{Names, count, percent, won};
+use crate::color::Trial;
+use crate::reflection::{SliceBound, SliceMiss};
+use crate::trace::{
+    Barrier, Class, HistoryEntry, HistoryKind, MaskVerdict, MergeStory, PixelKind, Reach, Release,
+    SplitStory, WindowStory,
+};
+
+/// Happenings that say nearly the same, as one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Condensed {
+    /// Step and stage of the last of them.
+    pub last: HistoryEntry,
+    /// How many they are.
+    pub times: usize,
+}
+
+/// Takes claims and refusals by one region within one stage together: a pixel is taken, given back and refused once in each
+/// round of slices that turn to a better light. The last one stands for all. Oldest first, as given.
+pub fn condense(history: &[HistoryEntry]) -> Vec<Condensed> {
+    let mut condensed: Vec<Condensed> = Vec::new();
+    let key = |happening: &HistoryEntry| match happening.what {
+        HistoryKind::Refused { region, .. } => Some((happening.stage, 0, region, 0)),
+        HistoryKind::Kept { holder, challenger, .. } => Some((happening.stage, 1, challenger, holder)),
+        HistoryKind::Claimed { region, from, .. } => Some((happening.stage, 2, region, from)),
+        HistoryKind::Reset { from, to } => Some((happening.stage, 3, from, to)),
+        _ => None,
+    };
+    for happening in history {
+        let known = key(happening);
+        let mut times = 1;
+        if known.is_some()
+            && let Some(earlier) = condensed.iter().rposition(|earlier| key(&earlier.last) == known)
+        {
+            times += condensed.remove(earlier).times;
+        }
+        condensed.push(Condensed { last: happening.clone(), times });
+    }
+    condensed
+}
+
+impl Names {
+    /// What was decided about a pixel.
+    pub fn happening(&self, happening: &HistoryEntry) -> String {
+        match &happening.what {
+            HistoryKind::Masked(verdict) => masked(verdict),
+            HistoryKind::Window(story) => window(story),
+            HistoryKind::Merging(story) => merging(story),
+            HistoryKind::AreaChosen { region, rank, pixels, radius } => format!(
+                "its area, {} with {pixels} unclaimed pixels, starts {}, radius {radius:.1} counts",
+                ordinal(*rank),
+                self.region(*region)
+            ),
+            HistoryKind::AreaPassedOver { pixels, least, reason } => {
+                format!("its area starts no hypothesis: {}", passed_over(*reason, *pixels, *least))
+            }
+            HistoryKind::Seeded { region, reach } => {
+                format!("{} starts from it: {}", self.region(*region), inside(*reach))
+            }
+            HistoryKind::Claimed { region, from, reach, contest } => {
+                let from_whom =
+                    if *from > 0 { format!(" from {}", self.region(*from)) } else { String::new() };
+                let how = match contest {
+                    Some(contest) => format!("{}{}", won(contest), limit(*reach)),
+                    None => inside(*reach),
+                };
+                format!("{} takes it{from_whom}: {how}", self.region(*region))
+            }
+            HistoryKind::Kept { holder, challenger, contest } => {
+                let why = self.kept(*challenger, contest);
+                format!("{} keeps it: {why}", self.region(*holder))
+            }
+            HistoryKind::Refused { region, barrier } => {
+                format!("{} grows beside it and refuses it: {}", self.region(*region), outside(*barrier))
+            }
+            HistoryKind::Unclaimable { regions } => {
+                format!(
+                    "{} grew beside it, but its mask keeps it from being claimed by its color",
+                    self.regions(regions)
+                )
+            }
+            HistoryKind::Split(story) => split(story),
+            HistoryKind::Surroundings(story) => surroundings(story),
+            HistoryKind::Decided(event) => self.event(event),
+            other => self.moved(other),
+        }
+    }
+
+    /// Changes of hands that are no claims.
+    fn moved(&self, what: &HistoryKind) -> String {
+        match what {
+            HistoryKind::Released { region, why } => {
+                format!("{} gives it up: {}", self.region(*region), self.release(*why))
+            }
+            HistoryKind::Merged { from, into, angle_deg, rms } => format!(
+                "with all of {} it joins {}: their lines differ by {angle_deg:.1}\u{b0}, rms distance {rms:.1} counts",
+                self.region(*from),
+                self.region(*into)
+            ),
+            HistoryKind::Voted { from, region, votes: [own, all] } => format!(
+                "from {} it follows the majority to {}: {own} of {all} assigned pixels around it",
+                self.region(*from),
+                self.region(*region)
+            ),
+            HistoryKind::Reset { from, to: 0 } => {
+                format!("{} gives it back: slices start anew under a better light", self.region(*from))
+            }
+            HistoryKind::Reset { from, to } => format!(
+                "it goes back from {} to {}: slices start anew under a better light",
+                self.region(*from),
+                self.region(*to)
+            ),
+            HistoryKind::Filled { region, pixels, border_share } => format!(
+                "a hole of {} around it goes to {}, which holds {} of its border",
+                count(*pixels, "pixel"),
+                self.region(*region),
+                percent(*border_share)
+            ),
+            HistoryKind::Separated { region, part, pixels } => format!(
+                "with {} that lie apart from {} it becomes {}",
+                count(*pixels, "pixel"),
+                self.region(*region),
+                self.region(*part)
+            ),
+            HistoryKind::Numbered { region, number: 0 } => {
+                format!("hypothesis {region} is not in the result")
+            }
+            HistoryKind::Numbered { region, number } => {
+                format!("hypothesis {region} becomes region {number}")
+            }
+            // All others are said above.
+            _ => String::new(),
+        }
+    }
+
+    fn release(&self, why: Release) -> String {
+        match why {
+            Release::Refit { distance, radius } => {
+                format!("{distance:.1} counts from its refitted axis, radius {radius:.1}")
+            }
+            Release::Barren { least, .. } => format!("growing claimed fewer than {least} pixels"),
+            Release::Absorbed { by, feet: [highlight, object], gap } => format!(
+                "it is the broad highlight of {}: its line misses black by {highlight:.1} counts (the object's by \
+                 {object:.1}), gap {gap:.1}",
+                self.region(by)
+            ),
+            Release::Dropped { pixels } => format!("too small to keep, {}", count(pixels, "pixel")),
+        }
+    }
+}
+
+fn masked(verdict: &MaskVerdict) -> String {
+    match *verdict {
+        MaskVerdict::Believed { brightness: [from_black, dark], largest: [largest, clip] } => {
+            let clip = if clip.is_finite() {
+                format!("largest band {largest:.1}, clipped from {clip:.1} on")
+            } else {
+                "clipping is off".to_owned()
+            };
+            format!("believed: {from_black:.1} counts from black, dark below {dark:.1}; {clip}")
+        }
+        MaskVerdict::Outside => "outside the area that is analyzed".to_owned(),
+        MaskVerdict::Invalid => "the file holds no usable value here".to_owned(),
+        MaskVerdict::Dark { brightness: [from_black, dark] } => {
+            format!("dark: {from_black:.1} counts from black, below {dark:.1}")
+        }
+        MaskVerdict::Clipped { largest: [largest, clip] } => {
+            format!("clipped: largest band {largest:.1} counts, threshold {clip:.1}")
+        }
+        MaskVerdict::Bloomed { neighbors: [clipped, density] } => {
+            format!("bloomed: {} clipped, {density} suffice", count(clipped as u64, "neighbor"))
+        }
+    }
+}
+
+fn window(story: &WindowStory) -> String {
+    let WindowStory { size_px, pixels: [pixels, least], eigenvalues, trials, tail_test, class } = story;
+    let [a, b, c] = variances(*eigenvalues);
+    let place = format!("its window of {size_px} px");
+    let Some(class) = class else {
+        return format!("{place} has no class: {}, it needs {least}", count(*pixels, "valid pixel"));
+    };
+    let tests: Vec<String> = trials.iter().map(|trial| tried(trial, *tail_test)).collect();
+    format!(
+        "{place} is a {}: variances {a:.1}, {b:.1}, {c:.1} counts\u{b2} of {}; {}",
+        class.name(),
+        count(*pixels, "pixel"),
+        tests.join(", ")
+    )
+}
+
+/// `beyond 1 direction χ² 95.2 ≤ 123.2`
+fn tried(trial: &Trial, tail_test: bool) -> String {
+    let relation = if trial.is_noise() { '\u{2264}' } else { '>' };
+    let what = match (tail_test, trial.directions) {
+        (true, 0) => "all of it".to_owned(),
+        (true, n) => format!("beyond {}", count(n as u64, "direction")),
+        (false, n) => format!("direction {}", n + 1),
+    };
+    format!("{what} \u{3c7}\u{b2} {:.1} {relation} {:.1}", trial.statistic(), trial.threshold())
+}
+
+fn merging(story: &MergeStory) -> String {
+    let MergeStory { tried, joined, pixels, refusal, class } = story;
+    let grown = format!(
+        "its area, a {}, grows to {pixels} pixels: {joined} of {} kept the class",
+        class.name(),
+        count(*tried, "union")
+    );
+    let Some(refusal) = refusal else { return grown };
+    let test = refusal.trial.map_or_else(String::new, |trial| {
+        format!(" (\u{3c7}\u{b2} {:.1} > {:.1})", trial.statistic(), trial.threshold())
+    });
+    let union = refusal.union.name();
+    let union = if refusal.union == Class::Point { "only a point" } else { union };
+    format!(
+        "{grown}; the last refused, with {}, would be a {union}{test}",
+        count(refusal.neighbor_pixels, "pixel")
+    )
+}
+
+/// `3.2 counts from its axis, radius 10.0`
+fn inside(reach: Reach) -> String {
+    match reach {
+        Reach::Axis { distance, radius } => format!("{distance:.1} counts from its axis, radius {radius:.1}"),
+        Reach::Plane { distance, half_width } => {
+            format!("{distance:.1} counts from its plane, half width {half_width:.1}")
+        }
+        Reach::Brightness { brightness, start } => {
+            format!("{brightness:.1} counts bright, its highlight starts at {start:.1}")
+        }
+    }
+}
+
+/// The limit of a reach, after a contest that has told of the distance.
+fn limit(reach: Reach) -> String {
+    match reach {
+        Reach::Axis { radius, .. } => format!(", radius {radius:.1}"),
+        Reach::Plane { half_width, .. } => format!(", half width {half_width:.1}"),
+        Reach::Brightness { .. } => String::new(),
+    }
+}
+
+fn outside(barrier: Barrier) -> String {
+    match barrier {
+        Barrier::Cylinder { distance, radius } => {
+            format!("{distance:.1} counts from its axis, radius {radius:.1}")
+        }
+        Barrier::Slice(SliceMiss { bound, value, limit }) => match bound {
+            SliceBound::Height => format!("{value:.1} counts from its plane, half width {limit:.1}"),
+            SliceBound::Surface => format!(
+                "{:.1} counts beyond the matte line, away from the light; {:.1} are allowed",
+                -value, -limit
+            ),
+            SliceBound::Black => {
+                format!("body reflection {value:.1} counts, at least {limit:.1} is allowed")
+            }
+            SliceBound::MatteEnd => {
+                format!("body reflection {value:.1} counts, past the end of the matte line at {limit:.1}")
+            }
+        },
+        Barrier::Darker { brightness, start } => {
+            format!("{brightness:.1} counts bright, its highlight starts at {start:.1}")
+        }
+    }
+}
+
+fn split(story: &SplitStory) -> String {
+    if let Some(why) = &story.unfit {
+        return unfit(story.number, why);
+    }
+    let SplitStory { number, kind, lines, amounts, cut, least_offset, ambient, .. } = story;
+    let what = match (kind, lines) {
+        (PixelKind::Restored, _) => "is restored from the bands that can be believed".to_owned(),
+        (PixelKind::Lost, _) => "is clipped in every band: its split is a guess".to_owned(),
+        (_, Some([matte, highlight])) => format!(
+            "is {}: {matte:.1} counts from the matte line, {highlight:.1} from the highlight line",
+            kind.name()
+        ),
+        (_, None) => format!("is {}: region {number} has no highlight line", kind.name()),
+    };
+    let amounts = amounts.map_or_else(String::new, |amounts| {
+        let none = cut.map_or_else(String::new, |offset| {
+            format!(" ({offset:.1} counts off the body line, noise up to {least_offset:.1})")
+        });
+        format!(
+            "; body {:.1}, surface {:.1}{none}, \u{3b5} {:+.1} counts",
+            amounts.body, amounts.surface, amounts.noise
+        )
+    });
+    let without = if ambient.iter().all(|&band| band == 0.0) {
+        String::new()
+    } else {
+        let [r, g, b] = ambient;
+        format!(", without ambient light of {r:.1}, {g:.1}, {b:.1} counts")
+    };
+    format!("in region {number} it {what}{amounts}{without}")
+}

@@ -1,0 +1,253 @@
+//! Sentences say value against threshold.
+
+use super::*;
+use crate::reflection::{SliceBound, SliceMiss};
+use crate::trace::{
+    Barrier, CandidateSource, Event, HistoryEntry, HistoryKind, MaskVerdict, PassedOver, PixelKind, Reach,
+    Release, Stage,
+};
+
+fn names() -> Names {
+    Names { width: 10, finals: vec![2, 0, 1] }
+}
+
+fn say(what: HistoryKind) -> String {
+    names().happening(&HistoryEntry { step: 0, stage: Stage::Linear, what })
+}
+
+#[test]
+fn a_region_has_the_number_of_its_birth_and_in_the_result_another() {
+    assert_eq!(names().region(1), "hypothesis 1 (region 2)");
+    assert_eq!(names().region(2), "hypothesis 2");
+    assert_eq!(names().region(9), "hypothesis 9");
+    assert_eq!(names().region(0), "hypothesis 0");
+    assert_eq!(names().regions(&[1, 2, 3]), "hypotheses 1, 2 and 3");
+    assert_eq!(names().regions(&[3]), "hypothesis 3 (region 1)");
+    assert_eq!(names().pixel(23), "(3, 2)");
+}
+
+#[test]
+fn refusals_say_how_far_outside() {
+    let refused = |barrier| say(HistoryKind::Refused { region: 1, barrier });
+    let who = "hypothesis 1 (region 2) grows beside it and refuses it: ";
+    let cylinder = Barrier::Cylinder { distance: 12.43, radius: 10.0 };
+    assert_eq!(refused(cylinder), format!("{who}12.4 counts from its axis, radius 10.0"));
+    let slice = |bound, value, limit| refused(Barrier::Slice(SliceMiss { bound, value, limit }));
+    assert_eq!(
+        slice(SliceBound::Height, 11.0, 10.0),
+        format!("{who}11.0 counts from its plane, half width 10.0")
+    );
+    assert_eq!(
+        slice(SliceBound::Surface, -9.5, -8.0),
+        format!("{who}9.5 counts beyond the matte line, away from the light; 8.0 are allowed")
+    );
+    assert_eq!(
+        slice(SliceBound::MatteEnd, 212.0, 190.0),
+        format!("{who}body reflection 212.0 counts, past the end of the matte line at 190.0")
+    );
+}
+
+#[test]
+fn claims_conflicts_and_releases_carry_both_numbers() {
+    let reach = Reach::Axis { distance: 3.25, radius: 10.0 };
+    let contest = Some(Contest { measure: Measure::Axis, challenger: 3.25, holder: 6.5 });
+    assert_eq!(
+        say(HistoryKind::Claimed { region: 3, from: 2, reach, contest }),
+        "hypothesis 3 (region 1) takes it from hypothesis 2: 3.2 counts from its axis against 6.5, radius 10.0"
+    );
+    let contest = Contest { measure: Measure::Plane, challenger: 6.0, holder: 2.0 };
+    assert_eq!(
+        say(HistoryKind::Kept { holder: 3, challenger: 2, contest }),
+        "hypothesis 3 (region 1) keeps it: 2.0 counts from its plane, 6.0 from that of hypothesis 2"
+    );
+    assert_eq!(
+        say(HistoryKind::Released { region: 2, why: Release::Refit { distance: 11.0, radius: 10.0 } }),
+        "hypothesis 2 gives it up: 11.0 counts from its refitted axis, radius 10.0"
+    );
+    assert_eq!(
+        say(HistoryKind::AreaPassedOver { pixels: 320, least: 500, reason: PassedOver::TooSmall }),
+        "its area starts no hypothesis: 320 unclaimed pixels, it needs 500"
+    );
+    assert_eq!(
+        say(HistoryKind::Masked(MaskVerdict::Clipped { largest: [251.0, 240.0] })),
+        "clipped: largest band 251.0 counts, threshold 240.0"
+    );
+}
+
+#[test]
+fn a_failed_skewed_t_names_the_test_and_its_limit() {
+    use crate::color::{Line, Vec3};
+    use crate::trace::{CandidateTest, CandidateVerdict};
+    let line = Line::new(Vec3::x() * 50.0, Vec3::x());
+    let test = CandidateTest {
+        region: 1,
+        candidate: CandidateSource::Region(3),
+        pixels: 120,
+        matte: line,
+        matte_length: 160.0,
+        line,
+        meeting: [Vec3::zeros(); 2],
+        gap: [12.0, 8.0],
+        position_percent: 31.0,
+        position_limits: [50.0, 115.0],
+        verdict: CandidateVerdict { lines_meet: false, upper_half: false, positive: true, beyond: true },
+        weight: 0.0,
+    };
+    let said = names().event(&Event::CandidateTested(Box::new(test)));
+    assert!(said.contains("no skewed T: 12.0 counts apart, at most 8.0"), "{said}");
+    assert!(said.contains("not in the upper half: at 31 %, 50 to 115 % are allowed"), "{said}");
+}
+
+#[test]
+fn rounds_of_one_stage_are_one_line_in_which_the_last_stands_for_all() {
+    let refused = |step, stage, region, distance| HistoryEntry {
+        step,
+        stage,
+        what: HistoryKind::Refused { region, barrier: Barrier::Cylinder { distance, radius: 8.0 } },
+    };
+    let happened = |step, what| HistoryEntry { step, stage: Stage::Planar, what };
+    let reach = Reach::Plane { distance: 1.0, half_width: 8.0 };
+    let taken = |step| happened(step, HistoryKind::Claimed { region: 1, from: 0, reach, contest: None });
+    let history = [
+        refused(1, Stage::Linear, 1, 9.0),
+        refused(2, Stage::Linear, 2, 12.0),
+        refused(3, Stage::Linear, 1, 8.5),
+        refused(4, Stage::Planar, 2, 8.4),
+        taken(5),
+        happened(6, HistoryKind::Reset { from: 1, to: 0 }),
+        taken(7),
+        happened(8, HistoryKind::Numbered { region: 1, number: 1 }),
+    ];
+    let told: Vec<(usize, usize)> =
+        condense(&history).into_iter().map(|line| (line.last.step, line.times)).collect();
+    assert_eq!(told, [(2, 1), (3, 2), (4, 1), (6, 1), (7, 2), (8, 1)]);
+}
+
+#[test]
+fn every_step_is_a_sentence() {
+    let contest = Contest { measure: Measure::Vote, challenger: 14.0, holder: 20.0 };
+    let steps = [
+        (
+            Step::Claim { pixel: 23, before: 0, after: 1, contest: None },
+            "hypothesis 1 (region 2) takes pixel (3, 2)",
+        ),
+        (Step::Claim { pixel: 23, before: 2, after: 0, contest: None }, "hypothesis 2 gives up pixel (3, 2)"),
+        (
+            Step::Claim { pixel: 23, before: 2, after: 1, contest: Some(contest) },
+            "hypothesis 1 (region 2) takes pixel (3, 2) from hypothesis 2: it has 14 of the 20 assigned pixels around it",
+        ),
+        (Step::Label { pixel: 23, kind: PixelKind::Matte }, "pixel (3, 2) is matte"),
+        (
+            Step::Event(&Event::Dropped { region: 2, pixels: 1 }),
+            "hypothesis 2 is dropped, too small: 1 pixel",
+        ),
+    ];
+    for (step, sentence) in steps {
+        assert_eq!(names().step(&step), sentence);
+    }
+}
+
+#[test]
+fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
+    use crate::trace::{BlobJudged, LocalDecision, RepairTried, RepairVerdict};
+    let all =
+        BlobJudged { blob: 1, pixel: 23, pixels: 40, clipped: 0, strong: 21, calm: 12, core: 9, kept: true };
+    let verdicts = [
+        (all, "passes: 9 of them are a strong core"),
+        (BlobJudged { core: 0, clipped: 1, ..all }, "no strong core, but 1 clipped pixel in it"),
+        (
+            BlobJudged { core: 0, kept: false, ..all },
+            "12 of them are paler than their hue varies and no texture",
+        ),
+        (
+            BlobJudged { core: 0, calm: 0, kept: false, ..all },
+            "21 of them are paler than their hue varies, but all",
+        ),
+        (BlobJudged { core: 0, calm: 0, strong: 0, kept: false, ..all }, "no pixel of it is paler"),
+    ];
+    for (judged, part) in verdicts {
+        let said = names().event(&Event::Local(LocalDecision::Blob(judged)));
+        assert!(said.starts_with("the candidate highlight of 40 pixels at (3, 2) "), "{said}");
+        assert!(said.contains(part), "{said}");
+    }
+    let tried = RepairTried {
+        blob: 2,
+        pixel: 23,
+        pixels: 12,
+        ring: [0.62, 0.4],
+        rise: [40.0, 20.0],
+        verdict: RepairVerdict::Filled,
+    };
+    let verdicts = [
+        (
+            RepairVerdict::Filled,
+            "62 % of its ring of 2 px are highlight (at least 40 %), 40.0 counts next to it, 20.0",
+        ),
+        (RepairVerdict::TooLarge, "as large as a window"),
+        (RepairVerdict::NoRing, "no ring of unclipped pixels"),
+        (RepairVerdict::NoHighlight, "62 % of its ring of 2 px are highlight, at least 40 % are needed"),
+        (RepairVerdict::NoRise, "does not rise towards it, 40.0 counts"),
+    ];
+    for (verdict, part) in verdicts {
+        let said = names().event(&Event::Local(LocalDecision::Repair(RepairTried { verdict, ..tried })));
+        assert!(
+            said.starts_with("the blob of 12 clipped pixels at (3, 2) is ") && said.contains(part),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn a_light_is_told_with_what_it_rests_on_and_why_the_other_one_is_not_used() {
+    use crate::trace::{LightBasis, LightChosen, LightLimits, VoteResult};
+    let limits = LightLimits { support: 0.3, hardly: 0.05, share: 0.02, offsets_deg: [20.0, 8.0] };
+    let votes =
+        VoteResult { direction: [0.6; 3], voters: 300, blobs: 9, share: 0.06, offsets_deg: [4.0, -1.0] };
+    let by_votes = LightChosen {
+        basis: LightBasis::Votes,
+        direction: Some([0.6; 3]),
+        planes: Some(([0.5; 3], 4)),
+        votes: Some(votes),
+        support: 0.12,
+        limits,
+    };
+    let weak = Some(VoteResult { share: 0.01, ..votes });
+    let odd = Some(VoteResult { offsets_deg: [-25.0, 1.0], ..votes });
+    let by_planes = LightChosen { basis: LightBasis::Planes, ..by_votes };
+    let unknown = LightChosen { basis: LightBasis::Nothing, direction: None, ..by_votes };
+    let told = [
+        (
+            by_votes,
+            "that of the votes: regions that hold and show highlights cover 12 % of the lit pixels, planes need 30 %; 300",
+        ),
+        (
+            by_votes,
+            "6.0 % of the votes (at least 2.0 %), 4.0\u{b0} to yellow and 1.0\u{b0} to green of white (at most 20\u{b0} and 8\u{b0})",
+        ),
+        (
+            LightChosen { support: 0.64, ..by_planes },
+            "that of the planes: regions that hold and show highlights cover 64 %",
+        ),
+        (
+            LightChosen { votes: None, ..by_planes },
+            "less than 30 %, but too few pixels of small highlights vote",
+        ),
+        (
+            LightChosen { votes: weak, ..by_planes },
+            "1.0 % of their votes are for one light, at least 2.0 % are needed",
+        ),
+        (LightChosen { votes: odd, ..by_planes }, "an unusual light, 25.0\u{b0} to blue"),
+        (
+            LightChosen { votes: odd, support: 0.01, ..unknown },
+            "no light is known: regions that hold and show highlights cover 1 %",
+        ),
+        (
+            LightChosen { votes: None, planes: None, ..unknown },
+            "no light is known: no region shows a highlight, and too few",
+        ),
+    ];
+    for (chosen, part) in told {
+        let said = names().event(&Event::LightChosen(Box::new(chosen)));
+        assert!(said.contains(part), "{said}");
+    }
+}

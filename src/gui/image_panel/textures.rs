@@ -1,0 +1,351 @@
+//! Painted layers and marks, and their textures: painted when something changed, uploaded where they are seen.
+
+use super::geometry::{Placement, level_for};
+use super::tiles::{TILE, Tile, boldest, options};
+use crate::app::State;
+use crate::raster::{Mask, Raster};
+use crate::view::{
+    Fill, ImageSettings, Instant, Item, Layer, Look, Picture, ResultSnapshot, Selection, marks, paint,
+    paint_instant, pyramid,
+};
+use egui::{Color32, Context, Mesh, Painter, Rect, Shape, TextureHandle};
+use std::collections::HashMap;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{Arc, Weak};
+use std::time::Duration;
+
+/// Larger pictures are painted in the background, so that no frame waits for them; pixels.
+pub const LARGE_PX: usize = 1 << 20;
+/// Sheets kept at most, and their pixels in total.
+const MOST: (usize, usize) = (8, 40 << 20);
+
+/// Where a sheet is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slot {
+    /// The layer.
+    Layer,
+    /// The second layer.
+    Other,
+    /// Over both.
+    Marks,
+    /// The instant at the debugger's cursor, over the photograph.
+    Instant,
+}
+
+/// What is to be painted.
+#[derive(Clone)]
+pub struct PaintRequest {
+    picture: Arc<Picture>,
+    shown: Option<Arc<ResultSnapshot>>,
+    pinned: Option<Arc<ResultSnapshot>>,
+    subject: Subject,
+}
+
+#[derive(Clone)]
+enum Subject {
+    Layer(Layer, Look),
+    Marks(Selection, Option<Item>),
+    Instant(Arc<Instant>, Look),
+}
+
+impl PaintRequest {
+    /// A layer. What does not change its picture is left out, so that it is not painted anew.
+    pub fn layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
+        let picture = Arc::clone(state.picture.as_ref()?);
+        let by_region = matches!(layer, Layer::Linear | Layer::Planar | Layer::Regions);
+        let mut look = Look::of(settings, state.selected_region().filter(|_| by_region));
+        if !layer.is_overlay() {
+            (look.fill, look.opacity) = (Fill::Fill, 1.0);
+        }
+        let shown = state.shown().filter(|_| layer != Layer::Input).cloned();
+        let pinned = state.pinned.as_ref().filter(|_| layer == Layer::Difference).cloned();
+        Some(Self { picture, shown, pinned, subject: Subject::Layer(layer, look) })
+    }
+
+    /// What is marked, selected and pointed at elsewhere; none where nothing of this is larger than a pixel.
+    pub fn marks(state: &State) -> Option<Self> {
+        let followed = state.followed().is_some();
+        let large = |item: &Item| match item {
+            Item::Pixel(_) => false,
+            // These are the result's, and the cursor is not there yet.
+            Item::Region(_) | Item::Window(_) => !followed,
+            Item::Bin(_) => true,
+        };
+        let hover = state.hover.filter(large);
+        let mut selection = state.document.selection.clone();
+        selection.item = selection.item.filter(large);
+        if selection.is_empty() && hover.is_none() {
+            return None;
+        }
+        let picture = Arc::clone(state.picture.as_ref()?);
+        let shown = state.shown().cloned();
+        Some(Self { picture, shown, pinned: None, subject: Subject::Marks(selection, hover) })
+    }
+
+    /// The instant at the cursor.
+    pub fn instant(state: &State, instant: &Arc<Instant>) -> Option<Self> {
+        let picture = Arc::clone(state.picture.as_ref()?);
+        let look = Look { exposure_ev: 0.0, gamma: 1.0, ..Look::of(&state.view.image, None) };
+        Some(Self {
+            picture,
+            shown: None,
+            pinned: None,
+            subject: Subject::Instant(Arc::clone(instant), look),
+        })
+    }
+
+    fn paint(&self) -> Raster<[u8; 4]> {
+        let (shown, pinned) = (self.shown.as_deref(), self.pinned.as_deref());
+        match &self.subject {
+            Subject::Layer(layer, look) => paint(*layer, &self.picture, shown, pinned, look),
+            Subject::Marks(selection, hover) => {
+                let drawn = marks(&self.picture, shown, selection, *hover);
+                // One transparent texel stands for nothing.
+                drawn.unwrap_or_else(|| Raster::filled(1, 1, [0; 4]))
+            }
+            Subject::Instant(instant, look) => {
+                let (width, height) = self.picture.size();
+                paint_instant(instant, width, height, look)
+            }
+        }
+    }
+
+    fn key(&self) -> Key {
+        let weak =
+            |shown: &Option<Arc<ResultSnapshot>>| shown.as_ref().map(Arc::downgrade).unwrap_or_default();
+        let subject = match &self.subject {
+            Subject::Layer(layer, look) => SubjectKey::Layer(*layer, *look),
+            Subject::Marks(selection, hover) => {
+                let marked = selection.marked.as_ref().map(Arc::downgrade).unwrap_or_default();
+                SubjectKey::Marks(selection.item, marked, *hover)
+            }
+            Subject::Instant(instant, look) => SubjectKey::Instant(Arc::downgrade(instant), *look),
+        };
+        Key {
+            picture: Arc::downgrade(&self.picture),
+            shown: weak(&self.shown),
+            pinned: weak(&self.pinned),
+            subject,
+        }
+    }
+}
+
+/// Tells sheets apart without keeping results alive.
+#[derive(Clone)]
+struct Key {
+    picture: Weak<Picture>,
+    shown: Weak<ResultSnapshot>,
+    pinned: Weak<ResultSnapshot>,
+    subject: SubjectKey,
+}
+
+#[derive(Clone)]
+enum SubjectKey {
+    Layer(Layer, Look),
+    Marks(Option<Item>, Weak<Mask>, Option<Item>),
+    Instant(Weak<Instant>, Look),
+}
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        let subject = match (&self.subject, &other.subject) {
+            (SubjectKey::Layer(a, b), SubjectKey::Layer(c, d)) => (a, b) == (c, d),
+            (SubjectKey::Marks(a, b, c), SubjectKey::Marks(d, e, f)) => {
+                (a, c) == (d, f) && Weak::ptr_eq(b, e)
+            }
+            (SubjectKey::Instant(a, b), SubjectKey::Instant(c, d)) => b == d && Weak::ptr_eq(a, c),
+            _ => false,
+        };
+        subject
+            && Weak::ptr_eq(&self.picture, &other.picture)
+            && Weak::ptr_eq(&self.shown, &other.shown)
+            && Weak::ptr_eq(&self.pinned, &other.pinned)
+    }
+}
+
+/// All sheets.
+#[derive(Default)]
+pub struct Sheets {
+    kept: Vec<LayerTexture>,
+    /// What each slot showed last: it stays until the new one is painted.
+    last: [Option<Key>; 4],
+    painting: Option<Receiver<LayerTexture>>,
+    clock: u64,
+}
+
+impl Sheets {
+    /// The sheet that was ordered, or an older one of the same picture while it is being painted.
+    pub fn get(&mut self, ctx: &Context, slot: Slot, request: &PaintRequest) -> Option<&mut LayerTexture> {
+        self.take_in();
+        self.clock += 1;
+        let key = request.key();
+        if !self.kept.iter().any(|texture| texture.key == key) {
+            if request.picture.photo.image.pixels.len() <= LARGE_PX {
+                let texture = LayerTexture::painted(request);
+                self.keep(texture);
+            } else if self.painting.is_none() {
+                self.paint_in_background(ctx, request);
+            }
+            // The painter rings when it is done; where nobody hears it, off screen, one looks again.
+            ctx.request_repaint_after(Duration::from_millis(30));
+        }
+        let last = &mut self.last[slot as usize];
+        if self.kept.iter().any(|texture| texture.key == key) {
+            *last = Some(key);
+        }
+        let wanted =
+            last.clone().filter(|last| Weak::ptr_eq(&last.picture, &Arc::downgrade(&request.picture)))?;
+        self.forget_oldest();
+        let texture = self.kept.iter_mut().find(|texture| texture.key == wanted)?;
+        texture.used = self.clock;
+        Some(texture)
+    }
+
+    /// Takes the sheet that a painter has finished.
+    fn take_in(&mut self) {
+        let Some(painting) = &self.painting else { return };
+        match painting.try_recv() {
+            Ok(mut texture) => {
+                texture.used = self.clock;
+                self.keep(texture);
+                self.painting = None;
+            }
+            Err(TryRecvError::Disconnected) => self.painting = None,
+            Err(TryRecvError::Empty) => {}
+        }
+    }
+
+    /// Keeps a new sheet. One of an instant takes the textures of the instant before: they change many times a second.
+    fn keep(&mut self, mut texture: LayerTexture) {
+        let instant = |texture: &LayerTexture| matches!(texture.key.subject, SubjectKey::Instant(..));
+        if instant(&texture) {
+            for old in self.kept.extract_if(.., |old| instant(old)) {
+                texture.spare.extend(old.spare);
+                texture.spare.extend(old.tiles);
+            }
+        }
+        self.kept.push(texture);
+    }
+
+    /// Whether a painter is at work.
+    pub fn is_painting(&self) -> bool {
+        self.painting.is_some()
+    }
+
+    fn paint_in_background(&mut self, ctx: &Context, request: &PaintRequest) {
+        let (send, receive) = channel();
+        let (request, ctx) = (request.clone(), ctx.clone());
+        let work = move || {
+            let mut texture = LayerTexture::painted(&request);
+            texture.make_copies();
+            // The window may be closed by now: then nobody waits for it.
+            let _ = send.send(texture);
+            ctx.request_repaint();
+        };
+        if std::thread::Builder::new().name("painter".to_owned()).spawn(work).is_ok() {
+            self.painting = Some(receive);
+        }
+    }
+
+    /// Sheets of results that are gone are never asked for again; of the others the oldest go first.
+    fn forget_oldest(&mut self) {
+        let last = &self.last;
+        let in_use = |texture: &LayerTexture| last.iter().flatten().any(|key| *key == texture.key);
+        self.kept.retain(|texture| in_use(texture) || !texture.is_orphan());
+        loop {
+            let pixels: usize = self.kept.iter().map(|texture| texture.levels[0].len()).sum();
+            if self.kept.len() <= MOST.0 && pixels <= MOST.1 {
+                return;
+            }
+            let free = self.kept.iter().enumerate().filter(|(_, texture)| !in_use(texture));
+            let Some((oldest, _)) = free.min_by_key(|(_, texture)| texture.used) else { return };
+            self.kept.swap_remove(oldest);
+        }
+    }
+}
+
+/// A painted picture, smaller copies of it, and textures of what was seen of them.
+pub struct LayerTexture {
+    key: Key,
+    levels: Vec<Raster<[u8; 4]>>,
+    tiles: HashMap<[usize; 3], TextureHandle>,
+    /// Textures of the same size with an older picture.
+    spare: HashMap<[usize; 3], TextureHandle>,
+    used: u64,
+}
+
+impl LayerTexture {
+    fn painted(request: &PaintRequest) -> Self {
+        Self {
+            key: request.key(),
+            levels: vec![request.paint()],
+            tiles: HashMap::new(),
+            spare: HashMap::new(),
+            used: 0,
+        }
+    }
+
+    fn is_orphan(&self) -> bool {
+        let gone =
+            |shown: &Weak<ResultSnapshot>| shown.strong_count() == 0 && !Weak::ptr_eq(shown, &Weak::new());
+        self.key.picture.strong_count() == 0 || gone(&self.key.shown) || gone(&self.key.pinned)
+    }
+
+    /// The color shown for a pixel.
+    pub fn color(&self, pixel: usize) -> [u8; 4] {
+        self.levels[0].as_slice().get(pixel).copied().unwrap_or_default()
+    }
+
+    /// Makes the smaller copies, unless they are there.
+    fn make_copies(&mut self) {
+        if self.levels.len() == 1 {
+            let copies = match self.key.subject {
+                SubjectKey::Layer(..) | SubjectKey::Instant(..) => pyramid(&self.levels[0]),
+                SubjectKey::Marks(..) => boldest(&self.levels[0]),
+            };
+            self.levels.extend(copies);
+        }
+    }
+
+    /// Draws what is in sight, multiplied by `tint`.
+    pub fn draw(&mut self, painter: &Painter, place: &Placement, tint: Color32) {
+        let mut scale = place.zoom * painter.ctx().pixels_per_point();
+        if let SubjectKey::Marks(..) = self.key.subject {
+            // A thin line must not fall between screen pixels, nor become a thick one: about one texel each.
+            scale *= 0.7;
+        }
+        if level_for(scale, usize::MAX) > 0 {
+            self.make_copies();
+        }
+        let level = level_for(scale, self.levels.len());
+        let texels = &self.levels[level];
+        let shrunk = (1usize << level) as f32;
+        let [columns, rows] = place.visible().map(|seen| {
+            let tile = TILE << level;
+            seen.start / tile..seen.end.div_ceil(tile)
+        });
+        for row in rows {
+            for column in columns.clone() {
+                let Some(tile) = Tile::of(texels, column, row) else { continue };
+                let place_of_tile = [level, column, row];
+                let texture = self.tiles.entry(place_of_tile).or_insert_with(|| {
+                    let image = tile.cut(texels);
+                    if let Some(mut spare) = self.spare.remove(&place_of_tile) {
+                        spare.set(image, options());
+                        return spare;
+                    }
+                    painter.ctx().load_texture("picture", image, options())
+                });
+                let part = Rect::from_min_max(
+                    tile.inner.min * shrunk,
+                    (tile.inner.max * shrunk).min(place.size.to_pos2()),
+                );
+                let uv = |texel: egui::Pos2| ((texel - tile.outer.min) / tile.outer.size()).to_pos2();
+                let uv = Rect::from_min_max(uv(part.min / shrunk), uv(part.max / shrunk));
+                let mut mesh = Mesh::with_texture(texture.id());
+                mesh.add_rect_with_uv(place.screen_rect_of(part), uv, tint);
+                painter.add(Shape::mesh(mesh));
+            }
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Which pixels the planar split is to be believed for (refinement `region_holds`).
+//!
+//! A region that does not hold (see [`RegionFit`]) is not split by its plane. Nor is a part of a region that lies apart and
+//! holds hardly a matte pixel: clipped highlights of a white cup fit the plane of a teal jug (21.8 → 34.4 dB on the jug's
+//! region), but no object is nothing but highlight. Nor is a clipped blob that is mostly surrounded by another region, which
+//! it reached over a bridge of bright pixels.
+
+use crate::raster::{Mask, Raster, UNASSIGNED};
+use crate::segment::{AnalysisInput, FinalRegions, Members, RegionFit, parts};
+use crate::trace::PixelKind;
+
+/// A part of a region with a smaller share of matte pixels is no object's.
+const LEAST_MATTE: f64 = 0.1;
+/// A clipped blob of which the own region holds a smaller share of the assigned surroundings is not the region's.
+const LEAST_OWN: f64 = 0.5;
+
+/// Assigned pixels whose region, or part of a region, explains them.
+pub fn explained_mask(
+    input: &AnalysisInput,
+    regions: &FinalRegions,
+    members: &Members,
+    fits: &[RegionFit],
+    kinds: &Raster<PixelKind>,
+) -> Mask {
+    let every = !input.refine.region_holds;
+    let holds: Vec<bool> = fits.iter().map(|fit| every || fit.holds(input.sigma())).collect();
+    let mut mask = regions.labels.map(|&label| label != UNASSIGNED && holds[usize::from(label) - 1]);
+    if every {
+        return mask;
+    }
+    let width = regions.labels.width();
+    for id in (1..=fits.len() as u16).filter(|&id| holds[usize::from(id) - 1]) {
+        for part in parts(width, members.region(id)) {
+            let matte = part.iter().filter(|&&pixel| kinds[pixel as usize] == PixelKind::Matte).count();
+            if (matte as f64) < LEAST_MATTE * part.len() as f64 {
+                for &pixel in &part {
+                    mask[pixel as usize] = false;
+                }
+            }
+        }
+    }
+    give_up_strangers(input, regions, &mut mask);
+    mask
+}
+
+/// Takes clipped blobs out that other regions surround.
+fn give_up_strangers(input: &AnalysisInput, regions: &FinalRegions, mask: &mut Mask) {
+    let labels = &regions.labels;
+    let (width, height) = (labels.width(), labels.height());
+    let mut seen: Mask = Raster::filled(width, height, false);
+    let mut blob = Vec::new();
+    for start in 0..labels.len() {
+        if seen[start] || !mask[start] || !input.masks.distorted(start) {
+            continue;
+        }
+        let label = labels[start];
+        seen[start] = true;
+        blob.clear();
+        blob.push(start);
+        let (mut at, mut own, mut others) = (0, 0usize, 0usize);
+        while let Some(&pixel) = blob.get(at) {
+            at += 1;
+            labels.for_each_neighbor(pixel, |near| {
+                if !input.masks.distorted(near) {
+                    own += usize::from(labels[near] == label);
+                    others += usize::from(labels[near] != label && labels[near] != UNASSIGNED);
+                } else if !seen[near] && labels[near] == label && mask[near] {
+                    seen[near] = true;
+                    blob.push(near);
+                }
+            });
+        }
+        if (own as f64) < LEAST_OWN * (own + others) as f64 {
+            for &pixel in &blob {
+                mask[pixel] = false;
+            }
+        }
+    }
+}

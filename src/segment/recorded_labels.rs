@@ -1,0 +1,259 @@
+//! Who holds which pixel. Every change of hands goes through here, so that a record of claims is complete.
+
+use crate::raster::{LabelMap, UNASSIGNED};
+use crate::trace::{Event, Pass, Recorder};
+
+/// So many pixels are grown from between two questions whether to stop: about a millisecond.
+const PIXELS_PER_POLL: usize = 1 << 16;
+
+/// The label map while it grows, and the recorder that is told of each claim.
+pub struct RecordedLabels<'a, R: Recorder> {
+    /// Region of each pixel.
+    pub labels: LabelMap,
+    /// Listens to every claim.
+    pub recorder: &'a mut R,
+}
+
+impl<'a, R: Recorder> RecordedLabels<'a, R> {
+    /// A ledger that goes on from `labels`.
+    pub fn new(labels: LabelMap, recorder: &'a mut R) -> Self {
+        Self { labels, recorder }
+    }
+
+    /// Says that what follows belongs to this part of the stage.
+    pub fn begin(&mut self, pass: Pass) {
+        if R::KEEPS {
+            self.recorder.record(Event::PassBegan { pass });
+        }
+    }
+
+    /// Gives a pixel to a region, or to none.
+    #[inline]
+    pub fn assign(&mut self, pixel: usize, region: u16) {
+        let before = self.labels[pixel];
+        if before != region {
+            self.labels[pixel] = region;
+            if R::KEEPS {
+                self.recorder.claim(pixel as u32, before, region);
+            }
+        }
+    }
+
+    /// Grows a region from the pixels in `front`, 4-connected and ring by ring: each neighbor that is not the region's
+    /// is claimed when `accept(recorder, pixel, holder)` says so. Seeds must be the region's already. Claimed pixels are
+    /// appended to `front`, in order. Gives up soon after `stop` turns true.
+    pub fn grow(
+        &mut self,
+        region: u16,
+        front: &mut Vec<u32>,
+        stop: impl Fn() -> bool,
+        mut accept: impl FnMut(&mut R, usize, u16) -> bool,
+    ) {
+        let (width, len) = (self.labels.width(), self.labels.len());
+        let mut next = 0;
+        while next < front.len() {
+            let (pixel, x) = (front[next] as usize, (front[next] % width as u32) as usize);
+            next += 1;
+            if next % PIXELS_PER_POLL == 0 && stop() {
+                return;
+            }
+            let mut visit = |near: usize| {
+                let holder = self.labels[near];
+                if holder != region && accept(self.recorder, near, holder) {
+                    self.assign(near, region);
+                    front.push(near as u32);
+                }
+            };
+            if pixel >= width {
+                visit(pixel - width);
+            }
+            if x > 0 {
+                visit(pixel - 1);
+            }
+            if x + 1 < width {
+                visit(pixel + 1);
+            }
+            if pixel + width < len {
+                visit(pixel + width);
+            }
+        }
+    }
+
+    /// Those of `pixels` that are `region`'s and have a neighbor that is not: all that growth has to start from, in the
+    /// order of `pixels`. Of a large region they are few.
+    pub fn border(&self, region: u16, pixels: Pixels) -> Vec<u32> {
+        let (width, labels) = (self.labels.width(), self.labels.as_slice());
+        let mut border = Vec::new();
+        for &(first, length) in pixels.runs() {
+            // A run lies within a row.
+            let (first, x) = (first as usize, first as usize % width);
+            for pixel in first..first + length as usize {
+                let column = x + pixel - first;
+                let other = |near: usize| labels[near] != region;
+                let edge = (pixel >= width && other(pixel - width))
+                    || (column > 0 && other(pixel - 1))
+                    || (column + 1 < width && other(pixel + 1))
+                    || (pixel + width < labels.len() && other(pixel + width));
+                if edge && labels[pixel] == region {
+                    border.push(pixel as u32);
+                }
+            }
+        }
+        border
+    }
+
+    /// The pixels of every region, each list in row-major order; region `id` at index `id − 1`.
+    pub fn members(&self, regions: usize) -> Members {
+        Members::of(&self.labels, regions)
+    }
+}
+
+/// Pixels by region, as runs of consecutive pixels: one pass over the labels, and little memory.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Members {
+    /// First run of each region, and the end.
+    starts: Vec<usize>,
+    /// First pixel and length of each run, by region and row-major within it.
+    runs: Vec<(u32, u32)>,
+    /// Pixels of each region.
+    sizes: Vec<usize>,
+}
+
+/// The pixels of one region, row-major.
+#[derive(Clone, Copy, Debug)]
+pub struct Pixels<'a> {
+    runs: &'a [(u32, u32)],
+    size: usize,
+}
+
+impl Members {
+    /// Sorts the pixels of `labels` by region, for `regions` regions.
+    pub fn of(labels: &LabelMap, regions: usize) -> Self {
+        let mut found: Vec<(u16, u32, u32)> = Vec::new();
+        let mut start = 0;
+        for y in 0..labels.height() {
+            for run in labels.row(y).chunk_by(|a, b| a == b) {
+                if run[0] != UNASSIGNED {
+                    found.push((run[0], start, run.len() as u32));
+                }
+                start += run.len() as u32;
+            }
+        }
+        let mut starts = vec![0usize; regions + 2];
+        let mut sizes = vec![0usize; regions + 1];
+        for &(label, _, length) in &found {
+            starts[usize::from(label) + 1] += 1;
+            sizes[usize::from(label)] += length as usize;
+        }
+        for i in 1..starts.len() {
+            starts[i] += starts[i - 1];
+        }
+        let mut next = starts.clone();
+        let mut runs = vec![(0u32, 0u32); found.len()];
+        for (label, first, length) in found {
+            let at = &mut next[usize::from(label)];
+            runs[*at] = (first, length);
+            *at += 1;
+        }
+        Self { starts, runs, sizes }
+    }
+
+    /// Pixels of region `id` (from 1).
+    pub fn region(&self, id: u16) -> Pixels<'_> {
+        let id = usize::from(id);
+        Pixels { runs: &self.runs[self.starts[id]..self.starts[id + 1]], size: self.sizes[id] }
+    }
+}
+
+impl<'a> Pixels<'a> {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.size
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.size == 0
+    }
+
+    /// First pixel and length of each run.
+    pub fn runs(&self) -> &'a [(u32, u32)] {
+        self.runs
+    }
+
+    /// The rows of an image `width` pixels wide that hold them; `None` without any.
+    pub fn rows(&self, width: usize) -> Option<std::ops::Range<usize>> {
+        let (first, last) = (self.runs.first()?, self.runs.last()?);
+        Some(first.0 as usize / width..last.0 as usize / width + 1)
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = u32> + use<'a> {
+        self.runs.iter().flat_map(|&(first, length)| first..first + length)
+    }
+
+    /// At most `most` of them, evenly chosen.
+    pub fn sample(&self, most: usize) -> impl Iterator<Item = u32> + use<'a> {
+        let step = self.size.div_ceil(most).max(1) as u32;
+        // Pixels still to be passed over before the next one.
+        let mut skip = 0;
+        self.runs.iter().flat_map(move |&(first, length)| {
+            let start = skip;
+            let taken = length.saturating_sub(start).div_ceil(step);
+            skip = start + taken * step - length;
+            (0..taken).map(move |i| first + start + i * step)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::{Stage, TraceRecorder};
+
+    #[test]
+    fn members_are_sorted_by_region() {
+        let labels = LabelMap::from_vec(3, 2, vec![2, 0, 1, 1, 2, 2]).unwrap();
+        let members = Members::of(&labels, 3);
+        let pixels = |id| members.region(id).iter().collect::<Vec<_>>();
+        assert_eq!(pixels(1), [2, 3]);
+        assert_eq!(pixels(2), [0, 4, 5]);
+        assert_eq!(members.region(2).len(), 3);
+        assert!(members.region(3).is_empty());
+        assert_eq!(members.region(2).sample(2).collect::<Vec<_>>(), [0, 5]);
+    }
+
+    #[test]
+    fn growth_from_the_border_is_growth_from_all_pixels() {
+        let rows = [[1u16, 1, 1, 0, 2], [1, 1, 1, 0, 2], [1, 1, 1, 0, 0], [0, 0, 0, 0, 1]];
+        let labels = LabelMap::from_vec(5, 4, rows.concat()).unwrap();
+        let members = Members::of(&labels, 2);
+        let grown = |from_border: bool| {
+            let mut recorder = TraceRecorder::default();
+            let mut recorded_labels = RecordedLabels::new(labels.clone(), &mut recorder);
+            let all = members.region(1);
+            let mut front = if from_border { recorded_labels.border(1, all) } else { all.iter().collect() };
+            let seeds = front.clone();
+            recorded_labels.grow(1, &mut front, || false, |_, _, holder| holder == 0);
+            (recorder.finish(Stage::Linear).unwrap(), seeds)
+        };
+        let (from_border, seeds) = grown(true);
+        assert_eq!(seeds, [2, 7, 10, 11, 12, 19]);
+        assert_eq!(from_border, grown(false).0);
+    }
+
+    #[test]
+    fn growth_goes_ring_by_ring_and_every_claim_is_recorded() {
+        let mut recorder = TraceRecorder::default();
+        let mut recorded_labels = RecordedLabels::new(LabelMap::filled(3, 3, 0), &mut recorder);
+        let mut front = vec![4];
+        recorded_labels.assign(4, 1);
+        recorded_labels.grow(1, &mut front, || false, |_, pixel, _| pixel != 0);
+        assert_eq!(front, [4, 1, 3, 5, 7, 2, 6, 8]);
+        assert_eq!(recorded_labels.labels.as_slice(), [0, 1, 1, 1, 1, 1, 1, 1, 1]);
+        let end = recorded_labels.labels.clone();
+        let mut played = LabelMap::filled(3, 3, 0);
+        let stage_trace = recorder.finish(Stage::Linear).unwrap();
+        assert_eq!((stage_trace.play(&mut played), played), (Ok(()), end));
+    }
+}

@@ -1,0 +1,228 @@
+//! What stands at an instant of a trace, but for the labels: windows, areas, regions, lights. Every thing is a stack that is
+//! pushed forward and popped back.
+
+use super::{Class, Event, PassedOver, WindowsLaid};
+use crate::color::Line;
+use crate::raster::Raster;
+
+/// Everything but the labels.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct ReplayState {
+    pub(super) grids: Vec<Grid>,
+    pub(super) hypotheses: Vec<Hypothesis>,
+    /// Lights so far: reel and event.
+    pub(super) lights: Vec<EventId>,
+    /// What gave the regions their final numbers.
+    pub(super) finals: Option<EventId>,
+    /// Number of labels given.
+    pub(super) labeled: usize,
+}
+
+pub(super) type EventId = (usize, usize);
+
+/// A grid of windows, as far as it is classified and merged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// How it lies.
+    pub laid: WindowsLaid,
+    /// Class of each window, row-major: none as long as it is not known; none within where it holds too few pixels.
+    #[allow(clippy::option_option, reason = "not known, known to have none, known")]
+    pub classes: Raster<Option<Option<Class>>>,
+    /// The area that each window has joined: the first window of it, or one that has itself joined another.
+    parents: Vec<u32>,
+}
+
+impl Grid {
+    fn new(laid: &WindowsLaid) -> Self {
+        let count = (laid.columns * laid.rows) as usize;
+        Self {
+            laid: laid.clone(),
+            classes: Raster::filled(laid.columns as usize, laid.rows as usize, None),
+            parents: (0..count as u32).collect(),
+        }
+    }
+
+    /// Index of the window that holds a pixel of a picture `width` pixels wide.
+    pub fn window_of(&self, pixel: usize, width: usize) -> usize {
+        self.laid.window_of(pixel, width)
+    }
+
+    /// The first window of each window's area.
+    pub fn areas(&self) -> Vec<u32> {
+        let mut roots: Vec<u32> = Vec::with_capacity(self.parents.len());
+        // An area joins one with a smaller first window, whose root is known by then.
+        for (window, &parent) in self.parents.iter().enumerate() {
+            roots.push(if parent as usize == window { parent } else { roots[parent as usize] });
+        }
+        roots
+    }
+
+    /// The first window of one window's area.
+    pub fn area_of(&self, window: usize) -> u32 {
+        let mut at = window;
+        while self.parents.get(at).is_some_and(|&parent| parent as usize != at) {
+            at = self.parents[at] as usize;
+        }
+        at as u32
+    }
+}
+
+/// A region, as far as it is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hypothesis {
+    /// First window of the area that it started from; none for a part that was separated.
+    pub area: Option<u32>,
+    /// The region that it was separated from.
+    pub parent: Option<u16>,
+    /// Radius of its cylinder, counts.
+    pub radius: f64,
+    lines: Vec<Line>,
+    pub(super) slices: Vec<EventId>,
+    pub(super) highlights: Vec<EventId>,
+    ends: Vec<End>,
+}
+
+/// How a region ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// It claimed too few pixels.
+    Barren,
+    /// It was the broad highlight of this region.
+    Absorbed(u16),
+    /// It became part of this region.
+    Merged(u16),
+    /// It was too small to keep.
+    Dropped,
+}
+
+impl Hypothesis {
+    /// The axis of its cylinder.
+    pub fn line(&self) -> Option<&Line> {
+        self.lines.last()
+    }
+
+    /// How it ended; none as long as it stands.
+    pub fn end(&self) -> Option<End> {
+        self.ends.last().copied()
+    }
+}
+
+impl ReplayState {
+    fn of(&mut self, region: u16) -> Option<&mut Hypothesis> {
+        self.hypotheses.get_mut(usize::from(region).checked_sub(1)?)
+    }
+
+    /// Takes an event in.
+    pub(super) fn take(&mut self, event: &Event, id: EventId) {
+        match event {
+            Event::WindowsLaid(laid) => self.grids.push(Grid::new(laid)),
+            Event::WindowClassified { window, class, .. } => self.classify(*window, Some(*class)),
+            Event::MergeTried { into, from, class, union, .. } if class == union => self.join(*from, *into),
+            Event::HypothesisChosen(chosen) => self.hypotheses.push(Hypothesis {
+                area: Some(chosen.area),
+                parent: None,
+                radius: chosen.radius,
+                lines: vec![chosen.line],
+                slices: Vec::new(),
+                highlights: Vec::new(),
+                ends: Vec::new(),
+            }),
+            Event::ComponentSplit { region, .. } => {
+                let mut part = self.of(*region).cloned();
+                if let Some(part) = &mut part {
+                    (part.area, part.parent) = (None, Some(*region));
+                    part.ends.clear();
+                }
+                self.hypotheses.extend(part);
+            }
+            Event::LineRefitted(refitted) => {
+                if let Some(hypothesis) = self.of(refitted.region) {
+                    hypothesis.lines.push(refitted.line);
+                }
+            }
+            Event::SliceMade(made) => {
+                if let Some(hypothesis) = self.of(made.region) {
+                    hypothesis.slices.push(id);
+                }
+            }
+            Event::CandidateChosen(chosen) => {
+                if let Some(hypothesis) = self.of(chosen.region) {
+                    hypothesis.highlights.push(id);
+                }
+            }
+            Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } | Event::LightChosen(_) => {
+                self.lights.push(id);
+            }
+            Event::Renumbered { .. } => self.finals = Some(id),
+            other => {
+                if let Some((region, end)) = self.ending(other)
+                    && let Some(hypothesis) = self.of(region)
+                {
+                    hypothesis.ends.push(end);
+                }
+            }
+        }
+    }
+
+    /// Takes it back.
+    pub(super) fn take_back(&mut self, event: &Event) {
+        match event {
+            Event::WindowsLaid(_) => {
+                self.grids.pop();
+            }
+            Event::WindowClassified { window, .. } => self.classify(*window, None),
+            Event::MergeTried { from, class, union, .. } if class == union => self.join(*from, *from),
+            Event::HypothesisChosen(_) | Event::ComponentSplit { .. } => {
+                self.hypotheses.pop();
+            }
+            Event::LineRefitted(refitted) => {
+                self.of(refitted.region).and_then(|hypothesis| hypothesis.lines.pop());
+            }
+            Event::SliceMade(made) => {
+                self.of(made.region).and_then(|hypothesis| hypothesis.slices.pop());
+            }
+            Event::CandidateChosen(chosen) => {
+                self.of(chosen.region).and_then(|hypothesis| hypothesis.highlights.pop());
+            }
+            Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } | Event::LightChosen(_) => {
+                self.lights.pop();
+            }
+            Event::Renumbered { .. } => self.finals = None,
+            other => {
+                if let Some((region, _)) = self.ending(other) {
+                    self.of(region).and_then(|hypothesis| hypothesis.ends.pop());
+                }
+            }
+        }
+    }
+
+    /// The region that an event ends, and how.
+    fn ending(&self, event: &Event) -> Option<(u16, End)> {
+        match event {
+            Event::HypothesisPassedOver { reason: PassedOver::Barren, .. } => {
+                Some((self.hypotheses.len() as u16, End::Barren))
+            }
+            Event::Absorbed { region, by, .. } => Some((*region, End::Absorbed(*by))),
+            Event::RegionsMerged { region, into, .. } => Some((*region, End::Merged(*into))),
+            Event::Dropped { region, .. } => Some((*region, End::Dropped)),
+            _ => None,
+        }
+    }
+
+    #[allow(clippy::option_option, reason = "as in the grid")]
+    fn classify(&mut self, window: u32, class: Option<Option<Class>>) {
+        if let Some(grid) = self.grids.last_mut()
+            && let Some(place) = grid.classes.as_mut_slice().get_mut(window as usize)
+        {
+            *place = class;
+        }
+    }
+
+    fn join(&mut self, from: u32, into: u32) {
+        if let Some(grid) = self.grids.last_mut()
+            && let Some(parent) = grid.parents.get_mut(from as usize)
+        {
+            *parent = into;
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! Colors of regions that stay with the objects while parameters move.
+
+use super::snapshot::overlaps;
+use crate::analysis::Analysis;
+use crate::export::Palette;
+use crate::raster::{LabelMap, UNASSIGNED};
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+/// A region is another's former self when they share this much of the smaller of both.
+const SHARED: f64 = 0.2;
+
+/// A color for each final region: its former self's where it overlaps one, otherwise one far from its neighbors'.
+pub(crate) fn region_colors(analysis: &Analysis, before: Option<(&LabelMap, &[[u8; 3]])>) -> Vec<[u8; 3]> {
+    let regions = analysis.intrinsic.regions.iter();
+    let neighbors: Vec<&[u16]> = regions.map(|region| region.neighbors.as_slice()).collect();
+    colors(&analysis.finals.labels, &neighbors, before)
+}
+
+/// Colors for so many regions that became none: such as no final region has as long as there are any, in a fixed order.
+pub(crate) fn orphan_colors(taken: &[[u8; 3]], count: usize) -> Vec<[u8; 3]> {
+    let palette = Palette::new();
+    let all = palette.colors();
+    let free: Vec<[u8; 3]> = all.iter().copied().filter(|color| !taken.contains(color)).collect();
+    let from = if free.is_empty() { all } else { &free };
+    from.iter().copied().cycle().take(count).collect()
+}
+
+/// Region `id` is at index `id − 1` of `neighbors`, of the former colors and of the result.
+fn colors(labels: &LabelMap, neighbors: &[&[u16]], before: Option<(&LabelMap, &[[u8; 3]])>) -> Vec<[u8; 3]> {
+    let palette = Palette::new();
+    let mut kept = vec![None; neighbors.len() + 1];
+    if let Some((former, colors)) = before {
+        for (now, old) in former_selves(former, labels) {
+            let color = colors.get(usize::from(old) - 1).and_then(|&color| palette.index_of(color));
+            if let Some(slot) = kept.get_mut(usize::from(now)) {
+                *slot = color;
+            }
+        }
+    }
+    // Regions of one color that have come to touch would look like one: the smaller, which has the higher number, gives way.
+    for now in 1..kept.len() {
+        let touched = neighbors[now - 1].iter().map(|&other| usize::from(other)).filter(|&other| other < now);
+        if kept[now].is_some() && touched.into_iter().any(|other| kept[other] == kept[now]) {
+            kept[now] = None;
+        }
+    }
+    let mut touching = vec![Vec::new()];
+    touching.extend(neighbors.iter().map(|list| list.iter().map(|&id| u32::from(id)).collect()));
+    palette.assign_keeping(&touching, &kept)[1..].iter().map(|&index| palette.color(index)).collect()
+}
+
+/// Pairs of a region and its former self, the largest overlaps first. A former region lives on in one region at most.
+fn former_selves(before: &LabelMap, after: &LabelMap) -> Vec<(u16, u16)> {
+    if (before.width(), before.height()) != (after.width(), after.height()) {
+        return Vec::new();
+    }
+    let overlaps = overlaps(before, after);
+    let (mut old_sizes, mut new_sizes) = (BTreeMap::new(), BTreeMap::new());
+    let shared = |old: usize| overlaps[old].iter().map(move |&(new, pixels)| (old as u16, new, pixels));
+    for (old, new, pixels) in (0..overlaps.len()).flat_map(shared) {
+        *old_sizes.entry(old).or_insert(0) += pixels;
+        *new_sizes.entry(new).or_insert(0) += pixels;
+    }
+    let mut pairs: Vec<(usize, u16, u16)> = (0..overlaps.len())
+        .flat_map(shared)
+        .filter(|&(old, new, pixels)| {
+            let smaller: usize = old_sizes[&old].min(new_sizes[&new]);
+            old != UNASSIGNED && new != UNASSIGNED && pixels as f64 >= SHARED * smaller as f64
+        })
+        .map(|(old, new, pixels)| (pixels, old, new))
+        .collect();
+    pairs.sort_unstable_by_key(|&(pixels, old, new)| (Reverse(pixels), old, new));
+    let mut selves: Vec<(u16, u16)> = Vec::new();
+    for (_, old, new) in pairs {
+        if old_sizes.contains_key(&old) && new_sizes.contains_key(&new) {
+            selves.push((new, old));
+            old_sizes.remove(&old);
+            new_sizes.remove(&new);
+        }
+    }
+    selves
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::Raster;
+    use crate::segment::neighbors;
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
+
+    fn labels(rows: &[&str]) -> LabelMap {
+        let label = |c: char| c.to_digit(10).unwrap_or(0) as u16;
+        let data = rows.iter().flat_map(|row| row.chars()).map(label).collect();
+        Raster::from_vec(rows[0].len(), rows.len(), data).unwrap()
+    }
+
+    fn colored(map: &LabelMap, before: Option<(&LabelMap, &[[u8; 3]])>) -> Vec<[u8; 3]> {
+        let regions = usize::from(map.as_slice().iter().copied().max().unwrap_or(0));
+        let lists = neighbors(map, regions);
+        colors(map, &lists.iter().map(Vec::as_slice).collect::<Vec<_>>(), before)
+    }
+
+    #[test]
+    fn regions_keep_their_colors_when_numbers_and_outlines_change() {
+        let first = labels(&["1111..", "1122..", "1122.3", "....33"]);
+        let colors = colored(&first, None);
+        // 2 has grown and is now the largest; 3 has shrunk; 4 is new.
+        let second = labels(&["2221..", "2111..", "2111.3", "44...."]);
+        let again = colored(&second, Some((&first, &colors)));
+        assert_eq!(again[..3], [colors[1], colors[0], colors[2]]);
+        assert!(!colors.contains(&again[3]));
+    }
+
+    #[test]
+    fn of_two_parts_the_larger_keeps_the_color_and_of_two_joined_the_larger_gives_it() {
+        let whole = labels(&["111111..22"]);
+        let parts = labels(&["1111.2..33"]);
+        let colors = colored(&whole, None);
+        let parted = colored(&parts, Some((&whole, &colors)));
+        assert_eq!((parted[0], parted[2]), (colors[0], colors[1]));
+        assert!(!colors.contains(&parted[1]));
+        assert_eq!(colored(&whole, Some((&parts, &parted))), colors);
+    }
+
+    #[test]
+    fn a_brush_with_another_is_no_heritage() {
+        let first = labels(&["1111111111.........."]);
+        let second = labels(&[".........11111111111"]);
+        assert!(former_selves(&first, &second).is_empty());
+        assert!(former_selves(&first, &labels(&["11", "11"])).is_empty(), "another picture");
+    }
+
+    /// Rectangles that do not overlap, one in each cell of a 6 × 4 grid, numbered by `order`, with margins.
+    fn rectangles(order: &[usize], margins: &[[usize; 4]]) -> LabelMap {
+        let mut map = LabelMap::filled(60, 40, UNASSIGNED);
+        for (cell, (&id, margin)) in order.iter().zip(margins).enumerate() {
+            let (left, top) = (cell % 6 * 10, cell / 6 * 10);
+            for y in top + margin[0]..top + 10 - margin[1] {
+                map.as_mut_slice()[y * 60 + left + margin[2]..y * 60 + left + 10 - margin[3]]
+                    .fill(id as u16 + 1);
+            }
+        }
+        map
+    }
+
+    fn margins() -> impl Strategy<Value = Vec<[usize; 4]>> {
+        prop::collection::vec(prop::array::uniform4(0usize..3), 24)
+    }
+
+    proptest! {
+        #[test]
+        fn permuting_numbers_and_moving_outlines_changes_no_color(
+            from in Just((0..24usize).collect::<Vec<_>>()).prop_shuffle(),
+            to in Just((0..24usize).collect::<Vec<_>>()).prop_shuffle(),
+            before in margins(), after in margins(),
+        ) {
+            let (first, second) = (rectangles(&from, &before), rectangles(&to, &after));
+            let colors = colored(&first, None);
+            // Only as many regions as colors, so that no two of one color can come to touch.
+            prop_assume!(colors.iter().collect::<BTreeSet<_>>().len() == 24);
+            let again = colored(&second, Some((&first, &colors)));
+            for cell in 0..24 {
+                prop_assert_eq!(again[to[cell]], colors[from[cell]]);
+            }
+        }
+    }
+
+    #[test]
+    fn of_two_alike_that_come_to_touch_the_smaller_takes_another_color() {
+        let apart = labels(&["111111..22"]);
+        let touching = labels(&["11111112.2"]);
+        let alike = [Palette::new().color(3); 2];
+        let now = colored(&touching, Some((&apart, &alike)));
+        assert!(now[0] == alike[0] && now[1] != alike[1]);
+    }
+}

@@ -1,0 +1,368 @@
+//! Two results of one photograph side by side.
+
+use super::ResultSnapshot;
+use super::snapshot::{best_overlaps, overlaps};
+use crate::raster::UNASSIGNED;
+use crate::segment::Parameter;
+use crate::truth::angle_deg;
+use rayon::prelude::*;
+
+/// A body reflection that differs by more than this in some band has changed, counts.
+const CHANGED_COUNTS: f32 = 1.0;
+
+/// What changed from a pinned result to the newest one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// What was asked differently.
+    pub settings: Vec<SettingChange>,
+    /// Numbers of both, side by side.
+    pub figures: Vec<Figure>,
+    /// Angle between the two illuminants, degrees; none where one has none.
+    pub illuminant_deg: Option<f64>,
+    /// What became of each region: those of the newest result by number, then those that are lost.
+    pub regions: Vec<RegionFate>,
+    /// What became of the pixels.
+    pub pixels: PixelFates,
+    /// How far the body reflection moved.
+    pub body: BodyChange,
+}
+
+/// A parameter, switch or restriction that differs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SettingChange {
+    /// Its one name.
+    pub name: &'static str,
+    /// In the pinned result.
+    pub pinned: String,
+    /// In the newest result.
+    pub newest: String,
+}
+
+/// A number of both results.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Figure {
+    /// What it is, as in reports.
+    pub name: &'static str,
+    /// Its unit; empty for pure numbers.
+    pub unit: &'static str,
+    /// In the pinned result.
+    pub pinned: Option<f64>,
+    /// In the newest result.
+    pub newest: Option<f64>,
+}
+
+/// What became of a region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// It has the same pixels.
+    Kept,
+    /// It has others, but is still recognizable.
+    Changed,
+    /// It is new.
+    Gained,
+    /// It is no more.
+    Lost,
+}
+
+/// A region of one result and the one of the other that it is; they are one where each covers most of the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RegionFate {
+    /// What became of it.
+    pub fate: Fate,
+    /// Its number in the pinned result.
+    pub pinned: Option<u16>,
+    /// Its number in the newest result.
+    pub newest: Option<u16>,
+    /// Pixels in the pinned result.
+    pub pixels_pinned: usize,
+    /// Pixels in the newest result.
+    pub pixels_newest: usize,
+    /// Pixels in both.
+    pub pixels_shared: usize,
+}
+
+/// How many pixels stayed with their region, and how many did not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PixelFates {
+    /// In the same region, or in none, in both results.
+    pub kept: usize,
+    /// In none before, in a region now.
+    pub gained: usize,
+    /// In a region before, in none now.
+    pub lost: usize,
+    /// In a region that is another one now.
+    pub changed: usize,
+}
+
+/// How far the body reflection moved: the largest difference of a pixel's bands, counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyChange {
+    /// Share of the pixels that moved by more than one count.
+    pub share: f64,
+    /// Mean over all pixels.
+    pub mean_counts: f64,
+    /// Of the pixel that moved farthest.
+    pub most_counts: f64,
+}
+
+/// Compares two results; none where they are of pictures of different sizes. A few passes over the picture.
+pub fn compare(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Option<Comparison> {
+    if pinned.picture.size() != newest.picture.size() {
+        return None;
+    }
+    let light = |shown: &ResultSnapshot| shown.analysis.illuminant.map(|light| light.direction);
+    let (regions, pixels) = fates(pinned, newest);
+    Some(Comparison {
+        settings: settings(pinned, newest),
+        figures: figures(pinned, newest),
+        illuminant_deg: light(pinned).zip(light(newest)).map(|(a, b)| angle_deg(a, b)),
+        regions,
+        pixels,
+        body: body_change(pinned, newest),
+    })
+}
+
+fn settings(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<SettingChange> {
+    let mut changes = Vec::new();
+    let mut add = |name, pinned: String, newest: String| {
+        if pinned != newest {
+            changes.push(SettingChange { name, pinned, newest });
+        }
+    };
+    let method = |shown: &ResultSnapshot| format!("{:?}", shown.params.method).to_lowercase();
+    add("method", method(pinned), method(newest));
+    for parameter in Parameter::ALL {
+        let asked = |shown: &ResultSnapshot| shown.params.get(parameter).to_string();
+        add(parameter.spec().name, asked(pinned), asked(newest));
+    }
+    add("illuminant", pinned.params.illuminant.to_string(), newest.params.illuminant.to_string());
+    add("ambient", pinned.params.ambient.to_string(), newest.params.ambient.to_string());
+    let word = |on: bool| if on { "on" } else { "off" }.to_owned();
+    let (mut before, mut after) = (pinned.params.refinements(), newest.params.refinements());
+    for ((name, before), (_, after)) in before.switches().into_iter().zip(after.switches()) {
+        add(name, word(*before), word(*after));
+    }
+    let area = |shown: &ResultSnapshot| {
+        shown.area.as_ref().map_or_else(
+            || "all".to_owned(),
+            |area| format!("{} px", area.as_slice().iter().filter(|&&inside| inside).count()),
+        )
+    };
+    add("area", area(pinned), area(newest));
+    changes
+}
+
+fn figures(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<Figure> {
+    let both = |name, unit, of: &dyn Fn(&ResultSnapshot) -> Option<f64>| Figure {
+        name,
+        unit,
+        pinned: of(pinned),
+        newest: of(newest),
+    };
+    let regions = |shown: &ResultSnapshot| shown.analysis.intrinsic.regions.len();
+    let highlights = |shown: &ResultSnapshot| {
+        shown.analysis.intrinsic.regions.iter().filter(|region| region.highlight_pixels > 0).count()
+    };
+    let mut figures = vec![
+        both("regions", "", &|shown| Some(regions(shown) as f64)),
+        both("regions with a highlight", "", &|shown| Some(highlights(shown) as f64)),
+        both("coverage", "%", &|shown| Some(100.0 * shown.coverage)),
+        both("fit error", "counts", &fit_error_counts),
+        both("light R", "", &|shown| shown.analysis.illuminant.map(|light| light.direction[0])),
+        both("light G", "", &|shown| shown.analysis.illuminant.map(|light| light.direction[1])),
+        both("light B", "", &|shown| shown.analysis.illuminant.map(|light| light.direction[2])),
+        both("camera noise", "counts", &|shown| Some(shown.analysis.used.camera_noise)),
+    ];
+    if let (Some(a), Some(b)) = (pinned.accuracy(), newest.accuracy()) {
+        // The number of regions is there already.
+        let scores = a.scores.figures().into_iter().zip(b.scores.figures());
+        figures.extend(scores.filter(|((name, _), _)| *name != "regions").map(
+            |((name, pinned), (_, newest))| {
+                let unit = match name {
+                    name if name.starts_with("psnr") => "dB",
+                    name if name.ends_with("deg") => "\u{b0}",
+                    _ => "",
+                };
+                Figure { name, unit, pinned, newest }
+            },
+        ));
+    }
+    figures
+}
+
+/// Root mean square of the regions' fit errors, weighted by their pixels; none without a region.
+fn fit_error_counts(shown: &ResultSnapshot) -> Option<f64> {
+    let regions = &shown.analysis.intrinsic.regions;
+    let pixels: usize = regions.iter().map(|region| region.pixels).sum();
+    let sum: f64 = regions.iter().map(|region| region.pixels as f64 * region.fit_rms_counts.powi(2)).sum();
+    (pixels > 0).then(|| (sum / pixels as f64).sqrt())
+}
+
+fn fates(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> (Vec<RegionFate>, PixelFates) {
+    let shared = overlaps(pinned.labels(), newest.labels());
+    let (into, from) =
+        (best_overlaps(pinned.labels(), newest.labels()), best_overlaps(newest.labels(), pinned.labels()));
+    let sum = |covers: &[(u16, usize)]| covers.iter().map(|cover| cover.1).sum::<usize>();
+    let sizes_pinned: Vec<usize> = shared.iter().map(|covers| sum(covers)).collect();
+    let mut sizes_newest = vec![0; from.len()];
+    for &(label, pixels) in shared.iter().flatten() {
+        sizes_newest[usize::from(label)] += pixels;
+    }
+    let pair = |old: u16| {
+        let new = into[usize::from(old)];
+        (old != UNASSIGNED && new != UNASSIGNED && from[usize::from(new)] == old).then_some(new)
+    };
+    let mut regions = Vec::new();
+    for new in (1..from.len() as u16).filter(|&new| sizes_newest[usize::from(new)] > 0) {
+        let old = Some(from[usize::from(new)]).filter(|&old| pair(old) == Some(new));
+        let pixels_newest = sizes_newest[usize::from(new)];
+        let pixels_pinned = old.map_or(0, |old| sizes_pinned[usize::from(old)]);
+        let covers = old.map_or(&[][..], |old| &shared[usize::from(old)]);
+        let pixels_shared = covers.iter().find(|cover| cover.0 == new).map_or(0, |cover| cover.1);
+        let fate = match old {
+            None => Fate::Gained,
+            Some(_) if pixels_shared == pixels_pinned && pixels_shared == pixels_newest => Fate::Kept,
+            Some(_) => Fate::Changed,
+        };
+        regions.push(RegionFate {
+            fate,
+            pinned: old,
+            newest: Some(new),
+            pixels_pinned,
+            pixels_newest,
+            pixels_shared,
+        });
+    }
+    for old in (1..into.len() as u16).filter(|&old| sizes_pinned[usize::from(old)] > 0 && pair(old).is_none())
+    {
+        regions.push(RegionFate {
+            fate: Fate::Lost,
+            pinned: Some(old),
+            newest: None,
+            pixels_pinned: sizes_pinned[usize::from(old)],
+            pixels_newest: 0,
+            pixels_shared: 0,
+        });
+    }
+    let mut pixels = PixelFates::default();
+    for (old, covers) in (0u16..).zip(&shared) {
+        for &(new, count) in covers {
+            match (old, new) {
+                (UNASSIGNED, UNASSIGNED) => pixels.kept += count,
+                (UNASSIGNED, _) => pixels.gained += count,
+                (_, UNASSIGNED) => pixels.lost += count,
+                _ if pair(old) == Some(new) => pixels.kept += count,
+                _ => pixels.changed += count,
+            }
+        }
+    }
+    (regions, pixels)
+}
+
+fn body_change(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> BodyChange {
+    const ROW: usize = 1 << 13;
+    let (a, b) = (&pinned.analysis.intrinsic.body, &newest.analysis.intrinsic.body);
+    // Chunks are added up in their order: the sum is the same with any number of threads.
+    let chunks: Vec<(usize, f64, f32)> = a
+        .as_slice()
+        .par_chunks(ROW)
+        .zip(b.as_slice().par_chunks(ROW))
+        .map(|(a, b)| {
+            a.iter().zip(b).fold((0, 0.0, 0.0f32), |(changed, sum, most), (a, b)| {
+                let apart = (0..3).map(|band| (a[band] - b[band]).abs()).fold(0.0, f32::max);
+                (changed + usize::from(apart > CHANGED_COUNTS), sum + f64::from(apart), most.max(apart))
+            })
+        })
+        .collect();
+    let pixels = a.len().max(1) as f64;
+    let changed: usize = chunks.iter().map(|chunk| chunk.0).sum();
+    BodyChange {
+        share: changed as f64 / pixels,
+        mean_counts: chunks.iter().map(|chunk| chunk.1).sum::<f64>() / pixels,
+        most_counts: f64::from(chunks.iter().map(|chunk| chunk.2).fold(0.0, f32::max)),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exactness is what is tested")]
+mod tests {
+    use super::*;
+    use crate::intrinsic::Intrinsic;
+    use crate::segment::{Illuminant, Params, Setting};
+    use crate::view::testing::{divided, gray};
+    use std::sync::Arc;
+
+    /// Regions of two results of one gray picture, as (pinned, newest, shared pixels), and the pixels' fates.
+    #[track_caller]
+    fn check(before: &[&str], after: &[&str], regions: &[(Fate, u16, u16, usize)], pixels: [usize; 4]) {
+        let picture = gray(before, 90);
+        let found = compare(&divided(&picture, before), &divided(&picture, after)).unwrap();
+        let plain = |fate: &RegionFate| {
+            (fate.fate, fate.pinned.unwrap_or(0), fate.newest.unwrap_or(0), fate.pixels_shared)
+        };
+        assert_eq!(found.regions.iter().map(plain).collect::<Vec<_>>(), regions);
+        let PixelFates { kept, gained, lost, changed } = found.pixels;
+        assert_eq!([kept, gained, lost, changed], pixels);
+        assert_eq!(kept + gained + lost + changed, picture.size().0 * picture.size().1);
+    }
+
+    #[test]
+    fn regions_are_known_by_their_overlap_and_not_by_their_numbers() {
+        let before = ["1112", "1112", "3..."];
+        check(
+            &before,
+            &before,
+            &[(Fate::Kept, 1, 1, 6), (Fate::Kept, 2, 2, 2), (Fate::Kept, 3, 3, 1)],
+            [12, 0, 0, 0],
+        );
+        let after = ["2221", "2211", ".333"];
+        let regions = [
+            (Fate::Changed, 2, 1, 2),
+            (Fate::Changed, 1, 2, 5),
+            (Fate::Gained, 0, 3, 0),
+            (Fate::Lost, 3, 0, 0),
+        ];
+        check(&before, &after, &regions, [7, 3, 1, 1]);
+    }
+
+    #[test]
+    fn a_region_that_falls_apart_is_changed_and_gained() {
+        let regions = [(Fate::Changed, 1, 1, 3), (Fate::Gained, 0, 2, 0)];
+        check(&["11111"], &["11122"], &regions, [3, 0, 0, 2]);
+    }
+
+    #[test]
+    fn settings_figures_and_bodies_that_differ_are_listed() {
+        let rows = ["1122"];
+        let picture = gray(&rows, 90);
+        let (pinned, mut newest) = (divided(&picture, &rows), divided(&picture, &rows));
+        let same = compare(&pinned, &newest).unwrap();
+        assert_eq!((same.settings.len(), same.body, same.illuminant_deg), (0, BodyChange::default(), None));
+        newest.params = Params { camera_noise: Setting::Value(3.0), ..newest.params };
+        newest.area = Some(Arc::new(crate::raster::Raster::filled(4, 1, true)));
+        let mut body = newest.analysis.intrinsic.body.clone();
+        (body[0], body[3]) = ([90.0, 94.0, 89.0], [90.5, 90.0, 90.0]);
+        newest.analysis.intrinsic =
+            Arc::new(Intrinsic { body, ..Intrinsic::clone(&newest.analysis.intrinsic) });
+        let found = compare(&pinned, &newest).unwrap();
+        let plain: Vec<_> =
+            found.settings.iter().map(|c| (c.name, c.pinned.as_str(), c.newest.as_str())).collect();
+        assert_eq!(plain, [("camera_noise", "2.5", "3"), ("area", "all", "4 px")]);
+        assert_eq!(found.body, BodyChange { share: 0.25, mean_counts: 4.5 / 4.0, most_counts: 4.0 });
+        let fit = found.figures.iter().find(|figure| figure.name == "fit error").unwrap();
+        assert_eq!((fit.pinned, fit.newest, fit.unit), (Some(1.5), Some(1.5), "counts"));
+        assert!(compare(&pinned, &divided(&gray(&["1"], 9), &["1"])).is_none());
+    }
+
+    #[test]
+    fn the_angle_between_two_lights_is_told() {
+        let picture = gray(&["11"], 90);
+        let lit = |direction| {
+            let mut shown = divided(&picture, &["11"]);
+            shown.analysis.illuminant = Some(Illuminant { direction, objects: 1, given: false });
+            shown
+        };
+        let found = compare(&lit([1.0, 0.0, 0.0]), &lit([0.5f64.sqrt(), 0.5f64.sqrt(), 0.0])).unwrap();
+        assert!((found.illuminant_deg.unwrap() - 45.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,34 @@
+//! What can be pointed at. One hover and one selection are shared by every panel.
+
+use crate::raster::Mask;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Something that a person can point at, wherever it is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Item {
+    /// A pixel, by its row-major index.
+    Pixel(u32),
+    /// A window of the classification, by its row-major index.
+    Window(u32),
+    /// A final region, by its label from 1.
+    Region(u16),
+    /// A bin of the color histogram, by its index in [`super::Histogram::bins`].
+    Bin(u32),
+}
+
+/// What is selected: at most one item, and pixels marked by lasso, rectangle or brush.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    /// The item that was clicked.
+    pub item: Option<Item>,
+    /// The marked pixels; none: no pixel is marked.
+    pub marked: Option<Arc<Mask>>,
+}
+
+impl Selection {
+    /// Whether nothing at all is selected.
+    pub fn is_empty(&self) -> bool {
+        self.item.is_none() && self.marked.is_none()
+    }
+}

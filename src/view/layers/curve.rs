@@ -1,0 +1,74 @@
+//! From linear counts to 8-bit sRGB by one look into a table.
+
+use crate::photo::FULL_SCALE_COUNTS;
+
+/// Darker than this share of white is black: 1/4 of a code at gamma 1.
+const DARKEST: f32 = 1.0 / 65536.0;
+/// Leading bits of a number that choose its entry: exponent and 10 bits of the mantissa.
+const SHIFT: u32 = 13;
+const FIRST: u32 = DARKEST.to_bits() >> SHIFT;
+const ENTRIES: usize = ((1.0f32.to_bits() >> SHIFT) - FIRST + 1) as usize;
+
+/// Exposure, the curve of sRGB and a gamma for display, tabulated over the leading bits of the number: entries are as
+/// dense as the eye is keen, within a tenth of a code of the exact curve.
+pub(crate) struct Curve {
+    per_count: f32,
+    codes: Vec<u8>,
+}
+
+impl Curve {
+    /// A curve that brightens by `exposure_ev` stops and raises sRGB values to `1 / gamma`.
+    pub(crate) fn new(exposure_ev: f32, gamma: f32) -> Self {
+        let mut codes = vec![0u8; ENTRIES];
+        // The first entry stays black.
+        for (code, entry) in codes.iter_mut().zip(FIRST..).skip(1) {
+            let middle = f32::from_bits((entry << SHIFT) + (1 << (SHIFT - 1)));
+            *code = (255.0 * encoded(middle.min(1.0)).powf(1.0 / gamma.max(0.01))).round() as u8;
+        }
+        Self { per_count: exposure_ev.exp2() / FULL_SCALE_COUNTS as f32, codes }
+    }
+
+    /// The 8-bit value of linear counts; what is brighter than white is white.
+    #[inline]
+    #[allow(clippy::manual_clamp, reason = "what is no number is black")]
+    pub(crate) fn code(&self, counts: f32) -> u8 {
+        let share = (counts * self.per_count).max(DARKEST).min(1.0);
+        self.codes[((share.to_bits() >> SHIFT) - FIRST) as usize]
+    }
+}
+
+/// Tone curve of IEC 61966-2-1.
+fn encoded(linear: f32) -> f32 {
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_the_curve() {
+        let curve = Curve::new(0.0, 1.0);
+        for step in 0..=100_000 {
+            let linear = step as f32 / 100_000.0;
+            let exact = 255.0 * encoded(linear);
+            let found = f32::from(curve.code(255.0 * linear));
+            assert!((exact - found).abs() < 0.6, "{linear}: {found} instead of {exact}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_visible_light_is_black_or_white() {
+        let curve = Curve::new(0.0, 2.0);
+        let odd = [f32::NAN, f32::NEG_INFINITY, -3.0, 0.0, 255.0, 1e9, f32::INFINITY];
+        assert_eq!(odd.map(|counts| curve.code(counts)), [0, 0, 0, 0, 255, 255, 255]);
+    }
+
+    #[test]
+    fn a_stop_doubles_light_and_gamma_leaves_black_and_white() {
+        let (plain, brighter) = (Curve::new(0.0, 1.0), Curve::new(1.0, 1.0));
+        assert_eq!([3.0, 50.0, 120.0].map(|c| brighter.code(c)), [6.0, 100.0, 240.0].map(|c| plain.code(c)));
+        let lifted = Curve::new(0.0, 2.0);
+        assert_eq!(lifted.code(54.0), (255.0 * (f32::from(plain.code(54.0)) / 255.0).sqrt()).round() as u8);
+    }
+}

@@ -1,0 +1,121 @@
+//! What is selected and pointed at, as a picture to lay over any layer.
+
+use crate::raster::{Mask, Raster};
+use crate::view::{Item, Picture, ResultSnapshot, Selection};
+use rayon::prelude::*;
+
+/// Color of the cursor and of everything selected, sRGB.
+pub const ACCENT: [u8; 3] = [0xE8, 0xA3, 0x3D];
+
+const MARKED: [u8; 4] = with_alpha(ACCENT, 72);
+const OUTLINE: [u8; 4] = with_alpha(ACCENT, 255);
+const HOVERED: [u8; 4] = [255, 255, 255, 220];
+const CLEAR: [u8; 4] = [0; 4];
+
+/// The marked pixels (a translucent fill and an outline), the selected region, window or color bin and what the pointer is
+/// over, as sRGB with straight alpha, a pixel a pixel. None where there is nothing of this to draw.
+///
+/// Outlines are one pixel wide, inside. A pixel is an item too small to be drawn here: views draw a cross-hair.
+pub fn marks(
+    picture: &Picture,
+    shown: Option<&ResultSnapshot>,
+    selection: &Selection,
+    hover: Option<Item>,
+) -> Option<Raster<[u8; 4]>> {
+    let (width, height) = picture.size();
+    let shown = shown.filter(|shown| shown.picture.size() == (width, height));
+    let marked = selection.marked.as_deref().filter(|mask| (mask.width(), mask.height()) == (width, height));
+    let drawn = |item: &Item| match *item {
+        Item::Pixel(_) => false,
+        Item::Region(_) | Item::Window(_) => shown.is_some(),
+        Item::Bin(bin) => (bin as usize) < picture.histogram.bins.len(),
+    };
+    let (selected, hover) = (selection.item.filter(drawn), hover.filter(drawn));
+    if marked.is_none() && selected.is_none() && hover.is_none() {
+        return None;
+    }
+    let mut canvas = Canvas { picture, shown, painted: Raster::filled(width, height, CLEAR) };
+    if let Some(mask) = marked {
+        canvas.fill(mask);
+    }
+    for (item, color) in [(selected, OUTLINE), (hover, HOVERED)] {
+        if let Some(item) = item {
+            canvas.item(item, color);
+        }
+    }
+    Some(canvas.painted)
+}
+
+const fn with_alpha([r, g, b]: [u8; 3], alpha: u8) -> [u8; 4] {
+    [r, g, b, alpha]
+}
+
+struct Canvas<'a> {
+    picture: &'a Picture,
+    shown: Option<&'a ResultSnapshot>,
+    painted: Raster<[u8; 4]>,
+}
+
+impl Canvas<'_> {
+    fn fill(&mut self, mask: &Mask) {
+        self.each(|x, y| match mask.row(y)[x] {
+            true if is_border(mask, x, y, |on| on) => Some(OUTLINE),
+            true => Some(MARKED),
+            false => None,
+        });
+    }
+
+    fn item(&mut self, item: Item, color: [u8; 4]) {
+        match (item, self.shown) {
+            (Item::Region(region), Some(shown)) => {
+                let labels = shown.labels();
+                self.each(|x, y| {
+                    let inside = |label| label == region;
+                    (labels.row(y)[x] == region && is_border(labels, x, y, inside)).then_some(color)
+                });
+            }
+            (Item::Window(window), Some(shown)) => {
+                let (side_px, columns) = (shown.window_px(), shown.classes().width().max(1));
+                let (left, top) = (window as usize % columns * side_px, window as usize / columns * side_px);
+                self.frame(left, top, side_px, color);
+            }
+            (Item::Bin(bin), _) => {
+                for pixel in self.picture.histogram.pixels_of(bin) {
+                    self.painted[pixel as usize] = color;
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The outline of a square that may end at the picture's border.
+    fn frame(&mut self, left: usize, top: usize, side_px: usize, color: [u8; 4]) {
+        let right = (left + side_px).min(self.painted.width());
+        let bottom = (top + side_px).min(self.painted.height());
+        let width = self.painted.width();
+        for y in top..bottom {
+            for x in left..right {
+                if x == left || x + 1 == right || y == top || y + 1 == bottom {
+                    self.painted[y * width + x] = color;
+                }
+            }
+        }
+    }
+
+    fn each(&mut self, color: impl Fn(usize, usize) -> Option<[u8; 4]> + Sync) {
+        let width = self.painted.width().max(1);
+        self.painted.as_mut_slice().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+            for (x, pixel) in row.iter_mut().enumerate() {
+                if let Some(color) = color(x, y) {
+                    *pixel = color;
+                }
+            }
+        });
+    }
+}
+
+/// Whether a pixel that is inside has a 4-neighbor that is not, or lies at the picture's border.
+fn is_border<T: Copy>(values: &Raster<T>, x: usize, y: usize, inside: impl Fn(T) -> bool) -> bool {
+    let out = |x: usize, y: usize| values.get(x, y).is_none_or(|&value| !inside(value));
+    out(x.wrapping_sub(1), y) || out(x + 1, y) || out(x, y.wrapping_sub(1)) || out(x, y + 1)
+}

@@ -1,0 +1,68 @@
+//! What the panels show, as plain data: layers, histogram, solids, plane points, profiles, statistics, and what is to be seen at
+//! an instant of a trace.
+//!
+//! Everything here is computed from a photograph, a result or a trace, without application state and without a screen.
+
+mod accuracy;
+mod axes;
+mod colors;
+mod compare;
+mod curves;
+mod histogram;
+mod item;
+mod layers;
+pub mod marking;
+mod picture;
+mod plane_points;
+mod profile;
+mod replay;
+mod runs;
+pub(crate) mod selected;
+mod settings;
+mod shapes;
+mod snapshot;
+mod solid;
+mod space;
+mod statistics;
+mod table;
+#[cfg(test)]
+pub(crate) mod testing;
+mod vector;
+
+pub use accuracy::{Accuracy, RegionAccuracy};
+pub use axes::{Axis, Tick};
+pub(crate) use colors::region_colors;
+pub use compare::{BodyChange, Comparison, Fate, Figure, PixelFates, RegionFate, SettingChange, compare};
+pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
+pub use item::{Item, Selection};
+pub use layers::{
+    ACCENT, DIFFERENCE_COUNTS, LegendEntry, Look, beside_color, class_entries, instant_legend, legend, marks,
+    paint, paint_instant, pyramid,
+};
+pub use picture::{Origin, Picture};
+pub use plane_points::{
+    MOST_PLANE_POINTS, PlaneBranch, PlanePixel, RegionPlane, growing_plane, region_plane, test_plane,
+};
+pub use profile::{ProfileSample, profile, profile_csv, profile_ends};
+pub use replay::{
+    Account, AxisDistance, Check, Current, Growth, HypothesisRow, Instant, InstantView, LookedAt,
+    RegionNames, RegionsView, Role, RolesView, SkewedTView, Status, TimelineAxis, TimelineSection, Watch,
+    WatchedPixel, Why, WindowCounts, WindowsView, candidate_name, candidate_pixels, candidate_reach,
+    cursor_place, growth, hypothesis_rows, looked_at, measured_and_ignored, pixels_of_region, rings, sampled,
+    skewed_t_view, test_at_cursor, timeline_density, tracks, watch, why, window_counts,
+};
+pub use runs::MaskRuns;
+pub use settings::{
+    Arrangement, ColorBy, ColorSpace, CubeSettings, Fill, ImageSettings, Layer, PlaneSettings, ProfileLine,
+    Theme, Tool,
+};
+pub use shapes::{
+    CursorShapes, PlaneDirections, RegionShapes, cluster_ellipsoid, cursor_shapes, dark_sphere,
+    illuminant_line, plane_directions, region_shapes, window_ellipsoid,
+};
+pub use snapshot::ResultSnapshot;
+pub(crate) use snapshot::{best_overlap, best_overlaps};
+pub use solid::{Mesh, Solid};
+pub use statistics::{Band, Bounds, STATISTICS_BINS, Statistics, statistics, statistics_of};
+pub use table::regions_text;
+pub use vector::Point;

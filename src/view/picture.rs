@@ -1,0 +1,68 @@
+//! A photograph that is open, where it came from, and what it is compared with.
+
+use super::Histogram;
+use crate::photo::{Photo, ReadOptions};
+use crate::truth::GroundTruth;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Where a photograph comes from.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum Origin {
+    /// A file.
+    File(PathBuf),
+    /// A sample scene that the program carries, by name.
+    Sample(String),
+    /// The clipboard, or a file dropped without a path; the name is for people.
+    Bytes {
+        /// What to call it.
+        name: String,
+        /// An encoded picture.
+        #[serde(skip)]
+        bytes: Arc<[u8]>,
+    },
+}
+
+impl Origin {
+    /// A name for titles and messages.
+    pub fn name(&self) -> String {
+        match self {
+            Self::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+            Self::Sample(name) | Self::Bytes { name, .. } => name.clone(),
+        }
+    }
+
+    /// The file, if it is one.
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            Self::File(path) => Some(path),
+            _ => None,
+        }
+    }
+}
+
+/// An open photograph. Shared, never changed.
+#[derive(Debug)]
+pub struct Picture {
+    /// Where it came from.
+    pub origin: Origin,
+    /// How it was read.
+    pub reading: ReadOptions,
+    /// The photograph; its linear image is in `image`.
+    pub photo: Photo,
+    /// SHA-256 of the file, hexadecimal.
+    pub sha256: String,
+    /// What it took to read, milliseconds.
+    pub read_ms: f64,
+    /// Its colors, binned.
+    pub histogram: Histogram,
+    /// Ground truth, where the scene has one.
+    pub truth: Option<GroundTruth>,
+}
+
+impl Picture {
+    /// Columns and rows.
+    pub fn size(&self) -> (usize, usize) {
+        (self.photo.image.width(), self.photo.image.height())
+    }
+}

@@ -1,0 +1,172 @@
+//! The plane at the debugger's cursor: of a skewed-T test (5.4.1), or of a region that grows (5.3.2, 5.4.2).
+
+use super::{PlaneBranch, PlanePixel, RegionPlane};
+use crate::color::{Vec3, rgb};
+use crate::photo::Masks;
+use crate::reflection::{Components, ReflectionTransform};
+use crate::trace::{CandidateTest, PixelKind, Replay};
+use crate::view::{MOST_PLANE_POINTS, Picture};
+use crate::view::{candidate_pixels, measured_and_ignored, pixels_of_region, sampled, tracks};
+
+/// Where pixels lie, and what becomes of them.
+struct Sheet<'a> {
+    colors: &'a [[f32; 3]],
+    transform: ReflectionTransform,
+}
+
+impl Sheet<'_> {
+    /// Groups of pixels, each of one kind.
+    fn points(&self, groups: &[(Vec<u32>, PixelKind)]) -> Vec<PlanePixel> {
+        let most = MOST_PLANE_POINTS / groups.len().max(1);
+        let all = groups.iter().flat_map(|(pixels, kind)| sampled(pixels, most).map(move |p| (p, *kind)));
+        let place = |(pixel, kind): (u32, PixelKind)| {
+            let color = self.colors[pixel as usize];
+            let Components { body, surface, .. } = self.transform.split(color);
+            PlanePixel { body, surface, color, kind, pixel, count: 1 }
+        };
+        all.map(place).collect()
+    }
+
+    /// How far a color lies along the body vector.
+    fn amount(&self, color: Vec3) -> f32 {
+        self.transform.split(rgb(&color)).body
+    }
+
+    fn plane(self, region: u16, half_widths: [f64; 2], points: Vec<PlanePixel>) -> RegionPlane {
+        let [slice_half_width, radius] = half_widths.map(|v| v as f32);
+        RegionPlane {
+            region,
+            body: self.transform.body(),
+            surface: self.transform.surface(),
+            has_plane: true,
+            angle_deg: super::angle_deg(&self.transform),
+            matte_length: 0.0,
+            branches: Vec::new(),
+            slice_half_width,
+            radius,
+            extent: super::extent(&points),
+            points,
+            transform: self.transform,
+            // Ambient light is known after all growth only.
+            origin: [0.0; 3],
+        }
+    }
+}
+
+/// A test in the plane that both lines span: m_b along the matte line, m_s along the candidate's. Pixels by which the matte
+/// line is measured are matte, those ignored for it are lost, the candidate's are highlight. `region` is the tested one's
+/// final number. None where both lines have one direction.
+pub fn test_plane(
+    replay: &Replay,
+    test: &CandidateTest,
+    region: u16,
+    picture: &Picture,
+    masks: &Masks,
+) -> Option<RegionPlane> {
+    let transform = ReflectionTransform::new(&test.matte.direction, &test.line.direction)?;
+    let colors = &picture.photo.image.pixels;
+    let sheet = Sheet { colors: colors.as_slice(), transform };
+    let own = pixels_of_region(replay, test.region);
+    let (measured, ignored) = measured_and_ignored(test, &own, colors);
+    let points = sheet.points(&[
+        (measured, PixelKind::Matte),
+        (ignored, PixelKind::Lost),
+        (candidate_pixels(replay, test.candidate, masks), PixelKind::Highlight),
+    ]);
+    let brightest = test.matte.foot() + test.matte.direction * test.matte_length;
+    let (matte_length, meeting) = (sheet.amount(brightest), sheet.amount(test.meeting[0]));
+    let plane = sheet.plane(region, [test.gap[1]; 2], points);
+    let branches = super::branches(&[meeting], &plane.points);
+    Some(RegionPlane { matte_length, branches, ..plane })
+}
+
+/// A region as it stands at the cursor: its pixels are matte, those that it took last highlight, those that it did not take
+/// lost. In its dichromatic plane once it has a slice, before that across its line. `focus` is its number of birth, `region`
+/// the final one. None where it has no line.
+pub fn growing_plane(
+    replay: &Replay,
+    focus: u16,
+    region: u16,
+    picture: &Picture,
+    masks: &Masks,
+) -> Option<RegionPlane> {
+    let hypothesis = replay.hypothesis(focus)?;
+    let made = replay.slice(focus);
+    let line = made.map_or(hypothesis.line()?, |made| &made.plane.matte);
+    let across = || {
+        let aside = line.inward().try_normalize(1e-6);
+        let square = aside.unwrap_or_else(|| line.direction.cross(&Vec3::x()).normalize());
+        ReflectionTransform::new(&line.direction, &square)
+    };
+    let in_plane = made.and_then(|made| ReflectionTransform::new(&line.direction, &made.plane.surface));
+    let has_plane = in_plane.is_some();
+    let colors = &picture.photo.image.pixels;
+    let sheet = Sheet { colors: colors.as_slice(), transform: in_plane.or_else(across)? };
+    let tracks = tracks(replay, colors, masks).filter(|tracks| tracks.region == focus).unwrap_or_default();
+    let points = sheet.points(&[
+        (pixels_of_region(replay, focus), PixelKind::Matte),
+        (tracks.outside, PixelKind::Lost),
+        (tracks.newest, PixelKind::Highlight),
+    ]);
+    let brightest = made.map(|made| line.foot() + line.direction * made.matte_length);
+    let held = points.iter().filter(|point| point.kind == PixelKind::Matte);
+    let longest = held.fold(0.0f32, |most, point| most.max(point.body));
+    let matte_length = brightest.map_or(longest, |brightest| sheet.amount(brightest));
+    let meeting_point = made.map(|made| sheet.amount(made.start)).filter(|_| has_plane);
+    let radius = hypothesis.radius;
+    let plane = sheet.plane(region, [made.map_or(radius, |made| made.half_width), radius], points);
+    let length = plane.extent[1][1].max(0.0);
+    let branches = meeting_point.map(|meeting_point| PlaneBranch { meeting_point, length });
+    Some(RegionPlane { has_plane, matte_length, branches: branches.into_iter().collect(), ..plane })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::{Event, Topic};
+    use crate::view::test_at_cursor;
+    use crate::view::testing::{tiny, tiny_picture};
+    use std::sync::Arc;
+
+    fn cursor_after(steps: usize) -> Replay {
+        let mut replay = Replay::new(Arc::clone(tiny().trace().unwrap()));
+        replay.seek(steps);
+        replay
+    }
+
+    #[test]
+    fn a_test_meets_where_it_says_and_its_clusters_lie_along_both_lines() {
+        let (shown, picture) = (tiny(), tiny_picture());
+        let (trace, masks) = (shown.trace().unwrap(), &shown.analysis.masks);
+        let passed = trace
+            .events()
+            .find(|(_, event)| matches!(event, Event::CandidateTested(test) if test.verdict.accepted()));
+        let replay = cursor_after(passed.unwrap().0 + 1);
+        let test = test_at_cursor(&replay).unwrap();
+        let plane = test_plane(&replay, test, 3, &picture, masks).unwrap();
+        assert_eq!((plane.region, plane.has_plane), (3, true));
+        let percent = 100.0 * f64::from(plane.branches[0].meeting_point / plane.matte_length);
+        assert!((percent - test.position_percent).abs() < 8.0, "{percent} {}", test.position_percent);
+        let near = |kind: PixelKind, of: fn(&PlanePixel) -> f32| {
+            let all: Vec<f32> = plane.points.iter().filter(|p| p.kind == kind).map(of).collect();
+            all.iter().sum::<f32>() / all.len() as f32
+        };
+        assert!(near(PixelKind::Matte, |p| p.surface).abs() < plane.radius);
+        assert!(near(PixelKind::Highlight, |p| p.surface) > 0.0, "light was added");
+        assert!(near(PixelKind::Lost, |p| p.surface) > near(PixelKind::Matte, |p| p.surface));
+    }
+
+    #[test]
+    fn a_region_lies_across_its_line_until_it_has_a_slice() {
+        let (shown, picture) = (tiny(), tiny_picture());
+        let (trace, masks) = (shown.trace().unwrap(), &shown.analysis.masks);
+        let block = trace.blocks().find(|block| matches!(block.topic, Topic::Slice(_))).unwrap();
+        let region = block.topic.region();
+        for (steps, has_plane) in [(block.steps.start, false), (block.steps.start + 1, true)] {
+            let plane = growing_plane(&cursor_after(steps), region, 1, &picture, masks).unwrap();
+            assert_eq!((plane.has_plane, !plane.branches.is_empty()), (has_plane, has_plane));
+            assert!(plane.matte_length > 20.0 && plane.points.len() > 100);
+        }
+        assert!(growing_plane(&cursor_after(1), 1, 1, &picture, masks).is_none());
+    }
+}

@@ -1,0 +1,200 @@
+//! What the picture shows of an instant, taken out of the cursor so that it can be painted on another thread.
+
+use super::RegionNames;
+use super::looked_at::blob_at_cursor;
+use super::tracks::{candidate_pixels, test_at_cursor, tracks};
+use crate::photo::Masks;
+use crate::raster::{LabelMap, Raster};
+use crate::trace::{Class, Event, Grid, Pass, PixelKind, Replay, Stage, Step, Topic};
+/// An instant as the picture shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instant {
+    /// What is drawn.
+    pub view: InstantView,
+    /// The pixel of the step taken last, where it is about one, and whether it changed.
+    pub pixel: Option<(u32, bool)>,
+    /// The window that was classified last, in pixels: left, top and side.
+    pub window: Option<[usize; 3]>,
+}
+
+/// What is drawn of an instant.
+#[derive(Clone, Debug, PartialEq)]
+pub enum InstantView {
+    /// Nothing is decided yet.
+    Nothing,
+    /// Windows and areas, as far as they are known (5.2).
+    Windows(WindowsView),
+    /// Regions, as far as they have grown (5.3, 5.4, 5.5).
+    Regions(RegionsView),
+    /// What each pixel is to its region, as far as that is decided (6).
+    Roles(RolesView),
+}
+
+/// Windows at an instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WindowsView {
+    /// Side of a window, pixels.
+    pub size_px: usize,
+    /// Windows in a row.
+    pub columns: usize,
+    /// Class of each window; none as long as it is not known, and where it has none.
+    pub classes: Vec<Option<Class>>,
+    /// The first window of each window's area.
+    pub areas: Vec<u32>,
+    /// The areas of the merge that was just tried: one where they were joined.
+    pub tried: Vec<u32>,
+}
+
+/// Regions at an instant, by their numbers of birth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RegionsView {
+    /// Region of each pixel.
+    pub labels: LabelMap,
+    /// Color of region `id` at index `id − 1`.
+    pub colors: Vec<[u8; 3]>,
+    /// The region that the step taken last is about.
+    pub focus: Option<u16>,
+    /// Pixels that it took last.
+    pub newest: Vec<u32>,
+    /// Pixels beside it that it did not take, or of the cluster that it is compared with.
+    pub beside: Vec<u32>,
+    /// Whether they are that cluster.
+    pub tested: bool,
+    /// The windows of a second look.
+    pub windows: Option<WindowsView>,
+}
+
+/// Roles at an instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RolesView {
+    /// Role of each pixel: unassigned as long as it is not known.
+    pub kinds: Raster<PixelKind>,
+    /// The blob that the step taken last judged, and whether it is a highlight.
+    pub blob: Option<(Vec<u32>, bool)>,
+}
+
+impl WindowsView {
+    fn of(grid: &Grid, last: Option<&Step>) -> Self {
+        let areas = grid.areas();
+        let tried = match last {
+            Some(Step::Event(Event::MergeTried { into, from, .. })) => {
+                let mut tried: Vec<u32> =
+                    [into, from].iter().filter_map(|window| areas.get(**window as usize)).copied().collect();
+                tried.dedup();
+                tried
+            }
+            _ => Vec::new(),
+        };
+        Self {
+            size_px: (grid.laid.size_px as usize).max(1),
+            columns: grid.laid.columns as usize,
+            classes: grid.classes.as_slice().iter().map(|class| class.flatten()).collect(),
+            areas,
+            tried,
+        }
+    }
+
+    fn square(&self, window: u32) -> [usize; 3] {
+        let (window, columns) = (window as usize, self.columns.max(1));
+        [window % columns * self.size_px, window / columns * self.size_px, self.size_px]
+    }
+}
+
+impl Instant {
+    /// Takes out of the cursor what is to be painted; `chosen` is the region in focus where the step taken last is about
+    /// none.
+    pub fn of(
+        replay: &Replay,
+        names: &RegionNames,
+        chosen: Option<u16>,
+        colors: &Raster<[f32; 3]>,
+        masks: &Masks,
+    ) -> Self {
+        let last = replay.last();
+        let stage = replay.stage().filter(|_| last.is_some());
+        let windows = replay.grid().map(|grid| WindowsView::of(grid, last.as_ref()));
+        let window = match (&last, &windows) {
+            (Some(Step::Event(Event::WindowClassified { window, .. })), Some(windows)) => {
+                Some(windows.square(*window))
+            }
+            _ => None,
+        };
+        let pixel = last.as_ref().and_then(|step| {
+            let pixel = step.pixel()?;
+            Some((pixel, !matches!(step, Step::Refusal { .. })))
+        });
+        let view = match stage {
+            None | Some(Stage::Masks) => InstantView::Nothing,
+            Some(Stage::Classify | Stage::Merge) => {
+                windows.map_or(InstantView::Nothing, InstantView::Windows)
+            }
+            Some(Stage::Linear | Stage::Planar | Stage::Clipping) => {
+                let second = matches!(replay.pass(), Some(Pass::SecondLook(_)));
+                let windows = windows.filter(|_| second);
+                InstantView::Regions(regions(replay, names, chosen, colors, masks, windows))
+            }
+            Some(Stage::Split) => {
+                InstantView::Roles(RolesView { kinds: roles(replay), blob: blob_at_cursor(replay) })
+            }
+        };
+        Self { view, pixel, window }
+    }
+}
+
+fn regions(
+    replay: &Replay,
+    names: &RegionNames,
+    chosen: Option<u16>,
+    colors: &Raster<[f32; 3]>,
+    masks: &Masks,
+    windows: Option<WindowsView>,
+) -> RegionsView {
+    let tracks = tracks(replay, colors, masks);
+    let (newest, beside) = tracks.map_or_else(Default::default, |tracks| {
+        let mut beside = tracks.outside;
+        beside.extend(tracks.kept_out);
+        (tracks.newest, beside)
+    });
+    let test = test_at_cursor(replay);
+    let beside = test.map_or(beside, |test| candidate_pixels(replay, test.candidate, masks));
+    let topic = replay.at().checked_sub(1).and_then(|last| replay.trace().block_at(last));
+    let count = replay.hypotheses().len() as u16;
+    RegionsView {
+        labels: replay.labels().clone(),
+        colors: (1..=count).map(|region| names.color(region)).collect(),
+        focus: topic.map(|block| block.topic.region()).or(chosen),
+        newest,
+        beside,
+        tested: test.is_some(),
+        windows,
+    }
+}
+
+fn roles(replay: &Replay) -> Raster<PixelKind> {
+    let (width, height) = (replay.labels().width(), replay.labels().height());
+    let mut kinds = Raster::filled(width, height, PixelKind::Unassigned);
+    let known = replay.trace().stage_trace(Stage::Split).and_then(|stage_trace| stage_trace.kinds());
+    let upto = replay.labeled_up_to();
+    if let Some(known) = known.filter(|known| known.len() == kinds.len()) {
+        let upto = upto.min(kinds.len());
+        kinds.as_mut_slice()[..upto].copy_from_slice(&known.as_slice()[..upto]);
+    }
+    kinds
+}
+
+/// Where the cursor stands, in a few words.
+pub fn cursor_place(replay: &Replay) -> String {
+    let Some(last) = replay.at().checked_sub(1) else { return "before the first step".to_owned() };
+    let Some(stage) = replay.stage() else { return String::new() };
+    let topic = replay.trace().block_at(last).map(|block| match block.topic {
+        Topic::Hypothesis(region) => format!("hypothesis {region}"),
+        Topic::Absorption(region) => format!("hypothesis {region} is absorbed"),
+        Topic::Candidates(region) => format!("highlight of {region}?"),
+        Topic::Slice(region) => format!("slice of {region}"),
+        Topic::Brightness(region) => format!("highlight of {region}"),
+        Topic::Hole(region) => format!("hole in {region}"),
+        Topic::Part(region) => format!("part {region}"),
+    });
+    let pass = replay.pass().map(|pass| pass.name().to_owned());
+    [Some(stage.name().to_owned()), topic.or(pass)].into_iter().flatten().collect::<Vec<_>>().join(" \u{b7} ")
+}

@@ -1,0 +1,140 @@
+//! Which pixels the step at the cursor looks at: what the color space view shows in full, the rest being its ghost.
+
+use super::tracks::{
+    candidate_pixels, measured_and_ignored, pixels_of_region, sampled, test_at_cursor, tracks,
+};
+use crate::photo::Masks;
+use crate::raster::Raster;
+use crate::trace::{Class, Event, Grid, LocalDecision, RepairVerdict, Replay, Stage, Step};
+
+/// What pixels are to the step at the cursor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Of the region, of the area that would remain, or of a blob that is a highlight.
+    Own,
+    /// Of the region, and taken in the ring at work.
+    Newest,
+    /// Not taken, the cluster that is tested, the area that would vanish, or a blob that is no highlight.
+    Beside,
+    /// On the inside of a tested matte line: its length is measured without them (5.4.1).
+    Ignored,
+    /// Of a window of this class (5.2.1).
+    Window(Option<Class>),
+}
+
+/// Some pixels, and what they are to the step.
+pub type LookedAt = (Role, Vec<u32>);
+
+/// The pixels that the step at the cursor looks at, at most `most` of each kind, evenly chosen; `focus` is the region that
+/// is looked at where the step is about no pixels.
+pub fn looked_at(
+    replay: &Replay,
+    focus: Option<u16>,
+    colors: &Raster<[f32; 3]>,
+    masks: &Masks,
+    most: usize,
+) -> Vec<LookedAt> {
+    let groups = groups(replay, focus, colors, masks).into_iter();
+    let few = |(role, pixels): LookedAt| (role, sampled(&pixels, most).collect::<Vec<u32>>());
+    groups.map(few).filter(|(_, pixels)| !pixels.is_empty()).collect()
+}
+
+fn groups(replay: &Replay, focus: Option<u16>, colors: &Raster<[f32; 3]>, masks: &Masks) -> Vec<LookedAt> {
+    if let Some(test) = test_at_cursor(replay) {
+        let own = pixels_of_region(replay, test.region);
+        let (measured, ignored) = measured_and_ignored(test, &own, colors);
+        let candidate = candidate_pixels(replay, test.candidate, masks);
+        return vec![(Role::Own, measured), (Role::Ignored, ignored), (Role::Beside, candidate)];
+    }
+    if let Some(tracks) = tracks(replay, colors, masks) {
+        return vec![
+            (Role::Own, pixels_of_region(replay, tracks.region)),
+            (Role::Beside, tracks.outside),
+            (Role::Newest, tracks.newest),
+        ];
+    }
+    if let Some((blob, kept)) = blob_at_cursor(replay) {
+        return vec![(if kept { Role::Own } else { Role::Beside }, blob)];
+    }
+    let width = colors.width();
+    match (replay.last(), replay.grid()) {
+        (Some(Step::Event(Event::WindowClassified { window, class, .. })), Some(grid)) => {
+            vec![(Role::Window(*class), pixels_in(grid, width, colors.height(), |at| at == *window as usize))]
+        }
+        (Some(Step::Event(Event::MergeTried { into, from, class, union, .. })), Some(grid)) => {
+            let areas = grid.areas();
+            let root = |window: &u32| areas.get(*window as usize).copied();
+            let pixels = |root: Option<u32>| {
+                pixels_in(grid, width, colors.height(), |at| areas.get(at).copied() == root)
+            };
+            let mut groups = vec![(Role::Own, pixels(root(into)))];
+            if class != union {
+                groups.push((Role::Beside, pixels(root(from))));
+            }
+            groups
+        }
+        _ => focus.map(|focus| (Role::Own, pixels_of_region(replay, focus))).into_iter().collect(),
+    }
+}
+
+/// The blob that the step taken last judged, and whether it is a highlight: clipped, whether it is filled.
+pub fn blob_at_cursor(replay: &Replay) -> Option<(Vec<u32>, bool)> {
+    let (blob, kept) = match replay.last()? {
+        Step::Event(Event::Local(LocalDecision::Blob(judged))) => (judged.blob, judged.kept),
+        Step::Event(Event::Local(LocalDecision::Repair(tried))) => {
+            (tried.blob, tried.verdict == RepairVerdict::Filled)
+        }
+        _ => return None,
+    };
+    Some((replay.trace().stage_trace(Stage::Split)?.local()?.blob(blob), kept))
+}
+
+/// The pixels of some windows, window by window.
+fn pixels_in(grid: &Grid, width: usize, height: usize, wanted: impl Fn(usize) -> bool) -> Vec<u32> {
+    let (side, columns) = ((grid.laid.size_px as usize).max(1), (grid.laid.columns as usize).max(1));
+    let mut pixels = Vec::new();
+    for window in (0..grid.classes.len()).filter(|&window| wanted(window)) {
+        let (left, top) = (window % columns * side, window / columns * side);
+        for y in top..(top + side).min(height) {
+            pixels.extend((left..(left + side).min(width)).map(|x| (y * width + x) as u32));
+        }
+    }
+    pixels
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::Roi;
+    use crate::trace::{
+        BlobJudged, LocalPoint, LocalPoints, LocalRecord, Recorder, RepairTried, Trace, TraceRecorder,
+    };
+    use std::sync::Arc;
+
+    #[test]
+    fn a_step_about_a_blob_looks_at_its_pixels() {
+        let window = Roi::around((4, 2), 0, |_| true).unwrap();
+        let mut of = Raster::filled(4, 2, LocalPoint::default());
+        (of[1].blob, of[2].blob, of[7].blob) = (1, 1, 2);
+        let mut recorder = TraceRecorder::default();
+        let judged =
+            BlobJudged { blob: 1, pixel: 1, pixels: 2, clipped: 0, strong: 0, calm: 0, core: 0, kept: false };
+        recorder.record(Event::Local(LocalDecision::Blob(judged)));
+        recorder.record(Event::Local(LocalDecision::Repair(RepairTried {
+            blob: 2,
+            pixel: 7,
+            pixels: 1,
+            ring: [0.5, 0.4],
+            rise: [2.0, 1.0],
+            verdict: RepairVerdict::Filled,
+        })));
+        recorder.local(LocalRecord::Points(LocalPoints { roi: window, of }));
+        let stage_trace = Arc::new(recorder.finish(Stage::Split).unwrap());
+        let mut replay = Replay::new(Arc::new(Trace::new(4, 2, vec![stage_trace])));
+        assert_eq!(blob_at_cursor(&replay), None);
+        replay.forward();
+        assert_eq!(blob_at_cursor(&replay), Some((vec![1, 2], false)));
+        replay.forward();
+        assert_eq!(blob_at_cursor(&replay), Some((vec![7], true)));
+    }
+}

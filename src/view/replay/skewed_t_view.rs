@@ -1,0 +1,163 @@
+//! A skewed-T test as it is drawn: two lines, the gap between them, and what each check held against what (5.4.1).
+
+use crate::color::{Vec3, rgb};
+use crate::trace::{CandidateSource, CandidateTest};
+use crate::view::Point;
+
+/// A test in the color cube, counts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SkewedTView {
+    /// The matte line from its nearest point to black to the brightest matte point.
+    pub matte: [Point; 2],
+    /// The part of it on which a highlight may begin.
+    pub upper: [Point; 2],
+    /// The candidate's line, from the meeting point through its cluster.
+    pub line: [Point; 2],
+    /// The points of both lines that are nearest to one another.
+    pub gap: [Point; 2],
+    /// The four checks, in the order in which they are made.
+    pub checks: [Check; 4],
+}
+
+/// A check of a test.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Check {
+    /// Whether it was passed.
+    pub passed: bool,
+    /// What was held against what.
+    pub text: String,
+    /// What it is for.
+    pub tip: &'static str,
+}
+
+/// The test as it is drawn; `reach` are the least and the largest place of the candidate's pixels on its line, counts from
+/// the meeting point, where they are known.
+pub fn skewed_t_view(test: &CandidateTest, reach: Option<[f64; 2]>) -> SkewedTView {
+    let foot = test.matte.foot();
+    let on_matte = |percent: f64| rgb(&(foot + test.matte.direction * (test.matte_length * percent / 100.0)));
+    let [meeting, start] = test.meeting;
+    let mean = (test.line.mean - start).dot(&test.line.direction);
+    let [low, high] = reach.unwrap_or([0.0, 2.0 * mean]);
+    let on_line = |at: f64| rgb(&(start + test.line.direction * at));
+    SkewedTView {
+        matte: [on_matte(0.0), on_matte(100.0)],
+        upper: test.position_limits.map(on_matte),
+        line: [on_line(low.min(0.0)), on_line(high.max(0.0))],
+        gap: [rgb(&meeting), rgb(&start)],
+        checks: checks(test),
+    }
+}
+
+/// What a candidate is called.
+pub fn candidate_name(source: CandidateSource) -> String {
+    match source {
+        CandidateSource::Leftover(area) => format!("leftover of area {area}"),
+        CandidateSource::Region(region) => format!("hypothesis {region}"),
+        CandidateSource::Absorbed(region) => format!("absorbed hypothesis {region}"),
+    }
+}
+
+fn checks(test: &CandidateTest) -> [Check; 4] {
+    let verdict = test.verdict;
+    let [gap, limit] = test.gap;
+    let [low, high] = test.position_limits;
+    let position = test.position_percent;
+    let [r, g, b] = rgb(&test.line.direction);
+    let sign = if verdict.positive { "positive" } else { "not positive" };
+    let beyond = (test.line.mean - test.meeting[1]).dot(&test.line.direction);
+    [
+        Check {
+            passed: verdict.lines_meet,
+            text: format!(
+                "gap {gap:.1} {} {limit:.1} counts",
+                if verdict.lines_meet { '\u{2264}' } else { '>' }
+            ),
+            tip: "The lines form a skewed T where they pass within the cylinder's radius of one another (section 5.4.1).",
+        },
+        Check {
+            passed: verdict.upper_half,
+            text: format!(
+                "meets at {position:.0} %, {} {low:.0}\u{2013}{high:.0} %",
+                if verdict.upper_half { "within" } else { "outside" }
+            ),
+            tip: "Highlights begin in the upper half of the matte line: the 50 % heuristic (section 5.4.1).",
+        },
+        Check {
+            passed: verdict.positive,
+            text: format!("direction {r:.2} {g:.2} {b:.2}, {sign}").replace('-', "\u{2212}"),
+            tip: "Light added at the surface makes no band darker (section 5.4.1).",
+        },
+        Check {
+            passed: verdict.beyond,
+            text: format!("cluster {beyond:.0} counts beyond the line").replace('-', "\u{2212}"),
+            tip: "The cluster lies where light was added, not where it was taken away (section 5.4.1).",
+        },
+    ]
+}
+
+/// The least and the largest place of these colors on the candidate's line, counts from the meeting point.
+pub fn candidate_reach(test: &CandidateTest, colors: impl Iterator<Item = [f32; 3]>) -> Option<[f64; 2]> {
+    let along =
+        |color: [f32; 3]| (Vec3::from(color.map(f64::from)) - test.meeting[1]).dot(&test.line.direction);
+    colors.map(along).fold(None, |span: Option<[f64; 2]>, at| {
+        Some(span.map_or([at, at], |[low, high]| [low.min(at), high.max(at)]))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Line;
+    use crate::trace::CandidateVerdict;
+
+    /// A matte line along red, 200 counts long, and a highlight 4 counts beside it at 150, along blue.
+    fn test() -> CandidateTest {
+        CandidateTest {
+            region: 1,
+            candidate: CandidateSource::Region(2),
+            pixels: 40,
+            matte: Line::new(Vec3::new(90.0, 3.0, 0.0), Vec3::x()),
+            matte_length: 200.0,
+            line: Line::new(Vec3::new(150.0, 7.0, 30.0), Vec3::z()),
+            meeting: [Vec3::new(150.0, 3.0, 0.0), Vec3::new(150.0, 7.0, 0.0)],
+            gap: [4.0, 10.0],
+            position_percent: 75.0,
+            position_limits: [50.0, 120.0],
+            verdict: CandidateVerdict { lines_meet: true, upper_half: true, positive: true, beyond: true },
+            weight: 40.0,
+        }
+    }
+
+    #[test]
+    fn both_lines_lie_where_they_were_fitted_and_the_gap_joins_them() {
+        let skewed_t_view = skewed_t_view(&test(), None);
+        assert_eq!(skewed_t_view.matte, [[0.0, 3.0, 0.0], [200.0, 3.0, 0.0]]);
+        assert_eq!(skewed_t_view.upper, [[100.0, 3.0, 0.0], [240.0, 3.0, 0.0]]);
+        assert_eq!(skewed_t_view.gap, [[150.0, 3.0, 0.0], [150.0, 7.0, 0.0]]);
+        assert_eq!(skewed_t_view.line, [[150.0, 7.0, 0.0], [150.0, 7.0, 60.0]]);
+    }
+
+    #[test]
+    fn the_line_reaches_through_its_cluster() {
+        let test = test();
+        let found = candidate_reach(&test, [[140.0, 9.0, -5.0], [150.0, 7.0, 82.0]].into_iter());
+        assert_eq!(found, Some([-5.0, 82.0]));
+        assert_eq!(skewed_t_view(&test, found).line, [[150.0, 7.0, -5.0], [150.0, 7.0, 82.0]]);
+        assert_eq!(candidate_reach(&test, std::iter::empty()), None);
+    }
+
+    #[test]
+    fn checks_tell_the_value_and_its_limit() {
+        let texts =
+            |test: &CandidateTest| skewed_t_view(test, None).checks.map(|check| (check.passed, check.text));
+        let passed = texts(&test());
+        assert_eq!(passed[0], (true, "gap 4.0 \u{2264} 10.0 counts".to_owned()));
+        assert_eq!(passed[1], (true, "meets at 75 %, within 50\u{2013}120 %".to_owned()));
+        assert_eq!(passed[3], (true, "cluster 30 counts beyond the line".to_owned()));
+        let verdict = CandidateVerdict { lines_meet: false, upper_half: false, positive: true, beyond: true };
+        let failed = texts(&CandidateTest { gap: [12.3, 10.0], position_percent: 31.0, verdict, ..test() });
+        assert_eq!(failed[0], (false, "gap 12.3 > 10.0 counts".to_owned()));
+        assert_eq!(failed[1], (false, "meets at 31 %, outside 50\u{2013}120 %".to_owned()));
+        assert!(failed[2].0 && failed[2].1.starts_with("direction 0.00 0.00 1.00"));
+    }
+}

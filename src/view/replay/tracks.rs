@@ -1,0 +1,177 @@
+//! What the cursor is about, as pixels: what a region has just taken, what it left beside, which clusters are compared.
+
+use super::growth;
+use crate::color::{Cylinder, dot, rgb};
+use crate::photo::Masks;
+use crate::raster::{LabelMap, Raster, UNASSIGNED};
+use crate::reflection::Slice;
+use crate::trace::{CandidateSource, CandidateTest, Event, Replay, Step, Topic};
+
+/// Pixels of the region that grows at the cursor.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Tracks {
+    /// The region, by its number of birth.
+    pub region: u16,
+    /// Pixels that it has claimed since its block began and still holds, in the order of the claims.
+    pub claimed: Vec<u32>,
+    /// Those of them that were claimed in the ring at work.
+    pub newest: Vec<u32>,
+    /// Neighbors of it whose colors lie outside of what it may claim. Ascending.
+    pub outside: Vec<u32>,
+    /// Neighbors of it that it did not get although their colors lie inside: another region's, or not to be believed.
+    /// Ascending.
+    pub kept_out: Vec<u32>,
+}
+
+/// What bounds the growth of a region in the color cube.
+enum Bounds {
+    Cylinder(Cylinder),
+    Slice(Slice),
+}
+
+impl Bounds {
+    fn of(replay: &Replay, region: u16, topic: Topic) -> Option<Self> {
+        match topic {
+            Topic::Hypothesis(_) => {
+                let hypothesis = replay.hypothesis(region)?;
+                Some(Self::Cylinder(Cylinder::new(hypothesis.line()?, hypothesis.radius)))
+            }
+            Topic::Slice(_) => Some(Self::Slice(replay.slice(region)?.slice)),
+            _ => None,
+        }
+    }
+
+    fn hold(&self, color: [f32; 3]) -> bool {
+        match self {
+            Self::Cylinder(cylinder) => cylinder.contains(color),
+            Self::Slice(slice) => slice.contains(color),
+        }
+    }
+}
+
+/// The growth in which the cursor stands; none where the step taken last belongs to none.
+///
+/// Neighbors whose colors lie inside and that nobody has are not asked yet: they are left out.
+pub fn tracks(replay: &Replay, colors: &Raster<[f32; 3]>, masks: &Masks) -> Option<Tracks> {
+    let block = replay.trace().block_at(replay.at().checked_sub(1)?)?;
+    let growth = growth(replay)?;
+    let bounds = Bounds::of(replay, growth.region, block.topic);
+    let mut tracks = Tracks { region: growth.region, claimed: growth.claimed, ..Tracks::default() };
+    for pixel in growth.around {
+        let at = pixel as usize;
+        let Some(bounds) = &bounds else { continue };
+        if !masks.dark(at) && !bounds.hold(colors.as_slice()[at]) {
+            tracks.outside.push(pixel);
+        } else if replay.labels()[at] != UNASSIGNED || masks.dark(at) || masks.distorted(at) {
+            tracks.kept_out.push(pixel);
+        }
+    }
+    tracks.newest = newest_ring(replay, block.steps.start, growth.region);
+    Some(tracks)
+}
+
+/// The pixels of the ring of a growth that is at work: those reached from none of the same ring.
+fn newest_ring(replay: &Replay, from: usize, region: u16) -> Vec<u32> {
+    let labels = replay.labels();
+    let mut claims = Vec::new();
+    for (_, step) in replay.trace().steps_in(from..replay.at()) {
+        match step {
+            Step::Event(Event::SeedsPlaced { .. } | Event::GrowthBegan { .. }) => claims.clear(),
+            Step::Claim { pixel, after, .. } if after == region => claims.push(pixel),
+            _ => {}
+        }
+    }
+    let seeds = matches!(
+        replay.trace().steps_in(from..replay.at()).rev().find_map(|(_, step)| match step {
+            Step::Event(event @ (Event::SeedsPlaced { .. } | Event::GrowthBegan { .. })) => Some(event),
+            _ => None,
+        }),
+        Some(Event::SeedsPlaced { .. })
+    );
+    let start = if seeds { 0 } else { start_of_ring(&claims, labels) };
+    claims.drain(..start);
+    claims.retain(|&pixel| labels[pixel as usize] == region);
+    claims
+}
+
+/// Where among the claims of a growth its last ring begins: at a pixel all of whose neighbors so far are of one ring.
+fn start_of_ring(claims: &[u32], labels: &LabelMap) -> usize {
+    const EARLIER: u8 = 1;
+    const CURRENT: u8 = 2;
+    let mut seen = vec![0u8; labels.len()];
+    let mut start = 0;
+    for (index, &pixel) in claims.iter().enumerate() {
+        let (mut earlier, mut current) = (false, false);
+        labels.for_each_neighbor(pixel as usize, |near| {
+            earlier |= seen[near] == EARLIER;
+            current |= seen[near] == CURRENT;
+        });
+        if current && !earlier {
+            for &before in &claims[start..index] {
+                seen[before as usize] = EARLIER;
+            }
+            start = index;
+        }
+        seen[pixel as usize] = CURRENT;
+    }
+    start
+}
+
+/// The highlight test at the cursor: the one made last, or the one that the chosen candidate had passed.
+pub fn test_at_cursor(replay: &Replay) -> Option<&CandidateTest> {
+    let last = replay.at().checked_sub(1)?;
+    let trace = replay.trace();
+    match trace.event(last)? {
+        Event::CandidateTested(test) => Some(test),
+        Event::CandidateChosen(chosen) => {
+            let block = trace.block_at(last)?;
+            (block.steps.start..last).rev().find_map(|n| match trace.event(n)? {
+                Event::CandidateTested(test) if test.candidate == chosen.candidate => Some(&**test),
+                _ => None,
+            })
+        }
+        _ => None,
+    }
+}
+
+/// The pixels of a highlight candidate; none of one that was absorbed, as its object has them now.
+pub fn candidate_pixels(replay: &Replay, source: CandidateSource, masks: &Masks) -> Vec<u32> {
+    let labels = replay.labels();
+    match source {
+        CandidateSource::Region(region) => pixels_of_region(replay, region),
+        CandidateSource::Absorbed(_) => Vec::new(),
+        CandidateSource::Leftover(area) => {
+            let Some(grid) = replay.first_grid() else { return Vec::new() };
+            let (areas, width) = (grid.areas(), labels.width());
+            let of_area = |pixel: usize| areas.get(grid.window_of(pixel, width)) == Some(&area);
+            let free = |&pixel: &usize| {
+                labels[pixel] == UNASSIGNED && of_area(pixel) && !masks.dark(pixel) && !masks.distorted(pixel)
+            };
+            (0..labels.len()).filter(free).map(|pixel| pixel as u32).collect()
+        }
+    }
+}
+
+/// The pixels of a region at the cursor, ascending.
+pub fn pixels_of_region(replay: &Replay, region: u16) -> Vec<u32> {
+    let labels = replay.labels().as_slice();
+    (0u32..).zip(labels).filter(|(_, label)| **label == region).map(|(pixel, _)| pixel).collect()
+}
+
+/// Splits a tested region's pixels: those by which the length of its matte line is measured, and those on the inside of
+/// the line, where highlights grow, which are ignored for it (5.4.1, figure 9).
+pub fn measured_and_ignored(
+    test: &CandidateTest,
+    pixels: &[u32],
+    colors: &Raster<[f32; 3]>,
+) -> (Vec<u32>, Vec<u32>) {
+    let (inward, mean) = (rgb(&test.matte.inward()), rgb(&test.matte.mean));
+    let at_mean = dot(mean, inward);
+    pixels.iter().partition(|&&pixel| dot(colors.as_slice()[pixel as usize], inward) <= at_mean)
+}
+
+/// At most `most` of these, evenly chosen.
+pub fn sampled(pixels: &[u32], most: usize) -> impl Iterator<Item = u32> + '_ {
+    let count = pixels.len().min(most);
+    (0..count).map(move |i| pixels[i * pixels.len() / count])
+}

@@ -1,0 +1,294 @@
+//! How the panels show what there is. Part of a workspace, not of the undo history.
+
+use serde::{Deserialize, Serialize};
+
+/// Dark or light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Theme {
+    /// Light on dark.
+    #[default]
+    Dark,
+    /// Dark on light.
+    Light,
+}
+
+/// A picture of the photograph or of what was found in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Layer {
+    /// The photograph.
+    #[default]
+    Input,
+    /// Windows by class (5.2.1).
+    Classes,
+    /// Merged areas (5.2.2).
+    Areas,
+    /// Regions after the linear stage (5.3).
+    Linear,
+    /// Regions after the planar stage (5.4).
+    Planar,
+    /// The final regions (5.5).
+    Regions,
+    /// Body reflection (6).
+    Body,
+    /// Surface reflection (6).
+    Surface,
+    /// Distance ε from the dichromatic plane, gray = 0 (6).
+    Noise,
+    /// Dark, clipped, bloomed and invalid pixels (4).
+    Masks,
+    /// The newest result's body reflection minus the pinned one's, gray = 0.
+    Difference,
+    /// How far the split of each pixel is to be believed, black = not at all.
+    Confidence,
+    /// Why pixels are not explained (5.6, 7.5).
+    Reasons,
+}
+
+impl Layer {
+    /// All of them, in the order of the pipeline.
+    pub const ALL: [Self; 13] = [
+        Self::Input,
+        Self::Masks,
+        Self::Classes,
+        Self::Areas,
+        Self::Linear,
+        Self::Planar,
+        Self::Regions,
+        Self::Body,
+        Self::Surface,
+        Self::Noise,
+        Self::Confidence,
+        Self::Reasons,
+        Self::Difference,
+    ];
+
+    /// Its name on buttons and in file names.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Input => "Input",
+            Self::Classes => "Classification",
+            Self::Areas => "Merged areas",
+            Self::Linear => "Linear",
+            Self::Planar => "Planar",
+            Self::Regions => "Regions",
+            Self::Body => "Body",
+            Self::Surface => "Surface",
+            Self::Noise => "Noise",
+            Self::Masks => "Masks",
+            Self::Difference => "Difference",
+            Self::Confidence => "Confidence",
+            Self::Reasons => "Reasons",
+        }
+    }
+
+    /// Whether it is drawn over the photograph, as fills or outlines, rather than in its place.
+    pub const fn is_overlay(self) -> bool {
+        matches!(
+            self,
+            Self::Classes
+                | Self::Areas
+                | Self::Linear
+                | Self::Planar
+                | Self::Regions
+                | Self::Masks
+                | Self::Reasons
+        )
+    }
+}
+
+/// How areas are drawn over the photograph.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Fill {
+    /// As areas.
+    #[default]
+    Fill,
+    /// As their outlines.
+    Outline,
+}
+
+/// How one or two layers share the image view.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum Arrangement {
+    /// One layer.
+    #[default]
+    Single,
+    /// `layer` left of a line at this share of the picture's width, `other` right of it.
+    Wipe(f32),
+    /// Both, side by side, panned and zoomed as one.
+    SideBySide,
+}
+
+/// What a drag in a picture does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Tool {
+    /// Pan (image) or orbit (cube); a click selects.
+    #[default]
+    Pointer,
+    /// Mark a rectangle.
+    Rectangle,
+    /// Mark a free outline.
+    Lasso,
+    /// Mark a polygon, corner by corner.
+    Polygon,
+    /// Mark with a round brush (image only).
+    Brush,
+    /// Draw the line of the profile (image only).
+    Profile,
+    /// Take the light's color from a white patch (image only).
+    WhitePatch,
+}
+
+/// The image view.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ImageSettings {
+    /// The layer shown.
+    pub layer: Layer,
+    /// The second layer of a wipe or a pair.
+    pub other: Layer,
+    /// One layer or two.
+    pub arrangement: Arrangement,
+    /// How areas are drawn.
+    pub fill: Fill,
+    /// Of areas over the photograph, 0…1.
+    pub opacity: f32,
+    /// For display only, stops.
+    pub exposure_ev: f32,
+    /// For display only, on top of sRGB's own curve: above 1 the middle tones are brighter, 1 = none.
+    pub gamma: f32,
+    /// Point of the picture in the middle of the view, pixels; none: the picture's middle.
+    #[serde(alias = "centre_px")]
+    pub center_px: Option<[f32; 2]>,
+    /// Screen points per pixel; none: the whole picture fits.
+    pub zoom: Option<f32>,
+    /// What a drag does.
+    pub tool: Tool,
+    /// Radius of the brush, pixels of the picture.
+    pub brush_px: f32,
+}
+
+impl Default for ImageSettings {
+    fn default() -> Self {
+        Self {
+            layer: Layer::Input,
+            other: Layer::Body,
+            arrangement: Arrangement::Single,
+            fill: Fill::Fill,
+            opacity: 0.75,
+            exposure_ev: 0.0,
+            gamma: 1.0,
+            center_px: None,
+            zoom: None,
+            tool: Tool::Pointer,
+            brush_px: 8.0,
+        }
+    }
+}
+
+/// The space in which the color space view places its points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum ColorSpace {
+    /// The RGB cube, counts: the only space in which the model's lines are straight.
+    #[default]
+    Rgb,
+    /// CIE L*a*b*, D65, the linear counts taken as linear sRGB.
+    Lab,
+    /// Hue, saturation and value as a cone.
+    Hsv,
+    /// r = R/(R+G+B), g = G/(R+G+B), with the sum as height.
+    Chromaticity,
+    /// Logarithm of each band.
+    LogRgb,
+}
+
+/// What gives the points their color.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum ColorBy {
+    /// The color that they stand for.
+    #[default]
+    Own,
+    /// The region that most of their pixels are in.
+    Region,
+    /// The class of most of their pixels' windows.
+    Class,
+    /// How many pixels they stand for.
+    Density,
+}
+
+/// The color space view, but for its camera, which the view keeps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+#[allow(clippy::struct_excessive_bools, reason = "each shows or hides one thing")]
+pub struct CubeSettings {
+    /// Where points are placed.
+    pub space: ColorSpace,
+    /// What colors them.
+    #[serde(alias = "colour_by")]
+    pub color_by: ColorBy,
+    /// Whether points grow with the number of their pixels.
+    pub size_by_count: bool,
+    /// Every unique color instead of 64³ bins, when the camera rests.
+    pub full_detail: bool,
+    /// Dim what is not selected; otherwise everything is shown alike.
+    pub ghost_rest: bool,
+    /// The selected region's cylinder and the dark sphere.
+    pub show_cylinder: bool,
+    /// The selected region's slice.
+    pub show_slice: bool,
+    /// Matte and highlight line, meeting point, brightest matte point.
+    pub show_lines: bool,
+    /// The light's direction through black.
+    pub show_illuminant: bool,
+    /// The covariance ellipsoid of the hovered or selected window.
+    pub show_ellipsoid: bool,
+    /// What a drag does.
+    pub tool: Tool,
+    /// Keep the camera when the selection changes.
+    pub locked: bool,
+}
+
+impl Default for CubeSettings {
+    fn default() -> Self {
+        Self {
+            space: ColorSpace::Rgb,
+            color_by: ColorBy::Own,
+            size_by_count: true,
+            full_detail: false,
+            ghost_rest: true,
+            show_cylinder: true,
+            show_slice: true,
+            show_lines: true,
+            show_illuminant: true,
+            show_ellipsoid: true,
+            tool: Tool::Pointer,
+            locked: false,
+        }
+    }
+}
+
+/// The plane view.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct PlaneSettings {
+    /// Color points by their label (matte, highlight, restored) instead of their own color.
+    #[serde(alias = "colour_by_label")]
+    pub color_by_label: bool,
+}
+
+impl Default for PlaneSettings {
+    fn default() -> Self {
+        Self { color_by_label: true }
+    }
+}
+
+/// The line along which the profile is taken, in pixels of the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum ProfileLine {
+    /// Through the hovered or selected pixel's row, or the picture's middle one.
+    #[default]
+    Row,
+    /// Through its column.
+    Column,
+    /// From one point to another.
+    Between([f32; 2], [f32; 2]),
+}

@@ -1,0 +1,67 @@
+//! The shapes at the debugger's cursor: what the region in focus may claim there, and the lines of all that stand.
+
+use super::{ellipsoid_of, full, slice_body};
+use crate::color::Moments;
+use crate::trace::Replay;
+use crate::view::solid::Tube;
+use crate::view::{Point, ResultSnapshot, Solid};
+
+/// Shapes at an instant, in counts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CursorShapes {
+    /// The cylinder of the region in focus (5.3.2), as long as it has no slice.
+    pub cylinder: Option<Solid>,
+    /// Its slice (5.4.2), once it has one.
+    pub slice: Option<Solid>,
+    /// Its axis, from the dark sphere to the cube's end.
+    pub axis: Option<[Point; 2]>,
+    /// Where its highlight line leaves the matte line, once that is known.
+    pub start: Option<Point>,
+    /// The axes of the other regions that stand, by their numbers of birth.
+    pub others: Vec<(u16, [Point; 2])>,
+    /// From black along the light as it is estimated so far.
+    pub light: Option<[Point; 2]>,
+}
+
+/// The shapes at the cursor; `focus` is a region by its number of birth.
+pub fn cursor_shapes(replay: &Replay, focus: Option<u16>, shown: &ResultSnapshot) -> CursorShapes {
+    let full = full(shown);
+    let tube = |region: u16| {
+        let hypothesis = replay.hypothesis(region)?;
+        let line = hypothesis.line()?;
+        Some(Tube {
+            mean: line.mean.into(),
+            direction: line.direction.into(),
+            radius: hypothesis.radius,
+            dark: shown.analysis.used.min_intensity,
+            full,
+        })
+    };
+    let own = focus.and_then(tube);
+    let made = focus.and_then(|focus| replay.slice(focus));
+    let slice = made.map(|made| {
+        let bounded = shown.params.refinements().slice_bounds;
+        let bounds = bounded.then(|| [shown.analysis.used.radius_counts(), made.matte_length]);
+        slice_body(&made.plane, made.half_width, bounds, full)
+    });
+    let standing = (1u16..).zip(replay.hypotheses()).filter(|(_, hypothesis)| hypothesis.end().is_none());
+    let others = standing.map(|(region, _)| region).filter(|region| Some(*region) != focus);
+    let largest = |direction: [f64; 3]| direction.iter().fold(0.0f64, |most, v| most.max(*v));
+    let light = replay.light().filter(|&direction| largest(direction) > 0.0);
+    CursorShapes {
+        cylinder: own.as_ref().filter(|_| slice.is_none()).and_then(Tube::solid),
+        slice,
+        axis: own.as_ref().and_then(Tube::axis),
+        start: made.map(|made| crate::color::rgb(&made.start)),
+        others: others.filter_map(|region| Some((region, tube(region)?.axis()?))).collect(),
+        light: light.map(|direction| {
+            let scale = full / largest(direction);
+            [[0.0; 3], direction.map(|v| (v * scale) as f32)]
+        }),
+    }
+}
+
+/// The ellipsoid of these colors at two standard deviations; none without at least two.
+pub fn cluster_ellipsoid(colors: impl Iterator<Item = [f32; 3]>) -> Option<Solid> {
+    ellipsoid_of(&colors.collect::<Moments>())
+}

@@ -1,0 +1,160 @@
+//! A result as the panels see it.
+
+use super::{Accuracy, Picture};
+use crate::analysis::{Analysis, Stage};
+use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
+use crate::segment::Params;
+use crate::trace::{Class, Trace};
+use std::cmp::Reverse;
+use std::sync::{Arc, OnceLock};
+
+/// What one request found. Shared, never changed.
+#[derive(Debug)]
+pub struct ResultSnapshot {
+    /// Number of the request; larger is newer.
+    pub generation: u64,
+    /// The photograph.
+    pub picture: Arc<Picture>,
+    /// What was asked.
+    pub params: Params,
+    /// The pixels that it was restricted to; none: all.
+    pub area: Option<Arc<Mask>>,
+    /// What was found.
+    pub analysis: Analysis,
+    /// The first stage whose output is still an older request's; none: all is of this one.
+    pub stale_from: Option<Stage>,
+    /// Colors of the final regions, sRGB; region `id` at index `id − 1`. They stay with the objects while parameters move.
+    pub region_colors: Vec<[u8; 3]>,
+    /// Share of the pixels that are not dark which are in a region; 0 where all are dark.
+    pub coverage: f64,
+    /// Time of each stage that ran, in the order of [`Stage::ALL`], milliseconds; none: its earlier output still stood.
+    pub took_ms: [Option<f64>; Stage::ALL.len()],
+    /// Every decision that led to it, once they have been recorded.
+    pub(crate) trace: OnceLock<Arc<Trace>>,
+    /// How near it is to the ground truth, once that has been measured.
+    pub(crate) accuracy: OnceLock<Option<Accuracy>>,
+}
+
+impl ResultSnapshot {
+    /// The final regions.
+    pub fn labels(&self) -> &LabelMap {
+        &self.analysis.finals.labels
+    }
+
+    /// Regions after the linear stage, numbered in the order of their hypotheses.
+    pub fn linear_labels(&self) -> &LabelMap {
+        &self.analysis.matte.labels
+    }
+
+    /// Regions after the planar stage, numbered likewise.
+    pub fn planar_labels(&self) -> &LabelMap {
+        &self.analysis.planar.labels
+    }
+
+    /// Class of each window, row-major; none where too few pixels are valid.
+    pub fn classes(&self) -> &Raster<Option<Class>> {
+        &self.analysis.windows.classes
+    }
+
+    /// Merged area of each pixel, from 1; 0 where its window has no class.
+    pub fn areas(&self) -> &Raster<u32> {
+        &self.analysis.areas
+    }
+
+    /// Every decision that led to it; none until they have been recorded.
+    pub fn trace(&self) -> Option<&Arc<Trace>> {
+        self.trace.get()
+    }
+
+    /// How near it is to the ground truth; none where there is no truth, and until the worker has measured it.
+    pub fn accuracy(&self) -> Option<&Accuracy> {
+        self.accuracy.get()?.as_ref()
+    }
+
+    /// Measures that, where there is a truth. Takes about as long as the analysis.
+    pub(crate) fn measure(&self) {
+        self.accuracy.get_or_init(|| super::accuracy::accuracy(self));
+    }
+
+    /// Side of a window, pixels.
+    pub fn window_px(&self) -> usize {
+        self.analysis.windows.size_px.max(1)
+    }
+
+    /// Time of the stages that ran, milliseconds.
+    pub fn total_ms(&self) -> f64 {
+        self.took_ms.iter().flatten().sum()
+    }
+}
+
+/// The region of `after` that covers most of `region`'s pixels in `before`; none where none covers any.
+pub(crate) fn best_overlap(before: &LabelMap, after: &LabelMap, region: u16) -> Option<u16> {
+    best_overlaps(before, after)
+        .get(usize::from(region))
+        .copied()
+        .filter(|&best_overlap| best_overlap != UNASSIGNED)
+}
+
+/// For each label of `before` (the first: of unassigned pixels) the region of `after` that covers most of its pixels, of
+/// equals the one with the smaller number; 0 where none covers any.
+pub(crate) fn best_overlaps(before: &LabelMap, after: &LabelMap) -> Vec<u16> {
+    overlaps(before, after)
+        .iter()
+        .map(|covers| {
+            let best = covers.iter().filter(|(region, _)| *region != UNASSIGNED);
+            best.max_by_key(|&&(region, pixels)| (pixels, Reverse(region))).map_or(UNASSIGNED, |best| best.0)
+        })
+        .collect()
+}
+
+/// For each label of `before` (the first: of unassigned pixels) the labels of `after` that it shares pixels with, and how
+/// many; in the order in which they are met.
+pub(crate) fn overlaps(before: &LabelMap, after: &LabelMap) -> Vec<Vec<(u16, usize)>> {
+    let mut shared: Vec<Vec<(u16, usize)>> = vec![Vec::new()];
+    let mut add = |(old, new): (u16, u16), pixels: usize| {
+        let old = usize::from(old);
+        if shared.len() <= old {
+            shared.resize(old + 1, Vec::new());
+        }
+        match shared[old].iter_mut().find(|(known, _)| *known == new) {
+            Some((_, count)) => *count += pixels,
+            None => shared[old].push((new, pixels)),
+        }
+    };
+    // Neighbors are mostly alike: only runs are looked up.
+    let (mut run, mut length) = ((UNASSIGNED, UNASSIGNED), 0);
+    for pair in before.as_slice().iter().copied().zip(after.as_slice().iter().copied()) {
+        if pair != run {
+            add(run, length);
+            (run, length) = (pair, 0);
+        }
+        length += 1;
+    }
+    add(run, length);
+    shared
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(text: &str) -> LabelMap {
+        let data: Vec<u16> = text.bytes().map(|b| u16::from(b - b'0')).collect();
+        Raster::from_vec(data.len(), 1, data).unwrap()
+    }
+
+    #[test]
+    fn an_heir_covers_most_and_of_equals_has_the_smaller_number() {
+        let (before, after) = (labels("0111122223340"), labels("1330122110443"));
+        assert_eq!(best_overlaps(&before, &after), [1, 3, 1, 4, 4]);
+        assert_eq!((best_overlap(&before, &after, 2), best_overlap(&before, &after, 9)), (Some(1), None));
+        assert_eq!(best_overlap(&labels("11"), &labels("00"), 1), None);
+    }
+
+    #[test]
+    fn overlaps_count_every_pixel_once() {
+        let shared = overlaps(&labels("0111122223340"), &labels("1330122110443"));
+        assert_eq!(shared.iter().flatten().map(|pair| pair.1).sum::<usize>(), 13);
+        assert_eq!(shared[2], [(2, 2), (1, 2)]);
+    }
+}

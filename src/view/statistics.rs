@@ -1,0 +1,383 @@
+//! What is known of a set of pixels: how many, which colors, where, in which regions.
+
+use super::{Item, ResultSnapshot, marking};
+use crate::color::{Moments, principal_axes};
+use crate::raster::{Mask, UNASSIGNED};
+use crate::segment::Classifier;
+use crate::trace::Class;
+use rayon::prelude::*;
+
+/// Bins of a band's histogram.
+pub const STATISTICS_BINS: usize = 64;
+/// Pixels are taken in at most this many parts, whatever the number of threads, so that sums are the same bit by bit.
+const PARTS: usize = 16;
+/// The exponent and the first bits of a float's fraction, without its sign: so many values, each a range of floats.
+const COARSE: usize = 1 << 15;
+const FINE: usize = 1 << 16;
+
+/// What is known of a set of pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statistics {
+    /// How many they are.
+    pub pixels: usize,
+    /// Pixels with a color; the rest held no usable value. What follows up to `bands` is of these.
+    pub valid: usize,
+    /// Their mean color, counts.
+    pub mean: [f64; 3],
+    /// Each band.
+    pub bands: [Band; 3],
+    /// Pixels that count for the class: as in the classification of windows, the believable ones where that is refined.
+    pub counted: usize,
+    /// Variances along the principal axes, largest first, counts².
+    pub variances: [f64; 3],
+    /// The principal axes, unit vectors.
+    pub axes: [[f64; 3]; 3],
+    /// Class by the χ² test at the camera noise in force (5.2.1); none below two pixels.
+    pub class: Option<Class>,
+    /// The smallest rectangle that holds the pixels.
+    pub bounds: Bounds,
+    /// Regions that hold some of them, with how many; most first, [`UNASSIGNED`] for those in none.
+    pub regions: Vec<(u16, usize)>,
+    /// Pixels of which a band is clipped.
+    pub clipped: usize,
+    /// Pixels that are too dark.
+    pub dark: usize,
+}
+
+/// One band of a set of pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Band {
+    /// Smallest value, counts.
+    pub min: f32,
+    /// The middle value, exactly; of an even number of them the smaller of both in the middle.
+    pub median: f32,
+    /// Largest value, counts.
+    pub max: f32,
+    /// How many values each of [`STATISTICS_BINS`] equal parts of 0 to full scale holds.
+    pub histogram: Vec<u32>,
+}
+
+/// A rectangle of pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bounds {
+    /// First column.
+    pub left: usize,
+    /// First row.
+    pub top: usize,
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+}
+
+/// What is known of an item's pixels; none where there are none.
+pub fn statistics_of(shown: &ResultSnapshot, item: Item) -> Option<Statistics> {
+    statistics(shown, &marking::mask_of(item, shown)?)
+}
+
+/// What is known of the pixels of a mask of the picture's size; none where it holds none, or is of another size.
+pub fn statistics(shown: &ResultSnapshot, mask: &Mask) -> Option<Statistics> {
+    let (width, height) = shown.picture.size();
+    if (mask.width(), mask.height()) != (width, height) || mask.is_empty() {
+        return None;
+    }
+    let full_counts = shown.picture.histogram.full_counts;
+    let survey = Survey { shown, mask, per_count: STATISTICS_BINS as f32 / full_counts };
+    let rows = height.div_ceil(PARTS);
+    let firsts: Vec<usize> = (0..height).step_by(rows).collect();
+    let parts: Vec<Part> =
+        firsts.par_iter().map(|&first| survey.part(first..(first + rows).min(height))).collect();
+    let whole = parts.into_iter().reduce(Part::joined)?;
+    if whole.pixels == 0 {
+        return None;
+    }
+    let medians = survey.medians(&whole);
+    let refined = shown.params.refinements().tail_test;
+    let mut classifier = Classifier::new(shown.analysis.used.camera_noise, refined);
+    let (variances, axes) = principal_axes(&whole.counted.covariance());
+    let mut regions: Vec<(u16, usize)> =
+        whole.regions.iter().enumerate().filter(|(_, n)| **n > 0).map(|(id, &n)| (id as u16, n)).collect();
+    regions.sort_by_key(|&(id, n)| (std::cmp::Reverse(n), id == UNASSIGNED, id));
+    let [columns, rows] = [whole.columns, whole.rows];
+    Some(Statistics {
+        pixels: whole.pixels,
+        valid: whole.valid,
+        mean: whole.sum.map(|sum| sum / (whole.valid.max(1)) as f64),
+        bands: std::array::from_fn(|k| Band {
+            min: if whole.valid == 0 { 0.0 } else { whole.min[k] },
+            median: medians[k],
+            max: whole.max[k],
+            histogram: whole.bands[k].histogram.clone(),
+        }),
+        counted: whole.counted.n as usize,
+        variances: variances.map(|variance| variance.max(0.0)),
+        axes: axes.map(Into::into),
+        class: (whole.counted.n >= 2.0).then(|| classifier.classify(&whole.counted).0),
+        bounds: Bounds {
+            left: columns[0],
+            top: rows[0],
+            width: columns[1] + 1 - columns[0],
+            height: rows[1] + 1 - rows[0],
+        },
+        regions,
+        clipped: whole.clipped,
+        dark: whole.dark,
+    })
+}
+
+/// What is looked at.
+struct Survey<'a> {
+    shown: &'a ResultSnapshot,
+    mask: &'a Mask,
+    /// Bins of the histogram per count.
+    per_count: f32,
+}
+
+/// What some rows add up to.
+struct Part {
+    pixels: usize,
+    valid: usize,
+    sum: [f64; 3],
+    min: [f32; 3],
+    max: [f32; 3],
+    bands: [BandCounts; 3],
+    counted: Moments,
+    /// First and last column and row.
+    columns: [usize; 2],
+    rows: [usize; 2],
+    regions: Vec<usize>,
+    clipped: usize,
+    dark: usize,
+}
+
+struct BandCounts {
+    histogram: Vec<u32>,
+    /// Values by their first bits, for the median.
+    coarse: Vec<u32>,
+}
+
+impl Survey<'_> {
+    fn part(&self, rows: std::ops::Range<usize>) -> Part {
+        let image = &self.shown.picture.photo.image;
+        let (masks, labels) = (&self.shown.analysis.masks, self.shown.labels());
+        let refined = self.shown.params.refinements().tail_test;
+        let mut part = Part::new(self.shown.analysis.finals.hypotheses.len());
+        for y in rows {
+            let first = y * image.width();
+            for (x, _) in self.mask.row(y).iter().enumerate().filter(|(_, on)| **on) {
+                let pixel = first + x;
+                part.pixels += 1;
+                part.columns = [part.columns[0].min(x), part.columns[1].max(x)];
+                part.rows = [part.rows[0].min(y), part.rows[1].max(y)];
+                if let Some(count) = part.regions.get_mut(usize::from(labels[pixel])) {
+                    *count += 1;
+                }
+                part.clipped += usize::from(masks.clipped(pixel));
+                part.dark += usize::from(masks.dark(pixel));
+                if masks.invalid(pixel) {
+                    continue;
+                }
+                part.add(image.pixels[pixel], self.per_count);
+                if !refined || masks.usable(pixel) {
+                    part.counted.add(image.pixels[pixel]);
+                }
+            }
+        }
+        part
+    }
+
+    /// The middle value of each band: the coarse counts say between which floats it lies, a second look which it is.
+    fn medians(&self, whole: &Part) -> [f32; 3] {
+        if whole.valid == 0 {
+            return [0.0; 3];
+        }
+        let rank = ((whole.valid - 1) / 2) as u64;
+        let found: [(usize, u64); 3] =
+            std::array::from_fn(|k| ranked(whole.bands[k].coarse.iter().map(|&n| u64::from(n)), rank));
+        let masks = &self.shown.analysis.masks;
+        let pixels = self.shown.picture.photo.image.pixels.as_slice();
+        let length = pixels.len().div_ceil(PARTS);
+        let fine = |(part, colors): (usize, &[[f32; 3]])| {
+            let mut fine: [Vec<u32>; 3] = std::array::from_fn(|_| vec![0; FINE]);
+            for (pixel, color) in (part * length..).zip(colors) {
+                if !self.mask[pixel] || masks.invalid(pixel) {
+                    continue;
+                }
+                for (k, fine) in fine.iter_mut().enumerate() {
+                    let bits = bits(color[k]);
+                    if bits >> 16 == found[k].0 {
+                        fine[bits & (FINE - 1)] += 1;
+                    }
+                }
+            }
+            fine
+        };
+        let fine = pixels.par_chunks(length).enumerate().map(fine).reduce_with(|mut a, b| {
+            for (a, b) in a.iter_mut().zip(&b) {
+                add(a, b);
+            }
+            a
+        });
+        let fine = fine.unwrap_or_default();
+        std::array::from_fn(|k| {
+            let (coarse, rest) = found[k];
+            let (low, _) = ranked(fine[k].iter().map(|&n| u64::from(n)), rest);
+            f32::from_bits((coarse << 16 | low) as u32)
+        })
+    }
+}
+
+impl Part {
+    fn new(regions: usize) -> Self {
+        let counts = || BandCounts { histogram: vec![0; STATISTICS_BINS], coarse: vec![0; COARSE] };
+        Self {
+            pixels: 0,
+            valid: 0,
+            sum: [0.0; 3],
+            min: [f32::INFINITY; 3],
+            max: [0.0; 3],
+            bands: [counts(), counts(), counts()],
+            counted: Moments::default(),
+            columns: [usize::MAX, 0],
+            rows: [usize::MAX, 0],
+            regions: vec![0; regions + 1],
+            clipped: 0,
+            dark: 0,
+        }
+    }
+
+    #[inline]
+    fn add(&mut self, color: [f32; 3], per_count: f32) {
+        self.valid += 1;
+        for (k, value) in color.into_iter().enumerate() {
+            self.sum[k] += f64::from(value);
+            self.min[k] = self.min[k].min(value);
+            self.max[k] = self.max[k].max(value);
+            let band = &mut self.bands[k];
+            band.histogram[((value * per_count) as usize).min(STATISTICS_BINS - 1)] += 1;
+            band.coarse[bits(value) >> 16] += 1;
+        }
+    }
+
+    fn joined(mut self, other: Self) -> Self {
+        self.pixels += other.pixels;
+        self.valid += other.valid;
+        self.clipped += other.clipped;
+        self.dark += other.dark;
+        self.counted = self.counted.merged(&other.counted);
+        self.columns = span(self.columns, other.columns);
+        self.rows = span(self.rows, other.rows);
+        for k in 0..3 {
+            self.sum[k] += other.sum[k];
+            self.min[k] = self.min[k].min(other.min[k]);
+            self.max[k] = self.max[k].max(other.max[k]);
+            add(&mut self.bands[k].histogram, &other.bands[k].histogram);
+            add(&mut self.bands[k].coarse, &other.bands[k].coarse);
+        }
+        for (count, more) in self.regions.iter_mut().zip(other.regions) {
+            *count += more;
+        }
+        self
+    }
+}
+
+/// Bits of a value that is not negative, in the order of the values; −0 is 0.
+#[inline]
+fn bits(value: f32) -> usize {
+    (value.to_bits() & (u32::MAX >> 1)) as usize
+}
+
+/// The bin that holds the value of a rank from 0, and its rank there.
+fn ranked(counts: impl Iterator<Item = u64>, rank: u64) -> (usize, u64) {
+    let mut rest = rank;
+    for (bin, count) in counts.enumerate() {
+        if rest < count {
+            return (bin, rest);
+        }
+        rest -= count;
+    }
+    (0, 0)
+}
+
+fn span(a: [usize; 2], b: [usize; 2]) -> [usize; 2] {
+    [a[0].min(b[0]), a[1].max(b[1])]
+}
+
+fn add(counts: &mut [u32], more: &[u32]) {
+    for (count, more) in counts.iter_mut().zip(more) {
+        *count += more;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::testing::tiny;
+
+    #[test]
+    fn a_region_knows_itself() {
+        let shown = tiny();
+        let reflection = &shown.analysis.intrinsic.regions[0];
+        let found = statistics_of(&shown, Item::Region(1)).unwrap();
+        assert_eq!(
+            (found.pixels, found.regions.as_slice()),
+            (reflection.pixels, [(1, reflection.pixels)].as_slice())
+        );
+        assert_eq!(found.clipped, reflection.clipped_pixels);
+        assert!(statistics_of(&shown, Item::Region(0)).is_none());
+        let other = Mask::filled(1, 1, true);
+        assert!(statistics(&shown, &other).is_none(), "a mask of another size");
+    }
+
+    #[test]
+    fn every_number_is_what_sorting_and_counting_say() {
+        let shown = tiny();
+        let (width, height) = shown.picture.size();
+        for step in [1, 2, 7, width * height - 1] {
+            let on = (0..width * height).map(|pixel| pixel % step == 0).collect();
+            let mask = Mask::from_vec(width, height, on).unwrap();
+            let found = statistics(&shown, &mask).unwrap();
+            let pixels = &shown.picture.photo.image.pixels;
+            let chosen: Vec<usize> = (0..pixels.len()).filter(|&pixel| mask[pixel]).collect();
+            assert_eq!((found.pixels, found.valid), (chosen.len(), chosen.len()));
+            for k in 0..3 {
+                let mut values: Vec<f32> = chosen.iter().map(|&pixel| pixels[pixel][k]).collect();
+                values.sort_by(f32::total_cmp);
+                let band = &found.bands[k];
+                let expected = (values[0], values[(values.len() - 1) / 2], values[values.len() - 1]);
+                assert_eq!((band.min, band.median, band.max), expected);
+                assert_eq!(band.histogram.iter().sum::<u32>() as usize, chosen.len());
+                let mean = values.iter().map(|&v| f64::from(v)).sum::<f64>() / values.len() as f64;
+                assert!((found.mean[k] - mean).abs() < 1e-6);
+            }
+            assert_eq!(found.regions.iter().map(|r| r.1).sum::<usize>(), chosen.len());
+            assert!(found.regions.is_sorted_by(|a, b| a.1 >= b.1));
+            let masks = &shown.analysis.masks;
+            assert_eq!(found.dark, chosen.iter().filter(|&&pixel| masks.dark(pixel)).count());
+        }
+    }
+
+    #[test]
+    fn a_window_has_the_class_of_the_classification() {
+        let shown = tiny();
+        let windows = &shown.analysis.windows;
+        for window in 0..windows.classes.len() {
+            let found = statistics_of(&shown, Item::Window(window as u32)).unwrap();
+            let moments = &windows.moments[window];
+            assert_eq!(found.counted, moments.n as usize);
+            if windows.classes[window].is_some() {
+                assert_eq!(found.class, windows.classes[window]);
+            }
+            let column = window % windows.classes.width() * windows.size_px;
+            assert_eq!(found.bounds.left, column);
+        }
+    }
+
+    #[test]
+    fn the_middle_of_few_values_is_found() {
+        assert_eq!(ranked([0u64, 2, 0, 3].into_iter(), 0), (1, 0));
+        assert_eq!(ranked([0u64, 2, 0, 3].into_iter(), 2), (3, 0));
+        assert_eq!(ranked([0u64, 2, 0, 3].into_iter(), 4), (3, 2));
+        assert_eq!((bits(-0.0), f32::from_bits(bits(1.5) as u32)), (0, 1.5));
+    }
+}
