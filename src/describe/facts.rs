@@ -326,6 +326,7 @@ pub struct RegionFacts {
     #[serde(default)]
     pub texture: f64,
     pub separable: bool,
+    #[serde(alias = "neighbours")]
     pub neighbors: Vec<u16>,
     pub warnings: Vec<String>,
 }
