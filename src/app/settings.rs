@@ -26,7 +26,8 @@ impl Settings {
         Self { view, recent: state.recent.clone() }
     }
 
-    /// The file in the platform's folder for settings; none where it has no such folder.
+    /// The file in the platform's folder for settings; none where it has no such folder. Only the window keeps settings.
+    #[cfg(feature = "gui")]
     pub fn path() -> Option<PathBuf> {
         let folders = directories::ProjectDirs::from("", "", "dichroscope")?;
         Some(folders.config_dir().join("settings.json"))

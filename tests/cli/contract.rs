@@ -1,7 +1,5 @@
 //! What scripts rely on: the flags of `analyze`, and the names in its report.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
-
 use assert_cmd::Command;
 use std::fmt::Write as _;
 

@@ -1,8 +1,6 @@
 //! `dichroscope trace` and `dichroscope why` end to end.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
-
-#[path = "synthetic/marbled.rs"]
+#[path = "../synthetic/marbled.rs"]
 mod marbled;
 
 use assert_cmd::cargo::cargo_bin_cmd;
