@@ -37,7 +37,7 @@ fn main() {
     let runs = if std::env::args().any(|argument| argument == "--bench") { 15 } else { 1 };
     println!("{:>10}  {:>9}  {:>9}  {:>9}  {:>7}", "size", "copy", "floor", "analysis", "ratio");
     for size_px in [[580, 432], [1160, 864]] {
-        let image = Arc::new(synthetic::AnalysisInput::grid_of_balls(size_px, 4, 3, 1).render().image);
+        let image = Arc::new(synthetic::Scene::grid_of_balls(size_px, 4, 3, 1).render().image);
         let copy = best_of(runs, || image.pixels.clone());
         let floor = best_of(runs, || window_moments(&image.pixels));
         let analysis = best_of(runs, || Session::new(image.clone()).run(&Params::default(), &mut ()));

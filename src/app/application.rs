@@ -38,6 +38,19 @@ impl Application {
     /// # Errors
     /// When the system gives no thread.
     pub fn new(executor: Executor, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
+        Self::with_state(executor, State::default(), wake)
+    }
+
+    /// As [`Application::new`], but with everything that `state` holds. The worker has no cached stages of it: the first
+    /// analysis that a command asks for runs them all.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn with_state(
+        executor: Executor,
+        state: State,
+        wake: impl Fn() + Send + Sync + 'static,
+    ) -> std::io::Result<Self> {
         let (outbox, inbox) = mpsc::channel();
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
         let hands = match executor {
@@ -51,15 +64,7 @@ impl Application {
                 Hands::Threads { latest_request, worker: Some(worker) }
             }
         };
-        Ok(Self {
-            state: State::default(),
-            outbox,
-            inbox,
-            wake,
-            hands,
-            writing: Arc::default(),
-            inquiring: Arc::default(),
-        })
+        Ok(Self { state, outbox, inbox, wake, hands, writing: Arc::default(), inquiring: Arc::default() })
     }
 
     /// All there is to show.

@@ -113,10 +113,11 @@ fn assert_color(found: [u8; 4], expected: [u8; 4], tolerance: u8) {
 #[test]
 fn every_shader_is_valid() {
     for text in [pipelines::POINTS_WGSL, pipelines::LINES_WGSL, pipelines::SOLIDS_WGSL] {
-        let module = naga::front::wgsl::parse_str(text)
+        let module = wgpu::naga::front::wgsl::parse_str(text)
             .unwrap_or_else(|error| panic!("{}", error.emit_to_string(text)));
-        let capabilities = naga::valid::Capabilities::empty();
-        let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), capabilities);
+        let capabilities = wgpu::naga::valid::Capabilities::empty();
+        let mut validator =
+            wgpu::naga::valid::Validator::new(wgpu::naga::valid::ValidationFlags::all(), capabilities);
         if let Err(error) = validator.validate(&module) {
             panic!("{}", error.emit_to_string(text));
         }

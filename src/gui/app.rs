@@ -50,11 +50,24 @@ impl App {
         gpu: Option<egui_wgpu::RenderState>,
         executor: Executor,
     ) -> std::io::Result<Self> {
+        Self::with_state(ctx, gpu, executor, State::default())
+    }
+
+    /// As [`App::new`], but with everything that `state` holds: an analyzed photograph is shown without another analysis.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn with_state(
+        ctx: &egui::Context,
+        gpu: Option<egui_wgpu::RenderState>,
+        executor: Executor,
+        state: State,
+    ) -> std::io::Result<Self> {
         theme::load_fonts(ctx);
         let bell = Arc::new(Mutex::new(ctx.clone()));
         let rung = Arc::clone(&bell);
         let ring = move || rung.lock().unwrap_or_else(PoisonError::into_inner).request_repaint();
-        let application = Application::new(executor, ring)?;
+        let application = Application::with_state(executor, state, ring)?;
         Ok(Self { application, front: Front::default(), gpu, dressed: None, bell })
     }
 
@@ -88,7 +101,6 @@ impl App {
     }
 
     /// What the panels keep.
-    #[cfg(test)]
     pub(super) fn panels(&self) -> &Panels {
         &self.front.panels
     }

@@ -11,8 +11,7 @@ mod frame;
 mod labels;
 mod legend;
 mod outline;
-#[cfg(test)]
-mod tests;
+pub mod testing;
 
 use super::{Cx, widgets};
 use crate::app::{Combine, Command};

@@ -5,8 +5,6 @@ mod geometry;
 mod icons;
 mod overlay;
 mod readout;
-#[cfg(test)]
-mod tests;
 mod textures;
 mod tiles;
 mod toolbar;
@@ -22,7 +20,7 @@ use egui::{
     Align2, CentralPanel, Color32, CursorIcon, EventFilter, Frame, Key, Margin, Modifiers, Panel, Rect,
     Response, Sense, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
-use geometry::Placement;
+pub use geometry::Placement;
 use std::sync::Arc;
 use textures::{PaintRequest, Sheets, Slot};
 use tools::{PointerContext, ToolState};

@@ -24,8 +24,8 @@ mod screenshot;
 mod selection_panel;
 mod shortcuts;
 mod status;
-#[cfg(test)]
-mod testing;
+#[doc(hidden)]
+pub mod testing;
 mod theme;
 mod timeline_panel;
 mod verdict;

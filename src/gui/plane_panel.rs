@@ -3,8 +3,7 @@
 mod chart;
 mod cursor;
 mod kinds;
-#[cfg(test)]
-mod tests;
+pub mod testing;
 
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};

@@ -17,6 +17,7 @@ mod methods;
 mod prints;
 mod replay;
 mod scenes;
+mod synthetic_scenes;
 mod threads;
 
 #[path = "../synthetic/marbled.rs"]

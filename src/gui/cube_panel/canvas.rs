@@ -28,7 +28,6 @@ impl Canvas {
     }
 
     /// The picture: width, height and sRGB bytes with alpha; none before the first drawing.
-    #[cfg(test)]
     pub fn read_back(&self, gpu: &RenderState) -> Option<([u32; 2], Vec<u8>)> {
         let renderer = &self.made.as_ref()?.renderer;
         Some((renderer.size_px(), renderer.read_back(&gpu.device, &gpu.queue)?))

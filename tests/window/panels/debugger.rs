@@ -350,8 +350,7 @@ fn recording_is_switched_off_and_on() {
 
 #[test]
 fn keys_of_the_color_space_stay_its_own() {
-    let Some(mut window) = with_gpu(vec2(1200.0, 800.0)) else { return };
-    apply(&mut window, Command::Open(dichroscope::view::Origin::File(crate::window::tiny())));
+    let Some(mut window) = with_gpu(vec2(1200.0, 800.0), crate::window::Fixture::Tiny) else { return };
     seek(&mut window, 500);
     let view = window.get_by_role_and_label(Role::Canvas, "Color space view").rect();
     window.hover_at(view.center());

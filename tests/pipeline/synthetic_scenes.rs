@@ -1,8 +1,6 @@
 //! The generator of test images keeps its word: what it calls truth is what its pixels hold.
 
-mod synthetic;
-
-use synthetic::{FULL_SCALE, Random, Scene, dot, unit};
+use crate::synthetic::{FULL_SCALE, Random, Scene, dot, unit};
 
 const GREEN: [f64; 3] = [0.2, 0.9, 0.3];
 
@@ -73,7 +71,7 @@ fn surface_reflection_has_the_color_of_the_light_and_its_peak_between_light_and_
 #[test]
 fn the_larger_ball_covers_the_smaller() {
     let mut scene = Scene::one_ball([100, 80], GREEN);
-    let behind = synthetic::Ball { radius_px: 16.0, center_px: [72.0, 40.0], ..scene.balls[0] };
+    let behind = crate::synthetic::Ball { radius_px: 16.0, center_px: [72.0, 40.0], ..scene.balls[0] };
     scene.balls.push(behind);
     let rendered = scene.render();
     assert_eq!(rendered.labels.get(72, 40), Some(&1), "inside the larger ball");

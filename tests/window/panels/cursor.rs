@@ -1,8 +1,8 @@
 //! The debugger's cursor: image, plane and tables show the instant at which it stands.
 
 use crate::window::{
-    Window, apply, at, click, inside, item, named, says, shown, state, tiny_window, with_software_driver,
-    zoom_in,
+    Fixture, Window, apply, at, click, inside, item, named, says, shown, state, tiny_window,
+    with_software_driver, zoom_in,
 };
 use dichroscope::app::{Command, DebugCommand};
 use dichroscope::gui::Pane;
@@ -120,9 +120,9 @@ fn a_skewed_t_test_is_drawn_with_its_checks() {
 
 #[test]
 fn the_color_space_shows_what_the_step_looks_at() {
-    let Some(mut window) = with_software_driver(vec2(700.0, 500.0)) else { return };
+    let Some(mut window) = with_software_driver(vec2(700.0, 500.0), Fixture::Tiny) else { return };
     window.state_mut().show_alone(Some(Pane::Colors));
-    apply(&mut window, Command::Open(dichroscope::view::Origin::File(crate::window::tiny())));
+    window.run_steps(3);
     let n = accepted(&window);
     seek(&mut window, n);
     for name in ["candidate", "upper 50 %", "gap ", "passed: gap"] {
@@ -138,12 +138,12 @@ fn the_color_space_shows_what_the_step_looks_at() {
 
 #[test]
 fn what_an_instant_looks_like() {
-    let Some(mut window) = with_software_driver(vec2(420.0, 300.0)) else { return };
+    let Some(mut window) = with_software_driver(vec2(420.0, 300.0), Fixture::Tiny) else { return };
     window.state_mut().show_alone(Some(Pane::Image));
-    apply(&mut window, Command::Open(dichroscope::view::Origin::File(crate::window::tiny())));
+    window.run_steps(3);
     let block = block(&window, |topic| topic == Topic::Hypothesis(2));
     seek(&mut window, block.steps.start + block.steps.len() * 3 / 5);
     window.run_steps(6);
-    let options = SnapshotOptions::new().output_path("tests/panels/snapshots").max_failed_pixels(60);
+    let options = SnapshotOptions::new().output_path("panels/snapshots").max_failed_pixels(60);
     window.snapshot_options("cursor-hypothesis", &options);
 }

@@ -1,18 +1,16 @@
-//! The panel in a harness.
+//! The plane panel on the sample scene.
 
-use crate::app::Command;
-use crate::gui::App;
-use crate::gui::testing::{harness, open_sample};
-use crate::view::Item;
+use crate::window::{Fixture, SIZE, Window, with_gpu};
+use dichroscope::app::Command;
+use dichroscope::gui::testing::PlaneDrawing;
+use dichroscope::view::Item;
 use egui::accesskit::Role;
 use egui::{Event, Modifiers, PointerButton, vec2};
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
-fn opened() -> Option<Harness<'static, App>> {
-    let (mut harness, _) = harness()?;
-    open_sample(&mut harness);
-    Some(harness)
+/// The sample scene in the window; none without a graphics adapter.
+fn opened() -> Option<Window> {
+    with_gpu(SIZE, Fixture::Sample)
 }
 
 #[test]
@@ -22,15 +20,13 @@ fn a_region_is_asked_for_and_shown() {
     harness.state_mut().apply(Command::Select(Some(Item::Region(1))));
     harness.run_steps(3);
     let rect = harness.get_by_role_and_label(Role::Canvas, "Dichromatic plane of region 1").rect();
-    let panel = &harness.state().panels().plane;
-    let (plane, chart) = (panel.plane.as_ref().unwrap(), panel.chart.unwrap());
+    let drawing = PlaneDrawing::of(harness.state()).unwrap();
+    let plane = &drawing.plane;
     assert!(plane.has_plane && !plane.points.is_empty());
-    let places =
-        plane.points.iter().map(|point| chart.screen(plane.oblique(point.body, point.surface), rect));
+    let places = plane.points.iter().map(|point| drawing.screen([point.body, point.surface], rect));
     assert!(places.into_iter().all(|at| rect.contains(at)), "all points are inside the view");
     // Figure 2's angle between both lines is seen as it is.
-    let [start, end] =
-        plane.highlight_lines().next().unwrap().map(|[b, s]| chart.screen(plane.oblique(b, s), rect));
+    let [start, end] = plane.highlight_lines().next().unwrap().map(|amounts| drawing.screen(amounts, rect));
     let seen_deg = (start.y - end.y).atan2(end.x - start.x).to_degrees();
     assert!((seen_deg - plane.angle_deg).abs() < 0.1, "{seen_deg} {}", plane.angle_deg);
 }
@@ -41,9 +37,9 @@ fn hovering_a_point_hovers_its_pixel_and_a_drag_pans() {
     harness.state_mut().apply(Command::Select(Some(Item::Region(1))));
     harness.run_steps(3);
     let rect = harness.get_by_role_and_label(Role::Canvas, "Dichromatic plane of region 1").rect();
-    let panel = &harness.state().panels().plane;
-    let (plane, chart) = (panel.plane.clone().unwrap(), panel.chart.unwrap());
-    let at = chart.screen(plane.oblique(0.5 * plane.matte_length, 0.0), rect);
+    let drawing = PlaneDrawing::of(harness.state()).unwrap();
+    let plane = &drawing.plane;
+    let at = drawing.screen([0.5 * plane.matte_length, 0.0], rect);
     harness.hover_at(at);
     harness.run_steps(2);
     let Some(Item::Pixel(pixel)) = harness.state().state().hover else { panic!("a pixel is hovered") };
@@ -59,7 +55,7 @@ fn hovering_a_point_hovers_its_pixel_and_a_drag_pans() {
         }
         harness.run_steps(2);
     }
-    let moved = harness.state().panels().plane.chart.unwrap();
-    assert!((moved.center[0] - chart.center[0] + 30.0 * chart.counts_per_pt).abs() < 0.5);
-    assert!((moved.center[1] - chart.center[1] - 12.0 * chart.counts_per_pt).abs() < 0.5);
+    let moved = PlaneDrawing::of(harness.state()).unwrap();
+    assert!((moved.center[0] - drawing.center[0] + 30.0 * drawing.counts_per_pt).abs() < 0.5);
+    assert!((moved.center[1] - drawing.center[1] - 12.0 * drawing.counts_per_pt).abs() < 0.5);
 }

@@ -1,12 +1,11 @@
-//! What the window writes is what the library and the command line write.
+//! What the window writes is what the library writes; that the command line writes the same is shown in `tests/cli`.
 
 use crate::window::{
     Window, answer, apply, choose, click, item, marked, named, notice, open_sample, press, shown, sigma,
     state, tiny, tiny_window,
 };
-use assert_cmd::cargo::cargo_bin_cmd;
 use dichroscope::app::Command;
-use dichroscope::export::write_matte;
+use dichroscope::export::{WholeResult, read_report, write_matte};
 use dichroscope::segment::Setting;
 use dichroscope::truth::sample;
 use dichroscope::view::{Item, Layer, regions_text};
@@ -52,19 +51,15 @@ fn the_photograph_without_highlights_is_the_librarys() {
 }
 
 #[test]
-fn everything_is_what_analyze_writes() {
+fn everything_is_what_the_library_writes() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = tiny_window();
     let ours = folder.path().join("window");
     export(&mut window, "Everything, as a folder", &ours);
-    cargo_bin_cmd!("dichroscope")
-        .current_dir(folder.path())
-        .arg("analyze")
-        .arg(tiny())
-        .args(["--out", "command"])
-        .assert()
-        .success();
-    let theirs = folder.path().join("command/camera8");
+    let result = shown(&window);
+    let whole = WholeResult { photo: &result.picture.photo, analysis: &result.analysis, keep_surface: 0.0 };
+    let theirs = folder.path().join("library");
+    whole.write(read_report(&ours).unwrap(), &theirs, false, &|_, _| true).unwrap();
     assert_eq!(names(&ours), names(&theirs));
     for name in names(&ours).iter().filter(|name| *name != "report.json") {
         assert!(fs::read(ours.join(name)).unwrap() == fs::read(theirs.join(name)).unwrap(), "{name} differs");

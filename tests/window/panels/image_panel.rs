@@ -1,50 +1,46 @@
-//! The panel in a harness: opened, looked at, clicked and drawn in.
+//! The image panel on the sample scene: looked at, clicked and drawn in.
 
-use super::geometry::Placement;
-use crate::app::{Command, ViewSettings};
-use crate::gui::App;
-use crate::gui::testing::{harness, open_sample};
-use crate::view::{Arrangement, ImageSettings, Item, Layer, Picture, ProfileLine, Tool, marking};
+use crate::window::{Fixture, SIZE, Window, with_gpu};
+use dichroscope::app::{Command, ViewSettings};
+use dichroscope::gui::testing::Placement;
+use dichroscope::view::{Arrangement, ImageSettings, Item, Layer, Picture, ProfileLine, Tool, marking};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, pos2, vec2};
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
 
 /// The sample scene in the window; none without a graphics adapter.
-fn opened() -> Option<Harness<'static, App>> {
-    let (mut harness, _) = harness()?;
-    open_sample(&mut harness);
-    Some(harness)
+fn opened() -> Option<Window> {
+    with_gpu(SIZE, Fixture::Sample)
 }
 
-fn view(harness: &Harness<App>) -> ViewSettings {
+fn view(harness: &Window) -> ViewSettings {
     harness.state().state().view.clone()
 }
 
-fn picture(harness: &Harness<App>) -> Arc<Picture> {
+fn picture(harness: &Window) -> Arc<Picture> {
     Arc::clone(harness.state().state().picture.as_ref().unwrap())
 }
 
-fn look(harness: &mut Harness<App>, change: impl FnOnce(&mut ImageSettings)) {
+fn look(harness: &mut Window, change: impl FnOnce(&mut ImageSettings)) {
     let mut settings = view(harness).image;
     change(&mut settings);
     harness.state_mut().apply(Command::Image(settings));
     harness.run_steps(3);
 }
 
-fn place(harness: &Harness<App>) -> Placement {
+fn place(harness: &Window) -> Placement {
     let (width, height) = picture(harness).size();
     let rect = harness.get_by_role_and_label(Role::Image, "Picture").rect();
     Placement::new(rect, vec2(width as f32, height as f32), &view(harness).image)
 }
 
 /// Where a point of the picture is on the screen.
-fn screen(harness: &Harness<App>, x: f32, y: f32) -> Pos2 {
+fn screen(harness: &Window, x: f32, y: f32) -> Pos2 {
     place(harness).screen_from_image(pos2(x, y))
 }
 
-fn press(harness: &mut Harness<App>, pos: Pos2, pressed: bool, modifiers: Modifiers) {
+fn press(harness: &mut Window, pos: Pos2, pressed: bool, modifiers: Modifiers) {
     harness.event_modifiers(
         Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers },
         modifiers,
@@ -52,12 +48,12 @@ fn press(harness: &mut Harness<App>, pos: Pos2, pressed: bool, modifiers: Modifi
     harness.run_steps(1);
 }
 
-fn move_to(harness: &mut Harness<App>, pos: Pos2) {
+fn move_to(harness: &mut Window, pos: Pos2) {
     harness.hover_at(pos);
     harness.run_steps(1);
 }
 
-fn click(harness: &mut Harness<App>, pos: Pos2, modifiers: Modifiers) {
+fn click(harness: &mut Window, pos: Pos2, modifiers: Modifiers) {
     move_to(harness, pos);
     press(harness, pos, true, modifiers);
     press(harness, pos, false, modifiers);
@@ -65,7 +61,7 @@ fn click(harness: &mut Harness<App>, pos: Pos2, modifiers: Modifiers) {
     harness.run_steps(30);
 }
 
-fn drag(harness: &mut Harness<App>, points: &[Pos2], modifiers: Modifiers) {
+fn drag(harness: &mut Window, points: &[Pos2], modifiers: Modifiers) {
     move_to(harness, points[0]);
     press(harness, points[0], true, modifiers);
     for &point in &points[1..] {
@@ -75,13 +71,13 @@ fn drag(harness: &mut Harness<App>, points: &[Pos2], modifiers: Modifiers) {
     harness.run_steps(2);
 }
 
-fn marked(harness: &Harness<App>) -> usize {
+fn marked(harness: &Window) -> usize {
     let mask = &harness.state().state().document.selection.marked;
     mask.as_ref().map_or(0, |mask| mask.as_slice().iter().filter(|&&on| on).count())
 }
 
 /// The middle of a run of a region's pixels, far from its border.
-fn inside(harness: &Harness<App>, region: u16) -> u32 {
+fn inside(harness: &Window, region: u16) -> u32 {
     let shown = harness.state().state().newest.as_ref().unwrap();
     let labels = shown.labels();
     let width = labels.width();
@@ -150,7 +146,7 @@ fn a_click_selects_a_region_a_pixel_or_nothing() {
     harness.run_steps(2);
     assert_eq!(harness.state().state().hover, Some(Item::Pixel(pixel)));
     click(&mut harness, at, Modifiers::NONE);
-    let item = |harness: &Harness<App>| harness.state().state().document.selection.item;
+    let item = |harness: &Window| harness.state().state().document.selection.item;
     assert_eq!(item(&harness), Some(Item::Region(2)));
     click(&mut harness, at, Modifiers::ALT);
     assert_eq!(item(&harness), Some(Item::Pixel(pixel)));
@@ -191,7 +187,7 @@ fn a_rectangle_marks_the_pixels_in_it() {
     harness.get_by_label("Rectangle").click();
     harness.run_steps(2);
     assert_eq!(view(&harness).image.tool, Tool::Rectangle);
-    let corner = |harness: &Harness<App>, x, y| screen(harness, x, y);
+    let corner = |harness: &Window, x, y| screen(harness, x, y);
     let (a, b) = (corner(&harness, 100.2, 80.2), corner(&harness, 150.2, 110.2));
     drag(&mut harness, &[a, a.lerp(b, 0.5), b], Modifiers::NONE);
     assert_eq!(marked(&harness), 50 * 30);

@@ -1,8 +1,9 @@
 //! A window to act on: what a person sees, points at and types.
 
-use dichroscope::app::{Command, Executor, State};
+use dichroscope::app::{Application, Command, Executor, State};
 use dichroscope::gui::App;
 use dichroscope::segment::{Parameter, Setting};
+use dichroscope::truth::sample;
 use dichroscope::view::{Item, Origin, ResultSnapshot};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
@@ -11,7 +12,7 @@ use egui_kittest::wgpu::WgpuTestRenderer;
 use egui_kittest::{Harness, HarnessBuilder, Node};
 use egui_wgpu::{RenderState, RendererOptions, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 pub type Window = Harness<'static, App>;
 
@@ -21,40 +22,83 @@ pub const SIZE: Vec2 = vec2(1440.0, 900.0);
 /// Frames until what a click opened stands still.
 const FRAMES: usize = 3;
 
-/// An empty window without a graphics adapter.
-pub fn window() -> Window {
-    builder(SIZE).build_eframe(|cc| App::new(&cc.egui_ctx, None, Executor::Inline).unwrap())
+/// A photograph that was read, analyzed and traced once for all tests; each window shows a copy of that state.
+#[derive(Clone, Copy)]
+pub enum Fixture {
+    /// The small photograph of [`tiny`].
+    Tiny,
+    /// The same, with the camera's noise set to 2.5 counts: pictures of it do not change with the estimate.
+    TinyFixedNoise,
+    /// The sample scene that the program opens by itself.
+    Sample,
 }
 
-/// An empty window with a graphics adapter. Where there is none the test is skipped with a word, unless
+impl Fixture {
+    fn state(self) -> State {
+        static STATES: [OnceLock<State>; 3] = [const { OnceLock::new() }; 3];
+        STATES[self as usize].get_or_init(|| self.analyze()).clone()
+    }
+
+    fn analyze(self) -> State {
+        let mut application = Application::new(Executor::Inline, || ()).unwrap();
+        if matches!(self, Self::TinyFixedNoise) {
+            application.apply(Command::SetParameter(Parameter::CameraNoise, Setting::Value(2.5), None));
+        }
+        application.apply(Command::Open(match self {
+            Self::Tiny | Self::TinyFixedNoise => Origin::File(tiny()),
+            Self::Sample => Origin::Sample(sample::NAME.to_owned()),
+        }));
+        let state = application.state();
+        assert!(state.is_current() && state.debugger.trace().is_some(), "{:?}", state.notices);
+        state.clone()
+    }
+}
+
+/// An empty window without a graphics adapter.
+pub fn window() -> Window {
+    undrawn(State::default())
+}
+
+fn undrawn(state: State) -> Window {
+    builder(SIZE)
+        .build_eframe(|cc| App::with_state(&cc.egui_ctx, None, Executor::Inline, state.clone()).unwrap())
+}
+
+/// A window with a graphics adapter. Where there is none the test is skipped with a word, unless
 /// `DICHROSCOPE_REQUIRE_GPU` says that there must be one.
-pub fn with_gpu(size: Vec2) -> Option<Window> {
+pub fn with_gpu(size: Vec2, fixture: Fixture) -> Option<Window> {
+    Some(with_device(size, fixture)?.0)
+}
+
+/// As [`with_gpu`], and the device, to read back what was drawn.
+pub fn with_device(size: Vec2, fixture: Fixture) -> Option<(Window, RenderState)> {
     match render_state() {
-        Ok(gpu) => Some(drawn_by(gpu, size)),
+        Ok(gpu) => Some((drawn_by(gpu.clone(), size, fixture), gpu)),
         Err(reason) => skip(&format!("no graphics adapter ({reason})")),
     }
 }
 
 /// As [`with_gpu`], of Mesa's software driver: the pictures are its work, and a graphics card's edges lie elsewhere.
-pub fn with_software_driver(size: Vec2) -> Option<Window> {
+pub fn with_software_driver(size: Vec2, fixture: Fixture) -> Option<Window> {
     let gpu = match render_state() {
         Ok(gpu) => gpu,
         Err(reason) => return skip(&format!("no graphics adapter ({reason})")),
     };
     let info = gpu.adapter.get_info();
     if info.device_type == wgpu::DeviceType::Cpu {
-        Some(drawn_by(gpu, size))
+        Some(drawn_by(gpu, size, fixture))
     } else {
         skip(&format!("the pictures are of the software driver, not of {}", info.name))
     }
 }
 
-fn drawn_by(gpu: RenderState, size: Vec2) -> Window {
+fn drawn_by(gpu: RenderState, size: Vec2, fixture: Fixture) -> Window {
     let builder = builder(size).renderer(WgpuTestRenderer::from_render_state(gpu.clone()));
-    builder.build_eframe(move |cc| App::new(&cc.egui_ctx, Some(gpu), Executor::Inline).unwrap())
+    let state = fixture.state();
+    builder.build_eframe(move |cc| App::with_state(&cc.egui_ctx, Some(gpu), Executor::Inline, state).unwrap())
 }
 
-fn skip(why: &str) -> Option<Window> {
+fn skip<T>(why: &str) -> Option<T> {
     assert!(!gpu_required(), "a graphics adapter is required: {why}");
     eprintln!("SKIP: {why}");
     None
@@ -84,14 +128,16 @@ fn render_state() -> Result<RenderState, String> {
 
 /// A small photograph with three highlights.
 pub fn tiny() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/tiny/camera8.png")
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .ancestors()
+        .nth(2)
+        .expect("this package lies in the repository");
+    root.join("assets/tiny/camera8.png")
 }
 
 /// A window in which the small photograph is open.
 pub fn tiny_window() -> Window {
-    let mut window = window();
-    apply(&mut window, Command::Open(Origin::File(tiny())));
-    window
+    undrawn(Fixture::Tiny.state())
 }
 
 pub fn apply(window: &mut Window, command: Command) {

@@ -1,9 +1,9 @@
 //! Whatever can be acted on has a name.
 
-use crate::window::{Window, apply, press, state, tiny, tiny_window, window, with_gpu};
+use crate::window::{Fixture, Window, apply, press, state, tiny_window, window, with_gpu};
 use dichroscope::app::Command;
 use dichroscope::gui::Pane;
-use dichroscope::view::{Arrangement, ImageSettings, Item, Origin, Tool};
+use dichroscope::view::{Arrangement, ImageSettings, Item, Tool};
 use egui::accesskit::{Action, Role};
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -65,8 +65,7 @@ fn everything_has_a_name_in_every_panel() {
 
 #[test]
 fn everything_has_a_name_in_the_color_space() {
-    let Some(mut window) = with_gpu(vec2(900.0, 600.0)) else { return };
-    apply(&mut window, Command::Open(Origin::File(tiny())));
+    let Some(mut window) = with_gpu(vec2(900.0, 600.0), Fixture::Tiny) else { return };
     window.state_mut().show_alone(Some(Pane::Colors));
     window.run_steps(3);
     check(&window, "color space");

@@ -1,12 +1,11 @@
 //! What the panels look like: a few small pictures, with an allowance for a few pixels.
 //!
-//! `UPDATE_SNAPSHOTS=1 cargo test --test panels` makes them anew. Nothing in them tells the time.
+//! `UPDATE_SNAPSHOTS=1 cargo test -p dichroscope-window-tests` makes them anew. Nothing in them tells the time.
 
-use crate::window::{Window, apply, named, tiny, with_software_driver};
+use crate::window::{Fixture, Window, apply, named, with_software_driver};
 use dichroscope::app::{Command, DebugCommand};
 use dichroscope::gui::Pane;
-use dichroscope::segment::{Parameter, Setting};
-use dichroscope::view::{Arrangement, ColorBy, Fill, ImageSettings, Item, Layer, Origin, ProfileLine, Theme};
+use dichroscope::view::{Arrangement, ColorBy, Fill, ImageSettings, Item, Layer, ProfileLine, Theme};
 use egui::accesskit::Role;
 use egui::{Rect, Vec2, pos2, vec2};
 use egui_kittest::{SnapshotOptions, image_snapshot_options};
@@ -19,11 +18,9 @@ const PANEL: Vec2 = vec2(420.0, 300.0);
 const EDGES_PX: usize = 60;
 
 fn opened(size: Vec2, pane: Option<Pane>) -> Option<Window> {
-    let mut window = with_software_driver(size)?;
+    let mut window = with_software_driver(size, Fixture::TinyFixedNoise)?;
     window.state_mut().show_alone(pane);
-    // Fixed, so that a picture does not change with the estimate.
-    window.state_mut().apply(Command::SetParameter(Parameter::CameraNoise, Setting::Value(2.5), None));
-    apply(&mut window, Command::Open(Origin::File(tiny())));
+    window.run_steps(3);
     Some(window)
 }
 
@@ -33,7 +30,7 @@ fn compare(window: &mut Window, name: &str) {
 }
 
 fn options() -> SnapshotOptions {
-    SnapshotOptions::new().output_path("tests/panels/snapshots").max_failed_pixels(EDGES_PX)
+    SnapshotOptions::new().output_path("panels/snapshots").max_failed_pixels(EDGES_PX)
 }
 
 fn look(window: &mut Window, change: impl FnOnce(&mut ImageSettings)) {

@@ -1,19 +1,17 @@
 //! The color space view, which needs a graphics adapter.
 
 use crate::window::{
-    SIZE, Window, apply, click, drag, item, marked, named, press, says, shown, size, state, tiny, undo,
+    Fixture, SIZE, Window, apply, click, drag, item, marked, named, press, says, shown, size, state, undo,
     with_gpu,
 };
 use dichroscope::app::Command;
-use dichroscope::view::{ColorBy, ColorSpace, Item, Origin, Tool};
+use dichroscope::view::{ColorBy, ColorSpace, Item, Tool};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2, Rect};
 
 /// The small photograph in a window that can draw.
 fn opened() -> Option<Window> {
-    let mut window = with_gpu(SIZE)?;
-    apply(&mut window, Command::Open(Origin::File(tiny())));
-    Some(window)
+    with_gpu(SIZE, Fixture::Tiny)
 }
 
 fn view(window: &Window) -> Rect {

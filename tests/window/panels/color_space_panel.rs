@@ -1,71 +1,74 @@
-//! The panel in a harness: opened, turned, pointed at, drawn in.
+//! The color space panel on the sample scene: turned, pointed at, drawn in.
 
-use super::CubePanel;
-use crate::app::Command;
-use crate::gpu::{Point, Projector};
-use crate::gui::App;
-use crate::gui::testing::{harness, open_sample};
-use crate::trace::Class;
-use crate::view::{ColorSpace, Item, Picture, Tool};
+use crate::window::{Fixture, SIZE, Window, with_device, with_gpu};
+use dichroscope::app::Command;
+use dichroscope::gpu::Orbit;
+use dichroscope::gui::testing::{ColorSpaceDrawing, color_space_pixels};
+use dichroscope::trace::Class;
+use dichroscope::view::{ColorSpace, Item, Picture, Tool};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, vec2};
-use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use egui_wgpu::RenderState;
 use std::sync::Arc;
 
-fn opened() -> Option<(Harness<'static, App>, RenderState)> {
-    let (mut harness, gpu) = harness()?;
-    open_sample(&mut harness);
-    Some((harness, gpu))
+/// The sample scene in the window; none without a graphics adapter.
+fn opened() -> Option<Window> {
+    with_gpu(SIZE, Fixture::Sample)
 }
 
-fn panel<'a>(harness: &'a Harness<'_, App>) -> &'a CubePanel {
-    &harness.state().panels().cube
+fn drawing(harness: &Window) -> ColorSpaceDrawing {
+    ColorSpaceDrawing::of(harness.state())
 }
 
-fn picture(harness: &Harness<App>) -> Arc<Picture> {
+fn orbit(harness: &Window) -> Orbit {
+    drawing(harness).orbit
+}
+
+/// Number of pixels of the panel's picture that are not background.
+fn drawn_pixels(harness: &Window, gpu: &RenderState) -> usize {
+    let (_, rgba) = color_space_pixels(harness.state(), gpu).expect("drawn");
+    let background: [u8; 4] = rgba[..4].try_into().unwrap();
+    rgba.as_chunks::<4>().0.iter().filter(|pixel| **pixel != background).count()
+}
+
+fn picture(harness: &Window) -> Arc<Picture> {
     Arc::clone(harness.state().state().picture.as_ref().unwrap())
 }
 
-fn canvas(harness: &Harness<App>) -> Rect {
+fn canvas(harness: &Window) -> Rect {
     harness.get_by_role_and_label(Role::Canvas, "Color space view").rect()
 }
 
-fn projector(harness: &Harness<App>) -> Projector {
-    panel(harness).camera_controller.orbit.projector(canvas(harness).size().into())
-}
-
 /// Where each bin is seen.
-fn places(harness: &Harness<App>) -> Vec<Pos2> {
-    let (projector, rect) = (projector(harness), canvas(harness));
-    let place = |bin: &Point| super::frame::screen(&projector, rect, bin.position).expect("in view");
-    panel(harness).cloud.bins.iter().map(place).collect()
+fn places(harness: &Window) -> Vec<Pos2> {
+    let (drawing, rect) = (drawing(harness), canvas(harness));
+    drawing.bins.iter().map(|&bin| drawing.screen(rect, bin).expect("in view")).collect()
 }
 
-fn place_of(harness: &Harness<App>, bin: usize) -> Pos2 {
+fn place_of(harness: &Window, bin: usize) -> Pos2 {
     places(harness)[bin]
 }
 
-fn hover(harness: &mut Harness<App>, at: Pos2) {
+fn hover(harness: &mut Window, at: Pos2) {
     harness.hover_at(at);
     harness.run_steps(2);
 }
 
-fn press(harness: &mut Harness<App>, pos: Pos2, pressed: bool, modifiers: Modifiers) {
+fn press(harness: &mut Window, pos: Pos2, pressed: bool, modifiers: Modifiers) {
     let button = PointerButton::Primary;
     harness.event_modifiers(Event::PointerButton { pos, button, pressed, modifiers }, modifiers);
     // Held for long it would be no click.
     harness.run_steps(1);
 }
 
-fn click(harness: &mut Harness<App>, at: Pos2, modifiers: Modifiers) {
+fn click(harness: &mut Window, at: Pos2, modifiers: Modifiers) {
     hover(harness, at);
     press(harness, at, true, modifiers);
     press(harness, at, false, modifiers);
 }
 
-fn tool(harness: &mut Harness<App>, tool: Tool) {
+fn tool(harness: &mut Window, tool: Tool) {
     let mut cube = harness.state().state().view.cube.clone();
     cube.tool = tool;
     harness.state_mut().apply(Command::Cube(cube));
@@ -73,23 +76,22 @@ fn tool(harness: &mut Harness<App>, tool: Tool) {
 }
 
 /// The bin that most of a region's pixels are in.
-fn fullest_bin(harness: &Harness<App>, region: u16) -> usize {
-    let cloud = &panel(harness).cloud;
+fn fullest_bin(harness: &Window, region: u16) -> usize {
+    let drawing = drawing(harness);
     let bins = &picture(harness).histogram.bins;
-    let of_region = (0..bins.len()).filter(|&bin| cloud.region_of(bin as u32) == Some(region));
+    let of_region = (0..bins.len()).filter(|&bin| drawing.bin_regions[bin] == Some(region));
     of_region.max_by_key(|&bin| bins[bin].count).expect("the region has bins")
 }
 
 #[test]
 fn the_sample_is_seen_and_fills_the_view() {
-    let Some((harness, gpu)) = opened() else { return };
-    let ([width, height], rgba) = panel(&harness).canvas.read_back(&gpu).expect("drawn");
+    let Some((harness, gpu)) = with_device(SIZE, Fixture::Sample) else { return };
+    let ([width, height], _) = color_space_pixels(harness.state(), &gpu).expect("drawn");
     let size = canvas(&harness).size().round();
     assert_eq!([width, height], [size.x as u32, size.y as u32]);
-    let background: [u8; 4] = rgba[..4].try_into().unwrap();
-    let drawn = rgba.as_chunks::<4>().0.iter().filter(|pixel| **pixel != background).count();
+    let drawn = drawn_pixels(&harness, &gpu);
     assert!(drawn > 4000, "{drawn} pixels of points and lines");
-    let bins = panel(&harness).cloud.bins.len();
+    let bins = drawing(&harness).bins.len();
     let view = canvas(&harness).shrink(8.0);
     let inside = places(&harness).into_iter().filter(|at| view.contains(*at));
     assert_eq!(inside.count(), bins, "every point is inside the view");
@@ -97,7 +99,7 @@ fn the_sample_is_seen_and_fills_the_view() {
 
 #[test]
 fn hovering_a_bin_tells_everybody_and_leaving_it_too() {
-    let Some((mut harness, _)) = opened() else { return };
+    let Some(mut harness) = opened() else { return };
     let bin = fullest_bin(&harness, 1);
     let at = place_of(&harness, bin);
     hover(&mut harness, at);
@@ -111,17 +113,17 @@ fn hovering_a_bin_tells_everybody_and_leaving_it_too() {
 
 #[test]
 fn a_click_selects_the_region_and_with_alt_the_color() {
-    let Some((mut harness, _)) = opened() else { return };
+    let Some(mut harness) = opened() else { return };
     let at = place_of(&harness, fullest_bin(&harness, 2));
     hover(&mut harness, at);
     let Some(Item::Bin(bin)) = harness.state().state().hover else { panic!("a bin is hovered") };
-    let region = panel(&harness).cloud.region_of(bin);
+    let region = drawing(&harness).bin_regions[bin as usize];
     click(&mut harness, at, Modifiers::NONE);
     assert_eq!(harness.state().state().selected_region(), region);
     assert!(region.is_some());
-    let [looked_at, ghosts] = &panel(&harness).cloud.drawn;
-    assert!(!looked_at.is_empty() && !ghosts.is_empty(), "the rest is ghosted, not hidden");
-    assert_eq!(looked_at.len() + ghosts.len(), panel(&harness).cloud.bins.len());
+    let [looked_at, pale] = drawing(&harness).points;
+    assert!(looked_at > 0 && pale > 0, "the rest is pale, not hidden");
+    assert_eq!(looked_at + pale, drawing(&harness).bins.len());
     harness.run_steps(60);
     click(&mut harness, at, Modifiers::ALT);
     assert_eq!(harness.state().state().document.selection.item, Some(Item::Bin(bin)));
@@ -129,8 +131,8 @@ fn a_click_selects_the_region_and_with_alt_the_color() {
 
 #[test]
 fn views_have_names() {
-    let Some((mut harness, _)) = opened() else { return };
-    let forward = |harness: &Harness<App>| panel(harness).camera_controller.orbit.right_up_forward()[2];
+    let Some(mut harness) = opened() else { return };
+    let forward = |harness: &Window| orbit(harness).right_up_forward()[2];
     harness.get_by_label("Views").click();
     harness.run_steps(3);
     harness.get_by_label_contains("Along blue").click();
@@ -142,11 +144,11 @@ fn views_have_names() {
     harness.run_steps(3);
     harness.get_by_label_contains("Face-on to the plane").click();
     harness.run_steps(3);
-    let normal = |harness: &Harness<App>, region: usize| {
+    let normal = |harness: &Window, region: usize| {
         let shown = harness.state().state().shown().unwrap().clone();
         shown.analysis.intrinsic.regions[region - 1].plane_normal.unwrap()
     };
-    let facing = |harness: &Harness<App>, region| {
+    let facing = |harness: &Window, region| {
         let (forward, normal) = (forward(harness), normal(harness, region));
         -(0..3).map(|i| f64::from(forward[i]) * normal[i]).sum::<f64>()
     };
@@ -164,42 +166,39 @@ fn views_have_names() {
 
 #[test]
 fn the_camera_is_kept_in_the_view_and_comes_back_from_there() {
-    let Some((mut harness, _)) = opened() else { return };
+    let Some(mut harness) = opened() else { return };
     harness.run_steps(3);
     let before = harness.state().state().view.camera.clone();
-    assert_eq!(
-        serde_json::from_str::<crate::gpu::Orbit>(&before).unwrap(),
-        panel(&harness).camera_controller.orbit
-    );
-    let mut turned = panel(&harness).camera_controller.orbit;
+    assert_eq!(serde_json::from_str::<Orbit>(&before).unwrap(), orbit(&harness));
+    let mut turned = orbit(&harness);
     turned.orbit([90.0, 20.0]);
     harness.state_mut().apply(Command::Camera(serde_json::to_string(&turned).unwrap()));
     harness.run_steps(3);
-    assert_eq!(panel(&harness).camera_controller.orbit, turned);
+    assert_eq!(orbit(&harness), turned);
     harness.state_mut().apply(Command::Camera("nonsense".to_owned()));
     harness.run_steps(3);
-    assert_eq!(panel(&harness).camera_controller.orbit, turned, "what is no camera moves nothing");
+    assert_eq!(orbit(&harness), turned, "what is no camera moves nothing");
 }
 
 #[test]
 fn a_drag_orbits_and_home_comes_back() {
-    let Some((mut harness, _)) = opened() else { return };
-    let home = panel(&harness).camera_controller.orbit;
+    let Some(mut harness) = opened() else { return };
+    let home = orbit(&harness);
     let middle = canvas(&harness).center() + vec2(0.0, -20.0);
     hover(&mut harness, middle);
     press(&mut harness, middle, true, Modifiers::NONE);
     hover(&mut harness, middle + vec2(80.0, 10.0));
     press(&mut harness, middle + vec2(80.0, 10.0), false, Modifiers::NONE);
-    assert_ne!(panel(&harness).camera_controller.orbit, home);
+    assert_ne!(orbit(&harness), home);
     assert_eq!(harness.state().state().document.selection.item, None, "a drag is not a click");
     harness.key_press(Key::Home);
     harness.run_steps(2);
-    assert_eq!(panel(&harness).camera_controller.orbit, home);
+    assert_eq!(orbit(&harness), home);
 }
 
 #[test]
 fn a_lasso_marks_the_pixels_whose_colors_are_inside() {
-    let Some((mut harness, _)) = opened() else { return };
+    let Some(mut harness) = opened() else { return };
     tool(&mut harness, Tool::Lasso);
     let center = place_of(&harness, fullest_bin(&harness, 1));
     let corners: Vec<Pos2> = (0..=24)
@@ -245,27 +244,23 @@ fn a_lasso_marks_the_pixels_whose_colors_are_inside() {
 
 #[test]
 fn other_spaces_are_drawn_with_the_shapes_that_they_become() {
-    let Some((mut harness, gpu)) = opened() else { return };
+    let Some((mut harness, gpu)) = with_device(SIZE, Fixture::Sample) else { return };
     harness.state_mut().apply(Command::Select(Some(Item::Region(1))));
     for space in ColorSpace::ALL {
         let mut cube = harness.state().state().view.cube.clone();
         cube.space = space;
         harness.state_mut().apply(Command::Cube(cube));
         harness.run_steps(2);
-        let figure = &panel(&harness).figure;
-        assert!(figure.meshes.len() >= 3, "{space:?}: cylinder, dark sphere and slice");
-        let (_, rgba) = panel(&harness).canvas.read_back(&gpu).expect("drawn");
-        let background: [u8; 4] = rgba[..4].try_into().unwrap();
-        let drawn = rgba.as_chunks::<4>().0.iter().filter(|pixel| **pixel != background).count();
+        assert!(drawing(&harness).solids.len() >= 3, "{space:?}: cylinder, dark sphere and slice");
+        let drawn = drawn_pixels(&harness, &gpu);
         assert!(drawn > 3000, "{space:?}: {drawn}");
     }
 }
 
 #[test]
 fn at_rest_every_color_is_drawn_where_that_is_asked_for() {
-    let Some((mut harness, _)) = opened() else { return };
-    let drawn =
-        |harness: &Harness<App>| panel(harness).cloud.drawn.iter().map(|batch| batch.len()).sum::<usize>();
+    let Some(mut harness) = opened() else { return };
+    let drawn = |harness: &Window| drawing(harness).points.iter().sum::<usize>();
     let bins = drawn(&harness);
     let mut cube = harness.state().state().view.cube.clone();
     cube.full_detail = true;
@@ -282,18 +277,18 @@ fn at_rest_every_color_is_drawn_where_that_is_asked_for() {
 
 #[test]
 fn a_window_shows_its_ellipsoid_around_its_mean() {
-    let Some((mut harness, _)) = opened() else { return };
+    let Some(mut harness) = opened() else { return };
     let shown = Arc::clone(harness.state().state().shown().unwrap());
     let windows = &shown.analysis.windows;
     let plane = |&window: &usize| windows.classes[window] == Some(Class::Plane);
     let window = (0..windows.classes.len()).find(plane).expect("a window of class plane");
     harness.state_mut().apply(Command::Select(Some(Item::Window(window as u32))));
     harness.run_steps(2);
-    let [ellipsoid] = panel(&harness).figure.meshes.as_slice() else { panic!("one body") };
-    let vertices = ellipsoid.triangles();
+    let solids = drawing(&harness).solids;
+    let [vertices] = solids.as_slice() else { panic!("one solid") };
     let mean = windows.moments[window].mean() / 255.0;
     for axis in 0..3 {
-        let ends = vertices.iter().map(|vertex| vertex.position[axis]);
+        let ends = vertices.iter().map(|vertex| vertex[axis]);
         let (low, high) = (ends.clone().fold(1.0, f32::min), ends.fold(0.0, f32::max));
         let middle = f64::from(f32::midpoint(low, high));
         assert!((middle - mean[axis]).abs() < 2e-3 && high > low, "{axis}: {low} {high} {}", mean[axis]);
