@@ -15,7 +15,7 @@ pub const TURN_DEG_PER_PX: f32 = 0.4;
 pub const DISTANCE_RANGE: [f32; 2] = [0.01, 200.0];
 
 /// While the camera is turned this far, roll falls to 1/e: blue is up again after a short drag, without a jump.
-const LEVELLING_DEG: f32 = 30.0;
+const LEVELING_DEG: f32 = 30.0;
 /// Horizontal part of the viewing direction below which it counts as vertical.
 const POLE: f32 = 1e-3;
 /// Pictures with head room have colors well outside the unit cube: what lies within this distance is drawn.
@@ -118,7 +118,7 @@ impl Orbit {
         let step = (TURN_DEG_PER_PX).to_radians();
         let right_angle = std::f32::consts::FRAC_PI_2;
         let pitch = (pitch - delta[1] * step).clamp(-right_angle, right_angle);
-        self.set_yaw_pitch_roll(yaw - delta[0] * step, pitch, roll * (-turned_deg / LEVELLING_DEG).exp());
+        self.set_yaw_pitch_roll(yaw - delta[0] * step, pitch, roll * (-turned_deg / LEVELING_DEG).exp());
     }
 
     /// Moves the scene by `delta` on a screen of `height`: what lies at the target's depth follows the hand.

@@ -57,6 +57,7 @@ fn options() -> eframe::NativeOptions {
     let viewport = egui::ViewportBuilder::default()
         .with_title("Dichroscope")
         .with_app_id("dichroscope")
+        .with_icon(icon())
         .with_inner_size([1440.0, 900.0])
         .with_min_inner_size([900.0, 560.0])
         .with_drag_and_drop(true);
@@ -69,6 +70,11 @@ fn options() -> eframe::NativeOptions {
         },
         ..eframe::NativeOptions::default()
     }
+}
+
+/// The window's icon: a skewed T in a color cube; the toolkit's own where the picture cannot be decoded.
+fn icon() -> egui::IconData {
+    eframe::icon_data::from_png_bytes(include_bytes!("../../assets/icon.png")).unwrap_or_default()
 }
 
 /// The application of the first window, as it was left the last time.
@@ -141,6 +147,12 @@ fn reason(message: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_icon_is_square() {
+        let icon = icon();
+        assert_eq!((icon.width, icon.height, icon.rgba.len()), (256, 256, 4 * 256 * 256));
+    }
 
     #[test]
     fn a_reason_tells_no_places_in_sources() {

@@ -244,7 +244,7 @@ fn orbiting_levels_a_tilted_view_without_a_jump() {
     let mut before = tilt(&camera);
     assert!(before > 45.0, "{before}");
     camera.orbit([0.0, 0.0]);
-    assert!((tilt(&camera) - before).abs() < 1e-2, "no motion, no levelling");
+    assert!((tilt(&camera) - before).abs() < 1e-2, "no motion, no leveling");
     for _ in 0..400 {
         camera.orbit([2.0, 0.0]);
         let now = tilt(&camera);

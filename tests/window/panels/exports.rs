@@ -31,7 +31,7 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn the_photograph_without_highlights_is_the_librarys() {
+fn the_photograph_without_highlights_is_that_of_the_library() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = tiny_window();
     let path = folder.path().join("bare.png");
