@@ -14,6 +14,9 @@
 //!
 //! Last, what recording every decision costs: time of a recorded run as a multiple of an unrecorded one, bytes a pixel, and
 //! how long it takes to show the state at any step.
+//!
+//! `cargo record` (an alias of `cargo bench --bench pipeline -- --record`) prints the first table alone and appends its ratios
+//! to `benches/history.csv`, with the version and the revision that they were measured at.
 
 #[path = "../tests/synthetic/mod.rs"]
 mod synthetic;
@@ -23,8 +26,11 @@ use dichroscope::photo::{LinearImage, ReadOptions, read};
 use dichroscope::raster::Raster;
 use dichroscope::segment::{IlluminantSetting, Parameter, Params, Refine, Setting};
 use dichroscope::trace::Replay;
+use std::fs::OpenOptions;
 use std::hint::black_box;
+use std::io::Write as _;
 use std::path::Path;
+use std::process::Command;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -34,21 +40,28 @@ const LANES: usize = 3 * WINDOW_PX;
 
 fn main() {
     // Cargo passes `--bench`; without it (`cargo test --benches`) one run shows that everything still works.
-    let runs = if std::env::args().any(|argument| argument == "--bench") { 15 } else { 1 };
+    let asked = |name: &str| std::env::args().any(|argument| argument == name);
+    let runs = if asked("--bench") { 15 } else { 1 };
     println!("{:>10}  {:>9}  {:>9}  {:>9}  {:>7}", "size", "copy", "floor", "analysis", "ratio");
+    let mut ratios = Vec::new();
     for size_px in [[580, 432], [1160, 864]] {
         let image = Arc::new(synthetic::Scene::grid_of_balls(size_px, 4, 3, 1).render().image);
         let copy = best_of(runs, || image.pixels.clone());
         let floor = best_of(runs, || window_moments(&image.pixels));
         let analysis = best_of(runs, || Session::new(image.clone()).run(&Params::default(), &mut ()));
+        let (megapixels, ratio) =
+            (image.pixels.len() as f64 / 1e6, analysis.as_secs_f64() / floor.as_secs_f64());
         println!(
-            "{:>7.2} MP  {}  {}  {}  {:>6.1}×",
-            image.pixels.len() as f64 / 1e6,
+            "{megapixels:>7.2} MP  {}  {}  {}  {ratio:>6.1}×",
             milliseconds(copy),
             milliseconds(floor),
             milliseconds(analysis),
-            analysis.as_secs_f64() / floor.as_secs_f64()
         );
+        ratios.push((megapixels, ratio));
+    }
+    if asked("--record") {
+        record(&ratios).expect("benches/history.csv can be written");
+        return;
     }
     let runs = runs.min(7);
     sliders(1, runs);
@@ -61,6 +74,22 @@ fn main() {
     for tiles in [1, 2, 7] {
         traces(tiles, if tiles > 2 { runs.min(3) } else { runs });
     }
+}
+
+/// Appends a line to the history for each picture size: version, revision of the sources, threads, megapixels, and the
+/// analysis as a multiple of the floor.
+fn record(ratios: &[(f64, f64)]) -> std::io::Result<()> {
+    let folder = env!("CARGO_MANIFEST_DIR");
+    let revision = Command::new("git").args(["-C", folder, "describe", "--always", "--dirty"]).output();
+    let revision = revision.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned());
+    let revision = revision.unwrap_or_default();
+    let threads = std::thread::available_parallelism()?;
+    let mut history = OpenOptions::new().append(true).open(Path::new(folder).join("benches/history.csv"))?;
+    for (megapixels, ratio) in ratios {
+        let version = env!("CARGO_PKG_VERSION");
+        writeln!(history, "{version},{revision},{threads},{megapixels:.2},{ratio:.1}")?;
+    }
+    Ok(())
 }
 
 /// The sample, repeated this often to either side.
