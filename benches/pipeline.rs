@@ -22,9 +22,9 @@
 mod synthetic;
 
 use dichroscope::analysis::{Observer, Session, Stage};
+use dichroscope::params::{IlluminantSetting, Parameter, Params, Refine, Setting};
 use dichroscope::photo::{LinearImage, ReadOptions, read};
 use dichroscope::raster::Raster;
-use dichroscope::segment::{IlluminantSetting, Parameter, Params, Refine, Setting};
 use dichroscope::trace::Replay;
 use std::fs::OpenOptions;
 use std::hint::black_box;

@@ -1,6 +1,6 @@
 //! Analyze a photograph in ten lines: `cargo run --release --example analyze [IMAGE]`.
 
-use dichroscope::{analysis::Session, photo, segment::Params};
+use dichroscope::{analysis::Session, params::Params, photo};
 use std::{path::Path, sync::Arc};
 
 const SAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");

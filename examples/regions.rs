@@ -3,8 +3,8 @@
 //! `cargo run --release --example regions [IMAGE]`
 
 use dichroscope::analysis::Session;
+use dichroscope::params::Params;
 use dichroscope::photo::{self, ReadOptions};
-use dichroscope::segment::Params;
 use std::path::Path;
 use std::sync::Arc;
 

@@ -5,8 +5,8 @@
 
 use dichroscope::analysis::Session;
 use dichroscope::export::write_matte;
+use dichroscope::params::Params;
 use dichroscope::photo::{self, ReadOptions};
-use dichroscope::segment::Params;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

@@ -5,14 +5,14 @@
 //! leaves it in the direction of the light's color. This crate finds those shapes in a photograph. It divides the picture
 //! into one region per object, estimates the color of the light, and splits each pixel into body reflection, surface
 //! reflection and noise. It follows G. J. Klinker, S. A. Shafer and T. Kanade, *A Physical Approach to Color Image
-//! Understanding*, International Journal of Computer Vision 4 (1990): [`segment::Method::Paper`] as it was written,
-//! [`segment::Method::Refined`] with refinements, each a switch in [`segment::Refine`]. "Section 5.3", "table 6" and
+//! Understanding*, International Journal of Computer Vision 4 (1990): [`params::Method::Paper`] as it was written,
+//! [`params::Method::Refined`] with refinements, each a switch in [`params::Refine`]. "Section 5.3", "table 6" and
 //! "equation 13" in this documentation are the paper's.
 //!
 //! # In ten lines
 //!
 //! ```
-//! use dichroscope::{analysis::Session, photo, segment::Params};
+//! use dichroscope::{analysis::Session, photo, params::Params};
 //! use std::{path::Path, sync::Arc};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -45,7 +45,8 @@
 //! | [`reflection`] | the model: dichromatic planes, the transform T and its inverse, photometry (equations 3–11) |
 //! | [`photo`] | from a file to linear light; which pixels to believe; the camera's noise |
 //! | [`trace`] | decisions as data: recorders, the log and its replay |
-//! | [`segment`] | section 5, from windows to regions; parameters and refinements |
+//! | [`params`] | what a run may be asked for: method, numbers, light, refinements, stages |
+//! | [`segment`] | section 5, from windows to regions |
 //! | [`intrinsic`] | section 6, from regions to body, surface and noise |
 //! | [`analysis`] | one run over all stages, with progress, cancellation and cached outputs |
 //! | [`describe`] | the schema of `report.json` |
@@ -58,11 +59,11 @@
 //! Who may use whom, left by right; rooms between the same arrows do not know each other:
 //!
 //! ```text
-//! raster, color ← reflection ← photo ← trace ← segment ← intrinsic ← analysis ← report ← truth, export ← workbench ← gui
+//! params, raster, color ← reflection ← photo ← trace ← segment ← intrinsic ← analysis ← report ← truth, export ← workbench ← gui
 //! ```
 //!
 //! The program's command line (`src/cli`, not part of the library) uses all of them. `tests/layering` fails when an arrow
-//! runs backwards. `raster`, `color`, `reflection`, `trace`, `segment`, `intrinsic`, `analysis` and `report` are pure in
+//! runs backwards. `params`, `raster`, `color`, `reflection`, `trace`, `segment`, `intrinsic`, `analysis` and `report` are pure in
 //! their results: no clock, no environment, no printing, and the same bytes at any number of threads.
 
 pub mod analysis;
@@ -75,6 +76,7 @@ pub mod gpu;
 #[cfg(feature = "gui")]
 pub mod gui;
 pub mod intrinsic;
+pub mod params;
 pub mod photo;
 pub mod raster;
 pub mod reflection;

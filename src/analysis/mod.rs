@@ -10,15 +10,16 @@ mod stages;
 mod stale;
 mod what_if;
 
+pub use crate::params::Stage;
 pub use crate::segment::Illuminant;
-pub use crate::trace::Stage;
 pub use output::StageOutput;
 pub use what_if::{Direction, Fate, Home, WhatIf, WhatIfObserver, what_if};
 
 use crate::intrinsic::Intrinsic;
+use crate::params::{Params, UsedParams};
 use crate::photo::{LinearImage, Masks};
 use crate::raster::{Mask, Raster};
-use crate::segment::{FinalRegions, MatteRegions, Params, PlanarRegions, UsedParams, Windows};
+use crate::segment::{FinalRegions, MatteRegions, PlanarRegions, Windows};
 use crate::trace::{NoopRecorder, Trace, TraceRecorder};
 use stages::{Stages, Subject};
 use std::sync::Arc;

@@ -2,9 +2,10 @@
 
 use super::Stage;
 use crate::intrinsic::Intrinsic;
+use crate::params::UsedParams;
 use crate::photo::Masks;
 use crate::raster::Raster;
-use crate::segment::{FinalRegions, MatteRegions, PlanarRegions, UsedParams, Windows};
+use crate::segment::{FinalRegions, MatteRegions, PlanarRegions, Windows};
 use std::sync::Arc;
 
 /// The output of one stage, shared with the session; [`super::Analysis`] holds the same ones at the end.

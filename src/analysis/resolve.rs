@@ -1,7 +1,7 @@
 //! What `auto` means: parameters that the image itself can tell.
 
+use crate::params::{Parameter, Params, Setting, UsedParams};
 use crate::photo::LinearImage;
-use crate::segment::{Parameter, Params, Setting, UsedParams};
 
 /// Limits of an estimated σ0, counts.
 const NOISE_RANGE: (f64, f64) = (1.0, 16.0);

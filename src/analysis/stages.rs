@@ -4,12 +4,12 @@ use super::resolve::{mask_limits, used_params};
 use super::stale::seen_up_to;
 use super::{Analysis, Cancelled, Observer, Stage, StageOutput};
 use crate::intrinsic::{Intrinsic, split};
+use crate::params::{Params, Refine, Setting, UsedParams};
 use crate::photo::{LinearImage, MaskLimits, Masks, estimate_sigma};
 use crate::raster::{LabelMap, Mask, Raster};
 use crate::segment::{
-    AnalysisInput, Areas, Classifier, FinalRegions, LightFindings, MatteRegions, Params, PlanarRegions,
-    Refine, Setting, UsedParams, Windows, classify, clipping_regions, final_regions, matte_regions, merge,
-    planar_regions,
+    AnalysisInput, Areas, Classifier, FinalRegions, LightFindings, MatteRegions, PlanarRegions, Windows,
+    classify, clipping_regions, final_regions, matte_regions, merge, planar_regions,
 };
 use crate::trace::{Event, MasksMade, Recorder, StageTrace, Trace};
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 //! A stage's output is kept beside what the stages up to it look at; what only later ones do is blanked out there.
 
 use super::Stage;
-use crate::segment::{AmbientSetting, Refine, UsedParams};
+use crate::params::{AmbientSetting, Refine, UsedParams};
 
 /// The numbers and refinements that `stage` and those before it look at.
 ///

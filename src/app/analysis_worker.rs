@@ -2,8 +2,8 @@
 
 use super::{Command, DebugCommand};
 use crate::analysis::{Analysis, Observer, Session, Stage, StageOutput};
+use crate::params::Params;
 use crate::raster::Mask;
-use crate::segment::Params;
 use crate::trace::Replay;
 use crate::view::{Picture, ResultSnapshot};
 use std::sync::mpsc::Sender;

@@ -2,9 +2,9 @@
 
 use super::{Ask, DebugCommand, Export, Severity, Workspace};
 use crate::analysis::Stage;
+use crate::params::{AmbientSetting, Method, Parameter, Params, Setting};
 use crate::photo::ReadOptions;
 use crate::raster::Mask;
-use crate::segment::{AmbientSetting, Method, Parameter, Params, Setting};
 use crate::view::{
     CubeSettings, ImageSettings, Item, Origin, Picture, PlaneSettings, ProfileLine, ResultSnapshot, Theme,
 };

@@ -2,7 +2,7 @@
 
 use super::State;
 use super::write::AREA_FILE;
-use crate::segment::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine};
+use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine};
 use crate::view::Origin;
 use std::path::Path;
 
@@ -101,8 +101,8 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::params::Setting;
     use crate::photo::{EncodingChoice, ReadOptions};
-    use crate::segment::Setting;
     use crate::view::Picture;
     use crate::view::testing::gray;
     use std::sync::Arc;

@@ -1,8 +1,8 @@
 //! What undo takes back: parameters, pins and the selection.
 
 use super::Gesture;
+use crate::params::Params;
 use crate::raster::Mask;
-use crate::segment::Params;
 use crate::view::Selection;
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
 //! Reads photographs, parameters and workspaces for the state.
 
 use super::{Command, Severity, Workspace};
+use crate::params::Params;
 use crate::photo::{self, ReadOptions};
-use crate::segment::Params;
 use crate::truth::{GroundTruth, sample::Sample};
 use crate::view::{Histogram, Origin, Picture};
 use std::path::Path;

@@ -5,9 +5,9 @@ use super::{
     Asked, Combine, Command, Debugger, Document, Export, Gesture, Notice, Severity, State, ViewSettings,
     Workspace,
 };
+use crate::params::{IlluminantSetting, Method, Parameter, Params};
 use crate::photo::ReadOptions;
 use crate::raster::{Mask, Raster};
-use crate::segment::{IlluminantSetting, Method, Parameter, Params};
 use crate::view::{MaskRuns, Origin, Picture, ResultSnapshot, Selection};
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! All there is to show.
 
 use super::{Debugger, Document, History, JobState, ViewSettings, WhatIfJob, Workspace};
-use crate::segment::Params;
+use crate::params::Params;
 use crate::trace::Replay;
 use crate::view::{Item, Picture, ResultSnapshot};
 use std::path::PathBuf;

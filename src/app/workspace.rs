@@ -1,8 +1,8 @@
 //! A workspace: the photograph, how it is analyzed and shown, and what is selected, as a file to come back to.
 
 use super::{State, ViewSettings};
+use crate::params::Params;
 use crate::photo::{EncodingChoice, ReadOptions};
-use crate::segment::Params;
 use crate::view::{Item, MaskRuns, Origin};
 use serde::{Deserialize, Serialize};
 use std::path::{Component, Path, PathBuf};
@@ -175,7 +175,7 @@ fn relative_to_file(photo: &Path, file: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::segment::{Parameter, Setting};
+    use crate::params::{Parameter, Setting};
     use crate::view::testing::gray;
     use std::sync::Arc;
 

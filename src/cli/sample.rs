@@ -5,8 +5,8 @@ use super::one::{self, Plan, Reference, Shot};
 use super::{Outcome, note, print, table};
 use anyhow::{Context, Result};
 use dichroscope::export::check_target;
+use dichroscope::params::Params;
 use dichroscope::photo::ReadOptions;
-use dichroscope::segment::Params;
 use dichroscope::truth::sample::{NAME, SAMPLES};
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 use anyhow::{Context, Result, anyhow, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
-use dichroscope::segment::{
+use dichroscope::params::{
     AmbientSetting, IlluminantSetting, Method, Parameter, Params, Preset, Refine, Setting,
 };
 use std::path::{Path, PathBuf};

@@ -3,9 +3,9 @@
 use super::scores::Scores;
 use crate::analysis::{Analysis, Stage};
 use crate::intrinsic::{Ambient, HighlightBranch, Reason, RegionReflection};
+use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine, Setting};
 use crate::photo::Photo;
 use crate::raster::UNASSIGNED;
-use crate::segment::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine, Setting};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;

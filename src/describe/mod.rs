@@ -71,9 +71,9 @@ struct Stamp {
 mod tests {
     use super::*;
     use crate::analysis::Session;
+    use crate::params::{Method, Params, Setting};
     use crate::photo::LinearImage;
     use crate::raster::Raster;
-    use crate::segment::{Method, Params, Setting};
     use std::sync::Arc;
 
     fn report() -> Report {

@@ -96,7 +96,7 @@ mod tests {
     use super::*;
     use crate::analysis::Session;
     use crate::intrinsic::Intrinsic;
-    use crate::segment::Params;
+    use crate::params::Params;
     use crate::trace::Class;
     use std::sync::Arc;
 

@@ -3,7 +3,7 @@
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
 use crate::app::{Command, Gesture};
-use crate::segment::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Setting};
+use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Setting};
 use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Sense, Slider, Ui, vec2};
 
 /// Width of the labels' column, points.
@@ -361,8 +361,7 @@ fn switches(ui: &mut Ui, cx: &mut Cx) {
             for (name, switch) in params.refine.switches() {
                 let mut on = *switch && refined;
                 let words = name.replace('_', " ");
-                if ui.checkbox(&mut on, words).on_hover_text(crate::segment::Refine::meaning(name)).changed()
-                {
+                if ui.checkbox(&mut on, words).on_hover_text(crate::params::Refine::meaning(name)).changed() {
                     cx.send(Command::SetSwitch(name, on));
                 }
             }

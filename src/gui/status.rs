@@ -3,7 +3,7 @@
 use super::Cx;
 use super::theme::SMALL_PT;
 use crate::app::Command;
-use crate::segment::Parameter;
+use crate::params::Parameter;
 use egui::{Align, Layout, RichText, Ui};
 use std::time::Duration;
 

@@ -6,7 +6,7 @@ use super::{Cx, widgets};
 use crate::analysis::WhatIf;
 use crate::app::{Ask, Command, DebugCommand, WhatIfJob};
 use crate::describe::what_if_sentence;
-use crate::segment::Setting;
+use crate::params::Setting;
 use crate::view::{Account, Why, why};
 use egui::{FontId, Response, RichText, ScrollArea, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
 use std::sync::Arc;

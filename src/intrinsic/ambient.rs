@@ -12,9 +12,8 @@
 //! blue objects, within its own standard deviation), and the body image is as good as without them.
 
 use crate::color::{Cylinder, Line, LineFit, Moments, Vec3, principal_axes};
-use crate::segment::{
-    AmbientSetting, AnalysisInput, FinalRegions, Members, POOR_FIT, Pixels, PlanarHypothesis,
-};
+use crate::params::AmbientSetting;
+use crate::segment::{AnalysisInput, FinalRegions, Members, POOR_FIT, Pixels, PlanarHypothesis};
 use crate::trace::{Ambient, AmbientVerdict, Meeting};
 use nalgebra::Matrix3;
 use rayon::prelude::*;

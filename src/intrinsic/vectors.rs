@@ -129,9 +129,10 @@ mod tests {
     use super::*;
     use crate::color::{axis_angle_deg, vec3};
     use crate::intrinsic::split;
+    use crate::params::{Parameter, Params, UsedParams};
     use crate::photo::{LinearImage, MaskLimits};
     use crate::raster::{LabelMap, Raster};
-    use crate::segment::{FinalRegions, LightFindings, Parameter, Params, UsedParams};
+    use crate::segment::{FinalRegions, LightFindings};
     use crate::trace::NoopRecorder;
     use proptest::prelude::*;
 
@@ -165,7 +166,7 @@ mod tests {
             window_size: paper(Parameter::WindowSize),
             min_area: paper(Parameter::MinArea),
             illuminant: None,
-            ambient: crate::segment::AmbientSetting::Auto,
+            ambient: crate::params::AmbientSetting::Auto,
         }
     }
 

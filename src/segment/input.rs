@@ -1,7 +1,6 @@
 //! What every stage of the segmentation looks at.
 
-use super::params::UsedParams;
-use super::refine::Refine;
+use crate::params::{Refine, UsedParams};
 use crate::photo::{LinearImage, Masks};
 use crate::raster::Raster;
 

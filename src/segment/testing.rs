@@ -1,9 +1,8 @@
 //! Pictures and label maps drawn as text, for the tests of single stages.
 
 use super::input::AnalysisInput;
-use super::params::{Params, UsedParams};
-use super::refine::Refine;
 use crate::color::{Vec3, rgb};
+use crate::params::{Params, Refine, UsedParams};
 use crate::photo::{LinearImage, MaskLimits, Masks};
 use crate::raster::{LabelMap, Raster};
 
@@ -44,7 +43,7 @@ impl Drawing {
             window_size: 10.0,
             min_area: 4.0,
             illuminant: None,
-            ambient: crate::segment::AmbientSetting::Auto,
+            ambient: crate::params::AmbientSetting::Auto,
         };
         Self { masks: Masks::new(&image, &limits), image, used, refine: Params::default().refine }
     }

@@ -21,6 +21,7 @@ mod terms;
 mod timeline;
 mod vectors;
 
+pub use crate::params::Stage;
 pub use ambient::{Ambient, AmbientVerdict, Meeting};
 pub use branches::{BranchesSought, HighlightCore};
 pub use event::{
@@ -43,6 +44,6 @@ pub use replay::Replay;
 pub use replay_state::{End, Grid, Hypothesis};
 pub use stage_trace::{StageTrace, Steps};
 pub use step::{Contest, Measure, Step};
-pub use terms::{Class, PixelKind, Stage};
+pub use terms::{Class, PixelKind};
 pub use timeline::{Block, PassSpan, Topic, Trace};
 pub use vectors::{FitLimits, VectorsFitted};

@@ -210,8 +210,8 @@ mod tests {
     use super::*;
     use crate::analysis::Session;
     use crate::describe::{ImageFacts, RegionFacts};
+    use crate::params::Params;
     use crate::photo::LinearImage;
-    use crate::segment::Params;
     use crate::truth::TruthObject;
     use std::sync::Arc;
 

@@ -2,8 +2,8 @@
 
 use super::ResultSnapshot;
 use super::snapshot::{best_overlaps, overlaps};
+use crate::params::Parameter;
 use crate::raster::UNASSIGNED;
-use crate::segment::Parameter;
 use crate::truth::angle_deg;
 use rayon::prelude::*;
 
@@ -288,7 +288,8 @@ fn body_change(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> BodyChange {
 mod tests {
     use super::*;
     use crate::intrinsic::Intrinsic;
-    use crate::segment::{Illuminant, Params, Setting};
+    use crate::params::{Params, Setting};
+    use crate::segment::Illuminant;
     use crate::view::testing::{divided, gray};
     use std::sync::Arc;
 

@@ -2,8 +2,8 @@
 
 use super::{Accuracy, Picture};
 use crate::analysis::{Analysis, Stage};
+use crate::params::Params;
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
-use crate::segment::Params;
 use crate::trace::{Class, Trace};
 use std::cmp::Reverse;
 use std::sync::{Arc, OnceLock};

@@ -3,9 +3,10 @@
 use super::{Histogram, Origin, Picture, ResultSnapshot};
 use crate::analysis::{Analysis, Session};
 use crate::intrinsic::{Intrinsic, RegionReflection};
+use crate::params::Params;
 use crate::photo::{self, EncodingChoice, ReadOptions};
 use crate::raster::{LabelMap, Raster};
-use crate::segment::{FinalRegions, Params};
+use crate::segment::FinalRegions;
 use std::sync::{Arc, OnceLock};
 
 /// A picture `width` pixels wide, of linear 8-bit colors.

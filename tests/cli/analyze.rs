@@ -3,9 +3,9 @@
 use crate::folder::{WorkFolder, list, tiny};
 use dichroscope::app::{Application, Command, Executor, Export, analyze_call};
 use dichroscope::describe::RegionFacts;
+use dichroscope::params::{IlluminantSetting, Method, Parameter, Setting};
 use dichroscope::photo::ReadOptions;
 use dichroscope::raster::Raster;
-use dichroscope::segment::{IlluminantSetting, Method, Parameter, Setting};
 use dichroscope::truth::ResultPictures;
 use dichroscope::view::Origin;
 use serde_json::Value;

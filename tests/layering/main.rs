@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// A room may use those of earlier lines; the rooms of one line do not know each other.
 const ORDER: &[&[&str]] = &[
-    &["raster", "color"],
+    &["params", "raster", "color"],
     &["reflection"],
     &["photo"],
     &["trace"],
@@ -47,7 +47,7 @@ const AT_HOME: &[(&[&str], &[&str], bool)] = &[
 
 /// Rooms whose results depend on their arguments alone; their tests may do as they like.
 const PURE: &[&str] =
-    &["raster", "color", "reflection", "trace", "segment", "intrinsic", "analysis", "describe"];
+    &["params", "raster", "color", "reflection", "trace", "segment", "intrinsic", "analysis", "describe"];
 
 /// What a pure room leaves alone.
 const IMPURE: &[&[&str]] = &[

@@ -4,7 +4,7 @@ use crate::common::{analyze, assert_valid, scores_of, truth_of};
 use crate::prints::photograph;
 use crate::synthetic::{Rendered, Scene};
 use dichroscope::analysis::Session;
-use dichroscope::segment::{AmbientSetting, Params};
+use dichroscope::params::{AmbientSetting, Params};
 use dichroscope::trace::{AmbientVerdict, HistoryKind, pixel_history};
 use std::sync::Arc;
 

@@ -3,9 +3,9 @@
 use crate::common::{METHODS, analyze, assert_valid, fingerprint, report};
 use crate::synthetic::Scene;
 use dichroscope::analysis::{Analysis, Session};
+use dichroscope::params::Params;
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::{Mask, UNASSIGNED};
-use dichroscope::segment::Params;
 use proptest::prelude::*;
 use std::sync::Arc;
 

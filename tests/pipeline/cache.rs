@@ -3,8 +3,8 @@
 use crate::common::{analyze, fingerprint};
 use crate::synthetic::Scene;
 use dichroscope::analysis::{Cancelled, Observer, Session, Stage, StageOutput};
+use dichroscope::params::{IlluminantSetting, Params, Refine, Setting};
 use dichroscope::photo::LinearImage;
-use dichroscope::segment::{IlluminantSetting, Params, Refine, Setting};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 

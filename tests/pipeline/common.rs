@@ -3,9 +3,9 @@
 use crate::synthetic::{Rendered, Scene};
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::describe::{ImageFacts, Report, Scores};
+use dichroscope::params::{Method, Params};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::{Raster, UNASSIGNED};
-use dichroscope::segment::{Method, Params};
 use dichroscope::trace::PixelKind;
 use dichroscope::truth::{GroundTruth, Outcome, TruthObject, score};
 use std::sync::Arc;

@@ -6,8 +6,9 @@ use crate::prints::printed;
 use crate::synthetic::{Scene, unit};
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::describe::{Names, trace_line};
+use dichroscope::params::{Params, Refine};
 use dichroscope::photo::LinearImage;
-use dichroscope::segment::{LightBasis, Params, Refine};
+use dichroscope::segment::LightBasis;
 use dichroscope::trace::{
     Event, HistoryKind, Kind, LocalDecision, LocalFate, PixelKind, RejectReason, RepairVerdict, Replay,
     Stage, Step, Trace, pixel_history,

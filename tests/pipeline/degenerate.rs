@@ -2,8 +2,8 @@
 
 use crate::common::{METHODS, analyze, assert_valid, faults, picture};
 use crate::synthetic::{Random, Scene};
+use dichroscope::params::{Method, Parameter, Params, Setting};
 use dichroscope::photo::LinearImage;
-use dichroscope::segment::{Method, Parameter, Params, Setting};
 use proptest::prelude::*;
 
 fn noise(width: usize, height: usize, seed: u64) -> LinearImage {

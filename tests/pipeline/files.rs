@@ -3,7 +3,7 @@
 use crate::common::analyze;
 use crate::synthetic::Scene;
 use dichroscope::export::write_pictures;
-use dichroscope::segment::Params;
+use dichroscope::params::Params;
 use dichroscope::truth::ResultPictures;
 use exr::prelude::read_first_rgba_layer_from_file;
 use std::path::Path;

@@ -3,10 +3,10 @@
 use crate::synthetic::Scene;
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::describe::{Names, condense, trace_line};
+use dichroscope::params::{Method, Params, Setting};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::UNASSIGNED;
 use dichroscope::reflection::{SliceBound, SliceMiss};
-use dichroscope::segment::{Method, Params, Setting};
 use dichroscope::trace::{
     Barrier, Birth, Event, HistoryEntry, HistoryKind, JoinedHow, Pass, PixelKind, Reach, Replay, Stage, Step,
     Trace, lineage, pixel_history, story,

@@ -3,9 +3,9 @@
 use crate::common::{METHODS, analyze};
 use crate::synthetic::Scene;
 use dichroscope::analysis::Analysis;
+use dichroscope::params::{Params, Refine};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::UNASSIGNED;
-use dichroscope::segment::{Params, Refine};
 use dichroscope::trace::PixelKind;
 
 /// Largest difference between input and body + surface + ε·n over the undistorted pixels of regions with a plane, of

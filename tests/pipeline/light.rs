@@ -3,7 +3,7 @@
 use crate::common::{METHODS, analyze, assert_valid, fingerprint, report};
 use crate::synthetic::{Scene, dot};
 use dichroscope::analysis::Session;
-use dichroscope::segment::{IlluminantSetting, Params};
+use dichroscope::params::{IlluminantSetting, Params};
 use dichroscope::trace::Event;
 use proptest::prelude::*;
 use std::sync::Arc;

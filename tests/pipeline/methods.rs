@@ -3,7 +3,7 @@
 use crate::common::{analyze, assert_valid, report, scores_of, truth_of};
 use crate::synthetic::Scene;
 use dichroscope::describe::Scores;
-use dichroscope::segment::{Method, Parameter, Params, Refine};
+use dichroscope::params::{Method, Parameter, Params, Refine};
 
 fn scores(scene: &Scene, method: Method) -> Scores {
     let rendered = scene.render();

@@ -2,9 +2,10 @@
 
 use crate::common::{analyze, assert_valid, scores_of, truth_of};
 use crate::synthetic::{FULL_SCALE, Random, Rendered, Scene};
+use dichroscope::params::{Params, Refine};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::Raster;
-use dichroscope::segment::{LightBasis, Params, Refine};
+use dichroscope::segment::LightBasis;
 
 /// The scene with checks of 9 px printed on its balls: every other one has its bands in another order, and less of them.
 pub fn printed(scene: &Scene) -> Rendered {

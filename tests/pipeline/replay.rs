@@ -3,8 +3,8 @@
 use crate::common::{analyze, fingerprint};
 use crate::synthetic::Scene;
 use dichroscope::analysis::{Analysis, Observer, Session};
+use dichroscope::params::{Method, Params, Setting};
 use dichroscope::raster::UNASSIGNED;
-use dichroscope::segment::{Method, Params, Setting};
 use dichroscope::trace::{Class, Event, PixelKind, Replay, Stage, Trace};
 use proptest::prelude::*;
 use std::sync::Arc;

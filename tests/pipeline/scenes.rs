@@ -3,8 +3,8 @@
 use crate::common::{analyze, assert_valid, scores_of, truth_of};
 use crate::synthetic::{Ball, Scene, unit};
 use dichroscope::describe::Scores;
+use dichroscope::params::{Params, Refine};
 use dichroscope::photo::{ReadOptions, read};
-use dichroscope::segment::{Params, Refine};
 use dichroscope::truth::GroundTruth;
 use proptest::prelude::*;
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use crate::common::{METHODS, analyze, fingerprint, report};
 use crate::synthetic::Scene;
-use dichroscope::segment::Params;
+use dichroscope::params::Params;
 
 #[test]
 fn one_thread_and_four_find_the_same() {

@@ -1,8 +1,8 @@
 //! What the recorded numbers say about where a fate changes.
 
 use super::Direction;
+use crate::params::{Parameter, Params, UsedParams};
 use crate::reflection::{SliceBound, SliceMiss};
-use crate::segment::{Parameter, Params, UsedParams};
 use crate::trace::{Barrier, HistoryEntry, HistoryKind, MaskVerdict, PassedOver, Reach, Release};
 
 /// A value at which one threshold would decide otherwise.

@@ -1,8 +1,8 @@
 //! The values of a parameter that are tried, and how finely.
 
 use super::Direction;
+use crate::params::{Parameter, ParameterSpec};
 use crate::photo::LinearImage;
-use crate::segment::{Parameter, ParameterSpec};
 
 /// How far a parameter is moved, as factors.
 const FACTORS: [f64; 6] = [1.1, 1.25, 1.5, 2.0, 3.0, 5.0];

@@ -14,8 +14,8 @@ mod ladder;
 mod tests;
 
 use super::{Analysis, Cancelled, Observer, Session};
+use crate::params::{Parameter, Params, Setting};
 use crate::raster::{LabelMap, UNASSIGNED};
-use crate::segment::{Parameter, Params, Setting};
 use crate::trace::{PixelKind, pixel_history};
 use guess::{Guess, guesses};
 use ladder::Ladder;

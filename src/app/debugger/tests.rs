@@ -1,7 +1,7 @@
 use super::cursor::stepped;
 use super::*;
 use crate::app::{Application, Command, Executor, State};
-use crate::segment::{Parameter, Setting};
+use crate::params::{Parameter, Setting};
 use crate::trace::{Event, Kind, Stage, Step, Topic};
 use crate::view::Origin;
 use crate::view::{Why, growth, rings, watch, why};

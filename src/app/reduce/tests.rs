@@ -1,6 +1,6 @@
 use super::*;
 use crate::app::{Application, Ask, Executor};
-use crate::segment::Setting;
+use crate::params::Setting;
 use crate::truth::sample;
 use crate::view::Item;
 use std::sync::mpsc::{self, Receiver};

@@ -47,8 +47,8 @@ fn every_file_is_written_and_said() {
     let mask = crate::photo::read(&at("s.png"), &crate::photo::ReadOptions::default()).unwrap();
     let white = mask.image.pixels.as_slice().iter().filter(|color| color[0] > 254.0).count();
     assert_eq!(white, 5);
-    let params: crate::segment::Params = toml::from_str(&fs::read_to_string(at("p.toml")).unwrap()).unwrap();
-    assert_eq!(params, crate::segment::Params::default());
+    let params: crate::params::Params = toml::from_str(&fs::read_to_string(at("p.toml")).unwrap()).unwrap();
+    assert_eq!(params, crate::params::Params::default());
     assert_eq!(fs::read_to_string(at("p.csv")).unwrap().lines().count(), 5);
 }
 

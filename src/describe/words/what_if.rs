@@ -37,7 +37,7 @@ fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::segment::Parameter;
+    use crate::params::Parameter;
     use crate::trace::PixelKind;
 
     #[test]

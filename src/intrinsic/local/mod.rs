@@ -156,9 +156,10 @@ mod tests {
     use super::*;
     use crate::color::vec3;
     use crate::intrinsic::split;
+    use crate::params::{Parameter, Params, UsedParams};
     use crate::photo::{LinearImage, MaskLimits, Masks};
     use crate::raster::LabelMap;
-    use crate::segment::{LightBasis, LightFindings, Parameter, Params, UsedParams};
+    use crate::segment::{LightBasis, LightFindings};
     use crate::trace::NoopRecorder;
     use proptest::prelude::*;
 
@@ -181,7 +182,7 @@ mod tests {
             window_size: paper(Parameter::WindowSize),
             min_area: paper(Parameter::MinArea),
             illuminant: None,
-            ambient: crate::segment::AmbientSetting::Auto,
+            ambient: crate::params::AmbientSetting::Auto,
         }
     }
 

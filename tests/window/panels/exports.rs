@@ -6,7 +6,7 @@ use crate::window::{
 };
 use dichroscope::app::Command;
 use dichroscope::export::{WholeResult, read_report, write_matte};
-use dichroscope::segment::Setting;
+use dichroscope::params::Setting;
 use dichroscope::truth::sample;
 use dichroscope::view::{Item, Layer, regions_text};
 use egui::accesskit::Role;

@@ -5,7 +5,7 @@ use crate::window::{
     tiny_window, window,
 };
 use dichroscope::app::{Command, Severity};
-use dichroscope::segment::Setting;
+use dichroscope::params::Setting;
 use dichroscope::truth::sample;
 use dichroscope::view::{Item, Origin};
 use egui::accesskit::Role;

@@ -6,7 +6,7 @@ use crate::window::{
 };
 use dichroscope::app::{Command, Export};
 use dichroscope::gui::Pane;
-use dichroscope::segment::{AmbientSetting, Method, Parameter, Params, Preset, Setting};
+use dichroscope::params::{AmbientSetting, Method, Parameter, Params, Preset, Setting};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, Rect};
 use egui_kittest::kittest::Queryable;

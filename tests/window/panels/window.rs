@@ -2,7 +2,7 @@
 
 use dichroscope::app::{Application, Command, Executor, State};
 use dichroscope::gui::App;
-use dichroscope::segment::{Parameter, Setting};
+use dichroscope::params::{Parameter, Setting};
 use dichroscope::truth::sample;
 use dichroscope::view::{Item, Origin, ResultSnapshot};
 use egui::accesskit::Role;

@@ -231,7 +231,7 @@ fn three_numbers(text: &str) -> Option<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::segment::Params;
+    use crate::params::Params;
 
     #[test]
     fn a_light_is_a_word_or_three_numbers_in_toml_and_as_a_flag() {
