@@ -31,6 +31,16 @@
 //!
 //! More in `examples/`: reading regions, removing highlights, running one stage alone.
 //!
+//! # Cargo features
+//!
+//! Both are on by default. A program that uses the library switches them off (`default-features = false`) and compiles neither
+//! egui and wgpu nor clap.
+//!
+//! | feature | what it adds |
+//! |---|---|
+//! | `cli` | the program `dichroscope` |
+//! | `gui` | the modules `gpu` and `gui`: the program's window, and pictures of it |
+//!
 //! # Units
 //!
 //! Colors are linear light in *counts*: 255 counts are full scale, whatever the depth of the file. Directions are unit
@@ -38,33 +48,40 @@
 //!
 //! # Map
 //!
-//! | module | what is in it |
-//! |---|---|
-//! | [`raster`] | rectangles of values: pixels, masks, label maps, morphology |
-//! | [`color`] | points in the color cube: moments, eigenvectors, the χ² test, robust lines, cylinders |
-//! | [`reflection`] | the model: dichromatic planes, the transform T and its inverse, photometry (equations 3–11) |
-//! | [`photo`] | from a file to linear light; which pixels to believe; the camera's noise |
-//! | [`trace`] | decisions as data: recorders, the log and its replay |
-//! | [`params`] | what a run may be asked for: method, numbers, light, refinements, stages |
-//! | [`segment`] | section 5, from windows to regions |
-//! | [`intrinsic`] | section 6, from regions to body, surface and noise |
-//! | [`analysis`] | one run over all stages, with progress, cancellation and cached outputs |
-//! | [`describe`] | the schema of `report.json` |
-//! | [`truth`] | ground truth and scores |
-//! | [`export`] | results as files |
-//! | [`app`] | the application without a screen |
-//! | `gpu` | the color space in three dimensions (feature `gui`): camera, points, lines and solids, picking |
-//! | `gui` | the window: one file per panel |
+//! Where to begin: [`photo::read`] reads a photograph, [`params::Params`] says how to analyze it, [`analysis::Session`] runs
+//! the analysis, [`describe::Report`] and [`export`] describe and write the result.
 //!
-//! Who may use whom, left by right; rooms between the same arrows do not know each other:
+//! | module | what is in it | for whom |
+//! |---|---|---|
+//! | [`photo`] | from a file to linear light; which pixels to believe; the camera's noise | every user |
+//! | [`params`] | what a run may be asked for: method, numbers, light, refinements, stages | every user |
+//! | [`analysis`] | one run over all stages, with progress, cancellation and cached outputs | every user |
+//! | [`describe`] | what is told of a run: `report.json`, trace lines, sentences | every user |
+//! | [`export`] | results as files | every user |
+//! | [`truth`] | ground truth and scores | who measures accuracy |
+//! | [`trace`] | decisions as data: recorders, the record of a run and its replay | who asks why |
+//! | [`segment`] | section 5, from windows to regions | who runs one stage alone |
+//! | [`intrinsic`] | section 6, from regions to body, surface and noise | who runs one stage alone |
+//! | [`reflection`] | the model: dichromatic planes, the transform T and its inverse, photometry (equations 3–11) | who computes with the model |
+//! | [`color`] | points in the color cube: moments, eigenvectors, the χ² test, robust lines, cylinders | who computes with the model |
+//! | [`raster`] | rectangles of values: pixels, masks, label maps, morphology | who reads pictures of a result |
+//! | [`view`] | what the window's panels show, as plain data | the window |
+//! | [`app`] | the window's state, commands and workers, without a screen | the window |
+//! | `gpu` | the color space in three dimensions: camera, points, lines and solids, picking | the window |
+//! | `gui` | the window: one file per panel | the window |
+//!
+//! Modules for the window are public because the program and its tests use them; they change without notice.
+//!
+//! A module uses only modules to its left; modules that stand together do not use each other:
 //!
 //! ```text
-//! params, raster, color ← reflection ← photo ← trace ← segment ← intrinsic ← analysis ← report ← truth, export ← workbench ← gui
+//! params, raster, color ← reflection ← photo ← trace ← segment ← intrinsic ← analysis ← describe ← truth, export ← view ← app ← gui
 //! ```
 //!
-//! The program's command line (`src/cli`, not part of the library) uses all of them. `tests/layering` fails when an arrow
-//! runs backwards. `params`, `raster`, `color`, `reflection`, `trace`, `segment`, `intrinsic`, `analysis` and `report` are pure in
-//! their results: no clock, no environment, no printing, and the same bytes at any number of threads.
+//! `gpu` uses no other module, and only `gui` uses it. The command line (`src/cli`) is part of the program, not of the library.
+//! `tests/layering` fails when an arrow runs backwards. `params`, `raster`, `color`, `reflection`, `trace`, `segment`,
+//! `intrinsic`, `analysis` and `describe` are pure: no file, clock, environment or printing, and the same bytes at any number
+//! of threads.
 
 pub mod analysis;
 pub mod app;

@@ -22,6 +22,7 @@ fn the_names_in_the_report_are_a_contract() {
     let report = serde_json::from_str(&text).unwrap();
     let mut names = String::new();
     outline(&report, 0, &mut names);
+    crate::documents::check("results.md", "names", &names);
     insta::assert_snapshot!(names);
 }
 

@@ -4,5 +4,6 @@
 
 mod analyze;
 mod contract;
+mod documents;
 mod folder;
 mod trace;

@@ -276,6 +276,7 @@ fn the_names_in_trace_lines_are_a_contract() {
         let names: Vec<String> = names.into_iter().collect();
         writeln!(text, "{kind}: {}", names.join(" ")).unwrap();
     }
+    crate::documents::check("explanations.md", "names", &text);
     insta::assert_snapshot!(text);
 }
 

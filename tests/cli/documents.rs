@@ -1,0 +1,53 @@
+//! Parts of the documents that follow from the program are what the program says.
+//!
+//! Such a part stands between `<!-- generated: NAME -->` and `<!-- end -->`. `UPDATE_DOCS=1 cargo test --test cli` writes all of them
+//! anew.
+
+use crate::folder::WorkFolder;
+use std::fs;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+/// Compares the generated part `name` of a file in `docs/` with `text`, or writes it there with `UPDATE_DOCS=1`.
+#[track_caller]
+pub fn check(document: &str, name: &str, text: &str) {
+    /// Tests run at once, and several parts stand in one file.
+    static FILES: Mutex<()> = Mutex::new(());
+    let _one_at_a_time = FILES.lock().unwrap_or_else(PoisonError::into_inner);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(document);
+    let old = fs::read_to_string(&path).unwrap();
+    let new = replaced(&old, name, text);
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        fs::write(&path, new).unwrap();
+    } else {
+        assert!(
+            old == new,
+            "docs/{document}, {name}: not what the program says; UPDATE_DOCS=1 writes it anew"
+        );
+    }
+}
+
+/// `document` with `text` as a block of code in its generated part `name`.
+#[track_caller]
+fn replaced(document: &str, name: &str, text: &str) -> String {
+    let begin = format!("<!-- generated: {name} -->\n");
+    let (before, rest) = document.split_once(&begin).unwrap_or_else(|| panic!("no {begin}"));
+    let (_, after) = rest.split_once("<!-- end -->").expect("a generated part has an end");
+    let lines: Vec<&str> = text.trim_end().lines().map(str::trim_end).collect();
+    format!("{before}{begin}```text\n{}\n```\n<!-- end -->{after}", lines.join("\n"))
+}
+
+#[test]
+fn the_help_of_every_command_is_in_the_documents() {
+    let work = WorkFolder::new();
+    for command in ["analyze", "evaluate", "screenshot", "trace", "why"] {
+        check("command-line.md", command, &work.succeeds(&format!("{command} -h")).out);
+    }
+}
+
+#[test]
+fn only_the_part_of_that_name_is_replaced() {
+    let document = "a\n<!-- generated: x -->\nold\n<!-- end -->\nb\n<!-- generated: y -->\n<!-- end -->\n";
+    let expected = "a\n<!-- generated: x -->\n```text\n  new\n```\n<!-- end -->\nb\n<!-- generated: y -->\n<!-- end -->\n";
+    assert_eq!(replaced(document, "x", "  new \n"), expected);
+}
