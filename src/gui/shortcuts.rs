@@ -215,7 +215,7 @@ pub fn carry_out(action: Action, cx: &mut Cx, dialogs: &mut files::Dialogs, help
         }
         Action::Debug(action) => move_cursor(action, cx),
         Action::Layer(_) | Action::Tool(_) | Action::Fit | Action::OneToOne | Action::Outline => {
-            look(action, cx)
+            look(action, cx);
         }
     }
 }

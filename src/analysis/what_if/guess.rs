@@ -56,10 +56,8 @@ impl Guesses<'_> {
         match what {
             HistoryKind::Masked(verdict) => self.hear_mask(verdict),
             HistoryKind::Seeded { reach, .. } | HistoryKind::Claimed { reach, .. } => self.hear_reach(*reach),
-            HistoryKind::Released { why: Release::Refit { distance, .. }, .. } => {
-                self.wider(f64::from(*distance))
-            }
-            HistoryKind::Refused { barrier: Barrier::Cylinder { distance, .. }, .. } => {
+            HistoryKind::Released { why: Release::Refit { distance, .. }, .. }
+            | HistoryKind::Refused { barrier: Barrier::Cylinder { distance, .. }, .. } => {
                 self.wider(f64::from(*distance));
             }
             HistoryKind::Refused { barrier: Barrier::Slice(SliceMiss { bound, value, .. }), .. } => {

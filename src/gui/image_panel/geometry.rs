@@ -81,6 +81,7 @@ impl Placement {
     }
 
     /// Zoomed by a factor; what is at `anchor` on the screen stays there.
+    #[must_use]
     pub fn zoomed(mut self, factor: f32, anchor: Pos2) -> Self {
         let fixed = self.image_from_screen(anchor);
         let [least, most] = limits(self.view, self.size);
@@ -90,6 +91,7 @@ impl Placement {
     }
 
     /// Moved on the screen.
+    #[must_use]
     pub fn panned(mut self, by: Vec2) -> Self {
         self.center -= by / self.zoom;
         self.clamped()

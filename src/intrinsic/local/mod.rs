@@ -87,7 +87,7 @@ fn split_outside<R: Recorder>(
     if input.refine.clip_repair {
         trace_writer.repairs();
         repair::repair(input, outside, images, &mut confidence, |tried, blob| {
-            trace_writer.repair(tried, blob)
+            trace_writer.repair(tried, blob);
         });
     }
     Some(confidence)

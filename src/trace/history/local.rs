@@ -77,7 +77,7 @@ impl<'a> Case<'a> {
                 self.decided.push((step, event));
             }
             Event::Local(LocalDecision::Plausibility(tested)) => {
-                self.plausibility = Some((step, event, tested))
+                self.plausibility = Some((step, event, tested));
             }
             _ => {}
         }

@@ -60,8 +60,7 @@ pub fn window() -> Window {
 }
 
 fn undrawn(state: State) -> Window {
-    builder(SIZE)
-        .build_eframe(|cc| App::with_state(&cc.egui_ctx, None, Executor::Inline, state.clone()).unwrap())
+    builder(SIZE).build_eframe(|cc| App::with_state(&cc.egui_ctx, None, Executor::Inline, state).unwrap())
 }
 
 /// A window with a graphics adapter. Where there is none the test is skipped with a word, unless
