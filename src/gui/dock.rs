@@ -1,4 +1,6 @@
-//! Which panels lie where: docked, resized and torn apart by hand, remembered with the workspace.
+//! The table of the panels, and their arrangement: docked, resized, rearranged by hand, and saved with the workspace.
+//!
+//! A new panel is a module with its `show` and a row of the table.
 
 use super::breakpoints_panel::BreakpointsPanel;
 use super::compare_panel::ComparePanel;
@@ -8,134 +10,176 @@ use super::plane_panel::PlanePanel;
 use super::profile_panel::ProfilePanel;
 use super::regions_panel::RegionsPanel;
 use super::selection_panel::SelectionPanel;
+use super::theme::Tones;
 use super::timeline_panel::TimelinePanel;
 use super::watch_panel::WatchPanel;
 use super::why_panel::WhyPanel;
 use super::{Cx, parameters};
 use egui::{Color32, Rect, Stroke, Ui, Visuals, WidgetText};
-use egui_tiles::{Behavior, SimplificationOptions, TabState, Tile, TileId, Tiles, Tree, UiResponse};
+use egui_tiles::{
+    Behavior, LinearDir, SimplificationOptions, TabState, Tile, TileId, Tiles, Tree, UiResponse,
+};
 use serde::{Deserialize, Serialize};
 
-/// A panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Pane {
-    /// The photograph and its layers.
+/// One panel.
+struct PaneRow {
+    /// The name on its tab.
+    title: &'static str,
+    /// The color behind it.
+    ground: fn(&Tones) -> Color32,
+    /// The tabs that it belongs to in the first arrangement, in the order of the table.
+    tabs: TabGroup,
+    /// Shows it in all of the given area.
+    show: fn(&mut Panels, &mut Ui, &mut Cx),
+}
+
+/// Panels that share tabs in the first arrangement.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum TabGroup {
     Image,
+    Tables,
+    Questions,
+    Colors,
+    Plots,
+    Parameters,
+    Timeline,
+}
+
+/// Makes [`Pane`], [`Pane::ALL`] and [`Panels`] from the table: for each panel its name in saved arrangements, the field
+/// of [`Panels`] that it keeps if it keeps anything, and its row.
+macro_rules! panes {
+    ($($(#[$attribute:meta])* $pane:ident { $($field:ident: $panel:ty)? } $row:expr;)+) => {
+        /// A panel.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        pub enum Pane {
+            $($(#[$attribute])* $pane,)+
+        }
+
+        impl Pane {
+            /// All panels, in the order of the View menu.
+            pub const ALL: [Self; [$(stringify!($pane)),+].len()] = [$(Self::$pane),+];
+
+            const fn row(self) -> &'static PaneRow {
+                match self {
+                    $(Self::$pane => const { &$row },)+
+                }
+            }
+        }
+
+        /// What the panels have uploaded, and the gestures that they are in the middle of.
+        #[derive(Default)]
+        pub struct Panels {
+            $($(#[doc = concat!("The panel ", stringify!($pane), ".")] pub $field: $panel,)?)+
+            /// Where the color space was in the last frame; none if it was not shown.
+            pub colors: Option<Rect>,
+        }
+    };
+}
+
+panes! {
+    /// The photograph and its layers.
+    Image { image: ImagePanel } PaneRow {
+        title: "Image",
+        ground: |tones| tones.background,
+        tabs: TabGroup::Image,
+        show: |panels, ui, cx| panels.image.show(ui, cx),
+    };
     /// The color space.
     #[serde(alias = "Colours")]
-    Colors,
+    Colors { cube: CubePanel } PaneRow {
+        title: "Color space",
+        ground: |tones| tones.background,
+        tabs: TabGroup::Colors,
+        show: |panels, ui, cx| {
+            panels.colors = Some(ui.max_rect());
+            panels.cube.show(ui, cx);
+        },
+    };
     /// The dichromatic plane of one region.
-    Plane,
+    Plane { plane: PlanePanel } PaneRow {
+        title: "Plane",
+        ground: |tones| tones.panel,
+        tabs: TabGroup::Plots,
+        show: |panels, ui, cx| panels.plane.show(ui, cx),
+    };
     /// Body, surface and ε along a line.
-    Profile,
+    Profile { profile: ProfilePanel } PaneRow {
+        title: "Profile",
+        ground: |tones| tones.panel,
+        tabs: TabGroup::Plots,
+        show: |panels, ui, cx| panels.profile.show(ui, cx),
+    };
     /// Sliders and switches.
-    Parameters,
+    Parameters {} PaneRow {
+        title: "Parameters",
+        ground: |tones| tones.panel,
+        tabs: TabGroup::Parameters,
+        show: |_, ui, cx| parameters::show(ui, cx),
+    };
     /// The regions as a table.
-    Regions,
-    /// Statistics of what is selected.
-    Selection,
+    Regions { regions: RegionsPanel } PaneRow {
+        title: "Regions",
+        ground: |tones| tones.panel,
+        tabs: TabGroup::Tables,
+        show: |panels, ui, cx| panels.regions.show(ui, cx),
+    };
+    /// Statistics of the selection.
+    Selection { selection: SelectionPanel } PaneRow {
+        title: "Selection",
+        ground: |tones| tones.panel,
+        tabs: TabGroup::Tables,
+        show: |panels, ui, cx| panels.selection.show(ui, cx),
+    };
     /// Pinned and newest result.
-    Compare,
+    Compare { compare: ComparePanel } PaneRow {
+        title: "Compare",
+        ground: |tones| tones.panel,
+        tabs: TabGroup::Tables,
+        show: |panels, ui, cx| panels.compare.show(ui, cx),
+    };
     /// The decisions in their order, and the cursor among them.
-    Timeline,
-    /// What stands at the cursor.
-    Watch,
-    /// What stops the cursor.
-    Breakpoints,
+    Timeline { timeline: TimelinePanel } PaneRow {
+        title: "Timeline",
+        ground: |tones| tones.panel,
+        tabs: TabGroup::Timeline,
+        show: |panels, ui, cx| panels.timeline.show(ui, cx),
+    };
     /// Why a pixel or a region is what it is.
-    Why,
+    Why { why: WhyPanel } PaneRow {
+        title: "Why",
+        ground: |tones| tones.panel,
+        tabs: TabGroup::Questions,
+        show: |panels, ui, cx| panels.why.show(ui, cx),
+    };
+    /// Values at the cursor.
+    Watch { watch: WatchPanel } PaneRow {
+        title: "Watch",
+        ground: |tones| tones.panel,
+        tabs: TabGroup::Questions,
+        show: |panels, ui, cx| panels.watch.show(ui, cx),
+    };
+    /// Conditions that stop the cursor.
+    Breakpoints { breakpoints: BreakpointsPanel } PaneRow {
+        title: "Breakpoints",
+        ground: |tones| tones.panel,
+        tabs: TabGroup::Questions,
+        show: |panels, ui, cx| panels.breakpoints.show(ui, cx),
+    };
 }
 
 impl Pane {
-    /// All of them.
-    pub const ALL: [Self; 12] = [
-        Self::Image,
-        Self::Colors,
-        Self::Plane,
-        Self::Profile,
-        Self::Parameters,
-        Self::Regions,
-        Self::Selection,
-        Self::Compare,
-        Self::Timeline,
-        Self::Watch,
-        Self::Breakpoints,
-        Self::Why,
-    ];
-
     /// Its name on its tab.
     pub const fn title(self) -> &'static str {
-        match self {
-            Self::Image => "Image",
-            Self::Colors => "Color space",
-            Self::Plane => "Plane",
-            Self::Profile => "Profile",
-            Self::Parameters => "Parameters",
-            Self::Regions => "Regions",
-            Self::Selection => "Selection",
-            Self::Compare => "Compare",
-            Self::Timeline => "Timeline",
-            Self::Watch => "Watch",
-            Self::Breakpoints => "Breakpoints",
-            Self::Why => "Why",
-        }
+        self.row().title
     }
-}
-
-/// What the panels have uploaded, and the gestures that they are in the middle of.
-#[derive(Default)]
-pub struct Panels {
-    /// The image view.
-    pub image: ImagePanel,
-    /// The color space view.
-    pub cube: CubePanel,
-    /// The plane view.
-    pub plane: PlanePanel,
-    /// The profile.
-    pub profile: ProfilePanel,
-    /// The regions table.
-    pub regions: RegionsPanel,
-    /// Statistics.
-    pub selection: SelectionPanel,
-    /// Comparison.
-    pub compare: ComparePanel,
-    /// The timeline.
-    pub timeline: TimelinePanel,
-    /// Values at the cursor.
-    pub watch: WatchPanel,
-    /// Why.
-    pub why: WhyPanel,
-    /// Breakpoints.
-    pub breakpoints: BreakpointsPanel,
-    /// Where the color space was in the last frame; nowhere if it was not shown.
-    pub colors: Option<Rect>,
 }
 
 impl Panels {
     /// Shows one panel in all of `ui`.
     pub fn show(&mut self, pane: Pane, ui: &mut Ui, cx: &mut Cx) {
-        let fill = match pane {
-            Pane::Image | Pane::Colors => cx.tones.background,
-            _ => cx.tones.panel,
-        };
-        ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
-        match pane {
-            Pane::Image => self.image.show(ui, cx),
-            Pane::Colors => {
-                self.colors = Some(ui.max_rect());
-                self.cube.show(ui, cx);
-            }
-            Pane::Plane => self.plane.show(ui, cx),
-            Pane::Profile => self.profile.show(ui, cx),
-            Pane::Parameters => parameters::show(ui, cx),
-            Pane::Regions => self.regions.show(ui, cx),
-            Pane::Selection => self.selection.show(ui, cx),
-            Pane::Compare => self.compare.show(ui, cx),
-            Pane::Timeline => self.timeline.show(ui, cx),
-            Pane::Watch => self.watch.show(ui, cx),
-            Pane::Breakpoints => self.breakpoints.show(ui, cx),
-            Pane::Why => self.why.show(ui, cx),
-        }
+        let row = pane.row();
+        ui.painter().rect_filled(ui.max_rect(), 0.0, (row.ground)(cx.tones));
+        (row.show)(self, ui, cx);
     }
 }
 
@@ -191,10 +235,34 @@ impl Dock {
         tree.to_string()
     }
 
-    /// A remembered arrangement; none where it cannot be read or lacks a panel.
+    /// A saved arrangement; none where it cannot be read. A panel that it lacks is added: to the tabs of a panel of the
+    /// same group, or beside everything else where there is none.
     pub fn from_text(text: &str) -> Option<Self> {
-        let dock = Self { tree: serde_json::from_str(text).ok()? };
-        Pane::ALL.iter().all(|&pane| dock.find(pane).is_some()).then_some(dock)
+        let mut dock = Self { tree: serde_json::from_str(text).ok()? };
+        for pane in Pane::ALL {
+            if dock.find(pane).is_none() {
+                dock.add(pane);
+            }
+        }
+        Some(dock)
+    }
+
+    /// Adds a panel that is not in the tree.
+    fn add(&mut self, pane: Pane) {
+        let siblings = Pane::ALL.into_iter().filter(|other| other.row().tabs == pane.row().tabs);
+        let tabs = siblings
+            .filter_map(|sibling| self.find(sibling))
+            .find_map(|sibling| self.tree.tiles.parent_of(sibling));
+        let added = self.tree.tiles.insert_pane(pane);
+        if let Some(Tile::Container(container)) = tabs.and_then(|tabs| self.tree.tiles.get_mut(tabs)) {
+            container.add_child(added);
+            return;
+        }
+        let added = self.tree.tiles.insert_tab_tile(vec![added]);
+        self.tree.root = Some(match self.tree.root {
+            Some(root) => split(&mut self.tree.tiles, LinearDir::Horizontal, &[(root, 0.8), (added, 0.2)]),
+            None => added,
+        });
     }
 
     fn find(&self, pane: Pane) -> Option<TileId> {
@@ -202,30 +270,32 @@ impl Dock {
     }
 }
 
-/// Image over tables; color space over plane and profile; parameters over questions; below them all the timeline.
+/// The first arrangement: image over tables; color space over plane and profile; parameters over questions; the timeline
+/// below.
 fn arranged() -> Tree<Pane> {
     let mut tiles = Tiles::default();
-    let mut tabs = |panes: &[Pane]| {
-        let children = panes.iter().map(|&pane| tiles.insert_pane(pane)).collect();
+    let mut tabs = |group: TabGroup| {
+        let panes = Pane::ALL.into_iter().filter(|pane| pane.row().tabs == group);
+        let children = panes.map(|pane| tiles.insert_pane(pane)).collect();
         tiles.insert_tab_tile(children)
     };
-    let image = tabs(&[Pane::Image]);
-    let tables = tabs(&[Pane::Regions, Pane::Selection, Pane::Compare]);
-    let questions = tabs(&[Pane::Why, Pane::Watch, Pane::Breakpoints]);
-    let colors = tabs(&[Pane::Colors]);
-    let plots = tabs(&[Pane::Plane, Pane::Profile]);
-    let parameters = tabs(&[Pane::Parameters]);
-    let timeline = tabs(&[Pane::Timeline]);
-    let left = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(image, 0.68), (tables, 0.32)]);
-    let middle = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(colors, 0.60), (plots, 0.40)]);
-    let right = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(parameters, 0.52), (questions, 0.48)]);
-    let views =
-        split(&mut tiles, egui_tiles::LinearDir::Horizontal, &[(left, 0.39), (middle, 0.38), (right, 0.23)]);
-    let root = split(&mut tiles, egui_tiles::LinearDir::Vertical, &[(views, 0.86), (timeline, 0.14)]);
+    let image = tabs(TabGroup::Image);
+    let tables = tabs(TabGroup::Tables);
+    let questions = tabs(TabGroup::Questions);
+    let colors = tabs(TabGroup::Colors);
+    let plots = tabs(TabGroup::Plots);
+    let parameters = tabs(TabGroup::Parameters);
+    let timeline = tabs(TabGroup::Timeline);
+    let left = split(&mut tiles, LinearDir::Vertical, &[(image, 0.68), (tables, 0.32)]);
+    let middle = split(&mut tiles, LinearDir::Vertical, &[(colors, 0.60), (plots, 0.40)]);
+    let right = split(&mut tiles, LinearDir::Vertical, &[(parameters, 0.52), (questions, 0.48)]);
+    let views = split(&mut tiles, LinearDir::Horizontal, &[(left, 0.39), (middle, 0.38), (right, 0.23)]);
+    let root = split(&mut tiles, LinearDir::Vertical, &[(views, 0.86), (timeline, 0.14)]);
     Tree::new(egui::Id::unique("dock"), root, tiles)
 }
 
-fn split(tiles: &mut Tiles<Pane>, dir: egui_tiles::LinearDir, parts: &[(TileId, f32)]) -> TileId {
+/// A container of `parts`, each with its share of the length.
+fn split(tiles: &mut Tiles<Pane>, dir: LinearDir, parts: &[(TileId, f32)]) -> TileId {
     let mut linear = egui_tiles::Linear::new(dir, parts.iter().map(|part| part.0).collect());
     for &(tile, share) in parts {
         linear.shares.set_share(tile, share);
@@ -282,5 +352,61 @@ impl Behavior<Pane> for DockBehavior<'_, '_> {
 
     fn simplification_options(&self) -> SimplificationOptions {
         SimplificationOptions { all_panes_must_have_tabs: true, ..SimplificationOptions::default() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A saved arrangement without `pane`, with one panel hidden.
+    fn saved_without(pane: Pane) -> String {
+        let mut dock = Dock::default();
+        dock.set(Pane::Profile, false);
+        dock.tree.remove_recursively(dock.find(pane).unwrap());
+        let text = dock.to_text();
+        assert!(!text.contains(&format!("\"{pane:?}\"")), "{text}");
+        text
+    }
+
+    fn tabs_of(dock: &Dock, pane: Pane) -> Vec<TileId> {
+        let tabs = dock.tree.tiles.parent_of(dock.find(pane).unwrap()).unwrap();
+        dock.tree.tiles.get_container(tabs).unwrap().children_vec()
+    }
+
+    #[test]
+    fn a_saved_arrangement_gains_the_panel_that_it_lacks_and_keeps_the_others() {
+        let whole = Dock::default();
+        for pane in Pane::ALL {
+            if pane == Pane::Profile {
+                continue;
+            }
+            let dock = Dock::from_text(&saved_without(pane)).expect("it can be read");
+            assert!(dock.has(pane), "{pane:?} is back");
+            assert!(!dock.has(Pane::Profile), "a hidden panel stays hidden");
+            for other in Pane::ALL.into_iter().filter(|&other| other != pane) {
+                assert_eq!(dock.find(other), whole.find(other), "{other:?} is the same tile");
+                let together = |dock: &Dock| tabs_of(dock, other).contains(&dock.find(pane).unwrap());
+                assert_eq!(
+                    together(&dock),
+                    together(&whole),
+                    "{pane:?} shares its tabs with {other:?} or not"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn an_arrangement_without_any_panel_gains_all_and_no_arrangement_is_none() {
+        let empty = Dock { tree: Tree::empty(egui::Id::unique("dock")) };
+        let dock = Dock::from_text(&empty.to_text()).unwrap();
+        assert!(Pane::ALL.into_iter().all(|pane| dock.has(pane)));
+        assert!(Dock::from_text("{").is_none());
+    }
+
+    #[test]
+    fn an_arrangement_stays_the_same_when_it_is_saved_and_read() {
+        let text = Dock::default().to_text();
+        assert_eq!(Dock::from_text(&text).unwrap().to_text(), text);
     }
 }

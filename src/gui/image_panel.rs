@@ -328,7 +328,7 @@ fn pointer_is_right_of(ui: &Ui, x: f32) -> bool {
 fn tint(cx: &Cx, layer: Layer) -> Color32 {
     let state = cx.state;
     let late = state.jobs.analysis.is_some_and(|job| job.since.elapsed() >= PATIENCE);
-    let stale = late && layer != Layer::Input && !state.is_current() && !state.view.show_pinned;
+    let stale = late && layer.needs_result() && !state.is_current() && !state.view.show_pinned;
     if stale { Color32::from_gray(140) } else { Color32::WHITE }
 }
 

@@ -1,5 +1,6 @@
 //! How the panels show what there is. Part of a workspace, not of the undo history.
 
+use super::Layer;
 use serde::{Deserialize, Serialize};
 
 /// Dark or light.
@@ -10,90 +11,6 @@ pub enum Theme {
     Dark,
     /// Dark on light.
     Light,
-}
-
-/// A picture of the photograph or of what was found in it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Layer {
-    /// The photograph.
-    #[default]
-    Input,
-    /// Windows by class (5.2.1).
-    Classes,
-    /// Merged areas (5.2.2).
-    Areas,
-    /// Regions after the linear stage (5.3).
-    Linear,
-    /// Regions after the planar stage (5.4).
-    Planar,
-    /// The final regions (5.5).
-    Regions,
-    /// Body reflection (6).
-    Body,
-    /// Surface reflection (6).
-    Surface,
-    /// Distance ε from the dichromatic plane, gray = 0 (6).
-    Noise,
-    /// Dark, clipped, bloomed and invalid pixels (4).
-    Masks,
-    /// The newest result's body reflection minus the pinned one's, gray = 0.
-    Difference,
-    /// How far the split of each pixel is to be believed, black = not at all.
-    Confidence,
-    /// Why pixels are not explained (5.6, 7.5).
-    Reasons,
-}
-
-impl Layer {
-    /// All of them, in the order of the pipeline.
-    pub const ALL: [Self; 13] = [
-        Self::Input,
-        Self::Masks,
-        Self::Classes,
-        Self::Areas,
-        Self::Linear,
-        Self::Planar,
-        Self::Regions,
-        Self::Body,
-        Self::Surface,
-        Self::Noise,
-        Self::Confidence,
-        Self::Reasons,
-        Self::Difference,
-    ];
-
-    /// Its name on buttons and in file names.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Input => "Input",
-            Self::Classes => "Classification",
-            Self::Areas => "Merged areas",
-            Self::Linear => "Linear",
-            Self::Planar => "Planar",
-            Self::Regions => "Regions",
-            Self::Body => "Body",
-            Self::Surface => "Surface",
-            Self::Noise => "Noise",
-            Self::Masks => "Masks",
-            Self::Difference => "Difference",
-            Self::Confidence => "Confidence",
-            Self::Reasons => "Reasons",
-        }
-    }
-
-    /// Whether it is drawn over the photograph, as fills or outlines, rather than in its place.
-    pub const fn is_overlay(self) -> bool {
-        matches!(
-            self,
-            Self::Classes
-                | Self::Areas
-                | Self::Linear
-                | Self::Planar
-                | Self::Regions
-                | Self::Masks
-                | Self::Reasons
-        )
-    }
 }
 
 /// How areas are drawn over the photograph.

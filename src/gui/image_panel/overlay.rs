@@ -47,13 +47,8 @@ pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer,
     for y in rows {
         for x in columns.clone() {
             let pixel = y * place.size.x as usize + x;
-            let lines: Vec<f32> = match (layer, intrinsic) {
-                (Layer::Body, Some(found)) => found.body[pixel].to_vec(),
-                (Layer::Surface, Some(found)) => found.surface[pixel].to_vec(),
-                (Layer::Noise, Some(found)) => vec![found.noise[pixel]],
-                (Layer::Confidence, Some(found)) => vec![found.confidence[pixel]],
-                _ => picture.photo.image.pixels[pixel].to_vec(),
-            };
+            let numbers = intrinsic.and_then(|found| layer.numbers(found, pixel));
+            let lines = numbers.unwrap_or_else(|| picture.photo.image.pixels[pixel].to_vec());
             let tone = readable_on(texture.color(pixel));
             let middle = place.screen_from_image(pos2(x as f32 + 0.5, y as f32 + 0.5));
             for (line, value) in lines.iter().enumerate() {

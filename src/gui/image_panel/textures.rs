@@ -52,13 +52,12 @@ impl PaintRequest {
     /// A layer. What does not change its picture is left out, so that it is not painted anew.
     pub fn layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
         let picture = Arc::clone(state.picture.as_ref()?);
-        let by_region = matches!(layer, Layer::Linear | Layer::Planar | Layer::Regions);
-        let mut look = Look::of(settings, state.selected_region().filter(|_| by_region));
+        let mut look = Look::of(settings, state.selected_region().filter(|_| layer.dims_regions()));
         if !layer.is_overlay() {
             (look.fill, look.opacity) = (Fill::Fill, 1.0);
         }
-        let shown = state.shown().filter(|_| layer != Layer::Input).cloned();
-        let pinned = state.pinned.as_ref().filter(|_| layer == Layer::Difference).cloned();
+        let shown = state.shown().filter(|_| layer.needs_result()).cloned();
+        let pinned = state.pinned.as_ref().filter(|_| layer.needs_pinned()).cloned();
         Some(Self { picture, shown, pinned, subject: Subject::Layer(layer, look) })
     }
 

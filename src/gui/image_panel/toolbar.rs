@@ -23,31 +23,6 @@ const TOOLS: [(Tool, &str, &str); 7] = [
     (Tool::WhitePatch, "White patch", "Pins the light's color to the mean of a white patch (section 6)."),
 ];
 
-/// The paper's word for a layer.
-const fn tip(layer: Layer) -> &'static str {
-    match layer {
-        Layer::Input => "The photograph.",
-        Layer::Masks => "Pixels not to believe: dark, clipped, bloomed (section 4).",
-        Layer::Classes => {
-            "Windows by the shape of their color cluster: point, line, plane, volume (section 5.2.1)."
-        }
-        Layer::Areas => "Neighboring windows of one class merged (section 5.2.2).",
-        Layer::Linear => "Regions grown from linear hypotheses: matte pixels in a cylinder (section 5.3).",
-        Layer::Planar => {
-            "Regions grown from planar hypotheses: matte and highlight in a slice (section 5.4)."
-        }
-        Layer::Regions => "The final regions, clipped pixels included (section 5.5).",
-        Layer::Body => "Body reflection: the photograph without highlights (section 6).",
-        Layer::Surface => "Surface reflection: the highlights alone (section 6).",
-        Layer::Noise => "Distance \u{3b5} from the dichromatic plane; gray is 0 (section 6).",
-        Layer::Confidence => {
-            "How far the split of each pixel is to be believed: black not at all, white fully."
-        }
-        Layer::Reasons => "Why pixels are not explained by one region's skewed T (sections 5.6 and 7.5).",
-        Layer::Difference => "Body reflection minus that of the pinned result; gray is 0.",
-    }
-}
-
 /// Shows the row. `zoom` is the one in force, screen points a pixel.
 pub fn row(
     ui: &mut Ui,
@@ -82,10 +57,10 @@ fn layer(ui: &mut Ui, state: &State, name: &str, layer: &mut Layer, followed: bo
     let mut chosen = false;
     let shown = combo.show_ui(ui, |ui| {
         for choice in Layer::ALL {
-            let possible = choice != Layer::Difference || state.pinned.is_some();
+            let possible = !choice.needs_pinned() || state.pinned.is_some();
             let keys = keys_of(ui.ctx(), Action::Layer(choice));
             let button = Button::selectable(!followed && *layer == choice, choice.name()).shortcut_text(keys);
-            let button = ui.add_enabled(possible, button).on_hover_text(tip(choice));
+            let button = ui.add_enabled(possible, button).on_hover_text(choice.tip());
             if button.on_disabled_hover_text("Pin a result first (K).").clicked() {
                 *layer = choice;
                 chosen = followed;
@@ -94,7 +69,7 @@ fn layer(ui: &mut Ui, state: &State, name: &str, layer: &mut Layer, followed: bo
     });
     shown.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
     let of_cursor = "What is decided at the debugger's cursor; a layer shows the result instead.";
-    shown.response.on_hover_text(if followed { of_cursor } else { tip(*layer) });
+    shown.response.on_hover_text(if followed { of_cursor } else { layer.tip() });
     chosen
 }
 

@@ -1,6 +1,7 @@
 //! The instant at the debugger's cursor, as a picture to lay over the photograph.
 
-use super::{ACCENT, CLASSES, LegendEntry, Look};
+use super::legends::{CLASSES, LegendEntry};
+use super::{ACCENT, Look};
 use crate::raster::Raster;
 use crate::trace::{Class, PixelKind};
 use crate::view::Fill;

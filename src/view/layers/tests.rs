@@ -1,6 +1,8 @@
 use super::*;
+use crate::export::colored;
 use crate::intrinsic::{Intrinsic, Reason};
 use crate::segment::{MatteRegions, Windows};
+use crate::trace::Class;
 use crate::view::testing::{divided, gray, labels, picture, shown};
 use crate::view::{Item, Selection};
 use std::sync::Arc;

@@ -1,0 +1,96 @@
+//! Colors of the layers, with their names and meanings.
+
+/// One color of a layer and its meaning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LegendEntry {
+    /// Its name, a word or two.
+    pub name: &'static str,
+    /// The color, sRGB.
+    pub color: [u8; 3],
+    /// What it means, with the paper's section.
+    pub tooltip: &'static str,
+}
+
+impl LegendEntry {
+    pub(super) const fn new(name: &'static str, color: [u8; 3], tooltip: &'static str) -> Self {
+        Self { name, color, tooltip }
+    }
+}
+
+/// Names, colors and meanings of the classes (section 5.2.1), in the paper's colors.
+pub(super) const CLASSES: [LegendEntry; 4] = [
+    LegendEntry::new("point", [255, 255, 0], "5.2.1: no variation beyond the noise, a flat matte patch"),
+    LegendEntry::new("line", [255, 0, 0], "5.2.1: one direction of variation, matte or highlight pixels"),
+    LegendEntry::new(
+        "plane",
+        [0, 255, 0],
+        "5.2.1: two directions, matte and highlight pixels or two objects",
+    ),
+    LegendEntry::new("volume", [0, 0, 255], "5.2.1: three directions, clipping or several objects"),
+];
+
+/// Names, colors and meanings of the masks (section 4). A pixel has the color of the last one that holds for it.
+pub(super) const MASKS: [LegendEntry; 5] = [
+    LegendEntry::new("dark", [74, 111, 212], "4: too near to black, its color is mostly noise"),
+    LegendEntry::new("bloomed", [240, 128, 32], "4: charge spilled over from clipped neighbors"),
+    LegendEntry::new("clipped", [250, 226, 70], "4: a band at or above the clipping threshold"),
+    LegendEntry::new("invalid", [210, 59, 214], "the file holds a negative or no number here"),
+    LegendEntry::new("outside", [128, 128, 128], "outside the area that the analysis is restricted to"),
+];
+
+/// The grays of ε (section 6), whose scale is the half width of the slice.
+pub(super) const NOISE: [LegendEntry; 3] = [
+    LegendEntry::new("behind", [1, 1, 1], "6: on the face of the slice opposite to the plane's normal"),
+    LegendEntry::new("in the plane", [128, 128, 128], "6: on the dichromatic plane, \u{3b5} = 0"),
+    LegendEntry::new(
+        "before",
+        [255, 255, 255],
+        "6: on the face of the slice that the plane's normal points to",
+    ),
+];
+
+/// The grays of the difference of two body reflections, whose scale is [`super::DIFFERENCE_COUNTS`].
+pub(super) const DIFFERENCE: [LegendEntry; 3] = [
+    LegendEntry::new("darker", [1, 1, 1], "body reflection 64 counts below the pinned result's"),
+    LegendEntry::new("same", [128, 128, 128], "body reflection as in the pinned result"),
+    LegendEntry::new("brighter", [255, 255, 255], "body reflection 64 counts above the pinned result's"),
+];
+
+/// The grays of the confidence, 0…1.
+pub(super) const CONFIDENCE: [LegendEntry; 2] = [
+    LegendEntry::new("not at all", [1, 1, 1], "the split of this pixel is not to be believed"),
+    LegendEntry::new(
+        "fully",
+        [255, 255, 255],
+        "the split of this pixel is to be believed as far as the model goes",
+    ),
+];
+
+/// What keeps pixels from being explained, in the order of [`crate::intrinsic::Reason::ALL`] from its second entry on.
+pub(super) const REASONS: [LegendEntry; 8] = [
+    LegendEntry::new("shadow", [74, 111, 212], "5.6: too dark to be analyzed, shadow or background"),
+    LegendEntry::new("no matte line", [160, 120, 220], "5.3: lit, but on no matte line that was found"),
+    LegendEntry::new("mixed boundary", [120, 190, 200], "5.6: between two objects, a mixture of both"),
+    LegendEntry::new(
+        "off the plane",
+        [90, 180, 110],
+        "7.5: off the plane, light of a neighbor or a second material",
+    ),
+    LegendEntry::new(
+        "texture",
+        [232, 120, 90],
+        "7.5: body and surface reflection vary against each other, a print",
+    ),
+    LegendEntry::new(
+        "other object",
+        [220, 140, 190],
+        "5.5: the clipped highlight of another object than its region's",
+    ),
+    LegendEntry::new("collinear", [150, 150, 150], "3.2: the body has the light's color: gray, white, metal"),
+    LegendEntry::new("clipped in all bands", [250, 226, 70], "5.5: nothing of its color is left to go by"),
+];
+
+/// The colors of the classes in the order point, line, plane, volume.
+pub fn class_entries() -> [LegendEntry; 4] {
+    CLASSES
+}

@@ -1,0 +1,245 @@
+//! How each layer is painted, a pixel a pixel.
+
+use super::legends::{CLASSES, LegendEntry, MASKS, REASONS};
+use super::{Curve, DIFFERENCE_COUNTS, Look};
+use crate::export::colored;
+use crate::raster::{LabelMap, Raster};
+use crate::trace::Class;
+use crate::view::snapshot::best_overlaps;
+use crate::view::{Fill, ResultSnapshot};
+use rayon::prelude::*;
+
+/// Color of regions of an earlier stage that no final region covers, sRGB.
+const GONE: [u8; 3] = [150, 150, 150];
+
+/// What a layer is painted from.
+pub(super) struct PaintInput<'a> {
+    /// The photograph, also the ground of overlays.
+    pub base: Base<'a>,
+    /// The result, of the photograph's size.
+    pub shown: &'a ResultSnapshot,
+    /// The pinned result, of the photograph's size; none where nothing is pinned.
+    pub pinned: Option<&'a ResultSnapshot>,
+    /// How the layer is drawn.
+    pub look: &'a Look,
+}
+
+/// The photograph, and the curve from counts to sRGB codes.
+pub(super) struct Base<'a> {
+    /// Linear counts.
+    pub photo: &'a Raster<[f32; 3]>,
+    /// From counts to codes.
+    pub curve: Curve,
+}
+
+impl Base<'_> {
+    /// Linear counts as opaque sRGB codes.
+    pub fn light(&self, counts: &Raster<[f32; 3]>) -> Raster<[u8; 4]> {
+        each_row(counts, |colors, row| self.light_row(colors, row))
+    }
+
+    fn light_row(&self, colors: &[[f32; 3]], row: &mut [[u8; 4]]) {
+        for (pixel, &[r, g, b]) in row.iter_mut().zip(colors) {
+            *pixel = [self.curve.code(r), self.curve.code(g), self.curve.code(b), 255];
+        }
+    }
+
+    /// The photograph with `styles[label(x, y)]` over it: a color and its weight. Labels beyond `styles` are not drawn.
+    /// With [`Fill::Outline`], only pixels with a 4-neighbor of another label are drawn over.
+    fn overlaid(
+        &self,
+        fill: Fill,
+        styles: &[[u8; 4]],
+        label: impl Fn(usize, usize) -> usize + Sync,
+    ) -> Raster<[u8; 4]> {
+        let (width, height) = (self.photo.width(), self.photo.height());
+        let mut painted = Raster::filled(width, height, [0u8; 4]);
+        painted.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
+            self.light_row(self.photo.row(y), row);
+            for (x, pixel) in row.iter_mut().enumerate() {
+                let here = label(x, y);
+                let Some(&style) = styles.get(here).filter(|style| style[3] > 0) else { continue };
+                let on_border = || {
+                    (x > 0 && label(x - 1, y) != here)
+                        || (x + 1 < width && label(x + 1, y) != here)
+                        || (y > 0 && label(x, y - 1) != here)
+                        || (y + 1 < height && label(x, y + 1) != here)
+                };
+                if fill == Fill::Fill || on_border() {
+                    *pixel = blended(*pixel, style);
+                }
+            }
+        });
+        painted
+    }
+}
+
+/// An opaque pixel with a color over it; the color's fourth number is its weight.
+fn blended(below: [u8; 4], over: [u8; 4]) -> [u8; 4] {
+    let weight = u32::from(over[3]);
+    let mix = |band: usize| {
+        let sum = u32::from(below[band]) * (255 - weight) + u32::from(over[band]) * weight;
+        ((sum + 127) / 255) as u8
+    };
+    [mix(0), mix(1), mix(2), 255]
+}
+
+/// Fills a picture from the rows of another, in parallel.
+fn each_row<T: Sync>(from: &Raster<T>, paint: impl Fn(&[T], &mut [[u8; 4]]) + Sync) -> Raster<[u8; 4]> {
+    let mut painted = Raster::filled(from.width(), from.height(), [0u8; 4]);
+    let rows = painted.as_mut_slice().par_chunks_mut(from.width().max(1));
+    rows.enumerate().for_each(|(y, row)| paint(from.row(y), row));
+    painted
+}
+
+/// 128 for 0, 1 and 255 for ∓1.
+fn swing(value: f32) -> u8 {
+    (128.0 + 127.0 * value).round() as u8
+}
+
+/// The photograph.
+pub(super) fn photograph(input: &PaintInput) -> Raster<[u8; 4]> {
+    input.base.light(input.base.photo)
+}
+
+/// Body reflection.
+pub(super) fn body(input: &PaintInput) -> Raster<[u8; 4]> {
+    input.base.light(&input.shown.analysis.intrinsic.body)
+}
+
+/// Surface reflection.
+pub(super) fn surface(input: &PaintInput) -> Raster<[u8; 4]> {
+    input.base.light(&input.shown.analysis.intrinsic.surface)
+}
+
+/// ε: gray for 0, black and white at the faces of the slice.
+pub(super) fn noise(input: &PaintInput) -> Raster<[u8; 4]> {
+    let analysis = &input.shown.analysis;
+    let gain = input.look.exposure_ev.exp2() / analysis.used.slice_half_width_counts() as f32;
+    each_row(&analysis.intrinsic.noise, |epsilon, row| {
+        for (pixel, &epsilon) in row.iter_mut().zip(epsilon) {
+            let gray = swing(epsilon * gain);
+            *pixel = [gray, gray, gray, 255];
+        }
+    })
+}
+
+/// Confidence: black for 0, white for 1.
+pub(super) fn confidence(input: &PaintInput) -> Raster<[u8; 4]> {
+    each_row(&input.shown.analysis.intrinsic.confidence, |share, row| {
+        for (pixel, &share) in row.iter_mut().zip(share) {
+            let gray = (share.clamp(0.0, 1.0) * 255.0).round() as u8;
+            *pixel = [gray, gray, gray, 255];
+        }
+    })
+}
+
+/// A color for each reason; explained pixels stay the photograph's.
+pub(super) fn reasons(input: &PaintInput) -> Raster<[u8; 4]> {
+    let (base, look, reasons) = (&input.base, input.look, &input.shown.analysis.intrinsic.reasons);
+    let width = base.photo.width();
+    base.overlaid(look.fill, &legend_styles(&REASONS, look), |x, y| reasons[y * width + x] as usize)
+}
+
+/// Body reflection minus that of the pinned result; gray for 0.
+pub(super) fn difference(input: &PaintInput) -> Raster<[u8; 4]> {
+    let now = &input.shown.analysis.intrinsic.body;
+    let before = &input.pinned.unwrap_or(input.shown).analysis.intrinsic.body;
+    let gain = input.look.exposure_ev.exp2() / DIFFERENCE_COUNTS;
+    let mut painted = Raster::filled(now.width(), now.height(), [0u8; 4]);
+    let both = now.as_slice().par_iter().zip(before.as_slice());
+    painted.as_mut_slice().par_iter_mut().zip(both).with_min_len(1 << 12).for_each(|(pixel, (a, b))| {
+        let gray = |band: usize| swing((a[band] - b[band]) * gain);
+        *pixel = [gray(0), gray(1), gray(2), 255];
+    });
+    painted
+}
+
+/// Windows in the color of their class.
+pub(super) fn classes(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> Raster<[u8; 4]> {
+    let number = |class: &Option<Class>| match class {
+        None => 0,
+        Some(Class::Point) => 1,
+        Some(Class::Line) => 2,
+        Some(Class::Plane) => 3,
+        Some(Class::Volume) => 4,
+    };
+    let side_px = shown.window_px();
+    let windows = shown.classes().map(number);
+    let styles = legend_styles(&CLASSES, look);
+    // A division for each pixel would take longer than all else.
+    let window = |length: usize| -> Vec<usize> { (0..length).map(|place| place / side_px).collect() };
+    let (columns, rows) = (window(base.photo.width()), window(base.photo.height()));
+    base.overlaid(look.fill, &styles, |x, y| *windows.get(columns[x], rows[y]).unwrap_or(&0))
+}
+
+/// Merged areas, each in a color that its neighbors do not have. They consist of whole windows.
+pub(super) fn areas(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> Raster<[u8; 4]> {
+    let side_px = shown.window_px();
+    let areas = shown.areas();
+    let (columns, rows) = (areas.width().div_ceil(side_px), areas.height().div_ceil(side_px));
+    let corner = |window: usize| areas.row(window / columns * side_px)[window % columns * side_px];
+    let windows = Raster::from_vec(columns, rows, (0..columns * rows).map(corner).collect());
+    let windows = windows.unwrap_or_default();
+    let colors = colored(&windows);
+    let most = windows.as_slice().iter().max().map_or(0, |&area| area as usize);
+    let mut styles = vec![[0; 4]; most + 1];
+    for (&area, &color) in windows.as_slice().iter().zip(colors.as_slice()).filter(|(area, _)| **area > 0) {
+        styles[area as usize] = look.style(color, true);
+    }
+    base.overlaid(look.fill, &styles, |x, y| areas[y * areas.width() + x] as usize)
+}
+
+/// The final regions in their colors.
+pub(super) fn regions(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> Raster<[u8; 4]> {
+    let selected = |id: usize| look.selected.is_none_or(|selected| usize::from(selected) == id);
+    let colors = shown.region_colors.iter().zip(1..).map(|(&color, id)| look.style(color, selected(id)));
+    let styles: Vec<[u8; 4]> = std::iter::once([0; 4]).chain(colors).collect();
+    let labels = shown.labels();
+    base.overlaid(look.fill, &styles, |x, y| usize::from(labels[y * labels.width() + x]))
+}
+
+/// Regions after the linear stage.
+pub(super) fn linear(input: &PaintInput) -> Raster<[u8; 4]> {
+    stage(input, input.shown.linear_labels())
+}
+
+/// Regions after the planar stage.
+pub(super) fn planar(input: &PaintInput) -> Raster<[u8; 4]> {
+    stage(input, input.shown.planar_labels())
+}
+
+/// Regions of an earlier stage, each in the color of the final region that covers most of it.
+fn stage(&PaintInput { ref base, shown, look, .. }: &PaintInput, labels: &LabelMap) -> Raster<[u8; 4]> {
+    let style = |best_overlap: u16| {
+        let color =
+            shown.region_colors.get(usize::from(best_overlap).wrapping_sub(1)).copied().unwrap_or(GONE);
+        look.style(color, look.selected.is_none_or(|selected| selected == best_overlap))
+    };
+    let best_overlaps = best_overlaps(labels, shown.labels());
+    let styles: Vec<[u8; 4]> = std::iter::once([0; 4])
+        .chain(best_overlaps.iter().skip(1).map(|&best_overlap| style(best_overlap)))
+        .collect();
+    base.overlaid(look.fill, &styles, |x, y| usize::from(labels[y * labels.width() + x]))
+}
+
+/// Masks of the photograph, and the pixels outside the analyzed area.
+pub(super) fn masks(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> Raster<[u8; 4]> {
+    let (masks, area) = (&shown.analysis.masks, shown.area.as_deref());
+    let width = base.photo.width();
+    base.overlaid(look.fill, &legend_styles(&MASKS, look), |x, y| {
+        let pixel = y * width + x;
+        match () {
+            () if area.is_some_and(|area| !area[pixel]) => 5,
+            () if masks.invalid(pixel) => 4,
+            () if masks.clipped(pixel) => 3,
+            () if masks.distorted(pixel) => 2,
+            () => usize::from(masks.dark(pixel)),
+        }
+    })
+}
+
+fn legend_styles(entries: &[LegendEntry], look: &Look) -> Vec<[u8; 4]> {
+    let styles = entries.iter().map(|entry| look.style(entry.color, true));
+    std::iter::once([0; 4]).chain(styles).collect()
+}

@@ -1,0 +1,187 @@
+//! The table of the image layers, from which [`Layer`] and everything known of a layer follow.
+
+use super::legends::{self, LegendEntry};
+use super::painters::{self, PaintInput};
+use crate::intrinsic::Intrinsic;
+use crate::raster::Raster;
+use serde::{Deserialize, Serialize};
+
+/// What a layer's picture depends on, and how the layer relates to the photograph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LayerKind {
+    /// The photograph itself; it needs no result.
+    Photograph,
+    /// Drawn in the photograph's place from a result.
+    Result,
+    /// Drawn in the photograph's place from a result and the pinned one.
+    Comparison,
+    /// Drawn over the photograph.
+    Overlay,
+    /// Drawn over the photograph; regions that are not selected are dimmed.
+    RegionOverlay,
+}
+
+/// One layer.
+pub(super) struct LayerRow {
+    /// The name on buttons.
+    pub name: &'static str,
+    /// What the layer shows, with the paper's section.
+    pub tip: &'static str,
+    /// What the picture depends on.
+    pub kind: LayerKind,
+    /// The colors that need explaining.
+    pub legend: &'static [LegendEntry],
+    /// The numbers at a pixel, where the layer has numbers of its own.
+    pub numbers: Option<fn(&Intrinsic, usize) -> Vec<f32>>,
+    /// Paints the layer, opaque sRGB.
+    pub paint: fn(&PaintInput) -> Raster<[u8; 4]>,
+}
+
+/// The columns of a row that many layers leave out.
+const PLAIN: LayerRow = LayerRow {
+    name: "",
+    tip: "",
+    kind: LayerKind::Photograph,
+    legend: &[],
+    numbers: None,
+    paint: painters::photograph,
+};
+
+/// Makes [`Layer`], [`Layer::ALL`] and the rows from the table.
+macro_rules! layers {
+    ($($(#[$attribute:meta])* $layer:ident: $row:expr;)+) => {
+        /// A picture of the photograph or of what was found in it.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        pub enum Layer {
+            $($(#[$attribute])* $layer,)+
+        }
+
+        impl Layer {
+            /// All layers in the order of the pipeline.
+            pub const ALL: [Self; [$(stringify!($layer)),+].len()] = [$(Self::$layer),+];
+
+            /// The layer's row in the table.
+            pub(super) const fn row(self) -> &'static LayerRow {
+                match self {
+                    $(Self::$layer => const { &$row },)+
+                }
+            }
+        }
+    };
+}
+
+layers! {
+    /// The photograph.
+    #[default]
+    Input: LayerRow {
+        name: "Input",
+        tip: "The photograph.",
+        kind: LayerKind::Photograph,
+        paint: painters::photograph,
+        ..PLAIN
+    };
+    /// Dark, clipped, bloomed and invalid pixels (4).
+    Masks: LayerRow {
+        name: "Masks",
+        tip: "Pixels not to believe: dark, clipped, bloomed (section 4).",
+        kind: LayerKind::Overlay,
+        legend: &legends::MASKS,
+        paint: painters::masks,
+        ..PLAIN
+    };
+    /// Windows by class (5.2.1).
+    Classes: LayerRow {
+        name: "Classification",
+        tip: "Windows by the shape of their color cluster: point, line, plane, volume (section 5.2.1).",
+        kind: LayerKind::Overlay,
+        legend: &legends::CLASSES,
+        paint: painters::classes,
+        ..PLAIN
+    };
+    /// Merged areas (5.2.2).
+    Areas: LayerRow {
+        name: "Merged areas",
+        tip: "Neighboring windows of one class merged (section 5.2.2).",
+        kind: LayerKind::Overlay,
+        paint: painters::areas,
+        ..PLAIN
+    };
+    /// Regions after the linear stage (5.3).
+    Linear: LayerRow {
+        name: "Linear",
+        tip: "Regions grown from linear hypotheses: matte pixels in a cylinder (section 5.3).",
+        kind: LayerKind::RegionOverlay,
+        paint: painters::linear,
+        ..PLAIN
+    };
+    /// Regions after the planar stage (5.4).
+    Planar: LayerRow {
+        name: "Planar",
+        tip: "Regions grown from planar hypotheses: matte and highlight in a slice (section 5.4).",
+        kind: LayerKind::RegionOverlay,
+        paint: painters::planar,
+        ..PLAIN
+    };
+    /// The final regions (5.5).
+    Regions: LayerRow {
+        name: "Regions",
+        tip: "The final regions, clipped pixels included (section 5.5).",
+        kind: LayerKind::RegionOverlay,
+        paint: painters::regions,
+        ..PLAIN
+    };
+    /// Body reflection (6).
+    Body: LayerRow {
+        name: "Body",
+        tip: "Body reflection: the photograph without highlights (section 6).",
+        kind: LayerKind::Result,
+        numbers: Some(|found, pixel| found.body[pixel].to_vec()),
+        paint: painters::body,
+        ..PLAIN
+    };
+    /// Surface reflection (6).
+    Surface: LayerRow {
+        name: "Surface",
+        tip: "Surface reflection: the highlights alone (section 6).",
+        kind: LayerKind::Result,
+        numbers: Some(|found, pixel| found.surface[pixel].to_vec()),
+        paint: painters::surface,
+        ..PLAIN
+    };
+    /// Distance ε from the dichromatic plane, gray = 0 (6).
+    Noise: LayerRow {
+        name: "Noise",
+        tip: "Distance \u{3b5} from the dichromatic plane; gray is 0 (section 6).",
+        kind: LayerKind::Result,
+        legend: &legends::NOISE,
+        numbers: Some(|found, pixel| vec![found.noise[pixel]]),
+        paint: painters::noise,
+    };
+    /// How reliable the split of each pixel is, black = not at all.
+    Confidence: LayerRow {
+        name: "Confidence",
+        tip: "How far the split of each pixel is to be believed: black not at all, white fully.",
+        kind: LayerKind::Result,
+        legend: &legends::CONFIDENCE,
+        numbers: Some(|found, pixel| vec![found.confidence[pixel]]),
+        paint: painters::confidence,
+    };
+    /// Why pixels are not explained (5.6, 7.5).
+    Reasons: LayerRow {
+        name: "Reasons",
+        tip: "Why pixels are not explained by one region's skewed T (sections 5.6 and 7.5).",
+        kind: LayerKind::Overlay,
+        legend: &legends::REASONS,
+        paint: painters::reasons,
+        ..PLAIN
+    };
+    /// The newest result's body reflection minus the pinned one's, gray = 0.
+    Difference: LayerRow {
+        name: "Difference",
+        tip: "Body reflection minus that of the pinned result; gray is 0.",
+        kind: LayerKind::Comparison,
+        legend: &legends::DIFFERENCE,
+        paint: painters::difference,
+        ..PLAIN
+    };
+}
