@@ -22,7 +22,7 @@
 mod synthetic;
 
 use dichroscope::analysis::{Observer, Session, Stage};
-use dichroscope::params::{IlluminantSetting, Parameter, Params, Refine, Setting};
+use dichroscope::params::{IlluminantSetting, Parameter, Params, Setting, Switch};
 use dichroscope::photo::{LinearImage, ReadOptions, read};
 use dichroscope::raster::Raster;
 use dichroscope::trace::Replay;
@@ -119,12 +119,10 @@ fn movements(image: &Arc<LinearImage>) -> Vec<(&'static str, Params)> {
         all.push((spec.name, moved));
     }
     all.push(("illuminant", Params { illuminant: IlluminantSetting::Given([1.0, 1.0, 0.9]), ..base }));
-    for (name, _) in Refine::default().switches() {
+    for switch in Switch::ALL {
         let mut moved = base;
-        for (_, switch) in moved.refine.switches().into_iter().filter(|(other, _)| *other == name) {
-            *switch = false;
-        }
-        all.push((name, moved));
+        moved.refine.set(switch, false);
+        all.push((switch.name(), moved));
     }
     all
 }

@@ -10,7 +10,7 @@ const CLIP_SHARE: f64 = 240.0 / 255.0;
 /// The paper's image size, to which windows and areas are proportioned, pixels.
 const PAPER_PIXELS: f64 = 512.0 * 480.0;
 
-/// Numbers that do not depend on the noise: clipping threshold, noise density, minimal intensity. The last is the
+/// Numbers that do not depend on the noise: clipping threshold, bloom density, minimal intensity. The last is the
 /// paper's while it is automatic, until the noise is known.
 pub fn mask_limits(params: &Params, image: &LinearImage) -> crate::photo::MaskLimits {
     let clip_threshold = match params.clip_threshold {

@@ -1,65 +1,54 @@
-//! Which stages a changed parameter makes stale: the first that looks at it, and all after that.
+//! Which stages a changed parameter makes stale: the first that reads the parameter, and all later ones.
 //!
-//! A stage's output is kept beside what the stages up to it look at; what only later ones do is blanked out there.
+//! A stage's output is kept beside the parameters that the stages up to this one read. Parameters that only later stages
+//! read are blanked there, so that a change of them leaves the output valid.
 
 use super::Stage;
-use crate::params::{AmbientSetting, Refine, UsedParams};
+use crate::params::{AmbientSetting, Parameter, Refine, Switch, UsedParams};
 
-/// The numbers and refinements that `stage` and those before it look at.
+/// The numbers and refinements that `stage` and the stages before it read; all others are 0 or off.
 ///
-/// The limits of the masks are not blanked for any stage; windows and noise matter from classification on, cylinders and
-/// areas from the linear stage on, slices and a given light from the planar one on, ambient light in the split.
+/// The rows of parameters and switches name the first stage that reads each ([`Parameter::spec`], [`Switch::first_stage`]).
+/// The planar stage is the first that reads a given light, the split the first that reads the ambient light.
 pub fn seen_up_to(stage: Stage, used: &UsedParams, refine: Refine) -> (UsedParams, Refine) {
     let (mut used, mut refine) = (*used, refine);
-    if stage < Stage::Linear {
-        (used.cylinder_width, used.min_area) = (0.0, 0.0);
+    for parameter in Parameter::ALL {
+        if stage < parameter.spec().first_stage {
+            *used.slot(parameter) = 0.0;
+        }
     }
     if stage < Stage::Planar {
-        used.slice_width = 0.0;
         used.illuminant = None;
     }
     if stage < Stage::Split {
         used.ambient = AmbientSetting::Auto;
     }
-    for (name, switch) in refine.switches() {
-        *switch &= first_stage(name) <= stage;
+    for switch in Switch::ALL {
+        if stage < switch.first_stage() {
+            refine.set(switch, false);
+        }
     }
     (used, refine)
-}
-
-/// The first stage that looks at a switch.
-fn first_stage(switch: &str) -> Stage {
-    match switch {
-        "tail_test" => Stage::Classify,
-        "robust_lines" | "all_seeds" | "absorb_highlights" | "second_look" | "proximity_vote"
-        | "merge_regions" => Stage::Linear,
-        "robust_illuminant" | "two_lights" | "extend_planes" | "slice_bounds" | "vote_light" => Stage::Planar,
-        "split_components" => Stage::Clipping,
-        "edge_body"
-        | "scene_illuminant"
-        | "no_negative_surface"
-        | "restore_prior"
-        | "ambient_light"
-        | "region_holds"
-        | "local_split"
-        | "texture_test"
-        | "hysteresis"
-        | "belief"
-        | "clip_repair"
-        | "second_branch" => Stage::Split,
-        // One that is not listed makes everything stale, which is slow but never wrong.
-        _ => Stage::Masks,
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// Without this, a changed parameter could leave an output in place that was made with the old value.
     #[test]
-    fn every_switch_is_listed() {
-        for (name, _) in Refine::default().switches() {
-            assert_ne!(first_stage(name), Stage::Masks, "{name}");
+    fn from_its_first_stage_on_every_parameter_and_switch_is_seen() {
+        let (used, refine) = (UsedParams::paper(), Refine::all(true));
+        for stage in Stage::ALL {
+            let (seen, switches) = seen_up_to(stage, &used, refine);
+            for parameter in Parameter::ALL {
+                let reads = parameter.spec().first_stage <= stage;
+                assert_eq!(seen.get(parameter) == used.get(parameter), reads, "{parameter:?} in {stage:?}");
+            }
+            for switch in Switch::ALL {
+                assert_eq!(switches.get(switch), switch.first_stage() <= stage, "{switch:?} in {stage:?}");
+            }
         }
+        assert_eq!(seen_up_to(Stage::Split, &used, refine), (used, refine));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Ask, DebugCommand, Export, Severity, Workspace};
 use crate::analysis::Stage;
-use crate::params::{AmbientSetting, Method, Parameter, Params, Setting};
+use crate::params::{AmbientSetting, Method, Parameter, Params, Setting, Switch};
 use crate::photo::ReadOptions;
 use crate::raster::Mask;
 use crate::view::{
@@ -73,7 +73,7 @@ pub enum Command {
     /// Choose the algorithm; parameters at the other method's defaults follow.
     SetMethod(Method),
     /// Switch a refinement.
-    SetSwitch(&'static str, bool),
+    SetSwitch(Switch, bool),
     /// Set all parameters: a preset, or a file.
     SetParams(Box<Params>),
     /// Read parameters from a TOML file.

@@ -2,7 +2,7 @@
 
 use super::State;
 use super::write::AREA_FILE;
-use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine};
+use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine, Switch};
 use crate::view::Origin;
 use std::path::Path;
 
@@ -72,11 +72,11 @@ fn params_words(params: &Params) -> Vec<String> {
     }
     // The paper's method refines nothing, whatever the switches say.
     if params.method == Method::Refined {
-        let (mut asked, mut usual) = (params.refine, Refine::default());
-        for ((name, asked), (_, usual)) in asked.switches().into_iter().zip(usual.switches()) {
-            if asked != usual {
-                words.push(if *asked { "--with" } else { "--without" }.to_owned());
-                words.push(name.to_owned());
+        for switch in Switch::ALL {
+            let on = params.refine.get(switch);
+            if on != Refine::default().get(switch) {
+                words.push(if on { "--with" } else { "--without" }.to_owned());
+                words.push(switch.name().to_owned());
             }
         }
     }

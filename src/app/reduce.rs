@@ -126,12 +126,7 @@ fn edit_or_look(state: &mut State, command: Command) -> Vec<Effect> {
         Command::SetMethod(method) => {
             edit_params(state, None, |params| *params = with_method(params, method))
         }
-        Command::SetSwitch(name, on) => edit_params(state, None, |params| {
-            if let Some((_, switch)) = params.refine.switches().into_iter().find(|(known, _)| *known == name)
-            {
-                *switch = on;
-            }
-        }),
+        Command::SetSwitch(switch, on) => edit_params(state, None, |params| params.refine.set(switch, on)),
         Command::SetParams(params) => edit_params(state, None, |old| *old = *params),
         Command::PinIlluminant(direction, gesture) => pin_illuminant(state, direction, gesture),
         Command::SetAmbient(setting, gesture) => {

@@ -4,7 +4,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
 use dichroscope::params::{
-    AmbientSetting, IlluminantSetting, Method, Parameter, Params, Preset, Refine, Setting,
+    AmbientSetting, IlluminantSetting, Method, Parameter, Params, Preset, Setting, Switch,
 };
 use std::path::{Path, PathBuf};
 
@@ -26,10 +26,10 @@ pub(super) struct Settings {
     auto: bool,
     /// Switch a refinement on (repeatable)
     #[arg(long, value_name = "NAME", value_parser = switch_parser())]
-    with: Vec<String>,
+    with: Vec<Switch>,
     /// Switch a refinement off (repeatable; names as for --with)
     #[arg(long, value_name = "NAME", value_parser = switch_parser(), hide_possible_values = true)]
-    without: Vec<String>,
+    without: Vec<Switch>,
     #[command(flatten)]
     flags: ParameterFlags,
     /// The color of the light, of any length; every dichromatic plane turns to it [default: auto]
@@ -64,17 +64,15 @@ impl Settings {
     }
 
     fn switch(&self, params: &mut Params) -> Result<()> {
-        if let Some(name) = self.with.iter().find(|name| self.without.contains(name)) {
-            bail!("{name} is both --with and --without");
+        if let Some(switch) = self.with.iter().find(|switch| self.without.contains(switch)) {
+            bail!("{} is both --with and --without", switch.name());
         }
         if params.method == Method::Paper && !(self.with.is_empty() && self.without.is_empty()) {
             bail!("--with and --without belong to `--method refined`: the paper's method refines nothing");
         }
-        for (name, switch) in params.refine.switches() {
-            if self.with.iter().any(|asked| asked == name) {
-                *switch = true;
-            } else if self.without.iter().any(|asked| asked == name) {
-                *switch = false;
+        for (switches, on) in [(&self.with, true), (&self.without, false)] {
+            for &switch in switches {
+                params.refine.set(switch, on);
             }
         }
         Ok(())
@@ -132,8 +130,8 @@ fn preset_parser() -> impl TypedValueParser<Value = Preset> {
     })
 }
 
-fn switch_parser() -> PossibleValuesParser {
-    PossibleValuesParser::new(Refine::default().switches().map(|(name, _)| name))
+fn switch_parser() -> impl TypedValueParser<Value = Switch> {
+    PossibleValuesParser::new(Switch::ALL.map(Switch::name)).try_map(|name| Switch::from_name(&name))
 }
 
 /// One flag per parameter, made from [`Parameter::spec`].

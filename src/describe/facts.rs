@@ -3,7 +3,9 @@
 use super::scores::Scores;
 use crate::analysis::{Analysis, Stage};
 use crate::intrinsic::{Ambient, HighlightBranch, Reason, RegionReflection};
-use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine, Setting};
+use crate::params::{
+    AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine, Setting, parameter_rows,
+};
 use crate::photo::Photo;
 use crate::raster::UNASSIGNED;
 use serde::{Deserialize, Serialize};
@@ -150,52 +152,49 @@ pub struct AmbientAsked {
     pub used: Option<[f64; 3]>,
 }
 
-/// Method, parameters and refinements of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs, reason = "Parameter::spec describes each")]
-pub struct ParamsFacts {
-    pub method: Method,
-    pub clip_threshold: ParameterFacts,
-    pub bloom_density: ParameterFacts,
-    pub camera_noise: ParameterFacts,
-    pub min_intensity: ParameterFacts,
-    pub cylinder_width: ParameterFacts,
-    pub slice_width: ParameterFacts,
-    pub window_size: ParameterFacts,
-    pub min_area: ParameterFacts,
-    /// Absent in reports of versions that could not be told the light.
-    #[serde(default)]
-    pub illuminant: LightFacts,
-    /// Absent in reports of versions that did not ask.
-    #[serde(default)]
-    pub ambient: AmbientAsked,
-    /// The refinements in force: all off under the paper's method.
-    pub refine: Refine,
-}
-
-impl ParamsFacts {
-    fn new(params: &Params, analysis: &Analysis) -> Self {
-        let facts = |parameter| {
-            let number = analysis.used.get(parameter);
-            ParameterFacts { asked: params.get(parameter), used: number.is_finite().then_some(number) }
-        };
-        Self {
-            method: params.method,
-            clip_threshold: facts(Parameter::ClipThreshold),
-            bloom_density: facts(Parameter::BloomDensity),
-            camera_noise: facts(Parameter::CameraNoise),
-            min_intensity: facts(Parameter::MinIntensity),
-            cylinder_width: facts(Parameter::CylinderWidth),
-            slice_width: facts(Parameter::SliceWidth),
-            window_size: facts(Parameter::WindowSize),
-            min_area: facts(Parameter::MinArea),
-            illuminant: LightFacts {
-                asked: params.illuminant,
-                used: analysis.illuminant.map(|light| light.direction),
-            },
-            ambient: AmbientAsked { asked: params.ambient, used: analysis.intrinsic.ambient.subtracted },
-            refine: params.refinements(),
+macro_rules! define_params_facts {
+    ($($field:ident $variant:ident $meaning:literal { $($row:tt)* })*) => {
+        /// Method, parameters and refinements of a run.
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+        pub struct ParamsFacts {
+            /// Which algorithm.
+            pub method: Method,
+            $(#[doc = concat!($meaning, ".")] pub $field: ParameterFacts,)*
+            /// The color of the light. Absent in reports of versions that could not be told the light.
+            #[serde(default)]
+            pub illuminant: LightFacts,
+            /// The ambient light. Absent in reports of versions that did not ask.
+            #[serde(default)]
+            pub ambient: AmbientAsked,
+            /// The refinements in force: all off under the paper's method.
+            pub refine: Refine,
         }
+
+        impl ParamsFacts {
+            fn new(params: &Params, analysis: &Analysis) -> Self {
+                Self {
+                    method: params.method,
+                    $($field: ParameterFacts::new(Parameter::$variant, params, analysis),)*
+                    illuminant: LightFacts {
+                        asked: params.illuminant,
+                        used: analysis.illuminant.map(|light| light.direction),
+                    },
+                    ambient: AmbientAsked {
+                        asked: params.ambient,
+                        used: analysis.intrinsic.ambient.subtracted,
+                    },
+                    refine: params.refinements(),
+                }
+            }
+        }
+    };
+}
+parameter_rows!(define_params_facts);
+
+impl ParameterFacts {
+    fn new(parameter: Parameter, params: &Params, analysis: &Analysis) -> Self {
+        let number = analysis.used.get(parameter);
+        Self { asked: params.get(parameter), used: number.is_finite().then_some(number) }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
 use crate::app::{Command, Gesture};
-use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Setting};
+use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Setting, Switch};
 use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Sense, Slider, Ui, vec2};
 
 /// Width of the labels' column, points.
@@ -118,33 +118,8 @@ impl Columns {
     }
 }
 
-/// What a slider needs beyond the parameter's own specification: the range of the hand, and the paper's section.
-struct SliderSpec {
-    title: &'static str,
-    range: std::ops::RangeInclusive<f64>,
-    step: f64,
-    logarithmic: bool,
-    section: &'static str,
-}
-
-/// Typed values may leave the slider's range, as far as the parameter's own.
-fn slider_spec(parameter: Parameter) -> SliderSpec {
-    let of =
-        |title, range, step, logarithmic, section| SliderSpec { title, range, step, logarithmic, section };
-    match parameter {
-        Parameter::ClipThreshold => of("clip threshold", 100.0..=255.0, 1.0, false, "section 4"),
-        Parameter::BloomDensity => of("noise density", 1.0..=9.0, 1.0, false, "section 4"),
-        Parameter::CameraNoise => of("camera noise \u{3c3}0", 0.5..=12.0, 0.05, true, "section 5.2.1"),
-        Parameter::MinIntensity => of("min. intensity", 0.0..=80.0, 1.0, false, "section 5.3"),
-        Parameter::CylinderWidth => of("cylinder width", 1.0..=12.0, 0.1, false, "section 5.3"),
-        Parameter::SliceWidth => of("slice width", 1.0..=12.0, 0.1, false, "section 5.4"),
-        Parameter::WindowSize => of("window size", 4.0..=32.0, 1.0, false, "section 5.2.1"),
-        Parameter::MinArea => of("min. area", 50.0..=10_000.0, 10.0, true, "section 5.3"),
-    }
-}
-
 fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
-    let (spec, row) = (parameter.spec(), slider_spec(parameter));
+    let spec = parameter.spec();
     let setting = cx.state.document.params.get(parameter);
     let used = cx.state.newest.as_ref().map(|shown| shown.analysis.used.get(parameter));
     let gesture = Gesture::Parameter(parameter);
@@ -152,25 +127,25 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
     let mut value = setting.value().or(used).filter(|value| value.is_finite()).unwrap_or(spec.paper);
     let tip = format!(
         "{}: {}.\nPaper, table 6: {} {}. Double-click: back to the default. ({})",
-        spec.name, spec.meaning, spec.paper, spec.unit, row.section
+        spec.name, spec.meaning, spec.paper, spec.unit, spec.section
     );
     let columns = Columns::of(ui);
     ui.scope(|ui| {
-        let name = egui::Label::new(row.title).truncate().selectable(false).sense(Sense::click());
+        let name = egui::Label::new(spec.title).truncate().selectable(false).sense(Sense::click());
         let name = columns.label.show(ui, name).on_hover_text(&tip);
         ui.spacing_mut().slider_width = columns.rail.0.width();
-        let slider = Slider::new(&mut value, row.range.clone())
+        let slider = Slider::new(&mut value, spec.slider.range[0]..=spec.slider.range[1])
             .show_value(false)
-            .step_by(row.step)
-            .logarithmic(row.logarithmic)
+            .step_by(spec.slider.step)
+            .logarithmic(spec.slider.logarithmic)
             .clamping(egui::SliderClamping::Never);
         // No tooltip here: it would hide the rows below from the hand that drags.
         let slider = widgets::clickable(&columns.rail.show(ui, slider));
-        slider.widget_info(|| egui::WidgetInfo::slider(true, value, row.title));
-        let decimals = usize::from(row.step < 1.0) * 2;
+        slider.widget_info(|| egui::WidgetInfo::slider(true, value, spec.title));
+        let decimals = usize::from(spec.slider.step < 1.0) * 2;
         let typed = DragValue::new(&mut value)
-            .speed(row.step)
-            .range(spec.range.0..=spec.range.1)
+            .speed(spec.slider.step)
+            .range(spec.range[0]..=spec.range[1])
             .fixed_decimals(decimals);
         let typed = ui.put(columns.value.0, typed).on_hover_text(&tip);
         typed.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, spec.name));
@@ -186,7 +161,7 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
                 egui::accesskit::Role::CheckBox,
                 true,
                 automatic,
-                format!("{} auto", row.title),
+                format!("{} auto", spec.title),
             )
         });
         let auto = auto.on_hover_text("Estimated from the image; the slider shows what was used.");
@@ -195,7 +170,7 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
             cx.send(Command::SetParameter(parameter, default, None));
         } else if slider.changed() || typed.changed() {
             let value = if spec.whole { value.round() } else { value };
-            let value = value.clamp(spec.range.0, spec.range.1);
+            let value = value.clamp(spec.range[0], spec.range[1]);
             cx.send(Command::SetParameter(parameter, Setting::Value(value), Some(gesture)));
         } else if auto.clicked() {
             let setting = if automatic { Setting::Value(value) } else { Setting::Auto };
@@ -353,16 +328,16 @@ impl Bands {
 }
 
 fn switches(ui: &mut Ui, cx: &mut Cx) {
-    let mut params = cx.state.document.params;
+    let params = cx.state.document.params;
     let refined = params.method == Method::Refined;
     let open = egui::CollapsingHeader::new(RichText::new("Refinements").size(SMALL_PT).color(cx.tones.quiet));
     open.default_open(true).show(ui, |ui| {
         ui.add_enabled_ui(refined, |ui| {
-            for (name, switch) in params.refine.switches() {
-                let mut on = *switch && refined;
-                let words = name.replace('_', " ");
-                if ui.checkbox(&mut on, words).on_hover_text(crate::params::Refine::meaning(name)).changed() {
-                    cx.send(Command::SetSwitch(name, on));
+            for switch in Switch::ALL {
+                let mut on = params.refine.get(switch) && refined;
+                let words = switch.name().replace('_', " ");
+                if ui.checkbox(&mut on, words).on_hover_text(switch.meaning()).changed() {
+                    cx.send(Command::SetSwitch(switch, on));
                 }
             }
         });

@@ -129,7 +129,7 @@ mod tests {
     use super::*;
     use crate::color::{axis_angle_deg, vec3};
     use crate::intrinsic::split;
-    use crate::params::{Parameter, Params, UsedParams};
+    use crate::params::{Params, UsedParams};
     use crate::photo::{LinearImage, MaskLimits};
     use crate::raster::{LabelMap, Raster};
     use crate::segment::{FinalRegions, LightFindings};
@@ -155,19 +155,7 @@ mod tests {
     }
 
     fn numbers() -> UsedParams {
-        let paper = |parameter: Parameter| parameter.spec().paper;
-        UsedParams {
-            clip_threshold: f64::INFINITY,
-            bloom_density: paper(Parameter::BloomDensity),
-            camera_noise: paper(Parameter::CameraNoise),
-            min_intensity: paper(Parameter::MinIntensity),
-            cylinder_width: paper(Parameter::CylinderWidth),
-            slice_width: paper(Parameter::SliceWidth),
-            window_size: paper(Parameter::WindowSize),
-            min_area: paper(Parameter::MinArea),
-            illuminant: None,
-            ambient: crate::params::AmbientSetting::Auto,
-        }
+        UsedParams { clip_threshold: f64::INFINITY, ..UsedParams::paper() }
     }
 
     fn color_direction() -> impl Strategy<Value = Vec3> {

@@ -2,14 +2,19 @@
 //!
 //! This room uses no other room, so that every other room can use its types.
 
+mod markdown;
 mod preset;
 mod refine;
 mod setting;
 mod stage;
+mod table;
 mod values;
 
+pub use markdown::{parameter_table, switch_table};
 pub use preset::Preset;
-pub use refine::Refine;
+pub use refine::{Refine, Switch, UnknownSwitch};
 pub use setting::{AmbientSetting, IlluminantSetting, Setting};
 pub use stage::Stage;
-pub use values::{InvalidParameter, Method, Parameter, ParameterSpec, Params, UsedParams};
+pub(crate) use table::parameter_rows;
+pub use table::{Parameter, ParameterSpec, SliderSpec};
+pub use values::{InvalidParameter, Method, Params, UsedParams};

@@ -1,10 +1,11 @@
-//! The control parameters (section 7.3, table 6).
+//! What was asked for and what was used: method, numbers, light and refinements together (section 7.3, table 6).
 //!
-//! A parameter has one name everywhere: here, as a flag, in TOML, on a slider. [`Parameter::spec`] holds what
-//! all of them need to know. Values are in counts, 255 = full scale, whatever the depth of the file.
+//! Fields for numbers are made from the rows of `table.rs`. Values in counts refer to 255 counts at full scale, whatever
+//! the depth of the file.
 
 use super::refine::Refine;
 use super::setting::{AmbientSetting, IlluminantSetting, Setting};
+use super::table::{Parameter, ParameterSpec, parameter_rows};
 use serde::{Deserialize, Serialize};
 
 /// Which algorithm.
@@ -18,209 +19,107 @@ pub enum Method {
     Paper,
 }
 
-/// The eight control parameters of table 6.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Parameter {
-    /// `clip_threshold`
-    ClipThreshold,
-    /// `bloom_density`
-    BloomDensity,
-    /// `camera_noise`
-    CameraNoise,
-    /// `min_intensity`
-    MinIntensity,
-    /// `cylinder_width`
-    CylinderWidth,
-    /// `slice_width`
-    SliceWidth,
-    /// `window_size`
-    WindowSize,
-    /// `min_area`
-    MinArea,
-}
-
-/// What flags, files and sliders need to know of a parameter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ParameterSpec {
-    /// Its one name.
-    pub name: &'static str,
-    /// Unit of its values.
-    pub unit: &'static str,
-    /// Smallest and largest value accepted.
-    pub range: (f64, f64),
-    /// Whether only whole numbers make sense.
-    pub whole: bool,
-    /// Value in the first column of table 6.
-    pub paper: f64,
-    /// What it does, in one line.
-    pub meaning: &'static str,
-}
-
-impl Parameter {
-    /// All of them, in the order of table 6.
-    pub const ALL: [Self; 8] = [
-        Self::ClipThreshold,
-        Self::BloomDensity,
-        Self::CameraNoise,
-        Self::MinIntensity,
-        Self::CylinderWidth,
-        Self::SliceWidth,
-        Self::WindowSize,
-        Self::MinArea,
-    ];
-
-    /// Name, unit, range, the paper's value and meaning.
-    pub const fn spec(self) -> ParameterSpec {
-        let (name, unit, range, whole, paper, meaning) = match self {
-            Self::ClipThreshold => (
-                "clip_threshold",
-                "counts",
-                (1.0, 1e6),
-                false,
-                240.0,
-                "a pixel with a band at or above it is clipped: its color is not believed",
-            ),
-            Self::BloomDensity => (
-                "bloom_density",
-                "pixels",
-                (1.0, 9.0),
-                true,
-                1.0,
-                "a pixel with this many clipped 8-neighbors is bloomed (9: blooming is ignored)",
-            ),
-            Self::CameraNoise => (
-                "camera_noise",
-                "counts",
-                (0.05, 64.0),
-                false,
-                2.5,
-                "\u{3c3}0, twice the standard deviation of a pixel value",
-            ),
-            Self::MinIntensity => (
-                "min_intensity",
-                "counts",
-                (0.0, 441.0),
-                false,
-                23.0,
-                "radius of the dark sphere: colors nearer to black are not analyzed",
-            ),
-            Self::CylinderWidth => (
-                "cylinder_width",
-                "\u{d7}\u{3c3}0",
-                (0.5, 32.0),
-                false,
-                4.0,
-                "radius of the color cylinder of a linear hypothesis",
-            ),
-            Self::SliceWidth => (
-                "slice_width",
-                "\u{d7}\u{3c3}0",
-                (0.5, 32.0),
-                false,
-                4.0,
-                "half width of the slice around a dichromatic plane",
-            ),
-            Self::WindowSize => (
-                "window_size",
-                "px",
-                (3.0, 64.0),
-                true,
-                10.0,
-                "side of the windows whose local color variation is classified",
-            ),
-            Self::MinArea => (
-                "min_area",
-                "px",
-                (4.0, 1e8),
-                true,
-                500.0,
-                "smallest merged area that may start a linear hypothesis",
-            ),
-        };
-        ParameterSpec { name, unit, range, whole, paper, meaning }
-    }
-}
-
 /// Most ambient light that may be given, counts a band.
 const MOST_AMBIENT: f64 = 200.0;
 
-/// What was asked for. [`Params::default`] is the refined method, [`Params::paper`] that of 1990.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-#[allow(missing_docs, reason = "Parameter::spec describes each")]
-pub struct Params {
-    pub method: Method,
-    pub clip_threshold: Setting,
-    pub bloom_density: Setting,
-    pub camera_noise: Setting,
-    pub min_intensity: Setting,
-    pub cylinder_width: Setting,
-    pub slice_width: Setting,
-    pub window_size: Setting,
-    pub min_area: Setting,
-    /// The color of the light: estimated, or given.
-    pub illuminant: IlluminantSetting,
-    /// The ambient light: estimated, given, or left alone.
-    pub ambient: AmbientSetting,
-    pub refine: Refine,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self {
-            method: Method::Refined,
-            camera_noise: Setting::Auto,
-            cylinder_width: Setting::Auto,
-            ..Self::paper()
+macro_rules! define_params {
+    ($($field:ident $variant:ident $meaning:literal { $($row:tt)* })*) => {
+        /// What was asked for. [`Params::default`] is the refined method, [`Params::paper`] that of 1990.
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+        #[serde(default, deny_unknown_fields)]
+        pub struct Params {
+            /// Which algorithm.
+            pub method: Method,
+            $(#[doc = concat!($meaning, ".")] pub $field: Setting,)*
+            /// The color of the light: estimated, or given.
+            pub illuminant: IlluminantSetting,
+            /// The ambient light: estimated, given, or left alone.
+            pub ambient: AmbientSetting,
+            /// The refinements of the refined method.
+            pub refine: Refine,
         }
-    }
+
+        impl Default for Params {
+            fn default() -> Self {
+                Self {
+                    method: Method::Refined,
+                    $($field: Parameter::$variant.spec().refined_default,)*
+                    illuminant: IlluminantSetting::Auto,
+                    ambient: AmbientSetting::Auto,
+                    refine: Refine::default(),
+                }
+            }
+        }
+
+        impl Params {
+            /// The paper's method with the first column of table 6.
+            pub fn paper() -> Self {
+                Self {
+                    method: Method::Paper,
+                    $($field: Parameter::$variant.spec().paper_default,)*
+                    ..Self::default()
+                }
+            }
+
+            /// The setting of one parameter.
+            pub fn get(&self, parameter: Parameter) -> Setting {
+                match parameter {
+                    $(Parameter::$variant => self.$field,)*
+                }
+            }
+
+            /// The setting of one parameter, to be changed.
+            pub fn slot(&mut self, parameter: Parameter) -> &mut Setting {
+                match parameter {
+                    $(Parameter::$variant => &mut self.$field,)*
+                }
+            }
+        }
+
+        /// The numbers that a run worked with: those given, or those estimated from the image.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct UsedParams {
+            $(#[doc = concat!($meaning, ".")] pub $field: f64,)*
+            /// Direction of the light where it was given, unit length; none: the light is estimated.
+            pub illuminant: Option<[f64; 3]>,
+            /// What was asked of the ambient light.
+            pub ambient: AmbientSetting,
+        }
+
+        impl UsedParams {
+            /// The first column of table 6, with light and ambient light to be estimated.
+            pub fn paper() -> Self {
+                Self {
+                    $($field: Parameter::$variant.spec().paper,)*
+                    illuminant: None,
+                    ambient: AmbientSetting::Auto,
+                }
+            }
+
+            /// The number used for one parameter, in its unit.
+            pub fn get(&self, parameter: Parameter) -> f64 {
+                match parameter {
+                    $(Parameter::$variant => self.$field,)*
+                }
+            }
+
+            /// The number used for one parameter, to be changed.
+            pub fn slot(&mut self, parameter: Parameter) -> &mut f64 {
+                match parameter {
+                    $(Parameter::$variant => &mut self.$field,)*
+                }
+            }
+        }
+    };
 }
+parameter_rows!(define_params);
 
 impl Params {
-    /// The paper's method with the first column of table 6.
-    pub fn paper() -> Self {
-        let paper = |parameter: Parameter| Setting::Value(parameter.spec().paper);
-        Self {
-            method: Method::Paper,
-            // 240 of 255 for integer files; a float file does not say where it saturates.
-            clip_threshold: Setting::Auto,
-            bloom_density: paper(Parameter::BloomDensity),
-            camera_noise: paper(Parameter::CameraNoise),
-            min_intensity: paper(Parameter::MinIntensity),
-            cylinder_width: paper(Parameter::CylinderWidth),
-            slice_width: paper(Parameter::SliceWidth),
-            window_size: paper(Parameter::WindowSize),
-            min_area: paper(Parameter::MinArea),
-            illuminant: IlluminantSetting::Auto,
-            ambient: AmbientSetting::Auto,
-            refine: Refine::default(),
-        }
-    }
-
     /// The defaults of `method`.
     pub fn of(method: Method) -> Self {
         match method {
             Method::Refined => Self::default(),
             Method::Paper => Self::paper(),
-        }
-    }
-
-    /// The setting of one parameter.
-    pub fn get(&self, parameter: Parameter) -> Setting {
-        *self.clone().slot(parameter)
-    }
-
-    /// The setting of one parameter, to be changed.
-    pub fn slot(&mut self, parameter: Parameter) -> &mut Setting {
-        match parameter {
-            Parameter::ClipThreshold => &mut self.clip_threshold,
-            Parameter::BloomDensity => &mut self.bloom_density,
-            Parameter::CameraNoise => &mut self.camera_noise,
-            Parameter::MinIntensity => &mut self.min_intensity,
-            Parameter::CylinderWidth => &mut self.cylinder_width,
-            Parameter::SliceWidth => &mut self.slice_width,
-            Parameter::WindowSize => &mut self.window_size,
-            Parameter::MinArea => &mut self.min_area,
         }
     }
 
@@ -240,7 +139,7 @@ impl Params {
         for parameter in Parameter::ALL {
             let spec = parameter.spec();
             let Setting::Value(value) = self.get(parameter) else { continue };
-            let inside = (spec.range.0..=spec.range.1).contains(&value);
+            let inside = (spec.range[0]..=spec.range[1]).contains(&value);
             if !inside || (spec.whole && value.fract() != 0.0) {
                 return Err(InvalidParameter::Number { spec, value });
             }
@@ -260,39 +159,7 @@ impl Params {
     }
 }
 
-/// The numbers that a run worked with: what was given, or what the image said.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs, reason = "Parameter::spec describes each")]
-pub struct UsedParams {
-    pub clip_threshold: f64,
-    pub bloom_density: f64,
-    pub camera_noise: f64,
-    pub min_intensity: f64,
-    pub cylinder_width: f64,
-    pub slice_width: f64,
-    pub window_size: f64,
-    pub min_area: f64,
-    /// Direction of the light where it was given, unit; none: the image is asked.
-    pub illuminant: Option<[f64; 3]>,
-    /// What was asked of the ambient light.
-    pub ambient: AmbientSetting,
-}
-
 impl UsedParams {
-    /// The number used for one parameter, in its unit.
-    pub fn get(&self, parameter: Parameter) -> f64 {
-        match parameter {
-            Parameter::ClipThreshold => self.clip_threshold,
-            Parameter::BloomDensity => self.bloom_density,
-            Parameter::CameraNoise => self.camera_noise,
-            Parameter::MinIntensity => self.min_intensity,
-            Parameter::CylinderWidth => self.cylinder_width,
-            Parameter::SliceWidth => self.slice_width,
-            Parameter::WindowSize => self.window_size,
-            Parameter::MinArea => self.min_area,
-        }
-    }
-
     /// Radius of the color cylinders, counts.
     pub fn radius_counts(&self) -> f64 {
         self.cylinder_width * self.camera_noise
@@ -309,7 +176,7 @@ impl UsedParams {
 pub enum InvalidParameter {
     /// A number outside its range.
     #[error("{} = {value}: expected `auto` or a {} from {} to {} {}", spec.name,
-        if spec.whole { "whole number" } else { "number" }, spec.range.0, spec.range.1, spec.unit)]
+        if spec.whole { "whole number" } else { "number" }, spec.range[0], spec.range[1], spec.unit)]
     Number {
         /// The parameter.
         spec: ParameterSpec,

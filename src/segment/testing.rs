@@ -33,18 +33,7 @@ impl Drawing {
     fn of(pixels: Raster<[f32; 3]>) -> Self {
         let image = LinearImage::new(pixels, Some(255.0));
         let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 9 };
-        let used = UsedParams {
-            clip_threshold: 240.0,
-            bloom_density: 9.0,
-            camera_noise: 2.5,
-            min_intensity: 23.0,
-            cylinder_width: 4.0,
-            slice_width: 4.0,
-            window_size: 10.0,
-            min_area: 4.0,
-            illuminant: None,
-            ambient: crate::params::AmbientSetting::Auto,
-        };
+        let used = UsedParams { bloom_density: 9.0, min_area: 4.0, ..UsedParams::paper() };
         Self { masks: Masks::new(&image, &limits), image, used, refine: Params::default().refine }
     }
 

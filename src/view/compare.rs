@@ -2,7 +2,7 @@
 
 use super::ResultSnapshot;
 use super::snapshot::{best_overlaps, overlaps};
-use crate::params::Parameter;
+use crate::params::{Parameter, Switch};
 use crate::raster::UNASSIGNED;
 use crate::truth::angle_deg;
 use rayon::prelude::*;
@@ -138,9 +138,9 @@ fn settings(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<SettingChan
     add("illuminant", pinned.params.illuminant.to_string(), newest.params.illuminant.to_string());
     add("ambient", pinned.params.ambient.to_string(), newest.params.ambient.to_string());
     let word = |on: bool| if on { "on" } else { "off" }.to_owned();
-    let (mut before, mut after) = (pinned.params.refinements(), newest.params.refinements());
-    for ((name, before), (_, after)) in before.switches().into_iter().zip(after.switches()) {
-        add(name, word(*before), word(*after));
+    let (before, after) = (pinned.params.refinements(), newest.params.refinements());
+    for switch in Switch::ALL {
+        add(switch.name(), word(before.get(switch)), word(after.get(switch)));
     }
     let area = |shown: &ResultSnapshot| {
         shown.area.as_ref().map_or_else(

@@ -3,7 +3,7 @@
 use crate::folder::{WorkFolder, list, tiny};
 use dichroscope::app::{Application, Command, Executor, Export, analyze_call};
 use dichroscope::describe::RegionFacts;
-use dichroscope::params::{IlluminantSetting, Method, Parameter, Setting};
+use dichroscope::params::{IlluminantSetting, Method, Parameter, Setting, Switch};
 use dichroscope::photo::ReadOptions;
 use dichroscope::raster::Raster;
 use dichroscope::truth::ResultPictures;
@@ -441,7 +441,7 @@ fn the_call_that_the_window_hands_out_writes_the_windows_result() {
     let mut application = Application::new(Executor::Inline, || ()).unwrap();
     application.apply(Command::Open(Origin::File(work.path("scene/camera8.png"))));
     application.apply(Command::SetParameter(Parameter::CameraNoise, Setting::Value(3.5), None));
-    application.apply(Command::SetSwitch("second_look", false));
+    application.apply(Command::SetSwitch(Switch::SecondLook, false));
     application.apply(Command::PinIlluminant(Some([1.0, 0.75, 0.5]), None));
     let (width, height) = application.state().picture.as_ref().unwrap().size();
     let inside = (0..width * height).map(|pixel| pixel % width < width * 3 / 4).collect();

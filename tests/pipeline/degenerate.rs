@@ -2,7 +2,7 @@
 
 use crate::common::{METHODS, analyze, assert_valid, faults, picture};
 use crate::synthetic::{Random, Scene};
-use dichroscope::params::{Method, Parameter, Params, Setting};
+use dichroscope::params::{Method, Parameter, Params, Setting, Switch};
 use dichroscope::photo::LinearImage;
 use proptest::prelude::*;
 
@@ -58,7 +58,7 @@ fn pictures() -> Vec<(&'static str, LinearImage)> {
 fn ends_of_ranges(method: Method) -> Vec<(String, Params)> {
     let base = Params::of(method);
     let mut all = vec![("defaults".to_owned(), base)];
-    let ends: [fn((f64, f64)) -> f64; 2] = [|range| range.0, |range| range.1];
+    let ends: [fn([f64; 2]) -> f64; 2] = [|range| range[0], |range| range[1]];
     for (name, end) in ["smallest", "largest"].into_iter().zip(ends) {
         let mut every = base;
         for parameter in Parameter::ALL {
@@ -152,26 +152,28 @@ fn small_picture() -> impl Strategy<Value = LinearImage> {
 fn any_params() -> impl Strategy<Value = Params> {
     let choice = prop_oneof![6 => Just(None), 1 => Just(Some(None)), 1 => (0f64..=1.0).prop_map(|share| Some(Some(share)))];
     let choices = prop::collection::vec(choice, Parameter::ALL.len());
-    (any::<bool>(), choices, any::<[bool; 22]>()).prop_map(|(paper, choices, switches)| {
-        let mut params = Params::of(if paper { Method::Paper } else { Method::Refined });
-        params.min_area = Setting::Value(60.0);
-        for (parameter, choice) in Parameter::ALL.into_iter().zip(choices) {
-            let spec = parameter.spec();
-            let (low, high) = spec.range;
-            // Most of what matters lies near the lower end of wide ranges.
-            let between = |share: f64| low + (high.min(300.0) - low) * share * share;
-            let whole = |value: f64| if spec.whole { value.round() } else { value };
-            match choice {
-                None => {}
-                Some(None) => *params.slot(parameter) = Setting::Auto,
-                Some(Some(share)) => *params.slot(parameter) = Setting::Value(whole(between(share))),
+    (any::<bool>(), choices, prop::collection::vec(any::<bool>(), Switch::ALL.len())).prop_map(
+        |(paper, choices, switches)| {
+            let mut params = Params::of(if paper { Method::Paper } else { Method::Refined });
+            params.min_area = Setting::Value(60.0);
+            for (parameter, choice) in Parameter::ALL.into_iter().zip(choices) {
+                let spec = parameter.spec();
+                let [low, high] = spec.range;
+                // Most of what matters lies near the lower end of wide ranges.
+                let between = |share: f64| low + (high.min(300.0) - low) * share * share;
+                let whole = |value: f64| if spec.whole { value.round() } else { value };
+                match choice {
+                    None => {}
+                    Some(None) => *params.slot(parameter) = Setting::Auto,
+                    Some(Some(share)) => *params.slot(parameter) = Setting::Value(whole(between(share))),
+                }
             }
-        }
-        for ((_, switch), on) in params.refine.switches().into_iter().zip(switches) {
-            *switch = on;
-        }
-        params
-    })
+            for (switch, on) in Switch::ALL.into_iter().zip(switches) {
+                params.refine.set(switch, on);
+            }
+            params
+        },
+    )
 }
 
 proptest! {

@@ -3,7 +3,7 @@
 use crate::common::{analyze, assert_valid, report, scores_of, truth_of};
 use crate::synthetic::Scene;
 use dichroscope::describe::Scores;
-use dichroscope::params::{Method, Parameter, Params, Refine};
+use dichroscope::params::{Method, Parameter, Params, Refine, Switch};
 
 fn scores(scene: &Scene, method: Method) -> Scores {
     let rendered = scene.render();
@@ -44,15 +44,12 @@ fn the_paper_finds_the_balls_with_a_light_that_is_biased_towards_them() {
 #[test]
 fn every_refinement_can_be_left_out() {
     let image = Scene::grid_of_balls([240, 80], 3, 1, 21).render().image;
-    for index in 0..Refine::default().switches().len() {
+    for switch in Switch::ALL {
+        let name = switch.name();
         for only in [false, true] {
             // All but this one, and this one alone.
             let mut refine = Refine::all(!only);
-            let name = {
-                let (name, switch) = &mut refine.switches()[index];
-                **switch = only;
-                *name
-            };
+            refine.set(switch, only);
             let analysis = analyze(&image, &Params { refine, ..Params::default() });
             assert_valid(&image, &analysis, name);
             assert!(analysis.intrinsic.regions.len() >= 2, "{name}, alone {only}: balls are lost");

@@ -27,10 +27,10 @@ impl Ladder {
         let limit = match (parameter, direction) {
             // Beyond the largest value of the picture nothing clips.
             (Parameter::ClipThreshold, Direction::Up) => {
-                largest_band(image).clamp(spec.range.0, spec.range.1) * 1.01
+                largest_band(image).clamp(spec.range[0], spec.range[1]) * 1.01
             }
-            (_, Direction::Up) => spec.range.1,
-            (_, Direction::Down) => spec.range.0,
+            (_, Direction::Up) => spec.range[1],
+            (_, Direction::Down) => spec.range[0],
         };
         // A threshold that is off comes down from where the picture ends.
         let start = if now.is_finite() { now } else { largest_band(image) };
@@ -65,7 +65,7 @@ impl Ladder {
             Direction::Up => snapped > self.now && value <= self.limit * (1.0 + PRECISION),
             Direction::Down => snapped < self.now && value >= self.limit * (1.0 - PRECISION),
         };
-        let inside = (self.spec.range.0..=self.spec.range.1).contains(&snapped);
+        let inside = (self.spec.range[0]..=self.spec.range[1]).contains(&snapped);
         (outward && inside && (!self.spec.whole || snapped.fract() == 0.0)).then_some(snapped)
     }
 
@@ -141,14 +141,14 @@ mod tests {
         ) {
             let parameter = Parameter::ALL[which];
             let spec = parameter.spec();
-            let now = now.clamp(spec.range.0, spec.range.1);
+            let now = now.clamp(spec.range[0], spec.range[1]);
             let now = if spec.whole { now.round() } else { now };
             let direction = if up { Direction::Up } else { Direction::Down };
             let ladder = ladder(parameter, direction, now);
             let mut last = now;
             for &rung in ladder.rungs() {
                 prop_assert!(if up { rung > last } else { rung < last }, "{last} {rung}");
-                prop_assert!((spec.range.0..=spec.range.1).contains(&rung));
+                prop_assert!((spec.range[0]..=spec.range[1]).contains(&rung));
                 let (mut near, mut far) = (last, rung);
                 let place = near + share * (far - near);
                 let mut turns = 0;

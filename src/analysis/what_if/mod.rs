@@ -19,6 +19,7 @@ use crate::raster::{LabelMap, UNASSIGNED};
 use crate::trace::{PixelKind, pixel_history};
 use guess::{Guess, guesses};
 use ladder::Ladder;
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 /// What a pixel is.
@@ -147,16 +148,9 @@ fn movable(params: &Params, analysis: &Analysis, pixel: usize) -> Vec<Parameter>
             Setting::Value(_) => vec![Parameter::MinIntensity],
         };
     }
-    vec![
-        Parameter::SliceWidth,
-        Parameter::CylinderWidth,
-        Parameter::MinArea,
-        Parameter::WindowSize,
-        Parameter::CameraNoise,
-        Parameter::MinIntensity,
-        Parameter::BloomDensity,
-        Parameter::ClipThreshold,
-    ]
+    let mut all = Parameter::ALL.to_vec();
+    all.sort_by_key(|parameter| Reverse(parameter.spec().first_stage));
+    all
 }
 
 struct Search<'a> {

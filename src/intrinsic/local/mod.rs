@@ -156,7 +156,7 @@ mod tests {
     use super::*;
     use crate::color::vec3;
     use crate::intrinsic::split;
-    use crate::params::{Parameter, Params, UsedParams};
+    use crate::params::{Params, UsedParams};
     use crate::photo::{LinearImage, MaskLimits, Masks};
     use crate::raster::LabelMap;
     use crate::segment::{LightBasis, LightFindings};
@@ -171,19 +171,7 @@ mod tests {
     }
 
     fn numbers() -> UsedParams {
-        let paper = |parameter: Parameter| parameter.spec().paper;
-        UsedParams {
-            clip_threshold: 240.0,
-            bloom_density: paper(Parameter::BloomDensity),
-            camera_noise: 2.0 * SIGMA,
-            min_intensity: paper(Parameter::MinIntensity),
-            cylinder_width: paper(Parameter::CylinderWidth),
-            slice_width: paper(Parameter::SliceWidth),
-            window_size: paper(Parameter::WindowSize),
-            min_area: paper(Parameter::MinArea),
-            illuminant: None,
-            ambient: crate::params::AmbientSetting::Auto,
-        }
+        UsedParams { camera_noise: 2.0 * SIGMA, ..UsedParams::paper() }
     }
 
     /// Splits a picture in which no region was found, under a light that is known.
