@@ -39,13 +39,13 @@ pub trait Observer: Sync {
     }
 }
 
-/// Watches nothing.
+/// An observer that ignores everything.
 impl Observer for () {}
 
-/// Everything that a run found. The stages' outputs are shared with the session, not copied.
+/// The whole result of a run. Outputs of stages are shared with the session, not copied.
 #[derive(Clone, Debug)]
 pub struct Analysis {
-    /// The numbers that were worked with.
+    /// The numbers that the run used.
     pub used: UsedParams,
     /// Which pixels were believed.
     pub masks: Arc<Masks>,
@@ -63,7 +63,7 @@ pub struct Analysis {
     pub illuminant: Option<Illuminant>,
     /// The intrinsic images and the regions' reflection vectors.
     pub intrinsic: Arc<Intrinsic>,
-    /// What to beware of, in words.
+    /// Warnings, a sentence each.
     pub warnings: Vec<String>,
 }
 
@@ -82,7 +82,7 @@ pub struct OtherShape {
 #[error("the analysis was cancelled")]
 pub struct Cancelled;
 
-/// One image and what earlier runs found in it.
+/// One image and the outputs of earlier runs over it.
 pub struct Session {
     image: Arc<LinearImage>,
     area: Option<Arc<Mask>>,
@@ -118,8 +118,8 @@ impl Session {
         self.stages.run::<NoopRecorder>(&self.subject(), params, observer)
     }
 
-    /// The same, and the record of every decision. Stages that have a record from an earlier run are not run again; those
-    /// that have only an output are, and hand out the same one.
+    /// As [`Session::run`], with the record of every decision. Stages that have a record from an earlier run are not run
+    /// again. Stages that have an output without a record are run again, and give the same output.
     ///
     /// # Errors
     /// [`Cancelled`] when the observer asks for it; what had finished by then is kept.

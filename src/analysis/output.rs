@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// The output of one stage, shared with the session; [`super::Analysis`] holds the same ones at the end.
 #[derive(Clone, Debug)]
 pub enum StageOutput {
-    /// Which pixels are believed, and the numbers that the image told.
+    /// The masks, and the numbers estimated from the image.
     Masks {
         /// Dark, clipped, bloomed and invalid pixels.
         masks: Arc<Masks>,
@@ -33,7 +33,7 @@ pub enum StageOutput {
 }
 
 impl StageOutput {
-    /// The stage that it is the output of.
+    /// The stage that made this output.
     pub fn stage(&self) -> Stage {
         match self {
             Self::Masks { .. } => Stage::Masks,

@@ -1,4 +1,4 @@
-//! What `auto` means: parameters that the image itself can tell.
+//! The values of parameters set to `auto`, estimated from the image (section 7.3).
 
 use crate::params::{Parameter, Params, Setting, UsedParams};
 use crate::photo::LinearImage;
@@ -10,12 +10,12 @@ const CLIP_SHARE: f64 = 240.0 / 255.0;
 /// The paper's image size, to which windows and areas are proportioned, pixels.
 const PAPER_PIXELS: f64 = 512.0 * 480.0;
 
-/// Numbers that do not depend on the noise: clipping threshold, bloom density, minimal intensity. The last is the
-/// paper's while it is automatic, until the noise is known.
+/// The limits of the masks, which are needed before the noise is known: clipping threshold, bloom density, minimal
+/// intensity. An automatic minimal intensity is the paper's here; [`used_params`] replaces it.
 pub fn mask_limits(params: &Params, image: &LinearImage) -> crate::photo::MaskLimits {
     let clip_threshold = match params.clip_threshold {
         Setting::Value(value) => value,
-        // Integer files saturate at their largest value; floats do not say where.
+        // Integer files saturate at their largest value; a float file does not say where it saturates.
         Setting::Auto => image.saturation.map_or(f64::INFINITY, |s| CLIP_SHARE * f64::from(s)),
     };
     crate::photo::MaskLimits {
@@ -25,9 +25,10 @@ pub fn mask_limits(params: &Params, image: &LinearImage) -> crate::photo::MaskLi
     }
 }
 
-/// All numbers, once the noise σ of the image is known (`None`: could not be told).
+/// All numbers, for the standard deviation `sigma` of the image's noise in counts; none: it could not be measured.
 ///
-/// σ0 = 2σ. The radius is 4σ0 as in the paper but at most 8 counts, as more only invites strangers, and at least 2σ0.
+/// σ0 = 2σ. The radius is 4σ0 as in the paper but at most 8 counts, because wider cylinders take
+/// pixels of other objects, and at least 2σ0.
 /// Windows and areas keep their share of the paper's picture. The dark sphere is 9.2σ0, as in table 6.
 pub fn used_params(params: &Params, image: &LinearImage, sigma: Option<f64>) -> UsedParams {
     let limits = mask_limits(params, image);

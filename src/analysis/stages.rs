@@ -1,4 +1,4 @@
-//! The stages in order, each with its last output and what that was made from.
+//! The stages in their order, each with its last output and the key that the output was made from.
 
 use super::resolve::{mask_limits, used_params};
 use super::stale::seen_up_to;
@@ -26,7 +26,7 @@ pub struct Stages {
     split: Slot<Key, Arc<Intrinsic>>,
 }
 
-/// Generation of the stage before, and what the stages up to this one look at.
+/// Generation of the stage before, and the parameters that the stages up to this one read.
 type Key = (u64, (UsedParams, Refine));
 
 #[derive(Clone, Debug, PartialEq)]
@@ -36,24 +36,24 @@ struct MaskKey {
     camera_noise: Option<Setting>,
     /// Whether the minimal intensity follows the noise.
     automatic_intensity: bool,
-    /// Compared by its pixels, where it is not the same mask anyway.
+    /// The area of the session.
     area: Option<Arc<Mask>>,
 }
 
-/// What is analyzed.
+/// The image to analyze, and the part of it.
 pub struct Subject {
     pub image: Arc<LinearImage>,
     /// The pixels to analyze; none: all.
     pub area: Option<Arc<Mask>>,
 }
 
-/// Merged areas, and as a map.
+/// Merged areas as a list and as a map.
 struct MergedAreas {
     areas: Areas,
     map: Arc<Raster<u32>>,
 }
 
-/// An output, what it was made from, a number that changes whenever it does, and the record of its making, if one was kept.
+/// A stage's last output with its key, a generation that rises with every new output, and the record, if one was kept.
 struct Slot<K, V> {
     made: Option<(K, V)>,
     generation: u64,
@@ -106,7 +106,7 @@ impl<K: PartialEq, V: Clone> Slot<K, V> {
 }
 
 impl Stages {
-    /// Runs what is stale, and what has no record where `R` keeps one.
+    /// Runs the stages that are stale, and, where `R` keeps a record, the stages that have none.
     pub fn run<R: Recorder>(
         &mut self,
         subject: &Subject,
@@ -169,7 +169,7 @@ impl Stages {
         Ok(Analysis { used, masks, windows, areas, matte, planar, finals, illuminant, intrinsic, warnings })
     }
 
-    /// The record of all stages; none where one has none.
+    /// The record of all stages; none where a stage has no record.
     pub fn trace(&self, width: usize, height: usize) -> Option<Trace> {
         let stage_traces = [
             &self.masks.stage_trace,
@@ -248,7 +248,7 @@ fn classify_windows<R: Recorder>(input: &AnalysisInput, recorder: &mut R) -> Win
     }
 }
 
-/// The area of each pixel, from 1.
+/// The merged area of each pixel, from 1; 0: none.
 fn area_map(areas: &Areas, windows: &Windows, width: usize, height: usize) -> Raster<u32> {
     let size_px = windows.size_px;
     let number = |&area: &u32| if areas.classes[area as usize].is_some() { area + 1 } else { 0 };

@@ -2,9 +2,10 @@
 
 use super::Export;
 use super::jobs::{ExportInput, Stop};
-use crate::describe::{AreaFacts, ImageFacts, Report, Timings};
+use crate::analysis::Stage;
+use crate::describe::{AreaFacts, Report, Timings};
 use crate::export::{ExportError, WholeResult, matte_bytes, png_of_rgba, write_file};
-use crate::truth::{Outcome, score};
+use crate::truth::{self, Reference, ReportInput};
 use crate::view::{Look, Picture, ResultSnapshot, paint, profile, profile_csv, regions_text, selected};
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -191,24 +192,21 @@ fn write_result(
 
 fn report(shown: &ResultSnapshot) -> Result<Report, String> {
     let Picture { photo, sha256, read_ms, truth, .. } = &*shown.picture;
-    let facts = ImageFacts::of(photo, sha256);
-    let mut report = Report::new(facts, &shown.params, &shown.analysis, &photo.warnings);
-    report.area = shown.area.as_ref().map(|area| AreaFacts {
-        file: AREA_FILE.to_owned(),
-        pixels: area.as_slice().iter().filter(|&&inside| inside).count(),
-    });
-    report.timings_ms = Timings { read: Some(*read_ms), ..Timings::default() };
-    for (stage, took_ms) in crate::analysis::Stage::ALL.into_iter().zip(shown.took_ms) {
-        // Of a stage whose earlier output still stood, the time that it took now.
-        *report.timings_ms.slot(stage) = Some(took_ms.unwrap_or(0.0));
+    let mut timings_ms = Timings { read: Some(*read_ms), ..Timings::default() };
+    for (stage, took_ms) in Stage::ALL.into_iter().zip(shown.took_ms) {
+        // A stage whose earlier output was reused took no time in this run.
+        *timings_ms.slot(stage) = Some(took_ms.unwrap_or(0.0));
     }
-    if let Some(truth) = truth {
-        let intrinsic = &shown.analysis.intrinsic;
-        let (body, surface) = (&intrinsic.body, &intrinsic.surface);
-        let outcome = Outcome { regions: shown.labels(), body, surface, report: &report };
-        report.scores = Some(score(truth, &photo.image.pixels, &outcome).map_err(|error| error.to_string())?);
-    }
-    Ok(report)
+    let input = ReportInput {
+        photo,
+        sha256,
+        params: &shown.params,
+        analysis: &shown.analysis,
+        area: shown.area.as_deref().map(|mask| AreaFacts::new(AREA_FILE, mask)),
+        timings_ms,
+        reference: truth.as_ref().map(|truth| Reference { truth, camera: &photo.image.pixels }),
+    };
+    truth::report(input).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]

@@ -83,7 +83,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
 impl Work<'_> {
     fn run(&self, jobs: &[Job]) -> Outcome {
         let bar = self.progress_bar(jobs.len());
-        // One by one and not in halves: the last photographs shall not wait in line behind each other.
+        // Photographs are handed out one at a time: with larger portions one thread would end with several in a row.
         let done = jobs.par_iter().with_max_len(1).map(|job| {
             let result = self.analyze(job);
             match &result {
@@ -113,7 +113,7 @@ impl Work<'_> {
 
     /// Errors begin with the name of the photograph.
     fn analyze(&self, job: &Job) -> Result<Finished> {
-        // Reading names the file itself.
+        // The error of `read` names the file already.
         let shot = Shot::read(&job.input, &self.reading)?;
         self.compare_and_write(job, &shot).with_context(|| job.input.display().to_string())
     }
@@ -146,7 +146,7 @@ impl Work<'_> {
     }
 }
 
-/// What was found, in half a line.
+/// The numbers of regions, share of lit pixels and light for the line of a finished photograph.
 pub(super) fn in_short(finished: &Finished) -> String {
     let Finished { report, lit_share } = finished;
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });

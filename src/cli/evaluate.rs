@@ -75,7 +75,7 @@ fn find_results(root: &Path) -> Result<Vec<Found>> {
 }
 
 fn evaluate(arguments: &Arguments, name: &Path, folder: &Path) -> Result<Scores> {
-    // Both the name itself and each of its folders: `scenes/cup/camera8` belongs to the truth `cup`.
+    // Candidates are the name itself and each of its folders: `scenes/cup/camera8` belongs to the truth `cup`.
     let components: Vec<&Path> = name.iter().rev().map(Path::new).collect();
     let names = std::iter::once(name).chain(components);
     let truth_folder = find_truth(&arguments.truth, names)

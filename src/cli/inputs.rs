@@ -23,7 +23,7 @@ pub(super) fn parse_pattern(text: &str) -> Result<GlobMatcher, globset::Error> {
 /// The jobs for files and folders as given, folders in the order of their names.
 ///
 /// Hidden files, earlier results and the output folder are passed over. Fails where a folder cannot be read, where there
-/// is nothing to do, and where two results would have one place.
+/// is no photograph, and where two results would have the same folder.
 pub(super) fn plan(inputs: &[PathBuf], pattern: Option<&GlobMatcher>, out: &Path) -> Result<Vec<Job>> {
     let mut jobs = Vec::new();
     for input in inputs {
@@ -68,7 +68,7 @@ fn is_passed_over(entry: &DirEntry, out: Option<&Path>) -> bool {
     hidden || (entry.file_type().is_dir() && (is_result_folder(entry.path()) || is_out()))
 }
 
-/// Names that collide give way to the names of the photographs' folders.
+/// Replaces names that occur more than once by the names of the photographs' folders.
 fn name_apart(jobs: &mut [Job]) {
     let mut uses = BTreeMap::new();
     for job in jobs.iter() {
@@ -86,7 +86,7 @@ pub(super) fn parent_name(file: &Path) -> Option<PathBuf> {
     std::path::absolute(file).ok()?.parent()?.file_name().map(PathBuf::from)
 }
 
-/// No result may lie where another one, or its folder, does.
+/// Fails where two results would have the same folder, or one result would lie inside another.
 fn expect_apart(jobs: &[Job], out: &Path) -> Result<()> {
     let mut sorted: Vec<&Job> = jobs.iter().collect();
     sorted.sort_by(|a, b| a.name.cmp(&b.name));

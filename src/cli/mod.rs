@@ -1,7 +1,7 @@
 //! The command line, one file per command.
 //!
 //! A command returns an error where it was called wrongly, before any work (exit 2); what fails during the work
-//! is said in one line each and turns the [`Outcome`] (exit 1).
+//! is reported on one line of stderr each, and the [`Outcome`] says so (exit 1).
 
 mod analyze;
 mod evaluate;
@@ -78,20 +78,20 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
     })
 }
 
-/// How the work went.
+/// Whether every part of the work succeeded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
     Done,
     SomeFailed,
 }
 
-/// Logs to stderr what `DICHROSCOPE_LOG` asks for.
+/// Starts logging to stderr at the level that the environment variable `DICHROSCOPE_LOG` names.
 pub fn start_log() {
     let filter = EnvFilter::try_from_env("DICHROSCOPE_LOG").unwrap_or_else(|_| EnvFilter::new("off"));
     tracing_subscriber::fmt().with_env_filter(filter).with_writer(io::stderr).init();
 }
 
-/// Runs what the arguments ask for.
+/// Parses the arguments and runs the command that they name.
 pub fn run(arguments: Arguments) -> ExitCode {
     let result = match (arguments.command, arguments.image) {
         (Some(Command::Analyze(arguments)), _) => analyze::run(&arguments),
@@ -123,12 +123,12 @@ fn no_screenshot() -> Result<Outcome> {
     bail!("this program has no window built in: build it with its default features to draw one")
 }
 
-/// A line on stderr. A reader that has gone away is no reason to stop working.
+/// Writes a line to stderr. A closed stderr is ignored, because results are still to be written.
 pub fn note(line: &str) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
-/// Text on stdout, with the same indulgence.
+/// Writes text to stdout; a closed stdout is ignored.
 pub fn print(text: &str) {
     let _ = io::stdout().lock().write_all(text.as_bytes());
 }

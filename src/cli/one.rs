@@ -2,12 +2,12 @@
 
 use anyhow::{Context, Result};
 use dichroscope::analysis::{Analysis, Observer, Session, Stage};
-use dichroscope::describe::{AreaFacts, ImageFacts, Report, Timings};
+use dichroscope::describe::{AreaFacts, Report, Timings};
 use dichroscope::export::WholeResult;
 use dichroscope::params::Params;
 use dichroscope::photo::{self, Photo, ReadOptions};
 use dichroscope::raster::{Mask, Raster, UNASSIGNED};
-use dichroscope::truth::{GroundTruth, Outcome, score};
+use dichroscope::truth::{self, GroundTruth, ReportInput};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -23,24 +23,27 @@ pub(super) struct Shot {
 }
 
 impl Shot {
-    /// Reads a file. Errors name it.
+    /// Reads a file. Errors name the file.
     pub(super) fn read(path: &Path, options: &ReadOptions) -> Result<Self> {
+        // Pixels and hash come from the same bytes: a pipe cannot be read a second time.
         let begin = Instant::now();
-        let photo = photo::read(path, options)?;
-        let read_ms = ms_since(begin);
-        let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
-        Ok(Self { photo, sha256: photo::sha256_hex(&bytes), read_ms })
+        let bytes = photo::read_bytes(path)?;
+        Self::decoded(&bytes, &path.display().to_string(), options, begin)
     }
 
     /// Decodes a file that is already in memory.
     pub(super) fn decode(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Self> {
-        let begin = Instant::now();
+        Self::decoded(bytes, name, options, Instant::now())
+    }
+
+    fn decoded(bytes: &[u8], name: &str, options: &ReadOptions, begin: Instant) -> Result<Self> {
         let photo = photo::decode(bytes, name, options)?;
-        Ok(Self { photo, sha256: photo::sha256_hex(bytes), read_ms: ms_since(begin) })
+        let read_ms = ms_since(begin);
+        Ok(Self { photo, sha256: photo::sha256_hex(bytes), read_ms })
     }
 }
 
-/// What a result is compared with.
+/// A ground truth to compare a result with.
 pub(super) struct Reference {
     pub(super) truth: GroundTruth,
     /// The photograph that the truth belongs to, linear counts.
@@ -57,7 +60,7 @@ impl Reference {
     }
 }
 
-/// The pixels to analyze.
+/// The pixels to analyze, from the file of `--area`.
 pub(super) struct Area {
     name: String,
     mask: Arc<Mask>,
@@ -70,14 +73,9 @@ impl Area {
         Ok(Self { name, mask: Arc::new(photo::read_mask(path, options)?) })
     }
 
-    /// The mask itself.
+    /// The mask, true inside.
     pub(super) fn mask(&self) -> Arc<Mask> {
         Arc::clone(&self.mask)
-    }
-
-    fn facts(&self) -> AreaFacts {
-        let pixels = self.mask.as_slice().iter().filter(|&&inside| inside).count();
-        AreaFacts { file: self.name.clone(), pixels }
     }
 }
 
@@ -92,14 +90,14 @@ pub(super) struct Plan<'a> {
     pub(super) force: bool,
 }
 
-/// What became of a photograph.
+/// The outcome of one photograph.
 pub(super) struct Finished {
     pub(super) report: Report,
-    /// Share of the pixels that are not dark which are in a region; none where all are dark.
+    /// Share of the lit (not dark) pixels that are in a region; none where all pixels are dark.
     pub(super) lit_share: Option<f64>,
 }
 
-/// Analyses a photograph and writes its result to `target`.
+/// Analyzes a photograph and writes its result to `target`.
 pub(super) fn analyze(shot: &Shot, plan: &Plan, target: &Path) -> Result<Finished> {
     let mut clock = StageClock::default();
     let image = Arc::new(shot.photo.image.clone());
@@ -108,20 +106,17 @@ pub(super) fn analyze(shot: &Shot, plan: &Plan, target: &Path) -> Result<Finishe
         session.restrict(Some(Arc::clone(&area.mask))).with_context(|| format!("--area {}", area.name))?;
     }
     let analysis = session.run(plan.params, &mut clock)?;
-    let mut report =
-        Report::new(ImageFacts::of(&shot.photo, &shot.sha256), plan.params, &analysis, &shot.photo.warnings);
-    report.area = plan.area.map(Area::facts);
-    report.timings_ms = Timings { read: Some(shot.read_ms), ..clock.timings };
-    if let Some(Reference { truth, camera }) = plan.reference {
-        let intrinsic = &analysis.intrinsic;
-        let outcome = Outcome {
-            regions: &analysis.finals.labels,
-            body: &intrinsic.body,
-            surface: &intrinsic.surface,
-            report: &report,
-        };
-        report.scores = Some(score(truth, camera, &outcome)?);
-    }
+    let report = truth::report(ReportInput {
+        photo: &shot.photo,
+        sha256: &shot.sha256,
+        params: plan.params,
+        analysis: &analysis,
+        area: plan.area.map(|area| AreaFacts::new(&area.name, &area.mask)),
+        timings_ms: Timings { read: Some(shot.read_ms), ..clock.timings },
+        reference: plan
+            .reference
+            .map(|reference| truth::Reference { truth: &reference.truth, camera: &reference.camera }),
+    })?;
     let whole = WholeResult { photo: &shot.photo, analysis: &analysis, keep_surface: plan.keep_surface };
     let report = whole.write(report, target, plan.force, &|_, _| true)?;
     Ok(Finished { lit_share: lit_share(&analysis), report })
@@ -138,7 +133,7 @@ fn lit_share(analysis: &Analysis) -> Option<f64> {
     (lit > 0).then(|| assigned as f64 / lit as f64)
 }
 
-/// Takes the time of each stage; the core itself has no clock.
+/// Measures the duration of each stage. The library itself reads no clock.
 #[derive(Default)]
 struct StageClock {
     begin: Option<Instant>,
@@ -157,7 +152,7 @@ impl Observer for StageClock {
     }
 }
 
-/// Milliseconds, to the microsecond.
+/// Milliseconds since `begin`, to the microsecond.
 fn ms_since(begin: Instant) -> f64 {
     begin.elapsed().as_micros() as f64 / 1e3
 }

@@ -20,7 +20,7 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    /// What the flags amount to.
+    /// The options that the flags ask for.
     pub(super) fn options(self) -> ReadOptions {
         let Self { encoding, full_scale, max_megapixels } = self;
         ReadOptions { encoding, full_scale, max_megapixels }

@@ -14,7 +14,7 @@ const TARGET: &str = "dichroscope-sample";
 
 pub(super) fn run() -> Result<Outcome> {
     let target = Path::new(TARGET);
-    // There is no --force to give here.
+    // This command has no `--force`.
     check_target(target, false).context("the sample's result needs a place: run this in another folder")?;
     match analyze(target) {
         Ok(text) => {

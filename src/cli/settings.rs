@@ -41,7 +41,7 @@ pub(super) struct Settings {
 }
 
 impl Settings {
-    /// The parameters that all of this amounts to.
+    /// The parameters that defaults, preset, file and flags give together.
     ///
     /// Fails on an unreadable file, an unknown name, a value out of range, and switches that contradict each other.
     pub(super) fn params(&self) -> Result<Params> {
@@ -79,7 +79,7 @@ impl Settings {
     }
 }
 
-/// What a TOML file asks for; keys that it does not have are left to the method.
+/// The content of a parameter file. Missing keys keep the value of the method or preset.
 #[derive(Debug, Default)]
 struct File {
     method: Option<Method>,
@@ -88,21 +88,21 @@ struct File {
 
 fn read_toml(path: &Path) -> Result<File> {
     let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
-    // As `Params` first, because that knows the names and the places of mistakes.
+    // Parsed as `Params` first, whose errors name unknown keys and their lines.
     let params: Params = toml::from_str(&text).map_err(|error| located(path, &text, &error))?;
     let table: toml::Table = toml::from_str(&text).map_err(|error| located(path, &text, &error))?;
     params.validate().with_context(|| path.display().to_string())?;
     Ok(File { method: table.contains_key("method").then_some(params.method), table })
 }
 
-/// A mistake in one line, after the file's name and the line's number.
+/// An error as one line of text, with the file's name and the number of the line in front.
 fn located(path: &Path, text: &str, error: &toml::de::Error) -> anyhow::Error {
     let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
     let line = before.matches('\n').count() + 1;
     anyhow!("{}:{line}: {}", path.display(), error.message().replace('\n', " "))
 }
 
-/// `base` with the keys of `table` in their places.
+/// `base` with the values of `table` in place of its own.
 fn overlay(base: Params, table: toml::Table) -> Result<Params> {
     let mut all = toml::Table::try_from(base)?;
     for (key, value) in table {

@@ -1,4 +1,4 @@
-//! One photograph to be questioned: what `trace` and `why` have in common.
+//! One photograph, analyzed with a record of every decision, for `trace` and `why`.
 
 use super::one::Area;
 use super::reading::Reading;
@@ -47,13 +47,13 @@ pub(super) enum Trouble {
 }
 
 impl Subject {
-    /// Reads the photograph, lets `check` look at it, and analyses it with a record. Errors name the file.
+    /// Reads the photograph, passes it to `check`, and analyzes it with a record. Errors name the file.
     pub(super) fn analyze(&self, check: impl FnOnce(&LinearImage) -> Result<()>) -> Result<Traced, Trouble> {
         let params = self.settings.params().map_err(Trouble::Usage)?;
         let reading = self.reading.options();
         let area = self.area.as_deref().map(|path| Area::read(path, &reading)).transpose();
         let area = area.map_err(Trouble::Usage)?;
-        // Reading names the file itself.
+        // The error of `read` names the file already.
         let photo = photo::read(&self.image, &reading).map_err(|error| Trouble::File(error.into()))?;
         let image = Arc::new(photo.image);
         check(&image).with_context(|| self.image.display().to_string()).map_err(Trouble::Usage)?;
@@ -66,7 +66,7 @@ impl Subject {
         Ok(Traced { image, params, session, analysis, trace })
     }
 
-    /// Runs `work` with the number of threads that was asked for.
+    /// Runs `work` with the number of threads of `--threads`.
     pub(super) fn with_threads<T: Send>(&self, work: impl FnOnce() -> T + Send) -> Result<T> {
         let threads = self.threads.map_or(0, NonZeroUsize::get);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

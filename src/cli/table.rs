@@ -4,7 +4,7 @@ use anyhow::Result;
 use dichroscope::describe::Scores;
 use serde_json::{Map, Value, json};
 
-/// The means over the results that have a figure at all, by the figure's name.
+/// For each figure's name the mean over the results that have the figure.
 fn means(scored: &[(String, Scores)]) -> Vec<(&'static str, Option<f64>)> {
     Scores::default()
         .figures()
@@ -45,7 +45,7 @@ pub(super) fn aligned(scored: &[(String, Scores)]) -> String {
 
 fn heading(figures: &[(&'static str, Option<f64>)]) -> Vec<String> {
     let names = figures.iter().map(|&(name, _)| {
-        // Each stands behind the figure that it belongs to.
+        // The score of doing nothing stands behind the figure that it belongs to.
         if name.ends_with("_nothing") { "(nothing)" } else { name }.to_owned()
     });
     std::iter::once("result".to_owned()).chain(names).collect()
@@ -61,7 +61,7 @@ fn line(name: &str, figures: &[(&'static str, Option<f64>)]) -> Vec<String> {
     std::iter::once(name.to_owned()).chain(cells).collect()
 }
 
-/// The first cell to the left, all others to the right.
+/// A line of a table: the first cell aligned to the left, all others to the right.
 fn justified(cells: &[String], widths: &[usize]) -> String {
     let first = format!("{:<width$}", cells[0], width = widths[0]);
     let others = cells.iter().zip(widths).skip(1).map(|(cell, width)| format!("{cell:>width$}"));

@@ -27,7 +27,7 @@ pub struct Arguments {
     /// Only steps about one region of the result, and the hypotheses that it was made of
     #[arg(long, value_name = "N")]
     region: Option<u16>,
-    // Last, as the headings of its flags would hold for what follows them.
+    // Last, because clap extends a heading to all flags that follow it.
     #[command(flatten)]
     subject: Subject,
 }
@@ -56,7 +56,7 @@ fn trace(arguments: &Arguments) -> Result<Outcome> {
     let wanted = Wanted::new(arguments, &traced, pixel_of(&traced.image)?)?;
     match write(&traced, &wanted, &arguments.out) {
         Ok(()) => Ok(Outcome::Done),
-        // A reader that has seen enough is no failure.
+        // A closed pipe (`| head`) is no failure.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(Outcome::Done),
         Err(error) => {
             note(&format!("{}: {error}", arguments.out.display()));

@@ -22,7 +22,7 @@ pub struct Arguments {
     /// Also search how far each parameter would have to move for the pixel to change its fate: dozens of analyses
     #[arg(long)]
     what_if: bool,
-    // Last, as the headings of its flags would hold for what follows them.
+    // Last, because clap extends a heading to all flags that follow it.
     #[command(flatten)]
     subject: Subject,
 }
@@ -48,7 +48,7 @@ fn why(arguments: &Arguments) -> Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-/// What would change the pixel's fate.
+/// The text for the parameter values at which the pixel's fate changes.
 fn changes(traced: &mut Traced, pixel: usize) -> Result<String> {
     let mut bar = Bar::new();
     let found = what_if(&mut traced.session, &traced.params, pixel, &mut bar)?;
@@ -63,7 +63,7 @@ fn changes(traced: &mut Traced, pixel: usize) -> Result<String> {
     Ok(text)
 }
 
-/// Shows how far a search is, on a terminal.
+/// Shows the progress of a search on a terminal.
 struct Bar(ProgressBar);
 
 impl Bar {
@@ -83,7 +83,7 @@ impl WhatIfObserver for Bar {
     }
 }
 
-/// What the pixel is, and how it came to that.
+/// The text for a pixel: its kind and region, and its history, newest decision first.
 fn history(traced: &Traced, pixel: usize) -> String {
     let names = Names::of(&traced.trace);
     let happened = pixel_history(&traced.trace, &traced.image, &traced.analysis.masks, pixel);

@@ -7,7 +7,7 @@ use crate::params::{
     AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine, Setting, parameter_rows,
 };
 use crate::photo::Photo;
-use crate::raster::UNASSIGNED;
+use crate::raster::{Mask, UNASSIGNED};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -123,6 +123,14 @@ pub struct AreaFacts {
     pub file: String,
     /// Pixels inside.
     pub pixels: usize,
+}
+
+impl AreaFacts {
+    /// The facts of `mask`, true inside, which is kept in a file of this name.
+    pub fn new(file: &str, mask: &Mask) -> Self {
+        let pixels = mask.as_slice().iter().filter(|&&inside| inside).count();
+        Self { file: file.to_owned(), pixels }
+    }
 }
 
 /// A parameter as it was asked for and as it was used.

@@ -30,7 +30,7 @@ fn write<const N: usize>(
     let channels = channels.map(|(name, values)| AnyChannel::new(name, FlatSamples::F32(values)));
     let channels = AnyChannels::sort(channels.into_iter().collect());
     let layer = Layer::new(size, LayerAttributes::default(), Encoding::SMALL_LOSSLESS, channels);
-    // The files of a result are written side by side: threads within each would only fight with that.
+    // The files of a result are written in parallel already, so that more threads within a file would gain nothing.
     Image::from_layer(layer)
         .write()
         .non_parallel()

@@ -1,4 +1,4 @@
-//! The photograph without its highlights, written the way the photograph itself came.
+//! The photograph without its highlights, in the format of the photograph's own file.
 
 mod container;
 
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MatteError {
-    /// The body image is not the photograph's.
+    /// The body image and the photograph differ in size.
     #[error("the body image has {} \u{d7} {} pixels, the photograph {} \u{d7} {}", body.0, body.1, photo.0, photo.1)]
     Shape {
         /// Width and height of the body image.
@@ -24,15 +24,15 @@ pub enum MatteError {
     Encode {
         /// The file that was to be written.
         path: PathBuf,
-        /// What the encoder said.
+        /// The encoder's error.
         reason: String,
     },
-    /// The system would not write the file.
+    /// The file could not be written.
     #[error("{}: cannot be written: {cause}", path.display())]
     Write {
         /// The file that was to be written.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         cause: std::io::Error,
     },
 }
@@ -113,7 +113,7 @@ fn coded(photo: &Photo, intrinsic: &Intrinsic, keep_surface: f32) -> Picture {
         }
         Samples::F32(samples) => {
             let code = |_band, counts: f32| (f64::from(counts) / full_scale) as f32;
-            // Floats leave linear, whatever curve they came with.
+            // Floats are written linear, whatever tone curve the photograph's file had.
             let matte = Matte { keep_unchanged: photo.encoding.is_linear(), ..matte };
             matte.picture(samples, code, |alpha| alpha, Samples::F32)
         }
@@ -145,14 +145,14 @@ impl Sample for f32 {
     }
 }
 
-/// Pixels to a task: enough that handing them out costs nothing.
+/// Pixels per parallel task: enough to make the cost of distributing tasks negligible.
 const CHUNK: usize = 1 << 13;
 
-/// A photograph, what it was split into, and how much of its surface reflection stays.
+/// A photograph, its intrinsic images, and the share of the surface reflection to keep.
 struct Matte<'a> {
     photo: &'a Photo,
     intrinsic: &'a Intrinsic,
-    /// In 0…1.
+    /// Share of the surface reflection to keep, 0…1.
     keep_surface: f32,
     /// Whether pixels that did not change keep their samples as they are.
     keep_unchanged: bool,
@@ -218,7 +218,7 @@ impl Matte<'_> {
     ) {
         let source = &self.photo.source;
         let alpha = source.layout.has_alpha().then(|| stored[stored.len() - 1]);
-        // What shows nothing cannot have changed.
+        // A fully transparent pixel keeps its samples.
         let weight = match alpha {
             Some(alpha) if source.alpha == AlphaKind::Straight => opacity(alpha),
             _ => 1.0,

@@ -34,7 +34,7 @@ pub enum ExportError {
     Io {
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: std::io::Error,
     },
     /// A PNG could not be encoded or written.
@@ -42,7 +42,7 @@ pub enum ExportError {
     Png {
         /// The file.
         path: PathBuf,
-        /// What the encoder said.
+        /// The encoder's error.
         source: ::png::EncodingError,
     },
     /// An EXR could not be encoded or written.
@@ -50,7 +50,7 @@ pub enum ExportError {
     Exr {
         /// The file.
         path: PathBuf,
-        /// What the encoder said.
+        /// The encoder's error.
         source: exr::error::Error,
     },
     /// The report could not be turned into JSON.
@@ -58,19 +58,19 @@ pub enum ExportError {
     Json {
         /// The file.
         path: PathBuf,
-        /// What could not be said in JSON.
+        /// The serializer's error.
         source: serde_json::Error,
     },
     /// The photograph without its highlights could not be written.
     #[error(transparent)]
     Matte(#[from] MatteError),
-    /// Whoever watched the writing had it stopped.
+    /// The observer of the writing stopped it.
     #[error("stopped before all was written")]
     Stopped,
-    /// Something that is not a result of ours stands where the result shall be.
+    /// The target folder exists and is no earlier result.
     #[error("{} exists and is not an earlier result: --force replaces it", .0.display())]
     Occupied(PathBuf),
-    /// A file stands where the folder of the result shall be.
+    /// The target exists and is a file.
     #[error("{} is a file: a result needs a folder", .0.display())]
     NotAFolder(PathBuf),
 }

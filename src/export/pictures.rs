@@ -19,7 +19,7 @@ type Writer = fn(&Subject, &Path) -> Result<(), ExportError>;
 /// Pictures in a result folder, the matte photograph apart.
 pub(super) const PICTURE_COUNT: usize = 14;
 
-/// Every picture by its name; the largest first, so that none is still at work when all others are done.
+/// Every picture by its name. The largest come first, so that none of them is started last.
 const PICTURES: [(&str, Writer); PICTURE_COUNT] = [
     ("body.exr", |s, path| floats::write_rgb(path, &s.analysis.intrinsic.body)),
     ("residual.exr", |s, path| floats::write_rgb(path, &residual(s))),
@@ -45,7 +45,7 @@ pub fn write_pictures(folder: &Path, image: &LinearImage, analysis: &Analysis) -
     write_pictures_watched(folder, image, analysis, &|| Ok(()))
 }
 
-/// Likewise; `file_done` is asked after each file whether to go on.
+/// As [`write_pictures`]; after each file `file_done` says whether to go on.
 pub(super) fn write_pictures_watched(
     folder: &Path,
     image: &LinearImage,

@@ -14,13 +14,13 @@ pub(super) fn write_labels(path: &Path, labels: &LabelMap) -> Result<(), ExportE
     write(path, (labels.width(), labels.height()), &kind, &bytes)
 }
 
-/// 8-bit sRGB values, tagged as such.
+/// Writes 8-bit sRGB values with an sRGB chunk.
 pub(super) fn write_rgb(path: &Path, values: &Raster<[u8; 3]>) -> Result<(), ExportError> {
     let kind = Kind { color: ColorType::Rgb, depth: BitDepth::Eight, srgb: true };
     write(path, (values.width(), values.height()), &kind, values.as_slice().as_flattened())
 }
 
-/// 8-bit gray sRGB values, tagged as such.
+/// Writes 8-bit gray values with an sRGB chunk.
 pub(super) fn write_gray(path: &Path, values: &Raster<u8>) -> Result<(), ExportError> {
     let kind = Kind { color: ColorType::Grayscale, depth: BitDepth::Eight, srgb: true };
     write(path, (values.width(), values.height()), &kind, values.as_slice())
@@ -41,7 +41,7 @@ pub fn png_of_gray(values: &Raster<u8>) -> Vec<u8> {
 pub fn png_of_rgba(size: [u32; 2], rgba: &[u8]) -> Vec<u8> {
     let kind = Kind { color: ColorType::Rgba, depth: BitDepth::Eight, srgb: true };
     let mut bytes = Vec::new();
-    // Writing to memory fails only where the size does not fit the values: then there is no picture.
+    // Writing to memory fails only where the size does not fit the values.
     match encode(&mut bytes, (size[0] as usize, size[1] as usize), &kind, rgba) {
         Ok(()) => bytes,
         Err(_) => Vec::new(),

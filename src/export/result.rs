@@ -1,4 +1,4 @@
-//! Finding and reading back what was written.
+//! Finding result folders and reading their reports.
 
 use crate::describe::{FILE_NAME, Report, ReportError, is_report};
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ pub enum ResultError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: std::io::Error,
     },
     /// The file is not a report that this program reads.
@@ -36,7 +36,7 @@ pub fn read_report(folder: &Path) -> Result<Report, ResultError> {
     }
 }
 
-/// Whether `folder` holds a report of ours, of whatever schema: only such a folder may be replaced unasked.
+/// Whether `folder` holds a `report.json` of this program, of any schema. Only such a folder is replaced without `--force`.
 pub fn is_result_folder(folder: &Path) -> bool {
     std::fs::read(folder.join(FILE_NAME)).is_ok_and(|text| is_report(&text))
 }

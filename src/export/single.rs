@@ -22,7 +22,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
     let hidden = hidden_sibling(path, "new");
     let written = fs::write(&hidden, bytes).and_then(|()| fs::rename(&hidden, path));
     written.map_err(|source| {
-        // The failure's own message is the one that counts.
+        // An error of the cleanup would hide the error that made it necessary.
         let _ = fs::remove_file(&hidden);
         failed(source)
     })

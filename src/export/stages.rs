@@ -1,4 +1,4 @@
-//! What each stage found, as pictures to look at.
+//! The output of each stage as a picture.
 
 use super::palette::Palette;
 use crate::analysis::Analysis;

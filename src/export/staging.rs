@@ -7,10 +7,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Tells apart the hidden folders of one process.
+/// Serial number of the next hidden folder of this process.
 static SERIAL: AtomicU32 = AtomicU32::new(0);
 
-/// A result in the making, in a hidden sibling of the folder that it will become.
+/// An unfinished result in a hidden folder beside its target.
 ///
 /// Dropped without [`Staging::publish`], it leaves nothing behind.
 #[derive(Debug)]
@@ -55,7 +55,7 @@ impl Staging {
         Ok(Self { folder, target, force })
     }
 
-    /// Where the files of the result go.
+    /// The hidden folder, for the files of the result.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
@@ -70,7 +70,7 @@ impl Staging {
             Ok(text) => fs::write(&path, text).map_err(|source| ExportError::Io { path, source })?,
             Err(source) => return Err(ExportError::Json { path, source }),
         }
-        // Somebody may have put something there since the beginning.
+        // Another process may have created the target since `new`.
         check_target(&self.target, self.force)?;
         let failed = |source| ExportError::Io { path: self.target.clone(), source };
         let old = hidden_sibling(&self.target, "old");
@@ -94,7 +94,7 @@ impl Staging {
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        // Already renamed, or a failure whose own message is the one that counts.
+        // The folder was renamed, or an earlier error is the one to report.
         let _ = fs::remove_dir_all(&self.folder);
     }
 }

@@ -1,4 +1,4 @@
-//! A whole result, written by the command line and by the window alike.
+//! Writing a whole result folder, for the command line and the window.
 
 use super::pictures::{PICTURE_COUNT, write_pictures_watched};
 use super::{ExportError, Staging, write_matte};
@@ -14,7 +14,7 @@ use std::time::Instant;
 pub struct WholeResult<'a> {
     /// The photograph.
     pub photo: &'a Photo,
-    /// What was found in it.
+    /// The analysis of the photograph.
     pub analysis: &'a Analysis,
     /// Share of the surface reflection that the matte picture keeps, 0…1.
     pub keep_surface: f64,
@@ -53,7 +53,7 @@ impl WholeResult<'_> {
         );
         pictures?;
         matte?;
-        // To the microsecond.
+        // Milliseconds, to the microsecond.
         report.timings_ms.write = Some(begin.elapsed().as_micros() as f64 / 1e3);
         staging.publish(&report)?;
         Ok(report)

@@ -76,15 +76,23 @@ pub struct Photo {
 /// # Errors
 /// [`ReadError`], one line that names the file: not readable, no picture, damaged, too large, or nonsense in `options`.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Photo, ReadError> {
+    decode(&read_bytes(path)?, &path.display().to_string(), options)
+}
+
+/// The bytes of the picture file at `path`, read once from its beginning to its end, so that it may be a pipe.
+///
+/// # Errors
+/// [`ReadError`] where the file cannot be read, is empty, or does not begin like a picture.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     let name = path.display().to_string();
     let io = |cause| ReadError::Io { file: name.clone(), cause };
     let mut file = File::open(path).map_err(io)?;
-    // The first bytes alone tell most strangers, however large (or endless) the file is.
+    // A file of another kind, however large or endless, is refused by its first bytes.
     let mut bytes = Vec::new();
     (&mut file).take(Format::MAGIC_BYTES as u64).read_to_end(&mut bytes).map_err(io)?;
     identify(&bytes, &name)?;
     file.read_to_end(&mut bytes).map_err(io)?;
-    decode(&bytes, &name, options)
+    Ok(bytes)
 }
 
 /// Reads any picture as a mask, upright: what is not black is inside. Its tone curve does not matter.

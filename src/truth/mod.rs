@@ -7,12 +7,14 @@
 mod folder;
 mod measures;
 mod pictures;
+mod report;
 pub mod sample;
 mod score;
 
 pub use folder::{GroundTruth, TruthFiles, TruthObject, find_truth};
 pub use measures::{adjusted_rand_index, angle_deg, erode_labels, psnr_db};
 pub use pictures::ResultPictures;
+pub use report::{Reference, ReportInput, report};
 pub use score::{Outcome, ScoreError, score};
 
 use std::path::PathBuf;

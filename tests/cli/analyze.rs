@@ -117,6 +117,17 @@ fn a_photograph_becomes_a_whole_result() {
     assert!(has("body.png", b"sRGB") && !has("regions.png", b"sRGB"));
 }
 
+/// A pipe can be read once: a second reading would take the hash of nothing.
+#[cfg(unix)]
+#[test]
+fn a_photograph_from_a_pipe_has_the_hash_of_its_bytes() {
+    let work = WorkFolder::new();
+    let bytes = fs::read(tiny().join("camera8.png")).unwrap();
+    let ended = work.run_piped("analyze /dev/stdin --out out", &bytes);
+    assert_eq!(ended.code, 0, "{}", ended.err);
+    assert_eq!(work.report("out/stdin").image.sha256, dichroscope::photo::sha256_hex(&bytes));
+}
+
 #[test]
 fn the_same_photograph_gives_the_same_files_with_any_number_of_threads() {
     let work = WorkFolder::new();

@@ -4,13 +4,21 @@
 //! anew.
 
 use crate::folder::WorkFolder;
+use dichroscope::params::{parameter_table, switch_table};
 use std::fs;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-/// Compares the generated part `name` of a file in `docs/` with `text`, or writes it there with `UPDATE_DOCS=1`.
+/// Compares the generated part `name` of a file in `docs/` with `text` as a block of code, or writes it there with
+/// `UPDATE_DOCS=1`.
 #[track_caller]
 pub fn check(document: &str, name: &str, text: &str) {
+    check_markdown(document, name, &code(text));
+}
+
+/// The same with a text that is Markdown itself.
+#[track_caller]
+fn check_markdown(document: &str, name: &str, text: &str) {
     /// Tests run at once, and several parts stand in one file.
     static FILES: Mutex<()> = Mutex::new(());
     let _one_at_a_time = FILES.lock().unwrap_or_else(PoisonError::into_inner);
@@ -27,14 +35,19 @@ pub fn check(document: &str, name: &str, text: &str) {
     }
 }
 
-/// `document` with `text` as a block of code in its generated part `name`.
+/// A text as a block of code.
+fn code(text: &str) -> String {
+    let lines: Vec<&str> = text.trim_end().lines().map(str::trim_end).collect();
+    format!("```text\n{}\n```\n", lines.join("\n"))
+}
+
+/// `document` with `text` in its generated part `name`.
 #[track_caller]
 fn replaced(document: &str, name: &str, text: &str) -> String {
     let begin = format!("<!-- generated: {name} -->\n");
     let (before, rest) = document.split_once(&begin).unwrap_or_else(|| panic!("no {begin}"));
     let (_, after) = rest.split_once("<!-- end -->").expect("a generated part has an end");
-    let lines: Vec<&str> = text.trim_end().lines().map(str::trim_end).collect();
-    format!("{before}{begin}```text\n{}\n```\n<!-- end -->{after}", lines.join("\n"))
+    format!("{before}{begin}{text}<!-- end -->{after}")
 }
 
 #[test]
@@ -46,8 +59,14 @@ fn the_help_of_every_command_is_in_the_documents() {
 }
 
 #[test]
+fn the_tables_of_parameters_and_switches_are_in_the_documents() {
+    check_markdown("parameters.md", "parameters", &parameter_table());
+    check_markdown("parameters.md", "switches", &switch_table());
+}
+
+#[test]
 fn only_the_part_of_that_name_is_replaced() {
     let document = "a\n<!-- generated: x -->\nold\n<!-- end -->\nb\n<!-- generated: y -->\n<!-- end -->\n";
     let expected = "a\n<!-- generated: x -->\n```text\n  new\n```\n<!-- end -->\nb\n<!-- generated: y -->\n<!-- end -->\n";
-    assert_eq!(replaced(document, "x", "  new \n"), expected);
+    assert_eq!(replaced(document, "x", &code("  new \n")), expected);
 }

@@ -41,13 +41,19 @@ impl WorkFolder {
 
     /// Runs the program as on a machine without a display.
     pub fn run(&self, arguments: &str) -> Ended {
+        self.run_piped(arguments, &[])
+    }
+
+    /// The same, with `input` in the pipe that is the program's standard input.
+    pub fn run_piped(&self, arguments: &str, input: &[u8]) -> Ended {
         let tiny = tiny().display().to_string();
         let arguments = arguments.split_whitespace().map(|word| word.replace("TINY", &tiny));
         let mut program = cargo_bin_cmd!("dichroscope");
         for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
             program.env_remove(name);
         }
-        let output = program.current_dir(self.temporary.path()).args(arguments).output().unwrap();
+        program.current_dir(self.temporary.path()).args(arguments).write_stdin(input);
+        let output = program.output().unwrap();
         let text = |bytes| String::from_utf8(bytes).unwrap();
         Ended { code: output.status.code().unwrap(), out: text(output.stdout), err: text(output.stderr) }
     }

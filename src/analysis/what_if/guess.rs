@@ -1,11 +1,11 @@
-//! What the recorded numbers say about where a fate changes.
+//! Parameter values at which a fate may change, from the numbers of the recorded decisions.
 
 use super::Direction;
 use crate::params::{Parameter, Params, UsedParams};
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::trace::{Barrier, HistoryEntry, HistoryKind, MaskVerdict, PassedOver, Reach, Release};
 
-/// A value at which one threshold would decide otherwise.
+/// A value at which one recorded threshold would decide the other way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Guess {
     pub(super) parameter: Parameter,
@@ -44,7 +44,7 @@ impl Guesses<'_> {
         self.list.push(Guess { parameter, direction: Direction::Down, value });
     }
 
-    /// The cylinder would just reach so far, counts.
+    /// Guesses at which the cylinder just reaches `distance`, counts.
     fn wider(&mut self, distance: f64) {
         self.up(Parameter::CylinderWidth, distance / self.used.camera_noise);
         if self.noise_moves_width {

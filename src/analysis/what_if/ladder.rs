@@ -1,4 +1,4 @@
-//! The values of a parameter that are tried, and how finely.
+//! The values of a parameter to try, and their spacing.
 
 use super::Direction;
 use crate::params::{Parameter, ParameterSpec};
@@ -25,16 +25,16 @@ impl Ladder {
     pub(super) fn new(parameter: Parameter, direction: Direction, now: f64, image: &LinearImage) -> Self {
         let spec = parameter.spec();
         let limit = match (parameter, direction) {
-            // Beyond the largest value of the picture nothing clips.
+            // No pixel is clipped by a threshold above the largest value of the picture.
             (Parameter::ClipThreshold, Direction::Up) => {
                 largest_band(image).clamp(spec.range[0], spec.range[1]) * 1.01
             }
             (_, Direction::Up) => spec.range[1],
             (_, Direction::Down) => spec.range[0],
         };
-        // A threshold that is off comes down from where the picture ends.
+        // A threshold that is off (infinite) starts from the largest value of the picture.
         let start = if now.is_finite() { now } else { largest_band(image) };
-        // Nothing grows from nothing.
+        // A factor leaves 0 at 0.
         let start = if direction == Direction::Up { start.max(spec.paper / 8.0) } else { start };
         let grid = if spec.whole { 1.0 } else { 10f64.powf(start.max(1e-3).log10().floor() - 2.0) };
         let mut ladder = Self { spec, direction, now, grid, limit, rungs: Vec::new() };
@@ -80,7 +80,7 @@ impl Ladder {
 
     /// A value of the grid between two; none where they are near enough.
     pub(super) fn between(&self, near: f64, far: f64) -> Option<f64> {
-        // What is off lies above everything.
+        // A threshold that is off lies above every value.
         let near = if near.is_finite() { near } else { far + 4.0 * self.grid.max(PRECISION * far) };
         let apart = (near - far).abs();
         if apart <= self.grid * 1.5 && self.spec.whole && apart <= 1.0 {
@@ -94,7 +94,7 @@ impl Ladder {
         (middle > low && middle < high).then_some(middle)
     }
 
-    /// So many steps of the grid, without the dust of binary fractions.
+    /// The value `steps` steps of the grid from 0, rounded to the nearest decimal fraction.
     fn tidy(&self, steps: f64) -> f64 {
         if self.grid >= 1.0 { steps * self.grid } else { steps / (1.0 / self.grid).round() }
     }
@@ -129,7 +129,7 @@ mod tests {
         assert_eq!(ladder(Parameter::WindowSize, Direction::Down, 10.0).rungs(), [9.0, 8.0, 6.0, 5.0, 3.0]);
         assert!(ladder(Parameter::BloomDensity, Direction::Down, 1.0).rungs().is_empty());
         assert_eq!(ladder(Parameter::MinIntensity, Direction::Up, 0.0).rungs().len(), 6);
-        // Nothing clips beyond 200 counts.
+        // The largest value of the picture is 200 counts.
         assert!(ladder(Parameter::ClipThreshold, Direction::Up, 240.0).rungs().is_empty());
         assert_eq!(ladder(Parameter::ClipThreshold, Direction::Down, f64::INFINITY).rungs()[0], 181.0);
     }

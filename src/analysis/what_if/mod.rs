@@ -22,16 +22,16 @@ use ladder::Ladder;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// What a pixel is.
+/// Region and kind of a pixel in a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fate {
-    /// Where it belongs.
+    /// The pixel's region.
     pub home: Home,
-    /// What it is there.
+    /// The pixel's kind in that region.
     pub kind: PixelKind,
 }
 
-/// Where a pixel belongs.
+/// A pixel's region, named by the regions of the unchanged result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Home {
     /// In no region.
@@ -62,7 +62,7 @@ pub struct WhatIf {
     pub now: f64,
     /// The fate changes here.
     pub at: f64,
-    /// It does not yet here, the next value on the near side that was tried.
+    /// The nearest value tried on the near side, at which the fate is unchanged.
     pub unchanged_at: f64,
     /// The pixel's fate in the unchanged result.
     pub before: Fate,
@@ -72,11 +72,11 @@ pub struct WhatIf {
     pub predicted: bool,
 }
 
-/// Watches a search, and may stop it.
+/// Receives the progress of a search, and may stop it.
 pub trait WhatIfObserver: Sync {
-    /// So many of the searches, one for each parameter and direction, are done.
+    /// `done` of `of` searches are finished; there is one for each parameter and direction.
     fn progress(&mut self, _done: usize, _of: usize) {}
-    /// Something was found.
+    /// A value at which the fate changes was found.
     fn found(&mut self, _what_if: &WhatIf) {}
     /// Asked often, from any thread; the search stops soon after it turns true.
     fn cancelled(&self) -> bool {
@@ -84,7 +84,7 @@ pub trait WhatIfObserver: Sync {
     }
 }
 
-/// Watches nothing.
+/// An observer that ignores everything.
 impl WhatIfObserver for () {}
 
 /// For each parameter and direction the nearest value found at which the pixel's fate is another, in the order of table 6,
@@ -142,7 +142,7 @@ fn movable(params: &Params, analysis: &Analysis, pixel: usize) -> Vec<Parameter>
         return Vec::new();
     }
     if masks.dark(pixel) {
-        // No stage looks at it as long as it is dark, and automatic darkness follows the noise.
+        // No stage reads a dark pixel; an automatic limit of darkness follows the noise.
         return match params.min_intensity {
             Setting::Auto => vec![Parameter::CameraNoise, Parameter::MinIntensity],
             Setting::Value(_) => vec![Parameter::MinIntensity],
@@ -183,7 +183,7 @@ impl Search<'_> {
             if after == self.before {
                 continue;
             }
-            // Right if nothing changes one step before.
+            // The guess is right if the fate is unchanged one step before.
             let near = ladder.step_back(value);
             if self.fate(parameter, near, &mut seen, observer)? == self.before {
                 return Ok(Some(self.told((parameter, direction), [near, value], after, true)));
@@ -262,7 +262,7 @@ fn home(before: &LabelMap, after: &LabelMap, pixel: usize) -> Home {
     most.map_or(Home::New, |(region, _)| Home::Region(region))
 }
 
-/// Lets a run be cancelled, and hears nothing else of it.
+/// Passes only the question for cancellation on to the search's observer.
 struct Quiet<'a, W>(&'a W);
 
 impl<W: WhatIfObserver> Observer for Quiet<'_, W> {
