@@ -11,7 +11,7 @@ use crate::segment::{
     AnalysisInput, Areas, Classifier, FinalRegions, LightFindings, MatteRegions, PlanarRegions, Windows,
     classify, clipping_regions, final_regions, matte_regions, merge, planar_regions,
 };
-use crate::trace::{Event, MasksMade, Recorder, StageTrace, Trace};
+use crate::trace::{MasksMade, Recorder, StageBegan, StageTrace, Trace};
 use std::sync::Arc;
 
 /// The last output of each stage.
@@ -88,7 +88,7 @@ impl<K: PartialEq, V: Clone> Slot<K, V> {
         }
         let mut recorder = R::default();
         if R::KEEPS {
-            recorder.record(Event::StageBegan { stage });
+            recorder.record(StageBegan { stage });
         }
         let value = make(observer, &mut recorder);
         if observer.cancelled() {
@@ -215,7 +215,7 @@ impl Stages {
             };
             if R::KEEPS {
                 let made = masks_made(&masks, limits, image.pixels.len(), sigma);
-                recorder.record(Event::MasksMade(Box::new(made)));
+                recorder.record(made);
             }
             (Arc::new(masks), sigma)
         })?;

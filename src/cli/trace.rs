@@ -128,9 +128,8 @@ impl Wanted {
             .as_ref()
             .is_none_or(|(wanted, history)| step.pixel() == Some(*wanted) || history.contains(&seq));
         about_pixel
-            && self.regions.as_ref().is_none_or(|(wanted, number)| match step {
-                Step::Event(Event::VectorsFitted(fitted)) => fitted.region == *number,
-                _ => wanted.iter().any(|&region| step.concerns(region)),
+            && self.regions.as_ref().is_none_or(|(hypotheses, region)| {
+                hypotheses.iter().any(|&hypothesis| step.concerns(hypothesis, Some(*region)))
             })
     }
 }

@@ -3,6 +3,7 @@
 //! The types of the report are its schema: their fields, in their order, are what the file holds, and a written report reads
 //! back as the same value. Colors and distances are in counts (255 = full scale), directions are unit vectors.
 
+mod events;
 mod facts;
 mod scores;
 mod trace_line;

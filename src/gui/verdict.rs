@@ -1,7 +1,7 @@
 //! A skewed-T test in words: what was held against what, and whether it passed.
 
 use super::theme::{SMALL_PT, Tones};
-use crate::trace::CandidateTest;
+use crate::trace::CandidateTested;
 use crate::view::{Check, candidate_name, skewed_t_view};
 use egui::accesskit::Role;
 use egui::{Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
@@ -10,7 +10,7 @@ use egui::{Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec
 const MARK_PT: f32 = 12.0;
 
 /// Shows it with its upper left corner at `corner`, over `ground`; returns the room that it takes.
-pub fn show(ui: &Ui, tones: &Tones, ground: Color32, corner: Pos2, test: &CandidateTest) -> Rect {
+pub fn show(ui: &Ui, tones: &Tones, ground: Color32, corner: Pos2, test: &CandidateTested) -> Rect {
     let halo = ground.gamma_multiply(0.8);
     let head = format!("highlight of {}: {}?", test.region, candidate_name(test.candidate));
     let tip =

@@ -16,7 +16,7 @@ use crate::segment::{
     AnalysisInput, BranchSearch, Branches, FinalRegions, Members, Pixels, PlanarHypothesis, RegionFit,
     members, neighbors,
 };
-use crate::trace::{Ambient, BranchesSought, Event, Pass, PixelKind, Recorder, VectorsFitted};
+use crate::trace::{Ambient, BranchesSought, Pass, PassBegan, PixelKind, Recorder, VectorsFitted};
 use rayon::prelude::*;
 
 /// Splits the picture, without its ambient light.
@@ -24,8 +24,8 @@ pub fn split<R: Recorder>(input: &AnalysisInput, regions: &FinalRegions, recorde
     let members = members(regions);
     let ambient = ambient(input, regions, &members);
     if R::KEEPS {
-        recorder.record(Event::PassBegan { pass: Pass::Ambient });
-        recorder.record(Event::AmbientSought(Box::new(ambient)));
+        recorder.record(PassBegan { pass: Pass::Ambient });
+        recorder.record(ambient);
     }
     let Some(counts) = ambient.subtracted else {
         return Intrinsic { ambient, ..split_from(&[0.0; 3], input, regions, &members, recorder) };
@@ -77,20 +77,20 @@ fn split_from<R: Recorder>(
     }
     images.restore(origin, input, regions, (&splitters, members));
     if R::KEEPS {
-        recorder.record(Event::PassBegan { pass: Pass::Vectors });
+        recorder.record(PassBegan { pass: Pass::Vectors });
         for (region, splitter) in (1..).zip(&splitters) {
             let Branches { cores, gaps } = splitter.branches.clone();
             if !cores.is_empty() {
-                recorder.record(Event::BranchesSought(Box::new(BranchesSought { region, cores, gaps })));
+                recorder.record(BranchesSought { region, cores, gaps });
             }
-            recorder.record(Event::VectorsFitted(Box::new(splitter.vectors_fitted(input, region, origin))));
+            recorder.record(splitter.vectors_fitted(input, region, origin));
         }
     }
     let fits: Vec<RegionFit> = splitters.iter().map(|splitter| splitter.fit).collect();
     let explained_mask = explained_mask(input, regions, members, &fits, &images.kinds);
     let local = split_locally((input, origin), regions, &explained_mask, &mut images, recorder);
     if R::KEEPS {
-        recorder.record(Event::PassBegan { pass: Pass::Labels });
+        recorder.record(PassBegan { pass: Pass::Labels });
         recorder.labels(&images.kinds);
     }
     let touching = neighbors(&regions.labels, regions.hypotheses.len());

@@ -11,7 +11,7 @@ use super::linear::{Hypothesis, matte_length};
 use super::recorded_labels::{Members, RecordedLabels};
 use crate::color::{Moments, Vec3, closest_points};
 use crate::raster::UNASSIGNED;
-use crate::trace::{CandidateSource, Event, Recorder};
+use crate::trace::{Absorbed, CandidateSource, Recorder};
 
 /// Farthest that a highlight region may lie from its object, pixels.
 const REACH_PX: usize = 3;
@@ -92,8 +92,8 @@ fn give_up<R: Recorder>(
 ) {
     let foot = |id: u16| hypotheses[usize::from(id) - 1].line.foot().norm();
     if R::KEEPS {
-        let feet = [foot(id), foot(by)];
-        recorded_labels.recorder.record(Event::Absorbed { region: id, by, feet, gap });
+        let (highlight_foot, object_foot) = (foot(id), foot(by));
+        recorded_labels.recorder.record(Absorbed { region: id, by, highlight_foot, object_foot, gap });
     }
     let mut cluster = Moments::default();
     for pixel in members.region(id).iter() {

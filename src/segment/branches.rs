@@ -15,7 +15,7 @@ use super::input::AnalysisInput;
 use super::recorded_labels::Pixels;
 use crate::raster::{LabelMap, Raster};
 use crate::reflection::{MOST_BRANCHES, ReflectionTransform};
-use crate::trace::HighlightCore;
+use crate::trace::{HighlightCore, Measured};
 
 /// A highlight's pixel lies at least so far off the matte line, σ.
 const LEAST_OFFSET: f32 = 8.0;
@@ -59,7 +59,7 @@ pub struct Branches {
     pub cores: Vec<HighlightCore>,
     /// From each core to the next: how much their body reflection differs, and from which difference on they belong to two
     /// branches, counts.
-    pub gaps: Vec<[f32; 2]>,
+    pub gaps: Vec<Measured<f32>>,
 }
 
 /// A pixel of a highlight.
@@ -92,7 +92,7 @@ impl BranchSearch<'_> {
         let all: f64 = cores.iter().map(|core| f64::from(core.pixels)).sum();
         cores.retain(|core| f64::from(core.pixels) >= LEAST_PX_SHARE * all);
         cores.sort_by(|a, b| a.body.total_cmp(&b.body));
-        let gaps: Vec<[f32; 2]> = cores.windows(2).map(|pair| self.gap(&pair[0], &pair[1])).collect();
+        let gaps: Vec<Measured<f32>> = cores.windows(2).map(|pair| self.gap(&pair[0], &pair[1])).collect();
         number_branches(&mut cores, &gaps);
         Branches { cores, gaps }
     }
@@ -187,13 +187,13 @@ impl BranchSearch<'_> {
     }
 
     /// How much two cores' body reflection differs, and from which difference on they belong to two branches, counts.
-    fn gap(&self, low: &HighlightCore, high: &HighlightCore) -> [f32; 2] {
+    fn gap(&self, low: &HighlightCore, high: &HighlightCore) -> Measured<f32> {
         let valley = VALLEY * low.deviation.hypot(high.deviation);
         let least = LEAST_GAP * self.matte_length as f32;
         let reject_reason =
             self.light_doubt_deg.unwrap_or(0.0).max(LEAST_DOUBT_DEG).to_radians().sin() as f32;
         let turned = reject_reason * (high.surface - low.surface).abs() / self.transform.sine();
-        [high.body - low.body, valley.max(least) + turned]
+        Measured::new(high.body - low.body, valley.max(least) + turned)
     }
 }
 
@@ -214,9 +214,9 @@ fn span(pixels: impl Iterator<Item = u32>, width: u32) -> [u32; 4] {
 
 /// Gives each core its branch: cores in a row without a gap that is wide enough are one; the one with most pixels is the first.
 /// Of too many branches the weakest go to their nearest neighbor.
-fn number_branches(cores: &mut [HighlightCore], gaps: &[[f32; 2]]) {
+fn number_branches(cores: &mut [HighlightCore], gaps: &[Measured<f32>]) {
     let mut ends: Vec<usize> =
-        gaps.iter().enumerate().filter(|(_, [gap, limit])| gap > limit).map(|(i, _)| i + 1).collect();
+        gaps.iter().enumerate().filter(|(_, gap)| gap.value > gap.limit).map(|(i, _)| i + 1).collect();
     let groups = |ends: &[usize]| {
         let starts = std::iter::once(0).chain(ends.iter().copied());
         let mut groups: Vec<(u32, std::ops::Range<usize>)> = starts
@@ -230,7 +230,8 @@ fn number_branches(cores: &mut [HighlightCore], gaps: &[[f32; 2]]) {
         // The weakest group goes where the gap beside it is smaller.
         let weakest = groups(&ends).pop().map_or(0..0, |(_, group)| group);
         let beside = ends.iter().enumerate().filter(|&(_, &end)| end == weakest.start || end == weakest.end);
-        let Some((narrow, _)) = beside.min_by(|a, b| gaps[a.1 - 1][0].total_cmp(&gaps[b.1 - 1][0])) else {
+        let Some((narrow, _)) = beside.min_by(|a, b| gaps[a.1 - 1].value.total_cmp(&gaps[b.1 - 1].value))
+        else {
             break;
         };
         ends.remove(narrow);

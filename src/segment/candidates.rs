@@ -17,7 +17,7 @@ use super::recorded_labels::Members;
 use crate::color::{Line, Moments, Vec3, closest_points};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::trace::{
-    CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Class, Event, Recorder,
+    CandidateChosen, CandidateSource, CandidateTested, CandidateVerdict, Class, Measured, Recorder,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -161,7 +161,7 @@ impl<R: Recorder> Tests<'_, '_, R> {
         };
         if R::KEEPS {
             let percent = |position: f64| 100.0 * position / self.length.max(f64::MIN_POSITIVE);
-            self.recorder.record(Event::CandidateTested(Box::new(CandidateTest {
+            self.recorder.record(CandidateTested {
                 region: self.region,
                 candidate: source,
                 pixels: cluster.n as u32,
@@ -169,12 +169,12 @@ impl<R: Recorder> Tests<'_, '_, R> {
                 matte_length: self.length,
                 line,
                 meeting: [on_matte, on_candidate],
-                gap: [gap, radius],
+                gap: Measured::new(gap, radius),
                 position_percent: percent(position),
                 position_limits: [100.0 * UPPER[0], 100.0 * UPPER[1] + percent(radius)],
                 verdict,
                 weight: if verdict.accepted() { cluster.n } else { 0.0 },
-            })));
+            });
         }
         verdict.accepted().then_some(Accepted {
             source,
@@ -192,12 +192,12 @@ impl<R: Recorder> Tests<'_, '_, R> {
         let away = |candidate: &Accepted| (candidate.meeting_point - start).norm();
         let chosen = accepted.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
         if R::KEEPS {
-            self.recorder.record(Event::CandidateChosen(Box::new(CandidateChosen {
+            self.recorder.record(CandidateChosen {
                 region: self.region,
                 candidate: chosen.source,
                 meeting_point: start,
                 direction: chosen.direction,
-            })));
+            });
         }
         Some(HighlightLine { start, direction: chosen.direction, pixels })
     }
@@ -231,7 +231,7 @@ mod tests {
             Tests { input: &drawing.input(), region: 1, matte, length: LENGTH, recorder: &mut recorder };
         let accepted = tests.run(CandidateSource::Region(2), &cluster);
         let stage_trace = recorder.finish(Stage::Planar).unwrap();
-        let Some(Step::Event(Event::CandidateTested(test))) = stage_trace.step(0) else {
+        let Some(Step::Event(crate::trace::Event::CandidateTested(test))) = stage_trace.step(0) else {
             panic!("one test, one event: {stage_trace:?}")
         };
         let verdict = test.verdict;

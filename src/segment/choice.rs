@@ -15,7 +15,7 @@ use super::recorded_labels::Members;
 use super::vote_light::{LEAST_VOTERS, Votes};
 use crate::color::Vec3;
 use crate::raster::LabelMap;
-use crate::trace::{Event, LightChosen, LightLimits, Pass, Recorder, VoteResult, VotesCast};
+use crate::trace::{LightChosen, LightLimits, Pass, Recorder, VoteResult, VotesCast};
 use rayon::prelude::*;
 
 /// What the ways to a light are held against.
@@ -94,7 +94,7 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
         self.recorded_labels.begin(Pass::LightChoice);
         if R::KEEPS {
             let votes = VotesCast { elected, least_voters: LEAST_VOTERS as u32 };
-            self.recorded_labels.recorder.record(Event::VotesCast(Box::new(votes)));
+            self.recorded_labels.recorder.record(votes);
             let chosen = LightChosen {
                 basis: light.basis,
                 direction: light.direction,
@@ -103,7 +103,7 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
                 support: light.support,
                 limits: LIGHT_LIMITS,
             };
-            self.recorded_labels.recorder.record(Event::LightChosen(Box::new(chosen)));
+            self.recorded_labels.recorder.record(chosen);
         }
     }
 

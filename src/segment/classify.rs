@@ -6,7 +6,7 @@
 
 use crate::color::{ClusterTest, Moments, eigenvalues};
 use crate::raster::Raster;
-use crate::trace::{Class, Event, Recorder, WindowsLaid};
+use crate::trace::{Class, Measured, Recorder, WindowClassified, WindowsLaid};
 use rayon::prelude::*;
 
 /// How clusters are told apart from noise.
@@ -27,9 +27,11 @@ impl Classifier {
     }
 
     /// Statistic and threshold of the test that decided the class of `pixels` colors of these variances, for the record.
-    pub fn decided_by(&mut self, pixels: f64, eigenvalues: [f64; 3]) -> [f32; 2] {
+    pub fn decided_by(&mut self, pixels: f64, eigenvalues: [f64; 3]) -> Measured<f32> {
         let trials = self.0.trials(pixels, eigenvalues);
-        trials.last().map_or([0.0; 2], |trial| [trial.statistic() as f32, trial.threshold() as f32])
+        trials.last().map_or_else(Measured::default, |trial| {
+            Measured::new(trial.statistic() as f32, trial.threshold() as f32)
+        })
     }
 }
 
@@ -69,14 +71,14 @@ pub fn classify<R: Recorder>(
     let moments = window_moments(image, valid, size_px);
     let mut classes = Raster::filled(moments.width(), moments.height(), None);
     if R::KEEPS {
-        recorder.record(Event::WindowsLaid(Box::new(WindowsLaid {
+        recorder.record(WindowsLaid {
             size_px: size_px as u32,
             columns: moments.width() as u32,
             rows: moments.height() as u32,
             least_pixels: min_valid.max(1) as u32,
             camera_noise: classifier.0.camera_noise(),
             tail_test: classifier.0.is_tail_test(),
-        })));
+        });
     }
     for (window, cluster) in moments.as_slice().iter().enumerate() {
         let pixels = cluster.n as usize;
@@ -91,7 +93,7 @@ pub fn classify<R: Recorder>(
             let (window, pixels) = (window as u32, pixels as u32);
             let chi_square = classifier.decided_by(cluster.n, eigenvalues);
             let eigenvalues = eigenvalues.map(|variance| variance as f32);
-            recorder.record(Event::WindowClassified { window, pixels, eigenvalues, chi_square, class });
+            recorder.record(WindowClassified { window, pixels, eigenvalues, chi_square, class });
         }
     }
     Windows { size_px, moments, classes }

@@ -9,7 +9,7 @@ use super::planar::PlanarRegions;
 use super::recorded_labels::RecordedLabels;
 use crate::color::dot;
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
-use crate::trace::{Event, Pass, Recorder};
+use crate::trace::{GrowthBegan, HoleFilled, Pass, Recorder};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -41,7 +41,7 @@ pub fn clipping_regions<R: Recorder>(
         }
         let start2 = hypothesis.start.norm_squared() as f32;
         if R::KEEPS && !front.is_empty() {
-            recorded_labels.recorder.record(Event::GrowthBegan { region: id, limit: start2.sqrt() });
+            recorded_labels.recorder.record(GrowthBegan { region: id, limit: start2.sqrt() });
         }
         recorded_labels.grow(
             id,
@@ -106,7 +106,7 @@ fn fill<R: Recorder>(
         };
         if R::KEEPS {
             let (pixel, pixels) = (start as u32, hole.pixels.len() as u32);
-            recorded_labels.recorder.record(Event::HoleFilled { region, pixel, pixels, border_share });
+            recorded_labels.recorder.record(HoleFilled { region, pixel, pixels, border_share });
         }
         for pixel in hole.pixels {
             recorded_labels.assign(pixel as usize, region);

@@ -14,8 +14,8 @@ use super::recorded_labels::{Pixels, RecordedLabels};
 use crate::color::{Cylinder, Line, LineFit, Moments};
 use crate::raster::UNASSIGNED;
 use crate::trace::{
-    CandidateSource, Class, Contest, Event, HypothesisChosen, LineRefitted, Measure, Pass, PassedOver,
-    Recorder,
+    CandidateSource, Class, Contest, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted,
+    Measure, Pass, PassedOver, Recorder, SeedsPlaced,
 };
 
 /// A linear hypothesis: an object's matte line.
@@ -72,7 +72,7 @@ pub fn linear<R: Recorder>(
         let pass_over = |recorded_labels: &mut RecordedLabels<R>, reason| {
             if R::KEEPS {
                 let (area, pixels, least) = (area as u32, pixels.len() as u32, choice.min_area_px as u32);
-                recorded_labels.recorder.record(Event::HypothesisPassedOver { area, pixels, least, reason });
+                recorded_labels.recorder.record(HypothesisPassedOver { area, pixels, least, reason });
             }
         };
         rank += 1;
@@ -94,14 +94,14 @@ pub fn linear<R: Recorder>(
         }
         let region = hypotheses.len() as u16 + 1;
         if R::KEEPS {
-            recorded_labels.recorder.record(Event::HypothesisChosen(Box::new(HypothesisChosen {
+            recorded_labels.recorder.record(HypothesisChosen {
                 region,
                 area: area as u32,
                 rank: rank - 1,
                 pixels: pixels.len() as u32,
                 line,
                 radius: input.used.radius_counts(),
-            })));
+            });
         }
         hypotheses.push(Hypothesis::new(line));
         let claimed = exploit(input, region, &pixels, hypotheses, recorded_labels);
@@ -117,7 +117,7 @@ pub fn linear<R: Recorder>(
     if R::KEEPS {
         let least = choice.min_area_px as u32;
         for (area, pixels, reason) in seed_areas.remaining(least) {
-            recorded_labels.recorder.record(Event::HypothesisPassedOver { area, pixels, least, reason });
+            recorded_labels.recorder.record(HypothesisPassedOver { area, pixels, least, reason });
         }
     }
 }
@@ -150,7 +150,7 @@ fn exploit<R: Recorder>(
     let mut cylinders = cylinders(input, hypotheses);
     let mut claimed = seeds(input, &hypotheses[index].line, cylinders[index], area_pixels);
     if R::KEEPS {
-        recorded_labels.recorder.record(Event::SeedsPlaced { region, pixels: claimed.len() as u32 });
+        recorded_labels.recorder.record(SeedsPlaced { region, pixels: claimed.len() as u32 });
     }
     for &pixel in &claimed {
         recorded_labels.assign(pixel as usize, region);
@@ -184,7 +184,7 @@ fn refit<R: Recorder>(
     let line = &mut hypotheses[usize::from(region) - 1].line;
     *line = line.refit(&colors, &line_fit(input, 6));
     if R::KEEPS {
-        recorded_labels.recorder.record(Event::LineRefitted(Box::new(LineRefitted { region, line: *line })));
+        recorded_labels.recorder.record(LineRefitted { region, line: *line });
     }
 }
 
@@ -223,7 +223,7 @@ fn grow_cylinder<R: Recorder>(
     let own = cylinders[usize::from(region) - 1];
     if R::KEEPS {
         let limit = input.used.radius_counts() as f32;
-        recorded_labels.recorder.record(Event::GrowthBegan { region, limit });
+        recorded_labels.recorder.record(GrowthBegan { region, limit });
     }
     recorded_labels.grow(
         region,

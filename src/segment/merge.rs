@@ -6,7 +6,7 @@
 use super::classify::{Classifier, Windows};
 use crate::color::Moments;
 use crate::raster::Raster;
-use crate::trace::{Class, Event, Recorder};
+use crate::trace::{Class, MergeTried, Recorder};
 
 /// Merged areas: sets of windows.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,7 +97,7 @@ impl Forest {
         let both = self.moments[into].merged(&self.moments[from]);
         let (union, eigenvalues) = classifier.classify(&both);
         if R::KEEPS {
-            recorder.record(Event::MergeTried {
+            recorder.record(MergeTried {
                 into: pair.0,
                 from: pair.1,
                 pixels: [into, from].map(|part| self.moments[part].n as u32),

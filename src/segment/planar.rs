@@ -28,7 +28,8 @@ use crate::color::{Cylinder, Line, Vec3, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::reflection::{DichromaticPlane, HighlightTest, Slice};
 use crate::trace::{
-    Contest, Contribution, Event, IlluminantEstimated, Measure, Pass, Recorder, SliceMade, TwoLightTest,
+    Contest, Contribution, GrowthBegan, IlluminantEstimated, IlluminantGiven, Measure, Pass, PassBegan,
+    Recorder, SliceMade, TwoLightTest,
 };
 use rayon::prelude::*;
 
@@ -106,7 +107,7 @@ pub fn planar_regions<R: Recorder>(
         .map(|id| matte_length(input, &matte.hypotheses[usize::from(id) - 1].line, members.region(id)))
         .collect();
     if R::KEEPS {
-        recorder.record(Event::PassBegan { pass: Pass::Candidates });
+        recorder.record(PassBegan { pass: Pass::Candidates });
     }
     let found = Found { windows, areas, labels: &matte.labels, hypotheses: &matte.hypotheses };
     let lines = highlight_lines(input, &found, &members, &lengths, recorder);
@@ -163,7 +164,7 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
     fn under_given_light(mut self, direction: [f64; 3]) -> PlanarRegions {
         self.recorded_labels.begin(Pass::Illuminant);
         if R::KEEPS {
-            self.recorded_labels.recorder.record(Event::IlluminantGiven { direction });
+            self.recorded_labels.recorder.record(IlluminantGiven { direction });
         }
         let given = Some(Vec3::from(direction));
         let mut hypotheses = self.slices(given);
@@ -187,7 +188,7 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
             && let Some(direction) = direction
         {
             let estimated = IlluminantEstimated { direction: direction.into(), contributions, outshone };
-            self.recorded_labels.recorder.record(Event::IlluminantEstimated(Box::new(estimated)));
+            self.recorded_labels.recorder.record(estimated);
         }
     }
 
@@ -310,14 +311,14 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
                 (&slices[usize::from(id) - 1], &hypotheses[usize::from(id) - 1].plane)
             {
                 if R::KEEPS {
-                    self.recorded_labels.recorder.record(Event::SliceMade(Box::new(SliceMade {
+                    self.recorded_labels.recorder.record(SliceMade {
                         region: id,
                         plane: *plane,
                         matte_length: self.lengths[usize::from(id) - 1],
                         start: hypotheses[usize::from(id) - 1].start,
                         half_width: self.input.used.slice_half_width_counts(),
                         slice: *slice,
-                    })));
+                    });
                 }
                 self.grow_slice(id, slice, (&slices, &cylinders), &members);
             }
@@ -368,7 +369,7 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
         let mut front = self.recorded_labels.border(id, members.region(id));
         if R::KEEPS {
             let limit = input.used.slice_half_width_counts() as f32;
-            self.recorded_labels.recorder.record(Event::GrowthBegan { region: id, limit });
+            self.recorded_labels.recorder.record(GrowthBegan { region: id, limit });
         }
         self.recorded_labels.grow(
             id,

@@ -1,7 +1,7 @@
 //! Who holds which pixel. Every change of hands goes through here, so that a record of claims is complete.
 
 use crate::raster::{LabelMap, UNASSIGNED};
-use crate::trace::{Event, Pass, Recorder};
+use crate::trace::{Pass, PassBegan, Recorder};
 
 /// So many pixels are grown from between two questions whether to stop: about a millisecond.
 const PIXELS_PER_POLL: usize = 1 << 16;
@@ -23,7 +23,7 @@ impl<'a, R: Recorder> RecordedLabels<'a, R> {
     /// Says that what follows belongs to this part of the stage.
     pub fn begin(&mut self, pass: Pass) {
         if R::KEEPS {
-            self.recorder.record(Event::PassBegan { pass });
+            self.recorder.record(PassBegan { pass });
         }
     }
 

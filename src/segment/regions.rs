@@ -12,7 +12,7 @@ use super::recorded_labels::{Members, Pixels, RecordedLabels};
 use super::unite::{MAX_ANGLE_DEG, matte_cluster, one_line};
 use crate::color::{Moments, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
-use crate::trace::{Event, Pass, Recorder};
+use crate::trace::{ComponentSplit, Dropped, Pass, Recorder, RegionsMerged, Renumbered};
 use std::collections::BTreeMap;
 
 /// Regions and separated parts below this many pixels are dropped, or stay with their region.
@@ -73,7 +73,7 @@ pub fn final_regions<R: Recorder>(
             finals[usize::from(id) - 1] = kept.len() as u16;
         } else if !pixels.is_empty() {
             if R::KEEPS {
-                recorded_labels.recorder.record(Event::Dropped { region: id, pixels: pixels.len() as u32 });
+                recorded_labels.recorder.record(Dropped { region: id, pixels: pixels.len() as u32 });
             }
             for pixel in pixels.iter() {
                 recorded_labels.assign(pixel as usize, UNASSIGNED);
@@ -85,7 +85,7 @@ pub fn final_regions<R: Recorder>(
         *label = finals[usize::from(*label) - 1];
     }
     if R::KEEPS {
-        recorder.record(Event::Renumbered { finals: finals.into() });
+        recorder.record(Renumbered { finals: finals.into() });
     }
     FinalRegions { labels, hypotheses: kept, light: planar.light }
 }
@@ -128,12 +128,7 @@ fn join_across<R: Recorder>(
             if let Some(rms) = one_line(input, cluster, line(from), line(into)) {
                 into_of[usize::from(from)] = into;
                 if R::KEEPS {
-                    recorded_labels.recorder.record(Event::RegionsMerged {
-                        region: from,
-                        into,
-                        angle_deg,
-                        rms,
-                    });
+                    recorded_labels.recorder.record(RegionsMerged { region: from, into, angle_deg, rms });
                 }
             }
         }
@@ -177,7 +172,7 @@ fn separate<R: Recorder>(
         let part = hypotheses.len() as u16;
         if R::KEEPS {
             let pixels = group.iter().map(Vec::len).sum::<usize>() as u32;
-            recorded_labels.recorder.record(Event::ComponentSplit { region: id, part, pixels });
+            recorded_labels.recorder.record(ComponentSplit { region: id, part, pixels });
         }
         for pixel in group.into_iter().flatten() {
             recorded_labels.assign(pixel as usize, part);

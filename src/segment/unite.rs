@@ -11,7 +11,7 @@ use super::linear::{Hypothesis, cylinders};
 use super::recorded_labels::{Members, Pixels, RecordedLabels};
 use crate::color::{Cylinder, Line, Moments, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
-use crate::trace::{Contest, Event, Measure, Recorder};
+use crate::trace::{Contest, Measure, Recorder, RegionsMerged};
 use std::collections::BTreeMap;
 
 /// Farthest that parts of one object may lie apart, pixels.
@@ -63,7 +63,7 @@ pub fn merge_regions<R: Recorder>(
         let from_cluster = if from == a { of_a } else { of_b };
         let Some(rms) = one_line(input, &from_cluster, &line(from), &line(into)) else { continue };
         if R::KEEPS {
-            recorded_labels.recorder.record(Event::RegionsMerged { region: from, into, angle_deg, rms });
+            recorded_labels.recorder.record(RegionsMerged { region: from, into, angle_deg, rms });
         }
         clusters.insert(into, of_a.merged(&of_b));
         let vanished = &mut hypotheses[usize::from(from) - 1];

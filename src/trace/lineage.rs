@@ -2,7 +2,8 @@
 //! each hypothesis in it.
 
 use super::{
-    CandidateChosen, CandidateTest, Event, HypothesisChosen, LineRefitted, PassedOver, SliceMade, Trace,
+    Absorbed, CandidateChosen, CandidateTested, ComponentSplit, Dropped, Event, HypothesisChosen,
+    HypothesisPassedOver, LineRefitted, PassedOver, RegionsMerged, Renumbered, SliceMade, Trace,
 };
 
 /// A hypothesis that a region is made of. In the list of [`lineage`] those that joined it follow it, one deeper.
@@ -63,8 +64,10 @@ pub struct Joined {
 pub enum JoinedHow {
     /// It was the other's broad highlight.
     Absorbed {
-        /// Distances of both lines from black, counts: the highlight's, the object's.
-        feet: [f64; 2],
+        /// Distance of the highlight's line from black, counts.
+        highlight_foot: f64,
+        /// Distance of the object's line from black, counts.
+        object_foot: f64,
         /// Distance between the lines, counts.
         gap: f64,
     },
@@ -117,9 +120,15 @@ fn birth_number(trace: &Trace, number: u16) -> Option<u16> {
 /// The final number of each region at index `birth − 1`, 0 for those that are no more; none before numbers are given.
 pub fn final_numbers(trace: &Trace) -> Option<&[u16]> {
     trace.events().rev().find_map(|(_, event)| match event {
-        Event::Renumbered { finals } => Some(&**finals),
+        Event::Renumbered(Renumbered { finals }) => Some(&**finals),
         _ => None,
     })
+}
+
+/// Region id of a hypothesis in the result; `None` when the hypothesis is in no region.
+pub fn region_id(trace: &Trace, hypothesis: u16) -> Option<u16> {
+    let index = usize::from(hypothesis).checked_sub(1)?;
+    final_numbers(trace)?.get(index).copied().filter(|&region| region > 0)
 }
 
 fn births(trace: &Trace) -> Vec<Birth<'_>> {
@@ -127,7 +136,7 @@ fn births(trace: &Trace) -> Vec<Birth<'_>> {
     for (step, event) in trace.events() {
         match event {
             Event::HypothesisChosen(chosen) => births.push(Birth::Area { step, chosen }),
-            Event::ComponentSplit { region, pixels, .. } => {
+            Event::ComponentSplit(ComponentSplit { region, pixels, .. }) => {
                 births.push(Birth::Part { step, of: *region, pixels: *pixels });
             }
             _ => {}
@@ -138,10 +147,11 @@ fn births(trace: &Trace) -> Vec<Birth<'_>> {
 
 fn joins(trace: &Trace) -> Vec<(u16, Joined)> {
     let joined = |(step, event): (usize, &Event)| match *event {
-        Event::Absorbed { region, by, feet, gap } => {
-            Some((region, Joined { step, to: by, how: JoinedHow::Absorbed { feet, gap } }))
-        }
-        Event::RegionsMerged { region, into, angle_deg, rms } => {
+        Event::Absorbed(Absorbed { region, by, highlight_foot, object_foot, gap }) => Some((
+            region,
+            Joined { step, to: by, how: JoinedHow::Absorbed { highlight_foot, object_foot, gap } },
+        )),
+        Event::RegionsMerged(RegionsMerged { region, into, angle_deg, rms }) => {
             Some((region, Joined { step, to: into, how: JoinedHow::Merged { angle_deg, rms } }))
         }
         _ => None,
@@ -159,7 +169,7 @@ pub struct HypothesisStory<'a> {
     /// Its line after each fit that followed the first.
     pub refits: Vec<(usize, &'a LineRefitted)>,
     /// Its neighbors, tested as its highlight (5.4.1).
-    pub tests: Vec<(usize, &'a CandidateTest)>,
+    pub tests: Vec<(usize, &'a CandidateTested)>,
     /// The highlight that was chosen.
     pub highlight: Option<(usize, &'a CandidateChosen)>,
     /// Its slices, one for each estimate of the light.
@@ -184,7 +194,7 @@ pub fn story(trace: &Trace, region: u16) -> Option<HypothesisStory<'_>> {
                     story.chosen = Some((step, chosen));
                 }
             }
-            Event::ComponentSplit { region: of, part, pixels } => {
+            Event::ComponentSplit(ComponentSplit { region: of, part, pixels }) => {
                 born = *part;
                 if born == region {
                     story.separated = Some((step, *of, *pixels));
@@ -196,12 +206,14 @@ pub fn story(trace: &Trace, region: u16) -> Option<HypothesisStory<'_>> {
                 story.highlight = Some((step, chosen));
             }
             Event::SliceMade(made) if made.region == region => story.slices.push((step, made)),
-            Event::HypothesisPassedOver { reason: PassedOver::Barren, .. } if born == region => {
+            Event::HypothesisPassedOver(HypothesisPassedOver { reason: PassedOver::Barren, .. })
+                if born == region =>
+            {
                 story.end = Some((step, event));
             }
-            Event::Absorbed { region: ended, .. }
-            | Event::RegionsMerged { region: ended, .. }
-            | Event::Dropped { region: ended, .. }
+            Event::Absorbed(Absorbed { region: ended, .. })
+            | Event::RegionsMerged(RegionsMerged { region: ended, .. })
+            | Event::Dropped(Dropped { region: ended, .. })
                 if *ended == region =>
             {
                 story.end = Some((step, event));

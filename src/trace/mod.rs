@@ -4,41 +4,43 @@
 //! [`StageTrace`] a stage. A [`Trace`] is all reels in order; a [`Replay`] is a cursor in it that goes forward and back and shows
 //! what stood at that instant.
 
-mod ambient;
-mod branches;
-mod event;
+mod events;
 mod history;
-mod kind;
-mod light;
 mod lineage;
 mod local;
+mod measured;
 mod recorder;
 mod replay;
 mod replay_state;
 mod stage_trace;
 mod step;
+mod step_subjects;
 mod terms;
 mod timeline;
-mod vectors;
 
 pub use crate::params::Stage;
-pub use ambient::{Ambient, AmbientVerdict, Meeting};
-pub use branches::{BranchesSought, HighlightCore};
-pub use event::{
-    CandidateChosen, CandidateSource, CandidateTest, CandidateVerdict, Contribution, Event, HypothesisChosen,
-    IlluminantEstimated, LineRefitted, MasksMade, Pass, PassedOver, SliceMade, WindowsLaid,
+#[cfg(test)]
+pub(crate) use events::all_events;
+pub(crate) use events::dispatch_event;
+pub use events::{
+    Absorbed, Ambient, AmbientVerdict, BlobJudged, BlobsCounted, BranchesSought, CandidateChosen,
+    CandidateSource, CandidateTested, CandidateVerdict, ComponentSplit, Contribution, Dropped, Event,
+    EventData, FitLimits, GrowthBegan, HighlightCore, HoleFilled, HypothesisChosen, HypothesisPassedOver,
+    IlluminantEstimated, IlluminantGiven, Kind, LightBasis, LightChosen, LightLimits, LineRefitted,
+    LocalBegan, LocalLimits, LocalStart, MasksMade, Meeting, MergeTried, Pass, PassBegan, PassedOver,
+    PlausibilityLimits, PlausibilityTested, RegionsMerged, RejectReason, Renumbered, RepairTried,
+    RepairVerdict, SeedsPlaced, SliceMade, StageBegan, Subject, TwoLightTest, VectorsFitted, VoteResult,
+    VotesCast, WindowClassified, WindowsLaid,
 };
 pub use history::{
     Barrier, HistoryEntry, HistoryKind, LocalFate, LocalStory, MaskVerdict, MergeRefusal, MergeStory, Reach,
     Release, SplitStory, Unfit, WindowStory, pixel_history,
 };
-pub use kind::Kind;
-pub use light::{LightBasis, LightChosen, LightLimits, TwoLightTest, VoteResult, VotesCast};
-pub use lineage::{Ancestor, Birth, HypothesisStory, Joined, JoinedHow, final_numbers, lineage, story};
-pub use local::{
-    BlobJudged, LocalBegan, LocalDecision, LocalLimits, LocalPoint, LocalPoints, LocalRecord, LocalStart,
-    PlausibilityLimits, PlausibilityTested, RejectReason, RepairTried, RepairVerdict,
+pub use lineage::{
+    Ancestor, Birth, HypothesisStory, Joined, JoinedHow, final_numbers, lineage, region_id, story,
 };
+pub use local::{LocalPoint, LocalPoints, LocalRecord};
+pub use measured::Measured;
 pub use recorder::{NoopRecorder, Recorder, TraceRecorder};
 pub use replay::Replay;
 pub use replay_state::{End, Grid, Hypothesis};
@@ -46,4 +48,3 @@ pub use stage_trace::{StageTrace, Steps};
 pub use step::{Contest, Measure, Step};
 pub use terms::{Class, PixelKind};
 pub use timeline::{Block, PassSpan, Topic, Trace};
-pub use vectors::{FitLimits, VectorsFitted};

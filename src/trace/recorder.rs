@@ -9,7 +9,7 @@ pub trait Recorder: Default {
     const KEEPS: bool;
 
     /// A decision.
-    fn record(&mut self, event: Event);
+    fn record(&mut self, event: impl Into<Event>);
 
     /// A pixel changed hands.
     fn claim(&mut self, pixel: u32, before: u16, after: u16);
@@ -35,7 +35,7 @@ impl Recorder for NoopRecorder {
     const KEEPS: bool = false;
 
     #[inline]
-    fn record(&mut self, _event: Event) {}
+    fn record(&mut self, _event: impl Into<Event>) {}
 
     #[inline]
     fn claim(&mut self, _pixel: u32, _before: u16, _after: u16) {}
@@ -61,8 +61,8 @@ pub struct TraceRecorder(StageTrace);
 impl Recorder for TraceRecorder {
     const KEEPS: bool = true;
 
-    fn record(&mut self, event: Event) {
-        self.0.push_event(event);
+    fn record(&mut self, event: impl Into<Event>) {
+        self.0.push_event(event.into());
     }
 
     #[inline]

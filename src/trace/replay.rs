@@ -4,7 +4,10 @@
 //! and popped back. A long way is shortened by starting from a keyframe: labels as they were at one of a few steps.
 
 use super::replay_state::{EventId, Grid, Hypothesis, ReplayState};
-use super::{CandidateChosen, Event, Pass, PixelKind, SliceMade, Stage, StageTrace, Step, Trace};
+use super::{
+    CandidateChosen, Event, IlluminantGiven, Pass, PixelKind, Renumbered, SliceMade, Stage, StageTrace, Step,
+    Trace,
+};
 use crate::raster::{LabelMap, UNASSIGNED};
 use std::sync::Arc;
 
@@ -114,7 +117,7 @@ impl Replay {
     pub fn light(&self) -> Option<[f64; 3]> {
         match self.find(*self.standing.lights.last()?) {
             Event::IlluminantEstimated(estimated) => Some(estimated.direction),
-            Event::IlluminantGiven { direction } => Some(*direction),
+            Event::IlluminantGiven(IlluminantGiven { direction }) => Some(*direction),
             Event::LightChosen(chosen) => chosen.direction,
             _ => None,
         }
@@ -123,7 +126,7 @@ impl Replay {
     /// The final number of a region, once numbers are given; 0 for one that is no more.
     pub fn final_number(&self, region: u16) -> Option<u16> {
         match self.find(self.standing.finals?) {
-            Event::Renumbered { finals } => Some(
+            Event::Renumbered(Renumbered { finals }) => Some(
                 usize::from(region).checked_sub(1).and_then(|index| finals.get(index)).copied().unwrap_or(0),
             ),
             _ => None,

@@ -1,7 +1,10 @@
 //! What stands at an instant of a trace, but for the labels: windows, areas, regions, lights. Every thing is a stack that is
 //! pushed forward and popped back.
 
-use super::{Class, Event, PassedOver, WindowsLaid};
+use super::{
+    Absorbed, Class, ComponentSplit, Dropped, Event, HypothesisPassedOver, MergeTried, PassedOver,
+    RegionsMerged, WindowClassified, WindowsLaid,
+};
 use crate::color::Line;
 use crate::raster::Raster;
 
@@ -116,8 +119,12 @@ impl ReplayState {
     pub(super) fn take(&mut self, event: &Event, id: EventId) {
         match event {
             Event::WindowsLaid(laid) => self.grids.push(Grid::new(laid)),
-            Event::WindowClassified { window, class, .. } => self.classify(*window, Some(*class)),
-            Event::MergeTried { into, from, class, union, .. } if class == union => self.join(*from, *into),
+            Event::WindowClassified(WindowClassified { window, class, .. }) => {
+                self.classify(*window, Some(*class))
+            }
+            Event::MergeTried(MergeTried { into, from, class, union, .. }) if class == union => {
+                self.join(*from, *into)
+            }
             Event::HypothesisChosen(chosen) => self.hypotheses.push(Hypothesis {
                 area: Some(chosen.area),
                 parent: None,
@@ -127,7 +134,7 @@ impl ReplayState {
                 highlights: Vec::new(),
                 ends: Vec::new(),
             }),
-            Event::ComponentSplit { region, .. } => {
+            Event::ComponentSplit(ComponentSplit { region, .. }) => {
                 let mut part = self.of(*region).cloned();
                 if let Some(part) = &mut part {
                     (part.area, part.parent) = (None, Some(*region));
@@ -150,10 +157,10 @@ impl ReplayState {
                     hypothesis.highlights.push(id);
                 }
             }
-            Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } | Event::LightChosen(_) => {
+            Event::IlluminantEstimated(_) | Event::IlluminantGiven(_) | Event::LightChosen(_) => {
                 self.lights.push(id);
             }
-            Event::Renumbered { .. } => self.finals = Some(id),
+            Event::Renumbered(_) => self.finals = Some(id),
             other => {
                 if let Some((region, end)) = self.ending(other)
                     && let Some(hypothesis) = self.of(region)
@@ -170,9 +177,11 @@ impl ReplayState {
             Event::WindowsLaid(_) => {
                 self.grids.pop();
             }
-            Event::WindowClassified { window, .. } => self.classify(*window, None),
-            Event::MergeTried { from, class, union, .. } if class == union => self.join(*from, *from),
-            Event::HypothesisChosen(_) | Event::ComponentSplit { .. } => {
+            Event::WindowClassified(WindowClassified { window, .. }) => self.classify(*window, None),
+            Event::MergeTried(MergeTried { from, class, union, .. }) if class == union => {
+                self.join(*from, *from)
+            }
+            Event::HypothesisChosen(_) | Event::ComponentSplit(_) => {
                 self.hypotheses.pop();
             }
             Event::LineRefitted(refitted) => {
@@ -184,10 +193,10 @@ impl ReplayState {
             Event::CandidateChosen(chosen) => {
                 self.of(chosen.region).and_then(|hypothesis| hypothesis.highlights.pop());
             }
-            Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } | Event::LightChosen(_) => {
+            Event::IlluminantEstimated(_) | Event::IlluminantGiven(_) | Event::LightChosen(_) => {
                 self.lights.pop();
             }
-            Event::Renumbered { .. } => self.finals = None,
+            Event::Renumbered(_) => self.finals = None,
             other => {
                 if let Some((region, _)) = self.ending(other) {
                     self.of(region).and_then(|hypothesis| hypothesis.ends.pop());
@@ -199,12 +208,12 @@ impl ReplayState {
     /// The region that an event ends, and how.
     fn ending(&self, event: &Event) -> Option<(u16, End)> {
         match event {
-            Event::HypothesisPassedOver { reason: PassedOver::Barren, .. } => {
+            Event::HypothesisPassedOver(HypothesisPassedOver { reason: PassedOver::Barren, .. }) => {
                 Some((self.hypotheses.len() as u16, End::Barren))
             }
-            Event::Absorbed { region, by, .. } => Some((*region, End::Absorbed(*by))),
-            Event::RegionsMerged { region, into, .. } => Some((*region, End::Merged(*into))),
-            Event::Dropped { region, .. } => Some((*region, End::Dropped)),
+            Event::Absorbed(Absorbed { region, by, .. }) => Some((*region, End::Absorbed(*by))),
+            Event::RegionsMerged(RegionsMerged { region, into, .. }) => Some((*region, End::Merged(*into))),
+            Event::Dropped(Dropped { region, .. }) => Some((*region, End::Dropped)),
             _ => None,
         }
     }

@@ -9,7 +9,7 @@ mod steps;
 pub use steps::Steps;
 
 use super::timeline::Contents;
-use super::{Block, Contest, Event, LocalDecision, LocalRecord, Measure, PassSpan, PixelKind, Stage, Step};
+use super::{Block, Contest, Event, LocalRecord, Measure, PassSpan, PixelKind, Stage, Step};
 use crate::raster::{LabelMap, Raster};
 use std::ops::Range;
 
@@ -158,7 +158,7 @@ impl StageTrace {
 
     /// Memory that it takes, bytes.
     pub fn bytes(&self) -> usize {
-        let boxed: usize = self.events.iter().map(boxed_bytes).sum();
+        let boxed: usize = self.events.iter().map(Event::heap_bytes).sum();
         self.events.len() * (size_of::<Event>() + size_of::<u32>())
             + boxed
             + self.moves.len() * size_of::<Move>()
@@ -297,47 +297,18 @@ impl Move {
     }
 }
 
-/// Memory behind an event's box, bytes.
-fn boxed_bytes(event: &Event) -> usize {
-    match event {
-        Event::MasksMade(made) => size_of_val(&**made),
-        Event::WindowsLaid(laid) => size_of_val(&**laid),
-        Event::HypothesisChosen(chosen) => size_of_val(&**chosen),
-        Event::LineRefitted(refitted) => size_of_val(&**refitted),
-        Event::CandidateTested(test) => size_of_val(&**test),
-        Event::CandidateChosen(chosen) => size_of_val(&**chosen),
-        Event::IlluminantEstimated(estimated) => {
-            size_of_val(&**estimated) + size_of_val(estimated.contributions.as_slice())
-        }
-        Event::AmbientSought(ambient) => size_of_val(&**ambient),
-        Event::VotesCast(votes) => size_of_val(&**votes),
-        Event::LightChosen(chosen) => size_of_val(&**chosen),
-        Event::SliceMade(made) => size_of_val(&**made),
-        Event::Renumbered { finals } => size_of_val(&**finals),
-        Event::BranchesSought(sought) => {
-            size_of_val(&**sought)
-                + size_of_val(sought.cores.as_slice())
-                + size_of_val(sought.gaps.as_slice())
-        }
-        Event::VectorsFitted(fitted) => size_of_val(&**fitted) + size_of_val(fitted.starts.as_slice()),
-        Event::Local(LocalDecision::Began(began)) => size_of_val(&**began),
-        Event::Local(LocalDecision::Plausibility(tested)) => size_of_val(&**tested),
-        _ => 0,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::{Recorder, TraceRecorder};
+    use crate::trace::{Dropped, Recorder, Renumbered, StageBegan, TraceRecorder};
 
     fn recorder() -> TraceRecorder {
         let mut recorder = TraceRecorder::default();
-        recorder.record(Event::StageBegan { stage: Stage::Linear });
+        recorder.record(StageBegan { stage: Stage::Linear });
         recorder.claim(1, 0, 1);
         let contest = Contest { measure: Measure::Axis, challenger: 2.0, holder: 1.0 };
         recorder.contest(1, 1, 2, false, contest);
-        recorder.record(Event::Dropped { region: 3, pixels: 0 });
+        recorder.record(Dropped { region: 3, pixels: 0 });
         recorder.contest(1, 1, 3, true, Contest { challenger: 0.5, ..contest });
         recorder.claim(1, 1, 3);
         recorder.labels(
@@ -357,10 +328,10 @@ mod tests {
         let lost = Contest { measure: Measure::Axis, challenger: 2.0, holder: 1.0 };
         let won = Contest { measure: Measure::Axis, challenger: 0.5, holder: 1.0 };
         let expected = [
-            Step::Event(&Event::StageBegan { stage: Stage::Linear }),
+            Step::Event(&Event::StageBegan(StageBegan { stage: Stage::Linear })),
             Step::Claim { pixel: 1, before: 0, after: 1, contest: None },
             Step::Refusal { pixel: 1, holder: 1, challenger: 2, contest: lost },
-            Step::Event(&Event::Dropped { region: 3, pixels: 0 }),
+            Step::Event(&Event::Dropped(Dropped { region: 3, pixels: 0 })),
             Step::Claim { pixel: 1, before: 1, after: 3, contest: Some(won) },
             Step::Label { pixel: 1, kind: PixelKind::Matte },
             Step::Label { pixel: 3, kind: PixelKind::Highlight },

@@ -1,6 +1,9 @@
 //! Stages, passes and blocks: the stretches into which a trace divides.
 
-use super::{Event, Pass, PassedOver, Stage, StageTrace, Step};
+use super::{
+    Absorbed, ComponentSplit, Event, GrowthBegan, HoleFilled, HypothesisPassedOver, Pass, PassBegan,
+    PassedOver, Stage, StageTrace, Step,
+};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -278,7 +281,7 @@ impl Contents {
 
     fn hear(&mut self, step: usize, event: &Event) {
         let topic = match event {
-            Event::PassBegan { pass } => {
+            Event::PassBegan(PassBegan { pass }) => {
                 self.close(step);
                 if let Some(last) = self.passes.last_mut() {
                     last.steps.end = step;
@@ -286,18 +289,20 @@ impl Contents {
                 self.passes.push(PassSpan { steps: step..step, pass: *pass });
                 return;
             }
-            Event::HypothesisPassedOver { reason: PassedOver::Barren, .. } => return self.close(step + 1),
-            Event::HypothesisPassedOver { .. } => return self.close(step),
+            Event::HypothesisPassedOver(HypothesisPassedOver { reason: PassedOver::Barren, .. }) => {
+                return self.close(step + 1);
+            }
+            Event::HypothesisPassedOver(_) => return self.close(step),
             Event::HypothesisChosen(chosen) => Topic::Hypothesis(chosen.region),
-            Event::Absorbed { region, .. } => Topic::Absorption(*region),
+            Event::Absorbed(Absorbed { region, .. }) => Topic::Absorption(*region),
             Event::CandidateTested(test) => Topic::Candidates(test.region),
             Event::SliceMade(made) => Topic::Slice(made.region),
             // The growth of hypotheses and slices lies within their blocks.
-            Event::GrowthBegan { region, .. } if self.pass() == Some(Pass::Brightness) => {
+            Event::GrowthBegan(GrowthBegan { region, .. }) if self.pass() == Some(Pass::Brightness) => {
                 Topic::Brightness(*region)
             }
-            Event::HoleFilled { region, .. } => Topic::Hole(*region),
-            Event::ComponentSplit { part, .. } => Topic::Part(*part),
+            Event::HoleFilled(HoleFilled { region, .. }) => Topic::Hole(*region),
+            Event::ComponentSplit(ComponentSplit { part, .. }) => Topic::Part(*part),
             _ => return,
         };
         let goes_on = matches!(topic, Topic::Candidates(_))

@@ -10,11 +10,15 @@ use dichroscope::params::{Params, Refine};
 use dichroscope::photo::LinearImage;
 use dichroscope::segment::LightBasis;
 use dichroscope::trace::{
-    Event, HistoryKind, Kind, LocalDecision, LocalFate, PixelKind, RejectReason, RepairVerdict, Replay,
-    Stage, Step, Trace, pixel_history,
+    Event, HistoryKind, Kind, LocalFate, PixelKind, RejectReason, RepairVerdict, Replay, Stage, Step, Trace,
+    pixel_history,
 };
 use std::collections::BTreeSet;
 use std::sync::Arc;
+
+fn is_local(event: &Event) -> bool {
+    matches!(event.kind(), Kind::LocalSplit | Kind::Blobs | Kind::Blob | Kind::Plausibility | Kind::Repair)
+}
 
 struct Traced {
     image: Arc<LinearImage>,
@@ -41,11 +45,9 @@ impl Traced {
         Self::new(picture(width, height, |x, y| colors[y * width + x].map(f32::from)), params)
     }
 
-    fn decisions(&self) -> impl Iterator<Item = &LocalDecision> {
-        self.trace.events().filter_map(|(_, event)| match event {
-            Event::Local(decision) => Some(decision),
-            _ => None,
-        })
+    /// The decisions of the local split.
+    fn decisions(&self) -> impl Iterator<Item = &Event> {
+        self.trace.events().map(|(_, event)| event).filter(|event| is_local(event))
     }
 
     fn history(&self, pixel: usize) -> Vec<HistoryKind> {
@@ -98,7 +100,7 @@ fn every_highlight_found_locally_is_of_a_blob_that_was_kept_or_filled() {
     let (mut kept, mut filled) = (BTreeSet::new(), BTreeSet::new());
     for decision in traced.decisions() {
         match decision {
-            LocalDecision::Blob(judged) => {
+            Event::BlobJudged(judged) => {
                 let pixels = record.blob(judged.blob);
                 assert_eq!((pixels.len(), pixels[0]), (judged.pixels as usize, judged.pixel));
                 assert_eq!(judged.kept, judged.core > 0 || judged.clipped > 0, "{judged:?}");
@@ -107,7 +109,7 @@ fn every_highlight_found_locally_is_of_a_blob_that_was_kept_or_filled() {
                     kept.extend(pixels);
                 }
             }
-            LocalDecision::Repair(tried) => {
+            Event::RepairTried(tried) => {
                 let pixels = record.blob(tried.blob);
                 assert_eq!(pixels.len(), tried.pixels as usize);
                 if tried.verdict == RepairVerdict::Filled {
@@ -151,7 +153,7 @@ fn what_is_told_of_a_pixel_is_what_it_got() {
         let filled = history.iter().any(|what| match what {
             HistoryKind::Decided(event) => matches!(
                 &**event,
-                Event::Local(LocalDecision::Repair(tried)) if tried.verdict == RepairVerdict::Filled
+                Event::RepairTried(tried) if tried.verdict == RepairVerdict::Filled
             ),
             _ => false,
         });
@@ -181,7 +183,7 @@ fn what_is_told_of_a_pixel_is_what_it_got() {
 fn what_is_not_believed_is_not_split_and_told_so() {
     let traced = Traced::marbled(&Params::default(), 0.3);
     let reject_reason = traced.decisions().find_map(|decision| match decision {
-        LocalDecision::Plausibility(tested) => tested.reject_reason,
+        Event::PlausibilityTested(tested) => tested.reject_reason,
         _ => None,
     });
     assert_eq!(reject_reason, Some(RejectReason::TooMuch));
@@ -191,7 +193,7 @@ fn what_is_not_believed_is_not_split_and_told_so() {
     for &pixel in outside.iter().step_by(97) {
         let history = traced.history(pixel);
         let is_belief = |what: &HistoryKind| match what {
-            HistoryKind::Decided(event) => matches!(&**event, Event::Local(LocalDecision::Plausibility(_))),
+            HistoryKind::Decided(event) => matches!(&**event, Event::PlausibilityTested(_)),
             _ => false,
         };
         assert!(history.iter().any(is_belief), "pixel {pixel}: {history:?}");
@@ -216,7 +218,8 @@ fn a_record_of_prints_is_played_forward_and_back_and_ends_in_the_result() {
         assert!(kinds == traced.analysis.intrinsic.kinds.as_slice());
         assert_eq!(replay.light(), traced.analysis.illuminant.map(|light| light.direction));
         let local = |(n, event): (usize, &Event)| {
-            matches!(event, Event::Local(_) | Event::LightChosen(_) | Event::VotesCast(_)).then_some(n)
+            let of_light = matches!(event.kind(), Kind::LightChoice | Kind::Votes);
+            (is_local(event) || of_light).then_some(n)
         };
         let steps: Vec<usize> = trace.events().filter_map(local).collect();
         assert!(steps.iter().filter(|n| split.contains(n)).count() > 3);

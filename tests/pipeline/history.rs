@@ -8,8 +8,8 @@ use dichroscope::photo::LinearImage;
 use dichroscope::raster::UNASSIGNED;
 use dichroscope::reflection::{SliceBound, SliceMiss};
 use dichroscope::trace::{
-    Barrier, Birth, Event, HistoryEntry, HistoryKind, JoinedHow, Pass, PixelKind, Reach, Replay, Stage, Step,
-    Trace, lineage, pixel_history, story,
+    Barrier, Birth, Event, GrowthBegan, HistoryEntry, HistoryKind, JoinedHow, Pass, PixelKind, Reach, Replay,
+    Stage, Step, Trace, lineage, pixel_history, story,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -153,7 +153,7 @@ proptest! {
         let mut replay = Replay::new(Arc::clone(&traced.trace));
         let events: Vec<(usize, &Event)> = traced.trace.events().collect();
         for (index, &(step, event)) in events.iter().enumerate() {
-            let Event::GrowthBegan { region, .. } = *event else { continue };
+            let Event::GrowthBegan(GrowthBegan { region, .. }) = *event else { continue };
             if traced.trace.pass_at(step).map(|span| span.pass) == Some(Pass::Brightness) {
                 continue;
             }

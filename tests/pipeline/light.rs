@@ -4,7 +4,7 @@ use crate::common::{METHODS, analyze, assert_valid, fingerprint, report};
 use crate::synthetic::{Scene, dot};
 use dichroscope::analysis::Session;
 use dichroscope::params::{IlluminantSetting, Params};
-use dichroscope::trace::Event;
+use dichroscope::trace::{Event, IlluminantGiven};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -68,7 +68,7 @@ fn the_record_says_that_it_was_given() {
     let params = Params { illuminant, ..Params::default() };
     let (_, trace) = Session::new(Arc::new(image)).run_traced(&params, &mut ()).unwrap();
     let is_light =
-        |event: &&Event| matches!(event, Event::IlluminantGiven { .. } | Event::IlluminantEstimated(_));
+        |event: &&Event| matches!(event, Event::IlluminantGiven(_) | Event::IlluminantEstimated(_));
     let lights: Vec<&Event> = trace.events().map(|(_, event)| event).filter(is_light).collect();
-    assert_eq!(lights, [&Event::IlluminantGiven { direction: [0.0, 0.6, 0.8] }]);
+    assert_eq!(lights, [&Event::IlluminantGiven(IlluminantGiven { direction: [0.0, 0.6, 0.8] })]);
 }

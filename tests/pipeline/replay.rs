@@ -5,7 +5,7 @@ use crate::synthetic::Scene;
 use dichroscope::analysis::{Analysis, Observer, Session};
 use dichroscope::params::{Method, Params, Setting};
 use dichroscope::raster::UNASSIGNED;
-use dichroscope::trace::{Class, Event, PixelKind, Replay, Stage, Trace};
+use dichroscope::trace::{Class, Event, PassBegan, PixelKind, Replay, Stage, StageBegan, Trace};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -143,13 +143,13 @@ proptest! {
 fn every_stage_announces_itself_once_and_in_order() {
     let (_, trace) = traced(5, &Params::default());
     let begun = |event: &Event| match event {
-        Event::StageBegan { stage } => Some(*stage),
+        Event::StageBegan(StageBegan { stage }) => Some(*stage),
         _ => None,
     };
     let begun: Vec<Stage> = trace.events().filter_map(|(_, event)| begun(event)).collect();
     assert_eq!(begun, Stage::ALL);
     for (stage, steps) in trace.stages() {
-        assert_eq!(trace.event(steps.start), Some(&Event::StageBegan { stage }));
+        assert_eq!(trace.event(steps.start), Some(&Event::StageBegan(StageBegan { stage })));
     }
 }
 
@@ -198,7 +198,7 @@ fn passes_and_blocks_lie_in_order_within_their_stages() {
         assert!(span.steps.start >= end && span.steps.start < span.steps.end, "{span:?}");
         end = span.steps.end;
         assert_eq!(trace.pass_at(span.steps.start), Some(span.clone()));
-        assert_eq!(trace.event(span.steps.start), Some(&Event::PassBegan { pass: span.pass }));
+        assert_eq!(trace.event(span.steps.start), Some(&Event::PassBegan(PassBegan { pass: span.pass })));
     }
     let mut end = 0;
     for block in trace.blocks() {

@@ -1,7 +1,9 @@
 //! What stops the cursor.
 
 use super::Direction;
-use crate::trace::{CandidateVerdict, Class, Event, PassedOver, Replay, Step};
+use crate::trace::{
+    CandidateVerdict, Class, Event, HypothesisPassedOver, PassedOver, Replay, Step, WindowClassified,
+};
 use serde::{Deserialize, Serialize};
 
 /// A condition that may be switched off.
@@ -150,9 +152,10 @@ impl Condition {
             (Self::CandidateFails(check), Step::Event(Event::CandidateTested(test))) => {
                 check.fails(test.verdict)
             }
-            (Self::ClassIs(class), Step::Event(Event::WindowClassified { class: found, .. })) => {
-                *found == Some(class.into())
-            }
+            (
+                Self::ClassIs(class),
+                Step::Event(Event::WindowClassified(WindowClassified { class: found, .. })),
+            ) => *found == Some(class.into()),
             (
                 Self::Conflict(one, other),
                 Step::Refusal { holder: a, challenger: b, .. }
@@ -168,8 +171,8 @@ impl Condition {
 
 fn rejects(event: &Event) -> bool {
     match event {
-        Event::HypothesisPassedOver { reason, .. } => *reason != PassedOver::TooSmall,
-        Event::Absorbed { .. } | Event::Dropped { .. } => true,
+        Event::HypothesisPassedOver(HypothesisPassedOver { reason, .. }) => *reason != PassedOver::TooSmall,
+        Event::Absorbed(_) | Event::Dropped(_) => true,
         _ => false,
     }
 }

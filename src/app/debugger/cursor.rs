@@ -1,6 +1,6 @@
 //! Where the cursor goes.
 
-use crate::trace::{Event, Kind, Stage, Step, Trace};
+use crate::trace::{Event, Kind, Stage, Step, Trace, WindowClassified, region_id};
 use serde::{Deserialize, Serialize};
 
 /// Forward or back.
@@ -126,10 +126,14 @@ pub fn found(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Opti
         Goal::Pixel(pixel) => concerning(trace, pixel),
         _ => Vec::new(),
     };
+    let region = match goal {
+        Goal::Region(hypothesis) => region_id(trace, hypothesis),
+        _ => None,
+    };
     let meant = |n: usize, step: &Step| match goal {
         Goal::Kind(kind) => step.kind() == kind,
         Goal::Pixel(pixel) => step.pixel() == Some(pixel) || windows.binary_search(&n).is_ok(),
-        Goal::Region(region) => step.concerns(region),
+        Goal::Region(hypothesis) => step.concerns(hypothesis, region),
         Goal::Breakpoint | Goal::Place(_) => false,
     };
     match direction {
@@ -151,10 +155,10 @@ fn concerning(trace: &Trace, pixel: u32) -> Vec<usize> {
                 let size = (laid.size_px as usize).max(1);
                 holding = Some((y / size * laid.columns as usize + x / size) as u32);
             }
-            Event::WindowClassified { window, .. } if holding == Some(*window) => found.push(n),
-            Event::Local(decision) if decision.blob().is_some_and(|blob| Some(blob) == own_blob) => {
-                found.push(n);
+            Event::WindowClassified(WindowClassified { window, .. }) if holding == Some(*window) => {
+                found.push(n)
             }
+            event if event.blob().is_some_and(|blob| Some(blob) == own_blob) => found.push(n),
             _ => {}
         }
     }

@@ -2,7 +2,7 @@ use crate::app::{Application, Command, DebugCommand, Executor};
 use crate::photo::Masks;
 use crate::raster::Raster;
 use crate::trace::Replay;
-use crate::trace::{CandidateSource, Trace};
+use crate::trace::{CandidateSource, MergeTried, Trace, WindowClassified};
 use crate::trace::{Event, Stage, Step, Topic};
 use crate::view::{
     Instant, InstantView, RegionsView, Status, candidate_pixels, cursor_place, hypothesis_rows, looked_at,
@@ -105,12 +105,12 @@ fn windows_appear_one_by_one_and_a_pair_that_is_joined_is_one() {
     seek(&mut application, 0);
     assert_eq!(instant(&application).view, InstantView::Nothing);
     let classified: Vec<usize> =
-        events(&trace, |event| matches!(event, Event::WindowClassified { .. })).collect();
+        events(&trace, |event| matches!(event, Event::WindowClassified(_))).collect();
     seek(&mut application, classified[4]);
     let five = instant(&application);
     let InstantView::Windows(windows) = &five.view else { panic!("{five:?}") };
     let last = match trace.event(classified[4] - 1) {
-        Some(Event::WindowClassified { window, .. }) => *window as usize,
+        Some(Event::WindowClassified(WindowClassified { window, .. })) => *window as usize,
         other => panic!("a window is classified: {other:?}"),
     };
     let [left, top] = [last % windows.columns, last / windows.columns].map(|k| k * windows.size_px);
@@ -120,8 +120,10 @@ fn windows_appear_one_by_one_and_a_pair_that_is_joined_is_one() {
     assert_eq!(counts.classes.iter().sum::<usize>() + counts.unclassed, 5);
     assert_eq!(5 + counts.empty + counts.waiting, counts.windows);
     assert_eq!(counts.waiting, counts.windows - last - 1);
-    let joined = |event: &Event| matches!(event, Event::MergeTried { class, union, .. } if class == union);
-    let refused = |event: &Event| matches!(event, Event::MergeTried { class, union, .. } if class != union);
+    let joined =
+        |event: &Event| matches!(event, Event::MergeTried(MergeTried { class, union, .. }) if class == union);
+    let refused =
+        |event: &Event| matches!(event, Event::MergeTried(MergeTried { class, union, .. }) if class != union);
     for (n, parts) in [(events(&trace, joined).next(), 1), (events(&trace, refused).next(), 2)] {
         seek(&mut application, n.unwrap());
         let InstantView::Windows(windows) = instant(&application).view else { panic!("windows at {n:?}") };
@@ -167,7 +169,7 @@ fn the_newest_ring_is_reached_from_the_one_before() {
     let mut before: Vec<u32> = Vec::new();
     let began = trace
         .steps_in(block.steps.clone())
-        .find(|(_, step)| matches!(step, Step::Event(Event::GrowthBegan { .. })))
+        .find(|(_, step)| matches!(step, Step::Event(Event::GrowthBegan(_))))
         .map(|(n, _)| n)
         .unwrap();
     for n in began + 2..(began + 400).min(block.steps.end) {

@@ -2,7 +2,7 @@ use super::cursor::stepped;
 use super::*;
 use crate::app::{Application, Command, Executor, State};
 use crate::params::{Parameter, Setting};
-use crate::trace::{Event, Kind, Stage, Step, Topic};
+use crate::trace::{Event, Kind, Stage, Step, Topic, WindowClassified};
 use crate::view::Origin;
 use crate::view::{Why, growth, rings, watch, why};
 use proptest::prelude::*;
@@ -139,7 +139,7 @@ fn rings_are_what_one_more_step_from_the_region_reaches() {
         for &end in &ends {
             cursor.seek(from);
             let held = cursor.labels().clone();
-            let seeds = matches!(trace.event(from), Some(Event::SeedsPlaced { .. }));
+            let seeds = matches!(trace.event(from), Some(Event::SeedsPlaced(_)));
             for (n, step) in trace.steps_in(from..end) {
                 let Step::Claim { pixel, after, .. } = step else { continue };
                 if after != region || seeds {
@@ -300,9 +300,10 @@ fn each_condition_stops_where_it_holds() {
             stopped += 1;
             let step = replay(application.state()).last().unwrap();
             let fits = match (condition, step) {
-                (Condition::ClassIs(class), Step::Event(Event::WindowClassified { class: found, .. })) => {
-                    *found == Some(class.into())
-                }
+                (
+                    Condition::ClassIs(class),
+                    Step::Event(Event::WindowClassified(WindowClassified { class: found, .. })),
+                ) => *found == Some(class.into()),
                 (Condition::CandidateFails(check), Step::Event(Event::CandidateTested(test))) => {
                     let verdict = test.verdict;
                     !match check {

@@ -1,8 +1,8 @@
 //! What was decided about a pixel, in words.
 
-use super::event::{ordinal, passed_over, variances};
-use super::local::{surroundings, unfit};
-use super::{Names, count, percent, won};
+use super::super::events::{passed_over, variances};
+use super::local_history::{surroundings, unfit};
+use super::{Names, count, ordinal, percent, won};
 use crate::color::Trial;
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::trace::{
@@ -143,7 +143,7 @@ impl Names {
                 format!("{distance:.1} counts from its refitted axis, radius {radius:.1}")
             }
             Release::Barren { least, .. } => format!("growing claimed fewer than {least} pixels"),
-            Release::Absorbed { by, feet: [highlight, object], gap } => format!(
+            Release::Absorbed { by, highlight_foot: highlight, object_foot: object, gap } => format!(
                 "it is the broad highlight of {}: its line misses black by {highlight:.1} counts (the object's by \
                  {object:.1}), gap {gap:.1}",
                 self.region(by)

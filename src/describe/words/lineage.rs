@@ -1,5 +1,6 @@
 //! Where a region came from, in words.
 
+use super::super::events::Describe;
 use super::{Names, count};
 use crate::trace::{Ancestor, Birth, HypothesisStory, JoinedHow};
 
@@ -13,7 +14,7 @@ impl Names {
             }
         };
         let joined = ancestor.joined.map_or_else(String::new, |joined| match joined.how {
-            JoinedHow::Absorbed { feet: [highlight, object], gap } => format!(
+            JoinedHow::Absorbed { highlight_foot: highlight, object_foot: object, gap } => format!(
                 "; its broad highlight: its line misses black by {highlight:.1} counts, the object's by {object:.1}, gap \
                  {gap:.1}"
             ),
@@ -29,16 +30,16 @@ impl Names {
     pub fn story(&self, story: &HypothesisStory) -> Vec<(usize, String)> {
         let mut told = Vec::new();
         if let Some((step, chosen)) = story.chosen {
-            told.push((step, self.chosen(chosen)));
+            told.push((step, chosen.sentence(self)));
         }
         if let Some((step, of, pixels)) = story.separated {
             told.push((step, format!("separated from {}: {}", self.region(of), count(pixels, "pixel"))));
         }
-        told.extend(story.tests.iter().map(|&(step, test)| (step, self.tested(test))));
+        told.extend(story.tests.iter().map(|&(step, test)| (step, test.sentence(self))));
         if let Some((step, chosen)) = story.highlight {
             told.push((step, format!("{} is its highlight", self.candidate(chosen.candidate))));
         }
-        told.extend(story.slices.iter().map(|&(step, made)| (step, self.slice_made(made))));
+        told.extend(story.slices.iter().map(|&(step, made)| (step, made.sentence(self))));
         told.extend(story.joined.iter().map(|&(region, joined)| {
             let how = match joined.how {
                 JoinedHow::Absorbed { gap, .. } => {

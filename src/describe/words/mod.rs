@@ -1,11 +1,9 @@
 //! Decisions in words: one short sentence each, in the paper's terms, value against threshold with their units. The
 //! command line and the window say the same.
 
-mod event;
 mod history;
-mod light;
 mod lineage;
-mod local;
+mod local_history;
 #[cfg(test)]
 mod tests;
 mod what_if;
@@ -126,18 +124,36 @@ fn won(contest: &Contest) -> String {
 }
 
 /// `1 pixel`, `12 pixels`.
-fn count(n: impl Into<u64>, what: &str) -> String {
+pub(super) fn count(n: impl Into<u64>, what: &str) -> String {
     let n = n.into();
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 /// A direction with two decimals.
-fn direction(vector: [f64; 3]) -> String {
+pub(super) fn direction(vector: [f64; 3]) -> String {
     let [r, g, b] = vector;
     format!("({r:.2}, {g:.2}, {b:.2})")
 }
 
 /// A percentage that is 100 only for all and 0 only for none.
-fn percent(share: f64) -> String {
+pub(super) fn percent(share: f64) -> String {
     format!("{:.0} %", if share < 1.0 { (share * 100.0).min(99.0) } else { 100.0 })
+}
+
+/// A percentage with one decimal.
+pub(super) fn tenths(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// `the largest`, `the 2nd`, of areas that were looked at before.
+pub(super) fn ordinal(rank: u32) -> String {
+    let n = rank.saturating_add(1);
+    let ending = match (n % 10, n % 100) {
+        (_, 11..=13) => "th",
+        (1, _) => "st",
+        (2, _) => "nd",
+        (3, _) => "rd",
+        _ => "th",
+    };
+    if rank == 0 { "the largest".to_owned() } else { format!("the {n}{ending}") }
 }

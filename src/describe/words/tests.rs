@@ -3,8 +3,8 @@
 use super::*;
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::trace::{
-    Barrier, CandidateSource, Event, HistoryEntry, HistoryKind, MaskVerdict, PassedOver, PixelKind, Reach,
-    Release, Stage,
+    Barrier, CandidateSource, Dropped, Event, HistoryEntry, HistoryKind, MaskVerdict, Measured, PassedOver,
+    PixelKind, Reach, Release, Stage,
 };
 
 fn names() -> Names {
@@ -77,9 +77,9 @@ fn claims_conflicts_and_releases_carry_both_numbers() {
 #[test]
 fn a_failed_skewed_t_names_the_test_and_its_limit() {
     use crate::color::{Line, Vec3};
-    use crate::trace::{CandidateTest, CandidateVerdict};
+    use crate::trace::{CandidateTested, CandidateVerdict};
     let line = Line::new(Vec3::x() * 50.0, Vec3::x());
-    let test = CandidateTest {
+    let test = CandidateTested {
         region: 1,
         candidate: CandidateSource::Region(3),
         pixels: 120,
@@ -87,7 +87,7 @@ fn a_failed_skewed_t_names_the_test_and_its_limit() {
         matte_length: 160.0,
         line,
         meeting: [Vec3::zeros(); 2],
-        gap: [12.0, 8.0],
+        gap: Measured::new(12.0, 8.0),
         position_percent: 31.0,
         position_limits: [50.0, 115.0],
         verdict: CandidateVerdict { lines_meet: false, upper_half: false, positive: true, beyond: true },
@@ -138,7 +138,7 @@ fn every_step_is_a_sentence() {
         ),
         (Step::Label { pixel: 23, kind: PixelKind::Matte }, "pixel (3, 2) is matte"),
         (
-            Step::Event(&Event::Dropped { region: 2, pixels: 1 }),
+            Step::Event(&Event::Dropped(Dropped { region: 2, pixels: 1 })),
             "hypothesis 2 is dropped, too small: 1 pixel",
         ),
     ];
@@ -149,7 +149,7 @@ fn every_step_is_a_sentence() {
 
 #[test]
 fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
-    use crate::trace::{BlobJudged, LocalDecision, RepairTried, RepairVerdict};
+    use crate::trace::{BlobJudged, RepairTried, RepairVerdict};
     let all =
         BlobJudged { blob: 1, pixel: 23, pixels: 40, clipped: 0, strong: 21, calm: 12, core: 9, kept: true };
     let verdicts = [
@@ -166,7 +166,7 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
         (BlobJudged { core: 0, calm: 0, strong: 0, kept: false, ..all }, "no pixel of it is paler"),
     ];
     for (judged, part) in verdicts {
-        let said = names().event(&Event::Local(LocalDecision::Blob(judged)));
+        let said = names().event(&Event::BlobJudged(judged));
         assert!(said.starts_with("the candidate highlight of 40 pixels at (3, 2) "), "{said}");
         assert!(said.contains(part), "{said}");
     }
@@ -174,8 +174,9 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
         blob: 2,
         pixel: 23,
         pixels: 12,
-        ring: [0.62, 0.4],
-        rise: [40.0, 20.0],
+        ring: Measured::new(0.62, 0.4),
+        inner: 40.0,
+        outer: 20.0,
         verdict: RepairVerdict::Filled,
     };
     let verdicts = [
@@ -189,7 +190,7 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
         (RepairVerdict::NoRise, "does not rise towards it, 40.0 counts"),
     ];
     for (verdict, part) in verdicts {
-        let said = names().event(&Event::Local(LocalDecision::Repair(RepairTried { verdict, ..tried })));
+        let said = names().event(&Event::RepairTried(RepairTried { verdict, ..tried }));
         assert!(
             said.starts_with("the blob of 12 clipped pixels at (3, 2) is ") && said.contains(part),
             "{said}"

@@ -5,7 +5,7 @@ use crate::app::State;
 use crate::gpu::{Batch, Point};
 use crate::gui::theme::Tones;
 use crate::gui::widgets;
-use crate::trace::Replay;
+use crate::trace::{Measured, Replay};
 use crate::view::{
     self, CubeSettings, Picture, ResultSnapshot, Role, Theme, beside_color, candidate_reach, looked_at,
     test_at_cursor,
@@ -153,7 +153,7 @@ impl ShapeBuilder<'_> {
     /// A skewed-T test: both lines, the part of the matte line where highlights may begin, and the gap.
     fn test(
         &mut self,
-        test: &crate::trace::CandidateTest,
+        test: &crate::trace::CandidateTested,
         replay: &Replay,
         shown: &ResultSnapshot,
         color: Color32,
@@ -167,7 +167,7 @@ impl ShapeBuilder<'_> {
         self.spine(&skewed_t_view.matte, tones.text, THICK_PT);
         self.line(&skewed_t_view.line, tones.text, THICK_PT, 0.0);
         self.line(&skewed_t_view.gap, tones.accent, THICK_PT, 0.0);
-        let [gap, limit] = test.gap;
+        let Measured { value: gap, limit } = test.gap;
         let tip = "The shortest way between both lines, against the longest allowed (section 5.4.1).";
         self.note(skewed_t_view.gap[0], format!("gap {gap:.1} of {limit:.1}"), tip, true);
         let tip = "The end of the matte line: the brightest pixel on its outside, but for half a percent (section 5.4.1).";

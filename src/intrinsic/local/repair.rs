@@ -7,7 +7,7 @@
 use crate::intrinsic::split::Images;
 use crate::raster::{Mask, Raster};
 use crate::segment::AnalysisInput;
-use crate::trace::{PixelKind, RepairTried, RepairVerdict};
+use crate::trace::{Measured, PixelKind, RepairTried, RepairVerdict};
 
 /// Least share of the ring that is highlight.
 const LEAST_HIGHLIGHT: f64 = 0.4;
@@ -72,8 +72,9 @@ fn tried(blob: &[usize], [inner, outer]: &[Vec<usize>; 2], surface: &Raster<[f32
         blob: 0,
         pixel: blob.first().map_or(0, |&first| first as u32),
         pixels: blob.len() as u32,
-        ring: [highlight as f32 / count.max(1) as f32, LEAST_HIGHLIGHT as f32],
-        rise: rise.map(|sum| sum / 3.0),
+        ring: Measured::new(highlight as f32 / count.max(1) as f32, LEAST_HIGHLIGHT as f32),
+        inner: rise[0] / 3.0,
+        outer: rise[1] / 3.0,
         verdict,
     }
 }

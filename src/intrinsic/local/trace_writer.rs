@@ -6,8 +6,8 @@ use super::{LEAST_PIXELS, LEAST_SHARE};
 use crate::raster::{Mask, Raster};
 use crate::segment::AnalysisInput;
 use crate::trace::{
-    Event, LocalBegan, LocalDecision, LocalLimits, LocalPoint, LocalPoints, LocalRecord, LocalStart, Pass,
-    PlausibilityTested, Recorder, RepairTried,
+    BlobsCounted, Event, LocalBegan, LocalLimits, LocalPoint, LocalPoints, LocalRecord, LocalStart, Pass,
+    PassBegan, PlausibilityTested, Recorder, RepairTried,
 };
 use rayon::prelude::*;
 
@@ -26,8 +26,8 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         Self { recorder, origin, points: None, numbered: 0 }
     }
 
-    fn record(&mut self, decision: LocalDecision) {
-        self.recorder.record(Event::Local(decision));
+    fn record(&mut self, decision: impl Into<Event>) {
+        self.recorder.record(decision);
     }
 
     /// It begins, or not. `pixels` lie outside of what holds, of `lit` ones.
@@ -41,7 +41,7 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         if !R::KEEPS {
             return;
         }
-        self.recorder.record(Event::PassBegan { pass: Pass::LocalSplit });
+        self.recorder.record(PassBegan { pass: Pass::LocalSplit });
         let refine = input.refine;
         let limits = LocalLimits {
             mean: LEAST_MEAN,
@@ -50,7 +50,7 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
             core_texture: CORE_TEXTURE,
             sigma: input.sigma() as f32,
         };
-        self.record(LocalDecision::Began(Box::new(LocalBegan {
+        self.record(LocalBegan {
             start,
             pixels: pixels as u32,
             lit: lit as u32,
@@ -61,7 +61,7 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
             texture_test: refine.texture_test,
             hysteresis: refine.hysteresis,
             clip_repair: refine.clip_repair,
-        })));
+        });
     }
 
     /// Each candidate highlight.
@@ -84,24 +84,24 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         self.numbered = judged.blobs.len() as u16;
         if input.refine.hysteresis {
             let Judged { found, small, small_pixels, .. } = *judged;
-            self.record(LocalDecision::Blobs { found, small, small_pixels, least: Judged::LEAST });
+            self.record(BlobsCounted { found, small, small_pixels, least: Judged::LEAST });
         }
         for &blob in &judged.blobs {
-            self.record(LocalDecision::Blob(blob));
+            self.record(blob);
         }
     }
 
     /// Whether highlights are believed.
     pub fn believed(&mut self, tested: PlausibilityTested) {
         if R::KEEPS {
-            self.record(LocalDecision::Plausibility(Box::new(tested)));
+            self.record(tested);
         }
     }
 
     /// What follows is the repair of clipped blobs.
     pub fn repairs(&mut self) {
         if R::KEEPS {
-            self.recorder.record(Event::PassBegan { pass: Pass::ClipRepair });
+            self.recorder.record(PassBegan { pass: Pass::ClipRepair });
         }
     }
 
@@ -116,7 +116,7 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
                 of[index].blob = self.numbered;
             }
         }
-        self.record(LocalDecision::Repair(RepairTried { blob: self.numbered, ..tried }));
+        self.record(RepairTried { blob: self.numbered, ..tried });
     }
 
     /// That was all; `outside`: what lies outside of what holds.

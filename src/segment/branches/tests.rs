@@ -75,7 +75,7 @@ fn two_faces_of_a_convex_object_show_two_branches() {
     shades.sort_by(f32::total_cmp);
     // 0.05 counts per row under highlights in rows 40 and 56.
     assert!((shades[0] - 62.0).abs() < 1.0 && (shades[1] - 122.8).abs() < 1.0, "{shades:?}");
-    let [gap, limit] = branches.gaps[0];
+    let Measured { value: gap, limit } = branches.gaps[0];
     assert!((gap - (shades[1] - shades[0])).abs() < 1e-3 && limit < gap);
     // Each place goes to the highlight beside it.
     let shade_at = |x, y| bodies[branches.nearest(x, y)];
@@ -207,7 +207,7 @@ proptest! {
         let branches =
             found(faces(left, left + apart), &[(LEFT.0, LEFT.1, strength), (RIGHT.0, RIGHT.1, strength)], seed);
         prop_assert_eq!(branches.cores.len(), 2);
-        let [gap, limit] = branches.gaps[0];
+        let Measured { value: gap, limit } = branches.gaps[0];
         prop_assert!(limit >= 0.1 * LENGTH as f32 && limit < 0.16 * LENGTH as f32, "{:?}", branches);
         prop_assert!((f64::from(gap) - apart - 0.8).abs() < 2.5, "{} for {}", gap, apart);
         prop_assert_eq!(branches.bodies().len(), if gap > limit { 2 } else { 1 });

@@ -9,7 +9,9 @@ use crate::photo::{LinearImage, Masks};
 use crate::raster::UNASSIGNED;
 use crate::trace::stage_trace::Move;
 use crate::trace::{
-    Contest, Event, Measure, Pass, PassedOver, PixelKind, Stage, StageTrace, Trace, VectorsFitted,
+    Absorbed, ComponentSplit, Contest, Dropped, Event, GrowthBegan, HoleFilled, HypothesisPassedOver,
+    Measure, Pass, PassBegan, PassedOver, PixelKind, RegionsMerged, Renumbered, Stage, StageTrace, Trace,
+    VectorsFitted,
 };
 
 /// What an event makes of the changes of hands that follow it.
@@ -136,7 +138,7 @@ impl<'a> HistoryBuilder<'a> {
                     self.note(step, HistoryKind::Masked(verdict));
                 }
             }
-            Event::PassBegan { pass } => {
+            Event::PassBegan(PassBegan { pass }) => {
                 self.pass = Some(*pass);
                 self.merges.clear();
                 self.end_merging();
@@ -148,13 +150,13 @@ impl<'a> HistoryBuilder<'a> {
                 self.patch = (self.stage == Stage::Classify || looked_at)
                     .then(|| Patch::new(laid, self.pixel, self.image.width()));
             }
-            Event::SeedsPlaced { .. } => self.cause = Cause::Seeds,
-            Event::GrowthBegan { region, limit } => self.begin_growth(step, *region, *limit),
-            Event::RegionsMerged { region, angle_deg, rms, .. } => {
+            Event::SeedsPlaced(_) => self.cause = Cause::Seeds,
+            Event::GrowthBegan(GrowthBegan { region, limit }) => self.begin_growth(step, *region, *limit),
+            Event::RegionsMerged(RegionsMerged { region, angle_deg, rms, .. }) => {
                 self.merges.push((*region, *angle_deg, *rms));
             }
-            Event::HypothesisChosen(_) | Event::HypothesisPassedOver { .. } => self.hear_of_area(step, event),
-            Event::Renumbered { finals } => {
+            Event::HypothesisChosen(_) | Event::HypothesisPassedOver(_) => self.hear_of_area(step, event),
+            Event::Renumbered(Renumbered { finals }) => {
                 let index = usize::from(self.holder).checked_sub(1);
                 if let Some(&number) = index.and_then(|index| finals.get(index)) {
                     self.note(step, HistoryKind::Numbered { region: self.holder, number });
@@ -173,7 +175,12 @@ impl<'a> HistoryBuilder<'a> {
                     HistoryKind::AreaChosen { region, rank: chosen.rank, pixels: chosen.pixels, radius };
                 self.note(step, what);
             }
-            Event::HypothesisPassedOver { pixels, least, reason: PassedOver::Barren, .. } => {
+            Event::HypothesisPassedOver(HypothesisPassedOver {
+                pixels,
+                least,
+                reason: PassedOver::Barren,
+                ..
+            }) => {
                 // Said after the pixels were given back.
                 let given_back = self.told.iter_mut().rev().find_map(|happening| match &mut happening.what {
                     HistoryKind::Released { why: Release::Barren { pixels, least }, .. } => {
@@ -185,7 +192,7 @@ impl<'a> HistoryBuilder<'a> {
                     (*slots.0, *slots.1) = (*pixels, *least);
                 }
             }
-            Event::HypothesisPassedOver { area, pixels, least, reason }
+            Event::HypothesisPassedOver(HypothesisPassedOver { area, pixels, least, reason })
                 if is_own(*area) && self.holder == UNASSIGNED =>
             {
                 let what = HistoryKind::AreaPassedOver { pixels: *pixels, least: *least, reason: *reason };
@@ -341,12 +348,14 @@ impl<'a> HistoryBuilder<'a> {
                 let (axis, radius) = self.regions.cylinder(from)?;
                 released(Release::Refit { distance: axis.distance2(self.color).sqrt(), radius })
             }
-            Event::Absorbed { by, feet, gap, .. } => released(Release::Absorbed { by, feet, gap }),
-            Event::Dropped { pixels, .. } => released(Release::Dropped { pixels }),
-            Event::HoleFilled { region, pixels, border_share, .. } => {
+            Event::Absorbed(Absorbed { by, highlight_foot, object_foot, gap, .. }) => {
+                released(Release::Absorbed { by, highlight_foot, object_foot, gap })
+            }
+            Event::Dropped(Dropped { pixels, .. }) => released(Release::Dropped { pixels }),
+            Event::HoleFilled(HoleFilled { region, pixels, border_share, .. }) => {
                 Some(HistoryKind::Filled { region, pixels, border_share })
             }
-            Event::ComponentSplit { region, pixels, .. } => {
+            Event::ComponentSplit(ComponentSplit { region, pixels, .. }) => {
                 Some(HistoryKind::Separated { region, part: to, pixels })
             }
             _ => None,

@@ -5,7 +5,7 @@ use super::growth::brightness;
 use crate::color::dot;
 use crate::photo::{LinearImage, MaskLimits, Masks};
 use crate::reflection::{Components, ReflectionTransform};
-use crate::trace::{Event, Trace, VectorsFitted};
+use crate::trace::{Event, Renumbered, Trace, VectorsFitted};
 
 /// Each region's vectors, by its number of birth; none for those that are no more.
 pub(super) fn final_vectors(trace: &Trace) -> Vec<Option<&VectorsFitted>> {
@@ -14,7 +14,7 @@ pub(super) fn final_vectors(trace: &Trace) -> Vec<Option<&VectorsFitted>> {
     for (_, event) in trace.events() {
         match event {
             Event::VectorsFitted(fitted) => vectors.push(fitted),
-            Event::Renumbered { finals } => numbers = finals,
+            Event::Renumbered(Renumbered { finals }) => numbers = finals,
             _ => {}
         }
     }

@@ -3,7 +3,7 @@
 use super::{Barrier, Reach};
 use crate::color::{Cylinder, Line, dot};
 use crate::reflection::HighlightTest;
-use crate::trace::{Event, SliceMade, VectorsFitted};
+use crate::trace::{ComponentSplit, Event, SliceMade, VectorsFitted};
 
 /// What is known of a region at some step.
 #[derive(Clone, Copy, Default)]
@@ -23,7 +23,7 @@ impl<'a> Regions<'a> {
             Event::HypothesisChosen(chosen) => {
                 self.0.push(Known { line: Some(chosen.line), radius: chosen.radius, slice: None });
             }
-            Event::ComponentSplit { region, .. } => self.0.push(self.of(*region)),
+            Event::ComponentSplit(ComponentSplit { region, .. }) => self.0.push(self.of(*region)),
             Event::LineRefitted(refitted) => {
                 if let Some(known) = self.slot(refitted.region) {
                     known.line = Some(refitted.line);

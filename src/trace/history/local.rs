@@ -4,7 +4,7 @@ use super::{HistoryEntry, HistoryKind, LocalFate, LocalStory};
 use crate::photo::{LinearImage, Masks};
 use crate::reflection::desaturation_limits;
 use crate::trace::{
-    Event, LocalBegan, LocalDecision, LocalPoint, LocalStart, PlausibilityTested, RepairVerdict, Stage, Trace,
+    BlobsCounted, Event, LocalBegan, LocalPoint, LocalStart, PlausibilityTested, RepairVerdict, Stage, Trace,
 };
 
 /// What is told, and what came of it.
@@ -57,28 +57,26 @@ impl<'a> Case<'a> {
         match event {
             // Where lights were held against each other, the choice says more than the light of the slices that follow.
             Event::IlluminantEstimated(_) if matches!(self.light, Some((.., Event::LightChosen(_)))) => {}
-            Event::IlluminantEstimated(_) | Event::IlluminantGiven { .. } => {
+            Event::IlluminantEstimated(_) | Event::IlluminantGiven(_) => {
                 self.light = Some((step, Stage::Planar, event));
             }
             Event::LightChosen(_) => self.light = Some((step, Stage::Planar, event)),
-            Event::Local(LocalDecision::Began(began)) => {
+            Event::LocalBegan(began) => {
                 self.began = Some((step, began));
                 if began.start != LocalStart::Begins {
                     self.decided.push((step, event));
                 }
             }
-            Event::Local(LocalDecision::Blobs { least, .. }) => self.least_px = *least,
-            Event::Local(LocalDecision::Blob(judged)) if judged.blob == number => {
+            Event::BlobsCounted(BlobsCounted { least, .. }) => self.least_px = *least,
+            Event::BlobJudged(judged) if judged.blob == number => {
                 self.kept = judged.kept;
                 self.decided.push((step, event));
             }
-            Event::Local(LocalDecision::Repair(tried)) if tried.blob == number => {
+            Event::RepairTried(tried) if tried.blob == number => {
                 self.filled = tried.verdict == RepairVerdict::Filled;
                 self.decided.push((step, event));
             }
-            Event::Local(LocalDecision::Plausibility(tested)) => {
-                self.plausibility = Some((step, event, tested));
-            }
+            Event::PlausibilityTested(tested) => self.plausibility = Some((step, event, tested)),
             _ => {}
         }
     }

@@ -314,8 +314,10 @@ pub enum Release {
     Absorbed {
         /// The object that it lies on.
         by: u16,
-        /// Distances of both lines from black, counts: the highlight's, the object's.
-        feet: [f64; 2],
+        /// Distance of the highlight's line from black, counts.
+        highlight_foot: f64,
+        /// Distance of the object's line from black, counts.
+        object_foot: f64,
         /// Distance between the lines, counts.
         gap: f64,
     },

@@ -2,7 +2,7 @@
 
 use super::{HistoryKind, MergeRefusal, MergeStory, WindowStory};
 use crate::color::ClusterTest;
-use crate::trace::{Class, Event, WindowsLaid};
+use crate::trace::{Class, Event, MergeTried, WindowClassified, WindowsLaid};
 
 /// The pixel's window in one grid.
 pub(super) struct Patch<'a> {
@@ -30,7 +30,9 @@ impl<'a> Patch<'a> {
     /// What an event says about the window.
     pub(super) fn hear(&mut self, step: usize, event: &Event) -> Option<HistoryKind> {
         match event {
-            Event::WindowClassified { window, pixels, eigenvalues, class, .. } if *window == self.window => {
+            Event::WindowClassified(WindowClassified { window, pixels, eigenvalues, class, .. })
+                if *window == self.window =>
+            {
                 self.class = *class;
                 let trials = match class {
                     Some(_) => self.test.trials(f64::from(*pixels), eigenvalues.map(f64::from)),
@@ -45,7 +47,7 @@ impl<'a> Patch<'a> {
                     class: *class,
                 })))
             }
-            Event::MergeTried { into, from, .. } if *into == self.area || *from == self.area => {
+            Event::MergeTried(MergeTried { into, from, .. }) if *into == self.area || *from == self.area => {
                 self.tried(step, event);
                 None
             }
@@ -54,7 +56,10 @@ impl<'a> Patch<'a> {
     }
 
     fn tried(&mut self, step: usize, event: &Event) {
-        let Event::MergeTried { into, from, pixels, eigenvalues, class, union, .. } = event else { return };
+        let Event::MergeTried(MergeTried { into, from, pixels, eigenvalues, class, union, .. }) = event
+        else {
+            return;
+        };
         let own = usize::from(*from == self.area);
         let (last, story) = self.merging.get_or_insert_with(|| {
             let pixels = pixels[own];

@@ -6,8 +6,9 @@ use crate::photo::MaskLimits;
 use crate::raster::Raster;
 use crate::reflection::{Components, DichromaticPlane, Slice, SliceBound};
 use crate::trace::{
-    Event, FitLimits, HypothesisChosen, LineRefitted, MasksMade, Measure, Pass, PixelKind, Recorder,
-    SliceMade, TraceRecorder, VectorsFitted, WindowsLaid,
+    Event, FitLimits, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted, MasksMade, Measure,
+    Pass, PassBegan, PixelKind, Recorder, Renumbered, SeedsPlaced, SliceMade, StageBegan, TraceRecorder,
+    VectorsFitted, WindowsLaid,
 };
 use std::sync::Arc;
 
@@ -28,24 +29,24 @@ impl Strip {
         let masks = Masks::new(&image, &LIMITS);
         let strip = Self { masks, image, stage_traces: Vec::new() };
         let made = MasksMade { limits: LIMITS, dark: 0, distorted: 0, sigma: None };
-        strip.stage(Stage::Masks, |recorder| recorder.record(Event::MasksMade(Box::new(made.clone())))).stage(
+        strip.stage(Stage::Masks, |recorder| recorder.record(made.clone())).stage(
             Stage::Classify,
             |recorder| {
-                recorder.record(Event::WindowsLaid(Box::new(WindowsLaid {
+                recorder.record(WindowsLaid {
                     size_px: 2,
                     columns: colors.len().div_ceil(2) as u32,
                     rows: 1,
                     least_pixels: 2,
                     camera_noise: 2.5,
                     tail_test: true,
-                })));
+                });
             },
         )
     }
 
     fn stage(mut self, stage: Stage, record: impl FnOnce(&mut TraceRecorder)) -> Self {
         let mut recorder = TraceRecorder::default();
-        recorder.record(Event::StageBegan { stage });
+        recorder.record(StageBegan { stage });
         record(&mut recorder);
         self.stage_traces.extend(recorder.finish(stage).map(Arc::new));
         self
@@ -70,11 +71,11 @@ fn red() -> Line {
 
 fn chosen(recorder: &mut TraceRecorder, region: u16, line: Line) {
     let chosen = HypothesisChosen { region, area: 99, rank: 0, pixels: 4, line, radius: RADIUS };
-    recorder.record(Event::HypothesisChosen(Box::new(chosen)));
+    recorder.record(chosen);
 }
 
 fn grows(recorder: &mut TraceRecorder, region: u16, claims: &[(u32, u16)]) {
-    recorder.record(Event::GrowthBegan { region, limit: RADIUS as f32 });
+    recorder.record(GrowthBegan { region, limit: RADIUS as f32 });
     for &(pixel, before) in claims {
         recorder.claim(pixel, before, region);
     }
@@ -85,7 +86,7 @@ fn a_pixel_beside_a_cylinder_is_refused_by_its_distance_from_the_axis() {
     let strip = Strip::new(&[[100.0, 0.0, 0.0], [120.0, 3.0, 4.0], [120.0, 0.0, 12.4], [90.0, 0.0, 0.0]]);
     let strip = strip.stage(Stage::Linear, |recorder| {
         chosen(recorder, 1, red());
-        recorder.record(Event::SeedsPlaced { region: 1, pixels: 1 });
+        recorder.record(SeedsPlaced { region: 1, pixels: 1 });
         recorder.claim(0, 0, 1);
         grows(recorder, 1, &[(1, 0)]);
     });
@@ -105,10 +106,10 @@ fn dark_and_clipped_pixels_wait_and_the_regions_beside_them_are_listed_once() {
     let strip = strip.stage(Stage::Linear, |recorder| {
         for (region, seed) in [(1, 0), (2, 2)] {
             chosen(recorder, region, red());
-            recorder.record(Event::SeedsPlaced { region, pixels: 1 });
+            recorder.record(SeedsPlaced { region, pixels: 1 });
             recorder.claim(seed, 0, region);
             grows(recorder, region, &[]);
-            recorder.record(Event::LineRefitted(Box::new(LineRefitted { region, line: red() })));
+            recorder.record(LineRefitted { region, line: red() });
             grows(recorder, region, &[]);
         }
     });
@@ -128,21 +129,21 @@ fn conflicts_carry_both_distances_and_a_refit_lets_go() {
     let won = Contest { measure: Measure::Axis, challenger: 0.0, holder: 6.0 };
     let strip = strip.stage(Stage::Linear, |recorder| {
         chosen(recorder, 1, red());
-        recorder.record(Event::SeedsPlaced { region: 1, pixels: 1 });
+        recorder.record(SeedsPlaced { region: 1, pixels: 1 });
         recorder.claim(0, 0, 1);
         grows(recorder, 1, &[(1, 0)]);
         chosen(recorder, 2, shifted);
-        recorder.record(Event::SeedsPlaced { region: 2, pixels: 1 });
+        recorder.record(SeedsPlaced { region: 2, pixels: 1 });
         recorder.claim(2, 0, 2);
-        recorder.record(Event::GrowthBegan { region: 2, limit: RADIUS as f32 });
+        recorder.record(GrowthBegan { region: 2, limit: RADIUS as f32 });
         // The same refusal from two sides is one.
         recorder.contest(1, 1, 2, false, lost);
         recorder.contest(1, 1, 2, false, lost);
         chosen(recorder, 3, Line::new(Vec3::new(100.0, 6.0, 0.0), Vec3::x()));
-        recorder.record(Event::GrowthBegan { region: 3, limit: RADIUS as f32 });
+        recorder.record(GrowthBegan { region: 3, limit: RADIUS as f32 });
         recorder.contest(1, 1, 3, true, won);
         recorder.claim(1, 1, 3);
-        recorder.record(Event::LineRefitted(Box::new(LineRefitted { region: 3, line: away })));
+        recorder.record(LineRefitted { region: 3, line: away });
         recorder.claim(1, 3, 0);
     });
     let own = Reach::Axis { distance: 6.0, radius: RADIUS };
@@ -165,27 +166,27 @@ fn a_slice_says_on_which_side_a_pixel_lies_and_growth_for_nothing_is_given_back(
     let strip = strip
         .stage(Stage::Linear, |recorder| {
             chosen(recorder, 1, red());
-            recorder.record(Event::SeedsPlaced { region: 1, pixels: 2 });
+            recorder.record(SeedsPlaced { region: 1, pixels: 2 });
             recorder.claim(0, 0, 1);
             chosen(recorder, 2, red());
-            recorder.record(Event::SeedsPlaced { region: 2, pixels: 1 });
+            recorder.record(SeedsPlaced { region: 2, pixels: 1 });
             recorder.claim(2, 0, 2);
-            recorder.record(Event::GrowthBegan { region: 2, limit: RADIUS as f32 });
+            recorder.record(GrowthBegan { region: 2, limit: RADIUS as f32 });
             recorder.claim(2, 2, 0);
             let (area, reason) = (99, PassedOver::Barren);
-            recorder.record(Event::HypothesisPassedOver { area, pixels: 4, least: 72, reason });
+            recorder.record(HypothesisPassedOver { area, pixels: 4, least: 72, reason });
         })
         .stage(Stage::Planar, |recorder| {
-            recorder.record(Event::PassBegan { pass: Pass::Slices });
-            recorder.record(Event::SliceMade(Box::new(SliceMade {
+            recorder.record(PassBegan { pass: Pass::Slices });
+            recorder.record(SliceMade {
                 region: 1,
                 plane,
                 matte_length: 120.0,
                 start: Vec3::x() * 90.0,
                 half_width: 8.0,
                 slice: Slice::bounded(&plane, 8.0, RADIUS, 120.0),
-            })));
-            recorder.record(Event::GrowthBegan { region: 1, limit: 8.0 });
+            });
+            recorder.record(GrowthBegan { region: 1, limit: 8.0 });
         });
     let miss = SliceMiss { bound: SliceBound::Height, value: 13.0, limit: 8.0 };
     let past = strip.history(1);
@@ -200,13 +201,13 @@ fn the_end_is_a_number_a_role_and_amounts() {
     let strip = strip
         .stage(Stage::Linear, |recorder| {
             chosen(recorder, 1, red());
-            recorder.record(Event::SeedsPlaced { region: 1, pixels: 2 });
+            recorder.record(SeedsPlaced { region: 1, pixels: 2 });
             recorder.claim(0, 0, 1);
             recorder.claim(1, 0, 1);
         })
-        .stage(Stage::Clipping, |recorder| recorder.record(Event::Renumbered { finals: [1].into() }))
+        .stage(Stage::Clipping, |recorder| recorder.record(Renumbered { finals: [1].into() }))
         .stage(Stage::Split, |recorder| {
-            recorder.record(Event::VectorsFitted(Box::new(VectorsFitted {
+            recorder.record(VectorsFitted {
                 region: 1,
                 body: Vec3::x(),
                 surface: Some(Vec3::y()),
@@ -221,7 +222,7 @@ fn the_end_is_a_number_a_role_and_amounts() {
                 limits: FitLimits::default(),
                 holds: true,
                 origin: [0.0; 3],
-            })));
+            });
             let kinds = vec![PixelKind::Highlight, PixelKind::Matte];
             recorder.labels(&Raster::from_vec(2, 1, kinds).unwrap());
         });

@@ -4,7 +4,7 @@ use super::{PlaneBranch, PlanePixel, RegionPlane};
 use crate::color::{Vec3, rgb};
 use crate::photo::Masks;
 use crate::reflection::{Components, ReflectionTransform};
-use crate::trace::{CandidateTest, PixelKind, Replay};
+use crate::trace::{CandidateTested, PixelKind, Replay};
 use crate::view::{MOST_PLANE_POINTS, Picture};
 use crate::view::{candidate_pixels, measured_and_ignored, pixels_of_region, sampled, tracks};
 
@@ -58,7 +58,7 @@ impl Sheet<'_> {
 /// final number. None where both lines have one direction.
 pub fn test_plane(
     replay: &Replay,
-    test: &CandidateTest,
+    test: &CandidateTested,
     region: u16,
     picture: &Picture,
     masks: &Masks,
@@ -75,7 +75,7 @@ pub fn test_plane(
     ]);
     let brightest = test.matte.foot() + test.matte.direction * test.matte_length;
     let (matte_length, meeting) = (sheet.amount(brightest), sheet.amount(test.meeting[0]));
-    let plane = sheet.plane(region, [test.gap[1]; 2], points);
+    let plane = sheet.plane(region, [test.gap.limit; 2], points);
     let branches = super::branches(&[meeting], &plane.points);
     Some(RegionPlane { matte_length, branches, ..plane })
 }

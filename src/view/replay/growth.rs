@@ -2,7 +2,7 @@
 //! which rings.
 
 use crate::raster::LabelMap;
-use crate::trace::{Block, Event, Replay, Step, Topic};
+use crate::trace::{Block, Event, Replay, SeedsPlaced, Step, Topic};
 
 /// Pixels of the region that the cursor is about.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -81,7 +81,7 @@ impl Rings {
     fn take(&mut self, n: usize, step: &Step, before: &LabelMap, region: u16) {
         match *step {
             Step::Event(event) => {
-                if let Event::SeedsPlaced { pixels, .. } = event {
+                if let Event::SeedsPlaced(SeedsPlaced { pixels, .. }) = event {
                     self.seeds = *pixels;
                 }
                 self.begin(n);

@@ -5,7 +5,9 @@ use super::looked_at::blob_at_cursor;
 use super::tracks::{candidate_pixels, test_at_cursor, tracks};
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Raster};
-use crate::trace::{Class, Event, Grid, Pass, PixelKind, Replay, Stage, Step, Topic};
+use crate::trace::{
+    Class, Event, Grid, MergeTried, Pass, PixelKind, Replay, Stage, Step, Topic, WindowClassified,
+};
 /// An instant as the picture shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
@@ -77,7 +79,7 @@ impl WindowsView {
     fn of(grid: &Grid, last: Option<&Step>) -> Self {
         let areas = grid.areas();
         let tried = match last {
-            Some(Step::Event(Event::MergeTried { into, from, .. })) => {
+            Some(Step::Event(Event::MergeTried(MergeTried { into, from, .. }))) => {
                 let mut tried: Vec<u32> =
                     [into, from].iter().filter_map(|window| areas.get(**window as usize)).copied().collect();
                 tried.dedup();
@@ -114,7 +116,7 @@ impl Instant {
         let stage = replay.stage().filter(|_| last.is_some());
         let windows = replay.grid().map(|grid| WindowsView::of(grid, last.as_ref()));
         let window = match (&last, &windows) {
-            (Some(Step::Event(Event::WindowClassified { window, .. })), Some(windows)) => {
+            (Some(Step::Event(Event::WindowClassified(WindowClassified { window, .. }))), Some(windows)) => {
                 Some(windows.square(*window))
             }
             _ => None,

@@ -5,7 +5,7 @@ use super::tracks::{
 };
 use crate::photo::Masks;
 use crate::raster::Raster;
-use crate::trace::{Class, Event, Grid, LocalDecision, RepairVerdict, Replay, Stage, Step};
+use crate::trace::{Class, Event, Grid, MergeTried, RepairVerdict, Replay, Stage, Step, WindowClassified};
 
 /// What pixels are to the step at the cursor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,10 +58,10 @@ fn groups(replay: &Replay, focus: Option<u16>, colors: &Raster<[f32; 3]>, masks:
     }
     let width = colors.width();
     match (replay.last(), replay.grid()) {
-        (Some(Step::Event(Event::WindowClassified { window, class, .. })), Some(grid)) => {
+        (Some(Step::Event(Event::WindowClassified(WindowClassified { window, class, .. }))), Some(grid)) => {
             vec![(Role::Window(*class), pixels_in(grid, width, colors.height(), |at| at == *window as usize))]
         }
-        (Some(Step::Event(Event::MergeTried { into, from, class, union, .. })), Some(grid)) => {
+        (Some(Step::Event(Event::MergeTried(MergeTried { into, from, class, union, .. }))), Some(grid)) => {
             let areas = grid.areas();
             let root = |window: &u32| areas.get(*window as usize).copied();
             let pixels = |root: Option<u32>| {
@@ -80,10 +80,8 @@ fn groups(replay: &Replay, focus: Option<u16>, colors: &Raster<[f32; 3]>, masks:
 /// The blob that the step taken last judged, and whether it is a highlight: clipped, whether it is filled.
 pub fn blob_at_cursor(replay: &Replay) -> Option<(Vec<u32>, bool)> {
     let (blob, kept) = match replay.last()? {
-        Step::Event(Event::Local(LocalDecision::Blob(judged))) => (judged.blob, judged.kept),
-        Step::Event(Event::Local(LocalDecision::Repair(tried))) => {
-            (tried.blob, tried.verdict == RepairVerdict::Filled)
-        }
+        Step::Event(Event::BlobJudged(judged)) => (judged.blob, judged.kept),
+        Step::Event(Event::RepairTried(tried)) => (tried.blob, tried.verdict == RepairVerdict::Filled),
         _ => return None,
     };
     Some((replay.trace().stage_trace(Stage::Split)?.local()?.blob(blob), kept))
@@ -107,7 +105,8 @@ mod tests {
     use super::*;
     use crate::raster::Roi;
     use crate::trace::{
-        BlobJudged, LocalPoint, LocalPoints, LocalRecord, Recorder, RepairTried, Trace, TraceRecorder,
+        BlobJudged, LocalPoint, LocalPoints, LocalRecord, Measured, Recorder, RepairTried, Trace,
+        TraceRecorder,
     };
     use std::sync::Arc;
 
@@ -119,15 +118,16 @@ mod tests {
         let mut recorder = TraceRecorder::default();
         let judged =
             BlobJudged { blob: 1, pixel: 1, pixels: 2, clipped: 0, strong: 0, calm: 0, core: 0, kept: false };
-        recorder.record(Event::Local(LocalDecision::Blob(judged)));
-        recorder.record(Event::Local(LocalDecision::Repair(RepairTried {
+        recorder.record(judged);
+        recorder.record(RepairTried {
             blob: 2,
             pixel: 7,
             pixels: 1,
-            ring: [0.5, 0.4],
-            rise: [2.0, 1.0],
+            ring: Measured::new(0.5, 0.4),
+            inner: 2.0,
+            outer: 1.0,
             verdict: RepairVerdict::Filled,
-        })));
+        });
         recorder.local(LocalRecord::Points(LocalPoints { roi: window, of }));
         let stage_trace = Arc::new(recorder.finish(Stage::Split).unwrap());
         let mut replay = Replay::new(Arc::new(Trace::new(4, 2, vec![stage_trace])));

@@ -1,7 +1,7 @@
 //! The regions table at an instant: the hypotheses so far, and before there are any the windows and areas.
 
 use super::RegionNames;
-use crate::trace::{Class, End, Event, Replay, Step};
+use crate::trace::{Class, End, Event, Replay, Step, WindowClassified};
 
 /// A hypothesis, as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,7 +96,7 @@ pub fn window_counts(replay: &Replay) -> Option<WindowCounts> {
     let mut counts = WindowCounts { windows: grid.classes.len(), ..WindowCounts::default() };
     // Nothing is recorded of an empty window: those before the cursor's are such.
     let looked_at = match replay.last()? {
-        Step::Event(Event::WindowClassified { window, .. }) => *window as usize,
+        Step::Event(Event::WindowClassified(WindowClassified { window, .. })) => *window as usize,
         Step::Event(Event::WindowsLaid(_)) => 0,
         _ => counts.windows,
     };

@@ -1,7 +1,7 @@
 //! A skewed-T test as it is drawn: two lines, the gap between them, and what each check held against what (5.4.1).
 
 use crate::color::{Vec3, rgb};
-use crate::trace::{CandidateSource, CandidateTest};
+use crate::trace::{CandidateSource, CandidateTested, Measured};
 use crate::view::Point;
 
 /// A test in the color cube, counts.
@@ -32,7 +32,7 @@ pub struct Check {
 
 /// The test as it is drawn; `reach` are the least and the largest place of the candidate's pixels on its line, counts from
 /// the meeting point, where they are known.
-pub fn skewed_t_view(test: &CandidateTest, reach: Option<[f64; 2]>) -> SkewedTView {
+pub fn skewed_t_view(test: &CandidateTested, reach: Option<[f64; 2]>) -> SkewedTView {
     let foot = test.matte.foot();
     let on_matte = |percent: f64| rgb(&(foot + test.matte.direction * (test.matte_length * percent / 100.0)));
     let [meeting, start] = test.meeting;
@@ -57,9 +57,9 @@ pub fn candidate_name(source: CandidateSource) -> String {
     }
 }
 
-fn checks(test: &CandidateTest) -> [Check; 4] {
+fn checks(test: &CandidateTested) -> [Check; 4] {
     let verdict = test.verdict;
-    let [gap, limit] = test.gap;
+    let Measured { value: gap, limit } = test.gap;
     let [low, high] = test.position_limits;
     let position = test.position_percent;
     let [r, g, b] = rgb(&test.line.direction);
@@ -96,7 +96,7 @@ fn checks(test: &CandidateTest) -> [Check; 4] {
 }
 
 /// The least and the largest place of these colors on the candidate's line, counts from the meeting point.
-pub fn candidate_reach(test: &CandidateTest, colors: impl Iterator<Item = [f32; 3]>) -> Option<[f64; 2]> {
+pub fn candidate_reach(test: &CandidateTested, colors: impl Iterator<Item = [f32; 3]>) -> Option<[f64; 2]> {
     let along =
         |color: [f32; 3]| (Vec3::from(color.map(f64::from)) - test.meeting[1]).dot(&test.line.direction);
     colors.map(along).fold(None, |span: Option<[f64; 2]>, at| {
@@ -111,8 +111,8 @@ mod tests {
     use crate::trace::CandidateVerdict;
 
     /// A matte line along red, 200 counts long, and a highlight 4 counts beside it at 150, along blue.
-    fn test() -> CandidateTest {
-        CandidateTest {
+    fn test() -> CandidateTested {
+        CandidateTested {
             region: 1,
             candidate: CandidateSource::Region(2),
             pixels: 40,
@@ -120,7 +120,7 @@ mod tests {
             matte_length: 200.0,
             line: Line::new(Vec3::new(150.0, 7.0, 30.0), Vec3::z()),
             meeting: [Vec3::new(150.0, 3.0, 0.0), Vec3::new(150.0, 7.0, 0.0)],
-            gap: [4.0, 10.0],
+            gap: Measured::new(4.0, 10.0),
             position_percent: 75.0,
             position_limits: [50.0, 120.0],
             verdict: CandidateVerdict { lines_meet: true, upper_half: true, positive: true, beyond: true },
@@ -149,13 +149,18 @@ mod tests {
     #[test]
     fn checks_tell_the_value_and_its_limit() {
         let texts =
-            |test: &CandidateTest| skewed_t_view(test, None).checks.map(|check| (check.passed, check.text));
+            |test: &CandidateTested| skewed_t_view(test, None).checks.map(|check| (check.passed, check.text));
         let passed = texts(&test());
         assert_eq!(passed[0], (true, "gap 4.0 \u{2264} 10.0 counts".to_owned()));
         assert_eq!(passed[1], (true, "meets at 75 %, within 50\u{2013}120 %".to_owned()));
         assert_eq!(passed[3], (true, "cluster 30 counts beyond the line".to_owned()));
         let verdict = CandidateVerdict { lines_meet: false, upper_half: false, positive: true, beyond: true };
-        let failed = texts(&CandidateTest { gap: [12.3, 10.0], position_percent: 31.0, verdict, ..test() });
+        let failed = texts(&CandidateTested {
+            gap: Measured::new(12.3, 10.0),
+            position_percent: 31.0,
+            verdict,
+            ..test()
+        });
         assert_eq!(failed[0], (false, "gap 12.3 > 10.0 counts".to_owned()));
         assert_eq!(failed[1], (false, "meets at 31 %, outside 50\u{2013}120 %".to_owned()));
         assert!(failed[2].0 && failed[2].1.starts_with("direction 0.00 0.00 1.00"));

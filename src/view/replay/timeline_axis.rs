@@ -205,17 +205,18 @@ fn shares(weights: Vec<f64>, least: f64) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::trace::{Event, Recorder, Stage, TraceRecorder};
+    use crate::trace::{PassBegan, StageBegan};
     use std::sync::Arc;
 
     /// Stages of few and of many steps; the second has passes.
     fn trace() -> Trace {
         let mut recorder = TraceRecorder::default();
-        recorder.record(Event::StageBegan { stage: Stage::Masks });
+        recorder.record(StageBegan { stage: Stage::Masks });
         let masks = recorder.finish(Stage::Masks).unwrap();
         let mut recorder = TraceRecorder::default();
-        recorder.record(Event::StageBegan { stage: Stage::Linear });
+        recorder.record(StageBegan { stage: Stage::Linear });
         for (pass, claims) in [(Pass::Hypotheses, 50_000), (Pass::Vote, 3), (Pass::Uniting, 0)] {
-            recorder.record(Event::PassBegan { pass });
+            recorder.record(PassBegan { pass });
             for pixel in 0..claims {
                 recorder.claim(pixel, 0, 1);
             }

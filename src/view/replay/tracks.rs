@@ -5,7 +5,7 @@ use crate::color::{Cylinder, dot, rgb};
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Raster, UNASSIGNED};
 use crate::reflection::Slice;
-use crate::trace::{CandidateSource, CandidateTest, Event, Replay, Step, Topic};
+use crate::trace::{CandidateSource, CandidateTested, Event, Replay, Step, Topic};
 
 /// Pixels of the region that grows at the cursor.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -76,17 +76,17 @@ fn newest_ring(replay: &Replay, from: usize, region: u16) -> Vec<u32> {
     let mut claims = Vec::new();
     for (_, step) in replay.trace().steps_in(from..replay.at()) {
         match step {
-            Step::Event(Event::SeedsPlaced { .. } | Event::GrowthBegan { .. }) => claims.clear(),
+            Step::Event(Event::SeedsPlaced(_) | Event::GrowthBegan(_)) => claims.clear(),
             Step::Claim { pixel, after, .. } if after == region => claims.push(pixel),
             _ => {}
         }
     }
     let seeds = matches!(
         replay.trace().steps_in(from..replay.at()).rev().find_map(|(_, step)| match step {
-            Step::Event(event @ (Event::SeedsPlaced { .. } | Event::GrowthBegan { .. })) => Some(event),
+            Step::Event(event @ (Event::SeedsPlaced(_) | Event::GrowthBegan(_))) => Some(event),
             _ => None,
         }),
-        Some(Event::SeedsPlaced { .. })
+        Some(Event::SeedsPlaced(_))
     );
     let start = if seeds { 0 } else { start_of_ring(&claims, labels) };
     claims.drain(..start);
@@ -118,7 +118,7 @@ fn start_of_ring(claims: &[u32], labels: &LabelMap) -> usize {
 }
 
 /// The highlight test at the cursor: the one made last, or the one that the chosen candidate had passed.
-pub fn test_at_cursor(replay: &Replay) -> Option<&CandidateTest> {
+pub fn test_at_cursor(replay: &Replay) -> Option<&CandidateTested> {
     let last = replay.at().checked_sub(1)?;
     let trace = replay.trace();
     match trace.event(last)? {
@@ -161,7 +161,7 @@ pub fn pixels_of_region(replay: &Replay, region: u16) -> Vec<u32> {
 /// Splits a tested region's pixels: those by which the length of its matte line is measured, and those on the inside of
 /// the line, where highlights grow, which are ignored for it (5.4.1, figure 9).
 pub fn measured_and_ignored(
-    test: &CandidateTest,
+    test: &CandidateTested,
     pixels: &[u32],
     colors: &Raster<[f32; 3]>,
 ) -> (Vec<u32>, Vec<u32>) {

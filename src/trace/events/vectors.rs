@@ -1,8 +1,9 @@
 //! By which vectors a region's pixels are split, and whether they explain them (section 6).
 
+use super::{EventData, Subject};
 use crate::color::{Line, Vec3};
 
-/// What [`super::Event::VectorsFitted`] says.
+/// The vectors by which a region's pixels are split were fitted (section 6).
 #[derive(Clone, Debug, PartialEq)]
 pub struct VectorsFitted {
     /// The region, by its final number.
@@ -47,4 +48,14 @@ pub struct FitLimits {
     pub texture: f64,
     /// Body reflection lost per surface reflection gained.
     pub texture_slope: f64,
+}
+
+impl EventData for VectorsFitted {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Region(self.region)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        size_of_val(self.starts.as_slice())
+    }
 }

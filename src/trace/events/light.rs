@@ -1,5 +1,36 @@
 //! Which light is used, and on what it rests: the planes of regions, or the votes of small highlights (beyond 5.4).
 
+use super::{EventData, Subject};
+
+/// The color of the light was estimated (section 5.4.1).
+#[derive(Clone, Debug, PartialEq)]
+pub struct IlluminantEstimated {
+    /// Unit direction.
+    pub direction: [f64; 3],
+    /// Each region that had a say.
+    pub contributions: Vec<Contribution>,
+    /// Whether all pixels off the matte lines or the highlights alone had it, where both were held against each other.
+    pub outshone: Option<TwoLightTest>,
+}
+
+/// What one region said about the light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contribution {
+    /// The region.
+    pub region: u16,
+    /// How far the light lies from where the region puts it, degrees.
+    pub residual_deg: f64,
+    /// Its weight.
+    pub weight: f64,
+}
+
+/// The color of the light was given: it was not estimated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IlluminantGiven {
+    /// Unit direction of the light.
+    pub direction: [f64; 3],
+}
+
 /// What the light rests on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LightBasis {
@@ -41,7 +72,7 @@ pub struct VoteResult {
     pub offsets_deg: [f64; 2],
 }
 
-/// What [`super::Event::VotesCast`] says.
+/// Small highlights voted for a light (refines section 5.4.1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VotesCast {
     /// The light with most votes; none where too few pixels have anything to say.
@@ -50,7 +81,7 @@ pub struct VotesCast {
     pub least_voters: u32,
 }
 
-/// What [`super::Event::LightChosen`] says.
+/// It was decided which light is used (refines section 5.4.1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightChosen {
     /// What the light that is used rests on.
@@ -94,4 +125,44 @@ pub struct TwoLightTest {
     pub limits: [f64; 2],
     /// Whether the highlights' light was taken.
     pub taken: bool,
+}
+
+impl EventData for IlluminantEstimated {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        size_of_val(self.contributions.as_slice())
+    }
+}
+
+impl EventData for IlluminantGiven {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for VotesCast {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for LightChosen {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
 }

@@ -1,5 +1,7 @@
 //! What the matte lines tell of ambient light (section 7.5).
 
+use super::{EventData, Subject};
+
 /// What is known of the ambient light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ambient {
@@ -79,5 +81,15 @@ impl AmbientVerdict {
             Self::NoMeeting => "the matte lines do not meet in one point",
             Self::DarkerPixels => "some pixels are darker than the point where the matte lines meet",
         }
+    }
+}
+
+impl EventData for Ambient {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
     }
 }

@@ -5,10 +5,8 @@
 //! and what it was held against. Colors and distances are in counts, variances in counts², angles in degrees; a number
 //! that is not finite is `null`. A first line says which schema this is.
 
-mod event;
-mod local;
-
 use super::Names;
+use super::events::line_objects;
 use crate::trace::{Contest, Measure, Stage, Step, Trace};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -50,7 +48,7 @@ pub fn trace_line(names: &Names, seq: usize, stage: Stage, step: &Step, out: &mu
     };
     let _ = match *step {
         Step::Event(event) => {
-            let (ids, values, thresholds) = event::parts(names, event);
+            let super::events::LineObjects { ids, values, thresholds } = line_objects(names, event);
             write!(out, "\"ids\":{ids},\"values\":{values},\"thresholds\":{thresholds}}}")
         }
         Step::Claim { pixel: at, before, after, contest } => {
@@ -95,7 +93,7 @@ fn contest_parts(contest: &Contest) -> (String, String) {
 }
 
 /// A number as short as it can be read back; `null` where it is none.
-fn short(number: f32) -> Value {
+pub(super) fn short(number: f32) -> Value {
     if !number.is_finite() {
         return Value::Null;
     }
@@ -106,7 +104,7 @@ fn short(number: f32) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::{Event, Pass, PixelKind};
+    use crate::trace::{Event, Pass, PassBegan, PixelKind};
 
     fn line(step: &Step) -> Value {
         let mut text = String::new();
@@ -135,7 +133,7 @@ mod tests {
             (&refusal["values"]["challenger"], &refusal["thresholds"]["all"]),
             (&Value::Null, &Value::Null)
         );
-        let pass = line(&Step::Event(&Event::PassBegan { pass: Pass::SecondLook(6) }));
+        let pass = line(&Step::Event(&Event::PassBegan(PassBegan { pass: Pass::SecondLook(6) })));
         assert_eq!(pass["values"], json!({"pass": "second look", "window_size": 6}));
         let label = line(&Step::Label { pixel: 1, kind: PixelKind::Lost });
         assert_eq!(label["values"]["role"], "lost");

@@ -1,6 +1,9 @@
 //! Whether a region has more than one highlight line (section 7.4, figure 13).
 
-/// What [`super::Event::BranchesSought`] says.
+use super::{EventData, Subject};
+use crate::trace::Measured;
+
+/// The highlights of a region were held against one another: do they lie on different shades (section 7.4)?
 #[derive(Clone, Debug, PartialEq)]
 pub struct BranchesSought {
     /// The region, by its final number.
@@ -9,7 +12,7 @@ pub struct BranchesSought {
     pub cores: Vec<HighlightCore>,
     /// From each core to the next: how much their body reflection differs, and from which difference on they belong to two
     /// branches, counts.
-    pub gaps: Vec<[f32; 2]>,
+    pub gaps: Vec<Measured<f32>>,
 }
 
 impl BranchesSought {
@@ -34,4 +37,14 @@ pub struct HighlightCore {
     pub span_px: [u32; 4],
     /// The branch that it belongs to, from 0 for the strongest.
     pub branch: usize,
+}
+
+impl EventData for BranchesSought {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Region(self.region)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        size_of_val(self.cores.as_slice()) + size_of_val(self.gaps.as_slice())
+    }
 }

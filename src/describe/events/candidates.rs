@@ -1,0 +1,138 @@
+//! Highlight candidates (section 5.4.1).
+
+use super::{Describe, LineObjects, nothing, vector};
+use crate::describe::Names;
+use crate::describe::words::direction;
+use crate::trace::{CandidateChosen, CandidateSource, CandidateTested};
+use serde_json::{Value, json};
+
+impl Describe for CandidateTested {
+    fn sentence(&self, names: &Names) -> String {
+        let failed = failed_tests(self);
+        let verdict = if failed.is_empty() { "passed".to_owned() } else { failed.join("; ") };
+        format!(
+            "{} ({} px) as highlight of {}: the lines pass {:.1} counts from one another, at {:.0} % of the matte line: {verdict}",
+            names.candidate(self.candidate),
+            self.pixels,
+            names.region(self.region),
+            self.gap.value,
+            self.position_percent
+        )
+    }
+
+    fn line_objects(&self, _names: &Names) -> LineObjects {
+        let verdict = self.verdict;
+        LineObjects::new(
+            json!({"region": self.region, "candidate": candidate(self.candidate)}),
+            json!({
+                "pixels": self.pixels,
+                "gap": self.gap.value,
+                "position_percent": self.position_percent,
+                "direction": vector(&self.line.direction),
+                "passed": {
+                    "lines_meet": verdict.lines_meet,
+                    "upper_half": verdict.upper_half,
+                    "positive": verdict.positive,
+                    "beyond": verdict.beyond,
+                },
+                "weight": self.weight,
+            }),
+            json!({"gap": self.gap.limit, "position_percent": self.position_limits}),
+        )
+    }
+
+    #[cfg(test)]
+    fn example() -> Self {
+        let line = super::linear::example_line();
+        Self {
+            region: 1,
+            candidate: CandidateSource::Leftover(6),
+            pixels: 120,
+            matte: line,
+            matte_length: 100.0,
+            line,
+            meeting: [line.mean, line.mean],
+            gap: crate::trace::Measured::new(3.5, 10.0),
+            position_percent: 83.0,
+            position_limits: [50.0, 110.0],
+            verdict: crate::trace::CandidateVerdict {
+                lines_meet: true,
+                upper_half: true,
+                positive: false,
+                beyond: true,
+            },
+            weight: 0.0,
+        }
+    }
+}
+
+impl Describe for CandidateChosen {
+    fn sentence(&self, names: &Names) -> String {
+        format!(
+            "{} is the highlight of {}: direction {}",
+            names.candidate(self.candidate),
+            names.region(self.region),
+            direction(self.direction.into())
+        )
+    }
+
+    fn line_objects(&self, _names: &Names) -> LineObjects {
+        LineObjects::new(
+            json!({"region": self.region, "candidate": candidate(self.candidate)}),
+            json!({"meeting_point": vector(&self.meeting_point), "direction": vector(&self.direction)}),
+            nothing(),
+        )
+    }
+
+    #[cfg(test)]
+    fn example() -> Self {
+        let line = super::linear::example_line();
+        Self {
+            region: 1,
+            candidate: CandidateSource::Region(2),
+            meeting_point: line.mean,
+            direction: line.direction,
+        }
+    }
+}
+
+impl Names {
+    /// Where a highlight candidate came from.
+    pub fn candidate(&self, source: CandidateSource) -> String {
+        match source {
+            CandidateSource::Leftover(area) => format!("what is left of area {area}"),
+            CandidateSource::Region(region) => self.region(region),
+            CandidateSource::Absorbed(region) => format!("absorbed {}", self.region(region)),
+        }
+    }
+}
+
+/// The tests that a candidate failed, each with its numbers.
+fn failed_tests(test: &CandidateTested) -> Vec<String> {
+    let [low, high] = test.position_limits;
+    let at = test.position_percent;
+    let verdict = test.verdict;
+    let mut failed = Vec::new();
+    if !verdict.lines_meet {
+        failed
+            .push(format!("no skewed T: {:.1} counts apart, at most {:.1}", test.gap.value, test.gap.limit));
+    }
+    if !verdict.upper_half {
+        failed.push(format!("not in the upper half: at {at:.0} %, {low:.0} to {high:.0} % are allowed"));
+    }
+    if !verdict.positive {
+        failed.push(format!("its direction {} is negative in a band", direction(test.line.direction.into())));
+    }
+    if !verdict.beyond {
+        failed.push("it lies on the wrong side of the meeting point".to_owned());
+    }
+    failed
+}
+
+fn candidate(source: CandidateSource) -> Value {
+    match source {
+        CandidateSource::Leftover(area) => json!({"leftover_of_area": area}),
+        CandidateSource::Region(region) => json!({"region": region}),
+        CandidateSource::Absorbed(region) => json!({"absorbed": region}),
+    }
+}

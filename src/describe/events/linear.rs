@@ -1,0 +1,179 @@
+//! Linear hypotheses (section 5.3).
+
+use super::{Describe, LineObjects, line, nothing};
+use crate::describe::Names;
+use crate::describe::trace_line::short;
+use crate::describe::words::{count, direction, ordinal};
+use crate::trace::{
+    Absorbed, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted, PassedOver, RegionsMerged,
+    SeedsPlaced,
+};
+use serde_json::json;
+
+impl Describe for HypothesisChosen {
+    fn sentence(&self, names: &Names) -> String {
+        let Self { region, area, rank, pixels, line, radius } = self;
+        format!(
+            "{} starts from area {area}, {} in size: {pixels} unclaimed pixels, direction {}, radius {radius:.1} counts",
+            names.region(*region),
+            ordinal(*rank),
+            direction(line.direction.into())
+        )
+    }
+
+    fn line_objects(&self, _names: &Names) -> LineObjects {
+        LineObjects::new(
+            json!({"region": self.region, "area": self.area}),
+            json!({"rank": self.rank, "pixels": self.pixels, "line": line(&self.line)}),
+            json!({"radius": self.radius}),
+        )
+    }
+
+    #[cfg(test)]
+    fn example() -> Self {
+        Self { region: 1, area: 4, rank: 0, pixels: 900, line: example_line(), radius: 8.0 }
+    }
+}
+
+impl Describe for HypothesisPassedOver {
+    fn sentence(&self, _names: &Names) -> String {
+        let Self { area, pixels, least, reason } = self;
+        format!("area {area} is passed over: {}", passed_over(*reason, *pixels, *least))
+    }
+
+    fn line_objects(&self, _names: &Names) -> LineObjects {
+        let reason = match self.reason {
+            PassedOver::TooSmall => "too_small",
+            PassedOver::Consumed => "consumed",
+            PassedOver::FarFromBlack => "far_from_black",
+            PassedOver::NoExtent => "no_extent",
+            PassedOver::Barren => "barren",
+            PassedOver::NoNumberLeft => "no_number_left",
+        };
+        LineObjects::new(
+            json!({"area": self.area}),
+            json!({"pixels": self.pixels, "reason": reason}),
+            json!({"least": self.least}),
+        )
+    }
+
+    #[cfg(test)]
+    fn example() -> Self {
+        Self { area: 3, pixels: 12, least: 500, reason: PassedOver::Consumed }
+    }
+}
+
+impl Describe for SeedsPlaced {
+    fn sentence(&self, names: &Names) -> String {
+        format!("{} starts from {}", names.region(self.region), count(self.pixels, "pixel"))
+    }
+
+    fn line_objects(&self, _names: &Names) -> LineObjects {
+        LineObjects::new(json!({"region": self.region}), json!({"pixels": self.pixels}), nothing())
+    }
+
+    #[cfg(test)]
+    fn example() -> Self {
+        Self { region: 1, pixels: 640 }
+    }
+}
+
+impl Describe for GrowthBegan {
+    fn sentence(&self, names: &Names) -> String {
+        format!("{} grows, limit {:.1} counts", names.region(self.region), self.limit)
+    }
+
+    fn line_objects(&self, _names: &Names) -> LineObjects {
+        LineObjects::new(json!({"region": self.region}), nothing(), json!({"limit": short(self.limit)}))
+    }
+
+    #[cfg(test)]
+    fn example() -> Self {
+        Self { region: 1, limit: 8.0 }
+    }
+}
+
+impl Describe for LineRefitted {
+    fn sentence(&self, names: &Names) -> String {
+        let line = direction(self.line.direction.into());
+        format!("the line of {} is fitted again: direction {line}", names.region(self.region))
+    }
+
+    fn line_objects(&self, _names: &Names) -> LineObjects {
+        LineObjects::new(json!({"region": self.region}), json!({"line": line(&self.line)}), nothing())
+    }
+
+    #[cfg(test)]
+    fn example() -> Self {
+        Self { region: 1, line: example_line() }
+    }
+}
+
+impl Describe for Absorbed {
+    fn sentence(&self, names: &Names) -> String {
+        let Self { region, by, highlight_foot, object_foot, gap } = self;
+        format!(
+            "{} is the broad highlight of {}: its line misses black by {highlight_foot:.1} counts, the object's by \
+             {object_foot:.1}; the lines pass {gap:.1} counts from one another",
+            names.region(*region),
+            names.region(*by)
+        )
+    }
+
+    fn line_objects(&self, _names: &Names) -> LineObjects {
+        LineObjects::new(
+            json!({"region": self.region, "by": self.by}),
+            json!({"foot": self.highlight_foot, "gap": self.gap}),
+            json!({"object_foot": self.object_foot}),
+        )
+    }
+
+    #[cfg(test)]
+    fn example() -> Self {
+        Self { region: 2, by: 1, highlight_foot: 40.0, object_foot: 1.5, gap: 2.5 }
+    }
+}
+
+impl Describe for RegionsMerged {
+    fn sentence(&self, names: &Names) -> String {
+        let Self { region, into, angle_deg, rms } = self;
+        format!(
+            "{} joins {}: their lines differ by {angle_deg:.1}\u{b0} and its pixels lie {rms:.1} counts from the \
+             other's (rms)",
+            names.region(*region),
+            names.region(*into)
+        )
+    }
+
+    fn line_objects(&self, _names: &Names) -> LineObjects {
+        LineObjects::new(
+            json!({"region": self.region, "into": self.into}),
+            json!({"angle_deg": self.angle_deg, "rms": self.rms}),
+            nothing(),
+        )
+    }
+
+    #[cfg(test)]
+    fn example() -> Self {
+        Self { region: 2, into: 1, angle_deg: 0.5, rms: 1.25 }
+    }
+}
+
+/// Why an area did not start a hypothesis, or the hypothesis that it started was taken back.
+pub(in crate::describe) fn passed_over(reason: PassedOver, pixels: u32, least: u32) -> String {
+    match reason {
+        PassedOver::TooSmall => format!("{pixels} unclaimed pixels, it needs {least}"),
+        PassedOver::Consumed => format!("others claimed all but {pixels} of its pixels, it needs {least}"),
+        PassedOver::FarFromBlack => "its line passes black outside the cylinder's radius".to_owned(),
+        PassedOver::NoExtent => "its colors have no extent to fit a line to".to_owned(),
+        PassedOver::Barren => format!("growing from it claimed fewer than {least} pixels"),
+        PassedOver::NoNumberLeft => "there is no number left for another region".to_owned(),
+    }
+}
+
+/// A line through black.
+#[cfg(test)]
+pub(super) fn example_line() -> crate::color::Line {
+    use crate::color::Vec3;
+    crate::color::Line { mean: Vec3::new(60.0, 0.0, 80.0), direction: Vec3::new(0.6, 0.0, 0.8) }
+}

@@ -1,0 +1,90 @@
+//! Every event of the table has a sentence, objects and subjects that agree with one another.
+
+use super::{Describe, LineObjects, line_objects};
+use crate::describe::Names;
+use crate::trace::{self, Event, EventData, Kind, Subject};
+use serde_json::Value;
+use std::collections::BTreeSet;
+
+/// One example of each event. A new row of the table needs an example before this compiles.
+fn examples() -> Vec<Event> {
+    macro_rules! made {
+        ($($data:path,)*) => { vec![$(Event::from(<$data as Describe>::example())),*] };
+    }
+    trace::all_events!(made)
+}
+
+#[test]
+fn every_kind_is_listed_once_under_a_name_of_its_own() {
+    let names: BTreeSet<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
+    assert_eq!(names.len(), Kind::ALL.len(), "names differ");
+    let made: BTreeSet<Kind> = examples().iter().map(Event::kind).collect();
+    let of_pixels = [Kind::Claim, Kind::Refusal, Kind::Label];
+    let listed: BTreeSet<Kind> = Kind::ALL.into_iter().filter(|kind| !of_pixels.contains(kind)).collect();
+    assert_eq!(made, listed, "every kind but those of pixels is the kind of an event");
+}
+
+#[test]
+fn every_event_has_a_sentence_of_its_own() {
+    let names = Names::default();
+    let sentences: BTreeSet<String> = examples().iter().map(|event| names.event(event)).collect();
+    assert_eq!(sentences.len(), examples().len(), "{sentences:#?}");
+    for sentence in sentences {
+        assert!(sentence.len() > 10 && !sentence.ends_with('.'), "{sentence:?}");
+    }
+}
+
+/// Numbers of the hypotheses, regions and blobs that the `ids` of a trace line name, by the keys that name them.
+fn named(ids: &Value) -> BTreeSet<(Subject, u64)> {
+    let of = |key: &str, subject: fn(u16) -> Subject| {
+        ids.get(key).and_then(Value::as_u64).map(|id| (subject(0), id))
+    };
+    let keys: [(&str, fn(u16) -> Subject); 6] = [
+        ("region", Subject::Hypothesis),
+        ("into", Subject::Hypothesis),
+        ("by", Subject::Hypothesis),
+        ("part", Subject::Hypothesis),
+        ("final", Subject::Region),
+        ("blob", Subject::Blob),
+    ];
+    keys.into_iter().filter_map(|(key, subject)| of(key, subject)).collect()
+}
+
+#[test]
+fn what_an_event_is_about_is_what_its_trace_line_names() {
+    for event in examples() {
+        let LineObjects { ids, values, thresholds } = line_objects(&Names::default(), &event);
+        for object in [&ids, &values, &thresholds] {
+            assert!(object.is_object(), "{event:?}: {object}");
+        }
+        let has_keys = [&ids, &values, &thresholds].iter().any(|object| object != &&super::nothing());
+        assert!(has_keys || event.kind() == Kind::Stage, "{event:?} says nothing");
+        let about: BTreeSet<(Subject, u64)> = event
+            .subjects()
+            .into_iter()
+            .flatten()
+            .map(|subject| match subject {
+                Subject::Hypothesis(id) => (Subject::Hypothesis(0), u64::from(id)),
+                Subject::Region(id) => (Subject::Region(0), u64::from(id)),
+                Subject::Blob(id) => (Subject::Blob(0), u64::from(id)),
+            })
+            .collect();
+        // The areas of a merge are areas, not hypotheses.
+        let ids = if event.kind() == Kind::Merge { super::nothing() } else { ids };
+        assert_eq!(about, named(&ids), "{event:?}: {ids}");
+    }
+}
+
+#[test]
+fn an_event_on_the_heap_counts_its_structure() {
+    for event in examples() {
+        let inline = size_of::<Event>();
+        assert!(inline <= 64, "events are kept by the hundred thousand: {inline} bytes each");
+        let boxed = matches!(event.kind(), Kind::Masks | Kind::Slice | Kind::Vectors | Kind::Candidate);
+        assert!(!boxed || event.heap_bytes() > inline, "{event:?}");
+    }
+    let list = trace::Renumbered { finals: vec![1; 100].into() };
+    assert_eq!(list.heap_bytes(), 200);
+    let boxed = Event::from(trace::BranchesSought { region: 1, cores: Vec::new(), gaps: Vec::new() });
+    assert_eq!(boxed.heap_bytes(), size_of::<trace::BranchesSought>());
+}

@@ -1,0 +1,99 @@
+//! Highlight candidates and their skewed-T tests (section 5.4.1).
+
+use super::{EventData, Subject};
+use crate::color::{Line, Vec3};
+use crate::trace::Measured;
+
+/// A neighbor was tested as a hypothesis's highlight (section 5.4.1).
+#[derive(Clone, Debug, PartialEq)]
+pub struct CandidateTested {
+    /// The region.
+    pub region: u16,
+    /// The neighbor.
+    pub candidate: CandidateSource,
+    /// Pixels of the neighbor.
+    pub pixels: u32,
+    /// The region's matte line.
+    pub matte: Line,
+    /// Its length from black, counts.
+    pub matte_length: f64,
+    /// The neighbor's line.
+    pub line: Line,
+    /// The points of both lines that are nearest to one another: on the matte line, on the neighbor's.
+    pub meeting: [Vec3; 2],
+    /// Distance between the two lines, counts, and the largest allowed.
+    pub gap: Measured<f64>,
+    /// Where they meet on the matte line, in % of its length.
+    pub position_percent: f64,
+    /// The lowest and highest such place allowed, in %.
+    pub position_limits: [f64; 2],
+    /// Which tests it passed.
+    pub verdict: CandidateVerdict,
+    /// Pixels of it that all candidates which passed are weighed by; 0 if it did not.
+    pub weight: f64,
+}
+
+/// The highlight line of a hypothesis was chosen from the candidates that passed (section 5.4.1).
+#[derive(Clone, Debug, PartialEq)]
+pub struct CandidateChosen {
+    /// The region.
+    pub region: u16,
+    /// The neighbor whose meeting point lies nearest to the mean of all.
+    pub candidate: CandidateSource,
+    /// Weighted mean of the meeting points, counts.
+    pub meeting_point: Vec3,
+    /// Unit direction of the highlight line.
+    pub direction: Vec3,
+}
+
+/// Where a highlight candidate came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CandidateSource {
+    /// What growing left of a merged area (its first window).
+    Leftover(u32),
+    /// A neighboring linear region.
+    Region(u16),
+    /// A region that was absorbed as a broad highlight.
+    Absorbed(u16),
+}
+
+/// The tests of a highlight candidate, each true when passed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(clippy::struct_excessive_bools, reason = "four independent verdicts")]
+pub struct CandidateVerdict {
+    /// The lines pass near enough to one another to form a skewed T.
+    pub lines_meet: bool,
+    /// They meet in the upper 50 % of the matte line.
+    pub upper_half: bool,
+    /// The candidate's direction is positive in every band.
+    pub positive: bool,
+    /// Its mean lies beyond the meeting point.
+    pub beyond: bool,
+}
+
+impl CandidateVerdict {
+    /// Whether every test was passed.
+    pub fn accepted(self) -> bool {
+        self.lines_meet && self.upper_half && self.positive && self.beyond
+    }
+}
+
+impl EventData for CandidateTested {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.region)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for CandidateChosen {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.region)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}

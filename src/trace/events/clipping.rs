@@ -1,0 +1,83 @@
+//! Clipped pixels and holes (section 5.5), and which hypotheses become regions of the result.
+
+use super::{EventData, Subject};
+
+/// A component of unassigned pixels was given to the hypothesis around it (section 5.5).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HoleFilled {
+    /// The hypothesis.
+    pub region: u16,
+    /// First pixel of the component, row-major.
+    pub pixel: u32,
+    /// Pixels of the component.
+    pub pixels: u32,
+    /// Share of the component's assigned border that the hypothesis holds, 0…1.
+    pub border_share: f64,
+}
+
+/// A hypothesis was too small to keep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dropped {
+    /// The hypothesis.
+    pub region: u16,
+    /// Pixels of the hypothesis.
+    pub pixels: u32,
+}
+
+/// A part of a hypothesis that lies apart became a hypothesis of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ComponentSplit {
+    /// The hypothesis that the part was separated from.
+    pub region: u16,
+    /// The new hypothesis.
+    pub part: u16,
+    /// Pixels of the part.
+    pub pixels: u32,
+}
+
+/// The hypotheses that are left became the regions of the result.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Renumbered {
+    /// Region id of hypothesis `i + 1` at index `i`; 0 for a hypothesis that is in no region.
+    pub finals: Box<[u16]>,
+}
+
+impl EventData for HoleFilled {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.region)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for Dropped {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.region)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for ComponentSplit {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.region)), Some(Subject::Hypothesis(self.part))]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for Renumbered {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        size_of_val(&*self.finals)
+    }
+}

@@ -1,0 +1,177 @@
+//! Linear hypotheses: how they start, grow and end (section 5.3).
+
+use super::{EventData, Subject};
+use crate::color::Line;
+
+/// A merged area started a linear hypothesis (section 5.3.1).
+#[derive(Clone, Debug, PartialEq)]
+pub struct HypothesisChosen {
+    /// The new region.
+    pub region: u16,
+    /// First window of the area.
+    pub area: u32,
+    /// How many areas had been looked at before in this pass: 0 for the largest.
+    pub rank: u32,
+    /// Pixels of the area that no region had claimed.
+    pub pixels: u32,
+    /// The axis of its cylinder.
+    pub line: Line,
+    /// Radius of its cylinder, counts.
+    pub radius: f64,
+}
+
+/// A merged area did not start a hypothesis, or the hypothesis that it started was taken back (section 5.3.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HypothesisPassedOver {
+    /// First window of the area.
+    pub area: u32,
+    /// Pixels of the area that no hypothesis had claimed.
+    pub pixels: u32,
+    /// Fewest unclaimed pixels that the area needs.
+    pub least: u32,
+    /// Why the area was passed over.
+    pub reason: PassedOver,
+}
+
+/// Why an area did not start a hypothesis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PassedOver {
+    /// It never had the minimal area.
+    TooSmall,
+    /// Regions claimed so many of its pixels that too few were left.
+    Consumed,
+    /// Its line passes farther from black than the cylinder's radius.
+    FarFromBlack,
+    /// Its colors have no extent to fit a line to.
+    NoExtent,
+    /// Growing from it claimed too few pixels, which were given back.
+    Barren,
+    /// There are as many regions as a label map can hold.
+    NoNumberLeft,
+}
+
+/// The claims that follow, `pixels` of them, are the places where a hypothesis starts to grow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SeedsPlaced {
+    /// The hypothesis.
+    pub region: u16,
+    /// Number of the claims.
+    pub pixels: u32,
+}
+
+/// A hypothesis starts to grow: the claims that follow were reached from a neighbor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GrowthBegan {
+    /// The hypothesis.
+    pub region: u16,
+    /// Bound of the growth, counts: radius of the cylinder (linear stage), half thickness of the slice (planar stage), least
+    /// brightness (clipping stage).
+    pub limit: f32,
+}
+
+/// The line of a hypothesis was fitted again to the pixels that the hypothesis had grown into.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineRefitted {
+    /// The region.
+    pub region: u16,
+    /// The axis of its cylinder from now on.
+    pub line: Line,
+}
+
+/// A linear hypothesis turned out to be the broad highlight of its neighbor (refines section 5.3).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Absorbed {
+    /// The highlight, a hypothesis no longer.
+    pub region: u16,
+    /// The object that the highlight lies on.
+    pub by: u16,
+    /// Distance of the highlight's line from black, counts.
+    pub highlight_foot: f64,
+    /// Distance of the object's line from black, counts.
+    pub object_foot: f64,
+    /// Distance between both lines, counts.
+    pub gap: f64,
+}
+
+/// The lines of two hypotheses could not be told apart (refines section 5.3.2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegionsMerged {
+    /// The hypothesis that vanished.
+    pub region: u16,
+    /// The hypothesis that has its pixels now.
+    pub into: u16,
+    /// Angle between both lines, degrees.
+    pub angle_deg: f64,
+    /// Root mean square distance of the vanished hypothesis's pixels from the other's line, counts.
+    pub rms: f64,
+}
+
+impl EventData for HypothesisChosen {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.region)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for HypothesisPassedOver {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for SeedsPlaced {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.region)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for GrowthBegan {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.region)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for LineRefitted {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.region)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for Absorbed {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.region)), Some(Subject::Hypothesis(self.by))]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for RegionsMerged {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.region)), Some(Subject::Hypothesis(self.into))]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}

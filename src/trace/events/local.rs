@@ -1,0 +1,244 @@
+//! Decisions of the local split, where no region explains the pixels (beyond section 6).
+
+use super::{EventData, Subject};
+use crate::trace::Measured;
+
+/// The local split begins, or why it does not (beyond section 6).
+#[derive(Clone, Debug, PartialEq)]
+pub struct LocalBegan {
+    /// Whether it begins.
+    pub start: LocalStart,
+    /// Lit pixels outside of what holds.
+    pub pixels: u32,
+    /// All lit pixels.
+    pub lit: u32,
+    /// Fewest outside that are worth it.
+    pub least: u32,
+    /// The light, unit.
+    pub light: Option<[f64; 3]>,
+    /// Where colors are measured from: black, or the ambient light, counts.
+    pub origin: [f64; 3],
+    /// What pixels are held against.
+    pub limits: LocalLimits,
+    /// Whether texture is asked for.
+    pub texture_test: bool,
+    /// Whether whole blobs count, or single pixels.
+    pub hysteresis: bool,
+    /// Whether clipped pixels are filled.
+    pub clip_repair: bool,
+}
+
+/// Whether pixels are split by their surroundings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LocalStart {
+    /// They are.
+    Begins,
+    /// It is switched off.
+    Off,
+    /// Too few lie outside of what holds.
+    Few,
+    /// The light is not known, or has nothing of one band.
+    NoLight,
+}
+
+/// What pixels of the local split are held against.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LocalLimits {
+    /// Least mean of J = I / (√3 s) that has a hue, counts.
+    pub mean: f32,
+    /// Least chromatic part of J that has a hue, counts.
+    pub chroma: f32,
+    /// Texture up to which all of a pixel's surface reflection counts, and from which on none does.
+    pub texture: [f32; 2],
+    /// Texture below which a pixel can be of a strong core.
+    pub core_texture: f32,
+    /// Standard deviation of a band's noise, counts.
+    pub sigma: f32,
+}
+
+impl LocalLimits {
+    /// The share of its surface reflection that counts, 0…1, by texture.
+    pub fn weight(&self, texture: f32) -> f32 {
+        let [all, none] = self.texture;
+        1.0 - ((texture - all) / (none - all)).clamp(0.0, 1.0)
+    }
+}
+
+/// A candidate highlight was judged (refinement `hysteresis`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlobJudged {
+    /// Its number, from 1; repaired blobs go on counting.
+    pub blob: u16,
+    /// Its first pixel.
+    pub pixel: u32,
+    /// Its pixels, clipped ones apart.
+    pub pixels: u32,
+    /// Clipped pixels that hang together with it.
+    pub clipped: u32,
+    /// Pixels above the variation of their hue.
+    pub strong: u32,
+    /// Those of them that do not look like texture.
+    pub calm: u32,
+    /// Those of them that a square of 3 × 3 fits into: the core.
+    pub core: u32,
+    /// Whether it is a highlight: it has a core, or clipped pixels.
+    pub kept: bool,
+}
+
+/// Whether highlights are plausible under this light was tested (refinement `belief`). What was not measured is none: the first doubt ends it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlausibilityTested {
+    /// Share of the votes for the light, 0…1; none where regions that hold vouch for it, or it was given, or no votes are asked for.
+    pub share: Option<f64>,
+    /// Share of all light there that would be surface reflection, 0…1.
+    pub surface: Option<f64>,
+    /// Share of the strong highlight pixels that outshine the body under them, 0…1, and how many strong ones there are.
+    pub outshining: Option<(f64, u32)>,
+    /// Up to where each may go; of the share, from where on.
+    pub limits: PlausibilityLimits,
+    /// Why nothing is split; none: highlights are believed.
+    pub reject_reason: Option<RejectReason>,
+}
+
+/// See [`PlausibilityTested`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlausibilityLimits {
+    /// Least share of the votes, 0…1.
+    pub share: f64,
+    /// Largest share of surface reflection, 0…1.
+    pub surface: f64,
+    /// Largest share of what outshines the body, 0…1.
+    pub outshining: f64,
+}
+
+/// Why no highlight is believed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RejectReason {
+    /// Small highlights do not speak for the light.
+    NoVote,
+    /// Too much would be surface reflection.
+    TooMuch,
+    /// Highlights outshine the body: they are white things.
+    Outshining,
+}
+
+impl RejectReason {
+    /// Its name in trace lines.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::NoVote => "no_vote",
+            Self::TooMuch => "too_much",
+            Self::Outshining => "outshining",
+        }
+    }
+}
+
+/// A blob of clipped pixels was filled from the pixels around it, or not (refinement `clip_repair`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RepairTried {
+    /// Its number, after those of the candidate highlights.
+    pub blob: u16,
+    /// Its first pixel.
+    pub pixel: u32,
+    /// Its pixels.
+    pub pixels: u32,
+    /// Share of the ring of 2 px around the blob that is highlight, 0…1, and the least share at which it is filled.
+    pub ring: Measured<f32>,
+    /// Mean surface reflection of the ring's inner pixels, counts a band.
+    pub inner: f32,
+    /// Mean surface reflection of the ring's outer pixels, counts a band.
+    pub outer: f32,
+    /// What came of it.
+    pub verdict: RepairVerdict,
+}
+
+/// Whether a clipped blob is filled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RepairVerdict {
+    /// It is.
+    Filled,
+    /// It is as large as windows and skies.
+    TooLarge,
+    /// There is no ring of unclipped pixels around it.
+    NoRing,
+    /// Too little of the ring is highlight.
+    NoHighlight,
+    /// The highlight does not rise towards it.
+    NoRise,
+}
+
+impl RepairVerdict {
+    /// Its name in trace lines.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Filled => "filled",
+            Self::TooLarge => "too_large",
+            Self::NoRing => "no_ring",
+            Self::NoHighlight => "no_highlight",
+            Self::NoRise => "no_rise",
+        }
+    }
+}
+
+/// Candidate highlights outside of the explained regions were counted; a [`BlobJudged`] follows for each large enough one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlobsCounted {
+    /// Number of candidate highlights.
+    pub found: u32,
+    /// Candidate highlights of too few pixels.
+    pub small: u32,
+    /// Pixels in those.
+    pub small_pixels: u32,
+    /// Fewest pixels of a candidate highlight that may count.
+    pub least: u32,
+}
+
+impl EventData for LocalBegan {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for BlobsCounted {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for BlobJudged {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Blob(self.blob)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for PlausibilityTested {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl EventData for RepairTried {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Blob(self.blob)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}

@@ -1,0 +1,32 @@
+//! Planar hypotheses (section 5.4.2).
+
+use super::{EventData, Subject};
+use crate::color::Vec3;
+use crate::reflection::{DichromaticPlane, Slice};
+
+/// The dichromatic plane of a hypothesis became a slice (section 5.4.2).
+#[derive(Clone, Debug, PartialEq)]
+pub struct SliceMade {
+    /// The region.
+    pub region: u16,
+    /// Its dichromatic plane.
+    pub plane: DichromaticPlane,
+    /// Length of the matte line from black, counts.
+    pub matte_length: f64,
+    /// Where the highlight line leaves the matte line, counts.
+    pub start: Vec3,
+    /// Half its thickness, counts.
+    pub half_width: f64,
+    /// What it holds.
+    pub slice: Slice,
+}
+
+impl EventData for SliceMade {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.region)), None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
