@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dichroscope::describe::{Names, schema_line, trace_line};
-use dichroscope::trace::{Event, Stage, Step, lineage, pixel_history};
+use dichroscope::trace::{Stage, Step, lineage, pixel_history};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufWriter, ErrorKind, Write};

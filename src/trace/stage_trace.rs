@@ -300,7 +300,7 @@ impl Move {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::{Dropped, Recorder, Renumbered, StageBegan, TraceRecorder};
+    use crate::trace::{Dropped, Recorder, StageBegan, TraceRecorder};
 
     fn recorder() -> TraceRecorder {
         let mut recorder = TraceRecorder::default();

@@ -6,8 +6,8 @@ use crate::photo::MaskLimits;
 use crate::raster::Raster;
 use crate::reflection::{Components, DichromaticPlane, Slice, SliceBound};
 use crate::trace::{
-    Event, FitLimits, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted, MasksMade, Measure,
-    Pass, PassBegan, PixelKind, Recorder, Renumbered, SeedsPlaced, SliceMade, StageBegan, TraceRecorder,
+    FitLimits, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted, MasksMade, Measure, Pass,
+    PassBegan, PixelKind, Recorder, Renumbered, SeedsPlaced, SliceMade, StageBegan, TraceRecorder,
     VectorsFitted, WindowsLaid,
 };
 use std::sync::Arc;

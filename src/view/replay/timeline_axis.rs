@@ -204,8 +204,8 @@ fn shares(weights: Vec<f64>, least: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::{Event, Recorder, Stage, TraceRecorder};
     use crate::trace::{PassBegan, StageBegan};
+    use crate::trace::{Recorder, Stage, TraceRecorder};
     use std::sync::Arc;
 
     /// Stages of few and of many steps; the second has passes.
