@@ -1,4 +1,4 @@
-//! The pinned result (A) beside the newest (B): what was asked, what was found, what became of the regions.
+//! The comparison panel: parameters, scores and regions of the pinned result (A) and of the newest (B).
 
 use super::later::{AT_ONCE_PX, Later};
 use super::theme::SMALL_PT;
@@ -8,21 +8,21 @@ use crate::describe::Names;
 use crate::view::{Comparison, Fate, ImageSettings, Item, Layer, compare};
 use egui::{Grid, RichText, ScrollArea, Ui};
 
-/// The comparison.
+/// The comparison panel.
 #[derive(Default)]
 pub struct ComparePanel {
     comparison: Later<(u64, u64), Option<Comparison>>,
 }
 
 impl ComparePanel {
-    /// Shows the comparison.
+    /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let (pinned, newest) = (cx.state.pinned.clone(), cx.state.newest.clone());
         egui::Frame::new().inner_margin(8).show(ui, |ui| {
             let (Some(pinned), Some(newest)) = (pinned, newest) else { return begin(ui, cx) };
             let key = (pinned.generation, newest.generation);
             let at_once = newest.labels().len() <= AT_ONCE_PX;
-            // A result that is half older is compared when it is whole.
+            // A result is compared once all of its stages are of the same run.
             if newest.stale_from.is_some() {
                 return verbs(ui, cx);
             }
@@ -41,7 +41,7 @@ impl ComparePanel {
     }
 }
 
-/// Nothing is pinned yet.
+/// Shows, while no result is pinned, what the panel does and the button that pins a result.
 fn begin(ui: &mut Ui, cx: &mut Cx) {
     ui.label(RichText::new("Pin this result, change a slider, and see what changed.").color(cx.tones.quiet));
     let ready = cx.state.newest.is_some();
@@ -82,7 +82,7 @@ fn verbs(ui: &mut Ui, cx: &mut Cx) {
     decisions(ui, cx);
 }
 
-/// Where the two analyses part.
+/// Shows the first decision in which the two analyses differ, and the button that finds it.
 fn decisions(ui: &mut Ui, cx: &mut Cx) {
     ui.horizontal(|ui| {
         let find = egui::Button::new("First decision that differs");
@@ -105,7 +105,7 @@ fn decisions(ui: &mut Ui, cx: &mut Cx) {
     });
 }
 
-/// What was decided at the step, there and here.
+/// Shows what each analysis decided at a step.
 fn parting(ui: &mut Ui, cx: &Cx, step: usize) {
     let pinned = cx.state.pinned.as_ref().and_then(|pinned| pinned.trace());
     ui.vertical(|ui| {
@@ -163,7 +163,7 @@ fn figures(ui: &mut Ui, cx: &Cx, found: &Comparison) {
     });
 }
 
-/// As many digits as matter.
+/// A number with three decimals, or none for whole and large numbers.
 fn shortened(value: f64) -> String {
     if value.abs() >= 1000.0 || value.fract() == 0.0 { format!("{value:.0}") } else { format!("{value:.3}") }
 }

@@ -1,4 +1,6 @@
-//! The color space view: the photograph's colors as points in three dimensions, and what the model claims of them.
+//! The color space panel: the photograph's colors as points in three dimensions, with the shapes of the model:
+//! cylinder, slice,
+//! skewed T and illuminant.
 
 mod bar;
 mod camera_controller;
@@ -28,12 +30,12 @@ use frame::Frame;
 use outline::Outline;
 use std::sync::Arc;
 
-/// A point this near to the pointer is meant, points.
+/// Largest distance from the pointer at which a point counts as hovered, screen points.
 const REACH_PT: f32 = 6.0;
-/// Radius of the ring around what is hovered.
+/// Radius of the ring around the hovered color, screen points.
 const RING_PT: f32 = 7.0;
 
-/// The panel.
+/// The color space panel.
 #[derive(Default)]
 pub struct CubePanel {
     camera_controller: CameraController,
@@ -45,14 +47,14 @@ pub struct CubePanel {
     canvas: Canvas,
     outline: Outline,
     scene: Scene,
-    /// The camera that the lines in the scene were made for.
+    /// The camera for which the lines of the scene were made: silhouettes depend on the camera.
     seen_from: Option<Orbit>,
     hovers: bool,
     size: [f32; 2],
 }
 
 impl CubePanel {
-    /// Escape gives up an outline before it clears the selection.
+    /// Drops an unfinished outline when Escape is pressed, and consumes the key, so that the selection stays.
     pub fn hear_escape(&mut self, ctx: &egui::Context) {
         let key = egui::Key::Escape;
         if self.outline.is_begun() && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, key)) {
@@ -60,22 +62,23 @@ impl CubePanel {
         }
     }
 
-    /// The camera, to be remembered.
+    /// The camera, to be stored in the settings.
     pub fn camera(&self) -> Orbit {
         self.camera_controller.orbit
     }
 
-    /// Puts a remembered camera back, as if a hand had.
+    /// Restores a stored camera. The camera then counts as moved by the user: a resized panel does not frame the cube
+    /// anew.
     pub fn set_camera(&mut self, camera: Orbit) {
         self.camera_controller.place(camera);
     }
 
-    /// Another panel that sees the same.
+    /// A new panel with the same camera, for exporting the view.
     pub fn clone_view(&self) -> Self {
         Self { camera_controller: self.camera_controller.clone(), ..Self::default() }
     }
 
-    /// Shows it.
+    /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let Some(picture) = cx.state.picture.clone() else {
             widgets::nothing(ui, cx.tones, "Open a photograph to see its colors.");
@@ -117,7 +120,7 @@ impl CubePanel {
         describe(&response);
     }
 
-    /// What turns the camera.
+    /// Moves the camera by pointer and keys, and to the dichromatic plane of the selected region.
     fn turn(&mut self, ui: &Ui, cx: &Cx, response: &Response, rect: Rect) {
         let (plane, settings) = (Plane::of(cx.state), &cx.state.view.cube);
         if response.clicked() || response.drag_started() {
@@ -130,7 +133,7 @@ impl CubePanel {
         self.camera_controller.obey(ui, response, rect, settings.tool == Tool::Pointer, plane);
     }
 
-    /// What is to be drawn, as far as it has changed.
+    /// Rebuilds the parts of the scene that have changed.
     fn update(
         &mut self,
         ui: &Ui,
@@ -167,7 +170,7 @@ impl CubePanel {
         }
     }
 
-    /// Labels, gizmo, legend, and the ring around what is hovered.
+    /// Paints labels, gizmo, legend and the ring around the hovered color over the rendered scene.
     fn write(&self, ui: &Ui, cx: &Cx, projector: &Projector, response: &Response, picture: &Picture) {
         let rect = response.rect;
         let settings = &cx.state.view.cube;
@@ -188,7 +191,7 @@ impl CubePanel {
         self.ring(ui, cx, projector, rect, picture);
     }
 
-    /// The color of what is hovered, in numbers; returns the room that it takes.
+    /// Writes the hovered color in counts into the lower right corner; returns the rectangle of the text.
     fn readout(&self, ui: &Ui, cx: &Cx, rect: Rect, picture: &Picture) -> Rect {
         let corner = rect.right_bottom() - vec2(8.0, 6.0);
         let Some((color, count, region)) = self.hovered(cx, picture) else {
@@ -204,7 +207,7 @@ impl CubePanel {
     /// Color, number of pixels and region of the pixel or bin that is hovered.
     fn hovered(&self, cx: &Cx, picture: &Picture) -> Option<([f32; 3], u32, Option<u16>)> {
         let item = cx.state.hover?;
-        // Where the debugger's cursor is followed, the result's regions are not there yet.
+        // While the debugger's cursor is followed, the regions of the result do not exist yet.
         let region = |region: Option<u16>| region.filter(|_| cx.state.followed().is_none());
         match item {
             Item::Pixel(pixel) => {
@@ -234,7 +237,8 @@ impl CubePanel {
         }
     }
 
-    /// Hovering a bin lights up its pixels; a click selects its region, with Alt the bin itself.
+    /// Sends what the pointer does: hovering a bin highlights its pixels; a click selects the bin's region, Alt +
+    /// click the bin.
     fn point(&mut self, cx: &mut Cx, response: &Response, projector: &Projector, rect: Rect) {
         let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
         let pointer = clicked.or(response.hover_pos().filter(|_| !response.dragged()));
@@ -254,7 +258,7 @@ impl CubePanel {
         }
     }
 
-    /// Rectangle, lasso and polygon mark the pixels of the colors inside.
+    /// Marks the pixels whose colors lie inside a finished rectangle, lasso or polygon.
     fn mark(
         &mut self,
         ui: &Ui,

@@ -1,4 +1,4 @@
-//! The plane view: the selected region's pixels in its dichromatic plane, the skewed T of figure 2.
+//! The plane panel: the selected region's pixels in its dichromatic plane, the skewed T of figure 2.
 
 mod chart;
 mod cursor;
@@ -13,17 +13,17 @@ use chart::Chart;
 use egui::{Align2, Color32, FontId, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
 use std::sync::Arc;
 
-/// A point this near to the pointer is meant, points.
+/// Largest distance from the pointer at which a point counts as hovered, screen points.
 const REACH_PT: f32 = 8.0;
 const RING_PT: f32 = 6.0;
-/// Points of scrolling that zoom by e.
+/// Scroll distance that zooms by the factor e, points.
 const SCROLL_PT: f32 = 260.0;
 
-/// The panel.
+/// The plane panel.
 #[derive(Default)]
 pub struct PlanePanel {
     of: Option<(Arc<ResultSnapshot>, u16)>,
-    /// What of the debugger's cursor is shown in place of the result's region.
+    /// The instant at the debugger's cursor that is shown; `None` when the result is shown.
     frame: Option<cursor::Frame>,
     plane: Option<RegionPlane>,
     chart: Option<Chart>,
@@ -31,14 +31,14 @@ pub struct PlanePanel {
     hovers: bool,
 }
 
-/// The points as triangles, and what they were made for.
+/// The points as a mesh, with the inputs that the mesh was made for.
 struct Cloud {
     look: (Chart, Rect, bool, Theme),
     mesh: Arc<egui::Mesh>,
 }
 
 impl PlanePanel {
-    /// Shows it.
+    /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let state = cx.state;
         if let Some(replay) = state.followed() {
@@ -89,7 +89,7 @@ impl PlanePanel {
         if known == Some((Arc::as_ptr(shown), region)) {
             return;
         }
-        // The same region of a newer result keeps its place under the eye.
+        // Scale and center are kept when the same region of a newer result is shown.
         if known.is_none_or(|(_, known)| known != region) {
             self.chart = None;
         }
@@ -98,7 +98,7 @@ impl PlanePanel {
         self.of = Some((Arc::clone(shown), region));
     }
 
-    /// Hovering a point hovers its pixel; a click selects it.
+    /// Sends what the pointer does: hovering a point hovers its pixel, a click selects the pixel.
     fn point(&mut self, cx: &mut Cx, response: &Response, chart: Chart, rect: Rect) {
         let Some(plane) = &self.plane else { return };
         let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
@@ -116,7 +116,7 @@ impl PlanePanel {
     }
 }
 
-/// Drag pans, the wheel zooms at the pointer, a double click fits.
+/// The chart after this frame's input: a drag pans, the wheel zooms at the pointer, a double click fits the plane.
 fn navigate(ui: &Ui, response: &Response, plane: &RegionPlane, chart: Option<Chart>, rect: Rect) -> Chart {
     let mut chart = chart.filter(|_| !response.double_clicked()).unwrap_or_else(|| Chart::fit(plane, rect));
     chart.pan(response.drag_delta());
@@ -127,7 +127,7 @@ fn navigate(ui: &Ui, response: &Response, plane: &RegionPlane, chart: Option<Cha
     chart
 }
 
-/// Two triangles a point, made anew when view or colors change.
+/// The points as a mesh of two triangles each, rebuilt when chart, coloring or theme change.
 fn cloud(
     kept: &mut Option<Cloud>,
     cx: &Cx,
@@ -160,7 +160,7 @@ fn cloud(
     mesh
 }
 
-/// Angle, slice and noise in the upper corner, or why there is no plane.
+/// Writes angle, slice width and noise into the upper left corner, or why the region has no plane.
 fn edge_notes(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, shown: &ResultSnapshot, rect: Rect) {
     let region = &shown.analysis.intrinsic.regions[usize::from(plane.region) - 1];
     let rms = region.fit_rms_counts;
@@ -184,7 +184,7 @@ fn edge_notes(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, shown: &Res
     painter.text(corner, Align2::LEFT_TOP, text, FontId::proportional(SMALL_PT), cx.tones.quiet);
 }
 
-/// A line that tells of highlights on different shades; empty for one.
+/// A line of text that lists the highlights on different shades (section 7.4); empty for fewer than two.
 fn several_highlights(branches: &[PlaneBranch]) -> String {
     if branches.len() < 2 {
         return String::new();
@@ -193,7 +193,7 @@ fn several_highlights(branches: &[PlaneBranch]) -> String {
     format!("\n{} highlight lines from m_b {}", shades.len(), shades.join(", "))
 }
 
-/// Rings the color that is hovered anywhere, and tells its amounts.
+/// Paints a ring around the color that is hovered in any panel, and writes its amounts of body, surface and noise.
 fn hovered(
     painter: &egui::Painter,
     cx: &Cx,
@@ -222,7 +222,7 @@ fn hovered(
     painter.text(corner, Align2::RIGHT_TOP, text, FontId::proportional(SMALL_PT), cx.tones.text);
 }
 
-/// Small quiet words.
+/// Small text in the secondary color.
 fn quiet(cx: &Cx, text: &str) -> RichText {
     RichText::new(text).size(SMALL_PT).color(cx.tones.quiet)
 }

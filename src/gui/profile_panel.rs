@@ -1,4 +1,4 @@
-//! Body, surface and noise along a line, like the paper's color figure 11.
+//! The profile panel: amounts of body, surface and noise along a line, as in the paper's color figure 11.
 
 use super::{Cx, widgets};
 use crate::app::Command;
@@ -6,16 +6,16 @@ use crate::view::{Item, ProfileLine, ProfileSample, Tool, profile, profile_ends}
 use egui::{Color32, Ui};
 use egui_plot::{Corner, HoverPosition, Legend, Line, Plot, PlotPoints, VLine};
 
-/// What the samples are of: the result, and the line's ends in hundredths of a pixel.
+/// Identity of the samples: generation of the result, and the line's ends, hundredths of a pixel.
 type Key = (u64, [[i64; 2]; 2]);
 
-/// The profile.
+/// The profile panel.
 #[derive(Default)]
 pub struct ProfilePanel {
     samples: Option<(Key, Vec<ProfileSample>)>,
 }
 
-/// A curve: its name, its color, what it tells and its values.
+/// A curve: name, color, and the value of a sample in counts (`None` in no region).
 type Curve = (&'static str, Color32, fn(&ProfileSample) -> Option<f32>);
 
 const CURVES: [Curve; 6] = [
@@ -28,7 +28,7 @@ const CURVES: [Curve; 6] = [
 ];
 
 impl ProfilePanel {
-    /// Shows the profile.
+    /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let Some(picture) = cx.state.picture.clone() else {
             return widgets::nothing(ui, cx.tones, "The profile appears when a photograph is open.");
@@ -118,7 +118,8 @@ fn plot(ui: &mut Ui, cx: &mut Cx, samples: &[ProfileSample], hovered: Option<u32
         samples.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
     });
     if let Some(sample) = pointed {
-        // In a row or column of the hovered pixel the line would run away from the pointer: only fixed lines answer.
+        // Hovering is sent only for a fixed line: a row or column through the hovered pixel would move with the
+        // pointer.
         let fixed = matches!(cx.state.view.profile, ProfileLine::Between(..))
             || matches!(cx.state.document.selection.item, Some(Item::Pixel(_)));
         if fixed && cx.state.hover != Some(Item::Pixel(sample.pixel)) {
@@ -127,7 +128,7 @@ fn plot(ui: &mut Ui, cx: &mut Cx, samples: &[ProfileSample], hovered: Option<u32
     }
 }
 
-/// The stretches in which a value is known, as points.
+/// The runs of consecutive samples with a value, as points: position in pixels, value in counts.
 fn runs(samples: &[ProfileSample], value: fn(&ProfileSample) -> Option<f32>) -> Vec<Vec<[f64; 2]>> {
     let point = |sample: &ProfileSample| Some([f64::from(sample.position_px), f64::from(value(sample)?)]);
     let known = samples.chunk_by(|a, b| value(a).is_some() == value(b).is_some());

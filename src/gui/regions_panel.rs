@@ -1,4 +1,4 @@
-//! The regions as a table, and the light beside it.
+//! The regions panel: a table of the regions, and a row about the light.
 
 mod cursor;
 
@@ -11,12 +11,12 @@ use crate::view::{Item, ResultSnapshot, regions_text};
 use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 
-/// Width that the accuracy needs beside the light, points.
+/// Free width from which the accuracy is shown beside the light, points.
 const ACCURACY_PT: f32 = 290.0;
 /// Height of a row, points.
 const ROW_PT: f32 = 18.0;
 
-/// What the rows are sorted by.
+/// The column that the rows are sorted by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Key {
     #[default]
@@ -67,17 +67,17 @@ const COLUMNS: [(Key, &str, f32, &str); 8] = [
     (Key::Warnings, "notes", 60.0, "What to beware of in this region."),
 ];
 
-/// The regions table.
+/// The regions panel.
 #[derive(Default)]
 pub struct RegionsPanel {
     key: Key,
     descending: bool,
-    /// Of the hypotheses at the debugger's cursor.
+    /// Sorting of the table of hypotheses at the debugger's cursor.
     so_far: cursor::Sorting,
 }
 
 impl RegionsPanel {
-    /// Shows the table.
+    /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let Some(shown) = cx.state.shown().cloned() else {
             return widgets::nothing(ui, cx.tones, "Regions appear when a photograph has been analyzed.");
@@ -143,7 +143,7 @@ impl RegionsPanel {
         let chosen = self.key == key;
         ui.with_layout(layout_of(key), |ui| {
             if sorted_by(ui, tones, chosen.then_some(self.descending), title, tip) {
-                // Numbers are asked for from the largest on, names from the first.
+                // The first click sorts numbers in descending order and ids in ascending order.
                 self.descending = if chosen { !self.descending } else { !matches!(key, Key::Id) };
                 self.key = key;
             }
@@ -171,7 +171,7 @@ impl RegionsPanel {
     }
 }
 
-/// Angle around the gray diagonal: what sorts colors as a person would.
+/// Hue of a color, radians: the angle around the gray diagonal, by which colors are sorted.
 fn hue_rad([r, g, b]: [f64; 3]) -> f64 {
     (3f64.sqrt() * (g - b)).atan2(2.0 * r - g - b)
 }
@@ -236,7 +236,7 @@ fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &R
     });
 }
 
-/// On which shades a region's highlights lie, a line each.
+/// Tooltip about the shades on which a region's highlights lie, one line per highlight line (section 7.4).
 fn highlight_lines(branches: &[HighlightBranch]) -> String {
     let line = |branch: &HighlightBranch| {
         let (pixels, percent) = (widgets::grouped(branch.pixels), 100.0 * branch.share);
@@ -246,14 +246,14 @@ fn highlight_lines(branches: &[HighlightBranch]) -> String {
     format!("Highlight lines (section 7.4)\n{}", lines.join("\n"))
 }
 
-/// A cell whose contents stand in a line.
+/// Adds a cell with contents laid out horizontally.
 fn cell(row: &mut TableRow, contents: impl FnOnce(&mut Ui)) {
     row.col(|ui| {
         ui.horizontal_centered(contents);
     });
 }
 
-/// A unit vector as three aligned columns after a chip of its color.
+/// Shows a square of a unit vector's color, then its three components in aligned columns.
 fn vector(ui: &mut Ui, tones: &Tones, vector: Option<[f64; 3]>) {
     ui.spacing_mut().item_spacing.x = 4.0;
     let Some(vector) = vector else {
@@ -266,14 +266,14 @@ fn vector(ui: &mut Ui, tones: &Tones, vector: Option<[f64; 3]>) {
     }
 }
 
-/// A direction as the brightest color that it points to.
+/// The brightest color in a direction: the largest component is full scale.
 fn shade(direction: [f64; 3]) -> Color32 {
     let most = direction.iter().fold(1e-9f64, |most, &v| most.max(v));
     let [r, g, b] = direction.map(|v| (v / most).max(0.0) as f32);
     egui::Rgba::from_rgb(r, g, b).into()
 }
 
-/// The light's color, what it rests on, and how far it is from the truth.
+/// Shows the light's color, what it was estimated from, and the accuracy against the ground truth.
 fn light(ui: &mut Ui, cx: &mut Cx, shown: &ResultSnapshot) {
     let findings = &shown.analysis.finals.light;
     ui.horizontal(|ui| {
@@ -290,7 +290,7 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &ResultSnapshot) {
             ui.add(Label::new(&text).truncate()).on_hover_text(text);
         }
         ambient(ui, cx, shown);
-        // Beside it the button for copying must find its place.
+        // The rest of the row is for the button "Copy".
         if ui.available_width() > ACCURACY_PT {
             accuracy(ui, cx, shown);
         }
@@ -303,7 +303,7 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &ResultSnapshot) {
     });
 }
 
-/// What was subtracted as ambient light, where something was.
+/// Shows the counts subtracted as ambient light (section 7.5), if any.
 fn ambient(ui: &mut Ui, cx: &Cx, shown: &ResultSnapshot) {
     let ambient = &shown.analysis.intrinsic.ambient;
     let Some(counts) = ambient.subtracted else { return };
@@ -317,8 +317,9 @@ fn ambient(ui: &mut Ui, cx: &Cx, shown: &ResultSnapshot) {
     ui.label(format!("{text} counts")).on_hover_text(tip);
 }
 
-/// The title of a column that rows may be sorted by, and now are where it is known whether `descending`; whether it was
-/// clicked.
+/// Shows the title of a sortable column; returns whether the title was clicked. `descending` is the order of the rows
+/// if they
+/// are sorted by this column, otherwise `None`.
 fn sorted_by(ui: &mut Ui, tones: &Tones, descending: Option<bool>, title: &str, tip: &str) -> bool {
     let arrow = match descending {
         None => "",
@@ -330,7 +331,7 @@ fn sorted_by(ui: &mut Ui, tones: &Tones, descending: Option<bool>, title: &str, 
     ui.add(Button::new(text).frame(false)).on_hover_text(tip).clicked()
 }
 
-/// What the light rests on, and within how many degrees it lies.
+/// What the light was estimated from, and its interval, degrees.
 fn rests_on(light: &Illuminant, findings: &LightFindings) -> String {
     let s = if light.objects == 1 { "" } else { "s" };
     let from = match findings.basis {
@@ -341,7 +342,7 @@ fn rests_on(light: &Illuminant, findings: &LightFindings) -> String {
     findings.interval_deg.map_or_else(|| from.clone(), |degrees| format!("{from}, \u{b1}{degrees:.1}\u{b0}"))
 }
 
-/// How far the result is from the ground truth, doing nothing beside it.
+/// Shows the errors against the ground truth, and in parentheses the error of the unchanged photograph.
 fn accuracy(ui: &mut Ui, cx: &Cx, shown: &ResultSnapshot) {
     let Some(scores) = shown.accuracy().map(|accuracy| &accuracy.scores) else { return };
     let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {

@@ -1,4 +1,4 @@
-//! What is known of the selected pixels: how many, which colors, where.
+//! The selection panel: statistics of the marked or selected pixels (number, colors, place).
 
 use super::later::{AT_ONCE_PX, Later};
 use super::theme::SMALL_PT;
@@ -13,17 +13,18 @@ use std::sync::Arc;
 /// Height of a band's histogram, points.
 const HISTOGRAM_PT: f32 = 36.0;
 
-/// What the statistics are of: the result, the marked pixels or else the item.
+/// Identity of the statistics: generation of the result, and address of the mask of marked pixels, otherwise the
+/// item.
 type Key = (u64, Option<usize>, Option<Item>);
 
-/// Statistics of the selection.
+/// The selection panel.
 #[derive(Default)]
 pub struct SelectionPanel {
     statistics: Later<Key, Option<Statistics>>,
 }
 
 impl SelectionPanel {
-    /// Shows the statistics.
+    /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let state = cx.state;
         let Some(shown) = state.shown().cloned() else {
@@ -162,7 +163,7 @@ fn bands(ui: &mut Ui, cx: &Cx, found: &Statistics) {
     });
 }
 
-/// How often each value occurs, from 0 to full scale; the tallest bar fills the height.
+/// Paints a band's histogram from 0 to full scale; the tallest bar has full height.
 fn histogram(ui: &mut Ui, band: &Band, color: Color32, ground: Color32) {
     let size = vec2(ui.available_width().clamp(96.0, 220.0), HISTOGRAM_PT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
@@ -174,7 +175,7 @@ fn histogram(ui: &mut Ui, band: &Band, color: Color32, ground: Color32) {
     let width = rect.width() / band.histogram.len().max(1) as f32;
     for (bin, &count) in band.histogram.iter().enumerate().filter(|(_, count)| **count > 0) {
         let left = rect.left() + bin as f32 * width;
-        // The square root lets rare values be seen beside frequent ones.
+        // The square root keeps rare values visible beside frequent ones.
         let top = rect.bottom() - rect.height() * (count as f32 / most).sqrt().max(0.04);
         let bar = egui::Rect::from_min_max(pos2(left, top), pos2(left + width, rect.bottom()));
         painter.rect_filled(bar, 0.0, color);

@@ -1,4 +1,5 @@
-//! The decisions in their order: where the cursor stands among them, and what moves it.
+//! The timeline panel: all decisions of the analysis in order, the debugger's cursor, and the controls that move the
+//! cursor.
 
 mod drawing;
 mod hint;
@@ -16,16 +17,16 @@ use crate::trace::Trace;
 use egui::{Frame, Margin, RichText, Ui};
 use track::Track;
 
-/// The panel: which part of the track is seen, and what was made for it.
+/// The timeline panel.
 #[derive(Default)]
 pub struct TimelinePanel {
     track: Track,
-    /// What things are called in the trace of a result.
+    /// Names of hypotheses and regions, with the generation of the trace that they belong to.
     names: Option<(u64, Names)>,
 }
 
 impl TimelinePanel {
-    /// Shows it.
+    /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let state = cx.state;
         let debugger = &state.debugger;
@@ -54,7 +55,7 @@ impl TimelinePanel {
     }
 }
 
-/// Nothing is recorded: what that means, and the button that changes it.
+/// Shows, while no decisions are recorded, what that means and the button that starts recording.
 fn off(ui: &mut Ui, cx: &mut Cx) {
     ui.add_space((ui.available_height() / 2.0 - 14.0).max(4.0));
     ui.horizontal_wrapped(|ui| {

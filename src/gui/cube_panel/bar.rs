@@ -1,4 +1,4 @@
-//! The row above the color space.
+//! The row of controls above the color space: coloring, space, tools, shapes to show, named views.
 
 use super::camera_controller::{CameraController, Plane, Sight};
 use crate::app::Command;
@@ -9,7 +9,7 @@ use crate::view::{ColorBy, ColorSpace, CubeSettings, Tool};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, ComboBox, PopupCloseBehavior, Ui, WidgetInfo};
 
-/// Below this width the tools share one button.
+/// Below this width all tools are in one menu, points.
 const NARROW_PT: f32 = 430.0;
 
 const TOOLS: [(Tool, Icon, &str, &str); 4] = [
@@ -39,7 +39,7 @@ const TOOLS: [(Tool, Icon, &str, &str); 4] = [
     ),
 ];
 
-/// Shows the row; `size` is the view's, for the views that frame something.
+/// Shows the row. `size` is width and height of the view, points, for named views that frame the space.
 pub fn show(ui: &mut Ui, cx: &mut Cx, camera_controller: &mut CameraController, size: [f32; 2]) {
     let before = &cx.state.view.cube;
     let mut settings = before.clone();
@@ -101,7 +101,7 @@ fn space(ui: &mut Ui, settings: &mut CubeSettings) {
     });
 }
 
-/// A name that fits the button.
+/// A name short enough for the button.
 const fn short(space: ColorSpace) -> &'static str {
     match space {
         ColorSpace::Lab => "L*a*b*",

@@ -1,4 +1,4 @@
-//! The camera of the color space view, and what turns it.
+//! The camera of the color space panel, moved by pointer, keys and named views.
 
 use crate::app::State;
 use crate::gpu::shapes::cube_edges;
@@ -6,14 +6,14 @@ use crate::gpu::{Orbit, Preset, Projection};
 use crate::view::ColorSpace;
 use egui::{Event, Key, PointerButton, Rect, Response, Ui};
 
-/// Left free beside and above the framed cube for the axes' labels, points; at most this share of the view.
+/// Margin for the axes' labels beside and above the framed cube, points; limited to `MARGIN_SHARE` of the view.
 const MARGIN_PT: [f32; 2] = [64.0, 30.0];
 const MARGIN_SHARE: f32 = 0.14;
-/// A step of an arrow key, as a drag in points.
+/// Length of the drag that has the same effect as one press of an arrow key, points.
 const KEY_STEP_PT: f32 = 18.0;
-/// A step of + and −.
+/// Zoom factor of one press of + or −.
 const KEY_ZOOM: f32 = 1.15;
-/// Points of scrolling that zoom by e.
+/// Scroll distance that zooms by the factor e, points.
 const SCROLL_PT: f32 = 260.0;
 
 /// The views that a menu offers.
@@ -23,12 +23,12 @@ pub enum Sight {
     Along(Preset),
     /// Onto the selected region's dichromatic plane.
     FaceOn,
-    /// Along it.
+    /// Along the selected region's dichromatic plane.
     EdgeOn,
 }
 
 impl Sight {
-    /// All of them, with key, name and meaning.
+    /// All views with key, name and tooltip.
     pub const ALL: [(Self, Key, &'static str, &'static str); 7] = [
         (Self::Along(Preset::Home), Key::Home, "Home", "The whole cube from the front, blue up."),
         (
@@ -68,14 +68,14 @@ impl Sight {
 /// A dichromatic plane in the RGB cube.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
-    /// Unit normal, body × surface.
+    /// Unit normal: body × surface.
     pub normal: [f32; 3],
     /// Unit body vector.
     pub body: [f32; 3],
 }
 
 impl Plane {
-    /// The selected region's, where it has one and the space is RGB.
+    /// The plane of the selected region; `None` when the region has no plane or the space is not RGB.
     pub fn of(state: &State) -> Option<Self> {
         let region = usize::from(state.selected_region()?);
         let region = state.shown()?.analysis.intrinsic.regions.get(region.checked_sub(1)?)?;
@@ -84,42 +84,43 @@ impl Plane {
     }
 }
 
-/// The camera.
+/// The camera, and how it got to its place.
 #[derive(Clone, Default)]
 pub struct CameraController {
-    /// Where it is.
+    /// Place and direction of the camera.
     pub orbit: Orbit,
-    /// What is to be seen of the space when it is framed; none: the unit cube.
+    /// Points to be seen when the space is framed, world units; the corners of the unit cube if empty.
     whole: Vec<[f32; 3]>,
-    /// The size that it was framed for.
+    /// Size of the view for which the space was framed, points.
     framed: Option<[f32; 2]>,
-    /// Whether a hand has moved the camera since.
+    /// Whether the user has moved the camera since the space was framed.
     by_hand: bool,
-    /// The view of the plane that goes with the selection until a hand turns it away.
+    /// The view of the plane, which follows the selection until the user turns the camera.
     follows: Option<Sight>,
     faced: Option<Plane>,
 }
 
 impl CameraController {
-    /// Takes up a place that a hand once chose.
+    /// Restores a camera that the user chose earlier.
     pub fn place(&mut self, orbit: Orbit) {
         (self.orbit, self.by_hand) = (orbit.checked(), true);
     }
 
-    /// Frames the whole space in a view of another size, as long as no hand has moved the camera.
+    /// Frames the whole space when the view's size has changed, unless the user has moved the camera.
     pub fn arrive(&mut self, size: [f32; 2]) {
         if !self.by_hand && self.framed != Some(size) {
             self.frame(size);
         }
     }
 
-    /// Another space: what is to be seen of it, framed unless a hand has moved the camera.
+    /// Sets the points of another space that are to be seen; the next frame frames them, unless the user has moved
+    /// the camera.
     pub fn enter(&mut self, whole: Vec<[f32; 3]>) {
         self.whole = whole;
         self.framed = None;
     }
 
-    /// Takes a view.
+    /// Moves the camera to a named view. Views of a plane have no effect without one.
     pub fn look(&mut self, sight: Sight, plane: Option<Plane>, size: [f32; 2]) {
         match (sight, plane) {
             (Sight::Along(preset), _) => {
@@ -135,7 +136,7 @@ impl CameraController {
         self.frame(size);
     }
 
-    /// Keeps facing the plane of the region selected now, unless the view is locked.
+    /// Turns the camera to the plane of a newly selected region, unless the view is locked.
     pub fn follow(&mut self, plane: Option<Plane>, locked: bool) {
         if let (Some(sight), Some(plane), false) = (self.follows, plane, locked)
             && self.faced != Some(plane)
@@ -146,7 +147,7 @@ impl CameraController {
     }
 
     fn turn_to(&mut self, sight: Sight, Plane { normal, body }: Plane) {
-        // The body vector to the right, the light's side up: as the plane view draws it.
+        // The body vector points to the right and the light's color up, as in the plane panel.
         let inward = cross(normal, body);
         if sight == Sight::FaceOn {
             self.orbit.face(normal, inward);
@@ -155,12 +156,12 @@ impl CameraController {
         }
     }
 
-    /// Moves and scales the space as it is seen into the middle, as large as the labels let it be.
+    /// Moves and scales the space to the middle of the view, as large as the margins allow.
     fn frame(&mut self, size: [f32; 2]) {
         (self.framed, self.by_hand) = (Some(size), false);
         self.orbit.fit(size[0] / size[1].max(1.0));
         let middle = size.map(|length| 0.5 * length);
-        // What moves to the middle changes its perspective a little.
+        // Moving the space changes its perspective slightly, so the step is repeated.
         for _ in 0..3 {
             let projector = self.orbit.projector(size);
             let cube = cube_edges().into_iter().flatten().filter(|_| self.whole.is_empty());
@@ -179,7 +180,7 @@ impl CameraController {
         }
     }
 
-    /// From perspective to orthographic and back.
+    /// Switches between perspective and orthographic projection.
     pub fn toggle_projection(&mut self) {
         self.orbit.projection = match self.orbit.projection {
             Projection::Perspective => Projection::Orthographic,
@@ -187,7 +188,9 @@ impl CameraController {
         };
     }
 
-    /// Turns, moves and zooms as pointer and keys ask. `orbits`: whether a primary drag turns (no other tool is in hand).
+    /// Turns, moves and zooms the camera by pointer and keys. `orbits`: whether a drag with the primary button turns
+    /// the camera,
+    /// which it does while the pointer tool is chosen.
     pub fn obey(&mut self, ui: &Ui, response: &Response, rect: Rect, orbits: bool, plane: Option<Plane>) {
         let size = [rect.width(), rect.height()];
         let before = self.orbit;
@@ -244,7 +247,7 @@ impl CameraController {
     }
 }
 
-/// The keys pressed alone or with Shift.
+/// Keys pressed in this frame, alone or with Shift.
 fn pressed(ui: &Ui) -> Vec<Key> {
     let plain = |event: &Event| match event {
         Event::Key { key, pressed: true, modifiers, .. } if !modifiers.command && !modifiers.alt => {

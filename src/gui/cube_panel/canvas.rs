@@ -1,10 +1,10 @@
-//! The off-screen picture as a texture of the window.
+//! The color space drawn into a texture of its own, and that texture shown in the window.
 
 use crate::gpu::{Orbit, Renderer, Scene};
 use egui::{Rect, TextureId, Ui};
 use egui_wgpu::RenderState;
 
-/// The renderer, and the window's name for its picture.
+/// The renderer and egui's texture id of its image; both are made at the first drawing.
 #[derive(Default)]
 pub struct Canvas {
     made: Option<Made>,
@@ -17,7 +17,7 @@ struct Made {
 }
 
 impl Canvas {
-    /// Draws the scene where something has changed, and shows it.
+    /// Draws the scene if scene, camera or size have changed, and shows the image in `rect`.
     pub fn show(&mut self, ui: &Ui, gpu: &RenderState, rect: Rect, scene: &Scene, camera: &Orbit) {
         let made = self.made(gpu);
         let scale = ui.ctx().pixels_per_point();
@@ -27,13 +27,13 @@ impl Canvas {
         ui.painter().image(made.texture(gpu), rect, uv, egui::Color32::WHITE);
     }
 
-    /// The picture: width, height and sRGB bytes with alpha; none before the first drawing.
+    /// The image: columns and rows, then sRGB bytes with alpha, row-major. `None` before the first drawing.
     pub fn read_back(&self, gpu: &RenderState) -> Option<([u32; 2], Vec<u8>)> {
         let renderer = &self.made.as_ref()?.renderer;
         Some((renderer.size_px(), renderer.read_back(&gpu.device, &gpu.queue)?))
     }
 
-    /// A renderer of this device: a lost one comes back as another.
+    /// The renderer of the graphics device; made anew when a lost device was replaced by another.
     fn made(&mut self, gpu: &RenderState) -> &mut Made {
         if self.made.as_ref().is_some_and(|made| made.device != gpu.device) {
             self.made = None;

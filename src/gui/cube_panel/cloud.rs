@@ -1,4 +1,4 @@
-//! The photograph's colors as points: what is looked at in full, the rest as its ghost.
+//! The photograph's colors as points: those in focus in full color, the others faint ("ghosts").
 
 use crate::app::State;
 use crate::gpu::{Batch, Point};
@@ -11,11 +11,11 @@ use crate::view::{
 use egui::Color32;
 use std::sync::Arc;
 
-/// Diameter of a point where sizes say nothing, points of the screen.
+/// Diameter of a point when sizes do not show counts, screen points.
 const PLAIN_PT: f32 = 3.0;
-/// Diameter of a bin with one pixel, and of the fullest.
+/// Diameter of a bin with one pixel and of the fullest bin, screen points.
 const SIZES_PT: [f32; 2] = [2.0, 9.0];
-/// Of a ghost.
+/// Largest diameter of a ghost, screen points.
 const GHOST_PT: f32 = 1.8;
 const GHOST_ALPHA: u8 = 72;
 
@@ -26,24 +26,24 @@ pub struct Cloud {
     tally: Tally,
     /// The bins, in the histogram's order.
     pub bins: Vec<Point>,
-    /// What is drawn: first what is looked at, then the ghosts.
+    /// The points to draw: those in focus, then the ghosts.
     pub drawn: [Batch<Point>; 2],
-    /// Pixels of the fullest bin.
+    /// Number of pixels in the fullest bin.
     pub fullest: u32,
 }
 
-/// What most pixels of each bin are.
+/// Majority region and class of each bin.
 #[derive(Default)]
 struct Tally {
     of: Option<(Arc<Picture>, Option<Arc<ResultSnapshot>>)>,
-    /// Their region; 0 is none.
+    /// Region that most pixels of each bin are in; 0 for no region.
     regions: Vec<u16>,
-    /// The class of their windows.
+    /// Class that most pixels' windows have, per bin.
     classes: Vec<Option<Class>>,
 }
 
 impl Tally {
-    /// Counts anew where picture or result are others.
+    /// Counts anew when photograph or result have changed.
     fn update(&mut self, picture: &Arc<Picture>, shown: Option<&Arc<ResultSnapshot>>) {
         let same = |(counted, result): &(Arc<Picture>, Option<Arc<ResultSnapshot>>)| {
             Arc::ptr_eq(counted, picture) && same_arc(result.as_ref(), shown)
@@ -60,7 +60,7 @@ impl Tally {
     }
 }
 
-/// All that the points depend on.
+/// Everything that the points depend on.
 #[derive(Clone)]
 struct Inputs {
     picture: Arc<Picture>,
@@ -69,7 +69,7 @@ struct Inputs {
     item: Option<Item>,
     look: (ColorSpace, ColorBy, bool, bool, Theme),
     detail: Option<Arc<[UniqueColor]>>,
-    /// Whether all points are ghosts: the debugger's cursor stands on something else.
+    /// Whether all points are ghosts, because the pixels at the debugger's cursor are drawn instead.
     ghostly: bool,
 }
 
@@ -99,8 +99,9 @@ impl Inputs {
     }
 }
 
-/// What gives the points their color: regions and classes are the result's, which is not there yet where the debugger's
-/// cursor is followed.
+/// How points are colored. Regions and classes belong to the result, which does not exist yet while the debugger's
+/// cursor is
+/// followed: points then have their own color.
 pub fn color_by(state: &State) -> ColorBy {
     match state.view.cube.color_by {
         ColorBy::Region | ColorBy::Class if state.followed().is_some() => ColorBy::Own,
@@ -117,8 +118,9 @@ fn same_arc<T: ?Sized>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
 }
 
 impl Cloud {
-    /// Brings the points up to date; `detail` are all unique colors, where they are to be drawn. All are ghosts where
-    /// that is wanted.
+    /// Rebuilds the points when an input has changed. `detail` holds the unique colors, if they are drawn in place of
+    /// bins.
+    /// With `ghostly`, all points are ghosts.
     pub fn update(
         &mut self,
         state: &State,
@@ -151,18 +153,20 @@ impl Cloud {
         self.of = Some(inputs);
     }
 
-    /// The region that most pixels of a bin are in.
+    /// The region that most pixels of a bin are in; `None` when most are in none.
     pub fn region_of(&self, bin: u32) -> Option<u16> {
         self.tally.regions.get(bin as usize).copied().filter(|&region| region != 0)
     }
 }
 
-/// Pixels looked at in a bin; all of them where nothing is selected.
+/// Whether a bin has pixels in focus; always true when nothing is selected.
 fn looked_at(focus: Option<&[u32]>, bin: usize) -> bool {
     focus.is_none_or(|focus| focus[bin] > 0)
 }
 
-/// How many pixels of each bin are marked or in the selected region, window or bin; none where nothing is selected.
+/// Number of pixels of each bin that are marked or in the selected region, window or bin; `None` when no pixel is, or
+/// when
+/// the setting `ghost_rest` is off.
 fn focus(state: &State, picture: &Picture) -> Option<Vec<u32>> {
     if !state.view.cube.ghost_rest {
         return None;
@@ -179,7 +183,7 @@ fn focus(state: &State, picture: &Picture) -> Option<Vec<u32>> {
     counts.filter(|counts| counts.iter().any(|&count| count > 0))
 }
 
-/// What a point looks like.
+/// Computes position, color and size of points.
 struct Brush<'a> {
     inputs: &'a Inputs,
     tally: &'a Tally,
@@ -212,7 +216,7 @@ impl Brush<'_> {
         color.map_or(self.tones.quiet, |&color| crate::gui::widgets::color(color))
     }
 
-    /// What is looked at, and the ghosts.
+    /// Separates the points in focus from the others, and makes the others ghosts.
     fn split(points: impl Iterator<Item = (Point, bool)>) -> [Batch<Point>; 2] {
         let (mut full, mut ghosts) = (Vec::new(), Vec::new());
         for (point, looked_at) in points {
@@ -228,7 +232,7 @@ impl Brush<'_> {
     }
 }
 
-/// The paper's colors: point yellow, line red, plane green, volume blue.
+/// Color of a class, as in the paper's figures: point yellow, line red, plane green, volume blue.
 pub const fn class_color(class: Class) -> Color32 {
     match class {
         Class::Point => Color32::from_rgb(0xF0, 0xD0, 0x30),
@@ -238,9 +242,10 @@ pub const fn class_color(class: Class) -> Color32 {
     }
 }
 
-/// From few pixels (0) to the fullest bin (1): away from the background, hue and lightness together.
+/// Color of a bin's density, from 0 (few pixels) to 1 (the fullest bin). Contrast with the background grows with
+/// density.
 pub fn density_color(share: f32, theme: Theme) -> Color32 {
-    // Viridis at quarters (Smith & van der Walt 2015).
+    // The color map Viridis at 0, 1/4, 1/2, 3/4 and 1 (Smith & van der Walt 2015).
     const STOPS: [[f32; 3]; 5] = [
         [68.0, 1.0, 84.0],
         [59.0, 82.0, 139.0],
@@ -248,7 +253,7 @@ pub fn density_color(share: f32, theme: Theme) -> Color32 {
         [94.0, 201.0, 98.0],
         [253.0, 231.0, 37.0],
     ];
-    // The end that is like the background is left out.
+    // The part of the map that resembles the background is left out.
     let share = share.clamp(0.0, 1.0);
     let at = if theme == Theme::Dark { 0.6 + 3.4 * share } else { 3.4 * (1.0 - share) };
     let stop = (at as usize).min(3);

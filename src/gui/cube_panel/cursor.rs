@@ -1,4 +1,5 @@
-//! The color space at the debugger's cursor: the pixels that the step looks at, and the shapes that stand there.
+//! The color space at the debugger's cursor: the pixels that the current step examines, and the shapes as they are
+//! then.
 
 use super::figure::ShapeBuilder;
 use crate::app::State;
@@ -13,15 +14,16 @@ use crate::view::{
 use egui::Color32;
 use std::time::{Duration, Instant};
 
-/// Points of each kind, at most.
+/// Largest number of points of each role.
 const MOST: usize = 20_000;
-/// Diameter of a point, points of the screen.
+/// Diameter of a pixel in the region in focus, screen points.
 const OWN_PT: f32 = 3.0;
 const BESIDE_PT: f32 = 3.4;
-/// Of what a test ignores.
+/// Diameter of a pixel that a test ignores, screen points.
 const QUIET_PT: f32 = 2.4;
 
-/// Of larger pictures, pixels, points are looked for only so often while the cursor plays.
+/// Number of pixels above which a photograph is large: while the cursor plays, its points are updated once per
+/// `PATIENCE`.
 const LARGE_PX: usize = 1 << 22;
 const PATIENCE: Duration = Duration::from_millis(120);
 
@@ -29,26 +31,26 @@ const THIN_PT: f32 = 1.0;
 const THICK_PT: f32 = 2.0;
 const MARK_PT: f32 = 4.5;
 
-/// What tells instants apart: the trace, the place in it, and the region chosen.
+/// Identity of an instant: generation of the trace, number of steps taken, and chosen hypothesis.
 pub type Frame = (u64, usize, Option<u16>);
 
-/// The instant that is shown; none where the result is.
+/// The instant that is shown; `None` when the result is shown.
 pub fn frame(state: &State) -> Option<Frame> {
     let replay = state.followed()?;
     Some((state.debugger.generation, replay.at(), state.debugger.chosen))
 }
 
-/// The pixels that the step at the cursor looks at, as points.
+/// The pixels that the step at the cursor examines, as points.
 #[derive(Default)]
 pub struct Track {
     of: Option<(Frame, CubeSettings, Theme)>,
     made: Option<Instant>,
-    /// One batch for each of what they are to the step.
+    /// One batch of points per role of the pixels in the step.
     pub drawn: Vec<Batch<Point>>,
 }
 
 impl Track {
-    /// Brings the points up to date.
+    /// Rebuilds the points when the instant has changed.
     pub fn update(&mut self, state: &State, tones: &Tones, picture: &Picture) {
         let of = frame(state).map(|frame| (frame, state.view.cube.clone(), state.view.theme));
         if self.of == of || (of.is_some() && self.rests(state, picture)) {
@@ -73,19 +75,20 @@ impl Track {
         }
     }
 
-    /// Whether the points of an instant before may stay: of a large picture, while it plays, for a moment.
+    /// Whether the points of an earlier instant are kept: in a large photograph, while the cursor plays, for
+    /// `PATIENCE`.
     fn rests(&self, state: &State, picture: &Picture) -> bool {
         let large = picture.photo.image.pixels.len() > LARGE_PX && state.debugger.playing.is_some();
         large && self.of.is_some() && self.made.is_some_and(|made| made.elapsed() < PATIENCE)
     }
 
-    /// Whether there is something that all else is to be the ghost of.
+    /// Whether the step has points, in front of which all other colors are ghosts.
     pub fn is_shown(&self) -> bool {
         !self.drawn.is_empty()
     }
 }
 
-/// The color of the region in focus.
+/// The color of the region in focus, sRGB.
 fn own(state: &State) -> Option<[u8; 3]> {
     state.debugger.focus().map(|focus| state.debugger.names.color(focus))
 }
@@ -102,7 +105,7 @@ fn look(role: Role, own: Option<[u8; 3]>, tones: &Tones) -> (Color32, f32) {
 }
 
 impl ShapeBuilder<'_> {
-    /// The shapes at the cursor.
+    /// Adds the shapes at the cursor.
     pub fn instant(&mut self, state: &State, replay: &Replay, shown: &ResultSnapshot, tones: &Tones) {
         let show = &state.view.cube;
         let focus = state.debugger.focus();
@@ -138,7 +141,7 @@ impl ShapeBuilder<'_> {
         }
     }
 
-    /// The window that was classified last.
+    /// Adds the ellipsoid of the window that was classified last.
     fn window(&mut self, replay: &Replay, shown: &ResultSnapshot, tones: &Tones) {
         let colors = &shown.picture.photo.image.pixels;
         let groups = looked_at(replay, None, colors, &shown.analysis.masks, usize::MAX);
@@ -150,7 +153,8 @@ impl ShapeBuilder<'_> {
         }
     }
 
-    /// A skewed-T test: both lines, the part of the matte line where highlights may begin, and the gap.
+    /// Adds a skewed-T test: both lines, the part of the matte line where highlights may begin, and the gap (section
+    /// 5.4.1).
     fn test(
         &mut self,
         test: &crate::trace::CandidateTested,

@@ -1,14 +1,14 @@
-//! Every unique color, found on a thread of its own when it is first asked for.
+//! The unique colors of a photograph, found on a background thread when first requested.
 
 use crate::view::{Picture, UniqueColor};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
-/// The camera rests when it has not moved for this long.
+/// Time without movement after which the camera counts as at rest.
 pub const REST: Duration = Duration::from_millis(200);
 
-/// The unique colors of one photograph.
+/// The unique colors of one photograph, and when the camera last moved.
 #[derive(Default)]
 pub struct Detail {
     of: Option<Arc<Picture>>,
@@ -18,12 +18,14 @@ pub struct Detail {
 }
 
 impl Detail {
-    /// The camera has moved.
+    /// Records that the camera has moved now.
     pub fn stir(&mut self) {
         self.moved = Some(Instant::now());
     }
 
-    /// The colors, once they are known and the camera rests; `swift`: the graphics device need not wait for that.
+    /// The unique colors; `None` until they are found, and while the camera moves. With `swift` (a fast graphics
+    /// device) they
+    /// are returned while the camera moves, too.
     pub fn get(
         &mut self,
         ctx: &egui::Context,
@@ -53,7 +55,7 @@ fn ask(ctx: &egui::Context, picture: &Arc<Picture>) -> Option<Receiver<Arc<[Uniq
     let (send, receive) = channel();
     let (ctx, picture) = (ctx.clone(), Arc::clone(picture));
     let find = move || {
-        // Another photograph may have been opened by now.
+        // The receiver is gone when another photograph has been opened meanwhile.
         let _ = send.send(picture.histogram.unique(&picture.photo.image).into());
         ctx.request_repaint();
     };

@@ -1,4 +1,4 @@
-//! What the model claims of one region, drawn in the space: cylinder, slice, skewed T, illuminant, window ellipsoid.
+//! The shapes of one region in the color space: cylinder, slice, skewed T, illuminant, window ellipsoid.
 
 use super::labels::{Label, all_around};
 use crate::app::State;
@@ -21,21 +21,21 @@ const LINE_PT: f32 = 2.0;
 const OUTLINE_PT: f32 = 1.2;
 const DASH_PT: f32 = 5.0;
 
-/// The shapes of what is selected, or else hovered.
+/// The shapes of the selected region, otherwise of the hovered one.
 #[derive(Default)]
 pub struct Figure {
     of: Option<Inputs>,
     /// Translucent bodies.
     pub meshes: Vec<gpu::Mesh>,
-    /// Their edges, and the lines of the skewed T.
+    /// Edges of the translucent bodies, and the lines of the skewed T.
     pub lines: Vec<Line>,
     smooth: Vec<(Mesh, Color32)>,
     notes: Vec<Note>,
-    /// The matte line in the space: its names stand beside it.
+    /// Ends of the matte line, world units: labels are placed across this line.
     spine: Option<[Point; 2]>,
 }
 
-/// A place with a name.
+/// A labeled point, world units.
 struct Note {
     place: Point,
     text: Cow<'static, str>,
@@ -45,12 +45,12 @@ struct Note {
 
 #[derive(Clone, PartialEq)]
 struct Inputs {
-    /// A result is not compared but by its place in memory; it is held, so that no other can take that place.
+    /// The result, compared by its address. The `Arc` is kept, so that no other result can take the address.
     shown: Same,
     region: Option<u16>,
     window: Option<u32>,
     view: (ColorSpace, [bool; 5], Theme),
-    /// The instant at the debugger's cursor, in place of the result.
+    /// The instant at the debugger's cursor; `None` while the result is shown.
     frame: Option<super::cursor::Frame>,
 }
 
@@ -92,7 +92,7 @@ impl Inputs {
 }
 
 impl Figure {
-    /// Builds anew what has changed; whether anything had.
+    /// Rebuilds the shapes when an input has changed; returns whether one has.
     pub fn update(&mut self, state: &State, picture: &Picture) -> bool {
         let inputs = Inputs::of(state);
         if self.of == inputs {
@@ -141,7 +141,7 @@ impl Figure {
         true
     }
 
-    /// The lines in which the smooth bodies turn away from the viewer.
+    /// The silhouettes of the smooth bodies: the curves along which their surface turns away from the camera.
     pub fn silhouettes(&self, orbit: &Orbit) -> Vec<Line> {
         let mut lines = Vec::new();
         for (mesh, color) in &self.smooth {
@@ -150,7 +150,7 @@ impl Figure {
         lines
     }
 
-    /// The labels of the shapes, the most important first; dots are painted.
+    /// The labels of the shapes, the most important first. The dots are painted here.
     pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, tones: &Tones) -> Vec<Label> {
         let painter = ui.painter_at(rect);
         let ends = self.spine.map(|ends| ends.map(|end| super::frame::screen(projector, rect, end)));
@@ -176,7 +176,7 @@ impl Figure {
     }
 }
 
-/// Puts shapes in counts into the space.
+/// Converts shapes from counts into the color space shown, and adds them to the figure.
 pub struct ShapeBuilder<'a> {
     figure: &'a mut Figure,
     space: ColorSpace,
@@ -224,39 +224,39 @@ impl ShapeBuilder<'_> {
         }
     }
 
-    /// The line of the light's color.
+    /// Adds the line of the light's color.
     pub fn light(&mut self, ends: &[Point; 2], color: Color32, name: &'static str, tip: &'static str) {
         let dash = if self.space == ColorSpace::Rgb { DASH_PT } else { 0.0 };
         self.line(ends, color, OUTLINE_PT, dash);
         self.note(ends[1], name, tip, false);
     }
 
-    /// The matte line, beside which names stand.
+    /// Adds the matte line; labels are placed across this line.
     pub fn spine(&mut self, ends: &[Point; 2], color: Color32, width_px: f32) {
         self.line(ends, color, width_px, 0.0);
         self.figure.spine = Some(ends.map(|end| self.space.place(end, self.full)));
     }
 
-    /// A translucent body with its name.
+    /// Adds a translucent body with a label.
     pub fn body(&mut self, solid: &Solid, color: Color32, name: &'static str, tip: &'static str) {
         self.solid(solid, color, CYLINDER_ALPHA);
         self.note_at_corner(solid, name, tip);
     }
 
-    /// Names a place.
+    /// Adds a label at a color, counts; with a dot if `dot` is set.
     pub fn note(&mut self, counts: Point, text: impl Into<Cow<'static, str>>, tip: &'static str, dot: bool) {
         let place = self.space.place(counts, self.full);
         self.figure.notes.push(Note { place, text: text.into(), tip, dot });
     }
 
-    /// Named where its last outline begins.
+    /// Adds a label at the first point of the solid's last outline.
     fn note_at_corner(&mut self, solid: &Solid, text: &'static str, tip: &'static str) {
         if let Some(&corner) = solid.outlines.last().and_then(|outline| outline.first()) {
             self.note(corner, text, tip, false);
         }
     }
 
-    /// Straight lines from place to place.
+    /// Adds a polyline through colors, counts.
     pub fn line(&mut self, counts: &[Point], color: Color32, width_px: f32, dash_px: f32) {
         let curve = self.space.polyline(counts, self.full);
         let pieces = curve.windows(2).map(|ends| Line {
@@ -297,7 +297,9 @@ fn along([a, b]: [Point; 2], t: f32) -> Point {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t)
 }
 
-/// Where the interpolated normal is at right angles to the line of sight (Hertzmann & Zorin 2000).
+/// The silhouette of a mesh: the curve on which the interpolated normal is perpendicular to the line of sight
+/// (Hertzmann &
+/// Zorin 2000).
 fn silhouette(mesh: &Mesh, orbit: &Orbit, mut add: impl FnMut(Point, Point)) {
     let [_, _, forward] = orbit.right_up_forward();
     let camera_controller = orbit.eye();
@@ -331,7 +333,7 @@ fn silhouette(mesh: &Mesh, orbit: &Orbit, mut add: impl FnMut(Point, Point)) {
 mod tests {
     use super::*;
 
-    /// A band around the z axis.
+    /// The side of an upright cylinder of radius 0.2 around the middle of the unit square.
     fn tube(sides: u32) -> Mesh {
         let mut mesh = Mesh::default();
         for side in 0..sides {
@@ -349,7 +351,7 @@ mod tests {
     #[test]
     fn a_cylinder_has_two_straight_silhouettes_where_it_turns_away() {
         let mut orbit = Orbit { projection: Projection::Orthographic, ..Orbit::default() };
-        // Along +y: the silhouettes are the lines at the least and the largest x.
+        // Seen along +y, the silhouettes are the lines at the smallest and the largest x.
         orbit.look_along([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
         let mut found = Vec::new();
         silhouette(&tube(62), &orbit, |a, b| found.push((a, b)));

@@ -1,4 +1,4 @@
-//! The space itself: what the cube's edges become, the axes and their ticks, and which way they point.
+//! The frame of the color space: the RGB cube's edges in the space shown, axes with ticks, and the axis gizmo.
 
 use super::labels::Label;
 use crate::gpu::{Line, Overlay, Projector};
@@ -8,22 +8,22 @@ use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
 const EDGE_PT: f32 = 1.0;
 const AXIS_PT: f32 = 1.4;
-/// Half of a tick's length on the screen.
+/// Length of a tick, screen points.
 const TICK_PT: f32 = 3.0;
-/// The gizmo's radius.
+/// Radius of the gizmo, screen points.
 const GIZMO_PT: f32 = 22.0;
 
-/// The space's edges and axes.
+/// Edges and axes of the space.
 #[derive(Default)]
 pub struct Frame {
     of: Option<(ColorSpace, u32, Theme)>,
-    /// The edges and axes as lines.
+    /// Edges and axes as lines, world units.
     pub lines: Vec<Line>,
     axes: Vec<Axis>,
 }
 
 impl Frame {
-    /// Builds anew what depends on the space; whether that was needed.
+    /// Rebuilds edges and axes when space, full scale or theme have changed; returns whether one has.
     pub fn update(&mut self, space: ColorSpace, full_counts: f32, theme: Theme) -> bool {
         let inputs = Some((space, full_counts.to_bits(), theme));
         if self.of == inputs {
@@ -44,7 +44,7 @@ impl Frame {
         true
     }
 
-    /// Names and values of the axes, and the black corner, the most important first; ticks are painted.
+    /// Labels of the axes, the black corner and the ticks, the most important first. The ticks are painted here.
     pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, tones: &Tones) -> Vec<Label> {
         let on_screen = |world| screen(projector, rect, world);
         let Some(middle) = on_screen([0.5; 3]) else { return Vec::new() };
@@ -70,7 +70,7 @@ impl Frame {
                 leader: false,
             });
             if !closed && length < 24.0 {
-                // Seen end-on: its values would be one heap.
+                // The axis is seen end-on: the labels of its values would overlap.
                 continue;
             }
             for tick in &axis.ticks {
@@ -101,7 +101,7 @@ impl Frame {
     }
 }
 
-/// The name of the black corner.
+/// The label of the black corner.
 fn black(at: Pos2, middle: Pos2, tones: &Tones) -> Label {
     Label {
         text: "black".to_owned(),
@@ -114,7 +114,7 @@ fn black(at: Pos2, middle: Pos2, tones: &Tones) -> Label {
     }
 }
 
-/// The directions of the bands in a corner of the view; returns the room that it takes.
+/// Paints the directions of the red, green and blue axes into the lower left corner; returns the rectangle.
 pub fn gizmo(
     ui: &Ui,
     [right, up, forward]: [[f32; 3]; 3],
@@ -133,7 +133,7 @@ pub fn gizmo(
         Color32::from_rgb(0x5A, 0x88, 0xE8),
     ];
     let mut order = [0, 1, 2];
-    // Those that point away first.
+    // Axes that point away from the viewer are painted first.
     order.sort_by(|&a: &usize, &b: &usize| forward[b].total_cmp(&forward[a]));
     for axis in order {
         let tip = vec2(right[axis], -up[axis]);
@@ -152,12 +152,12 @@ pub fn gizmo(
     room
 }
 
-/// Where a world point is in the window.
+/// Screen position of a point in world units; `None` behind the camera.
 pub fn screen(projector: &Projector, rect: Rect, world: [f32; 3]) -> Option<Pos2> {
     projector.screen_from_world(world).map(|point| rect.min + Vec2::from(point.at))
 }
 
-/// A polyline as lines behind the points.
+/// A polyline, world units, as line segments that points hide.
 fn pieces(curve: &[[f32; 3]], color: Color32, width_px: f32) -> impl Iterator<Item = Line> + '_ {
     curve.windows(2).map(move |ends| Line {
         a: ends[0],
@@ -169,13 +169,13 @@ fn pieces(curve: &[[f32; 3]], color: Color32, width_px: f32) -> impl Iterator<It
     })
 }
 
-/// Across a line through `on`, away from the middle.
+/// The unit vector perpendicular to `along` that points away from `middle`, as seen from `on`.
 fn outward(along: Vec2, on: Pos2, middle: Pos2) -> Vec2 {
     let across = along.rot90();
     if across.dot(on - middle) < 0.0 { -across } else { across }
 }
 
-/// From `a` (0) to `b` (1).
+/// Linear interpolation of sRGB codes from `a` (`t` = 0) to `b` (`t` = 1).
 pub fn mixed(a: Color32, b: Color32, t: f32) -> Color32 {
     let at = |a: u8, b: u8| (f32::from(a) + (f32::from(b) - f32::from(a)) * t).round() as u8;
     Color32::from_rgb(at(a.r(), b.r()), at(a.g(), b.g()), at(a.b(), b.b()))

@@ -1,41 +1,44 @@
-//! Words in the picture: they face the viewer and never cover one another.
+//! Text labels over the color space, placed so that they never overlap.
 
 use egui::{Align2, Color32, FontId, Id, Pos2, Rect, Sense, Ui, Vec2, vec2};
 
-/// Between the place that a label names and the label.
+/// Distance between a label and its point, screen points.
 const GAP_PT: f32 = 5.0;
-/// The same, where a line leads from one to the other.
+/// Distance between a label and its point when a line connects them, screen points.
 const LEADER_PT: f32 = 16.0;
-/// Kept free around a label.
+/// Free space around a label, screen points.
 const AIR_PT: f32 = 1.5;
 
-/// A word at a place.
+/// A text label of a point on the screen.
 #[derive(Clone, Debug)]
 pub struct Label {
-    /// What it says.
+    /// The text.
     pub text: String,
-    /// The place that it names, on the screen.
+    /// The labeled point on the screen.
     pub at: Pos2,
-    /// Where it may stand, seen from there, the best first; zero: centered on it.
+    /// Directions from the point in which the label may be placed, the best first; zero centers the label on the
+    /// point.
     pub sides: Vec<Vec2>,
-    /// Its color.
+    /// Color of the text.
     pub color: Color32,
     /// Size of type, points.
     pub size_pt: f32,
-    /// What it means, in one sentence.
+    /// Tooltip of one sentence; empty for none.
     pub tip: &'static str,
-    /// Whether a line leads to it.
+    /// Whether a line connects label and point.
     pub leader: bool,
 }
 
-/// Eight sides, up and to the right first: for what may be named from anywhere.
+/// Eight unit directions, up and to the right first, for labels that may be placed on any side.
 pub fn all_around() -> Vec<Vec2> {
     [(1, -1), (1, 1), (-1, -1), (-1, 1), (1, 0), (-1, 0), (0, -1), (0, 1)]
         .map(|(x, y)| vec2(x as f32, y as f32).normalized())
         .to_vec()
 }
 
-/// Where each label stands, by their order of importance; none where it would cover another or leave `bounds`.
+/// The rectangle of each label, given with its size, in the order of importance; `None` when the label would cover
+/// another
+/// or leave `bounds`.
 pub fn arrange(labels: &[(&Label, Vec2)], bounds: Rect, occupied: &[Rect]) -> Vec<Option<Rect>> {
     let mut taken = occupied.to_vec();
     let mut places = Vec::with_capacity(labels.len());
@@ -50,16 +53,18 @@ pub fn arrange(labels: &[(&Label, Vec2)], bounds: Rect, occupied: &[Rect]) -> Ve
     places
 }
 
-/// The rectangle of this size on that side of a place.
+/// The rectangle of a label of `size`, placed on `side` of the labeled point.
 fn beside(label: &Label, side: Vec2, size: Vec2) -> Rect {
     let gap = if label.leader { LEADER_PT } else { GAP_PT };
-    // As far out as the rectangle's own half width or height makes it.
+    // Half the extent of the rectangle in the direction `side`.
     let reach = side.x.abs() * size.x / 2.0 + side.y.abs() * size.y / 2.0;
     let away = if side == Vec2::ZERO { 0.0 } else { gap + reach };
     Rect::from_center_size(label.at + side * away, size)
 }
 
-/// Writes the labels that have room, in their order of importance, around what is `occupied`.
+/// Paints the labels that fit, in the order of importance, outside of the `occupied` rectangles, on a background of
+/// color
+/// `halo`.
 pub fn show(ui: &Ui, id: Id, labels: &[Label], bounds: Rect, occupied: &[Rect], halo: Color32) {
     let painter = ui.painter_at(bounds);
     let galleys: Vec<_> = labels

@@ -1,17 +1,17 @@
-//! Outlines drawn over the points: rectangle, lasso, polygon.
+//! Outlines that the user draws over the points: rectangle, lasso, polygon.
 
 use crate::gpu::{Projector, pick};
 use crate::raster::Mask;
 use crate::view::{Picture, Tool, marking};
 use egui::{Color32, Key, Painter, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui};
 
-/// Corners of a lasso are at least this far apart.
+/// Smallest distance between two corners of a lasso, points.
 const STEP_PT: f32 = 2.0;
-/// A click this near to the first corner closes a polygon.
+/// Largest distance between a click and the first corner at which the click closes a polygon, points.
 const CLOSE_PT: f32 = 8.0;
 const DASH_PT: f32 = 4.0;
 
-/// The outline that the pointer is in the middle of.
+/// An outline that is being drawn.
 #[derive(Default)]
 pub struct Outline {
     corners: Vec<Pos2>,
@@ -19,12 +19,12 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Whether there is something to give up.
+    /// Whether an outline has been begun and not finished.
     pub fn is_begun(&self) -> bool {
         !self.corners.is_empty()
     }
 
-    /// Follows the pointer. The closed outline, when it is finished.
+    /// Adds corners as the pointer moves and clicks. Returns the closed outline in the frame in which it is finished.
     pub fn follow(&mut self, ui: &Ui, response: &Response, tool: Tool) -> Option<Vec<Pos2>> {
         if tool != self.tool {
             self.corners.clear();
@@ -73,7 +73,7 @@ impl Outline {
         closed
     }
 
-    /// All corners, those of a rectangle included, with the pointer's place as a polygon's next one.
+    /// All corners in order: the four of a rectangle, or those of a lasso or polygon followed by `next`.
     fn closed(&self, next: Option<Pos2>) -> Vec<Pos2> {
         match (self.tool, self.corners.as_slice()) {
             (Tool::Rectangle, &[from, to]) => {
@@ -84,7 +84,7 @@ impl Outline {
         }
     }
 
-    /// Draws what there is of it, dashed.
+    /// Paints the unfinished outline as a dashed line.
     pub fn paint(&self, painter: &Painter, response: &Response, accent: Color32) {
         if self.corners.is_empty() {
             return;
@@ -102,7 +102,7 @@ impl Outline {
     }
 }
 
-/// The pixels of the bins whose centers are seen inside an outline.
+/// Mask of the pixels in bins whose centers appear inside an outline on the screen.
 pub fn mask_of(
     picture: &Picture,
     bins: &[crate::gpu::Point],

@@ -6,7 +6,7 @@ use crate::gui::App;
 use egui::{Pos2, Rect};
 use egui_wgpu::RenderState;
 
-/// What the color space panel has drawn last.
+/// The color space panel's last drawing.
 #[derive(Clone, Debug)]
 pub struct ColorSpaceDrawing {
     /// The camera.
@@ -15,7 +15,7 @@ pub struct ColorSpaceDrawing {
     pub bins: Vec<[f32; 3]>,
     /// The region that most pixels of each bin are in.
     pub bin_regions: Vec<Option<u16>>,
-    /// Number of points that are looked at, and of those drawn pale behind them.
+    /// Number of points in focus, and number of points drawn faint behind them.
     pub points: [usize; 2],
     /// Vertices of each solid, three a triangle, world units.
     pub solids: Vec<Vec<[f32; 3]>>,
@@ -36,14 +36,17 @@ impl ColorSpaceDrawing {
         }
     }
 
-    /// Where a point of the world is on the screen, if `canvas` is the panel's rectangle there; none behind the camera.
+    /// Screen position of a point in world units, where `canvas` is the panel's rectangle on the screen; `None`
+    /// behind the
+    /// camera.
     pub fn screen(&self, canvas: Rect, world: [f32; 3]) -> Option<Pos2> {
         frame::screen(&self.orbit.projector(canvas.size().into()), canvas, world)
     }
 }
 
-/// The panel's picture as the graphics device holds it: columns and rows, then sRGB and alpha, row-major; none before the
-/// first frame.
+/// The panel's image as the graphics device holds it: columns and rows, then sRGB bytes with alpha, row-major. `None`
+/// before
+/// the first frame.
 pub fn color_space_pixels(app: &App, gpu: &RenderState) -> Option<([u32; 2], Vec<u8>)> {
     app.panels().cube.canvas.read_back(gpu)
 }

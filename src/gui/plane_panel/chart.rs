@@ -1,27 +1,27 @@
-//! The plane on the screen: where counts lie, the oblique axes, and the skewed T.
+//! The plane on the screen: conversion between counts and screen points, the oblique axes, and the skewed T.
 
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::view::RegionPlane;
 use egui::{Align2, FontId, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
-/// Between ticks, at least, points.
+/// Smallest distance between two ticks, points.
 const TICKS_APART_PT: f32 = 44.0;
-/// Around what is fitted: room for the axes' labels.
+/// Margin around the fitted plane for the axes' labels, points.
 const MARGIN_PT: Vec2 = vec2(40.0, 30.0);
-/// How far zooming goes, counts per point.
+/// Smallest and largest scale, counts per point.
 const SCALES: [f32; 2] = [0.002, 20.0];
 
-/// Where the plane lies in the view. Both axes have one scale, so that angles are true.
+/// Position and scale of the plane in the view. Both axes have the same scale, so that angles are preserved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chart {
-    /// What lies in the middle, in oblique counts, see [`RegionPlane::oblique`].
+    /// The point in the middle of the view, oblique counts (see [`RegionPlane::oblique`]).
     pub center: [f32; 2],
-    /// Counts that a point of the screen spans.
+    /// Counts per screen point.
     pub counts_per_pt: f32,
 }
 
 impl Chart {
-    /// All points, the origin and the skewed T.
+    /// The chart in which all points, the origin and the skewed T are seen.
     pub fn fit(plane: &RegionPlane, rect: Rect) -> Self {
         let [body, surface] = plane.extent;
         let finite = |v: f32| if v.is_finite() { v } else { 0.0 };
@@ -39,24 +39,24 @@ impl Chart {
         Self { center: room.center().into(), counts_per_pt: needed.max_elem().clamp(SCALES[0], SCALES[1]) }
     }
 
-    /// Where oblique counts are on the screen; the second axis points up.
+    /// Screen position of oblique counts; the second axis points up.
     pub fn screen(self, [x, y]: [f32; 2], rect: Rect) -> Pos2 {
         rect.center() + vec2(x - self.center[0], self.center[1] - y) / self.counts_per_pt
     }
 
-    /// What lies at a place of the screen, in oblique counts.
+    /// Oblique counts at a screen position.
     pub fn oblique(self, at: Pos2, rect: Rect) -> [f32; 2] {
         let from_middle = (at - rect.center()) * self.counts_per_pt;
         [self.center[0] + from_middle.x, self.center[1] - from_middle.y]
     }
 
-    /// Moves what is shown by points of the screen.
+    /// Moves the contents by `delta`, screen points.
     pub fn pan(&mut self, delta: Vec2) {
         self.center[0] -= delta.x * self.counts_per_pt;
         self.center[1] += delta.y * self.counts_per_pt;
     }
 
-    /// Enlarges by `factor`; what lies under the pointer stays there.
+    /// Enlarges by `factor`; the counts under the pointer stay under the pointer.
     pub fn zoom(&mut self, factor: f32, pointer: Pos2, rect: Rect) {
         if factor > 0.0 && factor.is_finite() && (factor - 1.0).abs() > 1e-6 {
             let under = self.oblique(pointer, rect);
@@ -66,7 +66,7 @@ impl Chart {
         }
     }
 
-    /// Both axes through black, with a mesh of equal amounts.
+    /// Paints both axes through black, and a grid of lines of equal amounts.
     pub fn axes(self, painter: &Painter, plane: &RegionPlane, rect: Rect, tones: &Tones) {
         let step = step(TICKS_APART_PT * self.counts_per_pt);
         let corners = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()]
@@ -112,7 +112,8 @@ impl Chart {
         }
     }
 
-    /// Where the axis of m_s leaves the view at the top or at a side, left of the axis.
+    /// Position of the label of the m_s axis: left of the point where the axis leaves the view at the top or at a
+    /// side.
     fn top_of_axis(self, plane: &RegionPlane, rect: Rect) -> Pos2 {
         let black = self.screen([0.0, 0.0], rect);
         let away = plane.oblique(0.0, 1.0);
@@ -124,7 +125,7 @@ impl Chart {
         black + rise * to_top.min(to_side).max(0.0) + vec2(-34.0, -4.0)
     }
 
-    /// Matte and highlight line, where they meet, and the cylinder's border, with their names.
+    /// Paints matte line, highlight lines, meeting points and the border of the cylinder, with labels.
     pub fn skewed_t(self, ui: &Ui, response: &Response, plane: &RegionPlane, rect: Rect, tones: &Tones) {
         let painter = ui.painter_at(rect);
         let at = |[body, surface]: [f32; 2]| self.screen(plane.oblique(body, surface), rect);
@@ -161,7 +162,7 @@ impl Chart {
         }
     }
 
-    /// Draws the highlight lines; their name stands at the longest one. None without a line.
+    /// Paints the highlight lines. Returns their label, placed at the longest line; `None` without a line.
     fn highlight_lines(
         self,
         painter: &Painter,
@@ -190,7 +191,9 @@ impl Chart {
         Some(Name { at: end + vec2(away[0], -away[1]) * 10.0, anchor: Align2::CENTER_BOTTOM, text, tip })
     }
 
-    /// Draws where highlight lines leave the matte line; their name stands below the middle. None without a line.
+    /// Paints the points where highlight lines leave the matte line. Returns their label, placed below their middle;
+    /// `None`
+    /// without a point.
     fn meeting_points(
         self,
         painter: &Painter,
@@ -219,7 +222,7 @@ impl Chart {
     }
 }
 
-/// A word beside a line.
+/// A text label with a tooltip.
 struct Name {
     at: Pos2,
     anchor: Align2,
@@ -243,7 +246,7 @@ impl Name {
     }
 }
 
-/// The line of a value: that of zero is an axis.
+/// Stroke of the grid line of a value: the line of zero is an axis and darker.
 fn line(value: f32, tones: &Tones) -> Stroke {
     if value == 0.0 {
         Stroke::new(1.0, tones.quiet)
@@ -252,7 +255,7 @@ fn line(value: f32, tones: &Tones) -> Stroke {
     }
 }
 
-/// 1, 2 or 5 times a power of ten, the smallest not below `least`.
+/// The smallest number not below `least` that is 1, 2 or 5 times a power of ten.
 fn step(least: f32) -> f32 {
     let decade = 10f32.powf(least.max(1e-6).log10().floor());
     [1.0, 2.0, 5.0, 10.0]

@@ -1,5 +1,6 @@
-//! The plane at the debugger's cursor: a skewed-T test in the plane of both lines, where a T is read best, or a region that
-//! grows in its slice.
+//! The plane panel at the debugger's cursor: a skewed-T test (section 5.4.1), drawn in the plane that both lines
+//! span, or a
+//! region that grows in its slice (section 5.4.2).
 
 use super::{PlanePanel, cloud, hovered, kinds, navigate, quiet};
 use crate::app::State;
@@ -8,10 +9,10 @@ use crate::trace::{PixelKind, Replay};
 use crate::view::{growing_plane, test_at_cursor, test_plane};
 use egui::{Sense, Stroke, Ui, vec2};
 
-/// A kind, its name and what it means.
+/// A kind of pixel, its name and tooltip.
 type Name = (PixelKind, &'static str, &'static str);
 
-/// What the points of a test are.
+/// The kinds of points in a test.
 const TESTED: [Name; 3] = [
     (
         PixelKind::Matte,
@@ -30,7 +31,7 @@ const TESTED: [Name; 3] = [
     ),
 ];
 
-/// What the points of a growing region are.
+/// The kinds of points of a growing region.
 const GROWING: [Name; 3] = [
     (PixelKind::Matte, "its pixels", "What the region holds at the cursor (section 5.3.2, 5.4.2)."),
     (PixelKind::Highlight, "just taken", "What it took in the ring at work (section 5.3.2, 5.4.2)."),
@@ -41,10 +42,10 @@ const GROWING: [Name; 3] = [
     ),
 ];
 
-/// What is shown of the cursor: the trace, the place in it, and the region by its number of birth.
+/// Identity of an instant: generation of the trace, number of steps taken, and id of the hypothesis shown.
 pub type Frame = (u64, usize, u16);
 
-/// What there is to show at the cursor, if anything.
+/// The instant to show at the cursor; `None` when the step concerns no hypothesis.
 pub fn frame(state: &State) -> Option<Frame> {
     let replay = state.followed()?;
     let region = match test_at_cursor(replay) {
@@ -55,7 +56,7 @@ pub fn frame(state: &State) -> Option<Frame> {
 }
 
 impl PlanePanel {
-    /// Shows it.
+    /// Shows the plane of the hypothesis at the cursor.
     pub(super) fn show_instant(&mut self, ui: &mut Ui, cx: &mut Cx, replay: &Replay, frame: Frame) {
         let state = cx.state;
         let Some(picture) = &state.picture else { return };
@@ -85,7 +86,7 @@ impl PlanePanel {
         chart.axes(&painter, plane, rect, cx.tones);
         painter.add(egui::Shape::Mesh(cloud(&mut self.cloud, cx, plane, chart, rect)));
         if let Some(test) = test {
-            // The part of the matte line on which a highlight may begin.
+            // The part of the matte line on which a highlight may begin (section 5.4.1).
             let along = |percent: f64| (percent / 100.0 * test.matte_length) as f32;
             let upper =
                 test.position_limits.map(|percent| chart.screen(plane.oblique(along(percent), 0.0), rect));
@@ -110,7 +111,7 @@ impl PlanePanel {
             Some(test) => test_plane(replay, test, region, picture, masks),
             None => growing_plane(replay, frame.2, region, picture, masks),
         };
-        // A region that grows keeps its place under the eye.
+        // Scale and center are kept while the same region grows.
         if test.is_some() || self.frame.is_none_or(|(_, _, before)| before != frame.2) {
             self.chart = None;
         }
@@ -118,7 +119,7 @@ impl PlanePanel {
     }
 }
 
-/// What the points' colors mean.
+/// Shows the legend of the points' colors.
 fn bar(ui: &mut Ui, cx: &Cx, names: [Name; 3]) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;

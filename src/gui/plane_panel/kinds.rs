@@ -1,4 +1,4 @@
-//! What a pixel is to its region: colors, names, and the row that explains them.
+//! Kinds of pixels (matte, highlight, restored, lost; section 6): colors, names, and the legend.
 
 use super::quiet;
 use crate::app::Command;
@@ -8,7 +8,7 @@ use crate::intrinsic::PixelKind;
 use crate::view::{PlaneSettings, RegionPlane, Theme};
 use egui::{Color32, Ui};
 
-/// The kinds, their names and what they mean.
+/// The kinds with names and tooltips.
 const KINDS: [(PixelKind, &str, &str); 4] = [
     (PixelKind::Matte, "matte", "Nearer to the matte line: body reflection alone (section 6)."),
     (
@@ -24,7 +24,7 @@ const KINDS: [(PixelKind, &str, &str); 4] = [
     (PixelKind::Lost, "lost", "Clipped in every band: restored from its surroundings alone (section 6)."),
 ];
 
-/// The color of a kind: apart in hue and in lightness.
+/// The color of a kind. Colors differ in hue and in lightness.
 pub fn color(kind: PixelKind, theme: Theme) -> Color32 {
     let [r, g, b] = match (kind, theme) {
         (PixelKind::Matte, Theme::Dark) => [0x5C, 0x96, 0xC8],
@@ -38,7 +38,7 @@ pub fn color(kind: PixelKind, theme: Theme) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// Own colors or labels, and what the labels' colors mean.
+/// Shows the choice between own colors and labels, and the legend of the labels.
 pub fn bar(ui: &mut Ui, cx: &mut Cx, plane: &RegionPlane) {
     let by_label = cx.state.view.plane.color_by_label;
     ui.horizontal_wrapped(|ui| {

@@ -1,4 +1,6 @@
-//! The table at the debugger's cursor: the hypotheses so far; before there are any, the windows and areas.
+//! The regions panel at the debugger's cursor: a table of the hypotheses so far; before the first one, counts of
+//! windows and
+//! areas.
 
 use super::{ROW_PT, cell, vector};
 use crate::app::{Command, DebugCommand};
@@ -12,7 +14,7 @@ use crate::view::{
 use egui::{Align, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 
-/// What the rows are sorted by.
+/// The column that the rows are sorted by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Key {
     #[default]
@@ -44,7 +46,7 @@ const COLUMNS: [(Key, &str, f32, &str); 6] = [
     (Key::Becomes, "result", 70.0, "The region of the result that it is, or is part of."),
 ];
 
-/// How the rows are sorted.
+/// The table's order of rows.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sorting {
     key: Key,
@@ -52,7 +54,7 @@ pub struct Sorting {
 }
 
 impl Sorting {
-    /// Shows what there is at the cursor.
+    /// Shows the light, and the hypotheses or the windows at the cursor.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx, replay: &Replay) {
         light(ui, cx.tones, replay);
         let rows = hypothesis_rows(replay, &cx.state.debugger.names);
@@ -174,7 +176,7 @@ fn cells(row: &mut TableRow, tones: &Tones, of: &HypothesisRow, names: &RegionNa
     });
 }
 
-/// The light as it is estimated so far.
+/// Shows the light's direction as estimated at the cursor.
 fn light(ui: &mut Ui, tones: &Tones, replay: &Replay) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
@@ -189,7 +191,7 @@ fn light(ui: &mut Ui, tones: &Tones, replay: &Replay) {
     });
 }
 
-/// Windows by class, and the areas that they form.
+/// Shows the number of windows of each class, and the number of areas that they form.
 fn windows(ui: &mut Ui, tones: &Tones, counts: &WindowCounts) {
     ui.add_space(4.0);
     let row = |ui: &mut Ui, entry: Option<LegendEntry>, name: &str, tip: &str, count: usize| {

@@ -1,4 +1,4 @@
-//! How the track looks. Nothing is drawn once per step but where steps are far enough apart to be seen.
+//! Painting of the track. Single steps are painted only where they are far enough apart to be told from one another.
 
 use super::track::{Lanes, Scale};
 use crate::gui::theme::{SMALL_PT, Tones};
@@ -6,12 +6,14 @@ use crate::gui::{Cx, widgets};
 use crate::trace::{Replay, Step, Trace};
 use egui::{Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 
-/// Single steps are drawn from this width on, points.
+/// Smallest distance of steps at which single steps are painted, points.
 const TICK_PT: f32 = 4.0;
-/// A stretch of this height has room for its name, points.
+/// Smallest height of a stretch with a name in it, points.
 const NAMED_PT: f32 = 12.0;
 
-/// Draws the track: density, stages, passes, blocks, single steps where there is room for them, and the cursor.
+/// Paints the track: density, stages, passes, blocks, single steps if they are far enough apart, and the cursor.
+/// `density` is
+/// the number of decisions per column of the track.
 pub fn draw(painter: &Painter, cx: &Cx, scale: &Scale, lanes: &Lanes, replay: &Replay, density: &[usize]) {
     let (tones, trace) = (cx.tones, replay.trace());
     bars(painter, tones, scale, lanes.density, density);
@@ -34,7 +36,7 @@ pub fn draw(painter: &Painter, cx: &Cx, scale: &Scale, lanes: &Lanes, replay: &R
     cursor(painter, tones, scale, lanes, replay.at());
 }
 
-/// A stretch with its name, where there is room for it.
+/// Paints a stretch, with its name if there is room.
 fn span(painter: &Painter, rect: Option<Rect>, fill: Color32, ink: Color32, name: &str) {
     let Some(rect) = rect else { return };
     let right = (rect.right() - 1.0).max(rect.left() + 0.5);
@@ -44,7 +46,7 @@ fn span(painter: &Painter, rect: Option<Rect>, fill: Color32, ink: Color32, name
     }
 }
 
-/// Words in a stretch, if it is wide enough for them.
+/// Writes a text into a stretch that is wide enough for the text.
 fn label(painter: &Painter, rect: Rect, ink: Color32, name: &str) {
     let galley = painter.layout_no_wrap(name.to_owned(), FontId::proportional(SMALL_PT), ink);
     if galley.size().x + 8.0 <= rect.width() {
@@ -53,7 +55,7 @@ fn label(painter: &Painter, rect: Rect, ink: Color32, name: &str) {
     }
 }
 
-/// How many decisions each column holds, so that few and many are both seen.
+/// Paints the number of decisions per column as bars, on a logarithmic scale.
 fn bars(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, density: &[usize]) {
     let most = density.iter().copied().max().unwrap_or(0).max(1);
     let full = (most as f32).ln_1p();
@@ -68,7 +70,7 @@ fn bars(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, density: &[
     painter.add(mesh);
 }
 
-/// Passes without blocks say in their empty place what they are.
+/// Writes the names of passes without blocks into the row of blocks, which is empty there.
 fn names_of_empty(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, trace: &Trace) {
     for pass in trace.passes() {
         let block = trace.blocks().find(|block| block.steps.start >= pass.steps.start);
@@ -79,11 +81,11 @@ fn names_of_empty(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, t
     }
 }
 
-/// Hypotheses, slices, candidates and holes in the colors of their regions.
+/// Paints blocks (hypotheses, slices, candidates, holes) in the colors of their regions.
 fn blocks(painter: &Painter, cx: &Cx, scale: &Scale, lane: Rect, trace: &Trace) {
     let (state, names) = (cx.state, &cx.state.debugger.names);
     let (selected, hovered) = (state.selected_region(), state.hover.and_then(|item| state.region_of(item)));
-    // Where blocks are thinner than a column, one is drawn for all that begin in it.
+    // Right end of the last painted block: of blocks thinner than a column, one per column is painted.
     let mut drawn = f32::NEG_INFINITY;
     let mut outlined = Vec::new();
     for block in trace.blocks() {
@@ -110,7 +112,8 @@ fn blocks(painter: &Painter, cx: &Cx, scale: &Scale, lane: Rect, trace: &Trace) 
     }
 }
 
-/// Single steps, where they are far enough apart: decisions are long, claims short, refusals hollow.
+/// Paints single steps where they are far enough apart: lines for events, dots for claims and labels, rings for
+/// refusals.
 fn ticks(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, trace: &Trace) {
     for (steps, width) in scale.axis.stretches(scale.section) {
         let span = scale.section.to - scale.section.from;
@@ -138,13 +141,13 @@ fn ticks(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, trace: &Tr
     }
 }
 
-/// The cursor, and a veil over what is not decided yet.
+/// Paints the cursor, and shades the decisions after the cursor.
 fn cursor(painter: &Painter, tones: &Tones, scale: &Scale, lanes: &Lanes, at: usize) {
     let rect = scale.rect;
     let x = scale.x(at);
     let ahead = Rect::from_min_max(pos2(x.clamp(rect.left(), rect.right()), lanes.stages.top()), rect.max);
     painter.rect_filled(ahead, 0.0, tones.panel.gamma_multiply(0.4));
-    // At either end half of the handle would lie outside.
+    // At either end of the track, half of the cursor's line would be cut off.
     let x = if (rect.left()..=rect.right()).contains(&x) {
         x.clamp(rect.left() + 1.0, rect.right() - 1.0)
     } else {

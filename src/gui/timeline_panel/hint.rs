@@ -1,11 +1,11 @@
-//! What is said of the place under the pointer.
+//! The tooltip of the track.
 
 use crate::describe::Names;
 use crate::gui::widgets::grouped;
 use crate::trace::{Topic, Trace};
 use crate::view::RegionNames;
 
-/// What happened at a step: where in the run, in which block, and the decision itself.
+/// Lines of text about a step: stage and pass, block, and the decision.
 pub fn lines(trace: &Trace, regions: &RegionNames, names: &Names, step: usize) -> Vec<String> {
     let mut lines = Vec::new();
     let stage = trace.stage_at(step).map_or("", |stage| stage.name());

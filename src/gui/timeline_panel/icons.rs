@@ -1,4 +1,4 @@
-//! The signs of the transport controls.
+//! Icons of the playback controls.
 
 use crate::app::Direction;
 use crate::gui::icons::sign_button;
@@ -7,37 +7,37 @@ use egui::{Color32, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
 
 pub use crate::gui::icons::SIDE_PT;
 
-/// What a button shows.
+/// The icon on a playback button.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Sign {
-    /// To the beginning, or to the end.
+    /// Go to the beginning or to the end.
     Limit(Direction),
-    /// A stage.
+    /// Step by a stage.
     Stage(Direction),
-    /// A hypothesis.
+    /// Step by a hypothesis.
     Hypothesis(Direction),
-    /// An event.
+    /// Step by an event.
     Event(Direction),
-    /// Play.
+    /// Play forward or backward.
     Play(Direction),
-    /// Rest.
+    /// Pause playing.
     Pause,
-    /// Into.
+    /// Step into the next hypothesis.
     Into,
-    /// Again from the start.
+    /// Play again from the start when the end is reached.
     Loop,
-    /// Recording.
+    /// Decisions are recorded.
     Record,
 }
 
-/// A button that is on or off, named `name` for those who do not see its sign.
+/// A button that is on or off. `name` is its accessible name.
 pub fn button(ui: &mut Ui, tones: &Tones, sign: Sign, on: bool, name: &str, tip: &str) -> Response {
     sign_button(ui, tones, on, name, tip, |painter, square, color| {
         draw(painter, square, sign, color, tones);
     })
 }
 
-/// Points of a sign are given in a square of 14 × 14, as it points forward.
+/// Paints an icon. Coordinates are those of the forward icon in a square of 14 × 14; backward icons are mirrored.
 fn draw(painter: &Painter, square: Rect, sign: Sign, color: Color32, tones: &Tones) {
     let back = matches!(
         sign,
@@ -93,7 +93,7 @@ fn draw(painter: &Painter, square: Rect, sign: Sign, color: Color32, tones: &Ton
     }
 }
 
-/// A turning arrow.
+/// Paints a circular arrow.
 fn again(painter: &Painter, at: impl Fn(f32, f32) -> Pos2, stroke: Stroke) {
     let turn = |i: usize| {
         let angle = (i as f32 / 20.0 * 0.8 - 0.2) * std::f32::consts::TAU;

@@ -1,4 +1,4 @@
-//! The menu of places to run to.
+//! The menu "Run to" with the goals that the cursor can run to.
 
 use crate::app::{Command, DebugCommand, Direction, Goal};
 use crate::gui::Cx;
@@ -7,7 +7,7 @@ use crate::gui::theme::SMALL_PT;
 use crate::trace::Kind;
 use egui::{Button, RichText, Ui};
 
-/// Kinds of steps, by what they are about.
+/// Kinds of steps, grouped by section of the paper.
 const GROUPS: [(&str, &[Kind]); 7] = [
     ("Stages and passes", &[Kind::Stage, Kind::Pass, Kind::Masks]),
     ("Windows and areas (5.2)", &[Kind::Windows, Kind::Window, Kind::Merge]),

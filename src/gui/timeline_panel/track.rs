@@ -1,4 +1,4 @@
-//! Stages, passes and blocks along a line, how dense the decisions are, and the cursor.
+//! The track of the timeline: stages, passes and blocks in order of time, the density of decisions, and the cursor.
 
 use super::drawing::draw;
 use super::hint;
@@ -13,53 +13,53 @@ use egui::{
     pos2, vec2,
 };
 
-/// What scrolling so far doubles the zoom, points.
+/// Scroll distance that doubles the zoom, points.
 const SCROLL_PT: f32 = 140.0;
-/// The widget's id: arrow keys stay the debugger's while it has the focus.
+/// Id of the track's widget. The debugger's arrow keys remain active while this widget has the focus.
 pub fn track_id() -> Id {
     Id::unique("timeline track")
 }
 
-/// What the density was counted for: the result, the section and the columns.
+/// Inputs of the density: generation of the trace, visible section, and number of columns.
 type Counted = (u64, TimelineSection, usize);
 
-/// The track: what of it is seen, and what was made for that.
+/// The track: its visible section, and cached values.
 #[derive(Default)]
 pub struct Track {
     axis: Option<(u64, TimelineAxis)>,
     section: TimelineSection,
     density: Option<(Counted, Vec<usize>)>,
-    /// The cursor and the length of the trace in the last frame.
+    /// Position of the cursor and length of the trace in the last frame, steps.
     cursor: [usize; 2],
-    /// The region that this panel last said the pointer is over.
+    /// The region that this panel last reported as hovered.
     pointed: Option<u16>,
 }
 
-/// Rows of the track, from top to bottom.
+/// Rectangles of the track's rows, from top to bottom.
 pub struct Lanes {
-    /// How many decisions.
+    /// Row of the density of decisions.
     pub density: Rect,
-    /// Stages.
+    /// Row of stages.
     pub stages: Rect,
-    /// Passes.
+    /// Row of passes.
     pub passes: Rect,
-    /// Hypotheses, slices, candidates, holes.
+    /// Row of blocks: hypotheses, slices, candidates, holes.
     pub blocks: Rect,
 }
 
-/// Where steps are on the screen.
+/// Conversion between steps and screen positions.
 #[derive(Clone, Copy)]
 pub struct Scale<'a> {
-    /// Where steps lie along the line.
+    /// Positions of steps along the whole timeline.
     pub axis: &'a TimelineAxis,
-    /// What of the line is seen.
+    /// The visible section of the timeline.
     pub section: TimelineSection,
-    /// Where.
+    /// Rectangle of the track on the screen.
     pub rect: Rect,
 }
 
 impl Track {
-    /// Shows it in what is left of `ui`.
+    /// Shows the track in the remaining space of `ui`.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx, replay: &Replay, names: &Names) {
         let rect = ui.available_rect_before_wrap();
         if rect.width() < 8.0 || rect.height() < 8.0 {
@@ -94,7 +94,7 @@ impl Track {
         self.axis = Some((generation, axis));
     }
 
-    /// The section shows the cursor whenever that has moved; another trace is shown whole.
+    /// Moves the visible section to the cursor when the cursor has moved; shows the whole timeline of a new trace.
     fn follow(&mut self, axis: &TimelineAxis, replay: &Replay) {
         let now = [replay.at(), replay.trace().len()];
         let before = std::mem::replace(&mut self.cursor, now);
@@ -105,7 +105,7 @@ impl Track {
         }
     }
 
-    /// Zooms and pans.
+    /// Zooms and pans by wheel, pinch, double click and middle button.
     fn travel(&mut self, ui: &Ui, response: &Response, axis: &TimelineAxis) {
         let rect = response.rect;
         if response.double_clicked() {
@@ -126,7 +126,9 @@ impl Track {
         }
     }
 
-    /// Clicks seek, with Shift they run there; drags scrub, and blocks are their regions.
+    /// Handles the primary button: a click moves the cursor, Shift + click runs to the place, a drag moves the cursor
+    /// along, a
+    /// click on a block selects the block's region.
     fn act(
         &mut self,
         ui: &Ui,
@@ -167,7 +169,7 @@ impl Track {
         }
     }
 
-    /// Tells which region the pointer is over, when that has changed.
+    /// Sends the region under the pointer when it has changed.
     fn point(&mut self, cx: &mut Cx, block: Option<&Block>) {
         let names = &cx.state.debugger.names;
         let region = block.map(|block| names.final_number(block.topic.region())).filter(|&number| number > 0);
@@ -181,7 +183,7 @@ impl Track {
     }
 }
 
-/// Selects a block's region, and goes to its first decision.
+/// Selects a block's region, and moves the cursor to the block's first decision.
 fn choose(cx: &mut Cx, block: &Block) {
     let region = block.topic.region();
     let number = cx.state.debugger.names.final_number(region);
@@ -193,7 +195,7 @@ fn choose(cx: &mut Cx, block: &Block) {
     cx.send(Command::Debug(DebugCommand::Seek(block.steps.start + 1)));
 }
 
-/// A slider, to those who do not see it.
+/// Describes the track to screen readers as a slider, and handles the values that they set.
 fn describe(ui: &Ui, cx: &mut Cx, response: &Response, replay: &Replay) {
     response.widget_info(|| WidgetInfo::slider(true, replay.at() as f64, "Timeline"));
     let last = replay.trace().len();
@@ -217,7 +219,7 @@ fn describe(ui: &Ui, cx: &mut Cx, response: &Response, replay: &Replay) {
     }
 }
 
-/// Says what happened under the pointer.
+/// Shows a tooltip about the step under the pointer.
 fn tell(response: &Response, cx: &Cx, scale: &Scale, replay: &Replay, names: &Names) {
     let step = response.hover_pos().and_then(|pointer| scale.step_at(pointer.x));
     if let Some(step) = step.filter(|_| !response.dragged()) {
@@ -235,19 +237,19 @@ impl Scale<'_> {
         self.section.place(f64::from((x - self.rect.left()) / self.rect.width()))
     }
 
-    /// Where the line is after `steps` steps.
+    /// Horizontal screen position after `steps` steps.
     pub fn x(&self, steps: usize) -> f32 {
         let share = self.section.share(self.axis.place_of(steps));
-        // Far outside is as good as outside, and numbers stay small.
+        // Positions far outside of the track are limited, so that coordinates stay small.
         self.rect.left() + (share.clamp(-1.0, 2.0) * f64::from(self.rect.width())) as f32
     }
 
-    /// The step that happens there.
+    /// The step at a horizontal screen position; `None` outside of the timeline.
     pub fn step_at(&self, x: f32) -> Option<usize> {
         self.axis.step_at(self.place(x))
     }
 
-    /// A stretch of steps in a lane; none where it is not seen.
+    /// Rectangle of a range of steps in a lane; `None` when outside of the visible section.
     pub fn part(&self, lane: Rect, steps: &std::ops::Range<usize>) -> Option<Rect> {
         let (left, right) = (self.x(steps.start), self.x(steps.end));
         (right > lane.left() && left < lane.right())
@@ -259,7 +261,7 @@ fn lanes(rect: Rect) -> Lanes {
     let height = rect.height();
     let density = (height * 0.22).clamp(0.0, 36.0);
     let stages = (height * 0.26).clamp(6.0, 16.0);
-    // Passes are named where there is room for that.
+    // In a high track, passes have room for their names.
     let passes = if height >= 96.0 { 14.0 } else { 4.0 };
     let mut top = rect.top();
     let mut lane = |height: f32| {

@@ -1,4 +1,4 @@
-//! The row over the track: what moves the cursor, how fast, where it stands and what happened there.
+//! The row above the track: playback controls, rate, the cursor's position, and a sentence about the last step.
 
 use super::icons::{self, Sign};
 use super::run_to;
@@ -12,12 +12,12 @@ use Direction::{Back, Forward};
 use egui::accesskit::Role;
 use egui::{ComboBox, DragValue, Label, RichText, Slider, Ui, WidgetInfo, vec2};
 
-/// Width that the sentence needs beside the controls, points; else it stands below them.
+/// Width that the sentence needs beside the controls, points; with less, the sentence is shown below the controls.
 const SENTENCE_PT: f32 = 130.0;
-/// A panel of this height has room for a second row over the track, points.
+/// Smallest height of a panel with room for a second row above the track, points.
 const TWO_ROWS_PT: f32 = 88.0;
 
-/// A button: its sign, name, deed and tooltip.
+/// A button: icon, accessible name, action and tooltip.
 type Control = (Sign, &'static str, DebugDeed, &'static str);
 
 const LEFT: [Control; 4] = [
@@ -83,7 +83,7 @@ pub fn show(ui: &mut Ui, cx: &mut Cx, replay: &Replay, names: &Names) {
             ui.add_space(4.0);
             pace(ui, cx);
             run_to::show(ui, cx);
-            // In one piece, where the row wraps.
+            // A group of its own, which a wrapped row does not split.
             ui.horizontal(|ui| counter(ui, cx, replay));
             let beside = !tall || ui.available_size_before_wrap().x >= SENTENCE_PT;
             if beside {
@@ -123,7 +123,7 @@ fn players(ui: &mut Ui, cx: &mut Cx) {
     ui.add_space(4.0);
 }
 
-/// The least and the largest rate of a grain, and the usual one, units a second.
+/// Smallest, largest and default rate of a grain, units per second.
 fn rates(grain: Grain) -> [f64; 3] {
     match grain {
         Grain::Claim => [1.0, 1e6, 5e3],
@@ -156,7 +156,7 @@ fn grain_tip(grain: Grain) -> &'static str {
     }
 }
 
-/// What playing advances by, how fast, and whether it begins anew.
+/// Shows the controls of playing: step size, rate, loop, and the button that stops recording.
 fn pace(ui: &mut Ui, cx: &mut Cx) {
     let before = &cx.state.view.debug;
     let mut settings = before.clone();
@@ -204,7 +204,7 @@ fn rate_text(rate: f64) -> String {
     }
 }
 
-/// Where the cursor stands: typed, it goes there.
+/// Shows the cursor's position; a typed number moves the cursor.
 fn counter(ui: &mut Ui, cx: &mut Cx, replay: &Replay) {
     let quiet = |text: String| RichText::new(text).color(cx.tones.quiet);
     let len = replay.trace().len();
@@ -231,7 +231,7 @@ fn counter(ui: &mut Ui, cx: &mut Cx, replay: &Replay) {
     ui.add_space(8.0);
 }
 
-/// What the cursor does, and what happened at the step taken last.
+/// Shows the state of the cursor (playing, stopped) and a sentence about the last step.
 fn sentence(ui: &mut Ui, cx: &Cx, replay: &Replay, names: &Names) {
     let debugger = &cx.state.debugger;
     let stale = cx.state.newest.as_ref().is_some_and(|newest| newest.generation != debugger.generation);
@@ -247,7 +247,7 @@ fn sentence(ui: &mut Ui, cx: &Cx, replay: &Replay, names: &Names) {
         Some(step) => names.step(&step),
         None => "nothing is decided yet".to_owned(),
     };
-    // What does not fit is cut: the row below belongs to the track.
+    // A text that does not fit is truncated: the space below belongs to the track.
     let size = vec2(ui.available_size_before_wrap().x.max(1.0), ui.spacing().interact_size.y);
     ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         ui.add(Label::new(RichText::new(word).size(SMALL_PT).color(tone)).truncate());
