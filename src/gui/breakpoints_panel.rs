@@ -1,4 +1,4 @@
-//! What stops the cursor: a list of conditions in plain controls.
+//! The breakpoints panel: a list of conditions that stop the debugger's cursor.
 
 use super::theme::SMALL_PT;
 use super::{Cx, widgets};
@@ -9,10 +9,10 @@ use crate::view::Item;
 use egui::accesskit::Role;
 use egui::{ComboBox, DragValue, Response, RichText, ScrollArea, Ui, WidgetInfo};
 
-/// Pixels that a new condition on a region's size starts from.
+/// Number of pixels in a new condition on a region's size.
 const USUAL_PIXELS: u32 = 1000;
 
-/// What a condition is about.
+/// The kinds of conditions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum About {
     Pixel,
@@ -24,7 +24,7 @@ enum About {
 }
 
 impl About {
-    /// All of them, with their names and what they mean.
+    /// All kinds with names and tooltips.
     const ALL: [(Self, &'static str, &'static str); 6] = [
         (Self::Pixel, "pixel changes owner", "A region claims this pixel or gives it up (5.3.2, 5.4.2)."),
         (Self::Size, "region exceeds", "A region grows beyond so many pixels (5.3.2)."),
@@ -49,7 +49,7 @@ impl About {
         }
     }
 
-    /// A condition of this kind, about what is selected.
+    /// A new condition of this kind, for the selected pixel or region.
     fn usual(self, state: &State) -> Condition {
         let region = chosen_region(state);
         match self {
@@ -63,12 +63,12 @@ impl About {
     }
 }
 
-/// The list. It keeps nothing.
+/// The breakpoints panel. The breakpoints themselves are in the state.
 #[derive(Default)]
 pub struct BreakpointsPanel;
 
 impl BreakpointsPanel {
-    /// Shows the list.
+    /// Shows the panel.
     #[allow(clippy::unused_self, reason = "as the other panels")]
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let mut breakpoints = cx.state.view.debug.breakpoints.clone();
@@ -106,7 +106,7 @@ impl BreakpointsPanel {
     }
 }
 
-/// One breakpoint; whether it is to be removed.
+/// Shows one breakpoint; returns whether the button "Remove" was clicked.
 fn row(ui: &mut Ui, cx: &mut Cx, index: usize, breakpoint: &mut Breakpoint) -> bool {
     let number = index + 1;
     let stopped = cx.state.debugger.stopped_by == Some(index);
@@ -160,7 +160,7 @@ fn named(response: &Response, role: Role, name: String) {
     response.widget_info(move || WidgetInfo::labeled(role, true, &name));
 }
 
-/// What the condition needs to know.
+/// Shows the controls of the condition's arguments.
 fn details(ui: &mut Ui, cx: &mut Cx, number: usize, condition: &mut Condition) {
     match condition {
         Condition::PixelChangesOwner(pixel) => pixel_controls(ui, cx.state, number, pixel),
@@ -199,7 +199,7 @@ fn choose<T: Copy + PartialEq>(ui: &mut Ui, name: String, value: &mut T, choices
     named(&combo.response, Role::ComboBox, name);
 }
 
-/// Column and row, or the pixel that is selected.
+/// Shows fields for column and row of a pixel, and a button that takes the selected pixel.
 fn pixel_controls(ui: &mut Ui, state: &State, number: usize, pixel: &mut u32) {
     let Some((width, height)) = state.picture.as_ref().map(|picture| picture.size()) else { return };
     let (mut x, mut y) = (*pixel as usize % width.max(1), *pixel as usize / width.max(1));
@@ -218,7 +218,7 @@ fn pixel_controls(ui: &mut Ui, state: &State, number: usize, pixel: &mut u32) {
     }
 }
 
-/// A region by its number of birth, 0 being any.
+/// Shows a field for a hypothesis id; 0 stands for any region.
 fn region_control(ui: &mut Ui, cx: &Cx, name: &str, region: &mut Option<u16>) {
     if let Some(region) = *region {
         let color = widgets::color(cx.state.debugger.names.color(region));
@@ -245,7 +245,7 @@ fn region_control(ui: &mut Ui, cx: &Cx, name: &str, region: &mut Option<u16>) {
     *region = (number > 0).then_some(number);
 }
 
-/// What a new breakpoint is about: what is selected.
+/// The kind of condition of a new breakpoint: by the kind of the selected item.
 fn about_selection(state: &State) -> About {
     match state.document.selection.item {
         Some(Item::Pixel(_)) => About::Pixel,
@@ -254,7 +254,7 @@ fn about_selection(state: &State) -> About {
     }
 }
 
-/// The hypothesis that gave the selected region its number.
+/// Id of the first hypothesis of the selected region; without a selected region, the chosen hypothesis.
 fn chosen_region(state: &State) -> Option<u16> {
     match state.document.selection.item {
         Some(Item::Region(region)) => state.debugger.names.births_of(region).next(),
@@ -262,7 +262,7 @@ fn chosen_region(state: &State) -> Option<u16> {
     }
 }
 
-/// What a condition is about, as something to select.
+/// The pixel or region of a condition; `None` when the condition has none or the region is not in the result.
 fn item_of(state: &State, condition: Condition) -> Option<Item> {
     match condition {
         Condition::PixelChangesOwner(pixel) => Some(Item::Pixel(pixel)),

@@ -1,27 +1,27 @@
-//! Small pictures on buttons, drawn as lines.
+//! Icons on buttons, drawn as lines.
 
 use super::theme::Tones;
 use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
-/// A picture on a button.
+/// An icon on a button.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Icon {
-    /// The pointer.
+    /// The pointer tool.
     Arrow,
-    /// A dashed rectangle.
+    /// The rectangle tool: a dashed rectangle.
     Rectangle,
-    /// A free outline.
+    /// The lasso tool: a free outline.
     Lasso,
-    /// An outline of straight sides.
+    /// The polygon tool: an outline of straight sides.
     Polygon,
     /// A lock, closed or open.
     Lock(bool),
 }
 
-/// Side of a button with a sign, points.
+/// Side of a square button with an icon, points.
 pub const SIDE_PT: f32 = 22.0;
 
-/// A button that is on or off, named `name` for those who do not see its sign, which `draw` draws into a square in a color.
+/// A button that is on or off. `name` is its accessible name; `draw` paints the icon into a square, in a color.
 pub fn sign_button(
     ui: &mut Ui,
     tones: &Tones,
@@ -48,7 +48,7 @@ pub fn sign_button(
     response.on_hover_text(tip)
 }
 
-/// A button with a picture; `name` is read to those who do not see it.
+/// A button with an icon; `name` is its accessible name.
 pub fn button(ui: &mut Ui, tones: &Tones, icon: Icon, selected: bool, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ui.spacing().interact_size.y), Sense::click());
     response.widget_info(|| {

@@ -1,12 +1,13 @@
-//! What takes longer than a frame and belongs to one panel: made on a thread, the former one shown until it is there.
+//! Values of a panel that take longer than a frame: computed on a background thread, while the previous value is
+//! shown.
 
 use egui::Context;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// Work of at most this many pixels is done in the frame itself.
+/// Largest number of pixels of work that is done within the frame, without a thread.
 pub const AT_ONCE_PX: usize = 400_000;
 
-/// A value that follows a key.
+/// A value computed from a key, and the computation of the next value.
 pub struct Later<K, T> {
     made: Option<(K, T)>,
     making: Option<(K, Receiver<T>)>,
@@ -19,7 +20,9 @@ impl<K, T> Default for Later<K, T> {
 }
 
 impl<K: PartialEq + Clone, T: Send + 'static> Later<K, T> {
-    /// The value for `key`, or that for an earlier one while the new one is being made. At most one is made at a time.
+    /// The value of `key`; the value of an earlier key while the new value is being computed; `None` before the first
+    /// value. At
+    /// most one value is computed at a time. With `at_once`, the value is computed in this call.
     pub fn get(
         &mut self,
         ctx: &Context,
@@ -52,7 +55,7 @@ impl<K: PartialEq + Clone, T: Send + 'static> Later<K, T> {
         let (send, receive) = channel();
         let ctx = ctx.clone();
         let work = move || {
-            // The panel may be gone, or want something else by now.
+            // The receiver is gone when the panel was closed meanwhile.
             let _ = send.send(make());
             ctx.request_repaint();
         };

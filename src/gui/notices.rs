@@ -1,10 +1,10 @@
-//! What happened, to what, and what to do: in the corner until dismissed, never in the way.
+//! Notices about finished work, warnings and errors, shown in the lower left corner until dismissed.
 
 use super::Cx;
 use crate::app::{Command, Severity};
 use egui::{Align2, Frame, RichText, Ui, vec2};
 
-/// Notices shown at once; older ones wait.
+/// Largest number of notices shown at once; of more, the newest are shown.
 const MOST: usize = 4;
 
 /// Shows the notices over the bottom left corner.

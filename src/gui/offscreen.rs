@@ -1,4 +1,4 @@
-//! The whole window without a window: drawn into a texture, for the gallery.
+//! The whole window drawn into a texture without a desktop, for screenshots and exported views.
 
 use super::App;
 use crate::app::Executor;
@@ -9,17 +9,17 @@ use egui_wgpu::{
 };
 use std::time::Duration;
 
-/// Frames after which a view that asks for ever more is taken as it is.
+/// Largest number of frames before a picture is taken, if the interface keeps requesting repaints.
 const MOST_FRAMES: usize = 200;
 
-/// An application, and the texture that it is drawn into.
+/// An application that is drawn without a window.
 pub struct Offscreen {
     /// The application.
     pub app: App,
     offscreen_context: OffscreenContext,
 }
 
-/// An interface of its own with a texture to be drawn into.
+/// An egui context with a graphics device and the size of its image.
 pub struct OffscreenContext {
     ctx: egui::Context,
     gpu: RenderState,
@@ -28,25 +28,25 @@ pub struct OffscreenContext {
     frames: usize,
 }
 
-/// Why nothing can be drawn off screen.
+/// The reason why nothing can be drawn off screen.
 #[derive(Debug, thiserror::Error)]
 pub enum OffscreenError {
-    /// There is nothing to draw with.
+    /// There is no graphics adapter.
     #[error(transparent)]
     NoAdapter(#[from] NoAdapter),
     /// The graphics device cannot draw the interface.
     #[error("the graphics device cannot draw the window: {0}")]
     Device(#[from] egui_wgpu::WgpuError),
-    /// No thread, or no picture.
+    /// A thread could not be started, or the image could not be read back.
     #[error("{0}")]
     Other(#[from] std::io::Error),
 }
 
 impl Offscreen {
-    /// An empty application of this size.
+    /// An application without a photograph, in an image of `size_px` columns and rows.
     ///
     /// # Errors
-    /// Where there is no graphics adapter, not even a software one.
+    /// When there is no graphics adapter, not even a software one.
     pub fn new(size_px: [u32; 2], pixels_per_point: f32) -> Result<Self, OffscreenError> {
         let Headless { instance, adapter, device, queue } = Headless::new()?;
         let offscreen_context = OffscreenContext::new(
@@ -58,12 +58,12 @@ impl Offscreen {
         Ok(Self { app, offscreen_context })
     }
 
-    /// Another size from the next frame on.
+    /// Sets the size of the image, columns and rows, from the next frame on.
     pub fn resize(&mut self, size_px: [u32; 2]) {
         self.offscreen_context.size_px = size_px;
     }
 
-    /// Lets the application rest, and draws it: sRGB and alpha, row-major.
+    /// Shows frames until the application requests no more, and returns the last as sRGB bytes with alpha, row-major.
     ///
     /// # Errors
     /// When the device is lost.
@@ -74,7 +74,7 @@ impl Offscreen {
 }
 
 impl OffscreenContext {
-    /// An interface that draws with a device of others.
+    /// A context that draws with an existing graphics device.
     ///
     /// # Errors
     /// When the device cannot draw it.
@@ -91,17 +91,17 @@ impl OffscreenContext {
         Ok(Self { ctx: egui::Context::default(), gpu, size_px, pixels_per_point, frames: 0 })
     }
 
-    /// The interface's context.
+    /// The egui context.
     pub fn ctx(&self) -> &egui::Context {
         &self.ctx
     }
 
-    /// What panels draw with.
+    /// The render state that panels draw with.
     pub fn gpu(&self) -> RenderState {
         self.gpu.clone()
     }
 
-    /// Shows frames until nothing moves any more, and draws the last: sRGB and alpha, row-major.
+    /// Shows frames until the interface requests no more, and returns the last as sRGB bytes with alpha, row-major.
     ///
     /// # Errors
     /// When the device is lost.
@@ -109,7 +109,7 @@ impl OffscreenContext {
         let mut output = self.frame(&mut show);
         for _ in 0..MOST_FRAMES {
             let wait = output.viewport_output.values().map(|viewport| viewport.repaint_delay).min();
-            // What blinks or waits for a tooltip is not worth waiting for.
+            // A longer delay comes from a blinking text cursor or a tooltip.
             if wait.is_none_or(|wait| wait > Duration::from_millis(60)) {
                 break;
             }

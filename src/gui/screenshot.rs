@@ -1,4 +1,4 @@
-//! `dichroscope screenshot`: the gallery, drawn without a window.
+//! `dichroscope screenshot`: a gallery of pictures of the window, drawn without a window.
 
 use super::dock::Pane;
 use super::offscreen::{Offscreen, OffscreenError};
@@ -10,10 +10,10 @@ use crate::view::{
 };
 use std::path::{Path, PathBuf};
 
-/// Why a gallery could not be made.
+/// The reason why a gallery could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ScreenshotError {
-    /// Nothing can be drawn here.
+    /// The window cannot be drawn on this computer.
     #[error(transparent)]
     Offscreen(#[from] OffscreenError),
     /// A picture could not be written.
@@ -21,7 +21,7 @@ pub enum ScreenshotError {
     Write {
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         cause: std::io::Error,
     },
     /// The photograph could not be opened.
@@ -32,19 +32,19 @@ pub enum ScreenshotError {
 /// One picture of the gallery.
 struct Shot {
     name: &'static str,
-    /// One panel alone, or the whole window.
+    /// The panel shown alone; `None` for the whole window.
     pane: Option<Pane>,
     theme: Theme,
     region: Option<u16>,
     image: ImageSettings,
     cube: CubeSettings,
-    /// Where the debugger's cursor stands; none: at the end.
+    /// Position of the debugger's cursor; `None` for the end of the trace.
     moment: Option<Moment>,
-    /// Whether a pixel is asked why it is what it is, and what would change that.
+    /// Whether the why panel shows a pixel's history and what would change the pixel's result.
     asks: bool,
 }
 
-/// A place in the trace that is worth a picture.
+/// A position in the trace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Moment {
     /// The slice that takes most pixels has grown to three fifths (5.4.2).
@@ -54,7 +54,7 @@ enum Moment {
 }
 
 impl Moment {
-    /// The number of steps after which it comes; none where the photograph has no highlight.
+    /// The number of steps before the moment; `None` when the photograph has no slice or no highlight.
     fn steps(self, state: &State) -> Option<usize> {
         let trace = state.debugger.trace()?;
         match self {
@@ -125,10 +125,12 @@ fn gallery() -> Vec<Shot> {
     ]
 }
 
-/// Draws the gallery of `origin` into `folder`, the whole window at `size_px` and single panels at three fifths of it.
+/// Writes the gallery of `origin` into `folder` as PNG files: the whole window at `size_px` (columns, rows), single
+/// panels at
+/// three fifths of that size. Returns the paths.
 ///
 /// # Errors
-/// Where there is no graphics adapter, the photograph cannot be opened or a picture cannot be written.
+/// When there is no graphics adapter, the photograph cannot be opened or a file cannot be written.
 pub fn screenshot(folder: &Path, size_px: [u32; 2], origin: Origin) -> Result<Vec<PathBuf>, ScreenshotError> {
     let write = |path: &Path, cause| ScreenshotError::Write { path: path.to_path_buf(), cause };
     std::fs::create_dir_all(folder).map_err(|cause| write(folder, cause))?;
@@ -151,7 +153,7 @@ pub fn screenshot(folder: &Path, size_px: [u32; 2], origin: Origin) -> Result<Ve
     Ok(written)
 }
 
-/// The pixel that two regions wanted last; none where none was.
+/// The pixel of the last claim that two regions contested; `None` without such a claim.
 fn contested(state: &State) -> Option<u32> {
     let mut steps = state.debugger.trace()?.steps().rev();
     steps.find_map(|(_, step)| match step {

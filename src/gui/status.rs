@@ -1,4 +1,5 @@
-//! The line that tells what is open, how it is analyzed, what was found and how long it took.
+//! The status line: photograph, size, encoding, noise, number of regions, coverage, time, and the progress of running
+//! work.
 
 use super::Cx;
 use super::theme::SMALL_PT;
@@ -7,10 +8,10 @@ use crate::params::Parameter;
 use egui::{Align, Layout, RichText, Ui};
 use std::time::Duration;
 
-/// Work that takes longer gets a spinner and a progress bar.
+/// Time after which running work is shown with a spinner and a progress bar.
 pub const PATIENCE: Duration = Duration::from_millis(150);
 
-/// Shows the line, right-aligned in what is left of the menu bar.
+/// Shows the line, right-aligned in the remaining space of the menu bar.
 pub fn show(ui: &mut Ui, cx: &mut Cx) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 10.0;

@@ -1,4 +1,5 @@
-//! Neutral grays around the pictures, one accent, two sizes of type.
+//! The look of the window: neutral grays, so that colors in images are not misjudged, one accent color, two font
+//! sizes.
 
 use crate::view::Theme;
 use egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, Style, TextStyle, Visuals, vec2};
@@ -6,21 +7,21 @@ use egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, Style, TextStyle, 
 /// The colors of a theme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tones {
-    /// Around the pictures.
+    /// Background of images.
     pub background: Color32,
-    /// Behind controls.
+    /// Background of panels and controls.
     pub panel: Color32,
-    /// Fields and rails.
+    /// Background of fields, buttons and slider rails.
     pub well: Color32,
-    /// Between things.
+    /// Separators and borders.
     pub line: Color32,
-    /// What is read.
+    /// Text and values.
     pub text: Color32,
-    /// Units, labels, what is not in force.
+    /// Secondary text: units, labels, inactive values.
     pub quiet: Color32,
-    /// The cursor, the selection, the primary action.
+    /// Cursor, selection and primary action.
     pub accent: Color32,
-    /// Errors.
+    /// Messages about errors.
     pub error: Color32,
 }
 
@@ -52,12 +53,13 @@ impl Tones {
     }
 }
 
-/// Size of type in panels, points.
+/// Font size in panels, points.
 pub const BODY_PT: f32 = 12.5;
-/// Size of headers and notes, points.
+/// Font size of headers and notes, points.
 pub const SMALL_PT: f32 = 11.0;
 
-/// The bundled family, with arrows and mathematical signs from the monospaced one.
+/// Loads the bundled fonts. Arrows and mathematical signs, which the proportional font lacks, come from the
+/// monospaced font.
 pub fn load_fonts(ctx: &egui::Context) {
     let mut fonts = egui::FontDefinitions::default();
     if let Some(family) = fonts.families.get_mut(&FontFamily::Proportional) {
@@ -66,7 +68,7 @@ pub fn load_fonts(ctx: &egui::Context) {
     ctx.set_fonts(fonts);
 }
 
-/// Gives the whole context the look of `theme`.
+/// Applies the look of `theme` to the whole context.
 pub fn apply(ctx: &egui::Context, theme: Theme) {
     let tones = Tones::of(theme);
     let base = if theme == Theme::Dark { egui::Theme::Dark } else { egui::Theme::Light };
@@ -96,7 +98,7 @@ fn dress(style: &mut Style, theme: Theme, tones: &Tones) {
     spacing.combo_width = 64.0;
     style.interaction.selectable_labels = false;
     style.interaction.tooltip_delay = 0.4;
-    // Nothing moves by itself.
+    // No animations.
     style.animation_time = 0.0;
 }
 

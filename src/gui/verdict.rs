@@ -1,4 +1,4 @@
-//! A skewed-T test in words: what was held against what, and whether it passed.
+//! A skewed-T test (section 5.4.1) in words: each value with its limit, and whether it passed.
 
 use super::theme::{SMALL_PT, Tones};
 use crate::trace::CandidateTested;
@@ -6,10 +6,10 @@ use crate::view::{Check, candidate_name, skewed_t_view};
 use egui::accesskit::Role;
 use egui::{Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-/// Room for a mark before a line, points.
+/// Width of the tick or cross before a line, points.
 const MARK_PT: f32 = 12.0;
 
-/// Shows it with its upper left corner at `corner`, over `ground`; returns the room that it takes.
+/// Shows the test with its upper left corner at `corner`, on the background color `ground`; returns the rectangle.
 pub fn show(ui: &Ui, tones: &Tones, ground: Color32, corner: Pos2, test: &CandidateTested) -> Rect {
     let halo = ground.gamma_multiply(0.8);
     let head = format!("highlight of {}: {}?", test.region, candidate_name(test.candidate));
@@ -23,7 +23,8 @@ pub fn show(ui: &Ui, tones: &Tones, ground: Color32, corner: Pos2, test: &Candid
     room
 }
 
-/// What failed is in full tone after a cross, what passed is quiet after a tick.
+/// Shows a line of text: with a cross and in the text color if failed, with a tick and in the secondary color if
+/// passed.
 fn line(
     ui: &Ui,
     (tones, halo): (&Tones, Color32),

@@ -1,4 +1,4 @@
-//! What stands at the cursor: numbers, and which of them have changed since it last rested.
+//! The watch panel: values at the debugger's cursor, with a mark on those that changed since the cursor last stopped.
 
 use super::theme::{SMALL_PT, Tones};
 use super::{Cx, widgets};
@@ -10,25 +10,25 @@ use egui::{Align, Color32, Label, Layout, RichText, ScrollArea, Ui, vec2};
 const NAME_PT: f32 = 76.0;
 /// Width of all columns of numbers together, points.
 const NUMBERS_PT: f32 = 126.0;
-/// Width of a line with its unit, points.
+/// Width of a line of name, numbers and unit, points.
 const GROUP_PT: f32 = NAME_PT + NUMBERS_PT + 50.0;
-/// Width of the regions' names among the distances, points.
+/// Width of the column of regions' names in the table of distances, points.
 const REGION_PT: f32 = 112.0;
 /// Width of a distance and its limit, points.
 const DISTANCE_PT: f32 = 82.0;
 /// Height of a line, points.
 const LINE_PT: f32 = 18.0;
 
-/// The table, and the values that the last ones are held against.
+/// The watch panel.
 #[derive(Default)]
 pub struct WatchPanel {
     now: Option<Seen>,
     rested: Vec<Vec<Line>>,
 }
 
-/// The values of one frame.
+/// The values at one position of the cursor.
 struct Seen {
-    /// The result, and the cursor in its trace.
+    /// Generation of the trace, and number of steps taken.
     at: (u64, usize),
     rests: bool,
     groups: Vec<Vec<Line>>,
@@ -39,13 +39,13 @@ struct Seen {
 struct Line {
     name: &'static str,
     tip: &'static str,
-    /// One value or three, in as many columns.
+    /// One or three values, shown in as many columns.
     values: Vec<String>,
     unit: &'static str,
 }
 
 impl WatchPanel {
-    /// Shows the table.
+    /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let (state, debugger) = (cx.state, &cx.state.debugger);
         let (Some(replay), Some(picture)) = (&debugger.replay, &state.picture) else {
@@ -73,7 +73,9 @@ impl WatchPanel {
         });
     }
 
-    /// Keeps the values of the last rest as long as the cursor moves.
+    /// Stores the values of this frame. When the cursor leaves a position at which it had stopped, the values of that
+    /// position
+    /// become those that new values are compared with.
     fn remember(&mut self, at: (u64, usize), rests: bool, groups: Vec<Vec<Line>>) {
         let before = self.now.replace(Seen { at, rests, groups });
         if let Some(before) = before.filter(|before| before.at != at && before.rests) {
@@ -100,7 +102,7 @@ fn none() -> String {
     "\u{2013}".to_owned()
 }
 
-/// How far the analysis is.
+/// Lines about the progress of the analysis.
 fn of_run(watch: &Watch) -> Vec<Line> {
     let stage = watch.stage.map_or_else(none, |stage| stage.name().to_owned());
     let pass = watch.pass.map_or_else(none, |pass| pass.name().to_owned());
@@ -117,7 +119,7 @@ fn of_run(watch: &Watch) -> Vec<Line> {
     ]
 }
 
-/// The hypothesis that the cursor is about.
+/// Lines about the hypothesis that the step at the cursor concerns.
 fn of_current(current: &Current) -> Vec<Line> {
     let number = match current.final_number {
         0 => current.region.to_string(),
@@ -138,7 +140,7 @@ fn of_current(current: &Current) -> Vec<Line> {
     ]
 }
 
-/// The selected pixel.
+/// Lines about the selected pixel; `width` is the photograph's, pixels.
 fn of_pixel(pixel: &WatchedPixel, width: usize) -> Vec<Line> {
     let (x, y) = (pixel.pixel as usize % width.max(1), pixel.pixel as usize / width.max(1));
     let class = match pixel.class {
@@ -158,7 +160,7 @@ fn of_pixel(pixel: &WatchedPixel, width: usize) -> Vec<Line> {
     ]
 }
 
-/// Groups of lines, side by side where there is room.
+/// Shows groups of lines, in two columns if there is room.
 fn table(ui: &mut Ui, tones: &Tones, groups: &[Vec<Line>], changed: impl Fn(&Line) -> bool) {
     let abreast = if ui.available_width() >= 2.0 * GROUP_PT + 8.0 { 2 } else { 1 };
     for row in groups.chunks(abreast) {
@@ -208,7 +210,9 @@ fn cell(ui: &mut Ui, width: f32, text: RichText) {
     });
 }
 
-/// The selected pixel's distances to every region: value and threshold, those inside it in full tone.
+/// Shows the selected pixel's distances to every region, each with its limit. Distances within the limit are in the
+/// text
+/// color, others in the secondary color.
 fn distances(ui: &mut Ui, cx: &Cx, pixel: &WatchedPixel) {
     let tones = cx.tones;
     let heading =

@@ -1,4 +1,6 @@
-//! Why this pixel: its history, what would change its fate, and the stories of its hypothesis and its region.
+//! The why panel: the history of the selected pixel, of its hypothesis and of its region, and which changes of a
+//! parameter would
+//! change the pixel's result.
 
 use super::later::{AT_ONCE_PX, Later};
 use super::theme::SMALL_PT;
@@ -11,17 +13,17 @@ use crate::view::{Account, Why, why};
 use egui::{FontId, Response, RichText, ScrollArea, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
-/// What is asked: the result, the pixel, the hypothesis.
+/// Identity of the answers: generation of the trace, pixel, and hypothesis id.
 type Dialog = (u64, Option<u32>, Option<u16>);
 
-/// The panel.
+/// The why panel.
 #[derive(Default)]
 pub struct WhyPanel {
     answers: Later<Dialog, Why>,
 }
 
 impl WhyPanel {
-    /// Shows the answers for what is selected.
+    /// Shows the panel, for the selected pixel or region.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
         let debugger = &cx.state.debugger;
         let (Some(trace), Some(shown)) = (debugger.trace().cloned(), cx.state.newest.clone()) else {
@@ -49,7 +51,7 @@ impl WhyPanel {
     }
 }
 
-/// There is nothing to ask yet.
+/// Shows, while no decisions are recorded, a hint or the button that starts recording.
 fn unrecorded(ui: &mut Ui, cx: &mut Cx) {
     if cx.state.picture.is_none() {
         return widgets::nothing(
@@ -95,7 +97,7 @@ fn answers(ui: &mut Ui, cx: &mut Cx, found: &Why) {
     }
 }
 
-/// Where the pixel is, its color and where it ended.
+/// Shows the pixel's position, color, region and kind.
 fn about_pixel(ui: &mut Ui, cx: &Cx, pixel: u32) {
     let (Some(picture), Some(shown)) = (&cx.state.picture, &cx.state.newest) else { return };
     let width = picture.size().0.max(1);
@@ -113,7 +115,7 @@ fn about_pixel(ui: &mut Ui, cx: &Cx, pixel: u32) {
     });
 }
 
-/// Sentences, each a link that moves the cursor to its step.
+/// Shows sentences, each a link that moves the cursor to the sentence's step.
 fn entries(ui: &mut Ui, cx: &mut Cx, accounts: &[Account]) {
     if accounts.is_empty() {
         ui.label(RichText::new("nothing was decided about it").color(cx.tones.quiet));
@@ -130,7 +132,7 @@ fn entries(ui: &mut Ui, cx: &mut Cx, accounts: &[Account]) {
 
 /// Width of the stage's name before a sentence, points.
 const STAGE_PT: f32 = 58.0;
-/// How far an ancestor stands in per joining, points.
+/// Indentation per level of the tree of merged hypotheses, points.
 const INDENT_PT: f32 = 12.0;
 
 fn entry(ui: &mut Ui, cx: &Cx, account: &Account, now: bool) -> Response {
@@ -157,7 +159,9 @@ fn entry(ui: &mut Ui, cx: &Cx, account: &Account, now: bool) -> Response {
     response
 }
 
-/// How far each parameter would have to move.
+/// Shows how far each parameter would have to move for the pixel's result to change, the progress of that search, or
+/// the
+/// button that starts the search.
 fn what_if(ui: &mut Ui, cx: &mut Cx, pixel: u32) {
     let heading = widgets::heading(ui, cx.tones, "What if");
     heading.on_hover_text(
@@ -189,7 +193,7 @@ fn what_if(ui: &mut Ui, cx: &mut Cx, pixel: u32) {
     }
 }
 
-/// What was found, each a link that sets the parameter so.
+/// Shows the changes of parameters that were found, each a link that sets the parameter.
 fn alternatives(ui: &mut Ui, cx: &mut Cx, found: &[WhatIf]) {
     if found.is_empty() {
         let text = "No value of any single parameter that was tried changes what this pixel is.";

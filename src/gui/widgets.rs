@@ -1,15 +1,15 @@
-//! Small things that several panels show alike.
+//! Small widgets and formats that several panels share.
 
 use super::theme::{SMALL_PT, Tones};
 use egui::{Align, Color32, Layout, Response, RichText, Sense, Ui, vec2};
 
-/// A quiet heading over a group of controls.
+/// A heading in the secondary color over a group of controls.
 pub fn heading(ui: &mut Ui, tones: &Tones, text: &str) -> Response {
     ui.add_space(6.0);
     ui.label(RichText::new(text).size(SMALL_PT).color(tones.quiet))
 }
 
-/// A square of color.
+/// A square of 12 points filled with a color; `name` is its accessible name.
 pub fn chip(ui: &mut Ui, color: Color32, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
     ui.painter().rect_filled(rect, 2.0, color);
@@ -17,13 +17,13 @@ pub fn chip(ui: &mut Ui, color: Color32, name: &str) -> Response {
     response
 }
 
-/// A slider that hears clicks too: by itself it hears drags only.
+/// The response of a slider that senses clicks too; egui's sliders sense drags only.
 pub fn clickable(slider: &Response) -> Response {
     let clicks = slider.interact(Sense::click());
     slider.union(clicks)
 }
 
-/// A number with its unit in quiet text, aligned to the right of `width` points.
+/// A number, and its unit in the secondary color, right-aligned in `width` points.
 pub fn number(ui: &mut Ui, tones: &Tones, width: f32, value: &str, unit: &str) {
     ui.allocate_ui_with_layout(vec2(width, 18.0), Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
@@ -35,17 +35,17 @@ pub fn number(ui: &mut Ui, tones: &Tones, width: f32, value: &str, unit: &str) {
     });
 }
 
-/// What a panel says when there is nothing to show: a sentence in its middle.
+/// A sentence in the middle of a panel that has nothing to show.
 pub fn nothing(ui: &mut Ui, tones: &Tones, text: &str) {
     ui.centered_and_justified(|ui| ui.label(RichText::new(text).color(tones.quiet)));
 }
 
-/// A sRGB triple as a color.
+/// An opaque color from sRGB bytes.
 pub fn color([r, g, b]: [u8; 3]) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// A whole number with thin spaces between its thousands.
+/// A whole number with thin spaces between groups of three digits.
 pub fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() * 2);
@@ -58,7 +58,7 @@ pub fn grouped(number: usize) -> String {
     text
 }
 
-/// Linear counts as the screen shows them.
+/// The sRGB color of linear counts; 255 counts are full scale.
 pub fn own_color(counts: [f32; 3]) -> Color32 {
     let [r, g, b] = counts.map(|v| egui::ecolor::gamma_u8_from_linear_f32((v / 255.0).clamp(0.0, 1.0)));
     Color32::from_rgb(r, g, b)

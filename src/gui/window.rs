@@ -1,4 +1,4 @@
-//! The window on the desktop.
+//! The application's window on the desktop.
 
 use super::App;
 use crate::app::{Command, Executor, Settings, Severity};
@@ -9,18 +9,19 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Why there is no window.
+/// The reason why no window could be opened.
 #[derive(Debug, thiserror::Error)]
 #[error("no window can be opened here ({0}); `dichroscope analyze PHOTO --out DIR` needs none")]
 pub struct WindowError(String);
 
 /// Opens the window on `photograph`, or on the sample scene, and returns when it is closed.
 ///
-/// A graphics device that is lost (a driver that restarts, a card that is unplugged) is replaced: the window closes and
-/// opens again with everything that was in it.
+/// When the graphics device is lost (a driver restarts, a card is unplugged), the window closes, and another window
+/// with a new
+/// device opens with the same application in it.
 ///
 /// # Errors
-/// Where there is no display or no graphics adapter.
+/// When there is no display or no graphics adapter.
 pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
     let mut origin = Some(photograph.map_or_else(|| Origin::Sample(sample::NAME.to_owned()), Origin::File));
     let passage: Passage = Arc::default();
@@ -46,7 +47,7 @@ pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
     }
 }
 
-/// Where the application waits between a window whose device was lost and the next.
+/// Holds the application after a window with a lost device has closed, until the next window opens.
 type Passage = Arc<Mutex<Option<App>>>;
 
 fn lock(passage: &Passage) -> std::sync::MutexGuard<'_, Option<App>> {
@@ -72,12 +73,12 @@ fn options() -> eframe::NativeOptions {
     }
 }
 
-/// The window's icon: a skewed T in a color cube; the toolkit's own where the picture cannot be decoded.
+/// The window's icon: a skewed T in a color cube; egui's default icon if the image cannot be decoded.
 fn icon() -> egui::IconData {
     eframe::icon_data::from_png_bytes(include_bytes!("../../assets/icon.png")).unwrap_or_default()
 }
 
-/// The application of the first window, as it was left the last time.
+/// The application of the first window, with the settings stored by the previous run.
 fn begin(cc: &eframe::CreationContext<'_>, origin: Option<Origin>) -> std::io::Result<App> {
     let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.clone(), Executor::Threads)?;
     if let Some(path) = Settings::path() {
@@ -93,7 +94,7 @@ fn begin(cc: &eframe::CreationContext<'_>, origin: Option<Origin>) -> std::io::R
     Ok(app)
 }
 
-/// Set when the device is lost.
+/// A flag that is set when the graphics device is lost.
 fn watch(gpu: &RenderState, ctx: &egui::Context) -> Arc<AtomicBool> {
     let lost = Arc::new(AtomicBool::new(false));
     let (flag, ctx) = (Arc::clone(&lost), ctx.clone());
@@ -105,7 +106,7 @@ fn watch(gpu: &RenderState, ctx: &egui::Context) -> Arc<AtomicBool> {
     lost
 }
 
-/// The application in one window.
+/// The contents of one window.
 struct Tenant {
     app: Option<App>,
     lost: Arc<AtomicBool>,
@@ -115,10 +116,10 @@ struct Tenant {
 impl eframe::App for Tenant {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         if let Some(gpu) = frame.wgpu_render_state() {
-            // A device tells of its loss only when it is asked.
+            // The callback of a lost device is called only while the device is polled.
             let _ = gpu.device.poll(wgpu::PollType::Poll);
         }
-        // Nothing is drawn with a device that is gone: egui's painter would panic.
+        // Nothing is drawn with a lost device: egui's painter would panic.
         if self.lost.load(Ordering::Relaxed) {
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
         } else if let Some(app) = &mut self.app {
@@ -138,7 +139,7 @@ impl eframe::App for Tenant {
     }
 }
 
-/// What a message says, without the place in somebody's source that it begins with and the full stop that it ends with.
+/// A message without the source location at its beginning and the full stop at its end.
 fn reason(message: &str) -> &str {
     let after = message.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
     after.map_or(message, |(_, reason)| reason).trim_end_matches('.')

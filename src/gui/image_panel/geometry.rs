@@ -1,30 +1,31 @@
-//! Where the picture lies on the screen. A pixel covers the unit square right and below of its column and row.
+//! The picture's position on the screen. The pixel of column x and row y covers the square from (x, y) to (x + 1, y +
+//! 1).
 
 use crate::view::ImageSettings;
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
 
-/// Screen points that stay free around a picture that fits.
+/// Margin around a fitted picture, screen points.
 const MARGIN_PT: f32 = 6.0;
-/// Largest zoom, screen points a pixel.
+/// Largest zoom, screen points per pixel.
 const NEAREST: f32 = 192.0;
-/// A picture never gets smaller than this, screen points.
+/// Smallest length of a picture's longer side, screen points.
 const SMALLEST_PT: f32 = 32.0;
 
-/// A picture's place in a view.
+/// Position and zoom of a picture in a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// The view, screen points.
+    /// Rectangle of the view, screen points.
     pub view: Rect,
     /// Columns and rows of the picture.
     pub size: Vec2,
-    /// Screen points a pixel.
+    /// Zoom, screen points per pixel.
     pub zoom: f32,
-    /// The point of the picture in the middle of the view.
+    /// The point of the picture in the middle of the view, pixels.
     pub center: Pos2,
 }
 
 impl Placement {
-    /// The place that the settings ask for, as far as the picture stays in sight.
+    /// The placement in the settings, limited so that the picture stays in sight.
     pub fn new(view: Rect, size: Vec2, settings: &ImageSettings) -> Self {
         let zoom = settings.zoom.unwrap_or_else(|| fit(view, size));
         let center = match (settings.zoom, settings.center_px) {
@@ -34,53 +35,53 @@ impl Placement {
         Self { view, size, zoom, center }.clamped()
     }
 
-    /// The settings that put the picture here.
+    /// Stores zoom and center in the settings.
     pub fn put(&self, settings: &mut ImageSettings) {
         settings.zoom = Some(self.zoom);
         settings.center_px = Some(self.center.into());
     }
 
-    /// Where a point of the picture is on the screen.
+    /// Screen position of a point of the picture.
     pub fn screen_from_image(&self, point: Pos2) -> Pos2 {
         self.view.center() + (point - self.center) * self.zoom
     }
 
-    /// The point of the picture that a point of the screen shows.
+    /// The point of the picture at a screen position, pixels.
     pub fn image_from_screen(&self, point: Pos2) -> Pos2 {
         self.center + (point - self.view.center()) / self.zoom
     }
 
-    /// Where the picture is on the screen.
+    /// Rectangle of the picture on the screen.
     pub fn screen_rect(&self) -> Rect {
         self.screen_rect_of(Rect::from_min_size(Pos2::ZERO, self.size))
     }
 
-    /// Where a part of the picture is on the screen.
+    /// Screen rectangle of a part of the picture.
     pub fn screen_rect_of(&self, part: Rect) -> Rect {
         Rect::from_min_max(self.screen_from_image(part.min), self.screen_from_image(part.max))
     }
 
-    /// The row-major index of the pixel at a point of the screen; none beside the picture.
+    /// Row-major index of the pixel at a screen position; `None` outside of the picture.
     pub fn pixel_at(&self, point: Pos2) -> Option<u32> {
         let at = self.image_from_screen(point);
         let inside = at.x >= 0.0 && at.y >= 0.0 && at.x < self.size.x && at.y < self.size.y;
         inside.then(|| at.y as u32 * self.size.x as u32 + at.x as u32)
     }
 
-    /// The square of a pixel, in the picture.
+    /// The square that a pixel covers in the picture, pixels.
     pub fn square_of(&self, pixel: u32) -> Rect {
         let width = (self.size.x as u32).max(1);
         Rect::from_min_size(pos2((pixel % width) as f32, (pixel / width) as f32), vec2(1.0, 1.0))
     }
 
-    /// The part of the picture that is in sight, in whole pixels: first and one past the last column, likewise rows.
+    /// The visible part of the picture: the ranges of columns and of rows.
     pub fn visible(&self) -> [std::ops::Range<usize>; 2] {
         let from = self.image_from_screen(self.view.min).max(Pos2::ZERO).floor();
         let to = self.image_from_screen(self.view.max).min(self.size.to_pos2()).ceil();
         [from.x as usize..to.x.max(0.0) as usize, from.y as usize..to.y.max(0.0) as usize]
     }
 
-    /// Zoomed by a factor; what is at `anchor` on the screen stays there.
+    /// This placement zoomed by a factor; the point of the picture at `anchor` on the screen stays there.
     #[must_use]
     pub fn zoomed(mut self, factor: f32, anchor: Pos2) -> Self {
         let fixed = self.image_from_screen(anchor);
@@ -90,14 +91,14 @@ impl Placement {
         self.clamped()
     }
 
-    /// Moved on the screen.
+    /// This placement with the picture moved by `by`, screen points.
     #[must_use]
     pub fn panned(mut self, by: Vec2) -> Self {
         self.center -= by / self.zoom;
         self.clamped()
     }
 
-    /// Some point of the picture is always in the middle of the view, so that it cannot be lost.
+    /// This placement with zoom and center limited: a point of the picture is always in the middle of the view.
     fn clamped(mut self) -> Self {
         let [least, most] = limits(self.view, self.size);
         self.zoom = self.zoom.clamp(least, most);
@@ -106,7 +107,7 @@ impl Placement {
     }
 }
 
-/// The zoom at which the whole picture is seen.
+/// The zoom at which the whole picture is seen, screen points per pixel.
 fn fit(view: Rect, size: Vec2) -> f32 {
     let free = (view.size() - Vec2::splat(2.0 * MARGIN_PT)).max(Vec2::splat(1.0));
     (free / size.max(Vec2::splat(1.0))).min_elem()
@@ -118,8 +119,9 @@ fn limits(view: Rect, size: Vec2) -> [f32; 2] {
     [least, NEAREST.max(fit)]
 }
 
-/// The smaller copy of a picture to show: 0 the picture itself, each further one half as large. It has at least one and
-/// less than two texels a screen pixel, as far as there are copies.
+/// Level of the smaller copy of a picture to show: 0 is the picture, each further level half as large. The copy has
+/// at least
+/// one and less than two texels per screen pixel, as far as there are copies.
 pub fn level_for(screen_px_per_pixel: f32, levels: usize) -> usize {
     let level = (1.0 / screen_px_per_pixel.max(f32::MIN_POSITIVE)).log2().floor();
     (level.max(0.0) as usize).min(levels.saturating_sub(1))

@@ -1,4 +1,4 @@
-//! Small buttons with drawn signs.
+//! Icons of the image panel's buttons.
 
 use crate::gui::icons::sign_button;
 use crate::gui::theme::Tones;
@@ -7,25 +7,25 @@ use egui::{Color32, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2
 
 pub use crate::gui::icons::SIDE_PT;
 
-/// What a button shows.
+/// The icon on a button.
 #[derive(Clone, Copy)]
 pub enum Sign {
-    /// A tool.
+    /// A tool of the image panel.
     Tool(Tool),
-    /// One layer, or two.
+    /// One layer, or the arrangement of two.
     Arrangement(Arrangement),
-    /// Areas or their outlines.
+    /// Filled areas or outlines.
     Fill(Fill),
-    /// Exposure and gamma.
+    /// The display settings exposure, gamma and opacity.
     Display,
 }
 
-/// A button that is on or off, named `name` for those who do not see its sign.
+/// A button that is on or off. `name` is its accessible name.
 pub fn toggle(ui: &mut Ui, tones: &Tones, sign: Sign, on: bool, name: &str, tip: &str) -> Response {
     sign_button(ui, tones, on, name, tip, |painter, square, color| draw(painter, square, sign, color))
 }
 
-/// Points of a sign are given in a square of 14 × 14.
+/// Paints an icon. Coordinates are those of a square of 14 × 14.
 fn draw(painter: &Painter, square: Rect, sign: Sign, color: Color32) {
     let stroke = Stroke::new(1.3, color);
     let at = |x: f32, y: f32| square.min + vec2(x, y) * (square.width() / 14.0);
@@ -106,7 +106,7 @@ fn draw_tool(painter: &Painter, tool: Tool, stroke: Stroke, at: impl Fn(f32, f32
     }
 }
 
-/// A small cross at a point: quiet, and seen on any ground.
+/// Paints a small cross at a point, with a dark border, so that it is visible on any background.
 pub fn cross(painter: &Painter, at: Pos2, color: Color32) {
     for (width, color) in [(3.0, Color32::from_black_alpha(150)), (1.2, color)] {
         for (dx, dy) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
@@ -116,13 +116,13 @@ pub fn cross(painter: &Painter, at: Pos2, color: Color32) {
     }
 }
 
-/// A line that is seen on any ground.
+/// Paints a dashed line over a dark line, so that it is visible on any background.
 pub fn dashed(painter: &Painter, points: &[Pos2], color: Color32) {
     painter.add(Shape::line(points.to_vec(), Stroke::new(2.6, Color32::from_black_alpha(140))));
     painter.extend(Shape::dashed_line(points, Stroke::new(1.4, color), 5.0, 3.0));
 }
 
-/// The corners of a rectangle, the first once more at the end.
+/// The four corners of a rectangle as a closed path: the first is repeated at the end.
 pub fn corners(rect: Rect) -> [Pos2; 5] {
     let Rect { min, max } = rect;
     [min, pos2(max.x, min.y), max, pos2(min.x, max.y), min]

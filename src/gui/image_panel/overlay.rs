@@ -1,4 +1,4 @@
-//! What is drawn over a layer: pixels from near, outlines, cross-hairs, the profile's line, and words.
+//! Painting over a layer: pixel grid and values at a large zoom, outlines, crosses, the profile's line, and texts.
 
 use super::geometry::Placement;
 use super::icons::{corners, cross};
@@ -8,21 +8,22 @@ use crate::gui::theme::{SMALL_PT, Tones};
 use crate::view::{ACCENT, Item, Layer, LegendEntry, ProfileLine, Tool, legend};
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
-/// The accent over pictures, the same in both themes: a picture is as dark in either.
+/// The accent color over pictures, the same in both themes, because a picture is equally dark in both.
 pub const MARK: Color32 = Color32::from_rgb(ACCENT[0], ACCENT[1], ACCENT[2]);
-/// From this zoom on there is a grid, screen points a pixel.
+/// Smallest zoom with a pixel grid, screen points per pixel.
 const GRID: f32 = 8.0;
-/// From this zoom on pixels tell their values.
+/// Smallest zoom with values in the pixels, screen points per pixel.
 const VALUES: f32 = 48.0;
-/// From this zoom on outlines are lines between pixels; before, pixels of a picture.
+/// Smallest zoom at which outlines are lines between pixels, screen points per pixel; below, outlines are pixels of a
+/// texture.
 pub const LINES: f32 = 4.0;
 
-/// Lines between pixels.
+/// Paints lines between pixels.
 pub fn grid(painter: &Painter, place: &Placement) {
     if place.zoom < GRID {
         return;
     }
-    // It comes in softly.
+    // The contrast of the grid grows with the zoom.
     let strength = ((place.zoom - GRID) / GRID).clamp(0.2, 1.0);
     let stroke = Stroke::new(1.0, Color32::from_gray(128).gamma_multiply(0.35 * strength));
     let area = place.screen_rect().intersect(place.view);
@@ -35,7 +36,7 @@ pub fn grid(painter: &Painter, place: &Placement) {
     }
 }
 
-/// The numbers behind the colors, in the pixels: those of the layer where it has numbers, otherwise the photograph's.
+/// Writes values into the pixels: those of the layer if it has numbers, otherwise the photograph's linear counts.
 pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer, texture: &LayerTexture) {
     if place.zoom < VALUES {
         return;
@@ -66,15 +67,15 @@ pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer,
     }
 }
 
-/// Black or white, whichever has more contrast with a sRGB color: they are equal on a luminance of 0.18.
+/// Black or white, whichever has more contrast with an sRGB color; at a luminance of 0.18 both have the same.
 fn readable_on([r, g, b, _]: [u8; 4]) -> Color32 {
-    // A square is near enough to sRGB's curve.
+    // A square approximates the sRGB curve well enough for this choice.
     let light = |code: u8| (f32::from(code) / 255.0).powi(2);
     let luminance = 0.21 * light(r) + 0.72 * light(g) + 0.07 * light(b);
     if luminance > 0.18 { Color32::BLACK } else { Color32::WHITE }
 }
 
-/// From near: what is marked, selected and pointed at elsewhere, outlined between the pixels.
+/// Paints outlines between pixels of what is marked, selected and hovered, for a zoom of at least `LINES`.
 pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
     let (Some(picture), width) = (&state.picture, place.size.x as usize) else { return };
     let selection = &state.document.selection;
@@ -83,7 +84,7 @@ pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
         fill(painter, place, MARK.gamma_multiply(0.28), marked);
         edges(painter, place, MARK, marked);
     }
-    // Regions and windows are the result's: there are none where the cursor is followed.
+    // Regions and windows belong to the result, which does not exist yet while the debugger's cursor is followed.
     let shown = state.shown().filter(|_| state.followed().is_none());
     for (item, color) in [(selection.item, MARK), (state.hover, Color32::WHITE)] {
         match (item, shown) {
@@ -125,7 +126,7 @@ fn fill(painter: &Painter, place: &Placement, color: Color32, inside: impl Fn(us
     }
 }
 
-/// Lines between pixels that are inside and pixels that are not.
+/// Paints lines between pixels that are inside and pixels that are not.
 fn edges(painter: &Painter, place: &Placement, color: Color32, inside: impl Fn(usize, usize) -> bool) {
     let [columns, rows] = place.visible();
     let stroke = Stroke::new(1.5, color);
@@ -159,7 +160,9 @@ fn frame(painter: &Painter, area: Rect, color: Color32) {
     painter.add(Shape::line(corners(area).to_vec(), Stroke::new(1.4, color)));
 }
 
-/// The pixel that is pointed at, unless the pointer itself is here, and the one that is selected.
+/// Marks the selected pixel and the hovered pixel. At a small zoom the hovered pixel has no mark in the view under
+/// the pointer
+/// (`pointer_here`).
 pub fn pixels(painter: &Painter, place: &Placement, state: &State, pointer_here: bool) {
     let show = |item: Option<Item>, color: Color32, from_afar: bool| {
         let Some(Item::Pixel(pixel)) = item else { return };
@@ -174,7 +177,7 @@ pub fn pixels(painter: &Painter, place: &Placement, state: &State, pointer_here:
     show(state.hover, Color32::WHITE, !pointer_here);
 }
 
-/// The line along which the profile runs, with handles while its tool is in the hand.
+/// Paints the line of the profile, with handles while the profile tool is chosen.
 pub fn profile(painter: &Painter, place: &Placement, state: &State) {
     let editing = state.view.image.tool == Tool::Profile;
     let ends = match state.view.profile {
@@ -193,7 +196,8 @@ pub fn profile(painter: &Painter, place: &Placement, state: &State) {
     }
 }
 
-/// A whole row or column: of the hovered or selected pixel, or the middle one.
+/// Ends of the row or column of the hovered pixel, otherwise of the selected one, otherwise of the picture's middle,
+/// pixels.
 fn whole(line: ProfileLine, place: &Placement, state: &State) -> [Pos2; 2] {
     let pixel = [state.hover, state.document.selection.item].into_iter().find_map(|item| match item {
         Some(Item::Pixel(pixel)) => Some(place.square_of(pixel).center()),
@@ -207,7 +211,7 @@ fn whole(line: ProfileLine, place: &Placement, state: &State) -> [Pos2; 2] {
     }
 }
 
-/// A word over the picture, at a corner of it.
+/// Writes a text with a background over the picture; returns the rectangle.
 pub fn tag(painter: &Painter, tones: &Tones, at: Pos2, align: Align2, text: &str) -> Rect {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(SMALL_PT), tones.text);
     let area = align.anchor_size(at, galley.size() + vec2(10.0, 4.0));
@@ -216,12 +220,12 @@ pub fn tag(painter: &Painter, tones: &Tones, at: Pos2, align: Align2, text: &str
     area
 }
 
-/// What the colors of a layer stand for, along the lower edge.
+/// Paints the legend of a layer along the lower edge.
 pub fn key(painter: &Painter, tones: &Tones, view: Rect, layer: Layer) {
     entries(painter, tones, view, &legend(layer));
 }
 
-/// Colors and their names, along the lower edge, in as many lines as they need.
+/// Paints a legend of colors and names along the lower edge, in as many lines as needed.
 pub fn entries(painter: &Painter, tones: &Tones, view: Rect, entries: &[LegendEntry]) {
     const LINE_PT: f32 = 18.0;
     let font = FontId::proportional(SMALL_PT);
@@ -255,7 +259,7 @@ pub fn entries(painter: &Painter, tones: &Tones, view: Rect, entries: &[LegendEn
     }
 }
 
-/// What the analysis warns of, quietly, along the upper edge.
+/// Paints the warnings of the analysis along the upper edge.
 pub fn warnings(painter: &Painter, tones: &Tones, view: Rect, state: &State) {
     let Some(shown) = state.shown() else { return };
     let mut top = view.top() + 6.0;

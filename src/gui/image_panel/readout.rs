@@ -1,4 +1,4 @@
-//! The numbers of one pixel, each always in its place.
+//! The readout: values of one pixel in a strip of cells with fixed positions.
 
 use crate::app::State;
 use crate::gui::theme::{SMALL_PT, Tones};
@@ -10,14 +10,14 @@ use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
 /// Height of a line, points.
 const LINE_PT: f32 = 18.0;
-/// Between two cells, points.
+/// Distance between two cells, points.
 const GAP_PT: f32 = 6.0;
 
-/// A quiet name and the number's place.
+/// A cell of the strip: a name and space for a value.
 struct Cell {
     name: &'static str,
     tip: &'static str,
-    /// Points that the value takes.
+    /// Width of the value, points.
     width: f32,
 }
 
@@ -48,7 +48,7 @@ pub fn height(ui: &Ui, width: f32) -> f32 {
     if is_narrow(ui, width) { 2.0 * LINE_PT } else { LINE_PT }
 }
 
-/// Whether all cells do not fit into one line.
+/// Whether the cells need two lines.
 fn is_narrow(ui: &Ui, width: f32) -> bool {
     let taken = |cell: &Cell| cell.width + name_width(ui, cell.name) + GAP_PT;
     CELLS.iter().map(taken).sum::<f32>() - GAP_PT > width
@@ -62,7 +62,7 @@ fn name_width(ui: &Ui, name: &str) -> f32 {
     ui.painter().layout_no_wrap(name.to_owned(), font, Color32::WHITE).size().x + 3.0
 }
 
-/// Shows the strip: of the pixel that the pointer is over in any panel, otherwise of the selected one.
+/// Shows the strip for the pixel that is hovered in any panel, otherwise for the selected pixel.
 pub fn show(ui: &mut Ui, state: &State, tones: &Tones) {
     let full = ui.available_rect_before_wrap();
     let pixel = [state.hover, state.document.selection.item].into_iter().find_map(|item| match item {
@@ -91,7 +91,7 @@ pub fn show(ui: &mut Ui, state: &State, tones: &Tones) {
     }
 }
 
-/// Draws a cell at a place; its right end.
+/// Paints a cell with its upper left corner at `at`; returns the horizontal position of its right end.
 fn place(ui: &Ui, tones: &Tones, at: egui::Pos2, index: usize, value: &str, chip: Option<Color32>) -> f32 {
     let cell = &CELLS[index];
     let font = FontId::proportional(SMALL_PT);
@@ -115,7 +115,7 @@ fn place(ui: &Ui, tones: &Tones, at: egui::Pos2, index: usize, value: &str, chip
     right
 }
 
-/// The same for those who listen.
+/// The values as a sentence for screen readers.
 fn sentence(values: &[String; 11]) -> String {
     if values[0].is_empty() {
         return "No pixel".to_owned();
@@ -124,7 +124,7 @@ fn sentence(values: &[String; 11]) -> String {
     named.map(|(cell, value)| format!("{} {value}", cell.name)).collect::<Vec<_>>().join(", ")
 }
 
-/// What is known of a pixel.
+/// Values of a pixel.
 struct Facts {
     at: [usize; 2],
     color: [f32; 3],
@@ -139,7 +139,7 @@ struct Found {
     split: Option<Split>,
 }
 
-/// What a pixel was split into.
+/// Amounts of body and surface reflection and noise of a pixel, counts (equation 13).
 struct Split {
     body: f32,
     surface: Option<f32>,
@@ -159,7 +159,7 @@ impl Facts {
         Some(Self { at, color, found, chip })
     }
 
-    /// What is known at the debugger's cursor; the region by its number of birth.
+    /// Values at the debugger's cursor; the region is a hypothesis id. `None` outside of the photograph.
     fn at_cursor(picture: &Picture, replay: &Replay, names: &RegionNames, pixel: usize) -> Option<Self> {
         let image = &picture.photo.image;
         let color = *image.pixels.as_slice().get(pixel)?;
@@ -190,7 +190,7 @@ impl Facts {
             values[8] = split.surface.map_or_else(String::new, counts);
             values[9] = format!("{:+.1}", split.noise);
         }
-        // A pixel in no region is nothing to any.
+        // A pixel in no region has no kind.
         let kind = if found.kind == PixelKind::Unassigned { "" } else { found.kind.name() };
         kind.clone_into(&mut values[10]);
         values
@@ -202,7 +202,7 @@ impl Found {
         let intrinsic = &shown.analysis.intrinsic;
         let label = shown.labels()[pixel];
         let reflection = intrinsic.regions.get(usize::from(label).wrapping_sub(1));
-        // Along a unit vector, the component is the amount.
+        // The component along a unit vector is the amount.
         let along = |color: [f32; 3], vector: [f64; 3]| crate::color::dot(color, vector.map(|v| v as f32));
         Self {
             class: shown.classes().get(x / shown.window_px(), y / shown.window_px()).copied().flatten(),

@@ -1,12 +1,12 @@
-//! Painted pictures cut into textures, and their smaller copies.
+//! Large pictures cut into tiles, one texture each, and smaller copies of overlays.
 
 use crate::raster::Raster;
 use egui::{Color32, ColorImage, Rect, TextureFilter, TextureOptions, pos2};
 
-/// Side of a texture without its seam, texels.
+/// Side of a tile without its border, texels.
 pub const TILE: usize = 1024;
 
-/// Sharp pixels from near, smooth from afar.
+/// Texture filtering: sharp pixels when enlarged, smooth when reduced.
 pub fn options() -> TextureOptions {
     TextureOptions {
         magnification: TextureFilter::Nearest,
@@ -15,16 +15,18 @@ pub fn options() -> TextureOptions {
     }
 }
 
-/// A part of a picture: what is drawn, and what is uploaded, a texel more where the picture goes on: smoothing looks there.
+/// A part of a picture. The uploaded texture has a border of one texel where the picture continues, because smoothing
+/// at the
+/// edge reads the neighboring texel.
 pub struct Tile {
-    /// What is drawn, texels.
+    /// The drawn part, texels of the picture.
     pub inner: Rect,
-    /// What is uploaded, texels.
+    /// The uploaded part with the border, texels of the picture.
     pub outer: Rect,
 }
 
 impl Tile {
-    /// The tile in a column and row of tiles; none beyond the picture.
+    /// The tile at a column and row of tiles; `None` outside of the picture.
     pub fn of(texels: &Raster<[u8; 4]>, column: usize, row: usize) -> Option<Self> {
         let (left, top) = (column * TILE, row * TILE);
         let (right, bottom) = ((left + TILE).min(texels.width()), (top + TILE).min(texels.height()));
@@ -42,11 +44,11 @@ impl Tile {
         })
     }
 
-    /// Its texels.
+    /// The texels to upload.
     pub fn cut(&self, texels: &Raster<[u8; 4]>) -> ColorImage {
         let columns = self.outer.min.x as usize..self.outer.max.x as usize;
         let rows = self.outer.min.y as usize..self.outer.max.y as usize;
-        // Neighbors are mostly alike in overlays.
+        // Neighboring texels of overlays are mostly equal, so the last conversion is kept.
         let mut last = ([0u8; 4], Color32::TRANSPARENT);
         let mut color = |&texel: &[u8; 4]| {
             if texel != last.0 {
@@ -63,7 +65,9 @@ impl Tile {
     }
 }
 
-/// Smaller and smaller copies that keep thin outlines: of every 2 × 2 the most opaque.
+/// Smaller copies, each half as large as the one before, which keep thin outlines: a texel is the most opaque of 2 ×
+/// 2. The
+/// last copy has at least 33 texels on its longer side.
 pub fn boldest(marks: &Raster<[u8; 4]>) -> Vec<Raster<[u8; 4]>> {
     let mut levels: Vec<Raster<[u8; 4]>> = Vec::new();
     loop {

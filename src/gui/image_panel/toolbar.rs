@@ -1,4 +1,4 @@
-//! What is shown, how, and what a drag does: the row over the picture and the column beside it.
+//! The image panel's row of controls (layer, arrangement, zoom, display) and its column of tools.
 
 use super::icons::{self, Sign};
 use crate::app::{DebugSettings, State};
@@ -23,7 +23,7 @@ const TOOLS: [(Tool, &str, &str); 7] = [
     (Tool::WhitePatch, "White patch", "Pins the light's color to the mean of a white patch (section 6)."),
 ];
 
-/// Shows the row. `zoom` is the one in force, screen points a pixel.
+/// Shows the row. `zoom` is the current zoom, screen points per pixel.
 pub fn row(
     ui: &mut Ui,
     state: &State,
@@ -50,7 +50,7 @@ pub fn row(
     });
 }
 
-/// Chooses a layer; whether one was chosen in place of the instant at the cursor.
+/// Shows the choice of a layer; returns whether a layer was chosen in place of the instant at the debugger's cursor.
 fn layer(ui: &mut Ui, state: &State, name: &str, layer: &mut Layer, followed: bool) -> bool {
     let now = if followed { "At the cursor" } else { layer.name() };
     let combo = ComboBox::from_id_salt(name).width(104.0).height(320.0).selected_text(now);
@@ -134,7 +134,9 @@ fn named(response: &Response, name: &str, value: f64) {
         .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::drag_value(true, value) });
 }
 
-/// What changes the display only, behind one button: it is marked while it changes something.
+/// Shows the button of the display settings, which do not change the analysis. The button is on while exposure or
+/// gamma
+/// differ from their defaults.
 fn display(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
     let neutral = ImageSettings::default();
     let off = |value: f32, neutral: f32| (value - neutral).abs() > 1e-4;
@@ -163,7 +165,7 @@ fn display(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
     });
 }
 
-/// A row of the grid; whether it is to be reset.
+/// Shows a slider in a row of the grid; returns whether it was double-clicked, which resets the value.
 fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> bool {
     let label = ui.add(Label::new(name).sense(Sense::click())).on_hover_text(tip);
     let slider = clickable(&ui.add(slider).labelled_by(label.id).on_hover_text(tip));
@@ -171,7 +173,7 @@ fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> bool {
     slider.double_clicked() || label.double_clicked()
 }
 
-/// Shows the column of tools, and the brush's radius.
+/// Shows the column of tools, and the field of the brush's radius.
 pub fn column(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
     ui.spacing_mut().item_spacing.y = 2.0;
     for (tool, name, tip) in TOOLS {
@@ -181,7 +183,7 @@ pub fn column(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
         }
     }
     if settings.tool == Tool::Brush {
-        // It must not be wider than the tools.
+        // The field must not be wider than the tools.
         ui.spacing_mut().button_padding.x = 0.0;
         ui.spacing_mut().interact_size.x = icons::SIDE_PT;
         ui.style_mut().drag_value_text_style = egui::TextStyle::Small;
