@@ -1,6 +1,6 @@
-//! The worker that analyses. The newest request wins.
+//! The worker that analyzes. A newer request replaces one that waits and cancels the one under way.
 
-use super::{Command, DebugCommand};
+use super::report::Report;
 use crate::analysis::{Analysis, Observer, Session, Stage, StageOutput};
 use crate::params::Params;
 use crate::raster::Mask;
@@ -13,30 +13,30 @@ use std::time::{Duration, Instant};
 /// What is to be analyzed, and how.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// Its number; larger is newer.
+    /// The request's number; larger is newer.
     pub generation: u64,
     /// The photograph.
     pub picture: Arc<Picture>,
     /// The parameters.
     pub params: Params,
-    /// The pixels that it is restricted to.
+    /// The pixels that the analysis is restricted to; none: all.
     pub area: Option<Arc<Mask>>,
-    /// Whether its decisions are recorded.
+    /// Whether and when the decisions are recorded.
     pub tracing: Tracing,
 }
 
 /// When decisions are recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tracing {
-    /// Never: nobody asks for them.
+    /// Never: the debugger is closed.
     Never,
     /// When no slider moves.
     AtRest,
-    /// With the result: a cursor stands in the middle of them.
+    /// With the result: the debugger's cursor stands before the end.
     AtOnce,
 }
 
-/// Where one request waits for the worker; a newer one takes its place.
+/// The request that waits for the worker; a newer one replaces it.
 #[derive(Default)]
 pub(super) struct LatestRequest {
     waiting: Mutex<Waiting>,
@@ -56,13 +56,13 @@ impl LatestRequest {
         self.arrived.notify_one();
     }
 
-    /// Sends the worker home.
+    /// Makes the worker stop: [`LatestRequest::take`] returns none from now on.
     pub(super) fn close(&self) {
         self.lock().closed = true;
         self.arrived.notify_one();
     }
 
-    /// Waits for a request; none when the desk closes.
+    /// Waits for a request; none once it is closed.
     fn take(&self) -> Option<Request> {
         let mut waiting = self.lock();
         loop {
@@ -76,14 +76,14 @@ impl LatestRequest {
         }
     }
 
-    /// Whether no request comes for so long.
+    /// Whether no request comes within `quiet`.
     fn rests(&self, quiet: Duration) -> bool {
         let nothing = |waiting: &mut Waiting| !waiting.closed && waiting.request.is_none();
         let waited = self.arrived.wait_timeout_while(self.lock(), quiet, nothing);
         waited.unwrap_or_else(PoisonError::into_inner).1.timed_out()
     }
 
-    /// Whether the request at work has been overtaken.
+    /// Whether a newer request waits, or the worker is to stop.
     fn is_overtaken(&self) -> bool {
         let waiting = self.lock();
         waiting.closed || waiting.request.is_some()
@@ -94,24 +94,20 @@ impl LatestRequest {
     }
 }
 
-/// A hand that has not moved for so long rests.
+/// A slider that has not moved for this time is at rest.
 const QUIET: Duration = Duration::from_millis(200);
 
-/// Works at the desk until it closes.
-pub(super) fn work(
-    latest_request: &LatestRequest,
-    report: &Sender<Command>,
-    wake: &(dyn Fn() + Send + Sync),
-) {
+/// Analyzes requests until `latest_request` is closed.
+pub(super) fn work(latest_request: &LatestRequest, outbox: &Sender<Report>, wake: &(dyn Fn() + Send + Sync)) {
     let mut analysis_worker = AnalysisWorker::default();
     while let Some(request) = latest_request.take() {
-        let tell = |command| {
-            // Nobody listens any more when the window closes: then there is nothing to say.
-            let _ = report.send(command);
+        let tell = |report| {
+            // The receiver is gone once the window closes; the report is not needed then.
+            let _ = outbox.send(report);
             wake();
         };
         if let Some(shown) = analysis_worker.analyze(&request, &tell, &|| latest_request.is_overtaken()) {
-            tell(Command::Analyzed(Arc::clone(&shown)));
+            tell(Report::Analyzed(Arc::clone(&shown)));
             if request.tracing == Tracing::AtOnce {
                 analysis_worker.trace(&request, &shown, &tell, &|| latest_request.is_overtaken());
             }
@@ -130,7 +126,7 @@ pub(super) fn work(
     }
 }
 
-/// Keeps the session of one photograph, and its last result.
+/// The session of one photograph, and its last result.
 #[derive(Default)]
 pub(super) struct AnalysisWorker {
     session: Option<(Arc<Picture>, Session)>,
@@ -138,11 +134,11 @@ pub(super) struct AnalysisWorker {
 }
 
 impl AnalysisWorker {
-    /// The whole result; none when it was overtaken.
+    /// Analyzes; none when the request was overtaken.
     pub(super) fn analyze(
         &mut self,
         request: &Request,
-        tell: &(dyn Fn(Command) + Sync),
+        tell: &(dyn Fn(Report) + Sync),
         overtaken: &(dyn Fn() -> bool + Sync),
     ) -> Option<Arc<ResultSnapshot>> {
         let same = |session: &(Arc<Picture>, Session)| Arc::ptr_eq(&session.0, &request.picture);
@@ -153,7 +149,7 @@ impl AnalysisWorker {
         }
         let (_, session) = self.session.as_mut()?;
         if session.restrict(request.area.clone()).is_err() {
-            // The reducer forgets the areas of other pictures; one that comes all the same restricts nothing.
+            // The reducer drops the areas of other pictures; an area of another size restricts nothing.
             session.restrict(None).ok()?;
         }
         let mut watch = Watch {
@@ -163,7 +159,7 @@ impl AnalysisWorker {
             took_ms: [None; Stage::ALL.len()],
             partial: self.last.as_deref().map(|last| last.analysis.clone()),
             base: self.last.as_deref(),
-            owes: self.last.is_some(),
+            must_show: self.last.is_some(),
             tell,
             overtaken,
         };
@@ -182,33 +178,34 @@ impl AnalysisWorker {
         Some(shown)
     }
 
-    /// Records the decisions that led to a result, where that is wanted and has not been done, and hands a cursor out.
+    /// Records the decisions that led to a result, where `request` wants it and it has not been done, and reports a cursor.
     pub(super) fn trace(
         &mut self,
         request: &Request,
         shown: &ResultSnapshot,
-        tell: &(dyn Fn(Command) + Sync),
+        tell: &(dyn Fn(Report) + Sync),
         overtaken: &(dyn Fn() -> bool + Sync),
     ) {
         let Some((_, session)) = self.session.as_mut().filter(|_| request.tracing != Tracing::Never) else {
             return;
         };
         if shown.trace.get().is_none() {
-            let Ok((_, trace)) = session.run_traced(&request.params, &mut Quietly(overtaken)) else { return };
+            let Ok((_, trace)) = session.run_traced(&request.params, &mut CancelOnly(overtaken)) else {
+                return;
+            };
             shown.trace.get_or_init(|| Arc::new(trace));
         }
         let Some(trace) = shown.trace.get() else { return };
         let mut replay = Replay::new(Arc::clone(trace));
         replay.prepare();
-        let traced = DebugCommand::Traced { generation: request.generation, replay: Box::new(replay) };
-        tell(Command::Debug(traced));
+        tell(Report::Traced { generation: request.generation, replay: Box::new(replay) });
     }
 }
 
-/// Watches for a newer request, and nothing else.
-struct Quietly<'a>(&'a (dyn Fn() -> bool + Sync));
+/// Stops a run for a newer request, and observes nothing else.
+struct CancelOnly<'a>(&'a (dyn Fn() -> bool + Sync));
 
-impl Observer for Quietly<'_> {
+impl Observer for CancelOnly<'_> {
     fn cancelled(&self) -> bool {
         (self.0)()
     }
@@ -246,29 +243,29 @@ fn coverage(analysis: &Analysis) -> f64 {
     assigned as f64 / lit.max(1) as f64
 }
 
-/// A run that takes longer shows its stages as they come.
+/// A run that takes longer than this shows the stages as they end.
 const SHOW_STAGES_AFTER: Duration = Duration::from_millis(60);
 
-/// Takes the time of each stage, tells of it, and stops for a newer request.
+/// Measures the time of each stage, reports the stages, and stops for a newer request.
 struct Watch<'a> {
     request: &'a Request,
     begun: Instant,
     stage_begun: Option<Instant>,
     took_ms: [Option<f64>; Stage::ALL.len()],
-    /// The last result, with the stages that have been made anew in their places.
+    /// The last result with the stages that have been computed anew.
     partial: Option<Analysis>,
     base: Option<&'a ResultSnapshot>,
-    /// Whether nothing new has been shown yet: then the run goes on although it has been overtaken, or a hand that never
-    /// rests would see nothing of a large picture.
-    owes: bool,
-    tell: &'a (dyn Fn(Command) + Sync),
+    /// Whether nothing new has been shown yet. Then the run goes on although it has been overtaken: otherwise a slider in
+    /// steady motion over a large picture would never show a result.
+    must_show: bool,
+    tell: &'a (dyn Fn(Report) + Sync),
     overtaken: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Observer for Watch<'_> {
     fn started(&mut self, stage: Stage) {
         self.stage_begun = Some(Instant::now());
-        (self.tell)(Command::Progress { generation: self.request.generation, stage });
+        (self.tell)(Report::Progress { generation: self.request.generation, stage });
     }
 
     fn finished(&mut self, stage: Stage, reused: bool) {
@@ -285,7 +282,7 @@ impl Observer for Watch<'_> {
             StageOutput::Areas(areas) => partial.areas = areas,
             StageOutput::Matte(matte) => partial.matte = matte,
             StageOutput::Planar(planar) => partial.planar = planar,
-            // Labels and what is known of the regions change together, at the end.
+            // Labels and the facts of the regions change together, at the end.
             StageOutput::Finals(_) | StageOutput::Intrinsic(_) => return,
         }
         let anew = self.took_ms[stage as usize].is_some();
@@ -293,7 +290,7 @@ impl Observer for Watch<'_> {
             return;
         };
         let next = Stage::ALL.iter().copied().find(|&later| later > stage);
-        (self.tell)(Command::Analyzed(Arc::new(ResultSnapshot {
+        (self.tell)(Report::Analyzed(Arc::new(ResultSnapshot {
             generation: self.request.generation,
             picture: Arc::clone(&self.request.picture),
             params: self.request.params,
@@ -306,10 +303,10 @@ impl Observer for Watch<'_> {
             trace: OnceLock::new(),
             accuracy: OnceLock::new(),
         })));
-        self.owes = false;
+        self.must_show = false;
     }
 
     fn cancelled(&self) -> bool {
-        !self.owes && (self.overtaken)()
+        !self.must_show && (self.overtaken)()
     }
 }

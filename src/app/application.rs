@@ -1,39 +1,41 @@
-//! Carries the effects of commands out, on threads or inline.
+//! Carries out the effects of commands and reports, on threads or inline.
 
 use super::analysis_worker::{self, AnalysisWorker, LatestRequest, Tracing};
-use super::{Ask, Asked, Command, Effect, Job, Request, State, WhatIfProgress, jobs, read, reduce, write};
+use super::report::{self, Report};
+use super::{Asked, Command, Effect, Job, Request, State, WhatIfProgress, jobs, read, reduce, write};
 use crate::analysis::{Session, WhatIfObserver, what_if};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 
-/// Where work is done.
+/// Where background work is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Executor {
     /// On named threads; the caller never waits.
     Threads,
-    /// In the call itself, for tests and pictures: [`Application::apply`] returns when all is done.
+    /// Inside [`Application::apply`], which returns when all is done; for tests and pictures.
     Inline,
 }
 
-/// A state, and what carries out its effects.
+/// A state and the workers that carry out its effects.
 pub struct Application {
     state: State,
-    outbox: Sender<Command>,
-    inbox: Receiver<Command>,
+    outbox: Sender<Report>,
+    inbox: Receiver<Report>,
     wake: Arc<dyn Fn() + Send + Sync>,
-    hands: Hands,
+    workers: Workers,
     writing: Arc<jobs::Stop>,
     inquiring: Arc<jobs::Stop>,
 }
 
-enum Hands {
+/// The analysis worker.
+enum Workers {
     Inline(Box<AnalysisWorker>),
     Threads { latest_request: Arc<LatestRequest>, worker: Option<JoinHandle<()>> },
 }
 
 impl Application {
-    /// An empty workbench. `wake` is called, on any thread, when [`Application::poll`] will find something.
+    /// An application in which nothing is open. `wake` is called, on any thread, when [`Application::poll`] will find something.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -53,18 +55,18 @@ impl Application {
     ) -> std::io::Result<Self> {
         let (outbox, inbox) = mpsc::channel();
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
-        let hands = match executor {
-            Executor::Inline => Hands::Inline(Box::default()),
+        let workers = match executor {
+            Executor::Inline => Workers::Inline(Box::default()),
             Executor::Threads => {
                 let latest_request = Arc::new(LatestRequest::default());
                 let (at, report, ring) = (Arc::clone(&latest_request), outbox.clone(), Arc::clone(&wake));
                 let worker = thread::Builder::new()
-                    .name("analyst".to_owned())
+                    .name("analysis".to_owned())
                     .spawn(move || analysis_worker::work(&at, &report, &*ring))?;
-                Hands::Threads { latest_request, worker: Some(worker) }
+                Workers::Threads { latest_request, worker: Some(worker) }
             }
         };
-        Ok(Self { state, outbox, inbox, wake, hands, writing: Arc::default(), inquiring: Arc::default() })
+        Ok(Self { state, outbox, inbox, wake, workers, writing: Arc::default(), inquiring: Arc::default() })
     }
 
     /// All there is to show.
@@ -73,25 +75,30 @@ impl Application {
     }
 
     /// Applies a command and sets its effects going.
-    pub fn apply(&mut self, command: Command) {
+    pub fn apply(&mut self, command: impl Into<Command>) {
         for effect in reduce(&mut self.state, command) {
             self.carry_out(effect);
         }
-        if matches!(self.hands, Hands::Inline(_)) {
+        if matches!(self.workers, Workers::Inline(_)) {
             self.poll();
         }
     }
 
     /// Takes in what the workers have finished.
     pub fn poll(&mut self) {
-        while let Ok(command) = self.inbox.try_recv() {
-            for effect in reduce(&mut self.state, command) {
-                self.carry_out(effect);
-            }
+        while let Ok(report) = self.inbox.try_recv() {
+            self.take_report(report);
         }
     }
 
-    /// Puts back what was remembered from another session.
+    /// Takes in what a worker reports and sets the effects going.
+    pub(super) fn take_report(&mut self, report: Report) {
+        for effect in report::reduce(&mut self.state, report) {
+            self.carry_out(effect);
+        }
+    }
+
+    /// Restores what was saved from another session.
     pub fn remember(&mut self, view: super::ViewSettings, recent: Vec<std::path::PathBuf>) {
         (self.state.view, self.state.recent) = (view, recent);
     }
@@ -103,8 +110,8 @@ impl Application {
             Effect::Read(origin, options) => {
                 self.state.jobs.reading = Some(Job::now());
                 self.run("reader", move || match read::picture(origin, options) {
-                    Ok(picture) => Command::Opened(Arc::new(picture)),
-                    Err(reason) => Command::OpenFailed(reason),
+                    Ok(picture) => Report::Opened(Arc::new(picture)),
+                    Err(reason) => Report::OpenFailed(reason),
                 });
             }
             Effect::ReadParams(path) => self.run("reader", move || read::params(&path)),
@@ -116,11 +123,11 @@ impl Application {
                 let stop = Arc::clone(&self.writing);
                 let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
                 let tell = move |done, total| {
-                    let _ = outbox.send(Command::Exporting { done, total });
+                    let _ = outbox.send(Report::Exporting { done, total });
                     wake();
                 };
                 self.run("writer", move || {
-                    Command::Exported(write::write(&export, &application, &stop, &tell))
+                    Report::Exported(write::write(&export, &application, &stop, &tell))
                 });
             }
             Effect::StopWriting => self.writing.stop(),
@@ -129,11 +136,11 @@ impl Application {
         }
     }
 
-    /// Decisions are recorded while somebody stands among them; otherwise when there is time for it.
+    /// When decisions are recorded: with the result while the cursor stands among them, otherwise when no slider moves.
     fn tracing(&self) -> Tracing {
-        match (self.state.view.debug.open, self.state.debugger.stopped().is_some(), &self.hands) {
+        match (self.state.view.debug.open, self.state.debugger.stopped().is_some(), &self.workers) {
             (false, ..) => Tracing::Never,
-            (true, false, Hands::Threads { .. }) => Tracing::AtRest,
+            (true, false, Workers::Threads { .. }) => Tracing::AtRest,
             (true, ..) => Tracing::AtOnce,
         }
     }
@@ -147,68 +154,68 @@ impl Application {
             area: self.state.document.area.clone(),
             tracing,
         };
-        // A queue of slider positions is one piece of work: the spinner tells of the wait, not of each position.
+        // The job keeps its begin over a series of requests, so that the spinner shows the whole wait of a slider's drag.
         let begun = self.state.jobs.analysis.unwrap_or_else(Job::now);
         self.state.jobs.analysis = Some(Job { stage: None, ..begun });
-        match &mut self.hands {
-            Hands::Threads { latest_request, .. } => latest_request.leave(request),
-            Hands::Inline(analysis_worker) => {
+        match &mut self.workers {
+            Workers::Threads { latest_request, .. } => latest_request.leave(request),
+            Workers::Inline(analysis_worker) => {
                 let outbox = Mutex::new(self.outbox.clone());
-                let tell = |command| {
-                    let _ = outbox.lock().unwrap_or_else(PoisonError::into_inner).send(command);
+                let tell = |report| {
+                    let _ = outbox.lock().unwrap_or_else(PoisonError::into_inner).send(report);
                 };
                 if let Some(shown) = analysis_worker.analyze(&request, &tell, &|| false) {
                     shown.measure();
-                    tell(Command::Analyzed(Arc::clone(&shown)));
+                    tell(Report::Analyzed(Arc::clone(&shown)));
                     analysis_worker.trace(&request, &shown, &tell, &|| false);
                 }
             }
         }
     }
 
-    /// Asks in a session of its own: the analyst's keeps the result that is shown.
+    /// Runs a what-if job in a session of its own: the analysis worker's session keeps the stages of the result shown.
     fn inquire(&mut self, asked: Asked) {
         let Some(picture) = self.state.picture.clone() else { return };
         let (params, area) = (self.state.document.params, self.state.document.area.clone());
         self.inquiring = Arc::default();
         let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
-        let mut asking = Asking { asked, stop: Arc::clone(&self.inquiring), outbox, wake };
+        let mut observer = ProgressReporter { asked, stop: Arc::clone(&self.inquiring), outbox, wake };
         self.run("what if", move || {
             let mut session = Session::new(Arc::new(picture.photo.image.clone()));
             // An area of another picture restricts nothing.
             let _ = session.restrict(area);
-            let found = what_if(&mut session, &params, asked.pixel as usize, &mut asking);
-            Command::Ask(Ask::News(asked, found.map_or(WhatIfProgress::Stopped, WhatIfProgress::Found)))
+            let found = what_if(&mut session, &params, asked.pixel as usize, &mut observer);
+            Report::WhatIf(asked, found.map_or(WhatIfProgress::Stopped, WhatIfProgress::Found))
         });
     }
 
-    /// Runs `job` where work is done; its command arrives by the inbox.
-    fn run(&self, name: &str, job: impl FnOnce() -> Command + Send + 'static) {
+    /// Runs `job` on a thread or inline; its report arrives by the inbox.
+    fn run(&self, name: &str, job: impl FnOnce() -> Report + Send + 'static) {
         let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
         let work = move || {
             let _ = outbox.send(job());
             wake();
         };
-        if matches!(self.hands, Hands::Inline(_)) {
+        if matches!(self.workers, Workers::Inline(_)) {
             work();
         } else if let Err(error) = thread::Builder::new().name(name.to_owned()).spawn(work) {
             let reason = format!("the system gives no thread to work on: {error}; close other programs");
-            let _ = self.outbox.send(Command::Notify(super::Severity::Error, reason));
+            let _ = self.outbox.send(Report::Failed(reason));
         }
     }
 }
 
-/// Tells how far an inquiry is, and stops it.
-struct Asking {
+/// Reports how far a what-if job is, and stops it.
+struct ProgressReporter {
     asked: Asked,
     stop: Arc<jobs::Stop>,
-    outbox: Sender<Command>,
+    outbox: Sender<Report>,
     wake: Arc<dyn Fn() + Send + Sync>,
 }
 
-impl WhatIfObserver for Asking {
+impl WhatIfObserver for ProgressReporter {
     fn progress(&mut self, done: usize, of: usize) {
-        let _ = self.outbox.send(Command::Ask(Ask::News(self.asked, WhatIfProgress::Progress(done, of))));
+        let _ = self.outbox.send(Report::WhatIf(self.asked, WhatIfProgress::Progress(done, of)));
         (self.wake)();
     }
 
@@ -221,7 +228,7 @@ impl Drop for Application {
     fn drop(&mut self) {
         self.writing.stop();
         self.inquiring.stop();
-        if let Hands::Threads { latest_request, worker } = &mut self.hands {
+        if let Workers::Threads { latest_request, worker } = &mut self.workers {
             latest_request.close();
             if let Some(worker) = worker.take() {
                 let _ = worker.join();

@@ -1,17 +1,143 @@
-//! The only ways to change a [`super::State`].
+//! What a person can ask for. A [`Command`] is the only way in which panels change a [`super::State`]; what workers report is
+//! a type of its own, which no panel can make.
 
-use super::{Ask, DebugCommand, Export, Severity, Workspace};
-use crate::analysis::Stage;
+use super::{Ask, DebugCommand, Export, Severity};
 use crate::params::{AmbientSetting, Method, Parameter, Params, Setting, Switch};
 use crate::photo::ReadOptions;
 use crate::raster::Mask;
-use crate::view::{
-    CubeSettings, ImageSettings, Item, Origin, Picture, PlaneSettings, ProfileLine, ResultSnapshot, Theme,
-};
+use crate::view::{CubeSettings, ImageSettings, Item, Origin, PlaneSettings, ProfileLine, Theme};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Changes with the same gesture are one step of the history, until [`Command::EndGesture`].
+/// A change that a person asks for: one of five kinds, each with a reducer of its own.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// Change the document.
+    Edit(Edit),
+    /// Change how things are shown.
+    View(ViewCommand),
+    /// Start or stop work in the background.
+    Job(JobCommand),
+    /// Ask why, or what if.
+    Ask(Ask),
+    /// Change the debugger.
+    Debug(DebugCommand),
+}
+
+/// A change of the document. All but the first three are steps of the undo history.
+#[derive(Clone, Debug)]
+pub enum Edit {
+    /// Take back the last step.
+    Undo,
+    /// Take back the last undo.
+    Redo,
+    /// End the gesture: the next change is a step of its own.
+    EndGesture,
+
+    /// Set one parameter.
+    SetParameter(Parameter, Setting, Option<Gesture>),
+    /// Choose the algorithm; parameters at the other method's defaults follow.
+    SetMethod(Method),
+    /// Switch a refinement.
+    SetSwitch(Switch, bool),
+    /// Set all parameters, to those of a preset.
+    SetParams(Box<Params>),
+    /// Set the light's direction; none: the analysis finds it.
+    PinIlluminant(Option<[f64; 3]>, Option<Gesture>),
+    /// Set how ambient light is treated.
+    SetAmbient(AmbientSetting, Option<Gesture>),
+    /// Restrict the analysis to these pixels; none: analyze the whole picture.
+    RestrictTo(Option<Arc<Mask>>),
+
+    /// Select an item, or nothing.
+    Select(Option<Item>),
+    /// Mark pixels.
+    Mark(Arc<Mask>, Combine, Option<Gesture>),
+    /// Mark exactly the pixels that are not marked.
+    InvertMarked,
+    /// Unmark all pixels and select nothing.
+    ClearSelection,
+}
+
+/// A change of how things are shown. It is no step of the undo history and needs no analysis.
+#[derive(Clone, Debug)]
+pub enum ViewCommand {
+    /// The pointer is over this item, or over none.
+    Hover(Option<Item>),
+    /// Keep the newest result to compare with (true), or drop the kept one (false).
+    Pin(bool),
+    /// Show the pinned result (true) or the newest (false).
+    ShowPinned(bool),
+    /// Set the image view.
+    Image(ImageSettings),
+    /// Set the color space view.
+    Cube(CubeSettings),
+    /// Set the plane view.
+    Plane(PlaneSettings),
+    /// Set the line of the profile.
+    Profile(ProfileLine),
+    /// Set the theme.
+    Theme(Theme),
+    /// Set the arrangement of the panels, in the window's own format.
+    Layout(String),
+    /// Set the camera of the color space view, in the window's own format.
+    Camera(String),
+    /// Show a notice.
+    Notify(Severity, String),
+    /// Remove the notice with this id.
+    Dismiss(u64),
+    /// Forget the photographs opened before.
+    ForgetRecent,
+}
+
+/// Work in the background.
+#[derive(Clone, Debug)]
+pub enum JobCommand {
+    /// Read a photograph and show it.
+    Open(Origin),
+    /// Read the open photograph again with these options.
+    ReadAs(ReadOptions),
+    /// Read a workspace file, then its photograph, and restore the rest of the workspace.
+    OpenWorkspace(PathBuf),
+    /// Read parameters from a TOML file.
+    LoadParams(PathBuf),
+    /// Write a file or a folder.
+    Export(Export),
+    /// Stop writing.
+    CancelExport,
+}
+
+impl From<Edit> for Command {
+    fn from(edit: Edit) -> Self {
+        Self::Edit(edit)
+    }
+}
+
+impl From<ViewCommand> for Command {
+    fn from(command: ViewCommand) -> Self {
+        Self::View(command)
+    }
+}
+
+impl From<JobCommand> for Command {
+    fn from(command: JobCommand) -> Self {
+        Self::Job(command)
+    }
+}
+
+impl From<Ask> for Command {
+    fn from(ask: Ask) -> Self {
+        Self::Ask(ask)
+    }
+}
+
+impl From<DebugCommand> for Command {
+    fn from(command: DebugCommand) -> Self {
+        Self::Debug(command)
+    }
+}
+
+/// Changes with the same gesture are one step of the history, until [`Edit::EndGesture`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gesture {
     /// Dragging a parameter's slider.
@@ -24,118 +150,14 @@ pub enum Gesture {
     Ambient,
 }
 
-/// How newly marked pixels join those marked before.
+/// How newly marked pixels combine with the pixels marked before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Combine {
-    /// They take their place.
+    /// Only the new pixels.
     #[default]
     Replace,
-    /// Both (Shift).
+    /// The pixels of both (Shift).
     Union,
-    /// Those before without these (Alt).
+    /// The pixels marked before without the new ones (Alt).
     Subtract,
-}
-
-/// A change.
-#[derive(Clone, Debug)]
-pub enum Command {
-    /// Read a photograph and show it.
-    Open(Origin),
-    /// Read the open photograph again, its values understood in this way.
-    ReadAs(ReadOptions),
-    /// Read a workspace's photograph, and put everything back as it was when that has been read.
-    Restore(Box<Workspace>),
-    /// A photograph was read.
-    Opened(Arc<Picture>),
-    /// Work began or went on to a stage.
-    Progress {
-        /// The request.
-        generation: u64,
-        /// The stage that begins.
-        stage: Stage,
-    },
-    /// A result, or a part of one.
-    Analyzed(Arc<ResultSnapshot>),
-    /// An export goes on.
-    Exporting {
-        /// Files written so far.
-        done: usize,
-        /// Files that it writes in all.
-        total: usize,
-    },
-    /// An export ended, with the sentence to say.
-    Exported(Result<String, String>),
-    /// Reading failed.
-    OpenFailed(String),
-
-    /// Set one parameter.
-    SetParameter(Parameter, Setting, Option<Gesture>),
-    /// Choose the algorithm; parameters at the other method's defaults follow.
-    SetMethod(Method),
-    /// Switch a refinement.
-    SetSwitch(Switch, bool),
-    /// Set all parameters: a preset, or a file.
-    SetParams(Box<Params>),
-    /// Read parameters from a TOML file.
-    LoadParams(PathBuf),
-    /// Fix the light's direction, or let it be found.
-    PinIlluminant(Option<[f64; 3]>, Option<Gesture>),
-    /// Say what is to be done about ambient light.
-    SetAmbient(AmbientSetting, Option<Gesture>),
-    /// Restrict the analysis to these pixels, or lift the restriction.
-    RestrictTo(Option<Arc<Mask>>),
-    /// What follows is a step of its own.
-    EndGesture,
-    /// Take back the last step.
-    Undo,
-    /// Take back the last undo.
-    Redo,
-
-    /// The pointer is over this.
-    Hover(Option<Item>),
-    /// Select this.
-    Select(Option<Item>),
-    /// Mark pixels.
-    Mark(Arc<Mask>, Combine, Option<Gesture>),
-    /// Mark the pixels that are not.
-    InvertMarked,
-    /// Unmark and deselect all.
-    ClearSelection,
-
-    /// Keep the newest result to compare with, or let it go.
-    Pin(bool),
-    /// Show the pinned result (A) or the newest (B).
-    ShowPinned(bool),
-    /// Settings of the image view.
-    Image(ImageSettings),
-    /// Settings of the color space view.
-    Cube(CubeSettings),
-    /// Settings of the plane view.
-    Plane(PlaneSettings),
-    /// The line of the profile.
-    Profile(ProfileLine),
-    /// Dark or light.
-    Theme(Theme),
-    /// How panels and cameras are arranged, in words that only the window understands.
-    Layout(String),
-    /// The color space view's camera.
-    Camera(String),
-
-    /// Ask why, or what if.
-    Ask(Ask),
-    /// Change the debugger.
-    Debug(DebugCommand),
-
-    /// Write something.
-    Export(Export),
-    /// Stop writing.
-    CancelExport,
-    /// Open a workspace file.
-    OpenWorkspace(PathBuf),
-    /// Say something.
-    Notify(Severity, String),
-    /// Take a notice away.
-    Dismiss(u64),
-    /// Forget the photographs opened before.
-    ForgetRecent,
 }

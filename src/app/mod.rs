@@ -1,8 +1,9 @@
 //! The application without a screen.
 //!
-//! A [`State`] is all there is to show. A [`Command`] is the only way to change it, and [`reduce()`] the only function that
-//! does; it is pure but for the [`Effect`]s it asks for, and is tested without a window. An [`Application`] carries the effects
-//! out: on a named worker where the newest request wins, or inline in tests. Panels read the state and return commands.
+//! A [`State`] is all there is to show. Panels read it and send [`Command`]s, and [`reduce()`] applies each command to the
+//! state: it is a pure function that returns the [`Effect`]s to be carried out, and is tested without a window. An
+//! [`Application`] carries the effects out, on threads or inline in tests; its workers answer with reports, which only the
+//! application can apply.
 
 mod analysis_worker;
 mod application;
@@ -13,6 +14,7 @@ mod document;
 mod jobs;
 mod read;
 mod reduce;
+mod report;
 mod settings;
 mod state;
 mod view_settings;
@@ -22,7 +24,7 @@ mod write;
 
 pub use analysis_worker::Request;
 pub use application::{Application, Executor};
-pub use command::{Combine, Command, Gesture};
+pub use command::{Combine, Command, Edit, Gesture, JobCommand, ViewCommand};
 pub use command_line::analyze_call;
 pub use debugger::{
     Breakpoint, CandidateCheck, Condition, DebugCommand, DebugSettings, Debugger, Difference, Direction,

@@ -1,6 +1,7 @@
 //! Reads photographs, parameters and workspaces for the state.
 
-use super::{Command, Severity, Workspace};
+use super::Workspace;
+use super::report::Report;
 use crate::params::Params;
 use crate::photo::{self, ReadOptions};
 use crate::truth::{GroundTruth, sample::Sample};
@@ -8,7 +9,7 @@ use crate::view::{Histogram, Origin, Picture};
 use std::path::Path;
 use std::time::Instant;
 
-/// The photograph at `origin`, with its ground truth where a sample or the file's folder holds one.
+/// Reads the photograph at `origin`, with its ground truth where a sample or the file's folder holds one.
 ///
 /// # Errors
 /// A sentence that names the file.
@@ -34,7 +35,7 @@ pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, S
     Ok(Picture { origin, reading: options, photo, sha256, read_ms, histogram, truth })
 }
 
-/// A scene's ground truth lies beside its photograph.
+/// The ground truth in the folder of the photograph, or that of a sample scene.
 fn truth(origin: &Origin) -> Option<GroundTruth> {
     match origin {
         Origin::Sample(name) => Sample::find(name)?.truth().ok(),
@@ -46,8 +47,8 @@ fn truth(origin: &Origin) -> Option<GroundTruth> {
     }
 }
 
-/// Parameters from a TOML file, as the command that sets them.
-pub(super) fn params(path: &Path) -> Command {
+/// Reads parameters from a TOML file.
+pub(super) fn params(path: &Path) -> Report {
     let read = || -> Result<Params, String> {
         let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
         let params: Params =
@@ -56,15 +57,15 @@ pub(super) fn params(path: &Path) -> Command {
         Ok(params)
     };
     match read() {
-        Ok(params) => Command::SetParams(Box::new(params)),
-        Err(reason) => Command::Notify(Severity::Error, reason),
+        Ok(params) => Report::ParamsRead(Box::new(params)),
+        Err(reason) => Report::Failed(reason),
     }
 }
 
-/// A workspace file, as the command that restores it.
-pub(super) fn workspace(path: &Path) -> Command {
+/// Reads a workspace file.
+pub(super) fn workspace(path: &Path) -> Report {
     match Workspace::load(path) {
-        Ok(workspace) => Command::Restore(Box::new(workspace)),
-        Err(reason) => Command::Notify(Severity::Error, reason),
+        Ok(workspace) => Report::WorkspaceRead(Box::new(workspace)),
+        Err(reason) => Report::Failed(reason),
     }
 }

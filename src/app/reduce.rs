@@ -1,9 +1,9 @@
-//! The one function that changes the state.
+//! The functions that change the state: a reducer for each kind of command.
 
 use super::state::AfterPin;
 use super::{
-    Asked, Combine, Command, Debugger, Document, Export, Gesture, Notice, Severity, State, ViewSettings,
-    Workspace,
+    Asked, Combine, Command, Debugger, Document, Edit, Export, Gesture, JobCommand, Notice, Severity, State,
+    ViewCommand, ViewSettings, Workspace,
 };
 use crate::params::{IlluminantSetting, Method, Parameter, Params};
 use crate::photo::ReadOptions;
@@ -12,16 +12,16 @@ use crate::view::{MaskRuns, Origin, Picture, ResultSnapshot, Selection};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What a command asks for beyond the state.
+/// Work that a command or a report asks for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
     /// Analyze the picture with the document as it is now.
     Analyze,
     /// Record the decisions of that analysis.
     Trace,
-    /// Find what would change a pixel's fate.
+    /// Find which parameters would change what a pixel is.
     Inquire(Asked),
-    /// Stop that.
+    /// Stop finding that.
     StopInquiring,
     /// Read a photograph in this way.
     Read(Origin, ReadOptions),
@@ -29,118 +29,84 @@ pub enum Effect {
     ReadParams(PathBuf),
     /// Read a workspace.
     ReadWorkspace(PathBuf),
-    /// Write something.
+    /// Write a file or a folder.
     Write(Export),
     /// Stop writing.
     StopWriting,
 }
 
-/// Photographs remembered.
+/// Number of photographs remembered.
 const MOST_RECENT: usize = 12;
 
 /// Applies `command` to `state` and says what else is to be done.
-pub fn reduce(state: &mut State, command: Command) -> Vec<Effect> {
-    match command {
-        Command::Open(origin) => {
-            state.restoring = None;
-            vec![Effect::Read(origin, ReadOptions::default())]
-        }
-        Command::ReadAs(options) => {
-            state.restoring = None;
-            state.picture.iter().map(|picture| Effect::Read(picture.origin.clone(), options)).collect()
-        }
-        Command::Restore(workspace) => match workspace.reading() {
-            Ok(options) => {
-                let origin = workspace.origin.clone();
-                state.restoring = Some(workspace);
-                vec![Effect::Read(origin, options)]
-            }
-            Err(reason) => notify(state, Severity::Error, reason),
-        },
-        Command::Opened(picture) => opened(state, picture),
-        Command::OpenFailed(reason) => {
-            (state.jobs.reading, state.restoring) = (None, None);
-            notify(state, Severity::Error, reason)
-        }
-        Command::Progress { generation, stage } => {
-            if let Some(job) = state.jobs.analysis.as_mut().filter(|_| generation == state.generation) {
-                job.stage = Some(stage);
-            }
+pub fn reduce(state: &mut State, command: impl Into<Command>) -> Vec<Effect> {
+    match command.into() {
+        Command::Edit(edit) => reduce_edit(state, edit),
+        Command::View(command) => {
+            reduce_view(state, command);
             Vec::new()
         }
-        Command::Analyzed(shown) => analyzed(state, shown),
-        Command::Exporting { done, total } => {
-            if let Some(job) = &mut state.jobs.export {
-                job.files = Some((done, total));
-            }
-            Vec::new()
-        }
-        Command::Exported(outcome) => {
-            state.jobs.export = None;
-            match outcome {
-                Ok(said) => notify(state, Severity::Done, said),
-                Err(reason) => notify(state, Severity::Error, reason),
-            }
-        }
-        Command::Undo => {
-            let earlier = state.history.undo(&state.document);
-            restore(state, earlier)
-        }
-        Command::Redo => {
-            let later = state.history.redo(&state.document);
-            restore(state, later)
-        }
-        Command::EndGesture => {
-            state.history.end_gesture();
-            Vec::new()
-        }
+        Command::Job(command) => reduce_job(state, command),
         Command::Ask(ask) => super::what_if_job::reduce(state, ask),
         Command::Debug(command) => super::debugger::reduce(state, command),
-        Command::Export(_) if state.jobs.export.is_some() => {
-            let text = "an export is still under way: wait for its end, or cancel it first";
-            notify(state, Severity::Warning, text.to_owned())
-        }
-        Command::Export(export) => vec![Effect::Write(export)],
-        Command::CancelExport => vec![Effect::StopWriting],
-        Command::OpenWorkspace(path) => vec![Effect::ReadWorkspace(path)],
-        Command::LoadParams(path) => vec![Effect::ReadParams(path)],
-        Command::Notify(severity, text) => notify(state, severity, text),
-        Command::Dismiss(id) => {
-            state.notices.retain(|notice| notice.id != id);
-            Vec::new()
-        }
-        Command::ForgetRecent => {
-            state.recent.clear();
-            Vec::new()
-        }
-        other => edit_or_look(state, other),
     }
 }
 
-/// The commands that change the document or the view.
-fn edit_or_look(state: &mut State, command: Command) -> Vec<Effect> {
+/// Starts or stops work in the background.
+fn reduce_job(state: &mut State, command: JobCommand) -> Vec<Effect> {
     match command {
-        Command::SetParameter(parameter, setting, gesture) => {
+        JobCommand::Open(origin) => {
+            state.restoring = None;
+            vec![Effect::Read(origin, ReadOptions::default())]
+        }
+        JobCommand::ReadAs(options) => {
+            state.restoring = None;
+            state.picture.iter().map(|picture| Effect::Read(picture.origin.clone(), options)).collect()
+        }
+        JobCommand::OpenWorkspace(path) => vec![Effect::ReadWorkspace(path)],
+        JobCommand::LoadParams(path) => vec![Effect::ReadParams(path)],
+        JobCommand::Export(_) if state.jobs.export.is_some() => {
+            let text = "an export is still under way: wait for its end, or cancel it first";
+            notify(state, Severity::Warning, text.to_owned());
+            Vec::new()
+        }
+        JobCommand::Export(export) => vec![Effect::Write(export)],
+        JobCommand::CancelExport => vec![Effect::StopWriting],
+    }
+}
+
+/// Changes the document.
+fn reduce_edit(state: &mut State, edit_command: Edit) -> Vec<Effect> {
+    match edit_command {
+        Edit::Undo => {
+            let earlier = state.history.undo(&state.document);
+            restore(state, earlier)
+        }
+        Edit::Redo => {
+            let later = state.history.redo(&state.document);
+            restore(state, later)
+        }
+        Edit::EndGesture => {
+            state.history.end_gesture();
+            Vec::new()
+        }
+        Edit::SetParameter(parameter, setting, gesture) => {
             edit_params(state, gesture, |params| *params.slot(parameter) = setting)
         }
-        Command::SetMethod(method) => {
-            edit_params(state, None, |params| *params = with_method(params, method))
-        }
-        Command::SetSwitch(switch, on) => edit_params(state, None, |params| params.refine.set(switch, on)),
-        Command::SetParams(params) => edit_params(state, None, |old| *old = *params),
-        Command::PinIlluminant(direction, gesture) => pin_illuminant(state, direction, gesture),
-        Command::SetAmbient(setting, gesture) => {
-            edit_params(state, gesture, |params| params.ambient = setting)
-        }
-        Command::RestrictTo(area) => edit(state, None, |document| document.area = area),
-        Command::Select(item) => {
+        Edit::SetMethod(method) => edit_params(state, None, |params| *params = with_method(params, method)),
+        Edit::SetSwitch(switch, on) => edit_params(state, None, |params| params.refine.set(switch, on)),
+        Edit::SetParams(params) => edit_params(state, None, |old| *old = *params),
+        Edit::PinIlluminant(direction, gesture) => pin_illuminant(state, direction, gesture),
+        Edit::SetAmbient(setting, gesture) => edit_params(state, gesture, |params| params.ambient = setting),
+        Edit::RestrictTo(area) => edit(state, None, |document| document.area = area),
+        Edit::Select(item) => {
             state.asked_pixel = None;
             edit(state, None, |document| document.selection.item = item)
         }
-        Command::Mark(mask, combine, gesture) => edit(state, gesture, |document| {
+        Edit::Mark(mask, combine, gesture) => edit(state, gesture, |document| {
             document.selection.marked = combined(document.selection.marked.take(), mask, combine);
         }),
-        Command::InvertMarked => {
+        Edit::InvertMarked => {
             let Some(size) = state.picture.as_ref().map(|picture| picture.size()) else { return Vec::new() };
             edit(state, None, |document| {
                 let marked = &mut document.selection.marked;
@@ -150,70 +116,37 @@ fn edit_or_look(state: &mut State, command: Command) -> Vec<Effect> {
                 };
             })
         }
-        Command::ClearSelection => {
+        Edit::ClearSelection => {
             state.asked_pixel = None;
             edit(state, None, |document| document.selection = Selection::default())
         }
-        other => {
-            look(state, other);
-            Vec::new()
-        }
     }
 }
 
-/// The commands that change how things are shown.
-fn look(state: &mut State, command: Command) {
+/// Changes how things are shown.
+fn reduce_view(state: &mut State, command: ViewCommand) {
     match command {
-        Command::Hover(item) => state.hover = item,
-        Command::Pin(keep) => {
+        ViewCommand::Hover(item) => state.hover = item,
+        ViewCommand::Pin(keep) => {
             state.pinned = if keep { state.newest.clone() } else { None };
             state.view.show_pinned = false;
         }
-        Command::ShowPinned(pinned) => state.view.show_pinned = pinned && state.pinned.is_some(),
-        Command::Image(settings) => state.view.image = settings,
-        Command::Cube(settings) => state.view.cube = settings,
-        Command::Plane(settings) => state.view.plane = settings,
-        Command::Profile(line) => state.view.profile = line,
-        Command::Theme(theme) => state.view.theme = theme,
-        Command::Layout(layout) => state.view.layout = layout,
-        Command::Camera(camera) => state.view.camera = camera,
-        // The others are handled before; a new one cannot be forgotten, as all are listed.
-        Command::Open(_)
-        | Command::ReadAs(_)
-        | Command::Restore(_)
-        | Command::Opened(_)
-        | Command::Progress { .. }
-        | Command::Analyzed(_)
-        | Command::Exporting { .. }
-        | Command::Exported(_)
-        | Command::OpenFailed(_)
-        | Command::SetParameter(..)
-        | Command::SetMethod(_)
-        | Command::SetSwitch(..)
-        | Command::SetParams(_)
-        | Command::LoadParams(_)
-        | Command::PinIlluminant(..)
-        | Command::SetAmbient(..)
-        | Command::RestrictTo(_)
-        | Command::EndGesture
-        | Command::Undo
-        | Command::Redo
-        | Command::Select(_)
-        | Command::Mark(..)
-        | Command::InvertMarked
-        | Command::ClearSelection
-        | Command::Ask(_)
-        | Command::Debug(_)
-        | Command::Export(_)
-        | Command::CancelExport
-        | Command::OpenWorkspace(_)
-        | Command::Notify(..)
-        | Command::Dismiss(_)
-        | Command::ForgetRecent => {}
+        ViewCommand::ShowPinned(pinned) => state.view.show_pinned = pinned && state.pinned.is_some(),
+        ViewCommand::Image(settings) => state.view.image = settings,
+        ViewCommand::Cube(settings) => state.view.cube = settings,
+        ViewCommand::Plane(settings) => state.view.plane = settings,
+        ViewCommand::Profile(line) => state.view.profile = line,
+        ViewCommand::Theme(theme) => state.view.theme = theme,
+        ViewCommand::Layout(layout) => state.view.layout = layout,
+        ViewCommand::Camera(camera) => state.view.camera = camera,
+        ViewCommand::Notify(severity, text) => notify(state, severity, text),
+        ViewCommand::Dismiss(id) => state.notices.retain(|notice| notice.id != id),
+        ViewCommand::ForgetRecent => state.recent.clear(),
     }
 }
 
-fn opened(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
+/// Shows a photograph that was read, and analyzes it.
+pub(super) fn opened(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     state.jobs.reading = None;
     if let Some(path) = picture.origin.path() {
         state.recent.retain(|known| known != path);
@@ -242,12 +175,12 @@ fn opened(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     analyze(state)
 }
 
-/// Puts back what a workspace holds beside its photograph, which is open by now.
+/// Restores what a workspace holds beside its photograph, which is open by now.
 fn put_back(state: &mut State, workspace: Workspace) {
     let Some(size) = state.picture.as_ref().map(|picture| picture.size()) else { return };
     let Workspace { params, pinned, area, item, marked, view, .. } = workspace;
     let show_pinned = view.show_pinned;
-    // Dark or light is a matter of the room that one sits in.
+    // The theme depends on the room that a person sits in, not on the workspace.
     state.view = ViewSettings { show_pinned: false, theme: state.view.theme, ..view };
     let mut mask = |what: &str, runs: Option<MaskRuns>| {
         let runs = runs?;
@@ -269,7 +202,8 @@ fn put_back(state: &mut State, workspace: Workspace) {
     }
 }
 
-fn analyzed(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
+/// Shows a result, unless it is another photograph's or older than the one shown.
+pub(super) fn analyzed(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
     let same_picture = state.picture.as_ref().is_some_and(|picture| Arc::ptr_eq(picture, &shown.picture));
     let newer = state.newest.as_ref().is_none_or(|newest| {
         (shown.generation, shown.stale_from.is_none()) >= (newest.generation, newest.stale_from.is_none())
@@ -301,19 +235,25 @@ fn follow_region(state: &mut State, shown: &ResultSnapshot) {
     }
 }
 
-fn edit_params(state: &mut State, gesture: Option<Gesture>, change: impl FnOnce(&mut Params)) -> Vec<Effect> {
+/// Changes the parameters as a step of the history; parameters that are not valid change nothing.
+pub(super) fn edit_params(
+    state: &mut State,
+    gesture: Option<Gesture>,
+    change: impl FnOnce(&mut Params),
+) -> Vec<Effect> {
     if let Some(after) = state.after_pin.take() {
         state.document.params = after.params;
     }
     let mut params = state.document.params;
     change(&mut params);
     if let Err(invalid) = params.validate() {
-        return notify(state, Severity::Error, invalid.to_string());
+        notify(state, Severity::Error, invalid.to_string());
+        return Vec::new();
     }
     edit(state, gesture, |document| document.params = params)
 }
 
-/// Changes the document as a step of the history; analyses anew where that needs it.
+/// Changes the document as a step of the history, and analyzes anew where the change needs it.
 fn edit(state: &mut State, gesture: Option<Gesture>, change: impl FnOnce(&mut Document)) -> Vec<Effect> {
     let before = state.document.clone();
     change(&mut state.document);
@@ -344,7 +284,7 @@ fn analyze(state: &mut State) -> Vec<Effect> {
         return Vec::new();
     }
     state.generation += 1;
-    // What was asked, was asked of the result before.
+    // A what-if job is about the result before.
     let inquiring = state.what_if_job.take().is_some_and(|what_if_job| what_if_job.found.is_none());
     let stop = inquiring.then_some(Effect::StopInquiring);
     stop.into_iter().chain([Effect::Analyze]).collect()
@@ -355,7 +295,7 @@ fn pin_illuminant(state: &mut State, direction: Option<[f64; 3]>, gesture: Optio
     edit_params(state, gesture, |params| params.illuminant = setting)
 }
 
-/// The other method, with what stood at the first one's default at the second one's.
+/// `params` with the other method: each parameter at the old method's default gets the new method's default.
 fn with_method(params: &Params, method: Method) -> Params {
     let (from, to) = (Params::of(params.method), Params::of(method));
     let mut changed = Params { method, ..*params };
@@ -385,14 +325,13 @@ fn some_if_any(mask: Mask) -> Option<Arc<Mask>> {
     mask.as_slice().contains(&true).then(|| Arc::new(mask))
 }
 
-/// Adds a notice, unless the same one is up already.
-fn notify(state: &mut State, severity: Severity, text: String) -> Vec<Effect> {
+/// Adds a notice, unless one with the same text is shown already.
+pub(super) fn notify(state: &mut State, severity: Severity, text: String) {
     if state.notices.iter().any(|notice| notice.text == text) {
-        return Vec::new();
+        return;
     }
     state.notices_so_far += 1;
     state.notices.push(Notice { id: state.notices_so_far, severity, text });
-    Vec::new()
 }
 
 #[cfg(test)]

@@ -1,61 +1,59 @@
-//! Questions: why a pixel is what it is, and what if: the analysis asked again and again with other parameters.
+//! Questions about a pixel: why it is what it is, and which changes of a parameter would make it something else.
 
 use super::{Effect, State};
 use crate::analysis::WhatIf;
 use std::sync::Arc;
 
-/// How far parameters would have to move for a pixel to end otherwise.
+/// The search for parameters that would make a pixel something else, which repeats the analysis.
 #[derive(Clone, Debug)]
 pub struct WhatIfJob {
-    /// What was asked.
+    /// The question.
     pub asked: Asked,
-    /// Analyses made, and in all.
+    /// Analyses made so far.
     pub done: usize,
     /// Analyses that are to be made.
     pub total: usize,
-    /// The answers; none until all are there.
+    /// The answers; none until the job has ended.
     pub found: Option<Arc<Vec<WhatIf>>>,
 }
 
-/// A question.
+/// The question of one job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
     /// The pixel, row-major.
     pub pixel: u32,
-    /// The result that it was asked of.
+    /// Number of the result that the question is about.
     pub generation: u64,
 }
 
 impl WhatIfJob {
-    /// A question that nothing has been done for.
+    /// A job that has not begun.
     pub(super) fn new(asked: Asked) -> Self {
         Self { asked, done: 0, total: 0, found: None }
     }
 }
 
-/// News of an inquiry.
+/// How far a what-if job is.
 #[derive(Clone, Debug)]
 pub enum WhatIfProgress {
-    /// It goes on: analyses made, of how many.
+    /// Analyses made so far, and in all.
     Progress(usize, usize),
-    /// It has ended.
+    /// The job ended with these answers.
     Found(Vec<WhatIf>),
-    /// It was stopped.
+    /// The job was stopped.
     Stopped,
 }
 
-/// A question, or news of one.
+/// A question about a pixel.
 #[derive(Clone, Debug)]
 pub enum Ask {
     /// Why is this pixel what it is?
     Why(u32),
-    /// How far would each parameter have to move for this pixel to end otherwise? None: stop asking.
+    /// How far must each parameter change for this pixel to become something else? None: stop the search.
     WhatIf(Option<u32>),
-    /// The analysis has something to say to that.
-    News(Asked, WhatIfProgress),
 }
 
-/// Asks, and hears the answers.
+/// Asks a question.
 pub(super) fn reduce(state: &mut State, ask: Ask) -> Vec<Effect> {
     match ask {
         Ask::Why(pixel) => {
@@ -63,10 +61,6 @@ pub(super) fn reduce(state: &mut State, ask: Ask) -> Vec<Effect> {
             Vec::new()
         }
         Ask::WhatIf(pixel) => ask_what_if(state, pixel),
-        Ask::News(asked, news) => {
-            hear(state, asked, news);
-            Vec::new()
-        }
     }
 }
 
@@ -74,7 +68,7 @@ fn is_inside(state: &State, pixel: u32) -> bool {
     state.picture.as_ref().is_some_and(|picture| (pixel as usize) < picture.photo.image.pixels.len())
 }
 
-/// Asks anew, or stops asking.
+/// Stops the job under way and starts another one, if one is asked for.
 fn ask_what_if(state: &mut State, pixel: Option<u32>) -> Vec<Effect> {
     let asked = pixel
         .filter(|&pixel| is_inside(state, pixel))
@@ -83,16 +77,16 @@ fn ask_what_if(state: &mut State, pixel: Option<u32>) -> Vec<Effect> {
     [Effect::StopInquiring].into_iter().chain(asked.map(Effect::Inquire)).collect()
 }
 
-/// News of an inquiry, unless something else has been asked since.
-fn hear(state: &mut State, asked: Asked, news: WhatIfProgress) {
+/// Takes in how far a job is, unless something else has been asked since.
+pub(super) fn report(state: &mut State, asked: Asked, progress: WhatIfProgress) {
     let Some(what_if_job) = state.what_if_job.as_mut().filter(|what_if_job| what_if_job.asked == asked)
     else {
         return;
     };
-    match news {
+    match progress {
         WhatIfProgress::Progress(done, total) => (what_if_job.done, what_if_job.total) = (done, total),
         WhatIfProgress::Found(found) => what_if_job.found = Some(Arc::new(found)),
-        // Who stopped it, has asked for something else or for nothing.
+        // Whoever stopped the job has set the state already.
         WhatIfProgress::Stopped => {}
     }
 }

@@ -4,8 +4,8 @@ use super::dock::{Dock, Pane, Panels};
 use super::files::{Dialogs, is_workspace};
 use super::theme::{self, Tones};
 use super::view_export::ViewExporter;
-use super::{Cx, menu, notices, shortcuts};
-use crate::app::{Application, Command, DebugCommand, Executor, Settings, State};
+use super::{PanelContext, menu, notices, perform, shortcuts, timeline_panel};
+use crate::app::{Application, Command, DebugCommand, Executor, JobCommand, Settings, State, ViewCommand};
 use crate::view::{Origin, Theme};
 use egui::{Event, Ui};
 use std::path::PathBuf;
@@ -86,7 +86,7 @@ impl App {
     }
 
     /// Applies a command, as a panel would.
-    pub fn apply(&mut self, command: Command) {
+    pub fn apply(&mut self, command: impl Into<Command>) {
         self.application.apply(command);
     }
 
@@ -116,7 +116,7 @@ impl App {
         }
         let tones = Tones::of(theme);
         let mut out = Vec::new();
-        let mut cx = Cx {
+        let mut cx = PanelContext {
             state: self.application.state(),
             tones: &tones,
             gpu: self.gpu.as_ref(),
@@ -148,7 +148,7 @@ impl App {
 
 impl Front {
     /// The panels' arrangement follows the view's, where a workspace brings another, and is kept there.
-    fn keep_layout(&mut self, cx: &mut Cx) {
+    fn keep_layout(&mut self, cx: &mut PanelContext) {
         let wanted = &cx.state.view.layout;
         if *wanted != self.layout {
             if let Some(dock) = Dock::from_text(wanted) {
@@ -160,12 +160,12 @@ impl Front {
         let now = self.dock.to_text();
         if now != self.layout {
             self.layout.clone_from(&now);
-            cx.send(Command::Layout(now));
+            cx.send(ViewCommand::Layout(now));
         }
     }
 
     /// The cube's camera likewise.
-    fn keep_camera(&mut self, cx: &mut Cx) {
+    fn keep_camera(&mut self, cx: &mut PanelContext) {
         let wanted = &cx.state.view.camera;
         if *wanted != self.camera {
             if let Ok(camera) = serde_json::from_str(wanted) {
@@ -177,11 +177,11 @@ impl Front {
         let now = serde_json::to_string(&self.panels.cube.camera()).unwrap_or_default();
         if now != self.camera {
             self.camera.clone_from(&now);
-            cx.send(Command::Camera(now));
+            cx.send(ViewCommand::Camera(now));
         }
     }
 
-    fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+    fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         come_in(ui, cx);
         self.dialogs.hear_escape(ui.ctx());
         self.panels.image.hear_escape(ui.ctx());
@@ -189,11 +189,12 @@ impl Front {
         // egui takes the focus from what is typed in when Escape comes: the frame before tells who had it.
         let typed = std::mem::replace(&mut self.typing, false);
         let escape_is_meant = !typed && !egui::Popup::is_any_open(ui.ctx());
-        let listeners = shortcuts::Listeners::of(cx.state, self.panels.colors.take());
+        let listeners =
+            shortcuts::Listeners::of(cx.state, self.panels.colors.take(), timeline_panel::track_id());
         for action in shortcuts::pressed(ui.ctx(), escape_is_meant, listeners, &mut self.tap) {
             // A window that opens is measured unseen in its first frame.
             ui.ctx().request_repaint();
-            shortcuts::carry_out(action, cx, &mut self.dialogs, &mut self.help);
+            perform::carry_out(action, cx, &mut self.dialogs, &mut self.help);
         }
         if let Some(pane) = self.alone {
             let frame = egui::Frame::new().fill(cx.tones.panel);
@@ -225,7 +226,7 @@ impl eframe::App for App {
 }
 
 /// Files dropped on the window, and what is pasted.
-fn come_in(ui: &Ui, cx: &mut Cx) {
+fn come_in(ui: &Ui, cx: &mut PanelContext) {
     let typing = ui.ctx().text_edit_focused();
     let (dropped, pasted) = ui.input(|input| {
         let pastes = |event: &&Event| matches!(event, Event::Paste(_) | Event::PasteImage(_));
@@ -242,11 +243,11 @@ fn come_in(ui: &Ui, cx: &mut Cx) {
             match file.bytes() {
                 Ok(bytes) => {
                     let name = path.display().to_string();
-                    cx.send(Command::Open(Origin::Bytes { name, bytes: bytes.into() }));
+                    cx.send(JobCommand::Open(Origin::Bytes { name, bytes: bytes.into() }));
                 }
                 Err(reason) => {
                     let text = format!("{}: what was dropped cannot be read: {reason}", path.display());
-                    cx.send(Command::Notify(crate::app::Severity::Error, text));
+                    cx.send(ViewCommand::Notify(crate::app::Severity::Error, text));
                 }
             }
         }
@@ -264,18 +265,18 @@ fn come_in(ui: &Ui, cx: &mut Cx) {
                 let rgba: Vec<u8> =
                     image.pixels.iter().flat_map(egui::Color32::to_srgba_unmultiplied).collect();
                 let bytes: Arc<[u8]> = crate::export::png_of_rgba(size, &rgba).into();
-                cx.send(Command::Open(Origin::Bytes { name: "clipboard".to_owned(), bytes }));
+                cx.send(JobCommand::Open(Origin::Bytes { name: "clipboard".to_owned(), bytes }));
             }
             _ => {}
         }
     }
 }
 
-fn open_path(cx: &mut Cx, path: PathBuf) {
+fn open_path(cx: &mut PanelContext, path: PathBuf) {
     cx.send(if is_workspace(&path) {
-        Command::OpenWorkspace(path)
+        JobCommand::OpenWorkspace(path)
     } else {
-        Command::Open(Origin::File(path))
+        JobCommand::Open(Origin::File(path))
     });
 }
 

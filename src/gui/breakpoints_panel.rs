@@ -1,9 +1,9 @@
 //! The breakpoints panel: a list of conditions that stop the debugger's cursor.
 
 use super::theme::SMALL_PT;
-use super::{Cx, widgets};
+use super::{PanelContext, widgets};
 use crate::app::{
-    Breakpoint, CandidateCheck, Command, Condition, DebugCommand, DebugSettings, SavedClass, State,
+    Breakpoint, CandidateCheck, Command, Condition, DebugCommand, DebugSettings, Edit, SavedClass, State,
 };
 use crate::view::Item;
 use egui::accesskit::Role;
@@ -70,7 +70,7 @@ pub struct BreakpointsPanel;
 impl BreakpointsPanel {
     /// Shows the panel.
     #[allow(clippy::unused_self, reason = "as the other panels")]
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let mut breakpoints = cx.state.view.debug.breakpoints.clone();
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {
             egui::Frame::new().inner_margin(8).show(ui, |ui| {
@@ -107,7 +107,7 @@ impl BreakpointsPanel {
 }
 
 /// Shows one breakpoint; returns whether the button "Remove" was clicked.
-fn row(ui: &mut Ui, cx: &mut Cx, index: usize, breakpoint: &mut Breakpoint) -> bool {
+fn row(ui: &mut Ui, cx: &mut PanelContext, index: usize, breakpoint: &mut Breakpoint) -> bool {
     let number = index + 1;
     let stopped = cx.state.debugger.stopped_by == Some(index);
     let enabled = ui.checkbox(&mut breakpoint.enabled, "").on_hover_text("Whether it stops the cursor.");
@@ -128,7 +128,7 @@ fn row(ui: &mut Ui, cx: &mut Cx, index: usize, breakpoint: &mut Breakpoint) -> b
     if label.clicked()
         && let Some(item) = item_of(cx.state, breakpoint.condition)
     {
-        cx.send(Command::Select(Some(item)));
+        cx.send(Edit::Select(Some(item)));
     }
     kind(ui, cx.state, number, &mut breakpoint.condition);
     details(ui, cx, number, &mut breakpoint.condition);
@@ -161,7 +161,7 @@ fn named(response: &Response, role: Role, name: String) {
 }
 
 /// Shows the controls of the condition's arguments.
-fn details(ui: &mut Ui, cx: &mut Cx, number: usize, condition: &mut Condition) {
+fn details(ui: &mut Ui, cx: &mut PanelContext, number: usize, condition: &mut Condition) {
     match condition {
         Condition::PixelChangesOwner(pixel) => pixel_controls(ui, cx.state, number, pixel),
         Condition::RegionExceeds { region, pixels } => {
@@ -219,7 +219,7 @@ fn pixel_controls(ui: &mut Ui, state: &State, number: usize, pixel: &mut u32) {
 }
 
 /// Shows a field for a hypothesis id; 0 stands for any region.
-fn region_control(ui: &mut Ui, cx: &Cx, name: &str, region: &mut Option<u16>) {
+fn region_control(ui: &mut Ui, cx: &PanelContext, name: &str, region: &mut Option<u16>) {
     if let Some(region) = *region {
         let color = widgets::color(cx.state.debugger.names.color(region));
         widgets::chip(ui, color, &format!("color of hypothesis {region}"));

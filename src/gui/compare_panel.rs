@@ -2,8 +2,8 @@
 
 use super::later::{AT_ONCE_PX, Later};
 use super::theme::SMALL_PT;
-use super::{Cx, widgets};
-use crate::app::{Command, DebugCommand, Difference};
+use super::{PanelContext, widgets};
+use crate::app::{Command, DebugCommand, Difference, Edit, ViewCommand};
 use crate::describe::Names;
 use crate::view::{Comparison, Fate, ImageSettings, Item, Layer, compare};
 use egui::{Grid, RichText, ScrollArea, Ui};
@@ -16,7 +16,7 @@ pub struct ComparePanel {
 
 impl ComparePanel {
     /// Shows the panel.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let (pinned, newest) = (cx.state.pinned.clone(), cx.state.newest.clone());
         egui::Frame::new().inner_margin(8).show(ui, |ui| {
             let (Some(pinned), Some(newest)) = (pinned, newest) else { return begin(ui, cx) };
@@ -42,15 +42,15 @@ impl ComparePanel {
 }
 
 /// Shows, while no result is pinned, what the panel does and the button that pins a result.
-fn begin(ui: &mut Ui, cx: &mut Cx) {
+fn begin(ui: &mut Ui, cx: &mut PanelContext) {
     ui.label(RichText::new("Pin this result, change a slider, and see what changed.").color(cx.tones.quiet));
     let ready = cx.state.newest.is_some();
     if ui.add_enabled(ready, egui::Button::new("Pin this result (K)")).clicked() {
-        cx.send(Command::Pin(true));
+        cx.send(ViewCommand::Pin(true));
     }
 }
 
-fn verbs(ui: &mut Ui, cx: &mut Cx) {
+fn verbs(ui: &mut Ui, cx: &mut PanelContext) {
     ui.horizontal(|ui| {
         let pinned = cx.state.view.show_pinned;
         for (choice, name) in [(true, "A pinned"), (false, "B newest")] {
@@ -59,7 +59,7 @@ fn verbs(ui: &mut Ui, cx: &mut Cx) {
                 .on_hover_text("Which of both every panel shows (A).")
                 .clicked()
             {
-                cx.send(Command::ShowPinned(choice));
+                cx.send(ViewCommand::ShowPinned(choice));
             }
         }
         if ui
@@ -67,23 +67,23 @@ fn verbs(ui: &mut Ui, cx: &mut Cx) {
             .on_hover_text("The newest body reflection minus the pinned one, gray = none.")
             .clicked()
         {
-            cx.send(Command::Image(ImageSettings {
+            cx.send(ViewCommand::Image(ImageSettings {
                 layer: Layer::Difference,
                 ..cx.state.view.image.clone()
             }));
         }
         if ui.button("Pin anew").on_hover_text("The newest result takes the pinned one's place.").clicked() {
-            cx.send(Command::Pin(true));
+            cx.send(ViewCommand::Pin(true));
         }
         if ui.button("Let go").clicked() {
-            cx.send(Command::Pin(false));
+            cx.send(ViewCommand::Pin(false));
         }
     });
     decisions(ui, cx);
 }
 
 /// Shows the first decision in which the two analyses differ, and the button that finds it.
-fn decisions(ui: &mut Ui, cx: &mut Cx) {
+fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
     ui.horizontal(|ui| {
         let find = egui::Button::new("First decision that differs");
         let find = ui.add_enabled(cx.state.debugger.replay.is_some(), find).on_hover_text(
@@ -106,7 +106,7 @@ fn decisions(ui: &mut Ui, cx: &mut Cx) {
 }
 
 /// Shows what each analysis decided at a step.
-fn parting(ui: &mut Ui, cx: &Cx, step: usize) {
+fn parting(ui: &mut Ui, cx: &PanelContext, step: usize) {
     let pinned = cx.state.pinned.as_ref().and_then(|pinned| pinned.trace());
     ui.vertical(|ui| {
         for (name, trace) in [("A", pinned), ("B", cx.state.debugger.trace())] {
@@ -121,11 +121,11 @@ fn parting(ui: &mut Ui, cx: &Cx, step: usize) {
     });
 }
 
-fn quiet(cx: &Cx, text: impl Into<String>) -> RichText {
+fn quiet(cx: &PanelContext, text: impl Into<String>) -> RichText {
     RichText::new(text).size(SMALL_PT).color(cx.tones.quiet)
 }
 
-fn figures(ui: &mut Ui, cx: &Cx, found: &Comparison) {
+fn figures(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
     Grid::new("figures").num_columns(4).spacing([14.0, 2.0]).show(ui, |ui| {
         for title in ["", "A", "B", "B \u{2212} A"] {
             ui.label(quiet(cx, title));
@@ -168,7 +168,7 @@ fn shortened(value: f64) -> String {
     if value.abs() >= 1000.0 || value.fract() == 0.0 { format!("{value:.0}") } else { format!("{value:.3}") }
 }
 
-fn regions(ui: &mut Ui, cx: &mut Cx, found: &Comparison) {
+fn regions(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
     let (pixels, body) = (&found.pixels, &found.body);
     let all = (pixels.kept + pixels.gained + pixels.lost + pixels.changed).max(1) as f64;
     let percent = |n: usize| format!("{:.2} %", 100.0 * n as f64 / all);
@@ -204,7 +204,7 @@ fn regions(ui: &mut Ui, cx: &mut Cx, found: &Comparison) {
         if row.clicked()
             && let Some(region) = target
         {
-            cx.send(Command::Select(Some(Item::Region(region))));
+            cx.send(Edit::Select(Some(Item::Region(region))));
         }
     }
 }

@@ -10,13 +10,14 @@ mod cursor;
 mod detail;
 mod figure;
 mod frame;
+mod instant;
 mod labels;
 mod legend;
 mod outline;
 pub mod testing;
 
-use super::{Cx, widgets};
-use crate::app::{Combine, Command};
+use super::{PanelContext, widgets};
+use crate::app::{Combine, Edit, ViewCommand};
 use crate::gpu::{Batch, Line, Orbit, Projector, Scene, pick};
 use crate::view::{Item, Picture, Tool};
 use camera_controller::{CameraController, Plane};
@@ -79,7 +80,7 @@ impl CubePanel {
     }
 
     /// Shows the panel.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let Some(picture) = cx.state.picture.clone() else {
             widgets::nothing(ui, cx.tones, "Open a photograph to see its colors.");
             return;
@@ -121,7 +122,7 @@ impl CubePanel {
     }
 
     /// Moves the camera by pointer and keys, and to the dichromatic plane of the selected region.
-    fn turn(&mut self, ui: &Ui, cx: &Cx, response: &Response, rect: Rect) {
+    fn turn(&mut self, ui: &Ui, cx: &PanelContext, response: &Response, rect: Rect) {
         let (plane, settings) = (Plane::of(cx.state), &cx.state.view.cube);
         if response.clicked() || response.drag_started() {
             response.request_focus();
@@ -137,7 +138,7 @@ impl CubePanel {
     fn update(
         &mut self,
         ui: &Ui,
-        cx: &Cx,
+        cx: &PanelContext,
         gpu: &egui_wgpu::RenderState,
         picture: &Arc<Picture>,
         other_space: bool,
@@ -171,7 +172,14 @@ impl CubePanel {
     }
 
     /// Paints labels, gizmo, legend and the ring around the hovered color over the rendered scene.
-    fn write(&self, ui: &Ui, cx: &Cx, projector: &Projector, response: &Response, picture: &Picture) {
+    fn write(
+        &self,
+        ui: &Ui,
+        cx: &PanelContext,
+        projector: &Projector,
+        response: &Response,
+        picture: &Picture,
+    ) {
         let rect = response.rect;
         let settings = &cx.state.view.cube;
         let mut occupied = vec![legend::show(ui, cx, rect, self.cloud.fullest)];
@@ -192,7 +200,7 @@ impl CubePanel {
     }
 
     /// Writes the hovered color in counts into the lower right corner; returns the rectangle of the text.
-    fn readout(&self, ui: &Ui, cx: &Cx, rect: Rect, picture: &Picture) -> Rect {
+    fn readout(&self, ui: &Ui, cx: &PanelContext, rect: Rect, picture: &Picture) -> Rect {
         let corner = rect.right_bottom() - vec2(8.0, 6.0);
         let Some((color, count, region)) = self.hovered(cx, picture) else {
             return Rect::from_min_max(corner, corner);
@@ -205,7 +213,7 @@ impl CubePanel {
     }
 
     /// Color, number of pixels and region of the pixel or bin that is hovered.
-    fn hovered(&self, cx: &Cx, picture: &Picture) -> Option<([f32; 3], u32, Option<u16>)> {
+    fn hovered(&self, cx: &PanelContext, picture: &Picture) -> Option<([f32; 3], u32, Option<u16>)> {
         let item = cx.state.hover?;
         // While the debugger's cursor is followed, the regions of the result do not exist yet.
         let region = |region: Option<u16>| region.filter(|_| cx.state.followed().is_none());
@@ -222,7 +230,7 @@ impl CubePanel {
         }
     }
 
-    fn ring(&self, ui: &Ui, cx: &Cx, projector: &Projector, rect: Rect, picture: &Picture) {
+    fn ring(&self, ui: &Ui, cx: &PanelContext, projector: &Projector, rect: Rect, picture: &Picture) {
         let Some((color, ..)) = self.hovered(cx, picture) else { return };
         let world = cx.state.view.cube.space.place(color, picture.histogram.full_counts);
         let Some(at) = frame::screen(projector, rect, world) else { return };
@@ -239,7 +247,7 @@ impl CubePanel {
 
     /// Sends what the pointer does: hovering a bin highlights its pixels; a click selects the bin's region, Alt +
     /// click the bin.
-    fn point(&mut self, cx: &mut Cx, response: &Response, projector: &Projector, rect: Rect) {
+    fn point(&mut self, cx: &mut PanelContext, response: &Response, projector: &Projector, rect: Rect) {
         let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
         let pointer = clicked.or(response.hover_pos().filter(|_| !response.dragged()));
         let bin = pointer.and_then(|at| {
@@ -249,12 +257,12 @@ impl CubePanel {
         let hover = bin.map(Item::Bin);
         let was_ours = std::mem::replace(&mut self.hovers, pointer.is_some());
         if (self.hovers || was_ours) && cx.state.hover != hover {
-            cx.send(Command::Hover(hover));
+            cx.send(ViewCommand::Hover(hover));
         }
         if response.clicked() && !response.double_clicked() && cx.state.view.cube.tool == Tool::Pointer {
             let alt = response.ctx.input(|input| input.modifiers.alt);
             let region = bin.and_then(|bin| self.cloud.region_of(bin)).map(Item::Region);
-            cx.send(Command::Select(if alt { hover } else { region.or(hover) }));
+            cx.send(Edit::Select(if alt { hover } else { region.or(hover) }));
         }
     }
 
@@ -262,7 +270,7 @@ impl CubePanel {
     fn mark(
         &mut self,
         ui: &Ui,
-        cx: &mut Cx,
+        cx: &mut PanelContext,
         response: &Response,
         projector: &Projector,
         rect: Rect,
@@ -275,7 +283,7 @@ impl CubePanel {
                 egui::Modifiers { shift: true, .. } => Combine::Union,
                 _ => Combine::Replace,
             });
-            cx.send(Command::Mark(Arc::new(mask), combine, None));
+            cx.send(Edit::Mark(Arc::new(mask), combine, None));
         }
         self.outline.paint(&ui.painter_at(rect), response, cx.tones.accent);
     }

@@ -14,7 +14,7 @@ use super::theme::Tones;
 use super::timeline_panel::TimelinePanel;
 use super::watch_panel::WatchPanel;
 use super::why_panel::WhyPanel;
-use super::{Cx, parameters};
+use super::{PanelContext, parameters};
 use egui::{Color32, Rect, Stroke, Ui, Visuals, WidgetText};
 use egui_tiles::{
     Behavior, LinearDir, SimplificationOptions, TabState, Tile, TileId, Tiles, Tree, UiResponse,
@@ -30,7 +30,7 @@ struct PaneRow {
     /// The tabs that it belongs to in the first arrangement, in the order of the table.
     tabs: TabGroup,
     /// Shows it in all of the given area.
-    show: fn(&mut Panels, &mut Ui, &mut Cx),
+    show: fn(&mut Panels, &mut Ui, &mut PanelContext),
 }
 
 /// Panels that share tabs in the first arrangement.
@@ -176,7 +176,7 @@ impl Pane {
 
 impl Panels {
     /// Shows one panel in all of `ui`.
-    pub fn show(&mut self, pane: Pane, ui: &mut Ui, cx: &mut Cx) {
+    pub fn show(&mut self, pane: Pane, ui: &mut Ui, cx: &mut PanelContext) {
         let row = pane.row();
         ui.painter().rect_filled(ui.max_rect(), 0.0, (row.ground)(cx.tones));
         (row.show)(self, ui, cx);
@@ -196,7 +196,7 @@ impl Default for Dock {
 
 impl Dock {
     /// Shows every panel in its place.
-    pub fn show(&mut self, ui: &mut Ui, panels: &mut Panels, cx: &mut Cx) {
+    pub fn show(&mut self, ui: &mut Ui, panels: &mut Panels, cx: &mut PanelContext) {
         self.tree.ui(&mut DockBehavior { panels, cx }, ui);
     }
 
@@ -305,7 +305,7 @@ fn split(tiles: &mut Tiles<Pane>, dir: LinearDir, parts: &[(TileId, f32)]) -> Ti
 
 struct DockBehavior<'a, 'b> {
     panels: &'a mut Panels,
-    cx: &'a mut Cx<'b>,
+    cx: &'a mut PanelContext<'b>,
 }
 
 impl Behavior<Pane> for DockBehavior<'_, '_> {

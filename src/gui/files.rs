@@ -2,15 +2,15 @@
 //!
 //! The dialog runs on a thread of its own: a portal that hangs, hangs alone.
 
-use super::Cx;
+use super::PanelContext;
 use super::dock::Pane;
+use super::task::Task;
 use super::view_export::ViewExport;
-use crate::app::{Command, Export};
+use crate::app::{Export, JobCommand};
 use crate::truth::sample::SAMPLES;
 use crate::view::Origin;
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,7 +105,7 @@ pub struct Dialogs {
     view: Pane,
     size_px: [u32; 2],
     view_export: Option<ViewExport>,
-    browsing: Option<Receiver<Option<PathBuf>>>,
+    browsing: Option<Task<Option<PathBuf>>>,
     focus: bool,
 }
 
@@ -147,7 +147,7 @@ impl Dialogs {
     }
 
     /// Shows what is open. A view that is to be drawn is handed out.
-    pub fn show(&mut self, ui: &Ui, cx: &mut Cx) -> Option<ViewExport> {
+    pub fn show(&mut self, ui: &Ui, cx: &mut PanelContext) -> Option<ViewExport> {
         self.take_answer(ui);
         let question = self.question?;
         let title = match question {
@@ -179,7 +179,7 @@ impl Dialogs {
     }
 
     /// What can be exported, with the options of what is chosen.
-    fn wares(&mut self, ui: &mut Ui, cx: &Cx) {
+    fn wares(&mut self, ui: &mut Ui, cx: &PanelContext) {
         if self.path.is_empty() {
             self.path = proposed(self.ware, cx).display().to_string();
         }
@@ -235,7 +235,7 @@ impl Dialogs {
     }
 
     /// The field, the system's dialog and the verb. Whether the question is answered.
-    fn path_row(&mut self, ui: &mut Ui, question: Dialog, cx: &mut Cx) -> bool {
+    fn path_row(&mut self, ui: &mut Ui, question: Dialog, cx: &mut PanelContext) -> bool {
         let verb = match question {
             Dialog::Open | Dialog::OpenWorkspace => "Open",
             Dialog::LoadParameters => "Load",
@@ -268,19 +268,19 @@ impl Dialogs {
                 return go;
             }
             cx.send(match question {
-                Dialog::Open if is_workspace(&path) => Command::OpenWorkspace(path),
-                Dialog::Open => Command::Open(Origin::File(path)),
-                Dialog::LoadParameters => Command::LoadParams(path),
-                Dialog::OpenWorkspace => Command::OpenWorkspace(path),
-                Dialog::SaveParameters => Command::Export(Export::Parameters { path }),
-                Dialog::SaveWorkspace => Command::Export(Export::Workspace { path }),
-                Dialog::Export => Command::Export(self.export(path, cx)),
+                Dialog::Open if is_workspace(&path) => JobCommand::OpenWorkspace(path),
+                Dialog::Open => JobCommand::Open(Origin::File(path)),
+                Dialog::LoadParameters => JobCommand::LoadParams(path),
+                Dialog::OpenWorkspace => JobCommand::OpenWorkspace(path),
+                Dialog::SaveParameters => JobCommand::Export(Export::Parameters { path }),
+                Dialog::SaveWorkspace => JobCommand::Export(Export::Workspace { path }),
+                Dialog::Export => JobCommand::Export(self.export(path, cx)),
             });
         }
         go
     }
 
-    fn export(&self, path: PathBuf, cx: &Cx) -> Export {
+    fn export(&self, path: PathBuf, cx: &PanelContext) -> Export {
         match self.ware {
             ExportChoice::Result => Export::Result { folder: path, force: self.force },
             ExportChoice::Matte => Export::Matte { path, keep_surface: self.keep_surface },
@@ -296,7 +296,7 @@ impl Dialogs {
     }
 
     /// The sample scene and the photographs opened before. Whether one was chosen.
-    fn shelf(ui: &mut Ui, cx: &mut Cx) -> bool {
+    fn shelf(ui: &mut Ui, cx: &mut PanelContext) -> bool {
         let mut chosen = None;
         ui.add_space(4.0);
         super::widgets::heading(ui, cx.tones, "Sample scenes");
@@ -317,14 +317,13 @@ impl Dialogs {
         }
         let any = chosen.is_some();
         if let Some(origin) = chosen {
-            cx.send(Command::Open(origin));
+            cx.send(JobCommand::Open(origin));
         }
         any
     }
 
     fn browse(&mut self, ctx: &egui::Context, question: Dialog) {
-        let (send, receive) = channel();
-        let (ctx, folder) = (ctx.clone(), question == Dialog::Export && self.ware == ExportChoice::Result);
+        let folder = question == Dialog::Export && self.ware == ExportChoice::Result;
         let writes = matches!(question, Dialog::SaveParameters | Dialog::SaveWorkspace | Dialog::Export);
         let start = expanded(&self.path);
         let ask = move || {
@@ -344,34 +343,25 @@ impl Dialogs {
                     dialog.pick_file().await
                 }
             });
-            // The window may be gone by now.
-            let _ = send.send(answer.map(|file| file.path().to_path_buf()));
-            ctx.request_repaint();
+            answer.map(|file| file.path().to_path_buf())
         };
-        if std::thread::Builder::new().name("file dialog".to_owned()).spawn(ask).is_ok() {
-            self.browsing = Some(receive);
-        }
+        self.browsing = Task::start(ctx, "file dialog", ask);
     }
 
+    /// Takes the path that was chosen in the system's dialog.
     fn take_answer(&mut self, ui: &Ui) {
-        let Some(browsing) = &self.browsing else { return };
-        match browsing.try_recv() {
-            Ok(answer) => {
-                if let Some(path) = answer {
-                    self.path = path.display().to_string();
-                    self.focus = true;
-                }
-                self.browsing = None;
-                ui.ctx().request_repaint();
+        if let Some(answer) = Task::take(&mut self.browsing) {
+            if let Some(path) = answer {
+                self.path = path.display().to_string();
+                self.focus = true;
             }
-            Err(TryRecvError::Disconnected) => self.browsing = None,
-            Err(TryRecvError::Empty) => {}
+            ui.ctx().request_repaint();
         }
     }
 }
 
 /// Beside the photograph, or in the folder that the program runs in.
-fn proposed(ware: ExportChoice, cx: &Cx) -> PathBuf {
+fn proposed(ware: ExportChoice, cx: &PanelContext) -> PathBuf {
     let picture = cx.state.picture.as_ref();
     let photo = picture.and_then(|picture| picture.origin.path());
     let folder = photo.and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();

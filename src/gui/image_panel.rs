@@ -11,8 +11,8 @@ mod toolbar;
 mod tools;
 
 use super::status::PATIENCE;
-use super::{Cx, widgets};
-use crate::app::Command;
+use super::{PanelContext, widgets};
+use crate::app::ViewCommand;
 use crate::view::{Arrangement, ImageSettings, Instant, Item, Layer, Tool};
 use cursor::InstantCache;
 use egui::accesskit::Role;
@@ -22,7 +22,7 @@ use egui::{
 };
 pub use geometry::Placement;
 use std::sync::Arc;
-use textures::{PaintRequest, Sheets, Slot};
+use textures::{PaintRequest, Slot, TextureCache};
 use tools::{PointerContext, ToolState};
 
 /// Half the width of the wipe's handle, points.
@@ -33,7 +33,7 @@ const STEP_PT: f32 = 40.0;
 /// The panel: what it has uploaded, and the gesture in progress.
 #[derive(Default)]
 pub struct ImagePanel {
-    textures: Sheets,
+    textures: TextureCache,
     instant_cache: InstantCache,
     hand: ToolState,
     /// The pixel that this panel last said the pointer is over.
@@ -55,7 +55,7 @@ impl ImagePanel {
     }
 
     /// Shows it.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let Some(picture) = &cx.state.picture else {
             nothing_open(ui, cx);
             return;
@@ -91,13 +91,13 @@ impl ImagePanel {
             self.views(ui, cx, &mut settings, size);
         });
         if settings != cx.state.view.image {
-            cx.send(Command::Image(settings));
+            cx.send(ViewCommand::Image(settings));
         }
         cursor::send(cx, debug);
     }
 
     /// One view, or two of them.
-    fn views(&mut self, ui: &mut Ui, cx: &mut Cx, settings: &mut ImageSettings, size: Vec2) {
+    fn views(&mut self, ui: &mut Ui, cx: &mut PanelContext, settings: &mut ImageSettings, size: Vec2) {
         let full = ui.available_rect_before_wrap();
         if full.width() < 8.0 || full.height() < 8.0 {
             return;
@@ -121,7 +121,7 @@ impl ImagePanel {
     fn view(
         &mut self,
         ui: &mut Ui,
-        cx: &mut Cx,
+        cx: &mut PanelContext,
         settings: &mut ImageSettings,
         place: Placement,
         slot: Slot,
@@ -164,7 +164,7 @@ impl ImagePanel {
         Some(x)
     }
 
-    fn draw(&mut self, ui: &Ui, cx: &Cx, spot: &PointerContext, slot: Slot, wiped: Option<f32>) {
+    fn draw(&mut self, ui: &Ui, cx: &PanelContext, spot: &PointerContext, slot: Slot, wiped: Option<f32>) {
         let (place, state) = (&spot.place, cx.state);
         let settings = &state.view.image;
         let painter = ui.painter_at(place.view);
@@ -236,14 +236,14 @@ impl ImagePanel {
     }
 
     /// Tells what the pointer is over, when that has changed.
-    fn tell(&mut self, cx: &mut Cx, pixel: Option<u32>) {
+    fn tell(&mut self, cx: &mut PanelContext, pixel: Option<u32>) {
         let item = pixel.map(Item::Pixel);
         let told = self.pointed.is_some() || pixel.is_some();
         if told
             && item != cx.state.hover
             && (pixel.is_some() || self.pointed.map(Item::Pixel) == cx.state.hover)
         {
-            cx.send(Command::Hover(item));
+            cx.send(ViewCommand::Hover(item));
         }
         self.pointed = pixel;
     }
@@ -253,7 +253,7 @@ impl ImagePanel {
 fn words(
     ui: &Ui,
     painter: &egui::Painter,
-    cx: &Cx,
+    cx: &PanelContext,
     parts: &[(Layer, Slot, Rect)],
     instant: Option<&Instant>,
 ) {
@@ -325,7 +325,7 @@ fn pointer_is_right_of(ui: &Ui, x: f32) -> bool {
 }
 
 /// A picture of an older result is dimmed when the newer one takes long.
-fn tint(cx: &Cx, layer: Layer) -> Color32 {
+fn tint(cx: &PanelContext, layer: Layer) -> Color32 {
     let state = cx.state;
     let late = state.jobs.analysis.is_some_and(|job| job.since.elapsed() >= PATIENCE);
     let stale = late && layer.needs_result() && !state.is_current() && !state.view.show_pinned;
@@ -333,7 +333,7 @@ fn tint(cx: &Cx, layer: Layer) -> Color32 {
 }
 
 /// The wipe's line, with a grip in its middle.
-fn handle(painter: &egui::Painter, cx: &Cx, view: Rect, x: f32) {
+fn handle(painter: &egui::Painter, cx: &PanelContext, view: Rect, x: f32) {
     painter.vline(x, view.y_range(), (3.0, Color32::from_black_alpha(130)));
     painter.vline(x, view.y_range(), (1.4, overlay::MARK));
     let grip = Rect::from_center_size(pos2(x, view.center().y), vec2(9.0, 26.0));
@@ -347,7 +347,7 @@ fn handle(painter: &egui::Painter, cx: &Cx, view: Rect, x: f32) {
     }
 }
 
-fn nothing_open(ui: &mut Ui, cx: &Cx) {
+fn nothing_open(ui: &mut Ui, cx: &PanelContext) {
     match &cx.state.jobs.reading {
         Some(job) if job.since.elapsed() >= PATIENCE => {
             widgets::nothing(ui, cx.tones, "Reading the photograph\u{2026}");

@@ -1,21 +1,23 @@
-//! Values of a panel that take longer than a frame: computed on a background thread, while the previous value is
-//! shown.
+//! A value of one panel that takes longer than a frame: it is made on a thread, and the former value is shown until then.
 
+use super::task::Task;
 use egui::Context;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// Largest number of pixels of work that is done within the frame, without a thread.
+/// Work on at most this many pixels is done in the frame itself.
 pub const AT_ONCE_PX: usize = 400_000;
 
 /// A value computed from a key, and the computation of the next value.
 pub struct Later<K, T> {
+    /// The last value, with its key.
     made: Option<(K, T)>,
-    making: Option<(K, Receiver<T>)>,
+    /// The key of the value that `task` makes.
+    making: Option<K>,
+    task: Option<Task<T>>,
 }
 
 impl<K, T> Default for Later<K, T> {
     fn default() -> Self {
-        Self { made: None, making: None }
+        Self { made: None, making: None, task: None }
     }
 }
 
@@ -30,44 +32,28 @@ impl<K: PartialEq + Clone, T: Send + 'static> Later<K, T> {
         at_once: bool,
         make: impl FnOnce() -> T + Send + 'static,
     ) -> Option<&T> {
-        if let Some((making, receiver)) = &self.making {
-            match receiver.try_recv() {
-                Ok(value) => {
-                    self.made = Some((making.clone(), value));
-                    self.making = None;
-                }
-                Err(TryRecvError::Disconnected) => self.making = None,
-                Err(TryRecvError::Empty) => {}
-            }
+        if let Some(value) = Task::take(&mut self.task)
+            && let Some(made_for) = self.making.take()
+        {
+            self.made = Some((made_for, value));
         }
         let stale = self.made.as_ref().is_none_or(|(made, _)| *made != key);
-        if stale && self.making.is_none() {
+        if stale && self.task.is_none() {
             if at_once {
                 self.made = Some((key, make()));
             } else {
-                self.begin(ctx, key, make);
+                self.task = Task::start(ctx, "panel", make);
+                self.making = Some(key);
             }
         }
         self.made.as_ref().map(|(_, value)| value)
-    }
-
-    fn begin(&mut self, ctx: &Context, key: K, make: impl FnOnce() -> T + Send + 'static) {
-        let (send, receive) = channel();
-        let ctx = ctx.clone();
-        let work = move || {
-            // The receiver is gone when the panel was closed meanwhile.
-            let _ = send.send(make());
-            ctx.request_repaint();
-        };
-        if std::thread::Builder::new().name("panel".to_owned()).spawn(work).is_ok() {
-            self.making = Some((key, receive));
-        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::mpsc::channel;
 
     #[test]
     fn the_former_value_stays_until_the_new_one_is_there() {

@@ -1,10 +1,12 @@
 //! The menu bar: every deed by name, and the status line.
 
+use super::action::{Action, DebugAction};
 use super::dock::{Dock, Pane};
 use super::files::{Dialog, Dialogs};
-use super::shortcuts::{Action, DebugDeed, keys_of, move_cursor, selected};
-use super::{Cx, status};
-use crate::app::{Command, Grain, analyze_call};
+use super::move_cursor::{move_cursor, selected};
+use super::shortcuts::keys_of;
+use super::{PanelContext, status};
+use crate::app::{Edit, Grain, JobCommand, ViewCommand, analyze_call};
 use crate::params::{Method, Preset};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::truth::sample::SAMPLES;
@@ -12,7 +14,7 @@ use crate::view::{Origin, Theme};
 use egui::{Button, RadioButton, Ui};
 
 /// Shows the bar.
-pub fn show(ui: &mut Ui, cx: &mut Cx, dock: &mut Dock, dialogs: &mut Dialogs, help: &mut bool) {
+pub fn show(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock, dialogs: &mut Dialogs, help: &mut bool) {
     egui::MenuBar::new().ui(ui, |ui| {
         ui.menu_button("File", |ui| file(ui, cx, dialogs));
         ui.menu_button("Edit", |ui| edit(ui, cx));
@@ -37,7 +39,7 @@ fn item(ui: &mut Ui, text: &str, action: Action, enabled: bool) -> bool {
     ui.add_enabled(enabled, Button::new(text).shortcut_text(keys)).clicked()
 }
 
-fn file(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
+fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
     if item(ui, "Open\u{2026}", Action::Open, true) {
         dialogs.ask(Dialog::Open);
     }
@@ -45,18 +47,18 @@ fn file(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
         for path in &cx.state.recent {
             let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
             if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
-                cx.out.push(Command::Open(Origin::File(path.clone())));
+                cx.send(JobCommand::Open(Origin::File(path.clone())));
             }
         }
         ui.separator();
         if ui.add_enabled(!cx.state.recent.is_empty(), Button::new("Forget these")).clicked() {
-            cx.send(Command::ForgetRecent);
+            cx.send(ViewCommand::ForgetRecent);
         }
     });
     ui.menu_button("Sample scenes", |ui| {
         for sample in &SAMPLES {
             if ui.button(sample.name).on_hover_text(sample.about).clicked() {
-                cx.send(Command::Open(Origin::Sample(sample.name.to_owned())));
+                cx.send(JobCommand::Open(Origin::Sample(sample.name.to_owned())));
             }
         }
     });
@@ -79,7 +81,7 @@ fn file(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
 }
 
 /// What the file's values mean, where the file does not say or says wrong.
-fn read_as(ui: &mut Ui, cx: &mut Cx) {
+fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
     let now = cx.state.picture.as_ref().map_or_else(ReadOptions::default, |picture| picture.reading);
     for (choice, name, tip) in [
         (
@@ -94,7 +96,7 @@ fn read_as(ui: &mut Ui, cx: &mut Cx) {
         let radio =
             ui.add_enabled(cx.state.picture.is_some(), RadioButton::new(now.encoding == choice, name));
         if radio.on_hover_text(tip).clicked() {
-            cx.send(Command::ReadAs(ReadOptions { encoding: choice, ..now }));
+            cx.send(JobCommand::ReadAs(ReadOptions { encoding: choice, ..now }));
         }
     }
     ui.separator();
@@ -109,38 +111,38 @@ fn read_as(ui: &mut Ui, cx: &mut Cx) {
             egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, "full scale")
         });
         if field.changed() {
-            cx.send(Command::ReadAs(ReadOptions { full_scale: Some(counts), ..now }));
+            cx.send(JobCommand::ReadAs(ReadOptions { full_scale: Some(counts), ..now }));
         }
     });
 }
 
-fn edit(ui: &mut Ui, cx: &mut Cx) {
+fn edit(ui: &mut Ui, cx: &mut PanelContext) {
     let state = cx.state;
     let marked = state.document.selection.marked.as_ref();
     if item(ui, "Undo", Action::Undo, state.history.can_undo()) {
-        cx.send(Command::Undo);
+        cx.send(Edit::Undo);
     }
     if item(ui, "Redo", Action::Redo, state.history.can_redo()) {
-        cx.send(Command::Redo);
+        cx.send(Edit::Redo);
     }
     ui.separator();
     if item(ui, "Invert marked", Action::Invert, state.picture.is_some()) {
-        cx.send(Command::InvertMarked);
+        cx.send(Edit::InvertMarked);
     }
     if item(ui, "Select nothing", Action::Escape, !state.document.selection.is_empty()) {
-        cx.send(Command::ClearSelection);
+        cx.send(Edit::ClearSelection);
     }
     ui.separator();
     let restrict = ui.add_enabled(marked.is_some(), Button::new("Analyze only the marked pixels"));
     if restrict.on_hover_text("Pixels outside are left out of every stage and stay as they are.").clicked() {
-        cx.send(Command::RestrictTo(marked.cloned()));
+        cx.send(Edit::RestrictTo(marked.cloned()));
     }
     if ui.add_enabled(state.document.area.is_some(), Button::new("Analyze the whole picture")).clicked() {
-        cx.send(Command::RestrictTo(None));
+        cx.send(Edit::RestrictTo(None));
     }
 }
 
-fn view(ui: &mut Ui, cx: &mut Cx, dock: &mut Dock) {
+fn view(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock) {
     for pane in Pane::ALL {
         let mut visible = dock.has(pane);
         if ui.checkbox(&mut visible, pane.title()).changed() {
@@ -153,13 +155,13 @@ fn view(ui: &mut Ui, cx: &mut Cx, dock: &mut Dock) {
     ui.separator();
     for (theme, name) in [(Theme::Dark, "Dark"), (Theme::Light, "Light")] {
         if ui.radio(cx.state.view.theme == theme, name).clicked() {
-            cx.send(Command::Theme(theme));
+            cx.send(ViewCommand::Theme(theme));
         }
     }
 }
 
 /// What moves the cursor in the recorded decisions, and what stops it.
-fn decisions(ui: &mut Ui, cx: &mut Cx) {
+fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
     use crate::app::Direction::{Back, Forward};
     let (traced, playing) = (cx.state.debugger.replay.is_some(), cx.state.debugger.playing);
     let any = cx.state.view.debug.breakpoints.iter().any(|breakpoint| breakpoint.enabled);
@@ -167,30 +169,30 @@ fn decisions(ui: &mut Ui, cx: &mut Cx) {
     let record = if cx.state.view.debug.open { "Stop recording" } else { "Record" };
     let play = if playing.is_some() { "Pause" } else { "Play" };
     let back = if playing == Some(Back) { "Pause" } else { "Play backwards" };
-    let mut row = |ui: &mut Ui, words: &str, action: DebugDeed, enabled: bool| {
+    let mut row = |ui: &mut Ui, words: &str, action: DebugAction, enabled: bool| {
         if item(ui, words, Action::Debug(action), enabled) {
             move_cursor(action, cx);
         }
     };
-    row(ui, record, DebugDeed::Record, true);
+    row(ui, record, DebugAction::Record, true);
     ui.separator();
-    row(ui, play, DebugDeed::Play(Forward), traced);
-    row(ui, back, DebugDeed::Play(Back), traced);
-    row(ui, "Into the next hypothesis", DebugDeed::Into, traced);
+    row(ui, play, DebugAction::Play(Forward), traced);
+    row(ui, back, DebugAction::Play(Back), traced);
+    row(ui, "Into the next hypothesis", DebugAction::Into, traced);
     ui.separator();
     for grain in [Grain::Stage, Grain::Hypothesis, Grain::Event, Grain::Claim] {
         for (way, words) in [(Forward, "forward"), (Back, "back")] {
             let words = format!("{} {words}", in_capitals(grain.name()));
-            row(ui, &words, DebugDeed::Step(grain, way), traced);
+            row(ui, &words, DebugAction::Step(grain, way), traced);
         }
     }
-    row(ui, "To the beginning", DebugDeed::Start, traced);
-    row(ui, "To the result", DebugDeed::End, traced);
+    row(ui, "To the beginning", DebugAction::Start, traced);
+    row(ui, "To the result", DebugAction::End, traced);
     ui.separator();
-    row(ui, "Next breakpoint", DebugDeed::Breakpoint(Forward), traced && any);
-    row(ui, "Breakpoint before", DebugDeed::Breakpoint(Back), traced && any);
-    row(ui, "Next change of what is selected", DebugDeed::Change(Forward), goal);
-    row(ui, "Change before, of what is selected", DebugDeed::Change(Back), goal);
+    row(ui, "Next breakpoint", DebugAction::Breakpoint(Forward), traced && any);
+    row(ui, "Breakpoint before", DebugAction::Breakpoint(Back), traced && any);
+    row(ui, "Next change of what is selected", DebugAction::Change(Forward), goal);
+    row(ui, "Change before, of what is selected", DebugAction::Change(Back), goal);
 }
 
 /// Its first letter large.
@@ -199,7 +201,7 @@ fn in_capitals(word: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-fn analyze(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
+fn analyze(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
     let method = cx.state.document.params.method;
     for (choice, name, tip) in [
         (Method::Refined, "Refined method", "The paper's algorithm with refinements, each a switch."),
@@ -210,14 +212,14 @@ fn analyze(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
         ),
     ] {
         if ui.radio(method == choice, name).on_hover_text(tip).clicked() {
-            cx.send(Command::SetMethod(choice));
+            cx.send(Edit::SetMethod(choice));
         }
     }
     ui.menu_button("Presets of table 6", |ui| {
         for preset in Preset::ALL {
             let tip = "The paper's method with the numbers of this column of table 6 (section 7.3).";
             if ui.button(preset.title()).on_hover_text(tip).clicked() {
-                cx.send(Command::SetParams(Box::new(preset.params())));
+                cx.send(Edit::SetParams(Box::new(preset.params())));
             }
         }
     });
@@ -231,10 +233,10 @@ fn analyze(ui: &mut Ui, cx: &mut Cx, dialogs: &mut Dialogs) {
     let pinned = cx.state.pinned.is_some();
     let words = if pinned { "Let the pinned result go" } else { "Pin this result to compare with" };
     if item(ui, words, Action::Pin, cx.state.newest.is_some()) {
-        cx.send(Command::Pin(!pinned));
+        cx.send(ViewCommand::Pin(!pinned));
     }
     if item(ui, "Show the other of the two", Action::Swap, pinned) {
-        cx.send(Command::ShowPinned(!cx.state.view.show_pinned));
+        cx.send(ViewCommand::ShowPinned(!cx.state.view.show_pinned));
     }
     ui.separator();
     let copy = ui.add_enabled(cx.state.picture.is_some(), Button::new("Copy as command line"));

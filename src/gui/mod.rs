@@ -1,22 +1,25 @@
 //! The window: one file per panel, all of them over one [`crate::app::State`].
 //!
-//! A panel reads the state through a [`Cx`] and leaves commands there; it keeps nothing but what it has uploaded and the
+//! A panel reads the state through a [`PanelContext`] and leaves commands there; it keeps nothing but what it has uploaded and the
 //! gesture that the pointer is in the middle of.
 
+mod action;
 mod app;
 mod breakpoints_panel;
 mod compare_panel;
 mod cube_panel;
-mod cx;
 mod dock;
 mod files;
 mod icons;
 mod image_panel;
 mod later;
 mod menu;
+mod move_cursor;
 mod notices;
 mod offscreen;
+mod panel_context;
 mod parameters;
+mod perform;
 mod plane_panel;
 mod profile_panel;
 mod regions_panel;
@@ -24,6 +27,7 @@ mod screenshot;
 mod selection_panel;
 mod shortcuts;
 mod status;
+mod task;
 #[doc(hidden)]
 pub mod testing;
 mod theme;
@@ -36,7 +40,7 @@ mod widgets;
 mod window;
 
 pub use app::App;
-pub use cx::Cx;
 pub use dock::Pane;
+pub use panel_context::PanelContext;
 pub use screenshot::{ScreenshotError, screenshot};
 pub use window::{WindowError, open};

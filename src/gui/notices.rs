@@ -1,14 +1,14 @@
 //! Notices about finished work, warnings and errors, shown in the lower left corner until dismissed.
 
-use super::Cx;
-use crate::app::{Command, Severity};
+use super::PanelContext;
+use crate::app::{Severity, ViewCommand};
 use egui::{Align2, Frame, RichText, Ui, vec2};
 
 /// Largest number of notices shown at once; of more, the newest are shown.
 const MOST: usize = 4;
 
 /// Shows the notices over the bottom left corner.
-pub fn show(ui: &Ui, cx: &mut Cx) {
+pub fn show(ui: &Ui, cx: &mut PanelContext) {
     if cx.state.notices.is_empty() {
         return;
     }
@@ -37,7 +37,7 @@ pub fn show(ui: &Ui, cx: &mut Cx) {
             ui.label(RichText::new(format!("{waiting} earlier")).color(cx.tones.quiet));
         }
         for id in dismissed {
-            cx.send(Command::Dismiss(id));
+            cx.send(ViewCommand::Dismiss(id));
         }
     });
 }

@@ -1,8 +1,8 @@
 //! Sliders and switches: what is asked of the analysis (section 7.3, table 6).
 
 use super::theme::SMALL_PT;
-use super::{Cx, widgets};
-use crate::app::{Command, Gesture};
+use super::{PanelContext, widgets};
+use crate::app::{Edit, Gesture};
 use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Setting, Switch};
 use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Sense, Slider, Ui, vec2};
 
@@ -24,7 +24,7 @@ const NARROW_LABEL_PT: f32 = 78.0;
 const GAP_PT: f32 = 4.0;
 
 /// Shows the panel.
-pub fn show(ui: &mut Ui, cx: &mut Cx) {
+pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         egui::Frame::new().inner_margin(8).show(ui, |ui| {
             method(ui, cx);
@@ -37,7 +37,7 @@ pub fn show(ui: &mut Ui, cx: &mut Cx) {
     });
 }
 
-fn method(ui: &mut Ui, cx: &mut Cx) {
+fn method(ui: &mut Ui, cx: &mut PanelContext) {
     let now = cx.state.document.params.method;
     ui.horizontal(|ui| {
         let tip =
@@ -47,7 +47,7 @@ fn method(ui: &mut Ui, cx: &mut Cx) {
         }
         for (choice, name) in [(Method::Refined, "refined"), (Method::Paper, "paper")] {
             if ui.selectable_label(now == choice, name).on_hover_text(tip).clicked() {
-                cx.send(Command::SetMethod(choice));
+                cx.send(Edit::SetMethod(choice));
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -58,7 +58,7 @@ fn method(ui: &mut Ui, cx: &mut Cx) {
                 .on_hover_text("Every parameter and switch to this method's default.")
                 .clicked()
             {
-                cx.send(Command::SetParams(Box::new(defaults)));
+                cx.send(Edit::SetParams(Box::new(defaults)));
             }
         });
     });
@@ -118,7 +118,7 @@ impl Columns {
     }
 }
 
-fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
+fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
     let spec = parameter.spec();
     let setting = cx.state.document.params.get(parameter);
     let used = cx.state.newest.as_ref().map(|shown| shown.analysis.used.get(parameter));
@@ -167,24 +167,24 @@ fn row(ui: &mut Ui, cx: &mut Cx, parameter: Parameter) {
         let auto = auto.on_hover_text("Estimated from the image; the slider shows what was used.");
         if name.double_clicked() || slider.double_clicked() {
             let default = Params::of(cx.state.document.params.method).get(parameter);
-            cx.send(Command::SetParameter(parameter, default, None));
+            cx.send(Edit::SetParameter(parameter, default, None));
         } else if slider.changed() || typed.changed() {
             let value = if spec.whole { value.round() } else { value };
             let value = value.clamp(spec.range[0], spec.range[1]);
-            cx.send(Command::SetParameter(parameter, Setting::Value(value), Some(gesture)));
+            cx.send(Edit::SetParameter(parameter, Setting::Value(value), Some(gesture)));
         } else if auto.clicked() {
             let setting = if automatic { Setting::Value(value) } else { Setting::Auto };
-            cx.send(Command::SetParameter(parameter, setting, None));
+            cx.send(Edit::SetParameter(parameter, setting, None));
         }
         let let_go = slider.drag_stopped() || slider.clicked() || slider.lost_focus();
         if let_go || typed.drag_stopped() || typed.lost_focus() {
-            cx.send(Command::EndGesture);
+            cx.send(Edit::EndGesture);
         }
     });
 }
 
 /// The pinned illuminant, the ambient light and the outlined area.
-fn by_hand(ui: &mut Ui, cx: &mut Cx) {
+fn by_hand(ui: &mut Ui, cx: &mut PanelContext) {
     widgets::heading(ui, cx.tones, "By hand");
     illuminant(ui, cx);
     ambient(ui, cx);
@@ -206,13 +206,13 @@ fn by_hand(ui: &mut Ui, cx: &mut Cx) {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if area.is_some() {
                 if ui.small_button("Lift").on_hover_text("Analyze the whole picture again.").clicked() {
-                    cx.out.push(Command::RestrictTo(None));
+                    cx.send(Edit::RestrictTo(None));
                 }
             } else {
                 let take = ui.add_enabled(marked.is_some(), Button::new("To marked").small());
                 let tip = "Analyze only the marked pixels. Mark some with a tool of the image view.";
                 if take.on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
-                    cx.out.push(Command::RestrictTo(marked.clone()));
+                    cx.send(Edit::RestrictTo(marked.clone()));
                 }
             }
         });
@@ -220,7 +220,7 @@ fn by_hand(ui: &mut Ui, cx: &mut Cx) {
 }
 
 /// The light: the one found, or one that is given and turns every plane to it.
-fn illuminant(ui: &mut Ui, cx: &mut Cx) {
+fn illuminant(ui: &mut Ui, cx: &mut PanelContext) {
     let setting = cx.state.document.params.illuminant;
     let given = setting.direction();
     // As it was typed: a unit vector would turn with each digit.
@@ -242,19 +242,19 @@ fn illuminant(ui: &mut Ui, cx: &mut Cx) {
             egui::WidgetInfo::selected(role, true, given.is_some(), "pin illuminant")
         });
         if pin.on_hover_text("Keep this light, or let it be found again.").clicked() {
-            cx.send(Command::PinIlluminant(if given.is_some() { None } else { found }, None));
+            cx.send(Edit::PinIlluminant(if given.is_some() { None } else { found }, None));
         }
     });
     if changed {
-        cx.send(Command::PinIlluminant(Some(direction), Some(Gesture::Illuminant)));
+        cx.send(Edit::PinIlluminant(Some(direction), Some(Gesture::Illuminant)));
     }
     if rested {
-        cx.send(Command::EndGesture);
+        cx.send(Edit::EndGesture);
     }
 }
 
 /// The ambient light: what was found and subtracted, or what is given.
-fn ambient(ui: &mut Ui, cx: &mut Cx) {
+fn ambient(ui: &mut Ui, cx: &mut PanelContext) {
     let setting = cx.state.document.params.ambient;
     let found = cx.state.newest.as_ref().map(|shown| shown.analysis.intrinsic.ambient);
     let tip = "Light from everywhere, counts: where the matte lines meet. It is subtracted before the split and belongs to \
@@ -274,14 +274,14 @@ fn ambient(ui: &mut Ui, cx: &mut Cx) {
         let why = found.map_or("", |ambient| ambient.verdict.reason());
         if button.on_hover_text(format!("Found in the picture, or off. {why}")).clicked() {
             let next = if auto { AmbientSetting::Off } else { AmbientSetting::Auto };
-            cx.send(Command::SetAmbient(next, None));
+            cx.send(Edit::SetAmbient(next, None));
         }
     });
     if changed {
-        cx.send(Command::SetAmbient(AmbientSetting::Given(counts), Some(Gesture::Ambient)));
+        cx.send(Edit::SetAmbient(AmbientSetting::Given(counts), Some(Gesture::Ambient)));
     }
     if rested {
-        cx.send(Command::EndGesture);
+        cx.send(Edit::EndGesture);
     }
 }
 
@@ -327,7 +327,7 @@ impl Bands {
     }
 }
 
-fn switches(ui: &mut Ui, cx: &mut Cx) {
+fn switches(ui: &mut Ui, cx: &mut PanelContext) {
     let params = cx.state.document.params;
     let refined = params.method == Method::Refined;
     let open = egui::CollapsingHeader::new(RichText::new("Refinements").size(SMALL_PT).color(cx.tones.quiet));
@@ -337,7 +337,7 @@ fn switches(ui: &mut Ui, cx: &mut Cx) {
                 let mut on = params.refine.get(switch) && refined;
                 let words = switch.name().replace('_', " ");
                 if ui.checkbox(&mut on, words).on_hover_text(switch.meaning()).changed() {
-                    cx.send(Command::SetSwitch(switch, on));
+                    cx.send(Edit::SetSwitch(switch, on));
                 }
             }
         });

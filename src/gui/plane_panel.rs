@@ -6,8 +6,8 @@ mod kinds;
 pub mod testing;
 
 use super::theme::SMALL_PT;
-use super::{Cx, widgets};
-use crate::app::Command;
+use super::{PanelContext, widgets};
+use crate::app::{Edit, ViewCommand};
 use crate::view::{Item, Picture, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, region_plane};
 use chart::Chart;
 use egui::{Align2, Color32, FontId, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
@@ -39,7 +39,7 @@ struct Cloud {
 
 impl PlanePanel {
     /// Shows the panel.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let state = cx.state;
         if let Some(replay) = state.followed() {
             return match cursor::frame(state) {
@@ -99,7 +99,7 @@ impl PlanePanel {
     }
 
     /// Sends what the pointer does: hovering a point hovers its pixel, a click selects the pixel.
-    fn point(&mut self, cx: &mut Cx, response: &Response, chart: Chart, rect: Rect) {
+    fn point(&mut self, cx: &mut PanelContext, response: &Response, chart: Chart, rect: Rect) {
         let Some(plane) = &self.plane else { return };
         let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
         let pointer = clicked.or(response.hover_pos().filter(|_| !response.dragged()));
@@ -108,10 +108,10 @@ impl PlanePanel {
         let hover = found.map(|point| Item::Pixel(point.pixel));
         let was_ours = std::mem::replace(&mut self.hovers, pointer.is_some());
         if (self.hovers || was_ours) && cx.state.hover != hover {
-            cx.send(Command::Hover(hover));
+            cx.send(ViewCommand::Hover(hover));
         }
         if let Some(item) = hover.filter(|_| response.clicked() && !response.double_clicked()) {
-            cx.send(Command::Select(Some(item)));
+            cx.send(Edit::Select(Some(item)));
         }
     }
 }
@@ -130,7 +130,7 @@ fn navigate(ui: &Ui, response: &Response, plane: &RegionPlane, chart: Option<Cha
 /// The points as a mesh of two triangles each, rebuilt when chart, coloring or theme change.
 fn cloud(
     kept: &mut Option<Cloud>,
-    cx: &Cx,
+    cx: &PanelContext,
     plane: &RegionPlane,
     chart: Chart,
     rect: Rect,
@@ -161,7 +161,13 @@ fn cloud(
 }
 
 /// Writes angle, slice width and noise into the upper left corner, or why the region has no plane.
-fn edge_notes(painter: &egui::Painter, cx: &Cx, plane: &RegionPlane, shown: &ResultSnapshot, rect: Rect) {
+fn edge_notes(
+    painter: &egui::Painter,
+    cx: &PanelContext,
+    plane: &RegionPlane,
+    shown: &ResultSnapshot,
+    rect: Rect,
+) {
     let region = &shown.analysis.intrinsic.regions[usize::from(plane.region) - 1];
     let rms = region.fit_rms_counts;
     let text = if plane.has_plane {
@@ -196,7 +202,7 @@ fn several_highlights(branches: &[PlaneBranch]) -> String {
 /// Paints a ring around the color that is hovered in any panel, and writes its amounts of body, surface and noise.
 fn hovered(
     painter: &egui::Painter,
-    cx: &Cx,
+    cx: &PanelContext,
     plane: &RegionPlane,
     chart: Chart,
     picture: &Picture,
@@ -223,6 +229,6 @@ fn hovered(
 }
 
 /// Small text in the secondary color.
-fn quiet(cx: &Cx, text: &str) -> RichText {
+fn quiet(cx: &PanelContext, text: &str) -> RichText {
     RichText::new(text).size(SMALL_PT).color(cx.tones.quiet)
 }

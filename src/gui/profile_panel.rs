@@ -1,7 +1,7 @@
 //! The profile panel: amounts of body, surface and noise along a line, as in the paper's color figure 11.
 
-use super::{Cx, widgets};
-use crate::app::Command;
+use super::{PanelContext, widgets};
+use crate::app::ViewCommand;
 use crate::view::{Item, ProfileLine, ProfileSample, Tool, profile, profile_ends};
 use egui::{Color32, Ui};
 use egui_plot::{Corner, HoverPosition, Legend, Line, Plot, PlotPoints, VLine};
@@ -29,7 +29,7 @@ const CURVES: [Curve; 6] = [
 
 impl ProfilePanel {
     /// Shows the panel.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let Some(picture) = cx.state.picture.clone() else {
             return widgets::nothing(ui, cx.tones, "The profile appears when a photograph is open.");
         };
@@ -58,7 +58,7 @@ impl ProfilePanel {
     }
 }
 
-fn bar(ui: &mut Ui, cx: &mut Cx, ends: [[f32; 2]; 2], samples: &[ProfileSample], width: usize) {
+fn bar(ui: &mut Ui, cx: &mut PanelContext, ends: [[f32; 2]; 2], samples: &[ProfileSample], width: usize) {
     let now = cx.state.view.profile;
     ui.horizontal(|ui| {
         for (line, name, tip) in [
@@ -66,14 +66,14 @@ fn bar(ui: &mut Ui, cx: &mut Cx, ends: [[f32; 2]; 2], samples: &[ProfileSample],
             (ProfileLine::Column, "column", "Along the column of the selected or hovered pixel."),
         ] {
             if ui.selectable_label(now == line, name).on_hover_text(tip).clicked() {
-                cx.send(Command::Profile(line));
+                cx.send(ViewCommand::Profile(line));
             }
         }
         let drawn = matches!(now, ProfileLine::Between(..));
         let tip = "Along a line drawn in the image with the profile tool (P).";
         if ui.selectable_label(drawn, "line").on_hover_text(tip).clicked() {
             let image = crate::view::ImageSettings { tool: Tool::Profile, ..cx.state.view.image.clone() };
-            cx.send(Command::Image(image));
+            cx.send(ViewCommand::Image(image));
         }
         let [[x0, y0], [x1, y1]] = ends.map(|end| end.map(f32::floor));
         ui.label(
@@ -87,7 +87,7 @@ fn bar(ui: &mut Ui, cx: &mut Cx, ends: [[f32; 2]; 2], samples: &[ProfileSample],
     });
 }
 
-fn plot(ui: &mut Ui, cx: &mut Cx, samples: &[ProfileSample], hovered: Option<u32>) {
+fn plot(ui: &mut Ui, cx: &mut PanelContext, samples: &[ProfileSample], hovered: Option<u32>) {
     let accent = cx.tones.accent;
     let plot = Plot::new("profile")
         .legend(Legend::default().position(Corner::RightTop).background_alpha(0.6))
@@ -123,7 +123,7 @@ fn plot(ui: &mut Ui, cx: &mut Cx, samples: &[ProfileSample], hovered: Option<u32
         let fixed = matches!(cx.state.view.profile, ProfileLine::Between(..))
             || matches!(cx.state.document.selection.item, Some(Item::Pixel(_)));
         if fixed && cx.state.hover != Some(Item::Pixel(sample.pixel)) {
-            cx.send(Command::Hover(Some(Item::Pixel(sample.pixel))));
+            cx.send(ViewCommand::Hover(Some(Item::Pixel(sample.pixel))));
         }
     }
 }

@@ -3,8 +3,8 @@
 mod cursor;
 
 use super::theme::{SMALL_PT, Tones};
-use super::{Cx, widgets};
-use crate::app::Command;
+use super::{PanelContext, widgets};
+use crate::app::{Edit, ViewCommand};
 use crate::intrinsic::{HighlightBranch, RegionReflection};
 use crate::segment::{Illuminant, LightBasis, LightFindings, TEXTURE_CORRELATION};
 use crate::view::{Item, ResultSnapshot, regions_text};
@@ -78,7 +78,7 @@ pub struct RegionsPanel {
 
 impl RegionsPanel {
     /// Shows the panel.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let Some(shown) = cx.state.shown().cloned() else {
             return widgets::nothing(ui, cx.tones, "Regions appear when a photograph has been analyzed.");
         };
@@ -96,7 +96,7 @@ impl RegionsPanel {
         });
     }
 
-    fn table(&mut self, ui: &mut Ui, cx: &mut Cx, shown: &ResultSnapshot) {
+    fn table(&mut self, ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
         ui.spacing_mut().item_spacing = egui::vec2(6.0, 1.0);
         let selected = cx.state.selected_region();
         let order = self.order(&shown.analysis.intrinsic.regions);
@@ -129,13 +129,13 @@ impl RegionsPanel {
                     }
                     if response.clicked() {
                         let chosen = (selected != Some(region.id)).then_some(Item::Region(region.id));
-                        cx.out.push(Command::Select(chosen));
+                        cx.send(Edit::Select(chosen));
                     }
                 });
             });
         let ours = ui.rect_contains_pointer(ui.max_rect());
         if ours && hovered != cx.state.hover {
-            cx.send(Command::Hover(hovered));
+            cx.send(ViewCommand::Hover(hovered));
         }
     }
 
@@ -274,7 +274,7 @@ fn shade(direction: [f64; 3]) -> Color32 {
 }
 
 /// Shows the light's color, what it was estimated from, and the accuracy against the ground truth.
-fn light(ui: &mut Ui, cx: &mut Cx, shown: &ResultSnapshot) {
+fn light(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
     let findings = &shown.analysis.finals.light;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
@@ -304,7 +304,7 @@ fn light(ui: &mut Ui, cx: &mut Cx, shown: &ResultSnapshot) {
 }
 
 /// Shows the counts subtracted as ambient light (section 7.5), if any.
-fn ambient(ui: &mut Ui, cx: &Cx, shown: &ResultSnapshot) {
+fn ambient(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
     let ambient = &shown.analysis.intrinsic.ambient;
     let Some(counts) = ambient.subtracted else { return };
     let spread = ambient.meeting.map_or(String::new(), |meeting| {
@@ -343,7 +343,7 @@ fn rests_on(light: &Illuminant, findings: &LightFindings) -> String {
 }
 
 /// Shows the errors against the ground truth, and in parentheses the error of the unchanged photograph.
-fn accuracy(ui: &mut Ui, cx: &Cx, shown: &ResultSnapshot) {
+fn accuracy(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
     let Some(scores) = shown.accuracy().map(|accuracy| &accuracy.scores) else { return };
     let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {
         ui.label(RichText::new(name).size(SMALL_PT).color(cx.tones.quiet)).on_hover_text(tip);

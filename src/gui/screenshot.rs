@@ -2,7 +2,7 @@
 
 use super::dock::Pane;
 use super::offscreen::{Offscreen, OffscreenError};
-use crate::app::{Ask, Command, DebugCommand, Severity, State};
+use crate::app::{Ask, Command, DebugCommand, Edit, JobCommand, Severity, State, ViewCommand};
 use crate::export::png_of_rgba;
 use crate::trace::{Event, Step, Topic};
 use crate::view::{
@@ -135,7 +135,7 @@ pub fn screenshot(folder: &Path, size_px: [u32; 2], origin: Origin) -> Result<Ve
     let write = |path: &Path, cause| ScreenshotError::Write { path: path.to_path_buf(), cause };
     std::fs::create_dir_all(folder).map_err(|cause| write(folder, cause))?;
     let mut stage = Offscreen::new(size_px, 1.0)?;
-    stage.app.apply(Command::Open(origin));
+    stage.app.apply(JobCommand::Open(origin));
     if stage.app.state().picture.is_none() {
         let mut errors = stage.app.state().notices.iter().filter(|notice| notice.severity == Severity::Error);
         let reason = errors.next().map_or_else(String::new, |notice| notice.text.clone());
@@ -166,18 +166,18 @@ fn prepare(stage: &mut Offscreen, shot: &Shot, size_px: [u32; 2]) {
     let app = &mut stage.app;
     let notices: Vec<u64> = app.state().notices.iter().map(|notice| notice.id).collect();
     for id in notices {
-        app.apply(Command::Dismiss(id));
+        app.apply(ViewCommand::Dismiss(id));
     }
-    app.apply(Command::Theme(shot.theme));
-    app.apply(Command::Select(shot.region.map(Item::Region)));
-    app.apply(Command::Image(shot.image.clone()));
-    app.apply(Command::Cube(shot.cube.clone()));
-    app.apply(Command::Profile(ProfileLine::Row));
+    app.apply(ViewCommand::Theme(shot.theme));
+    app.apply(Edit::Select(shot.region.map(Item::Region)));
+    app.apply(ViewCommand::Image(shot.image.clone()));
+    app.apply(ViewCommand::Cube(shot.cube.clone()));
+    app.apply(ViewCommand::Profile(ProfileLine::Row));
     let end = app.state().debugger.trace().map_or(0, |trace| trace.len());
     let steps = shot.moment.and_then(|moment| moment.steps(app.state())).unwrap_or(end);
     app.apply(Command::Debug(DebugCommand::Seek(steps)));
     if let Some(pixel) = contested(app.state()).filter(|_| shot.asks) {
-        app.apply(Command::Select(app.state().region_of(Item::Pixel(pixel)).map(Item::Region)));
+        app.apply(Edit::Select(app.state().region_of(Item::Pixel(pixel)).map(Item::Region)));
         app.apply(Command::Ask(Ask::Why(pixel)));
         app.apply(Command::Ask(Ask::WhatIf(Some(pixel))));
     }

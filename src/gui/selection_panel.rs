@@ -2,8 +2,8 @@
 
 use super::later::{AT_ONCE_PX, Later};
 use super::theme::SMALL_PT;
-use super::{Cx, widgets};
-use crate::app::Command;
+use super::{PanelContext, widgets};
+use crate::app::Edit;
 use crate::raster::Mask;
 use crate::trace::Class;
 use crate::view::{Band, Item, Statistics, statistics, statistics_of};
@@ -25,7 +25,7 @@ pub struct SelectionPanel {
 
 impl SelectionPanel {
     /// Shows the panel.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let state = cx.state;
         let Some(shown) = state.shown().cloned() else {
             return widgets::nothing(ui, cx.tones, "Statistics appear when a photograph has been analyzed.");
@@ -77,22 +77,22 @@ fn name_of(item: Item, width: usize) -> String {
     }
 }
 
-fn verbs(ui: &mut Ui, cx: &mut Cx, subject: &str) {
+fn verbs(ui: &mut Ui, cx: &mut PanelContext, subject: &str) {
     let marked = cx.state.document.selection.marked.is_some();
     ui.horizontal(|ui| {
         ui.label(subject);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if ui.small_button("Deselect").on_hover_text("Select and mark nothing (Esc).").clicked() {
-                cx.send(Command::ClearSelection);
+                cx.send(Edit::ClearSelection);
             }
             if ui.add_enabled(marked, egui::Button::new("Invert").small()).clicked() {
-                cx.send(Command::InvertMarked);
+                cx.send(Edit::InvertMarked);
             }
         });
     });
 }
 
-fn facts(ui: &mut Ui, cx: &Cx, found: &Statistics) {
+fn facts(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
     ui.spacing_mut().item_spacing.x = 4.0;
     let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {
         let name = RichText::new(name).size(SMALL_PT).color(cx.tones.quiet);
@@ -140,7 +140,7 @@ fn facts(ui: &mut Ui, cx: &Cx, found: &Statistics) {
     fact(ui, "regions", regions.join("   "), "The regions that most of them are in.");
 }
 
-fn bands(ui: &mut Ui, cx: &Cx, found: &Statistics) {
+fn bands(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
     let colors = [
         ("R", Color32::from_rgb(0xD8, 0x6A, 0x5E)),
         ("G", Color32::from_rgb(0x6C, 0xB0, 0x6A)),

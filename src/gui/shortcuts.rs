@@ -1,93 +1,35 @@
-//! The keyboard: one list that is obeyed and shown.
+//! The keyboard: one list, which decides what keys do and is shown as help.
 
 mod debug;
+mod shortcut;
 
-pub use debug::{DebugDeed, Listeners, SpaceTap, move_cursor, selected};
+pub use debug::{Listeners, SpaceTap};
 
+use super::PanelContext;
+use super::action::{Action, DebugAction};
 use super::theme::SMALL_PT;
-use super::{Cx, files};
-use crate::app::{Combine, Command};
-use crate::view::{Item, Layer, Tool};
+use crate::view::{Layer, Tool};
 use egui::{Key, KeyboardShortcut, Modifiers, RichText, Ui};
-
-/// What a key does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Action {
-    /// Ask for a photograph.
-    Open,
-    /// Ask where to export to.
-    Export,
-    /// Ask where to save the workspace.
-    Save,
-    /// Take back.
-    Undo,
-    /// Take back what was taken back.
-    Redo,
-    /// Mark everything that is not marked.
-    Invert,
-    /// Mark the pixels of the selected region.
-    MarkRegion,
-    /// Select nothing.
-    Escape,
-    /// The region after (`true`) or before the selected one.
-    Region(bool),
-    /// Another layer of the image view.
-    Layer(Layer),
-    /// What a drag in the image does.
-    Tool(Tool),
-    /// Keep the result to compare with.
-    Pin,
-    /// Between the pinned result and the newest.
-    Swap,
-    /// The whole picture.
-    Fit,
-    /// A screen point a pixel.
-    OneToOne,
-    /// Outlines instead of fills.
-    Outline,
-    /// Light or dark.
-    Theme,
-    /// Move in the decisions.
-    Debug(DebugDeed),
-    /// This list.
-    Help,
-}
-
-/// A key, what it does, and the words for it.
-pub struct Shortcut {
-    /// The group that it is listed in.
-    pub group: &'static str,
-    /// Modifiers and key.
-    pub keys: KeyboardShortcut,
-    /// What it does.
-    pub action: Action,
-    /// What it does, in words.
-    pub words: &'static str,
-}
+use shortcut::Shortcut;
 
 const fn plain(group: &'static str, key: Key, action: Action, words: &'static str) -> Shortcut {
-    Shortcut { group, keys: KeyboardShortcut::new(Modifiers::NONE, key), action, words }
+    Shortcut::new(group, Modifiers::NONE, key, action, words)
 }
 
 const fn command(group: &'static str, key: Key, action: Action, words: &'static str) -> Shortcut {
-    Shortcut { group, keys: KeyboardShortcut::new(Modifiers::COMMAND, key), action, words }
+    Shortcut::new(group, Modifiers::COMMAND, key, action, words)
 }
 
 const SHIFT_COMMAND: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
-/// All of them.
+/// All keys.
 fn all() -> impl Iterator<Item = &'static Shortcut> {
     GENERAL.iter().chain(debug::KEYS)
 }
 
-/// All but the debugger's. Those with more modifiers come first: egui lets `Ctrl+Shift+Z` pass for `Ctrl+Z`.
+/// The keys that are not the debugger's. Those with more modifiers come first: egui lets `Ctrl+Shift+Z` pass for `Ctrl+Z`.
 const GENERAL: &[Shortcut] = &[
-    Shortcut {
-        group: "Edit",
-        keys: KeyboardShortcut::new(SHIFT_COMMAND, Key::Z),
-        action: Action::Redo,
-        words: "Redo",
-    },
+    Shortcut::new("Edit", SHIFT_COMMAND, Key::Z, Action::Redo, "Redo"),
     command("File", Key::O, Action::Open, "Open a photograph"),
     command("File", Key::E, Action::Export, "Export"),
     command("File", Key::S, Action::Save, "Save the workspace"),
@@ -128,7 +70,7 @@ const GENERAL: &[Shortcut] = &[
 /// A window of this width has room for four columns of keys, points.
 const FOUR_COLUMNS_PT: f32 = 1200.0;
 
-/// Habits of the pointer, listed with the keys.
+/// What the pointer does, listed with the keys.
 const POINTER: &[(&str, &str)] = &[
     ("Scroll", "zoom at the pointer"),
     ("Drag", "pan the image, orbit the color space"),
@@ -142,7 +84,7 @@ const POINTER: &[(&str, &str)] = &[
     ("X Y U D S E M on the cube", "named views, see its menu"),
 ];
 
-/// The words for the keys of a deed, for menus and tooltips.
+/// The keys of an action as text, for menus and tooltips; empty where it has none.
 pub fn keys_of(ctx: &egui::Context, action: Action) -> String {
     let found = all().find(|shortcut| shortcut.action == action);
     found.map_or_else(String::new, |shortcut| written(ctx, shortcut.keys))
@@ -160,8 +102,8 @@ fn written(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
     all.strip_suffix(keys.logical_key.name()).map_or_else(|| all.clone(), |held| format!("{held}{symbol}"))
 }
 
-/// The deeds whose keys were pressed, unless somebody is typing. `escape_is_meant` says whether Escape is not what closes
-/// something that is open over the panels.
+/// The actions whose keys were pressed; none while a text is being edited. `escape_is_meant`: whether Escape is an action, and
+/// does not close something that is open over the panels.
 pub fn pressed(
     ctx: &egui::Context,
     escape_is_meant: bool,
@@ -177,94 +119,19 @@ pub fn pressed(
         .collect();
     let (taps, keys): (Vec<&Shortcut>, Vec<&Shortcut>) =
         meant.into_iter().partition(|shortcut| shortcut.keys.logical_key == Key::Space);
-    let tapped = tap.heard(ctx, !taps.is_empty());
+    let tapped = tap.tapped(ctx, !taps.is_empty());
     let mut actions: Vec<Action> = ctx.input_mut(|input| {
         keys.iter()
             .filter(|shortcut| input.consume_shortcut(&shortcut.keys))
             .map(|shortcut| shortcut.action)
             .collect()
     });
-    actions.extend(tapped.map(|direction| Action::Debug(DebugDeed::Play(direction))));
+    actions.extend(tapped.map(|direction| Action::Debug(DebugAction::Play(direction))));
     actions
 }
 
-/// Carries a deed out, as far as it is a matter of the state.
-pub fn carry_out(action: Action, cx: &mut Cx, dialogs: &mut files::Dialogs, help: &mut bool) {
-    match action {
-        Action::Open => dialogs.ask(files::Dialog::Open),
-        Action::Export => dialogs.ask(files::Dialog::Export),
-        Action::Save => dialogs.ask(files::Dialog::SaveWorkspace),
-        Action::Help => *help = !*help,
-        Action::Undo => cx.send(Command::Undo),
-        Action::Redo => cx.send(Command::Redo),
-        Action::Invert => cx.send(Command::InvertMarked),
-        Action::MarkRegion => mark_region(cx),
-        Action::Escape => {
-            if *help {
-                *help = false;
-            } else {
-                cx.send(Command::ClearSelection);
-            }
-        }
-        Action::Region(next) => step_region(cx, next),
-        Action::Pin => cx.send(Command::Pin(cx.state.pinned.is_none())),
-        Action::Swap => cx.send(Command::ShowPinned(!cx.state.view.show_pinned)),
-        Action::Theme => {
-            use crate::view::Theme::{Dark, Light};
-            cx.send(Command::Theme(if cx.state.view.theme == Dark { Light } else { Dark }));
-        }
-        Action::Debug(action) => move_cursor(action, cx),
-        Action::Layer(_) | Action::Tool(_) | Action::Fit | Action::OneToOne | Action::Outline => {
-            look(action, cx);
-        }
-    }
-}
-
-fn look(action: Action, cx: &mut Cx) {
-    use crate::view::Fill;
-    let mut image = cx.state.view.image.clone();
-    match action {
-        Action::Layer(layer) => image.layer = layer,
-        Action::Tool(tool) => {
-            image.tool = tool;
-            let mut cube = cx.state.view.cube.clone();
-            if matches!(tool, Tool::Pointer | Tool::Rectangle | Tool::Lasso | Tool::Polygon) {
-                cube.tool = tool;
-                cx.send(Command::Cube(cube));
-            }
-        }
-        Action::Fit => (image.zoom, image.center_px) = (None, None),
-        Action::OneToOne => image.zoom = Some(1.0),
-        Action::Outline => image.fill = if image.fill == Fill::Fill { Fill::Outline } else { Fill::Fill },
-        _ => {}
-    }
-    cx.send(Command::Image(image));
-}
-
-fn mark_region(cx: &mut Cx) {
-    let (Some(region), Some(shown)) = (cx.state.selected_region(), cx.state.shown()) else { return };
-    let mask = shown.labels().map(|&label| label == region);
-    cx.send(Command::Mark(std::sync::Arc::new(mask), Combine::Replace, None));
-}
-
-fn step_region(cx: &mut Cx, next: bool) {
-    let Some(count) = cx.state.shown().map(|shown| shown.analysis.intrinsic.regions.len() as u16) else {
-        return;
-    };
-    if count == 0 {
-        return;
-    }
-    let region = match (cx.state.selected_region(), next) {
-        (Some(region), true) => region % count + 1,
-        (Some(region), false) => (region + count - 2) % count + 1,
-        (None, true) => 1,
-        (None, false) => count,
-    };
-    cx.send(Command::Select(Some(Item::Region(region))));
-}
-
-/// The list, in a window that stays until it is closed.
-pub fn show_help(ui: &mut Ui, cx: &Cx, open: &mut bool) {
+/// Shows the list of keys, in a window that stays until it is closed.
+pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
     let ctx = ui.ctx().clone();
     let columns: &[&[&str]] = if ctx.content_rect().width() >= FOUR_COLUMNS_PT {
         &[&["File", "Edit", "Compare", "Window"], &["Image"], &["Decisions"], &["Tools", "Pointer"]]
@@ -288,7 +155,7 @@ pub fn show_help(ui: &mut Ui, cx: &Cx, open: &mut bool) {
         });
 }
 
-fn list(ui: &mut Ui, cx: &Cx, group: &str) {
+fn list(ui: &mut Ui, cx: &PanelContext, group: &str) {
     super::widgets::heading(ui, cx.tones, group);
     let rows: Vec<(String, &str)> = if group == "Pointer" {
         POINTER.iter().map(|&(keys, words)| (keys.to_owned(), words)).collect()

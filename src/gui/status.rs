@@ -1,9 +1,9 @@
 //! The status line: photograph, size, encoding, noise, number of regions, coverage, time, and the progress of running
 //! work.
 
-use super::Cx;
+use super::PanelContext;
 use super::theme::SMALL_PT;
-use crate::app::Command;
+use crate::app::JobCommand;
 use crate::params::Parameter;
 use egui::{Align, Layout, RichText, Ui};
 use std::time::Duration;
@@ -12,7 +12,7 @@ use std::time::Duration;
 pub const PATIENCE: Duration = Duration::from_millis(150);
 
 /// Shows the line, right-aligned in the remaining space of the menu bar.
-pub fn show(ui: &mut Ui, cx: &mut Cx) {
+pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         progress(ui, cx);
@@ -23,7 +23,7 @@ pub fn show(ui: &mut Ui, cx: &mut Cx) {
     });
 }
 
-fn parts(cx: &Cx) -> Vec<String> {
+fn parts(cx: &PanelContext) -> Vec<String> {
     let Some(picture) = &cx.state.picture else { return Vec::new() };
     let (width, height) = picture.size();
     let mut parts =
@@ -39,7 +39,7 @@ fn parts(cx: &Cx) -> Vec<String> {
     parts
 }
 
-fn progress(ui: &mut Ui, cx: &mut Cx) {
+fn progress(ui: &mut Ui, cx: &mut PanelContext) {
     let jobs = &cx.state.jobs;
     let stages = crate::analysis::Stage::ALL.len() as f32;
     let (job, words, done) = if let Some(job) = &jobs.analysis {
@@ -60,7 +60,7 @@ fn progress(ui: &mut Ui, cx: &mut Cx) {
     if words == "writing"
         && ui.small_button("Cancel").on_hover_text("Stop writing; nothing is left half written.").clicked()
     {
-        cx.out.push(Command::CancelExport);
+        cx.send(JobCommand::CancelExport);
     }
     let bar = egui::ProgressBar::new(done.unwrap_or(1.0)).desired_width(72.0).desired_height(6.0);
     ui.add(bar.fill(cx.tones.accent));

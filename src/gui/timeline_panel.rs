@@ -5,12 +5,13 @@ mod drawing;
 mod hint;
 mod icons;
 mod run_to;
+mod scale;
 mod track;
 mod transport;
 
 pub use track::track_id;
 
-use super::{Cx, widgets};
+use super::{PanelContext, widgets};
 use crate::app::{Command, DebugCommand, DebugSettings};
 use crate::describe::Names;
 use crate::trace::Trace;
@@ -27,7 +28,7 @@ pub struct TimelinePanel {
 
 impl TimelinePanel {
     /// Shows the panel.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let state = cx.state;
         let debugger = &state.debugger;
         if state.picture.is_none() {
@@ -56,7 +57,7 @@ impl TimelinePanel {
 }
 
 /// Shows, while no decisions are recorded, what that means and the button that starts recording.
-fn off(ui: &mut Ui, cx: &mut Cx) {
+fn off(ui: &mut Ui, cx: &mut PanelContext) {
     ui.add_space((ui.available_height() / 2.0 - 14.0).max(4.0));
     ui.horizontal_wrapped(|ui| {
         ui.add_space(8.0);

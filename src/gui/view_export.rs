@@ -1,16 +1,16 @@
-//! One view as a picture of any size, drawn beside the window.
+//! One view drawn off screen as a picture of any size.
 
-use super::Cx;
+use super::PanelContext;
 use super::cube_panel::CubePanel;
 use super::dock::{Pane, Panels};
 use super::offscreen::OffscreenContext;
+use super::task::Task;
 use super::theme::{self, Tones};
-use crate::app::{Command, Export, Severity, State};
+use crate::app::{Command, Export, JobCommand, Severity, State, ViewCommand};
 use egui_wgpu::{RenderState, WgpuSetupExisting};
 use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// What is wanted.
+/// A view to be drawn and written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewExport {
     /// The view.
@@ -21,45 +21,34 @@ pub struct ViewExport {
     pub path: PathBuf,
 }
 
-/// Draws views on a thread; the window goes on.
+/// Draws views on a thread, so that the window stays responsive.
 #[derive(Default)]
 pub struct ViewExporter {
-    drawing: Option<Receiver<Command>>,
+    drawing: Option<Task<Command>>,
 }
 
 impl ViewExporter {
-    /// Begins to draw. The command that writes the picture comes with a later [`ViewExporter::done`].
-    pub fn begin(&mut self, ctx: &egui::Context, view_export: ViewExport, cx: &Cx, cube: &CubePanel) {
+    /// Begins to draw. A later [`ViewExporter::done`] returns the command that writes the picture.
+    pub fn begin(
+        &mut self,
+        ctx: &egui::Context,
+        view_export: ViewExport,
+        cx: &PanelContext,
+        cube: &CubePanel,
+    ) {
         let Some(gpu) = cx.gpu.cloned() else { return };
-        let (send, receive) = channel();
-        let (ctx, state, cube) = (ctx.clone(), cx.state.clone(), cube.clone_view());
-        let work = move || {
-            // The window may be gone by now.
-            let _ = send.send(draw(&view_export, &state, cube, &gpu));
-            ctx.request_repaint();
-        };
-        if std::thread::Builder::new().name("portrait".to_owned()).spawn(work).is_ok() {
-            self.drawing = Some(receive);
-        }
+        let (state, cube) = (cx.state.clone(), cube.clone_view());
+        let draw = move || draw(&view_export, &state, cube, &gpu);
+        self.drawing = Task::start(ctx, "view export", draw);
     }
 
     /// The command that writes the picture, once it is drawn.
     pub fn done(&mut self) -> Option<Command> {
-        match self.drawing.as_ref()?.try_recv() {
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => {
-                self.drawing = None;
-                None
-            }
-            Ok(command) => {
-                self.drawing = None;
-                Some(command)
-            }
-        }
+        Task::take(&mut self.drawing)
     }
 }
 
-/// A pixel a point up to this many columns; larger pictures are drawn larger, not emptier.
+/// Pictures of at most this many columns have one pixel for each point; in larger ones, text and lines grow with the size.
 const COLUMNS_AT_ONE: f32 = 900.0;
 
 fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderState) -> Command {
@@ -74,7 +63,8 @@ fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderSt
             let mut panels = Panels { cube, ..Panels::default() };
             offscreen_context.picture(|ui| {
                 let mut ignored = Vec::new();
-                let mut cx = Cx { state, tones: &tones, gpu: Some(&gpu), bare: true, out: &mut ignored };
+                let mut cx =
+                    PanelContext { state, tones: &tones, gpu: Some(&gpu), bare: true, out: &mut ignored };
                 let frame = egui::Frame::new().fill(tones.background);
                 egui::CentralPanel::default()
                     .frame(frame)
@@ -83,11 +73,15 @@ fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderSt
         },
     );
     match drawn {
-        Ok(rgba) => Command::Export(Export::Picture {
+        Ok(rgba) => JobCommand::Export(Export::Picture {
             path: view_export.path.clone(),
             size: view_export.size_px,
             rgba: rgba.into(),
-        }),
-        Err(error) => Command::Notify(Severity::Error, format!("{}: {error}", view_export.path.display())),
+        })
+        .into(),
+        Err(error) => {
+            let text = format!("{}: {error}", view_export.path.display());
+            ViewCommand::Notify(Severity::Error, text).into()
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The watch panel: values at the debugger's cursor, with a mark on those that changed since the cursor last stopped.
 
 use super::theme::{SMALL_PT, Tones};
-use super::{Cx, widgets};
+use super::{PanelContext, widgets};
 use crate::color::Vec3;
 use crate::view::{AxisDistance, Current, Watch, WatchedPixel, watch};
 use egui::{Align, Color32, Label, Layout, RichText, ScrollArea, Ui, vec2};
@@ -46,7 +46,7 @@ struct Line {
 
 impl WatchPanel {
     /// Shows the panel.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let (state, debugger) = (cx.state, &cx.state.debugger);
         let (Some(replay), Some(picture)) = (&debugger.replay, &state.picture) else {
             let text = "Values at the cursor appear when the decisions of an analysis are recorded (D).";
@@ -213,7 +213,7 @@ fn cell(ui: &mut Ui, width: f32, text: RichText) {
 /// Shows the selected pixel's distances to every region, each with its limit. Distances within the limit are in the
 /// text
 /// color, others in the secondary color.
-fn distances(ui: &mut Ui, cx: &Cx, pixel: &WatchedPixel) {
+fn distances(ui: &mut Ui, cx: &PanelContext, pixel: &WatchedPixel) {
     let tones = cx.tones;
     let heading =
         format!("from pixel to region, {}", if pixel.distances.is_empty() { "none yet" } else { "counts" });
@@ -235,7 +235,7 @@ fn distances(ui: &mut Ui, cx: &Cx, pixel: &WatchedPixel) {
     }
 }
 
-fn row(ui: &mut Ui, cx: &Cx, distance: &AxisDistance) {
+fn row(ui: &mut Ui, cx: &PanelContext, distance: &AxisDistance) {
     let (tones, names) = (cx.tones, &cx.state.debugger.names);
     let size = vec2(REGION_PT, LINE_PT);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {

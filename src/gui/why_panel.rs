@@ -4,9 +4,9 @@
 
 use super::later::{AT_ONCE_PX, Later};
 use super::theme::SMALL_PT;
-use super::{Cx, widgets};
+use super::{PanelContext, widgets};
 use crate::analysis::WhatIf;
-use crate::app::{Ask, Command, DebugCommand, WhatIfJob};
+use crate::app::{Ask, Command, DebugCommand, Edit, WhatIfJob};
 use crate::describe::what_if_sentence;
 use crate::params::Setting;
 use crate::view::{Account, Why, why};
@@ -24,7 +24,7 @@ pub struct WhyPanel {
 
 impl WhyPanel {
     /// Shows the panel, for the selected pixel or region.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx) {
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let debugger = &cx.state.debugger;
         let (Some(trace), Some(shown)) = (debugger.trace().cloned(), cx.state.newest.clone()) else {
             return unrecorded(ui, cx);
@@ -52,7 +52,7 @@ impl WhyPanel {
 }
 
 /// Shows, while no decisions are recorded, a hint or the button that starts recording.
-fn unrecorded(ui: &mut Ui, cx: &mut Cx) {
+fn unrecorded(ui: &mut Ui, cx: &mut PanelContext) {
     if cx.state.picture.is_none() {
         return widgets::nothing(
             ui,
@@ -75,7 +75,7 @@ fn unrecorded(ui: &mut Ui, cx: &mut Cx) {
     });
 }
 
-fn answers(ui: &mut Ui, cx: &mut Cx, found: &Why) {
+fn answers(ui: &mut Ui, cx: &mut PanelContext, found: &Why) {
     if let Some((pixel, history)) = &found.pixel {
         about_pixel(ui, cx, *pixel);
         entries(ui, cx, history);
@@ -98,7 +98,7 @@ fn answers(ui: &mut Ui, cx: &mut Cx, found: &Why) {
 }
 
 /// Shows the pixel's position, color, region and kind.
-fn about_pixel(ui: &mut Ui, cx: &Cx, pixel: u32) {
+fn about_pixel(ui: &mut Ui, cx: &PanelContext, pixel: u32) {
     let (Some(picture), Some(shown)) = (&cx.state.picture, &cx.state.newest) else { return };
     let width = picture.size().0.max(1);
     let (x, y) = (pixel as usize % width, pixel as usize / width);
@@ -116,7 +116,7 @@ fn about_pixel(ui: &mut Ui, cx: &Cx, pixel: u32) {
 }
 
 /// Shows sentences, each a link that moves the cursor to the sentence's step.
-fn entries(ui: &mut Ui, cx: &mut Cx, accounts: &[Account]) {
+fn entries(ui: &mut Ui, cx: &mut PanelContext, accounts: &[Account]) {
     if accounts.is_empty() {
         ui.label(RichText::new("nothing was decided about it").color(cx.tones.quiet));
     }
@@ -135,7 +135,7 @@ const STAGE_PT: f32 = 58.0;
 /// Indentation per level of the tree of merged hypotheses, points.
 const INDENT_PT: f32 = 12.0;
 
-fn entry(ui: &mut Ui, cx: &Cx, account: &Account, now: bool) -> Response {
+fn entry(ui: &mut Ui, cx: &PanelContext, account: &Account, now: bool) -> Response {
     let width = ui.available_width();
     let left = STAGE_PT + INDENT_PT * account.depth as f32;
     let font = FontId::proportional(SMALL_PT);
@@ -162,7 +162,7 @@ fn entry(ui: &mut Ui, cx: &Cx, account: &Account, now: bool) -> Response {
 /// Shows how far each parameter would have to move for the pixel's result to change, the progress of that search, or
 /// the
 /// button that starts the search.
-fn what_if(ui: &mut Ui, cx: &mut Cx, pixel: u32) {
+fn what_if(ui: &mut Ui, cx: &mut PanelContext, pixel: u32) {
     let heading = widgets::heading(ui, cx.tones, "What if");
     heading.on_hover_text(
         "How far each parameter would have to move for this pixel to end otherwise, tried by analyzing again.",
@@ -194,7 +194,7 @@ fn what_if(ui: &mut Ui, cx: &mut Cx, pixel: u32) {
 }
 
 /// Shows the changes of parameters that were found, each a link that sets the parameter.
-fn alternatives(ui: &mut Ui, cx: &mut Cx, found: &[WhatIf]) {
+fn alternatives(ui: &mut Ui, cx: &mut PanelContext, found: &[WhatIf]) {
     if found.is_empty() {
         let text = "No value of any single parameter that was tried changes what this pixel is.";
         ui.label(RichText::new(text).color(cx.tones.quiet));
@@ -206,7 +206,7 @@ fn alternatives(ui: &mut Ui, cx: &mut Cx, found: &[WhatIf]) {
             format!("Found {origin}, and confirmed by analyzing again. Click to set the parameter so.");
         let link = egui::Link::new(RichText::new(text).size(SMALL_PT));
         if ui.add(link).on_hover_text(hover).clicked() {
-            cx.send(Command::SetParameter(what_if.parameter, Setting::Value(what_if.at), None));
+            cx.send(Edit::SetParameter(what_if.parameter, Setting::Value(what_if.at), None));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The application's window on the desktop.
 
 use super::App;
-use crate::app::{Command, Executor, Settings, Severity};
+use crate::app::{Executor, JobCommand, Settings, Severity, ViewCommand};
 use crate::truth::sample;
 use crate::view::Origin;
 use egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
@@ -85,11 +85,11 @@ fn begin(cc: &eframe::CreationContext<'_>, origin: Option<Origin>) -> std::io::R
         let (settings, warning) = Settings::load(&path);
         app.remember(settings);
         if let Some(text) = warning {
-            app.apply(Command::Notify(Severity::Warning, text));
+            app.apply(ViewCommand::Notify(Severity::Warning, text));
         }
     }
     if let Some(origin) = origin {
-        app.apply(Command::Open(origin));
+        app.apply(JobCommand::Open(origin));
     }
     Ok(app)
 }

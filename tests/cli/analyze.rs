@@ -1,7 +1,7 @@
 //! `dichroscope analyze`, `evaluate` and `screenshot`: what they write, what they say, and how they end.
 
 use crate::folder::{WorkFolder, list, tiny};
-use dichroscope::app::{Application, Command, Executor, Export, analyze_call};
+use dichroscope::app::{Application, Edit, Executor, Export, JobCommand, analyze_call};
 use dichroscope::describe::RegionFacts;
 use dichroscope::params::{IlluminantSetting, Method, Parameter, Setting, Switch};
 use dichroscope::photo::ReadOptions;
@@ -450,17 +450,17 @@ fn the_call_that_the_window_hands_out_writes_the_windows_result() {
         work.put(&format!("scene/{name}"), &fs::read(tiny().join(&name)).unwrap());
     }
     let mut application = Application::new(Executor::Inline, || ()).unwrap();
-    application.apply(Command::Open(Origin::File(work.path("scene/camera8.png"))));
-    application.apply(Command::SetParameter(Parameter::CameraNoise, Setting::Value(3.5), None));
-    application.apply(Command::SetSwitch(Switch::SecondLook, false));
-    application.apply(Command::PinIlluminant(Some([1.0, 0.75, 0.5]), None));
+    application.apply(JobCommand::Open(Origin::File(work.path("scene/camera8.png"))));
+    application.apply(Edit::SetParameter(Parameter::CameraNoise, Setting::Value(3.5), None));
+    application.apply(Edit::SetSwitch(Switch::SecondLook, false));
+    application.apply(Edit::PinIlluminant(Some([1.0, 0.75, 0.5]), None));
     let (width, height) = application.state().picture.as_ref().unwrap().size();
     let inside = (0..width * height).map(|pixel| pixel % width < width * 3 / 4).collect();
     let area = Arc::new(Raster::from_vec(width, height, inside).unwrap());
-    application.apply(Command::RestrictTo(Some(area)));
-    application.apply(Command::Export(Export::Area { path: work.path("area.png") }));
+    application.apply(Edit::RestrictTo(Some(area)));
+    application.apply(JobCommand::Export(Export::Area { path: work.path("area.png") }));
     let folder = work.path("window");
-    application.apply(Command::Export(Export::Result { folder: folder.clone(), force: false }));
+    application.apply(JobCommand::Export(Export::Result { folder: folder.clone(), force: false }));
     assert!(folder.is_dir(), "{:?}", application.state().notices);
 
     let call = analyze_call(application.state());

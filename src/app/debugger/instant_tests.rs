@@ -1,4 +1,4 @@
-use crate::app::{Application, Command, DebugCommand, Executor};
+use crate::app::{Application, Command, DebugCommand, Executor, JobCommand};
 use crate::photo::Masks;
 use crate::raster::Raster;
 use crate::trace::Replay;
@@ -16,7 +16,7 @@ const TINY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png
 
 fn application() -> Application {
     let mut application = Application::new(Executor::Inline, || ()).unwrap();
-    application.apply(Command::Open(Origin::File(TINY.into())));
+    application.apply(JobCommand::Open(Origin::File(TINY.into())));
     application
 }
 

@@ -12,7 +12,7 @@ mod tests;
 
 pub use breakpoint::{Breakpoint, CandidateCheck, Condition, SavedClass};
 pub use cursor::{Direction, Goal, Grain};
-pub(super) use reduce::reduce;
+pub(super) use reduce::{reduce, trace_arrived};
 
 use crate::segment::FinalRegions;
 use crate::trace::{Replay, Trace};
@@ -112,13 +112,6 @@ impl Default for DebugSettings {
 /// A change of the debugger.
 #[derive(Clone, Debug)]
 pub enum DebugCommand {
-    /// The trace of a result is there.
-    Traced {
-        /// The result's number.
-        generation: u64,
-        /// A cursor at its end.
-        replay: Box<Replay>,
-    },
     /// Change what is remembered.
     Settings(DebugSettings),
     /// Go to after this many steps.

@@ -15,10 +15,6 @@ const LONGEST_TICK: f64 = 0.25;
 /// Applies a command to the debugger.
 pub fn reduce(state: &mut State, command: DebugCommand) -> Vec<Effect> {
     match command {
-        DebugCommand::Traced { generation, replay } => {
-            trace_arrived(state, generation, *replay);
-            return Vec::new();
-        }
         DebugCommand::Settings(settings) => {
             let opened = settings.open && !state.view.debug.open;
             if !settings.open {
@@ -55,7 +51,7 @@ pub fn reduce(state: &mut State, command: DebugCommand) -> Vec<Effect> {
         }
         DebugCommand::Choose(region) => debugger.chosen = region,
         DebugCommand::Tick(seconds) => debugger.tick(seconds, settings),
-        DebugCommand::Traced { .. } | DebugCommand::Settings(_) | DebugCommand::Compare => {}
+        DebugCommand::Settings(_) | DebugCommand::Compare => {}
     }
     Vec::new()
 }

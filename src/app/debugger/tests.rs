@@ -1,6 +1,6 @@
 use super::cursor::stepped;
 use super::*;
-use crate::app::{Application, Command, Executor, State};
+use crate::app::{Application, Command, Edit, Executor, JobCommand, State, ViewCommand};
 use crate::params::{Parameter, Setting};
 use crate::trace::{Event, Kind, Stage, Step, Topic, WindowClassified};
 use crate::view::Origin;
@@ -12,7 +12,7 @@ const TINY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png
 /// A bench in whose calls all work is done, with the tiny scene open and recorded.
 fn application() -> Application {
     let mut application = Application::new(Executor::Inline, || ()).unwrap();
-    application.apply(Command::Open(Origin::File(TINY.into())));
+    application.apply(JobCommand::Open(Origin::File(TINY.into())));
     application
 }
 
@@ -69,7 +69,7 @@ fn without_the_debugger_nothing_is_recorded_and_opening_it_records_what_is_there
     let mut application = application();
     settings(&mut application, |settings| settings.open = false);
     assert!(application.state().debugger.replay.is_none());
-    application.apply(Command::SetParameter(Parameter::CylinderWidth, Setting::Value(3.0), None));
+    application.apply(Edit::SetParameter(Parameter::CylinderWidth, Setting::Value(3.0), None));
     assert!(application.state().newest.as_ref().unwrap().trace().is_none());
     let generation = application.state().generation;
     settings(&mut application, |settings| settings.open = true);
@@ -341,13 +341,13 @@ fn a_moved_slider_leaves_the_cursor_at_the_same_hypothesis() {
         block(&trace_before, |topic| matches!(topic, Topic::Slice(_))),
         trace_before.blocks().filter(|block| matches!(block.topic, Topic::Hypothesis(_))).nth(1).unwrap(),
     ] {
-        application.apply(Command::SetParameter(Parameter::CylinderWidth, Setting::Value(4.0), None));
+        application.apply(Edit::SetParameter(Parameter::CylinderWidth, Setting::Value(4.0), None));
         let before = trace(&application);
         let start = block(&before, |topic| topic == wanted.topic).steps;
         debug(&mut application, DebugCommand::Seek(start.start + start.len() / 2));
         let object = application.state().debugger.names.final_number(wanted.topic.region());
         let labels = application.state().newest.as_ref().unwrap().analysis.finals.clone();
-        application.apply(Command::SetParameter(Parameter::CylinderWidth, Setting::Value(3.5), None));
+        application.apply(Edit::SetParameter(Parameter::CylinderWidth, Setting::Value(3.5), None));
         let state = application.state();
         assert!(state.debugger.stopped().is_some(), "still stopped");
         let now = trace(&application).block_at(at(&application) - 1).unwrap();
@@ -363,11 +363,11 @@ fn two_results_are_compared_by_the_first_decision_that_differs() {
     let mut application = application();
     debug(&mut application, DebugCommand::Compare);
     assert_eq!(application.state().debugger.difference, Some(Difference::NotRecorded), "nothing is pinned");
-    application.apply(Command::Pin(true));
+    application.apply(ViewCommand::Pin(true));
     debug(&mut application, DebugCommand::Compare);
     assert_eq!(application.state().debugger.difference, Some(Difference::None));
     let before = trace(&application);
-    application.apply(Command::SetParameter(Parameter::SliceWidth, Setting::Value(1.0), None));
+    application.apply(Edit::SetParameter(Parameter::SliceWidth, Setting::Value(1.0), None));
     debug(&mut application, DebugCommand::Compare);
     let Some(Difference::At(n)) = application.state().debugger.difference else { panic!("they differ") };
     assert_eq!(at(&application), n + 1);
@@ -380,7 +380,7 @@ fn two_results_are_compared_by_the_first_decision_that_differs() {
 fn another_picture_closes_the_trace() {
     let mut application = application();
     debug(&mut application, DebugCommand::Seek(10));
-    application.apply(Command::Open(Origin::File(TINY.into())));
+    application.apply(JobCommand::Open(Origin::File(TINY.into())));
     assert!(application.state().debugger.stopped().is_none(), "the cursor is at the end of the new one");
     assert_eq!(application.state().debugger.generation, application.state().generation);
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::app::report::{self, Report};
 use crate::app::{Application, Ask, Executor};
 use crate::params::Setting;
 use crate::truth::sample;
@@ -14,10 +15,10 @@ fn tiny() -> Origin {
     Origin::File(TINY.into())
 }
 
-/// A bench in whose calls all work is done, with the tiny scene open.
+/// An application that does all work inline, with the tiny scene open.
 fn opened_tiny() -> Application {
     let mut application = Application::new(Executor::Inline, || ()).unwrap();
-    application.apply(Command::Open(tiny()));
+    application.apply(JobCommand::Open(tiny()));
     application
 }
 
@@ -25,14 +26,14 @@ fn sigma(application: &Application) -> Setting {
     application.state().document.params.camera_noise
 }
 
-fn set_sigma(value: f64) -> Command {
-    Command::SetParameter(SIGMA, Setting::Value(value), DRAG)
+fn set_sigma(value: f64) -> Edit {
+    Edit::SetParameter(SIGMA, Setting::Value(value), DRAG)
 }
 
 #[test]
 fn a_sample_opens_and_is_analyzed() {
     let mut application = Application::new(Executor::Inline, || ()).unwrap();
-    application.apply(Command::Open(Origin::Sample(sample::NAME.into())));
+    application.apply(JobCommand::Open(Origin::Sample(sample::NAME.into())));
     let state = application.state();
     let shown = state.shown().unwrap();
     assert!(state.is_current() && state.jobs.reading.is_none() && state.jobs.analysis.is_none());
@@ -49,15 +50,15 @@ fn a_drag_is_one_step() {
     for value in [3.0, 3.5, 4.0] {
         application.apply(set_sigma(value));
     }
-    application.apply(Command::EndGesture);
+    application.apply(Edit::EndGesture);
     application.apply(set_sigma(5.0));
     assert!(application.state().is_current());
-    application.apply(Command::Undo);
+    application.apply(Edit::Undo);
     assert_eq!(sigma(&application), Setting::Value(4.0));
-    application.apply(Command::Undo);
+    application.apply(Edit::Undo);
     assert_eq!(sigma(&application), before);
     assert!(application.state().is_current() && !application.state().history.can_undo());
-    application.apply(Command::Redo);
+    application.apply(Edit::Redo);
     assert_eq!(sigma(&application), Setting::Value(4.0));
     assert!((application.state().shown().unwrap().analysis.used.camera_noise - 4.0).abs() < 1e-12);
     application.apply(set_sigma(6.0));
@@ -76,7 +77,7 @@ fn a_value_out_of_range_changes_nothing_and_is_said_once() {
     assert_eq!(notices.len(), 1);
     assert!(notices[0].text.contains("camera_noise"));
     let id = notices[0].id;
-    application.apply(Command::Dismiss(id));
+    application.apply(ViewCommand::Dismiss(id));
     assert!(application.state().notices.is_empty());
 }
 
@@ -85,8 +86,8 @@ fn a_selected_region_follows_its_heir() {
     let mut application = opened_tiny();
     let shown = Arc::clone(application.state().shown().unwrap());
     assert!(!shown.analysis.intrinsic.regions.is_empty());
-    application.apply(Command::Select(Some(Item::Region(1))));
-    application.apply(Command::SetMethod(Method::Paper));
+    application.apply(Edit::Select(Some(Item::Region(1))));
+    application.apply(Edit::SetMethod(Method::Paper));
     let after = application.state().shown().unwrap();
     let best_overlap = crate::view::best_overlap(shown.labels(), after.labels(), 1);
     assert_eq!(application.state().document.selection.item, best_overlap.map(Item::Region));
@@ -104,20 +105,20 @@ fn masks_join_leave_and_turn_over() {
     let count = |application: &Application| {
         marked(application).map_or(0, |m| m.as_slice().iter().filter(|&&on| on).count())
     };
-    application.apply(Command::Mark(of(&|i| i < 10), Combine::Replace, None));
-    application.apply(Command::Mark(of(&|i| (5..20).contains(&i)), Combine::Union, None));
+    application.apply(Edit::Mark(of(&|i| i < 10), Combine::Replace, None));
+    application.apply(Edit::Mark(of(&|i| (5..20).contains(&i)), Combine::Union, None));
     assert_eq!(count(&application), 20);
-    application.apply(Command::Mark(of(&|i| i < 4), Combine::Subtract, None));
+    application.apply(Edit::Mark(of(&|i| i < 4), Combine::Subtract, None));
     assert_eq!(count(&application), 16);
-    application.apply(Command::InvertMarked);
+    application.apply(Edit::InvertMarked);
     assert_eq!(count(&application), width * height - 16);
-    application.apply(Command::Undo);
-    application.apply(Command::Mark(of(&|_| true), Combine::Subtract, None));
+    application.apply(Edit::Undo);
+    application.apply(Edit::Mark(of(&|_| true), Combine::Subtract, None));
     assert_eq!(marked(&application), None, "an empty mask is no mask");
-    application.apply(Command::InvertMarked);
+    application.apply(Edit::InvertMarked);
     assert_eq!(count(&application), width * height);
     let generation = application.state().generation;
-    application.apply(Command::ClearSelection);
+    application.apply(Edit::ClearSelection);
     assert!(application.state().document.selection.is_empty());
     assert_eq!(application.state().generation, generation, "nothing of this needs an analysis");
 }
@@ -128,10 +129,10 @@ fn an_area_restricts_the_analysis_and_undo_lifts_it() {
     let (width, height) = application.state().picture.as_ref().unwrap().size();
     let left: Vec<bool> = (0..width * height).map(|i| i % width < width / 2).collect();
     let area = Arc::new(Raster::from_vec(width, height, left).unwrap());
-    application.apply(Command::RestrictTo(Some(Arc::clone(&area))));
+    application.apply(Edit::RestrictTo(Some(Arc::clone(&area))));
     let labels = application.state().shown().unwrap().labels();
     assert!((0..labels.len()).all(|pixel| area[pixel] || labels[pixel] == 0));
-    application.apply(Command::Undo);
+    application.apply(Edit::Undo);
     assert!(application.state().document.area.is_none() && application.state().is_current());
     assert!(application.state().shown().unwrap().area.is_none());
 }
@@ -139,12 +140,12 @@ fn an_area_restricts_the_analysis_and_undo_lifts_it() {
 #[test]
 fn a_pinned_illuminant_is_a_parameter() {
     let mut application = opened_tiny();
-    application.apply(Command::PinIlluminant(Some([1.0, 1.0, 1.0]), None));
+    application.apply(Edit::PinIlluminant(Some([1.0, 1.0, 1.0]), None));
     let light = application.state().shown().unwrap().analysis.illuminant.unwrap();
     assert!((light.direction[0] - 3f64.sqrt().recip()).abs() < 1e-9);
-    application.apply(Command::PinIlluminant(Some([0.0; 3]), None));
+    application.apply(Edit::PinIlluminant(Some([0.0; 3]), None));
     assert_eq!(application.state().notices.len(), 1, "no light is no color");
-    application.apply(Command::Undo);
+    application.apply(Edit::Undo);
     assert_eq!(application.state().document.params.illuminant, IlluminantSetting::Auto);
 }
 
@@ -152,10 +153,10 @@ fn a_pinned_illuminant_is_a_parameter() {
 fn a_second_photograph_keeps_the_parameters_and_forgets_the_rest() {
     let mut application = opened_tiny();
     application.apply(set_sigma(4.0));
-    application.apply(Command::Select(Some(Item::Region(1))));
-    application.apply(Command::InvertMarked);
-    application.apply(Command::Pin(true));
-    application.apply(Command::Open(Origin::Sample(sample::NAME.into())));
+    application.apply(Edit::Select(Some(Item::Region(1))));
+    application.apply(Edit::InvertMarked);
+    application.apply(ViewCommand::Pin(true));
+    application.apply(JobCommand::Open(Origin::Sample(sample::NAME.into())));
     let state = application.state();
     assert_eq!(state.picture.as_ref().unwrap().origin.name(), sample::NAME);
     assert_eq!(sigma(&application), Setting::Value(4.0));
@@ -166,12 +167,12 @@ fn a_second_photograph_keeps_the_parameters_and_forgets_the_rest() {
 #[test]
 fn what_cannot_be_opened_leaves_everything_as_it_was() {
     let mut application = opened_tiny();
-    application.apply(Command::Select(Some(Item::Region(1))));
+    application.apply(Edit::Select(Some(Item::Region(1))));
     let (document, newest) =
         (application.state().document.clone(), application.state().newest.clone().unwrap());
     for origin in [Origin::File("nowhere.png".into()), Origin::Sample("nothing".into())] {
         let name = origin.name();
-        application.apply(Command::Open(origin));
+        application.apply(JobCommand::Open(origin));
         let notice = application.state().notices.last().unwrap();
         assert!(notice.severity == Severity::Error && notice.text.contains(&name), "{}", notice.text);
     }
@@ -183,17 +184,17 @@ fn what_cannot_be_opened_leaves_everything_as_it_was() {
 #[test]
 fn a_pinned_result_stays_while_parameters_change() {
     let mut application = opened_tiny();
-    application.apply(Command::ShowPinned(true));
+    application.apply(ViewCommand::ShowPinned(true));
     assert!(!application.state().view.show_pinned, "there is nothing to show");
-    application.apply(Command::Pin(true));
+    application.apply(ViewCommand::Pin(true));
     let pinned = Arc::clone(application.state().pinned.as_ref().unwrap());
     application.apply(set_sigma(6.0));
     assert!(!Arc::ptr_eq(application.state().shown().unwrap(), &pinned));
-    application.apply(Command::ShowPinned(true));
+    application.apply(ViewCommand::ShowPinned(true));
     assert!(Arc::ptr_eq(application.state().shown().unwrap(), &pinned));
     let found = crate::view::compare(&pinned, application.state().newest.as_ref().unwrap()).unwrap();
     assert_eq!(found.settings.len(), 1);
-    application.apply(Command::Pin(false));
+    application.apply(ViewCommand::Pin(false));
     assert!(application.state().pinned.is_none() && !application.state().view.show_pinned);
 }
 
@@ -202,7 +203,7 @@ fn a_photograph_is_read_again_in_another_encoding() {
     let mut application = opened_tiny();
     let before = application.state().picture.as_ref().unwrap().photo.image.pixels[0];
     let options = ReadOptions { full_scale: Some(510.0), ..ReadOptions::default() };
-    application.apply(Command::ReadAs(options));
+    application.apply(JobCommand::ReadAs(options));
     let picture = application.state().picture.as_ref().unwrap();
     assert_eq!(picture.reading, options);
     assert!((picture.photo.image.pixels[0][0] - 2.0 * before[0]).abs() < 1e-3);
@@ -213,18 +214,18 @@ fn a_workspace_brings_everything_back() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join("a.dichroscope");
     let mut application = opened_tiny();
-    application.apply(Command::Pin(true));
+    application.apply(ViewCommand::Pin(true));
     application.apply(set_sigma(4.0));
-    application.apply(Command::Select(Some(Item::Pixel(5))));
-    application.apply(Command::InvertMarked);
-    application.apply(Command::Layout("three columns".into()));
-    application.apply(Command::ShowPinned(true));
+    application.apply(Edit::Select(Some(Item::Pixel(5))));
+    application.apply(Edit::InvertMarked);
+    application.apply(ViewCommand::Layout("three columns".into()));
+    application.apply(ViewCommand::ShowPinned(true));
     let (document, view) = (application.state().document.clone(), application.state().view.clone());
-    application.apply(Command::Export(Export::Workspace { path: path.clone() }));
+    application.apply(JobCommand::Export(Export::Workspace { path: path.clone() }));
     assert!(path.is_file(), "{:?}", application.state().notices);
 
     let mut again = Application::new(Executor::Inline, || ()).unwrap();
-    again.apply(Command::OpenWorkspace(path.clone()));
+    again.apply(JobCommand::OpenWorkspace(path.clone()));
     let state = again.state();
     assert_eq!((&state.document, &state.view), (&document, &view), "{:?}", state.notices);
     assert!(state.is_current() && !state.history.can_undo());
@@ -233,7 +234,7 @@ fn a_workspace_brings_everything_back() {
     assert_eq!(pinned.labels(), application.state().pinned.as_ref().unwrap().labels());
 
     std::fs::write(&path, "{").unwrap();
-    again.apply(Command::OpenWorkspace(path));
+    again.apply(JobCommand::OpenWorkspace(path));
     assert_eq!(again.state().document, document);
     assert!(again.state().notices.last().unwrap().text.contains("is no workspace"));
 }
@@ -243,7 +244,8 @@ fn a_mask_of_another_size_is_left_out_of_a_workspace() {
     let mut application = opened_tiny();
     let mut workspace = Workspace::of(application.state()).unwrap();
     workspace.marked = Some(MaskRuns::of(&Raster::filled(3, 3, true)));
-    application.apply(Command::Restore(Box::new(workspace)));
+    application.take_report(Report::WorkspaceRead(Box::new(workspace)));
+    application.poll();
     assert_eq!(application.state().document.selection.marked, None);
     assert!(application.state().notices[0].text.contains("another size"));
 }
@@ -252,11 +254,11 @@ fn a_mask_of_another_size_is_left_out_of_a_workspace() {
 fn one_export_at_a_time() {
     let mut state = State::default();
     state.jobs.export = Some(crate::app::Job::now());
-    let effects = reduce(&mut state, Command::Export(Export::Regions { path: "a".into() }));
+    let effects = reduce(&mut state, JobCommand::Export(Export::Regions { path: "a".into() }));
     assert!(effects.is_empty() && state.notices[0].text.contains("under way"));
-    reduce(&mut state, Command::Exporting { done: 2, total: 5 });
+    report::reduce(&mut state, Report::Exporting { done: 2, total: 5 });
     assert_eq!(state.jobs.export.unwrap().files, Some((2, 5)));
-    reduce(&mut state, Command::Exported(Ok("wrote it".into())));
+    report::reduce(&mut state, Report::Exported(Ok("wrote it".into())));
     assert!(state.jobs.export.is_none());
 }
 
@@ -272,7 +274,7 @@ fn wait(application: &mut Application, woken: &Receiver<()>, done: impl Fn(&Stat
 fn on_threads_the_newest_request_wins() {
     let (ring, woken) = mpsc::channel();
     let mut application = Application::new(Executor::Threads, move || _ = ring.send(())).unwrap();
-    application.apply(Command::Open(tiny()));
+    application.apply(JobCommand::Open(tiny()));
     assert!(application.state().picture.is_none(), "the caller does not wait");
     wait(&mut application, &woken, State::is_current);
     for step in 0..20 {
@@ -288,7 +290,7 @@ fn on_threads_the_newest_request_wins() {
     let late = Arc::clone(shown);
     application.apply(set_sigma(3.0));
     wait(&mut application, &woken, State::is_current);
-    application.apply(Command::Analyzed(late));
+    application.take_report(Report::Analyzed(late));
     assert!(application.state().is_current());
     // The scores come after the result, without holding it up.
     wait(&mut application, &woken, |state| state.shown().is_some_and(|shown| shown.accuracy().is_some()));
@@ -303,17 +305,17 @@ fn what_would_change_a_pixel_is_asked_in_the_background_and_forgotten_with_the_r
         application.state().shown().unwrap().analysis.intrinsic.kinds[pixel as usize]
     };
     let before = kind_of(&application);
-    application.apply(Command::Ask(Ask::WhatIf(Some(pixel))));
+    application.apply(Ask::WhatIf(Some(pixel)));
     let what_if_job = application.state().what_if_job.clone().unwrap();
     let found = what_if_job.found.expect("inline it has ended");
     assert!(what_if_job.done == what_if_job.total && !found.is_empty());
     let first = found[0];
-    application.apply(Command::SetParameter(first.parameter, Setting::Value(first.at), None));
+    application.apply(Edit::SetParameter(first.parameter, Setting::Value(first.at), None));
     assert!(application.state().what_if_job.is_none(), "another result, another question");
     let now = application.state().shown().unwrap().labels();
     let stayed = crate::view::best_overlaps(&labels, now)[1] == now[pixel as usize];
     assert_eq!(kind_of(&application), first.after.kind, "what was foretold has come");
     assert!(!stayed || kind_of(&application) != before, "and it is another fate");
-    application.apply(Command::Ask(Ask::WhatIf(Some(u32::MAX))));
+    application.apply(Ask::WhatIf(Some(u32::MAX)));
     assert!(application.state().what_if_job.is_none(), "no such pixel");
 }

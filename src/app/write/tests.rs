@@ -1,5 +1,5 @@
 use super::*;
-use crate::app::{Application, Command, Executor, State};
+use crate::app::{Application, Executor, JobCommand, State};
 use crate::truth::sample;
 use crate::view::testing::{divided, gray};
 use crate::view::{ImageSettings, Item, Origin};
@@ -111,8 +111,8 @@ fn a_result_tells_its_progress_and_can_be_stopped() {
 fn the_workbench_exports_and_says_so() {
     let root = tempfile::tempdir().unwrap();
     let mut app = Application::new(Executor::Inline, || ()).unwrap();
-    app.apply(Command::Open(Origin::Sample(sample::NAME.into())));
-    app.apply(Command::Export(Export::Result { folder: root.path().join("r"), force: false }));
+    app.apply(JobCommand::Open(Origin::Sample(sample::NAME.into())));
+    app.apply(JobCommand::Export(Export::Result { folder: root.path().join("r"), force: false }));
     let state = app.state();
     assert!(state.jobs.export.is_none());
     assert!(

@@ -1,9 +1,9 @@
 //! The row of controls above the color space: coloring, space, tools, shapes to show, named views.
 
 use super::camera_controller::{CameraController, Plane, Sight};
-use crate::app::Command;
+use crate::app::ViewCommand;
 use crate::gpu::Projection;
-use crate::gui::Cx;
+use crate::gui::PanelContext;
 use crate::gui::icons::{self, Icon};
 use crate::view::{ColorBy, ColorSpace, CubeSettings, Tool};
 use egui::containers::menu::{MenuButton, MenuConfig};
@@ -40,7 +40,7 @@ const TOOLS: [(Tool, Icon, &str, &str); 4] = [
 ];
 
 /// Shows the row. `size` is width and height of the view, points, for named views that frame the space.
-pub fn show(ui: &mut Ui, cx: &mut Cx, camera_controller: &mut CameraController, size: [f32; 2]) {
+pub fn show(ui: &mut Ui, cx: &mut PanelContext, camera_controller: &mut CameraController, size: [f32; 2]) {
     let before = &cx.state.view.cube;
     let mut settings = before.clone();
     ui.horizontal(|ui| {
@@ -65,7 +65,7 @@ pub fn show(ui: &mut Ui, cx: &mut Cx, camera_controller: &mut CameraController, 
         }
     });
     if settings != *before {
-        cx.send(Command::Cube(settings));
+        cx.send(ViewCommand::Cube(settings));
     }
 }
 
@@ -121,7 +121,7 @@ fn combo(ui: &mut Ui, name: &str, now: &str, width: f32, choices: impl FnOnce(&m
     response.on_hover_text(name);
 }
 
-fn tools(ui: &mut Ui, cx: &Cx, settings: &mut CubeSettings, narrow: bool) {
+fn tools(ui: &mut Ui, cx: &PanelContext, settings: &mut CubeSettings, narrow: bool) {
     if narrow {
         ui.menu_button("Tool", |ui| {
             for (tool, _, name, tip) in TOOLS {

@@ -2,6 +2,7 @@
 //! then.
 
 use super::figure::ShapeBuilder;
+use super::instant::{InstantKey, instant_key};
 use crate::app::State;
 use crate::gpu::{Batch, Point};
 use crate::gui::theme::Tones;
@@ -31,19 +32,10 @@ const THIN_PT: f32 = 1.0;
 const THICK_PT: f32 = 2.0;
 const MARK_PT: f32 = 4.5;
 
-/// Identity of an instant: generation of the trace, number of steps taken, and chosen hypothesis.
-pub type Frame = (u64, usize, Option<u16>);
-
-/// The instant that is shown; `None` when the result is shown.
-pub fn frame(state: &State) -> Option<Frame> {
-    let replay = state.followed()?;
-    Some((state.debugger.generation, replay.at(), state.debugger.chosen))
-}
-
-/// The pixels that the step at the cursor examines, as points.
+/// The pixels that the step at the cursor looks at, as points.
 #[derive(Default)]
 pub struct Track {
-    of: Option<(Frame, CubeSettings, Theme)>,
+    of: Option<(InstantKey, CubeSettings, Theme)>,
     made: Option<Instant>,
     /// One batch of points per role of the pixels in the step.
     pub drawn: Vec<Batch<Point>>,
@@ -52,7 +44,7 @@ pub struct Track {
 impl Track {
     /// Rebuilds the points when the instant has changed.
     pub fn update(&mut self, state: &State, tones: &Tones, picture: &Picture) {
-        let of = frame(state).map(|frame| (frame, state.view.cube.clone(), state.view.theme));
+        let of = instant_key(state).map(|key| (key, state.view.cube.clone(), state.view.theme));
         if self.of == of || (of.is_some() && self.rests(state, picture)) {
             return;
         }

@@ -1,11 +1,11 @@
-//! The unique colors of a photograph, found on a background thread when first requested.
+//! The unique colors of a photograph, found on a thread of its own when they are first needed.
 
+use crate::gui::task::Task;
 use crate::view::{Picture, UniqueColor};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
-/// Time without movement after which the camera counts as at rest.
+/// The camera is at rest when it has not moved for this time.
 pub const REST: Duration = Duration::from_millis(200);
 
 /// The unique colors of one photograph, and when the camera last moved.
@@ -13,19 +13,18 @@ pub const REST: Duration = Duration::from_millis(200);
 pub struct Detail {
     of: Option<Arc<Picture>>,
     found: Option<Arc<[UniqueColor]>>,
-    coming: Option<Receiver<Arc<[UniqueColor]>>>,
+    search: Option<Task<Arc<[UniqueColor]>>>,
     moved: Option<Instant>,
 }
 
 impl Detail {
-    /// Records that the camera has moved now.
+    /// Notes that the camera has moved.
     pub fn stir(&mut self) {
         self.moved = Some(Instant::now());
     }
 
-    /// The unique colors; `None` until they are found, and while the camera moves. With `swift` (a fast graphics
-    /// device) they
-    /// are returned while the camera moves, too.
+    /// The colors, once they are known and the camera is at rest; with `swift`, for a fast graphics device, also while it
+    /// moves.
     pub fn get(
         &mut self,
         ctx: &egui::Context,
@@ -34,14 +33,12 @@ impl Detail {
     ) -> Option<Arc<[UniqueColor]>> {
         if !self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, picture)) {
             *self = Self { of: Some(Arc::clone(picture)), ..Self::default() };
-            self.coming = ask(ctx, picture);
+            let picture = Arc::clone(picture);
+            let find = move || picture.histogram.unique(&picture.photo.image).into();
+            self.search = Task::start(ctx, "unique colors", find);
         }
-        if let Some(coming) = &self.coming {
-            match coming.try_recv() {
-                Ok(found) => (self.found, self.coming) = (Some(found), None),
-                Err(TryRecvError::Disconnected) => self.coming = None,
-                Err(TryRecvError::Empty) => {}
-            }
+        if let Some(found) = Task::take(&mut self.search) {
+            self.found = Some(found);
         }
         if let Some(moved) = self.moved.filter(|moved| !swift && moved.elapsed() < REST) {
             ctx.request_repaint_after(REST.saturating_sub(moved.elapsed()));
@@ -49,15 +46,4 @@ impl Detail {
         }
         self.found.clone()
     }
-}
-
-fn ask(ctx: &egui::Context, picture: &Arc<Picture>) -> Option<Receiver<Arc<[UniqueColor]>>> {
-    let (send, receive) = channel();
-    let (ctx, picture) = (ctx.clone(), Arc::clone(picture));
-    let find = move || {
-        // The receiver is gone when another photograph has been opened meanwhile.
-        let _ = send.send(picture.histogram.unique(&picture.photo.image).into());
-        ctx.request_repaint();
-    };
-    std::thread::Builder::new().name("unique colors".to_owned()).spawn(find).ok().map(|_| receive)
 }

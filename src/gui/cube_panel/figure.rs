@@ -1,5 +1,6 @@
 //! The shapes of one region in the color space: cylinder, slice, skewed T, illuminant, window ellipsoid.
 
+use super::instant::{InstantKey, instant_key};
 use super::labels::{Label, all_around};
 use crate::app::State;
 use crate::gpu::{self, Line, Orbit, Overlay, Projection, Projector, Vertex};
@@ -50,8 +51,8 @@ struct Inputs {
     region: Option<u16>,
     window: Option<u32>,
     view: (ColorSpace, [bool; 5], Theme),
-    /// The instant at the debugger's cursor; `None` while the result is shown.
-    frame: Option<super::cursor::Frame>,
+    /// The instant at the debugger's cursor, in place of the result.
+    instant: Option<InstantKey>,
 }
 
 #[derive(Clone)]
@@ -86,7 +87,7 @@ impl Inputs {
                 [show_cylinder, show_slice, show_lines, show_illuminant, show_ellipsoid],
                 state.view.theme,
             ),
-            frame: super::cursor::frame(state),
+            instant: instant_key(state),
         })
     }
 }

@@ -2,7 +2,7 @@
 //! none.
 
 use super::cloud::{class_color, color_by, density_color};
-use crate::gui::Cx;
+use crate::gui::PanelContext;
 use crate::gui::theme::SMALL_PT;
 use crate::trace::Class;
 use crate::view::ColorBy;
@@ -13,7 +13,7 @@ const STEPS: usize = 24;
 
 /// Paints the legend into the upper left corner; returns its rectangle. `fullest` is the pixel count of the fullest
 /// bin.
-pub fn show(ui: &Ui, cx: &Cx, rect: Rect, fullest: u32) -> Rect {
+pub fn show(ui: &Ui, cx: &PanelContext, rect: Rect, fullest: u32) -> Rect {
     let painter = ui.painter_at(rect);
     let corner = rect.min + vec2(8.0, 6.0);
     match color_by(cx.state) {
@@ -23,7 +23,7 @@ pub fn show(ui: &Ui, cx: &Cx, rect: Rect, fullest: u32) -> Rect {
     }
 }
 
-fn classes(painter: &Painter, cx: &Cx, corner: egui::Pos2) -> Rect {
+fn classes(painter: &Painter, cx: &PanelContext, corner: egui::Pos2) -> Rect {
     let mut room = Rect::from_min_size(corner, vec2(0.0, 0.0));
     for class in [Class::Point, Class::Line, Class::Plane, Class::Volume] {
         let name = class.name();
@@ -40,7 +40,7 @@ fn classes(painter: &Painter, cx: &Cx, corner: egui::Pos2) -> Rect {
     room
 }
 
-fn density(painter: &Painter, cx: &Cx, corner: egui::Pos2, fullest: u32) -> Rect {
+fn density(painter: &Painter, cx: &PanelContext, corner: egui::Pos2, fullest: u32) -> Rect {
     let mut ramp = Mesh::default();
     let bar = Rect::from_min_size(corner + vec2(0.0, 2.0), RAMP_PT);
     for step in 0..=STEPS {

@@ -4,7 +4,7 @@ use super::geometry::Placement;
 use super::icons::{corners, cross};
 use super::overlay::{self, MARK};
 use crate::app::{Command, DebugCommand, DebugSettings, State};
-use crate::gui::Cx;
+use crate::gui::PanelContext;
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::gui::widgets::{color, grouped};
 use crate::view::{Instant, cursor_place, instant_legend};
@@ -62,7 +62,7 @@ pub fn toggle(ui: &mut Ui, state: &State, settings: &mut DebugSettings) {
 }
 
 /// Sends changed settings of the debugger.
-pub fn send(cx: &mut Cx, settings: DebugSettings) {
+pub fn send(cx: &mut PanelContext, settings: DebugSettings) {
     if settings != cx.state.view.debug {
         cx.send(Command::Debug(DebugCommand::Settings(settings)));
     }

@@ -3,6 +3,7 @@
 use super::geometry::{Placement, level_for};
 use super::tiles::{TILE, Tile, boldest, options};
 use crate::app::State;
+use crate::gui::task::Task;
 use crate::raster::{Mask, Raster};
 use crate::view::{
     Fill, ImageSettings, Instant, Item, Layer, Look, Picture, ResultSnapshot, Selection, marks, paint,
@@ -10,16 +11,15 @@ use crate::view::{
 };
 use egui::{Color32, Context, Mesh, Painter, Rect, Shape, TextureHandle};
 use std::collections::HashMap;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 /// Larger pictures are painted in the background, so that no frame waits for them; pixels.
 pub const LARGE_PX: usize = 1 << 20;
-/// Sheets kept at most, and their pixels in total.
+/// Textures kept at most, and their pixels in total.
 const MOST: (usize, usize) = (8, 40 << 20);
 
-/// Where a sheet is shown.
+/// Where a texture is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slot {
     /// The layer.
@@ -99,7 +99,7 @@ impl PaintRequest {
             Subject::Layer(layer, look) => paint(*layer, &self.picture, shown, pinned, look),
             Subject::Marks(selection, hover) => {
                 let drawn = marks(&self.picture, shown, selection, *hover);
-                // One transparent texel stands for nothing.
+                // Where nothing is marked, one transparent texel.
                 drawn.unwrap_or_else(|| Raster::filled(1, 1, [0; 4]))
             }
             Subject::Instant(instant, look) => {
@@ -162,18 +162,18 @@ impl PartialEq for Key {
     }
 }
 
-/// All sheets.
+/// The textures that are kept.
 #[derive(Default)]
-pub struct Sheets {
+pub struct TextureCache {
     kept: Vec<LayerTexture>,
     /// What each slot showed last: it stays until the new one is painted.
     last: [Option<Key>; 4],
-    painting: Option<Receiver<LayerTexture>>,
+    painting: Option<Task<LayerTexture>>,
     clock: u64,
 }
 
-impl Sheets {
-    /// The sheet that was ordered, or an older one of the same picture while it is being painted.
+impl TextureCache {
+    /// The texture of a request, or an older one of the same photograph while the requested one is being painted.
     pub fn get(&mut self, ctx: &Context, slot: Slot, request: &PaintRequest) -> Option<&mut LayerTexture> {
         self.take_in();
         self.clock += 1;
@@ -185,7 +185,7 @@ impl Sheets {
             } else if self.painting.is_none() {
                 self.paint_in_background(ctx, request);
             }
-            // The painter rings when it is done; where nobody hears it, off screen, one looks again.
+            // The painter requests a repaint when it has ended; off screen that request has no effect, so look again.
             ctx.request_repaint_after(Duration::from_millis(30));
         }
         let last = &mut self.last[slot as usize];
@@ -200,21 +200,15 @@ impl Sheets {
         Some(texture)
     }
 
-    /// Takes the sheet that a painter has finished.
+    /// Keeps the texture that the painter has finished.
     fn take_in(&mut self) {
-        let Some(painting) = &self.painting else { return };
-        match painting.try_recv() {
-            Ok(mut texture) => {
-                texture.used = self.clock;
-                self.keep(texture);
-                self.painting = None;
-            }
-            Err(TryRecvError::Disconnected) => self.painting = None,
-            Err(TryRecvError::Empty) => {}
+        if let Some(mut texture) = Task::take(&mut self.painting) {
+            texture.used = self.clock;
+            self.keep(texture);
         }
     }
 
-    /// Keeps a new sheet. One of an instant takes the textures of the instant before: they change many times a second.
+    /// Keeps a new texture. One of an instant reuses the tiles of the instant before: they change many times a second.
     fn keep(&mut self, mut texture: LayerTexture) {
         let instant = |texture: &LayerTexture| matches!(texture.key.subject, SubjectKey::Instant(..));
         if instant(&texture) {
@@ -226,27 +220,22 @@ impl Sheets {
         self.kept.push(texture);
     }
 
-    /// Whether a painter is at work.
+    /// Whether a texture is being painted in the background.
     pub fn is_painting(&self) -> bool {
         self.painting.is_some()
     }
 
     fn paint_in_background(&mut self, ctx: &Context, request: &PaintRequest) {
-        let (send, receive) = channel();
-        let (request, ctx) = (request.clone(), ctx.clone());
-        let work = move || {
+        let request = request.clone();
+        let paint = move || {
             let mut texture = LayerTexture::painted(&request);
             texture.make_copies();
-            // The window may be closed by now: then nobody waits for it.
-            let _ = send.send(texture);
-            ctx.request_repaint();
+            texture
         };
-        if std::thread::Builder::new().name("painter".to_owned()).spawn(work).is_ok() {
-            self.painting = Some(receive);
-        }
+        self.painting = Task::start(ctx, "painter", paint);
     }
 
-    /// Sheets of results that are gone are never asked for again; of the others the oldest go first.
+    /// Drops textures of results that are gone, and then the oldest ones beyond the limits.
     fn forget_oldest(&mut self) {
         let last = &self.last;
         let in_use = |texture: &LayerTexture| last.iter().flatten().any(|key| *key == texture.key);

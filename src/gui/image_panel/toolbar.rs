@@ -2,7 +2,8 @@
 
 use super::icons::{self, Sign};
 use crate::app::{DebugSettings, State};
-use crate::gui::shortcuts::{Action, keys_of};
+use crate::gui::action::Action;
+use crate::gui::shortcuts::keys_of;
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::gui::widgets::clickable;
 use crate::view::{Arrangement, Fill, ImageSettings, Layer, Tool};

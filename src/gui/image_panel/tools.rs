@@ -3,8 +3,8 @@
 use super::geometry::Placement;
 use super::icons::{corners, dashed};
 use super::overlay::MARK;
-use crate::app::{Ask, Combine, Command, Gesture, Severity, State};
-use crate::gui::Cx;
+use crate::app::{Ask, Combine, Command, Edit, Gesture, Severity, State, ViewCommand};
+use crate::gui::PanelContext;
 use crate::raster::Mask;
 use crate::view::marking::{brush, outline, rectangle};
 use crate::view::{ImageSettings, Item, Layer, ProfileLine, Tool};
@@ -65,7 +65,13 @@ impl ToolState {
     }
 
     /// Follows the pointer in one view.
-    pub fn act(&mut self, ui: &Ui, spot: &PointerContext, cx: &mut Cx, settings: &mut ImageSettings) {
+    pub fn act(
+        &mut self,
+        ui: &Ui,
+        spot: &PointerContext,
+        cx: &mut PanelContext,
+        settings: &mut ImageSettings,
+    ) {
         if self.tool != settings.tool {
             (self.draft, self.tool) = (Draft::None, settings.tool);
         }
@@ -120,7 +126,7 @@ impl ToolState {
         }
     }
 
-    fn begin(&mut self, place: &Placement, cx: &mut Cx, modifiers: Modifiers, radius_px: f32) {
+    fn begin(&mut self, place: &Placement, cx: &mut PanelContext, modifiers: Modifiers, radius_px: f32) {
         let at = self.at;
         match self.tool {
             Tool::Rectangle | Tool::WhitePatch => self.draft = Draft::Rectangle(at),
@@ -128,7 +134,7 @@ impl ToolState {
             Tool::Brush => {
                 self.draft = Draft::Brush(at);
                 let mask = brush(size(place), &[at.into()], radius_px);
-                cx.send(Command::Mark(Arc::new(mask), combine(modifiers), Some(Gesture::Brush)));
+                cx.send(Edit::Mark(Arc::new(mask), combine(modifiers), Some(Gesture::Brush)));
             }
             Tool::Profile => {
                 let near = |end: &[f32; 2]| (pos2(end[0], end[1]) - at).length() * place.zoom < GRASP_PT;
@@ -143,7 +149,7 @@ impl ToolState {
         }
     }
 
-    fn go_on(&mut self, place: &Placement, cx: &mut Cx, modifiers: Modifiers, radius_px: f32) {
+    fn go_on(&mut self, place: &Placement, cx: &mut PanelContext, modifiers: Modifiers, radius_px: f32) {
         let at = self.at;
         match &mut self.draft {
             Draft::Lasso(path) => {
@@ -157,21 +163,21 @@ impl ToolState {
                 *last = at;
                 // A stroke that replaces does so with its first touch.
                 let combine = if modifiers.alt { Combine::Subtract } else { Combine::Union };
-                cx.send(Command::Mark(Arc::new(mask), combine, Some(Gesture::Brush)));
+                cx.send(Edit::Mark(Arc::new(mask), combine, Some(Gesture::Brush)));
             }
             Draft::Profile(stays) => {
                 let stays = *stays;
                 let end = within(if modifiers.shift { straight(stays, at) } else { at }, place);
                 let line = ProfileLine::Between(stays.into(), end.into());
                 if end != stays && line != cx.state.view.profile {
-                    cx.send(Command::Profile(line));
+                    cx.send(ViewCommand::Profile(line));
                 }
             }
             _ => {}
         }
     }
 
-    fn end(&mut self, place: &Placement, cx: &mut Cx, modifiers: Modifiers) {
+    fn end(&mut self, place: &Placement, cx: &mut PanelContext, modifiers: Modifiers) {
         let at = self.at;
         match std::mem::take(&mut self.draft) {
             Draft::Rectangle(from) => {
@@ -186,12 +192,12 @@ impl ToolState {
             }
             Draft::Lasso(path) if path.len() > 2 => mark(cx, outline(size(place), &arrays(&path)), modifiers),
             Draft::Lasso(_) => unmark(cx, modifiers),
-            Draft::Brush(_) => cx.send(Command::EndGesture),
+            Draft::Brush(_) => cx.send(Edit::EndGesture),
             _ => {}
         }
     }
 
-    fn polygon(&mut self, ui: &Ui, spot: &PointerContext, cx: &mut Cx, modifiers: Modifiers) {
+    fn polygon(&mut self, ui: &Ui, spot: &PointerContext, cx: &mut PanelContext, modifiers: Modifiers) {
         let (response, place) = (spot.response, &spot.place);
         let at = self.at;
         let mut closes = ui.input(|input| input.key_pressed(Key::Enter));
@@ -253,7 +259,7 @@ impl ToolState {
 }
 
 /// Selects by a click, and fits by two.
-fn point(spot: &PointerContext, cx: &mut Cx, settings: &mut ImageSettings, modifiers: Modifiers) {
+fn point(spot: &PointerContext, cx: &mut PanelContext, settings: &mut ImageSettings, modifiers: Modifiers) {
     let response = spot.response;
     if response.double_clicked_by(PointerButton::Primary) {
         (settings.zoom, settings.center_px) = (None, None);
@@ -261,7 +267,7 @@ fn point(spot: &PointerContext, cx: &mut Cx, settings: &mut ImageSettings, modif
         let pixel = response.interact_pointer_pos().and_then(|at| spot.place.pixel_at(at));
         let item = pixel.and_then(|pixel| item_at(cx.state, spot.layer, pixel, modifiers.alt));
         if item != cx.state.document.selection.item {
-            cx.send(Command::Select(item));
+            cx.send(Edit::Select(item));
         }
         cx.out.extend(pixel.map(|pixel| Command::Ask(Ask::Why(pixel))));
     }
@@ -291,30 +297,32 @@ fn combine(modifiers: Modifiers) -> Combine {
     }
 }
 
-fn mark(cx: &mut Cx, mask: Mask, modifiers: Modifiers) {
-    cx.send(Command::Mark(Arc::new(mask), combine(modifiers), None));
+fn mark(cx: &mut PanelContext, mask: Mask, modifiers: Modifiers) {
+    cx.send(Edit::Mark(Arc::new(mask), combine(modifiers), None));
 }
 
 /// A click that draws nothing takes the marks away.
-fn unmark(cx: &mut Cx, modifiers: Modifiers) {
+fn unmark(cx: &mut PanelContext, modifiers: Modifiers) {
     if let Some(marked) = &cx.state.document.selection.marked
         && combine(modifiers) == Combine::Replace
     {
         let nothing = Mask::filled(marked.width(), marked.height(), false);
-        cx.send(Command::Mark(Arc::new(nothing), Combine::Replace, None));
+        cx.send(Edit::Mark(Arc::new(nothing), Combine::Replace, None));
     }
 }
 
 /// Pins the light's color to the mean of the pixels that can be believed.
-fn pin(cx: &mut Cx, mask: &Mask) {
-    cx.send(match mean_direction(cx.state, mask) {
-        Some(direction) => Command::PinIlluminant(Some(direction), None),
-        None => Command::Notify(
+fn pin(cx: &mut PanelContext, mask: &Mask) {
+    let command: Command = match mean_direction(cx.state, mask) {
+        Some(direction) => Edit::PinIlluminant(Some(direction), None).into(),
+        None => ViewCommand::Notify(
             Severity::Warning,
             "white patch: all its pixels are clipped, black or hold no value; outline a darker part"
                 .to_owned(),
-        ),
-    });
+        )
+        .into(),
+    };
+    cx.send(command);
 }
 
 fn mean_direction(state: &State, mask: &Mask) -> Option<[f64; 3]> {

@@ -4,7 +4,7 @@
 
 use super::{PlanePanel, cloud, hovered, kinds, navigate, quiet};
 use crate::app::State;
-use crate::gui::{Cx, verdict, widgets};
+use crate::gui::{PanelContext, verdict, widgets};
 use crate::trace::{PixelKind, Replay};
 use crate::view::{growing_plane, test_at_cursor, test_plane};
 use egui::{Sense, Stroke, Ui, vec2};
@@ -57,7 +57,7 @@ pub fn frame(state: &State) -> Option<Frame> {
 
 impl PlanePanel {
     /// Shows the plane of the hypothesis at the cursor.
-    pub(super) fn show_instant(&mut self, ui: &mut Ui, cx: &mut Cx, replay: &Replay, frame: Frame) {
+    pub(super) fn show_instant(&mut self, ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, frame: Frame) {
         let state = cx.state;
         let Some(picture) = &state.picture else { return };
         self.update_instant(state, replay, frame);
@@ -120,7 +120,7 @@ impl PlanePanel {
 }
 
 /// Shows the legend of the points' colors.
-fn bar(ui: &mut Ui, cx: &Cx, names: [Name; 3]) {
+fn bar(ui: &mut Ui, cx: &PanelContext, names: [Name; 3]) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         for (kind, name, tip) in names {

@@ -1,8 +1,8 @@
 //! Kinds of pixels (matte, highlight, restored, lost; section 6): colors, names, and the legend.
 
 use super::quiet;
-use crate::app::Command;
-use crate::gui::Cx;
+use crate::app::ViewCommand;
+use crate::gui::PanelContext;
 use crate::gui::widgets;
 use crate::intrinsic::PixelKind;
 use crate::view::{PlaneSettings, RegionPlane, Theme};
@@ -39,7 +39,7 @@ pub fn color(kind: PixelKind, theme: Theme) -> Color32 {
 }
 
 /// Shows the choice between own colors and labels, and the legend of the labels.
-pub fn bar(ui: &mut Ui, cx: &mut Cx, plane: &RegionPlane) {
+pub fn bar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
     let by_label = cx.state.view.plane.color_by_label;
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
@@ -49,7 +49,7 @@ pub fn bar(ui: &mut Ui, cx: &mut Cx, plane: &RegionPlane) {
             (false, "Own color", "Points in the color that was measured."),
         ] {
             if ui.selectable_label(by_label == choice, name).on_hover_text(tip).clicked() {
-                cx.send(Command::Plane(PlaneSettings { color_by_label: choice }));
+                cx.send(ViewCommand::Plane(PlaneSettings { color_by_label: choice }));
             }
         }
         if by_label {

@@ -3,9 +3,9 @@
 //! areas.
 
 use super::{ROW_PT, cell, vector};
-use crate::app::{Command, DebugCommand};
+use crate::app::{Command, DebugCommand, Edit, ViewCommand};
 use crate::gui::theme::Tones;
-use crate::gui::{Cx, widgets};
+use crate::gui::{PanelContext, widgets};
 use crate::trace::Replay;
 use crate::view::{
     HypothesisRow, Item, LegendEntry, RegionNames, Status, WindowCounts, class_entries, hypothesis_rows,
@@ -55,7 +55,7 @@ pub struct Sorting {
 
 impl Sorting {
     /// Shows the light, and the hypotheses or the windows at the cursor.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx, replay: &Replay) {
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext, replay: &Replay) {
         light(ui, cx.tones, replay);
         let rows = hypothesis_rows(replay, &cx.state.debugger.names);
         if !rows.is_empty() {
@@ -67,7 +67,7 @@ impl Sorting {
         }
     }
 
-    fn table(&mut self, ui: &mut Ui, cx: &mut Cx, rows: &[HypothesisRow]) {
+    fn table(&mut self, ui: &mut Ui, cx: &mut PanelContext, rows: &[HypothesisRow]) {
         ui.spacing_mut().item_spacing = egui::vec2(6.0, 1.0);
         let focus = cx.state.debugger.focus();
         let order = self.order(rows);
@@ -98,13 +98,13 @@ impl Sorting {
                         hovered = becomes;
                     }
                     if response.clicked() {
-                        cx.out.push(Command::Debug(DebugCommand::Choose(Some(of.region))));
-                        cx.out.extend(becomes.map(|item| Command::Select(Some(item))));
+                        cx.send(Command::Debug(DebugCommand::Choose(Some(of.region))));
+                        cx.out.extend(becomes.map(|item| Edit::Select(Some(item)).into()));
                     }
                 });
             });
         if ui.rect_contains_pointer(ui.max_rect()) && hovered != cx.state.hover {
-            cx.send(Command::Hover(hovered));
+            cx.send(ViewCommand::Hover(hovered));
         }
     }
 

@@ -1,72 +1,52 @@
-//! The debugger's keys: when they are meant, and what they do.
+//! The debugger's keys, and when they are left to other widgets.
 
-use super::{Action, Shortcut};
-use crate::app::{Command, DebugCommand, DebugSettings, Direction, Goal, Grain, Severity, State};
-use crate::gui::{Cx, timeline_panel};
-use crate::view::{Item, Tool};
+use super::shortcut::Shortcut;
+use crate::app::{Direction, Grain, State};
+use crate::gui::action::{Action, DebugAction};
+use crate::view::Tool;
 use Direction::{Back, Forward};
-use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, Rect};
+use egui::{Context, Event, Id, Key, Modifiers, Rect};
 
-/// What a key does to the debugger.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DebugDeed {
-    /// Play this way, or rest.
-    Play(Direction),
-    /// Go one unit.
-    Step(Grain, Direction),
-    /// To before the first step.
-    Start,
-    /// To the result.
-    End,
-    /// Into the next hypothesis or slice.
-    Into,
-    /// To the next breakpoint, or the last one.
-    Breakpoint(Direction),
-    /// To the next change of what is selected, or the last one.
-    Change(Direction),
-    /// Record decisions, or do not.
-    Record,
+const fn key(modifiers: Modifiers, key: Key, action: DebugAction, words: &'static str) -> Shortcut {
+    Shortcut::new("Decisions", modifiers, key, Action::Debug(action), words)
 }
 
-const fn key(modifiers: Modifiers, key: Key, action: DebugDeed, words: &'static str) -> Shortcut {
-    let keys = KeyboardShortcut::new(modifiers, key);
-    Shortcut { group: "Decisions", keys, action: Action::Debug(action), words }
-}
-
-/// All of them, those with modifiers first.
+/// The debugger's keys, those with modifiers first.
 pub const KEYS: &[Shortcut] = &[
-    key(Modifiers::SHIFT, Key::Space, DebugDeed::Play(Back), "Play backwards, or rest"),
-    key(Modifiers::NONE, Key::Space, DebugDeed::Play(Forward), "Play, or rest"),
-    key(Modifiers::COMMAND, Key::ArrowLeft, DebugDeed::Step(Grain::Stage, Back), "A stage back"),
-    key(Modifiers::COMMAND, Key::ArrowRight, DebugDeed::Step(Grain::Stage, Forward), "A stage forward"),
-    key(Modifiers::SHIFT, Key::ArrowLeft, DebugDeed::Step(Grain::Hypothesis, Back), "A hypothesis back"),
+    key(Modifiers::SHIFT, Key::Space, DebugAction::Play(Back), "Play backwards, or rest"),
+    key(Modifiers::NONE, Key::Space, DebugAction::Play(Forward), "Play, or rest"),
+    key(Modifiers::COMMAND, Key::ArrowLeft, DebugAction::Step(Grain::Stage, Back), "A stage back"),
+    key(Modifiers::COMMAND, Key::ArrowRight, DebugAction::Step(Grain::Stage, Forward), "A stage forward"),
+    key(Modifiers::SHIFT, Key::ArrowLeft, DebugAction::Step(Grain::Hypothesis, Back), "A hypothesis back"),
     key(
         Modifiers::SHIFT,
         Key::ArrowRight,
-        DebugDeed::Step(Grain::Hypothesis, Forward),
+        DebugAction::Step(Grain::Hypothesis, Forward),
         "A hypothesis forward",
     ),
-    key(Modifiers::NONE, Key::Comma, DebugDeed::Step(Grain::Claim, Back), "A claim back"),
-    key(Modifiers::NONE, Key::Period, DebugDeed::Step(Grain::Claim, Forward), "A claim forward"),
-    key(Modifiers::ALT, Key::ArrowLeft, DebugDeed::Step(Grain::Claim, Back), "A claim back"),
-    key(Modifiers::ALT, Key::ArrowRight, DebugDeed::Step(Grain::Claim, Forward), "A claim forward"),
-    key(Modifiers::NONE, Key::ArrowLeft, DebugDeed::Step(Grain::Event, Back), "An event back"),
-    key(Modifiers::NONE, Key::ArrowRight, DebugDeed::Step(Grain::Event, Forward), "An event forward"),
-    key(Modifiers::NONE, Key::Enter, DebugDeed::Into, "Into the next hypothesis"),
-    key(Modifiers::NONE, Key::Home, DebugDeed::Start, "To the beginning"),
-    key(Modifiers::NONE, Key::End, DebugDeed::End, "To the result"),
-    key(Modifiers::SHIFT, Key::N, DebugDeed::Breakpoint(Back), "The breakpoint before"),
-    key(Modifiers::NONE, Key::N, DebugDeed::Breakpoint(Forward), "The next breakpoint"),
-    key(Modifiers::SHIFT, Key::J, DebugDeed::Change(Back), "The change before, of what is selected"),
-    key(Modifiers::NONE, Key::J, DebugDeed::Change(Forward), "The next change of what is selected"),
-    key(Modifiers::NONE, Key::D, DebugDeed::Record, "Record decisions, or do not"),
+    key(Modifiers::NONE, Key::Comma, DebugAction::Step(Grain::Claim, Back), "A claim back"),
+    key(Modifiers::NONE, Key::Period, DebugAction::Step(Grain::Claim, Forward), "A claim forward"),
+    key(Modifiers::ALT, Key::ArrowLeft, DebugAction::Step(Grain::Claim, Back), "A claim back"),
+    key(Modifiers::ALT, Key::ArrowRight, DebugAction::Step(Grain::Claim, Forward), "A claim forward"),
+    key(Modifiers::NONE, Key::ArrowLeft, DebugAction::Step(Grain::Event, Back), "An event back"),
+    key(Modifiers::NONE, Key::ArrowRight, DebugAction::Step(Grain::Event, Forward), "An event forward"),
+    key(Modifiers::NONE, Key::Enter, DebugAction::Into, "Into the next hypothesis"),
+    key(Modifiers::NONE, Key::Home, DebugAction::Start, "To the beginning"),
+    key(Modifiers::NONE, Key::End, DebugAction::End, "To the result"),
+    key(Modifiers::SHIFT, Key::N, DebugAction::Breakpoint(Back), "The breakpoint before"),
+    key(Modifiers::NONE, Key::N, DebugAction::Breakpoint(Forward), "The next breakpoint"),
+    key(Modifiers::SHIFT, Key::J, DebugAction::Change(Back), "The change before, of what is selected"),
+    key(Modifiers::NONE, Key::J, DebugAction::Change(Forward), "The next change of what is selected"),
+    key(Modifiers::NONE, Key::D, DebugAction::Record, "Record decisions, or do not"),
 ];
 
-/// Who else may mean a key.
+/// Widgets and views that take keys before the debugger does.
 #[derive(Clone, Copy, Debug)]
 pub struct Listeners {
-    /// Where the color space is: it has keys of its own.
+    /// The area of the color space, which has keys of its own; none if it is not shown.
     pub colors: Option<Rect>,
+    /// The timeline's track: while it has the focus, the debugger's keys still work.
+    pub track: Id,
     /// Whether there is a trace to move in.
     pub traced: bool,
     /// Whether Enter closes an outline.
@@ -75,20 +55,20 @@ pub struct Listeners {
 
 impl Listeners {
     /// The listeners of a state, the color space being shown at `colors`.
-    pub fn of(state: &State, colors: Option<Rect>) -> Self {
+    pub fn of(state: &State, colors: Option<Rect>, track: Id) -> Self {
         let outlining = [state.view.image.tool, state.view.cube.tool].contains(&Tool::Polygon);
-        Self { colors, traced: state.debugger.replay.is_some(), outlining }
+        Self { colors, track, traced: state.debugger.replay.is_some(), outlining }
     }
 
-    /// Whether a key is the debugger's now.
+    /// Whether the listeners leave a key to its action.
     pub fn leave(&self, ctx: &Context, shortcut: &Shortcut) -> bool {
         let Action::Debug(action) = shortcut.action else { return true };
         if ctx.text_edit_focused() || egui::Popup::is_any_open(ctx) {
             return false;
         }
-        let focused = ctx.memory(egui::Memory::focused).filter(|&id| id != timeline_panel::track_id());
+        let focused = ctx.memory(egui::Memory::focused).filter(|&id| id != self.track);
         let holder = focused.and_then(|id| ctx.read_response(id));
-        // What hears clicks and drags is a view: the image, the color space. It is not pressed by a key, as a button is.
+        // A widget that senses clicks and drags is a view: the image or the color space. Keys do not press it as a button.
         let on_view = holder.as_ref().is_none_or(|it| it.sense.senses_click() && it.sense.senses_drag());
         let held = holder.map(|holder| holder.rect.center());
         let spots = [ctx.pointer_hover_pos(), held];
@@ -100,11 +80,11 @@ impl Listeners {
             Key::Home | Key::D => on_view && !in_colors,
             _ => true,
         };
-        free && (self.traced || action == DebugDeed::Record)
+        free && (self.traced || action == DebugAction::Record)
     }
 }
 
-/// Space: a tap plays, but held while the pointer drags it pans a view.
+/// Tells a tap of Space, which plays, from Space held while the pointer drags, which pans a view.
 #[derive(Default)]
 pub struct SpaceTap {
     /// Whether Space is down and nothing was dragged since; with Shift, backwards.
@@ -112,8 +92,8 @@ pub struct SpaceTap {
 }
 
 impl SpaceTap {
-    /// The way to play, when Space was tapped. `ours`: whether a press that comes now is the debugger's.
-    pub fn heard(&mut self, ctx: &Context, ours: bool) -> Option<Direction> {
+    /// The direction to play in, when Space was tapped. `ours`: whether a press of Space in this frame is the debugger's.
+    pub fn tapped(&mut self, ctx: &Context, ours: bool) -> Option<Direction> {
         let mut tapped = None;
         ctx.input_mut(|input| {
             let down = input.pointer.any_down();
@@ -136,45 +116,5 @@ impl SpaceTap {
             });
         });
         tapped
-    }
-}
-
-/// Does it.
-pub fn move_cursor(action: DebugDeed, cx: &mut Cx) {
-    let state = cx.state;
-    let command = match action {
-        DebugDeed::Play(direction) => {
-            let rests = state.debugger.playing.is_some_and(|way| way == direction || direction == Forward);
-            DebugCommand::Play((!rests).then_some(direction))
-        }
-        DebugDeed::Step(grain, direction) => DebugCommand::Step(grain, direction),
-        DebugDeed::Start => DebugCommand::Seek(0),
-        DebugDeed::End => DebugCommand::Seek(usize::MAX),
-        DebugDeed::Into => DebugCommand::Into,
-        DebugDeed::Breakpoint(direction) => DebugCommand::RunTo(Goal::Breakpoint, direction),
-        DebugDeed::Change(direction) => {
-            let Some(goal) = selected(state) else {
-                let text = "changes of what: select a region, or with Alt + click a pixel".to_owned();
-                return cx.send(Command::Notify(Severity::Warning, text));
-            };
-            DebugCommand::RunTo(goal, direction)
-        }
-        DebugDeed::Record => {
-            let open = !state.view.debug.open;
-            DebugCommand::Settings(DebugSettings { open, ..state.view.debug.clone() })
-        }
-    };
-    cx.send(Command::Debug(command));
-}
-
-/// What is selected, as something to run to.
-pub fn selected(state: &State) -> Option<Goal> {
-    let names = &state.debugger.names;
-    if let Some(pixel) = state.asked_pixel() {
-        return Some(Goal::Pixel(pixel));
-    }
-    match state.document.selection.item {
-        Some(Item::Region(region)) => names.births_of(region).next().map(Goal::Region),
-        _ => state.debugger.chosen.map(Goal::Region),
     }
 }

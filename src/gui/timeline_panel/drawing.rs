@@ -1,8 +1,8 @@
 //! Painting of the track. Single steps are painted only where they are far enough apart to be told from one another.
 
-use super::track::{Lanes, Scale};
+use super::scale::{Lanes, Scale};
 use crate::gui::theme::{SMALL_PT, Tones};
-use crate::gui::{Cx, widgets};
+use crate::gui::{PanelContext, widgets};
 use crate::trace::{Replay, Step, Trace};
 use egui::{Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 
@@ -14,7 +14,14 @@ const NAMED_PT: f32 = 12.0;
 /// Paints the track: density, stages, passes, blocks, single steps if they are far enough apart, and the cursor.
 /// `density` is
 /// the number of decisions per column of the track.
-pub fn draw(painter: &Painter, cx: &Cx, scale: &Scale, lanes: &Lanes, replay: &Replay, density: &[usize]) {
+pub fn draw(
+    painter: &Painter,
+    cx: &PanelContext,
+    scale: &Scale,
+    lanes: &Lanes,
+    replay: &Replay,
+    density: &[usize],
+) {
     let (tones, trace) = (cx.tones, replay.trace());
     bars(painter, tones, scale, lanes.density, density);
     let now = trace.stage_at(replay.at().saturating_sub(1));
@@ -82,7 +89,7 @@ fn names_of_empty(painter: &Painter, tones: &Tones, scale: &Scale, lane: Rect, t
 }
 
 /// Paints blocks (hypotheses, slices, candidates, holes) in the colors of their regions.
-fn blocks(painter: &Painter, cx: &Cx, scale: &Scale, lane: Rect, trace: &Trace) {
+fn blocks(painter: &Painter, cx: &PanelContext, scale: &Scale, lane: Rect, trace: &Trace) {
     let (state, names) = (cx.state, &cx.state.debugger.names);
     let (selected, hovered) = (state.selected_region(), state.hover.and_then(|item| state.region_of(item)));
     // Right end of the last painted block: of blocks thinner than a column, one per column is painted.

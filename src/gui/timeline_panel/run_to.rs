@@ -1,8 +1,10 @@
 //! The menu "Run to" with the goals that the cursor can run to.
 
 use crate::app::{Command, DebugCommand, Direction, Goal};
-use crate::gui::Cx;
-use crate::gui::shortcuts::{Action, DebugDeed, keys_of, selected};
+use crate::gui::PanelContext;
+use crate::gui::action::{Action, DebugAction};
+use crate::gui::move_cursor::selected;
+use crate::gui::shortcuts::keys_of;
 use crate::gui::theme::SMALL_PT;
 use crate::trace::Kind;
 use egui::{Button, RichText, Ui};
@@ -36,7 +38,7 @@ const GROUPS: [(&str, &[Kind]); 7] = [
 ];
 
 /// Shows the menu's button.
-pub fn show(ui: &mut Ui, cx: &mut Cx) {
+pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
     let menu = ui.menu_button("Run to", |ui| {
         let direction =
             if ui.input(|input| input.modifiers.shift) { Direction::Back } else { Direction::Forward };
@@ -47,13 +49,13 @@ pub fn show(ui: &mut Ui, cx: &mut Cx) {
             Some(_) => "Next change of the selected region",
             None => "Next change of what is selected",
         };
-        let keys = keys_of(ui.ctx(), Action::Debug(DebugDeed::Change(Direction::Forward)));
+        let keys = keys_of(ui.ctx(), Action::Debug(DebugAction::Change(Direction::Forward)));
         let button = ui.add_enabled(goal.is_some(), Button::new(words).shortcut_text(keys));
         if button.on_disabled_hover_text("Select a region, or with Alt + click a pixel.").clicked() {
             chosen = goal;
         }
         let any = cx.state.view.debug.breakpoints.iter().any(|breakpoint| breakpoint.enabled);
-        let keys = keys_of(ui.ctx(), Action::Debug(DebugDeed::Breakpoint(Direction::Forward)));
+        let keys = keys_of(ui.ctx(), Action::Debug(DebugAction::Breakpoint(Direction::Forward)));
         let button = ui.add_enabled(any, Button::new("Next breakpoint").shortcut_text(keys));
         if button.on_disabled_hover_text("There is none that is enabled.").clicked() {
             chosen = Some(Goal::Breakpoint);

@@ -2,20 +2,19 @@
 
 use super::drawing::draw;
 use super::hint;
-use crate::app::{Command, DebugCommand, Direction, Goal};
+use super::scale::{Lanes, Scale};
+use crate::app::{Command, DebugCommand, Direction, Edit, Goal, ViewCommand};
 use crate::describe::Names;
-use crate::gui::Cx;
+use crate::gui::PanelContext;
 use crate::trace::{Block, Replay};
 use crate::view::{Item, TimelineAxis, TimelineSection, timeline_density};
 use egui::accesskit::{Action, ActionData};
-use egui::{
-    CursorIcon, EventFilter, Id, PointerButton, Rect, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
-    pos2, vec2,
-};
+use egui::{CursorIcon, EventFilter, Id, PointerButton, Response, Sense, Stroke, StrokeKind, Ui, WidgetInfo};
 
-/// Scroll distance that doubles the zoom, points.
+/// Scrolling by this distance doubles the zoom, points.
 const SCROLL_PT: f32 = 140.0;
-/// Id of the track's widget. The debugger's arrow keys remain active while this widget has the focus.
+
+/// The widget's id. While the track has the focus, arrow keys still move the debugger's cursor.
 pub fn track_id() -> Id {
     Id::unique("timeline track")
 }
@@ -23,7 +22,7 @@ pub fn track_id() -> Id {
 /// Inputs of the density: generation of the trace, visible section, and number of columns.
 type Counted = (u64, TimelineSection, usize);
 
-/// The track: its visible section, and cached values.
+/// The track: its visible section, and what was computed for that.
 #[derive(Default)]
 pub struct Track {
     axis: Option<(u64, TimelineAxis)>,
@@ -35,32 +34,9 @@ pub struct Track {
     pointed: Option<u16>,
 }
 
-/// Rectangles of the track's rows, from top to bottom.
-pub struct Lanes {
-    /// Row of the density of decisions.
-    pub density: Rect,
-    /// Row of stages.
-    pub stages: Rect,
-    /// Row of passes.
-    pub passes: Rect,
-    /// Row of blocks: hypotheses, slices, candidates, holes.
-    pub blocks: Rect,
-}
-
-/// Conversion between steps and screen positions.
-#[derive(Clone, Copy)]
-pub struct Scale<'a> {
-    /// Positions of steps along the whole timeline.
-    pub axis: &'a TimelineAxis,
-    /// The visible section of the timeline.
-    pub section: TimelineSection,
-    /// Rectangle of the track on the screen.
-    pub rect: Rect,
-}
-
 impl Track {
-    /// Shows the track in the remaining space of `ui`.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Cx, replay: &Replay, names: &Names) {
+    /// Shows the track in the rest of `ui`.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) {
         let rect = ui.available_rect_before_wrap();
         if rect.width() < 8.0 || rect.height() < 8.0 {
             return;
@@ -75,7 +51,7 @@ impl Track {
         self.follow(&axis, replay);
         self.travel(ui, &response, &axis);
         let scale = Scale { axis: &axis, section: self.section, rect };
-        let lanes = lanes(rect);
+        let lanes = Lanes::of(rect);
         self.act(ui, cx, &response, &scale, &lanes, replay);
         describe(ui, cx, &response, replay);
         let columns = rect.width() as usize;
@@ -94,7 +70,7 @@ impl Track {
         self.axis = Some((generation, axis));
     }
 
-    /// Moves the visible section to the cursor when the cursor has moved; shows the whole timeline of a new trace.
+    /// Moves the section to the cursor when the cursor has moved; shows another trace whole.
     fn follow(&mut self, axis: &TimelineAxis, replay: &Replay) {
         let now = [replay.at(), replay.trace().len()];
         let before = std::mem::replace(&mut self.cursor, now);
@@ -126,13 +102,11 @@ impl Track {
         }
     }
 
-    /// Handles the primary button: a click moves the cursor, Shift + click runs to the place, a drag moves the cursor
-    /// along, a
-    /// click on a block selects the block's region.
+    /// A click seeks, with Shift it runs there; a drag scrubs; a click on a block selects its region.
     fn act(
         &mut self,
         ui: &Ui,
-        cx: &mut Cx,
+        cx: &mut PanelContext,
         response: &Response,
         scale: &Scale,
         lanes: &Lanes,
@@ -169,34 +143,34 @@ impl Track {
         }
     }
 
-    /// Sends the region under the pointer when it has changed.
-    fn point(&mut self, cx: &mut Cx, block: Option<&Block>) {
+    /// Sends the region under the pointer, when it has changed.
+    fn point(&mut self, cx: &mut PanelContext, block: Option<&Block>) {
         let names = &cx.state.debugger.names;
         let region = block.map(|block| names.final_number(block.topic.region())).filter(|&number| number > 0);
         if region != self.pointed {
             let ours = self.pointed.map(Item::Region) == cx.state.hover;
             if region.is_some() || ours {
-                cx.send(Command::Hover(region.map(Item::Region)));
+                cx.send(ViewCommand::Hover(region.map(Item::Region)));
             }
             self.pointed = region;
         }
     }
 }
 
-/// Selects a block's region, and moves the cursor to the block's first decision.
-fn choose(cx: &mut Cx, block: &Block) {
+/// Selects a block's region, and goes to its first decision.
+fn choose(cx: &mut PanelContext, block: &Block) {
     let region = block.topic.region();
     let number = cx.state.debugger.names.final_number(region);
     let item = Some(Item::Region(number)).filter(|_| number > 0);
     if item.is_some() && item != cx.state.document.selection.item {
-        cx.send(Command::Select(item));
+        cx.send(Edit::Select(item));
     }
     cx.send(Command::Debug(DebugCommand::Choose(Some(region))));
     cx.send(Command::Debug(DebugCommand::Seek(block.steps.start + 1)));
 }
 
-/// Describes the track to screen readers as a slider, and handles the values that they set.
-fn describe(ui: &Ui, cx: &mut Cx, response: &Response, replay: &Replay) {
+/// Describes the track as a slider to assistive technology, and takes the value set there.
+fn describe(ui: &Ui, cx: &mut PanelContext, response: &Response, replay: &Replay) {
     response.widget_info(|| WidgetInfo::slider(true, replay.at() as f64, "Timeline"));
     let last = replay.trace().len();
     ui.ctx().accesskit_node_builder(response.id, |node| {
@@ -219,8 +193,8 @@ fn describe(ui: &Ui, cx: &mut Cx, response: &Response, replay: &Replay) {
     }
 }
 
-/// Shows a tooltip about the step under the pointer.
-fn tell(response: &Response, cx: &Cx, scale: &Scale, replay: &Replay, names: &Names) {
+/// Shows the step under the pointer as a tooltip.
+fn tell(response: &Response, cx: &PanelContext, scale: &Scale, replay: &Replay, names: &Names) {
     let step = response.hover_pos().and_then(|pointer| scale.step_at(pointer.x));
     if let Some(step) = step.filter(|_| !response.dragged()) {
         let regions = &cx.state.debugger.names;
@@ -230,46 +204,4 @@ fn tell(response: &Response, cx: &Cx, scale: &Scale, replay: &Replay, names: &Na
             }
         });
     }
-}
-
-impl Scale<'_> {
-    fn place(&self, x: f32) -> f64 {
-        self.section.place(f64::from((x - self.rect.left()) / self.rect.width()))
-    }
-
-    /// Horizontal screen position after `steps` steps.
-    pub fn x(&self, steps: usize) -> f32 {
-        let share = self.section.share(self.axis.place_of(steps));
-        // Positions far outside of the track are limited, so that coordinates stay small.
-        self.rect.left() + (share.clamp(-1.0, 2.0) * f64::from(self.rect.width())) as f32
-    }
-
-    /// The step at a horizontal screen position; `None` outside of the timeline.
-    pub fn step_at(&self, x: f32) -> Option<usize> {
-        self.axis.step_at(self.place(x))
-    }
-
-    /// Rectangle of a range of steps in a lane; `None` when outside of the visible section.
-    pub fn part(&self, lane: Rect, steps: &std::ops::Range<usize>) -> Option<Rect> {
-        let (left, right) = (self.x(steps.start), self.x(steps.end));
-        (right > lane.left() && left < lane.right())
-            .then(|| Rect::from_x_y_ranges(left.max(lane.left())..=right.min(lane.right()), lane.y_range()))
-    }
-}
-
-fn lanes(rect: Rect) -> Lanes {
-    let height = rect.height();
-    let density = (height * 0.22).clamp(0.0, 36.0);
-    let stages = (height * 0.26).clamp(6.0, 16.0);
-    // In a high track, passes have room for their names.
-    let passes = if height >= 96.0 { 14.0 } else { 4.0 };
-    let mut top = rect.top();
-    let mut lane = |height: f32| {
-        let lane = Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), height));
-        top += height + 1.0;
-        lane
-    };
-    let (density, stages, passes) = (lane(density), lane(stages), lane(passes));
-    let blocks = Rect::from_min_max(pos2(rect.left(), top), rect.max);
-    Lanes { density, stages, passes, blocks }
 }

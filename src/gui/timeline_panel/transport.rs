@@ -4,9 +4,11 @@ use super::icons::{self, Sign};
 use super::run_to;
 use crate::app::{Command, DebugCommand, DebugSettings, Direction, Grain};
 use crate::describe::Names;
-use crate::gui::shortcuts::{self, Action, DebugDeed, keys_of};
+use crate::gui::action::{Action, DebugAction};
+use crate::gui::move_cursor::move_cursor;
+use crate::gui::shortcuts::keys_of;
 use crate::gui::widgets::grouped;
-use crate::gui::{Cx, theme::SMALL_PT};
+use crate::gui::{PanelContext, theme::SMALL_PT};
 use crate::trace::Replay;
 use Direction::{Back, Forward};
 use egui::accesskit::Role;
@@ -18,26 +20,26 @@ const SENTENCE_PT: f32 = 130.0;
 const TWO_ROWS_PT: f32 = 88.0;
 
 /// A button: icon, accessible name, action and tooltip.
-type Control = (Sign, &'static str, DebugDeed, &'static str);
+type Control = (Sign, &'static str, DebugAction, &'static str);
 
 const LEFT: [Control; 4] = [
-    (Sign::Limit(Back), "To the beginning", DebugDeed::Start, "Before the first decision"),
+    (Sign::Limit(Back), "To the beginning", DebugAction::Start, "Before the first decision"),
     (
         Sign::Stage(Back),
         "Stage back",
-        DebugDeed::Step(Grain::Stage, Back),
+        DebugAction::Step(Grain::Stage, Back),
         "Back to where a stage begins (5.2 to 6)",
     ),
     (
         Sign::Hypothesis(Back),
         "Hypothesis back",
-        DebugDeed::Step(Grain::Hypothesis, Back),
+        DebugAction::Step(Grain::Hypothesis, Back),
         "Back to where a hypothesis, slice or hole begins (5.3 to 5.5)",
     ),
     (
         Sign::Event(Back),
         "Event back",
-        DebugDeed::Step(Grain::Event, Back),
+        DebugAction::Step(Grain::Event, Back),
         "Back by a decision that is more than a pixel's claim",
     ),
 ];
@@ -46,32 +48,32 @@ const RIGHT: [Control; 5] = [
     (
         Sign::Event(Forward),
         "Event forward",
-        DebugDeed::Step(Grain::Event, Forward),
+        DebugAction::Step(Grain::Event, Forward),
         "On by a decision that is more than a pixel's claim",
     ),
     (
         Sign::Hypothesis(Forward),
         "Hypothesis forward",
-        DebugDeed::Step(Grain::Hypothesis, Forward),
+        DebugAction::Step(Grain::Hypothesis, Forward),
         "On to where a hypothesis, slice or hole ends (5.3 to 5.5)",
     ),
     (
         Sign::Stage(Forward),
         "Stage forward",
-        DebugDeed::Step(Grain::Stage, Forward),
+        DebugAction::Step(Grain::Stage, Forward),
         "On to where a stage ends (5.2 to 6)",
     ),
-    (Sign::Limit(Forward), "To the result", DebugDeed::End, "After the last decision: the result"),
+    (Sign::Limit(Forward), "To the result", DebugAction::End, "After the last decision: the result"),
     (
         Sign::Into,
         "Into the next hypothesis",
-        DebugDeed::Into,
+        DebugAction::Into,
         "Into the next hypothesis or slice, whose growth plays ring by ring (5.3.2)",
     ),
 ];
 
 /// Shows the row.
-pub fn show(ui: &mut Ui, cx: &mut Cx, replay: &Replay, names: &Names) {
+pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) {
     ui.spacing_mut().item_spacing = vec2(2.0, 3.0);
     ui.spacing_mut().interact_size.y = icons::SIDE_PT;
     let tall = ui.available_height() >= TWO_ROWS_PT;
@@ -97,16 +99,16 @@ pub fn show(ui: &mut Ui, cx: &mut Cx, replay: &Replay, names: &Names) {
     }
 }
 
-fn controls(ui: &mut Ui, cx: &mut Cx, controls: &[Control]) {
+fn controls(ui: &mut Ui, cx: &mut PanelContext, controls: &[Control]) {
     for &(sign, name, action, tip) in controls {
         let keys = keys_of(ui.ctx(), Action::Debug(action));
         if icons::button(ui, cx.tones, sign, false, name, &format!("{tip} ({keys})")).clicked() {
-            shortcuts::move_cursor(action, cx);
+            move_cursor(action, cx);
         }
     }
 }
 
-fn players(ui: &mut Ui, cx: &mut Cx) {
+fn players(ui: &mut Ui, cx: &mut PanelContext) {
     let playing = cx.state.debugger.playing;
     ui.add_space(4.0);
     for (direction, name, tip) in [
@@ -157,7 +159,7 @@ fn grain_tip(grain: Grain) -> &'static str {
 }
 
 /// Shows the controls of playing: step size, rate, loop, and the button that stops recording.
-fn pace(ui: &mut Ui, cx: &mut Cx) {
+fn pace(ui: &mut Ui, cx: &mut PanelContext) {
     let before = &cx.state.view.debug;
     let mut settings = before.clone();
     let combo = ComboBox::from_id_salt("grain").width(78.0).selected_text(plural(settings.grain));
@@ -188,7 +190,7 @@ fn pace(ui: &mut Ui, cx: &mut Cx) {
     tell(cx, settings);
 }
 
-fn tell(cx: &mut Cx, settings: DebugSettings) {
+fn tell(cx: &mut PanelContext, settings: DebugSettings) {
     if settings != cx.state.view.debug {
         cx.send(Command::Debug(DebugCommand::Settings(settings)));
     }
@@ -205,7 +207,7 @@ fn rate_text(rate: f64) -> String {
 }
 
 /// Shows the cursor's position; a typed number moves the cursor.
-fn counter(ui: &mut Ui, cx: &mut Cx, replay: &Replay) {
+fn counter(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay) {
     let quiet = |text: String| RichText::new(text).color(cx.tones.quiet);
     let len = replay.trace().len();
     ui.add_space(6.0);
@@ -232,7 +234,7 @@ fn counter(ui: &mut Ui, cx: &mut Cx, replay: &Replay) {
 }
 
 /// Shows the state of the cursor (playing, stopped) and a sentence about the last step.
-fn sentence(ui: &mut Ui, cx: &Cx, replay: &Replay, names: &Names) {
+fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names) {
     let debugger = &cx.state.debugger;
     let stale = cx.state.newest.as_ref().is_some_and(|newest| newest.generation != debugger.generation);
     let (word, tone) = match (debugger.playing, debugger.stopped_by) {

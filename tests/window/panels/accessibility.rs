@@ -1,7 +1,7 @@
 //! Whatever can be acted on has a name.
 
 use crate::window::{Fixture, Window, apply, press, state, tiny_window, window, with_gpu};
-use dichroscope::app::Command;
+use dichroscope::app::{Edit, ViewCommand};
 use dichroscope::gui::Pane;
 use dichroscope::view::{Arrangement, ImageSettings, Item, Tool};
 use egui::accesskit::{Action, Role};
@@ -44,8 +44,8 @@ fn everything_has_a_name_in_every_panel() {
     check(&window(), "nothing open");
     let mut window = tiny_window();
     check(&window, "a photograph open");
-    apply(&mut window, Command::Select(Some(Item::Region(1))));
-    apply(&mut window, Command::Pin(true));
+    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, ViewCommand::Pin(true));
     press(&mut window, Modifiers::COMMAND, Key::A);
     for pane in Pane::ALL {
         window.state_mut().show_alone(Some(pane));
@@ -58,7 +58,7 @@ fn everything_has_a_name_in_every_panel() {
         ImageSettings { arrangement: Arrangement::SideBySide, ..image.clone() },
         ImageSettings { arrangement: Arrangement::Wipe(0.4), tool: Tool::Brush, ..image },
     ] {
-        apply(&mut window, Command::Image(settings));
+        apply(&mut window, ViewCommand::Image(settings));
         check(&window, "two layers");
     }
 }

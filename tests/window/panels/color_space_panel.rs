@@ -1,7 +1,7 @@
 //! The color space panel on the sample scene: turned, pointed at, drawn in.
 
 use crate::window::{Fixture, SIZE, Window, with_device, with_gpu};
-use dichroscope::app::Command;
+use dichroscope::app::{Edit, ViewCommand};
 use dichroscope::gpu::Orbit;
 use dichroscope::gui::testing::{ColorSpaceDrawing, color_space_pixels};
 use dichroscope::trace::Class;
@@ -71,7 +71,7 @@ fn click(harness: &mut Window, at: Pos2, modifiers: Modifiers) {
 fn tool(harness: &mut Window, tool: Tool) {
     let mut cube = harness.state().state().view.cube.clone();
     cube.tool = tool;
-    harness.state_mut().apply(Command::Cube(cube));
+    harness.state_mut().apply(ViewCommand::Cube(cube));
     harness.run_steps(2);
 }
 
@@ -138,7 +138,7 @@ fn views_have_names() {
     harness.get_by_label_contains("Along blue").click();
     harness.run_steps(3);
     assert!((forward(&harness)[2] + 1.0).abs() < 1e-4, "{:?}", forward(&harness));
-    harness.state_mut().apply(Command::Select(Some(Item::Region(1))));
+    harness.state_mut().apply(Edit::Select(Some(Item::Region(1))));
     harness.run_steps(3);
     harness.get_by_label("Views").click();
     harness.run_steps(3);
@@ -154,12 +154,12 @@ fn views_have_names() {
     };
     assert!(facing(&harness, 1) > 0.9999);
     // The view goes with the selection, until it is locked.
-    harness.state_mut().apply(Command::Select(Some(Item::Region(2))));
+    harness.state_mut().apply(Edit::Select(Some(Item::Region(2))));
     harness.run_steps(3);
     assert!(facing(&harness, 2) > 0.9999);
     harness.get_by_label("Lock the view").click();
     harness.run_steps(3);
-    harness.state_mut().apply(Command::Select(Some(Item::Region(1))));
+    harness.state_mut().apply(Edit::Select(Some(Item::Region(1))));
     harness.run_steps(3);
     assert!(facing(&harness, 2) > 0.9999);
 }
@@ -172,10 +172,10 @@ fn the_camera_is_kept_in_the_view_and_comes_back_from_there() {
     assert_eq!(serde_json::from_str::<Orbit>(&before).unwrap(), orbit(&harness));
     let mut turned = orbit(&harness);
     turned.orbit([90.0, 20.0]);
-    harness.state_mut().apply(Command::Camera(serde_json::to_string(&turned).unwrap()));
+    harness.state_mut().apply(ViewCommand::Camera(serde_json::to_string(&turned).unwrap()));
     harness.run_steps(3);
     assert_eq!(orbit(&harness), turned);
-    harness.state_mut().apply(Command::Camera("nonsense".to_owned()));
+    harness.state_mut().apply(ViewCommand::Camera("nonsense".to_owned()));
     harness.run_steps(3);
     assert_eq!(orbit(&harness), turned, "what is no camera moves nothing");
 }
@@ -245,11 +245,11 @@ fn a_lasso_marks_the_pixels_whose_colors_are_inside() {
 #[test]
 fn other_spaces_are_drawn_with_the_shapes_that_they_become() {
     let Some((mut harness, gpu)) = with_device(SIZE, Fixture::Sample) else { return };
-    harness.state_mut().apply(Command::Select(Some(Item::Region(1))));
+    harness.state_mut().apply(Edit::Select(Some(Item::Region(1))));
     for space in ColorSpace::ALL {
         let mut cube = harness.state().state().view.cube.clone();
         cube.space = space;
-        harness.state_mut().apply(Command::Cube(cube));
+        harness.state_mut().apply(ViewCommand::Cube(cube));
         harness.run_steps(2);
         assert!(drawing(&harness).solids.len() >= 3, "{space:?}: cylinder, dark sphere and slice");
         let drawn = drawn_pixels(&harness, &gpu);
@@ -264,7 +264,7 @@ fn at_rest_every_color_is_drawn_where_that_is_asked_for() {
     let bins = drawn(&harness);
     let mut cube = harness.state().state().view.cube.clone();
     cube.full_detail = true;
-    harness.state_mut().apply(Command::Cube(cube));
+    harness.state_mut().apply(ViewCommand::Cube(cube));
     for _ in 0..200 {
         harness.run_steps(1);
         if drawn(&harness) > bins {
@@ -282,7 +282,7 @@ fn a_window_shows_its_ellipsoid_around_its_mean() {
     let windows = &shown.analysis.windows;
     let plane = |&window: &usize| windows.classes[window] == Some(Class::Plane);
     let window = (0..windows.classes.len()).find(plane).expect("a window of class plane");
-    harness.state_mut().apply(Command::Select(Some(Item::Window(window as u32))));
+    harness.state_mut().apply(Edit::Select(Some(Item::Window(window as u32))));
     harness.run_steps(2);
     let solids = drawing(&harness).solids;
     let [vertices] = solids.as_slice() else { panic!("one solid") };

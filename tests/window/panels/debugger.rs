@@ -3,7 +3,9 @@
 use crate::window::{
     Window, apply, at, choose, click, drag, item, named, press, says, state, tiny_window, with_gpu, zoom_in,
 };
-use dichroscope::app::{Breakpoint, Command, Condition, DebugCommand, DebugSettings, Direction, Goal, Grain};
+use dichroscope::app::{
+    Breakpoint, Command, Condition, DebugCommand, DebugSettings, Direction, Edit, Goal, Grain, ViewCommand,
+};
 use dichroscope::gui::Pane;
 use dichroscope::trace::{Kind, Replay, Step, Topic, Trace};
 use dichroscope::view::{Item, watch};
@@ -240,7 +242,7 @@ fn it_runs_to_kinds_and_to_changes_of_what_is_selected() {
         _ => None,
     });
     let (n, pixel) = claimed.expect("a hypothesis claims");
-    apply(&mut window, Command::Select(Some(Item::Pixel(pixel))));
+    apply(&mut window, Edit::Select(Some(Item::Pixel(pixel))));
     seek(&mut window, n);
     plain(&mut window, Key::J);
     assert_eq!(cursor(&window), n + 1);
@@ -283,13 +285,13 @@ fn a_breakpoint_on_the_selected_pixel_is_found_by_its_key() {
     let mut window = tiny_window();
     let (_, steps) = hypothesis(&window);
     let pixel = trace(&window).steps_in(steps).find_map(|(_, step)| step.pixel()).unwrap();
-    apply(&mut window, Command::Select(Some(Item::Pixel(pixel))));
+    apply(&mut window, Edit::Select(Some(Item::Pixel(pixel))));
     window.state_mut().show_alone(Some(Pane::Breakpoints));
     window.run_steps(2);
     click(&mut window, Role::Button, "Add breakpoint");
     let condition = Condition::PixelChangesOwner(pixel);
     assert_eq!(state(&window).view.debug.breakpoints[0].condition, condition);
-    apply(&mut window, Command::Select(None));
+    apply(&mut window, Edit::Select(None));
     click(&mut window, Role::Button, "Breakpoint 1");
     assert_eq!(item(&window), Some(Item::Pixel(pixel)), "a click selects what it is about");
     window.state_mut().show_alone(None);
@@ -303,7 +305,7 @@ fn the_watch_shows_the_replays_values() {
     let mut window = tiny_window();
     let (region, steps) = hypothesis(&window);
     let pixel = trace(&window).steps_in(steps.clone()).find_map(|(_, step)| step.pixel()).unwrap();
-    apply(&mut window, Command::Select(Some(Item::Pixel(pixel))));
+    apply(&mut window, Edit::Select(Some(Item::Pixel(pixel))));
     seek(&mut window, steps.end);
     window.state_mut().show_alone(Some(Pane::Watch));
     window.run_steps(2);
@@ -367,7 +369,7 @@ fn keys_of_the_color_space_stay_its_own() {
 fn a_remembered_arrangement_without_the_new_panels_gives_way() {
     let mut window = tiny_window();
     let first = state(&window).view.layout.clone();
-    apply(&mut window, Command::Layout(first.replace("\"Timeline\"", "\"Image\"")));
+    apply(&mut window, ViewCommand::Layout(first.replace("\"Timeline\"", "\"Image\"")));
     window.run_steps(3);
     assert_eq!(state(&window).view.layout, first);
     assert!(says(&window, "Timeline") && state(&window).notices.is_empty());

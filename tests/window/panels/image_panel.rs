@@ -1,7 +1,7 @@
 //! The image panel on the sample scene: looked at, clicked and drawn in.
 
 use crate::window::{Fixture, SIZE, Window, with_gpu};
-use dichroscope::app::{Command, ViewSettings};
+use dichroscope::app::{Edit, ViewCommand, ViewSettings};
 use dichroscope::gui::testing::Placement;
 use dichroscope::view::{Arrangement, ImageSettings, Item, Layer, Picture, ProfileLine, Tool, marking};
 use egui::accesskit::Role;
@@ -25,7 +25,7 @@ fn picture(harness: &Window) -> Arc<Picture> {
 fn look(harness: &mut Window, change: impl FnOnce(&mut ImageSettings)) {
     let mut settings = view(harness).image;
     change(&mut settings);
-    harness.state_mut().apply(Command::Image(settings));
+    harness.state_mut().apply(ViewCommand::Image(settings));
     harness.run_steps(3);
 }
 
@@ -232,7 +232,7 @@ fn a_stroke_of_the_brush_is_one_step() {
     drag(&mut harness, &path, Modifiers::NONE);
     let swept = marked(&harness);
     assert!((430..560).contains(&swept), "{swept}");
-    harness.state_mut().apply(Command::Undo);
+    harness.state_mut().apply(Edit::Undo);
     assert_eq!(marked(&harness), 0);
 }
 
@@ -251,7 +251,7 @@ fn a_profile_line_is_drawn_and_kept_straight() {
 fn the_read_out_tells_the_pixel() {
     let Some(mut harness) = opened() else { return };
     let pixel = inside(&harness, 1);
-    harness.state_mut().apply(Command::Hover(Some(Item::Pixel(pixel))));
+    harness.state_mut().apply(ViewCommand::Hover(Some(Item::Pixel(pixel))));
     harness.run_steps(2);
     let width = picture(&harness).size().0 as u32;
     let words = format!("x {}, y {}, R ", pixel % width, pixel / width);

@@ -1,7 +1,7 @@
 //! Keys, help, and the theme.
 
 use crate::window::{Window, apply, choose, press, says, state, tiny_window, window};
-use dichroscope::app::{Command, Severity};
+use dichroscope::app::{Severity, ViewCommand};
 use dichroscope::view::{Theme, Tool};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers};
@@ -96,7 +96,7 @@ fn escape_closes_a_menu_or_gives_typing_up_and_leaves_the_selection() {
 #[test]
 fn a_notice_stays_until_it_is_dismissed() {
     let mut window = window();
-    apply(&mut window, Command::Notify(Severity::Warning, "The moon is full.".to_owned()));
+    apply(&mut window, ViewCommand::Notify(Severity::Warning, "The moon is full.".to_owned()));
     assert!(says(&window, "The moon is full."));
     crate::window::click(&mut window, Role::Button, "Dismiss");
     assert!(!says(&window, "The moon is full.") && state(&window).notices.is_empty());

@@ -4,7 +4,7 @@ use crate::window::{
     Window, answer, apply, choose, click, notice, open_sample, press, says, shown, sigma, size, state, tiny,
     tiny_window, window,
 };
-use dichroscope::app::{Command, Severity};
+use dichroscope::app::{Edit, JobCommand, Severity};
 use dichroscope::params::Setting;
 use dichroscope::truth::sample;
 use dichroscope::view::{Item, Origin};
@@ -79,7 +79,7 @@ fn a_second_photograph_keeps_the_parameters() {
     let mut window = tiny_window();
     crate::window::named(&window, Role::Slider, "camera noise \u{3c3}0").set_value_accesskit(4.0);
     window.run_steps(3);
-    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(Item::Region(1))));
     open_sample(&mut window, sample::NAME);
     assert_eq!(sigma(&window), Setting::Value(4.0));
     assert_eq!(crate::window::item(&window), None);
@@ -156,7 +156,7 @@ fn plain(name: &str, color: impl Fn(usize) -> [u8; 3]) -> Origin {
 fn without_a_highlight_the_light_is_unknown() {
     let mut window = window();
     let shade = |x: usize| [1.0, 0.55, 0.3].map(|band: f32| (band * (60 + x) as f32) as u8);
-    apply(&mut window, Command::Open(plain("matte.ppm", shade)));
+    apply(&mut window, JobCommand::Open(plain("matte.ppm", shade)));
     assert!(!shown(&window).analysis.intrinsic.regions.is_empty());
     assert!(says(&window, "unknown: no highlight was found"));
     click(&mut window, Role::Label, "color of region 1");
@@ -166,7 +166,7 @@ fn without_a_highlight_the_light_is_unknown() {
 #[test]
 fn a_picture_without_regions_says_why() {
     let mut window = window();
-    apply(&mut window, Command::Open(plain("night.ppm", |_| [1, 1, 1])));
+    apply(&mut window, JobCommand::Open(plain("night.ppm", |_| [1, 1, 1])));
     assert!(shown(&window).analysis.intrinsic.regions.is_empty());
     let reason = shown(&window).analysis.warnings[0].clone();
     assert!(says(&window, &reason), "{reason}");

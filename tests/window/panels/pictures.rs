@@ -3,7 +3,7 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test -p dichroscope-window-tests` makes them anew. Nothing in them tells the time.
 
 use crate::window::{Fixture, Window, apply, named, with_software_driver};
-use dichroscope::app::{Command, DebugCommand};
+use dichroscope::app::{Command, DebugCommand, Edit, ViewCommand};
 use dichroscope::gui::Pane;
 use dichroscope::view::{Arrangement, ColorBy, Fill, ImageSettings, Item, Layer, ProfileLine, Theme};
 use egui::accesskit::Role;
@@ -36,7 +36,7 @@ fn options() -> SnapshotOptions {
 fn look(window: &mut Window, change: impl FnOnce(&mut ImageSettings)) {
     let mut image = window.state().state().view.image.clone();
     change(&mut image);
-    apply(window, Command::Image(image));
+    apply(window, ViewCommand::Image(image));
 }
 
 #[test]
@@ -46,13 +46,13 @@ fn the_image_view() {
     look(&mut window, |image| image.layer = Layer::Classes);
     compare(&mut window, "image-classes");
     look(&mut window, |image| (image.layer, image.fill) = (Layer::Regions, Fill::Outline));
-    apply(&mut window, Command::Select(Some(Item::Region(2))));
+    apply(&mut window, Edit::Select(Some(Item::Region(2))));
     compare(&mut window, "image-regions");
     look(&mut window, |image| {
         (image.layer, image.other) = (Layer::Body, Layer::Surface);
         image.arrangement = Arrangement::Wipe(0.5);
     });
-    apply(&mut window, Command::Theme(Theme::Light));
+    apply(&mut window, ViewCommand::Theme(Theme::Light));
     compare(&mut window, "image-wipe-light");
 }
 
@@ -60,22 +60,22 @@ fn the_image_view() {
 fn the_color_space_view() {
     let Some(mut window) = opened(PANEL, Some(Pane::Colors)) else { return };
     compare(&mut window, "colors");
-    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(Item::Region(1))));
     compare(&mut window, "colors-region");
     let mut cube = window.state().state().view.cube.clone();
     cube.color_by = ColorBy::Density;
-    apply(&mut window, Command::Cube(cube));
-    apply(&mut window, Command::Select(None));
-    apply(&mut window, Command::Theme(Theme::Light));
+    apply(&mut window, ViewCommand::Cube(cube));
+    apply(&mut window, Edit::Select(None));
+    apply(&mut window, ViewCommand::Theme(Theme::Light));
     compare(&mut window, "colors-density-light");
 }
 
 #[test]
 fn the_plots() {
     let Some(mut window) = opened(PANEL, Some(Pane::Plane)) else { return };
-    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(Item::Region(1))));
     compare(&mut window, "plane");
-    apply(&mut window, Command::Profile(ProfileLine::Between([10.5, 75.5], [167.5, 75.5])));
+    apply(&mut window, ViewCommand::Profile(ProfileLine::Between([10.5, 75.5], [167.5, 75.5])));
     window.state_mut().show_alone(Some(Pane::Profile));
     compare(&mut window, "profile");
 }
@@ -85,7 +85,7 @@ fn sliders_and_tables() {
     let Some(mut window) = opened(vec2(330.0, 520.0), Some(Pane::Parameters)) else { return };
     compare(&mut window, "parameters");
     window.set_size(PANEL);
-    apply(&mut window, Command::Select(Some(Item::Region(2))));
+    apply(&mut window, Edit::Select(Some(Item::Region(2))));
     window.state_mut().show_alone(Some(Pane::Regions));
     compare(&mut window, "regions");
     window.state_mut().show_alone(Some(Pane::Selection));
@@ -98,15 +98,15 @@ fn the_timeline() {
     apply(&mut window, Command::Debug(DebugCommand::Seek(1500)));
     compare(&mut window, "timeline");
     window.set_size(vec2(640.0, 150.0));
-    apply(&mut window, Command::Select(Some(Item::Region(1))));
-    apply(&mut window, Command::Theme(Theme::Light));
+    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, ViewCommand::Theme(Theme::Light));
     compare(&mut window, "timeline-light");
 }
 
 #[test]
 fn the_whole_window() {
     let Some(mut window) = opened(vec2(1280.0, 800.0), None) else { return };
-    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(Item::Region(1))));
     look(&mut window, |image| image.layer = Layer::Regions);
     window.run_steps(6);
     // The status line tells how long the analysis took, and moves with the digits of that.

@@ -1,7 +1,7 @@
 //! The plane panel on the sample scene.
 
 use crate::window::{Fixture, SIZE, Window, with_gpu};
-use dichroscope::app::Command;
+use dichroscope::app::Edit;
 use dichroscope::gui::testing::PlaneDrawing;
 use dichroscope::view::Item;
 use egui::accesskit::Role;
@@ -17,7 +17,7 @@ fn opened() -> Option<Window> {
 fn a_region_is_asked_for_and_shown() {
     let Some(mut harness) = opened() else { return };
     harness.get_by_label("Select a region to see its dichromatic plane.");
-    harness.state_mut().apply(Command::Select(Some(Item::Region(1))));
+    harness.state_mut().apply(Edit::Select(Some(Item::Region(1))));
     harness.run_steps(3);
     let rect = harness.get_by_role_and_label(Role::Canvas, "Dichromatic plane of region 1").rect();
     let drawing = PlaneDrawing::of(harness.state()).unwrap();
@@ -34,7 +34,7 @@ fn a_region_is_asked_for_and_shown() {
 #[test]
 fn hovering_a_point_hovers_its_pixel_and_a_drag_pans() {
     let Some(mut harness) = opened() else { return };
-    harness.state_mut().apply(Command::Select(Some(Item::Region(1))));
+    harness.state_mut().apply(Edit::Select(Some(Item::Region(1))));
     harness.run_steps(3);
     let rect = harness.get_by_role_and_label(Role::Canvas, "Dichromatic plane of region 1").rect();
     let drawing = PlaneDrawing::of(harness.state()).unwrap();

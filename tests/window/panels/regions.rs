@@ -4,7 +4,7 @@ use crate::window::{
     Window, apply, at, click, drag, inside, item, named, pointer, press, says, shown, state, tiny_window,
     undo, words, zoom_in,
 };
-use dichroscope::app::Command;
+use dichroscope::app::Edit;
 use dichroscope::gui::Pane;
 use dichroscope::view::Item;
 use egui::accesskit::Role;
@@ -115,7 +115,7 @@ fn brackets_step_through_the_regions() {
 fn a_selected_region_survives_a_slider() {
     let mut window = tiny_window();
     let (x, y) = inside(&window, 1);
-    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(Item::Region(1))));
     let slider = named(&window, Role::Slider, "cylinder width").rect();
     let (a, b) = (slider.left_center().lerp(slider.right_center(), 0.3), slider.center());
     drag(&mut window, &[a, b], Modifiers::NONE);
@@ -126,7 +126,7 @@ fn a_selected_region_survives_a_slider() {
 #[test]
 fn the_plane_is_panned_and_two_clicks_fit_it() {
     let mut window = tiny_window();
-    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(Item::Region(1))));
     let plane = named(&window, Role::Canvas, "Dichromatic plane of region 1").rect();
     assert!(plane.width() > 300.0 && plane.height() > 150.0, "{plane:?}");
     let middle = plane.center();

@@ -4,7 +4,7 @@ use crate::window::{
     Window, apply, choose, click, double_click, drag, named, notice, press, shown, sigma, state, tiny,
     tiny_window, undo,
 };
-use dichroscope::app::{Command, Export};
+use dichroscope::app::{Edit, Export, JobCommand};
 use dichroscope::gui::Pane;
 use dichroscope::params::{AmbientSetting, Method, Parameter, Params, Preset, Setting};
 use egui::accesskit::Role;
@@ -121,7 +121,7 @@ fn methods_and_switches_are_chosen_and_reset() {
     let mut window = tiny_window();
     let switch = |window: &Window| state(window).document.params.refine.edge_body;
     let before = switch(&window);
-    apply(&mut window, Command::EndGesture);
+    apply(&mut window, Edit::EndGesture);
     window.state_mut().show_alone(Some(Pane::Parameters));
     window.run_steps(2);
     click(&mut window, Role::CheckBox, "edge body");
@@ -148,7 +148,7 @@ fn presets_are_in_the_menu_and_parameters_travel_through_a_file() {
     assert_eq!(state(&window).document.params, preset.params());
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("p.toml");
-    apply(&mut window, Command::Export(Export::Parameters { path: path.clone() }));
+    apply(&mut window, JobCommand::Export(Export::Parameters { path: path.clone() }));
     undo(&mut window);
     assert_eq!(state(&window).document.params, Params::default());
     choose(&mut window, "Analyze", "Load parameters");

@@ -1,7 +1,7 @@
 //! Why a pixel is what it is: its history as links, and what would change it.
 
 use crate::window::{Window, apply, click, named, says, state, tiny_window};
-use dichroscope::app::{Ask, Command};
+use dichroscope::app::{Ask, Command, Edit};
 use dichroscope::gui::Pane;
 use dichroscope::trace::Stage;
 use dichroscope::view::{Item, why};
@@ -24,7 +24,7 @@ fn a_clicked_region_tells_the_pixels_history_and_each_sentence_leads_to_its_step
     let mut window = tiny_window();
     assert!(says(&window, "Click a pixel or a region"));
     let pixel = pixel(&window);
-    apply(&mut window, Command::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(Item::Region(1))));
     assert!(says(&window, "Region 1 is made of"), "a region has a story too");
     apply(&mut window, Command::Ask(Ask::Why(pixel)));
     alone(&mut window);
@@ -38,7 +38,7 @@ fn a_clicked_region_tells_the_pixels_history_and_each_sentence_leads_to_its_step
         let replay = state(&window).debugger.replay.as_ref().unwrap();
         assert_eq!(replay.at(), account.step + 1, "{}", account.text);
     }
-    apply(&mut window, Command::Select(Some(Item::Region(2))));
+    apply(&mut window, Edit::Select(Some(Item::Region(2))));
     assert_eq!(state(&window).asked_pixel(), None, "another region, another question");
 }
 
@@ -46,7 +46,7 @@ fn a_clicked_region_tells_the_pixels_history_and_each_sentence_leads_to_its_step
 fn what_would_change_a_pixel_is_found_and_a_click_sets_it() {
     let mut window = tiny_window();
     let pixel = pixel(&window);
-    apply(&mut window, Command::Select(Some(Item::Pixel(pixel))));
+    apply(&mut window, Edit::Select(Some(Item::Pixel(pixel))));
     alone(&mut window);
     click(&mut window, Role::Button, "Find what would change it");
     let found = state(&window).what_if_job.as_ref().unwrap().found.clone().unwrap();

@@ -1,6 +1,6 @@
 //! A window to act on: what a person sees, points at and types.
 
-use dichroscope::app::{Application, Command, Executor, State};
+use dichroscope::app::{Application, Command, Edit, Executor, JobCommand, State, ViewCommand};
 use dichroscope::gui::App;
 use dichroscope::params::{Parameter, Setting};
 use dichroscope::truth::sample;
@@ -42,9 +42,9 @@ impl Fixture {
     fn analyze(self) -> State {
         let mut application = Application::new(Executor::Inline, || ()).unwrap();
         if matches!(self, Self::TinyFixedNoise) {
-            application.apply(Command::SetParameter(Parameter::CameraNoise, Setting::Value(2.5), None));
+            application.apply(Edit::SetParameter(Parameter::CameraNoise, Setting::Value(2.5), None));
         }
-        application.apply(Command::Open(match self {
+        application.apply(JobCommand::Open(match self {
             Self::Tiny | Self::TinyFixedNoise => Origin::File(tiny()),
             Self::Sample => Origin::Sample(sample::NAME.to_owned()),
         }));
@@ -139,7 +139,7 @@ pub fn tiny_window() -> Window {
     undrawn(Fixture::Tiny.state())
 }
 
-pub fn apply(window: &mut Window, command: Command) {
+pub fn apply(window: &mut Window, command: impl Into<Command>) {
     window.state_mut().apply(command);
     window.run_steps(FRAMES);
 }
@@ -285,7 +285,7 @@ pub fn zoom_in(window: &mut Window) {
     let (width, height) = size(window);
     let mut image = state(window).view.image.clone();
     (image.zoom, image.center_px) = (Some(2.0), Some([width as f32 / 2.0, height as f32 / 2.0]));
-    apply(window, Command::Image(image));
+    apply(window, ViewCommand::Image(image));
 }
 
 /// Where a point of the picture is on the screen, after [`zoom_in`].

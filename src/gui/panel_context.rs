@@ -4,7 +4,7 @@ use super::theme::Tones;
 use crate::app::{Command, State};
 
 /// Handed to every panel, every frame.
-pub struct Cx<'a> {
+pub struct PanelContext<'a> {
     /// All there is to show.
     pub state: &'a State,
     /// The colors of the theme.
@@ -17,9 +17,9 @@ pub struct Cx<'a> {
     pub out: &'a mut Vec<Command>,
 }
 
-impl Cx<'_> {
+impl PanelContext<'_> {
     /// Leaves a command.
-    pub fn send(&mut self, command: Command) {
-        self.out.push(command);
+    pub fn send(&mut self, command: impl Into<Command>) {
+        self.out.push(command.into());
     }
 }

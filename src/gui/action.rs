@@ -1,0 +1,68 @@
+//! What keys, menus and buttons do: the vocabulary that shortcuts, menus, toolbars and panels share.
+
+use crate::app::{Direction, Grain};
+use crate::view::{Layer, Tool};
+
+/// What a key or a menu does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Open the dialog for a photograph.
+    Open,
+    /// Open the export dialog.
+    Export,
+    /// Open the dialog that saves the workspace.
+    Save,
+    /// Take back the last step.
+    Undo,
+    /// Take back the last undo.
+    Redo,
+    /// Mark everything that is not marked.
+    Invert,
+    /// Mark the pixels of the selected region.
+    MarkRegion,
+    /// Select nothing.
+    Escape,
+    /// Select the region after (`true`) or before the selected one.
+    Region(bool),
+    /// Show this layer in the image view.
+    Layer(Layer),
+    /// Use this tool in the image view, and in the color space view where it has the tool.
+    Tool(Tool),
+    /// Keep the result to compare with, or drop the kept one.
+    Pin,
+    /// Switch between the pinned result and the newest.
+    Swap,
+    /// Fit the whole picture into the image view.
+    Fit,
+    /// Show one pixel for each screen point.
+    OneToOne,
+    /// Switch between outlines and fills.
+    Outline,
+    /// Switch between the light and the dark theme.
+    Theme,
+    /// Move the debugger's cursor, or start or stop recording.
+    Debug(DebugAction),
+    /// Show the list of keys.
+    Help,
+}
+
+/// What a key or a button does to the debugger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DebugAction {
+    /// Play in this direction, or stop playing.
+    Play(Direction),
+    /// Move the cursor by one unit.
+    Step(Grain, Direction),
+    /// Move the cursor before the first step.
+    Start,
+    /// Move the cursor to the end, the result.
+    End,
+    /// Move into the next hypothesis or slice.
+    Into,
+    /// Move to the next breakpoint in this direction.
+    Breakpoint(Direction),
+    /// Move to the next change of the selected item in this direction.
+    Change(Direction),
+    /// Start or stop recording decisions.
+    Record,
+}

@@ -1,0 +1,47 @@
+//! Actions on the debugger, as commands.
+
+use super::PanelContext;
+use super::action::DebugAction;
+use crate::app::Direction::Forward;
+use crate::app::{DebugCommand, DebugSettings, Goal, Severity, State, ViewCommand};
+use crate::view::Item;
+
+/// Sends the command of an action on the debugger.
+pub fn move_cursor(action: DebugAction, cx: &mut PanelContext) {
+    let state = cx.state;
+    let command = match action {
+        DebugAction::Play(direction) => {
+            let rests = state.debugger.playing.is_some_and(|way| way == direction || direction == Forward);
+            DebugCommand::Play((!rests).then_some(direction))
+        }
+        DebugAction::Step(grain, direction) => DebugCommand::Step(grain, direction),
+        DebugAction::Start => DebugCommand::Seek(0),
+        DebugAction::End => DebugCommand::Seek(usize::MAX),
+        DebugAction::Into => DebugCommand::Into,
+        DebugAction::Breakpoint(direction) => DebugCommand::RunTo(Goal::Breakpoint, direction),
+        DebugAction::Change(direction) => {
+            let Some(goal) = selected(state) else {
+                let text = "changes of what: select a region, or with Alt + click a pixel".to_owned();
+                return cx.send(ViewCommand::Notify(Severity::Warning, text));
+            };
+            DebugCommand::RunTo(goal, direction)
+        }
+        DebugAction::Record => {
+            let open = !state.view.debug.open;
+            DebugCommand::Settings(DebugSettings { open, ..state.view.debug.clone() })
+        }
+    };
+    cx.send(command);
+}
+
+/// The selected item, as a goal to run to.
+pub fn selected(state: &State) -> Option<Goal> {
+    let names = &state.debugger.names;
+    if let Some(pixel) = state.asked_pixel() {
+        return Some(Goal::Pixel(pixel));
+    }
+    match state.document.selection.item {
+        Some(Item::Region(region)) => names.births_of(region).next().map(Goal::Region),
+        _ => state.debugger.chosen.map(Goal::Region),
+    }
+}

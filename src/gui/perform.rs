@@ -1,0 +1,82 @@
+//! Carries out actions that do not belong to one panel.
+
+use super::action::Action;
+use super::move_cursor::move_cursor;
+use super::{PanelContext, files};
+use crate::app::{Combine, Edit, ViewCommand};
+use crate::view::{Item, Tool};
+
+/// Carries out an action: sends its command, or opens a dialog or the list of keys (`help`).
+pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dialogs, help: &mut bool) {
+    match action {
+        Action::Open => dialogs.ask(files::Dialog::Open),
+        Action::Export => dialogs.ask(files::Dialog::Export),
+        Action::Save => dialogs.ask(files::Dialog::SaveWorkspace),
+        Action::Help => *help = !*help,
+        Action::Undo => cx.send(Edit::Undo),
+        Action::Redo => cx.send(Edit::Redo),
+        Action::Invert => cx.send(Edit::InvertMarked),
+        Action::MarkRegion => mark_region(cx),
+        Action::Escape => {
+            if *help {
+                *help = false;
+            } else {
+                cx.send(Edit::ClearSelection);
+            }
+        }
+        Action::Region(next) => step_region(cx, next),
+        Action::Pin => cx.send(ViewCommand::Pin(cx.state.pinned.is_none())),
+        Action::Swap => cx.send(ViewCommand::ShowPinned(!cx.state.view.show_pinned)),
+        Action::Theme => {
+            use crate::view::Theme::{Dark, Light};
+            cx.send(ViewCommand::Theme(if cx.state.view.theme == Dark { Light } else { Dark }));
+        }
+        Action::Debug(action) => move_cursor(action, cx),
+        Action::Layer(_) | Action::Tool(_) | Action::Fit | Action::OneToOne | Action::Outline => {
+            look(action, cx);
+        }
+    }
+}
+
+fn look(action: Action, cx: &mut PanelContext) {
+    use crate::view::Fill;
+    let mut image = cx.state.view.image.clone();
+    match action {
+        Action::Layer(layer) => image.layer = layer,
+        Action::Tool(tool) => {
+            image.tool = tool;
+            let mut cube = cx.state.view.cube.clone();
+            if matches!(tool, Tool::Pointer | Tool::Rectangle | Tool::Lasso | Tool::Polygon) {
+                cube.tool = tool;
+                cx.send(ViewCommand::Cube(cube));
+            }
+        }
+        Action::Fit => (image.zoom, image.center_px) = (None, None),
+        Action::OneToOne => image.zoom = Some(1.0),
+        Action::Outline => image.fill = if image.fill == Fill::Fill { Fill::Outline } else { Fill::Fill },
+        _ => {}
+    }
+    cx.send(ViewCommand::Image(image));
+}
+
+fn mark_region(cx: &mut PanelContext) {
+    let (Some(region), Some(shown)) = (cx.state.selected_region(), cx.state.shown()) else { return };
+    let mask = shown.labels().map(|&label| label == region);
+    cx.send(Edit::Mark(std::sync::Arc::new(mask), Combine::Replace, None));
+}
+
+fn step_region(cx: &mut PanelContext, next: bool) {
+    let Some(count) = cx.state.shown().map(|shown| shown.analysis.intrinsic.regions.len() as u16) else {
+        return;
+    };
+    if count == 0 {
+        return;
+    }
+    let region = match (cx.state.selected_region(), next) {
+        (Some(region), true) => region % count + 1,
+        (Some(region), false) => (region + count - 2) % count + 1,
+        (None, true) => 1,
+        (None, false) => count,
+    };
+    cx.send(Edit::Select(Some(Item::Region(region))));
+}

@@ -1,0 +1,29 @@
+//! One key of the list of keys.
+
+use crate::gui::action::Action;
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+/// A key, its action, and the words for it.
+pub struct Shortcut {
+    /// The group that it is listed in.
+    pub group: &'static str,
+    /// Modifiers and key.
+    pub keys: KeyboardShortcut,
+    /// The action.
+    pub action: Action,
+    /// What the action does, in words.
+    pub words: &'static str,
+}
+
+impl Shortcut {
+    /// A key with modifiers.
+    pub const fn new(
+        group: &'static str,
+        modifiers: Modifiers,
+        key: Key,
+        action: Action,
+        words: &'static str,
+    ) -> Self {
+        Self { group, keys: KeyboardShortcut::new(modifiers, key), action, words }
+    }
+}

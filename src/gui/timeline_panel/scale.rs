@@ -1,0 +1,73 @@
+//! Where the rows of the track and its steps are on the screen.
+
+use crate::view::{TimelineAxis, TimelineSection};
+use egui::{Rect, pos2, vec2};
+
+/// Rows of the track, from top to bottom.
+pub struct Lanes {
+    /// Number of decisions in each column.
+    pub density: Rect,
+    /// Stages.
+    pub stages: Rect,
+    /// Passes.
+    pub passes: Rect,
+    /// Hypotheses, slices, candidates, holes.
+    pub blocks: Rect,
+}
+
+/// From steps to places on the screen.
+#[derive(Clone, Copy)]
+pub struct Scale<'a> {
+    /// From steps to places along the axis.
+    pub axis: &'a TimelineAxis,
+    /// The section of the axis that is visible.
+    pub section: TimelineSection,
+    /// The area of the track on the screen, points.
+    pub rect: Rect,
+}
+
+impl Scale<'_> {
+    /// The place along the axis at a column of the screen.
+    pub fn place(&self, x: f32) -> f64 {
+        self.section.place(f64::from((x - self.rect.left()) / self.rect.width()))
+    }
+
+    /// The column of the screen after `steps` steps, points.
+    pub fn x(&self, steps: usize) -> f32 {
+        let share = self.section.share(self.axis.place_of(steps));
+        // Places far outside are clamped, so that the numbers stay small.
+        self.rect.left() + (share.clamp(-1.0, 2.0) * f64::from(self.rect.width())) as f32
+    }
+
+    /// The step at a column of the screen.
+    pub fn step_at(&self, x: f32) -> Option<usize> {
+        self.axis.step_at(self.place(x))
+    }
+
+    /// A range of steps in a lane; none where it is not visible.
+    pub fn part(&self, lane: Rect, steps: &std::ops::Range<usize>) -> Option<Rect> {
+        let (left, right) = (self.x(steps.start), self.x(steps.end));
+        (right > lane.left() && left < lane.right())
+            .then(|| Rect::from_x_y_ranges(left.max(lane.left())..=right.min(lane.right()), lane.y_range()))
+    }
+}
+
+impl Lanes {
+    /// The rows of a track that fills `rect`.
+    pub fn of(rect: Rect) -> Self {
+        let height = rect.height();
+        let density = (height * 0.22).clamp(0.0, 36.0);
+        let stages = (height * 0.26).clamp(6.0, 16.0);
+        // Passes have names where there is room for them.
+        let passes = if height >= 96.0 { 14.0 } else { 4.0 };
+        let mut top = rect.top();
+        let mut lane = |height: f32| {
+            let lane = Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), height));
+            top += height + 1.0;
+            lane
+        };
+        let (density, stages, passes) = (lane(density), lane(stages), lane(passes));
+        let blocks = Rect::from_min_max(pos2(rect.left(), top), rect.max);
+        Self { density, stages, passes, blocks }
+    }
+}
