@@ -32,6 +32,7 @@ pub fn seen_up_to(stage: Stage, used: &UsedParams, refine: Refine) -> (UsedParam
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exactness is what is tested")]
 mod tests {
     use super::*;
 

@@ -5,7 +5,7 @@
 
 use super::refine::Refine;
 use super::setting::{AmbientSetting, IlluminantSetting, Setting};
-use super::table::{Parameter, ParameterSpec, parameter_rows};
+use super::table::{Parameter, parameter_rows};
 use serde::{Deserialize, Serialize};
 
 /// Which algorithm.
@@ -141,7 +141,7 @@ impl Params {
             let Setting::Value(value) = self.get(parameter) else { continue };
             let inside = (spec.range[0]..=spec.range[1]).contains(&value);
             if !inside || (spec.whole && value.fract() != 0.0) {
-                return Err(InvalidParameter::Number { spec, value });
+                return Err(InvalidParameter::Number { parameter, value });
             }
         }
         match self.illuminant {
@@ -171,22 +171,23 @@ impl UsedParams {
     }
 }
 
-/// A parameter that makes no sense.
+/// A parameter outside the values that it accepts.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum InvalidParameter {
     /// A number outside its range.
-    #[error("{} = {value}: expected `auto` or a {} from {} to {} {}", spec.name,
-        if spec.whole { "whole number" } else { "number" }, spec.range[0], spec.range[1], spec.unit)]
+    #[error("{} = {value}: expected `auto` or a {} from {} to {} {}", parameter.spec().name,
+        if parameter.spec().whole { "whole number" } else { "number" },
+        parameter.spec().range[0], parameter.spec().range[1], parameter.spec().unit)]
     Number {
         /// The parameter.
-        spec: ParameterSpec,
-        /// The value that it does not accept.
+        parameter: Parameter,
+        /// The value that the parameter does not accept.
         value: f64,
     },
-    /// A light that is no color.
+    /// A light with a negative or infinite band, or with all bands 0.
     #[error("illuminant = {0:?}: expected `auto` or three numbers from 0 on, not all of them 0")]
     Illuminant([f64; 3]),
-    /// Ambient light that is no color.
+    /// Ambient light with a band outside its range.
     #[error("ambient = {0:?}: expected `auto`, `off` or three numbers from 0 to {MOST_AMBIENT} counts")]
     Ambient([f64; 3]),
 }

@@ -1,4 +1,4 @@
-//! The ground truth folder.
+//! Reading the files of a ground truth folder.
 
 use super::TruthError;
 use super::pictures::{decode_labels, decode_rgb_exr, expect_size, read_file};
@@ -6,7 +6,7 @@ use crate::raster::{LabelMap, Raster};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
-/// What is really in a scene.
+/// The ground truth of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroundTruth {
     /// Object at each pixel, 0 = background.
@@ -24,9 +24,9 @@ pub struct GroundTruth {
 /// One object of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 pub struct TruthObject {
-    /// Its value in the labels.
+    /// The object's value in the labels.
     pub id: u16,
-    /// Its body reflection vector, of any length; none for a metal.
+    /// The object's body reflection vector, of any length; none for a metal.
     #[serde(default)]
     pub body_vector: Option<[f64; 3]>,
 }
@@ -67,7 +67,7 @@ impl GroundTruth {
         Self::decode(&files, folder)
     }
 
-    /// Decodes the files of a truth folder; errors call them by their names in `folder`.
+    /// Decodes the files of a truth folder; errors name each file as a path in `folder`.
     ///
     /// # Errors
     /// When a file cannot be decoded or differs in size from the labels.
@@ -97,7 +97,7 @@ impl GroundTruth {
     }
 }
 
-/// The truth folder for one result: `root` itself when it is one, else the first of `names` below it that is.
+/// The truth folder for one result: `root` itself if it is a truth folder, else the first truth folder among `names` in `root`.
 pub fn find_truth<'a>(root: &Path, names: impl IntoIterator<Item = &'a Path>) -> Option<PathBuf> {
     let is_truth = |folder: &Path| folder.join(JSON).is_file();
     if is_truth(root) {

@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn independent_labelings_score_about_nothing() {
-        // Every combination equally often: a little below zero, and nearer to it the more pixels there are.
+        // Every pair of labels occurs equally often: the index is slightly negative and tends to 0 with more pixels.
         let combinations = |n: usize| (0..4 * n).map(|i| ((i % 2) as u16, (i / 2 % 2) as u16));
         close(adjusted_rand_index(combinations(1)), -0.5);
         close(adjusted_rand_index(combinations(100)), -1.0 / 398.0);

@@ -1,4 +1,4 @@
-//! Ground truth, and how far a result is from it.
+//! Ground truth, the scores of a result against it, and the report with these scores.
 //!
 //! A truth folder holds `body.exr` and `surface.exr` (linear RGB, 1.0 = 255 counts), `labels.png` (object at each
 //! pixel, 0 = background) and `truth.json` (true vectors). [`score()`] computes the scores, which were
@@ -27,7 +27,7 @@ pub enum TruthError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: std::io::Error,
     },
     /// A picture could not be decoded.
@@ -35,7 +35,7 @@ pub enum TruthError {
     Exr {
         /// The file.
         path: PathBuf,
-        /// What the decoder said.
+        /// The decoder's error.
         source: exr::error::Error,
     },
     /// A label picture could not be decoded.
@@ -43,7 +43,7 @@ pub enum TruthError {
     Labels {
         /// The file.
         path: PathBuf,
-        /// What the decoder said.
+        /// The decoder's error.
         source: image::ImageError,
     },
     /// A label picture holds something else than 8- or 16-bit integers.
@@ -51,7 +51,7 @@ pub enum TruthError {
     LabelType {
         /// The file.
         path: PathBuf,
-        /// What it holds.
+        /// The sample type found.
         found: String,
     },
     /// `truth.json` lacks something or is no JSON.
@@ -59,7 +59,7 @@ pub enum TruthError {
     Json {
         /// The file.
         path: PathBuf,
-        /// What it lacks.
+        /// The parser's error.
         source: serde_json::Error,
     },
     /// The pictures of one folder differ in size.
@@ -67,7 +67,7 @@ pub enum TruthError {
     Size {
         /// The file.
         path: PathBuf,
-        /// Its columns and rows.
+        /// Columns and rows of the file.
         found: (usize, usize),
         /// Columns and rows of the labels.
         labels: (usize, usize),

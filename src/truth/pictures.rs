@@ -62,7 +62,7 @@ pub(super) fn decode_rgb_exr(bytes: &[u8], path: &Path) -> Result<Raster<[f32; 3
     Ok(picture.layer_data.channel_data.pixels)
 }
 
-/// Integer labels of a gray picture; of a color picture the red band counts.
+/// Integer labels of a gray picture, or of the red band of a color picture.
 pub(super) fn decode_labels(bytes: &[u8], path: &Path) -> Result<LabelMap, TruthError> {
     let picture = image::load_from_memory(bytes)
         .map_err(|source| TruthError::Labels { path: path.to_owned(), source })?;

@@ -1,15 +1,15 @@
-//! The scenes that the program carries: rendered objects with their ground truth.
+//! The sample scenes in the program's binary: rendered objects with their ground truth.
 
 use super::{GroundTruth, TruthError, TruthFiles};
 use std::path::Path;
 
-/// A scene that the program carries.
+/// A sample scene in the program's binary.
 pub struct Sample {
-    /// Its name.
+    /// The scene's name.
     pub name: &'static str,
-    /// What is to be seen, in a sentence.
+    /// What the scene shows, in a sentence.
     pub about: &'static str,
-    /// Its photograph, an 8-bit PNG in linear light.
+    /// The scene's photograph, an 8-bit PNG in linear light.
     pub camera: &'static [u8],
     files: TruthFiles<'static>,
 }
@@ -30,10 +30,10 @@ macro_rules! sample {
     };
 }
 
-/// The name of the first of them.
+/// The name of the first sample.
 pub const NAME: &str = "plastic8_white";
 
-/// All of them; the first is shown when nothing else is asked for.
+/// All samples. The program starts with the first one where no photograph is named.
 pub static SAMPLES: [Sample; 2] = [
     sample!("plastic8_white", "Eight plastic objects under white light."),
     sample!("cups3_yellow", "Three cups under yellow light."),
@@ -45,7 +45,7 @@ impl Sample {
         SAMPLES.iter().find(|sample| sample.name == name)
     }
 
-    /// Its ground truth.
+    /// The scene's ground truth.
     ///
     /// # Errors
     /// As [`GroundTruth::decode`].

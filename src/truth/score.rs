@@ -1,4 +1,4 @@
-//! A result against the ground truth.
+//! Scores of a result against the ground truth.
 
 use super::folder::GroundTruth;
 use super::measures::{Contingency, angle_deg, contingency, erode_labels, marginal, psnr_db, rand_index_of};
@@ -6,16 +6,16 @@ use crate::describe::{Report, Scores};
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 use std::collections::BTreeMap;
 
-/// Camera pixels nearer to black are dark, counts.
+/// Camera pixels nearer to black than this are dark, counts.
 const DARK_COUNTS: f64 = 23.0;
-/// Camera pixels with a band at or above it are clipped, counts.
+/// Camera pixels with a band at or above this value are clipped, counts.
 const CLIPPED_COUNTS: f32 = 240.0;
 /// Objects with this many lit pixels or fewer are not scored.
 const SMALL_OBJECT_PIXELS: u64 = 200;
 /// Steps from the edge of an object at which its pixels are no longer mixed with what lies behind it.
 const EDGE_STEPS: usize = 2;
 
-/// What is scored: the pictures and the vectors of one result.
+/// The pictures and the vectors of one result, to be scored.
 #[derive(Clone, Copy, Debug)]
 pub struct Outcome<'a> {
     /// Region of each pixel.
@@ -24,7 +24,7 @@ pub struct Outcome<'a> {
     pub body: &'a Raster<[f32; 3]>,
     /// Surface reflection, counts.
     pub surface: &'a Raster<[f32; 3]>,
-    /// What the report says of regions and light.
+    /// The report, for the vectors of regions and light.
     pub report: &'a Report,
 }
 
@@ -34,9 +34,9 @@ pub enum ScoreError {
     /// A picture has another size than the ground truth.
     #[error("the {what} is {}\u{d7}{}, the ground truth {}\u{d7}{}", found.0, found.1, truth.0, truth.1)]
     Size {
-        /// Which picture.
+        /// The picture's name.
         what: &'static str,
-        /// Its columns and rows.
+        /// Columns and rows of the picture.
         found: (usize, usize),
         /// Columns and rows of the truth.
         truth: (usize, usize),
@@ -49,7 +49,7 @@ pub enum ScoreError {
     Pixels {
         /// The region.
         id: u16,
-        /// Pixels according to the report, 0 where it does not know the region.
+        /// Pixels according to the report, 0 where the report lacks the region.
         reported: u64,
         /// Pixels in the region map.
         found: u64,

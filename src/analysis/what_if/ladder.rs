@@ -137,7 +137,7 @@ mod tests {
     proptest! {
         #[test]
         fn halving_ends_and_stays_between(
-            which in 0usize..8, up: bool, now in 0.6f64..400.0, share in 0f64..1.0,
+            which in 0..Parameter::ALL.len(), up: bool, now in 0.6f64..400.0, share in 0f64..1.0,
         ) {
             let parameter = Parameter::ALL[which];
             let spec = parameter.spec();
