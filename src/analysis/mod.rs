@@ -44,6 +44,7 @@ impl Observer for () {}
 
 /// The whole result of a run. Outputs of stages are shared with the session, not copied.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Analysis {
     /// The numbers that the run used.
     pub used: UsedParams,

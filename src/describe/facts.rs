@@ -17,6 +17,7 @@ pub const SCHEMA: u32 = 1;
 
 /// Everything that is said about one analyzed image.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Report {
     /// [`SCHEMA`].
     pub schema: u32,
@@ -164,6 +165,7 @@ macro_rules! define_params_facts {
     ($($field:ident $variant:ident $meaning:literal { $($row:tt)* })*) => {
         /// Method, parameters and refinements of a run.
         #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+        #[non_exhaustive]
         pub struct ParamsFacts {
             /// Which algorithm.
             pub method: Method,
@@ -208,6 +210,7 @@ impl ParameterFacts {
 
 /// The ambient light (section 7.5).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct AmbientFacts {
     /// Subtracted before the split and added to the body image after it, counts; null: nothing.
     pub subtracted: Option<[f64; 3]>,
@@ -249,6 +252,7 @@ impl AmbientFacts {
 
 /// The color of the light and what it rests on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct IlluminantFacts {
     /// Unit vector; null where nothing in the image told of it.
     pub direction: Option<[f64; 3]>,
@@ -309,6 +313,7 @@ impl IlluminantFacts {
 /// One region, as [`RegionReflection`] describes it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "RegionReflection describes each")]
+#[non_exhaustive]
 pub struct RegionFacts {
     pub id: u16,
     pub pixels: usize,
@@ -341,6 +346,7 @@ pub struct RegionFacts {
 /// One highlight line of a region, as [`HighlightBranch`] describes it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "HighlightBranch describes each")]
+#[non_exhaustive]
 pub struct HighlightBranchFacts {
     pub start_counts: [f64; 3],
     pub body_counts: f64,

@@ -22,6 +22,7 @@ pub const FILE_NAME: &str = "report.json";
 
 /// Why a text is not taken for a report.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReportError {
     /// It lacks something, or is no JSON.
     #[error("it is not a report")]

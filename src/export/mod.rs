@@ -28,6 +28,7 @@ use std::path::PathBuf;
 
 /// Why a result could not be written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ExportError {
     /// A file or folder could not be made, written or renamed.
     #[error("cannot write {}", path.display())]

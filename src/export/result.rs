@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// Why the report of a result folder could not be read.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ResultError {
     /// The file could not be opened or read.
     #[error("cannot read {}", path.display())]

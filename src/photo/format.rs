@@ -5,6 +5,7 @@ use std::path::Path;
 
 /// The formats that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Format {
     /// Portable Network Graphics.
     Png,

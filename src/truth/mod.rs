@@ -21,6 +21,7 @@ use std::path::PathBuf;
 
 /// Why a ground truth or a result could not be read.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum TruthError {
     /// A file could not be opened or read.
     #[error("cannot read {}", path.display())]

@@ -30,6 +30,7 @@ pub struct Outcome<'a> {
 
 /// Why a result cannot be scored.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ScoreError {
     /// A picture has another size than the ground truth.
     #[error("the {what} is {}\u{d7}{}, the ground truth {}\u{d7}{}", found.0, found.1, truth.0, truth.1)]

@@ -59,9 +59,30 @@ fn the_help_of_every_command_is_in_the_documents() {
 }
 
 #[test]
+<<<<<<< HEAD
 fn the_tables_of_parameters_and_switches_are_in_the_documents() {
     check_markdown("parameters.md", "parameters", &parameter_table());
     check_markdown("parameters.md", "switches", &switch_table());
+=======
+fn links_between_documents_lead_to_files() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut dead = Vec::new();
+    let mut links = 0;
+    for folder in [root.to_path_buf(), root.join("docs")] {
+        let files = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+        for file in files.filter(|file| file.extension().is_some_and(|extension| extension == "md")) {
+            let text = fs::read_to_string(&file).unwrap();
+            let targets = text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next());
+            for target in targets.filter(|target| !target.is_empty() && !target.contains("://")) {
+                links += 1;
+                if !folder.join(target).exists() {
+                    dead.push(format!("{}: {target}", file.display()));
+                }
+            }
+        }
+    }
+    assert!(links > 20 && dead.is_empty(), "{links} links, of them dead: {dead:#?}");
+>>>>>>> 86a29ea (Types of the library that will grow are non-exhaustive; links between documents are tested)
 }
 
 #[test]

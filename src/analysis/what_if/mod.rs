@@ -24,6 +24,7 @@ use std::collections::BTreeMap;
 
 /// Region and kind of a pixel in a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub struct Fate {
     /// The pixel's region.
     pub home: Home,
@@ -53,6 +54,7 @@ pub enum Direction {
 
 /// A parameter's nearest value at which a pixel's fate is another.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct WhatIf {
     /// The parameter.
     pub parameter: Parameter,
