@@ -59,11 +59,12 @@ fn the_help_of_every_command_is_in_the_documents() {
 }
 
 #[test]
-<<<<<<< HEAD
 fn the_tables_of_parameters_and_switches_are_in_the_documents() {
     check_markdown("parameters.md", "parameters", &parameter_table());
     check_markdown("parameters.md", "switches", &switch_table());
-=======
+}
+
+#[test]
 fn links_between_documents_lead_to_files() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut dead = Vec::new();
@@ -82,7 +83,6 @@ fn links_between_documents_lead_to_files() {
         }
     }
     assert!(links > 20 && dead.is_empty(), "{links} links, of them dead: {dead:#?}");
->>>>>>> 86a29ea (Types of the library that will grow are non-exhaustive; links between documents are tested)
 }
 
 #[test]
