@@ -1,8 +1,10 @@
 //! Carries out the effects of commands and reports, on threads or inline.
 
 use super::analysis_worker::{self, AnalysisWorker, LatestRequest, Tracing};
+use super::export_input::ExportInput;
+use super::exports::write_export;
 use super::report::{self, Report};
-use super::{Asked, Command, Effect, Job, Request, State, WhatIfProgress, jobs, read, reduce, write};
+use super::{Asked, Command, Effect, Job, Request, State, WhatIfProgress, jobs, read, reduce};
 use crate::analysis::{Session, WhatIfObserver, what_if};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -118,7 +120,7 @@ impl Application {
             Effect::ReadWorkspace(path) => self.run("reader", move || read::workspace(&path)),
             Effect::Write(export) => {
                 self.state.jobs.export = Some(Job::now());
-                let application = jobs::ExportInput::of(&self.state);
+                let input = ExportInput::of(&self.state);
                 self.writing = Arc::default();
                 let stop = Arc::clone(&self.writing);
                 let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
@@ -126,9 +128,7 @@ impl Application {
                     let _ = outbox.send(Report::Exporting { done, total });
                     wake();
                 };
-                self.run("writer", move || {
-                    Report::Exported(write::write(&export, &application, &stop, &tell))
-                });
+                self.run("writer", move || Report::Exported(write_export(&export, &input, &stop, &tell)));
             }
             Effect::StopWriting => self.writing.stop(),
             Effect::Inquire(asked) => self.inquire(asked),

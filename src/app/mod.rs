@@ -11,6 +11,8 @@ mod command;
 mod command_line;
 mod debugger;
 mod document;
+mod export_input;
+mod exports;
 mod jobs;
 mod read;
 mod reduce;
@@ -31,7 +33,9 @@ pub use debugger::{
     Goal, Grain, SavedClass,
 };
 pub use document::{Document, History};
-pub use jobs::{Export, Job, JobState};
+pub use export_input::{DrawnPicture, ExportOptions};
+pub use exports::{Export, ExportKind};
+pub use jobs::{Job, JobState};
 pub use reduce::{Effect, reduce};
 pub use settings::Settings;
 pub use state::{Notice, Severity, State};

@@ -1,10 +1,10 @@
-//! Writes exports: whole folders and single files, each of which appears whole or not at all.
+//! The writers of the exports: a function for each kind, which makes the bytes of a file or writes a folder.
 
-use super::Export;
-use super::jobs::{ExportInput, Stop};
+use super::export_input::{DrawnPicture, ExportInput, ExportOptions};
+use super::jobs::Stop;
 use crate::analysis::Stage;
 use crate::describe::{AreaFacts, Report, Timings};
-use crate::export::{ExportError, WholeResult, matte_bytes, png_of_rgba, write_file};
+use crate::export::{ExportError, WholeResult, matte_bytes, png_of_rgba};
 use crate::truth::{self, Reference, ReportInput};
 use crate::view::{Look, Picture, ResultSnapshot, paint, profile, profile_csv, regions_text, selected};
 use std::error::Error;
@@ -13,28 +13,8 @@ use std::path::{Path, PathBuf};
 /// The name that an area has in reports and in calls of `analyze`.
 pub(super) const AREA_FILE: &str = "area.png";
 
-/// Writes something, telling `tell` how many files of how many are done. The sentence says what was written, or what failed,
-/// why, and what to do.
-pub(super) fn write(
-    export: &Export,
-    input: &ExportInput,
-    stop: &Stop,
-    tell: &(dyn Fn(usize, usize) + Sync),
-) -> Result<String, String> {
-    if let Export::Result { folder, force } = export {
-        return write_result(folder, *force, input, stop, tell);
-    }
-    let Contents { path, bytes, what } = contents(export, input)?;
-    if stop.stopped() {
-        return Ok(stopped(&path));
-    }
-    match write_file(&path, &bytes) {
-        Ok(()) => Ok(format!("wrote {what} to {}", path.display())),
-        Err(error) => Err(format!("{}; choose another place", whole_reason(&error))),
-    }
-}
-
-fn stopped(path: &Path) -> String {
+/// The sentence for an export that was stopped.
+pub(super) fn stopped(path: &Path) -> String {
     format!("stopped: {} was not written", path.display())
 }
 
@@ -49,67 +29,81 @@ pub(super) fn whole_reason(error: &dyn Error) -> String {
     text
 }
 
-/// What goes into a file.
-struct Contents {
-    path: PathBuf,
-    bytes: Vec<u8>,
-    /// What it is, in words.
-    what: String,
+/// The contents of a file.
+pub(super) struct Contents {
+    /// The file, with the extension that fits the contents.
+    pub path: PathBuf,
+    /// The bytes.
+    pub bytes: Vec<u8>,
+    /// What the file holds, in words.
+    pub what: String,
 }
 
-fn contents(export: &Export, input: &ExportInput) -> Result<Contents, String> {
-    let of = |path: &Path, bytes: Vec<u8>, what: &str| {
-        Ok(Contents { path: path.to_owned(), bytes, what: what.to_owned() })
-    };
-    match export {
-        Export::Result { folder, .. } => Err(format!("{}: is a folder", folder.display())),
-        Export::Matte { path, keep_surface } => matte(path, *keep_surface, input),
-        Export::Selection { path } => selection(path, input),
-        Export::Area { path } => {
-            let area = input.document.area.as_ref();
-            let area = area.ok_or("no area to export: the analysis is not restricted to one")?;
-            of(path, selected::mask_png(area), "the area as a mask")
-        }
-        Export::Regions { path } => of(path, regions_text(shown(input)?).into_bytes(), "the regions table"),
-        Export::Profile { path } => {
-            let picture = picture(input)?;
-            let ends = input.profile.unwrap_or([[0.5; 2]; 2]);
-            let samples = profile(picture, input.shown.as_deref(), ends);
-            of(path, profile_csv(&samples, picture.size().0).into_bytes(), "the profile")
-        }
-        Export::Layer { path, settings } => {
-            let picture = picture(input)?;
-            let look = Look::of(settings, input.selected_region);
-            let (shown, pinned) = (input.shown.as_deref(), input.pinned.as_deref());
-            let painted = paint(settings.layer, picture, shown, pinned, &look);
-            let size = [painted.width() as u32, painted.height() as u32];
-            let what = format!("the layer \u{201c}{}\u{201d}", settings.layer.name());
-            of(path, png_of_rgba(size, painted.as_slice().as_flattened()), &what)
-        }
-        Export::Picture { path, size, rgba } => {
-            let what = format!("a picture of {} \u{d7} {} pixels", size[0], size[1]);
-            match png_of_rgba(*size, rgba) {
-                bytes if bytes.is_empty() => Err(format!("{}: the picture is empty", path.display())),
-                bytes => of(path, bytes, &what),
-            }
-        }
-        Export::Parameters { path } => {
-            let text = toml::to_string(&input.document.params);
-            let text = text.map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
-            of(path, text.into_bytes(), "the parameters")
-        }
-        Export::Workspace { path } => {
-            let workspace = input.workspace.as_ref().map_err(String::clone)?;
-            of(path, workspace.to_json(path)?.into_bytes(), "the workspace")
-        }
+/// A file at `path`.
+fn file(path: &Path, bytes: Vec<u8>, what: &str) -> Result<Contents, String> {
+    Ok(Contents { path: path.to_owned(), bytes, what: what.to_owned() })
+}
+
+/// The area that the analysis is restricted to, as a mask.
+pub(super) fn area(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
+    let area = input.document.area.as_ref();
+    let area = area.ok_or("no area to export: the analysis is not restricted to one")?;
+    file(path, selected::mask_png(area), "the area as a mask")
+}
+
+/// The regions table, tab separated.
+pub(super) fn regions(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
+    file(path, regions_text(shown(input)?).into_bytes(), "the regions table")
+}
+
+/// The numbers along the profile's line.
+pub(super) fn profile_table(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
+    let picture = picture(input)?;
+    let ends = input.profile.unwrap_or([[0.5; 2]; 2]);
+    let samples = profile(picture, input.shown.as_deref(), ends);
+    file(path, profile_csv(&samples, picture.size().0).into_bytes(), "the profile")
+}
+
+/// The layer of the image view, a pixel a pixel.
+pub(super) fn layer(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
+    let (picture, settings) = (picture(input)?, &input.image);
+    let look = Look::of(settings, input.selected_region);
+    let (shown, pinned) = (input.shown.as_deref(), input.pinned.as_deref());
+    let painted = paint(settings.layer, picture, shown, pinned, &look);
+    let size = [painted.width() as u32, painted.height() as u32];
+    let what = format!("the layer \u{201c}{}\u{201d}", settings.layer.name());
+    file(path, png_of_rgba(size, painted.as_slice().as_flattened()), &what)
+}
+
+/// A picture that a view has drawn.
+pub(super) fn drawn(path: &Path, options: &ExportOptions, _: &ExportInput) -> Result<Contents, String> {
+    let empty = || format!("{}: the picture is empty", path.display());
+    let DrawnPicture { size, rgba } = options.drawn.as_ref().ok_or_else(empty)?;
+    let bytes = png_of_rgba(*size, rgba);
+    if bytes.is_empty() {
+        return Err(empty());
     }
+    file(path, bytes, &format!("a picture of {} \u{d7} {} pixels", size[0], size[1]))
+}
+
+/// The parameters as TOML.
+pub(super) fn parameters(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
+    let text = toml::to_string(&input.document.params);
+    let text = text.map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
+    file(path, text.into_bytes(), "the parameters")
+}
+
+/// The workspace.
+pub(super) fn workspace(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
+    let workspace = input.workspace.as_ref().map_err(String::clone)?;
+    file(path, workspace.to_json(path)?.into_bytes(), "the workspace")
 }
 
 fn picture(input: &ExportInput) -> Result<&Picture, String> {
     input.picture.as_deref().ok_or_else(|| "nothing to export: open a photograph first".to_owned())
 }
 
-/// The result shown, if it is all of one piece.
+/// The result shown, unless some of its stages are still to be computed.
 fn shown(input: &ExportInput) -> Result<&ResultSnapshot, String> {
     picture(input)?;
     match input.shown.as_deref() {
@@ -120,11 +114,12 @@ fn shown(input: &ExportInput) -> Result<&ResultSnapshot, String> {
     }
 }
 
-fn matte(path: &Path, keep_surface: f64, input: &ExportInput) -> Result<Contents, String> {
-    let shown = shown(input)?;
+/// The photograph without its highlights, or with a share of them.
+pub(super) fn matte(path: &Path, options: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
+    let (shown, keep_surface) = (shown(input)?, options.keep_surface);
     let (extension, bytes) = matte_bytes(&shown.picture.photo, &shown.analysis.intrinsic, keep_surface)
         .map_err(|error| whole_reason(&error))?;
-    // The format is the photograph's own, or the one that can hold it.
+    // The format is the photograph's own, or else one that can hold its values.
     let fits = |given: &str| match extension {
         "jpg" => ["jpg", "jpeg"].contains(&given),
         "tif" => ["tif", "tiff"].contains(&given),
@@ -141,7 +136,8 @@ fn matte(path: &Path, keep_surface: f64, input: &ExportInput) -> Result<Contents
     Ok(Contents { path, bytes, what })
 }
 
-fn selection(path: &Path, input: &ExportInput) -> Result<Contents, String> {
+/// The selected pixels: a mask (`.png`), a table (`.csv`) or points (`.ply`).
+pub(super) fn selection(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
     let (picture, shown) = (picture(input)?, input.shown.as_deref());
     let mask = selected::selected_pixels(&input.document.selection, picture, shown)
         .ok_or("nothing is selected: mark pixels or select a region, then export again")?;
@@ -164,9 +160,9 @@ fn extension_of(path: &Path) -> String {
 }
 
 /// The files of `analyze`, as it would write them for the photograph and parameters of the result shown.
-fn write_result(
+pub(super) fn result(
     folder: &Path,
-    force: bool,
+    options: &ExportOptions,
     input: &ExportInput,
     stop: &Stop,
     tell: &(dyn Fn(usize, usize) + Sync),
@@ -178,7 +174,7 @@ fn write_result(
         tell(done, total);
         !stop.stopped()
     };
-    match whole.write(report, folder, force, &watch) {
+    match whole.write(report, folder, options.force, &watch) {
         Ok(_) => Ok(format!("wrote the result to {}", folder.display())),
         Err(ExportError::Stopped) => Ok(stopped(folder)),
         Err(ExportError::Occupied(folder)) => Err(format!(
@@ -208,6 +204,3 @@ fn report(shown: &ResultSnapshot) -> Result<Report, String> {
     };
     truth::report(input).map_err(|error| error.to_string())
 }
-
-#[cfg(test)]
-mod tests;

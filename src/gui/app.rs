@@ -183,9 +183,9 @@ impl Front {
 
     fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         come_in(ui, cx);
-        self.dialogs.hear_escape(ui.ctx());
-        self.panels.image.hear_escape(ui.ctx());
-        self.panels.cube.hear_escape(ui.ctx());
+        self.dialogs.close_on_escape(ui.ctx());
+        self.panels.image.take_escape(ui.ctx());
+        self.panels.cube.take_escape(ui.ctx());
         // egui takes the focus from what is typed in when Escape comes: the frame before tells who had it.
         let typed = std::mem::replace(&mut self.typing, false);
         let escape_is_meant = !typed && !egui::Popup::is_any_open(ui.ctx());

@@ -56,7 +56,7 @@ pub struct CubePanel {
 
 impl CubePanel {
     /// Drops an unfinished outline when Escape is pressed, and consumes the key, so that the selection stays.
-    pub fn hear_escape(&mut self, ctx: &egui::Context) {
+    pub fn take_escape(&mut self, ctx: &egui::Context) {
         let key = egui::Key::Escape;
         if self.outline.is_begun() && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, key)) {
             self.outline = Outline::default();

@@ -1,18 +1,18 @@
-//! Asking for files: a field for the path, always, and the system's own dialog beside it where there is one.
+//! Dialogs for files: always a field for the path, and the system's own file dialog where there is one.
 //!
-//! The dialog runs on a thread of its own: a portal that hangs, hangs alone.
+//! The system's dialog runs on a thread of its own, so that one that hangs does not stop the window.
 
 use super::PanelContext;
 use super::dock::Pane;
 use super::task::Task;
 use super::view_export::ViewExport;
-use crate::app::{Export, JobCommand};
+use crate::app::{Export, ExportKind, ExportOptions, JobCommand};
 use crate::truth::sample::SAMPLES;
 use crate::view::Origin;
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
 
-/// What is asked for.
+/// What a dialog asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialog {
     /// A photograph.
@@ -29,79 +29,15 @@ pub enum Dialog {
     Export,
 }
 
-/// What the export window offers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum ExportChoice {
-    Result,
-    Matte,
-    Layer,
-    View,
-    Selection,
-    Area,
-    Regions,
-    Profile,
-}
-
 /// Views that can be drawn at any size.
 const VIEWS: [Pane; 3] = [Pane::Colors, Pane::Plane, Pane::Profile];
 
-impl ExportChoice {
-    const ALL: [Self; 8] = [
-        Self::Matte,
-        Self::Result,
-        Self::Layer,
-        Self::View,
-        Self::Selection,
-        Self::Area,
-        Self::Regions,
-        Self::Profile,
-    ];
-
-    const fn words(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Matte => (
-                "Photograph without highlights",
-                "The photograph in its own format, its surface reflection taken away (section 6).",
-            ),
-            Self::Result => (
-                "Everything, as a folder",
-                "The files of `dichroscope analyze`: body, surface and noise as floats, regions, stage pictures, report.",
-            ),
-            Self::Layer => ("Image view as PNG", "The layer that the image view shows, a pixel a pixel."),
-            Self::View => ("A view as PNG", "Color space, plane or profile as they are now, at any size."),
-            Self::Selection => (
-                "Marked pixels",
-                "The marked pixels as a mask (.png), as a table (.csv) or as points in the color cube (.ply).",
-            ),
-            Self::Area => {
-                ("Analyzed area", "What the analysis is restricted to, as a mask for `analyze --area`.")
-            }
-            Self::Regions => ("Regions table", "The regions and their vectors, separated by tabs."),
-            Self::Profile => ("Profile", "Input, body, surface and noise along the profile's line, as CSV."),
-        }
-    }
-
-    const fn file(self) -> &'static str {
-        match self {
-            Self::Matte => "matte",
-            Self::Result => "result",
-            Self::Layer => "layer.png",
-            Self::View => "view.png",
-            Self::Selection => "selection.png",
-            Self::Area => "area.png",
-            Self::Regions => "regions.tsv",
-            Self::Profile => "profile.csv",
-        }
-    }
-}
-
-/// The windows that ask, and a system dialog that may be open.
+/// The open dialog, and the system's file dialog that may be open beside it.
 pub struct Dialogs {
     question: Option<Dialog>,
     path: String,
-    ware: ExportChoice,
-    keep_surface: f64,
-    force: bool,
+    kind: ExportKind,
+    options: ExportOptions,
     view: Pane,
     size_px: [u32; 2],
     view_export: Option<ViewExport>,
@@ -114,9 +50,8 @@ impl Default for Dialogs {
         Self {
             question: None,
             path: String::new(),
-            ware: ExportChoice::Matte,
-            keep_surface: 0.0,
-            force: false,
+            kind: ExportKind::Matte,
+            options: ExportOptions::default(),
             view: Pane::Colors,
             size_px: [1800, 1200],
             view_export: None,
@@ -127,9 +62,9 @@ impl Default for Dialogs {
 }
 
 impl Dialogs {
-    /// Opens the window for a question.
+    /// Opens the dialog of a question.
     pub fn ask(&mut self, question: Dialog) {
-        (self.question, self.focus, self.force) = (Some(question), true, false);
+        (self.question, self.focus, self.options.force) = (Some(question), true, false);
         match question {
             Dialog::Export | Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace => {
                 self.path.clear();
@@ -139,14 +74,14 @@ impl Dialogs {
         }
     }
 
-    /// Escape closes the window that is open, before it is taken to unselect anything.
-    pub fn hear_escape(&mut self, ctx: &egui::Context) {
+    /// Closes the open dialog on Escape, before Escape clears the selection.
+    pub fn close_on_escape(&mut self, ctx: &egui::Context) {
         if self.question.is_some() && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
             self.question = None;
         }
     }
 
-    /// Shows what is open. A view that is to be drawn is handed out.
+    /// Shows the open dialog. Returns the view that is to be drawn, when that was chosen.
     pub fn show(&mut self, ui: &Ui, cx: &mut PanelContext) -> Option<ViewExport> {
         self.take_answer(ui);
         let question = self.question?;
@@ -165,10 +100,10 @@ impl Dialogs {
             .anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 64.0))
             .show(ui.ctx(), |ui| {
                 if question == Dialog::Export {
-                    self.wares(ui, cx);
+                    self.export_kinds(ui, cx);
                 }
                 let answered = self.path_row(ui, question, cx);
-                if question == Dialog::Open { Self::shelf(ui, cx) || answered } else { answered }
+                if question == Dialog::Open { Self::samples_and_recent(ui, cx) || answered } else { answered }
             })
             .and_then(|shown| shown.inner)
             .unwrap_or(false);
@@ -178,32 +113,25 @@ impl Dialogs {
         self.view_export.take()
     }
 
-    /// What can be exported, with the options of what is chosen.
-    fn wares(&mut self, ui: &mut Ui, cx: &PanelContext) {
+    /// The kinds of export, and the options of the chosen kind.
+    fn export_kinds(&mut self, ui: &mut Ui, cx: &PanelContext) {
         if self.path.is_empty() {
-            self.path = proposed(self.ware, cx).display().to_string();
+            self.path = proposed(self.kind, cx).display().to_string();
         }
-        for ware in ExportChoice::ALL {
-            let (name, tip) = ware.words();
-            // What there is nothing of cannot be written.
-            let there = match ware {
-                ExportChoice::Selection => cx.state.document.selection.marked.is_some(),
-                ExportChoice::Area => cx.state.document.area.is_some(),
-                ExportChoice::View => cx.gpu.is_some(),
-                _ => true,
-            };
-            let radio = ui.add_enabled(there, egui::RadioButton::new(self.ware == ware, name));
-            if radio.on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
-                self.ware = ware;
-                self.path = proposed(ware, cx).display().to_string();
+        for kind in ExportKind::ALL.into_iter().filter(|kind| kind.is_offered()) {
+            let available = kind.is_available(cx.state) && (kind != ExportKind::View || cx.gpu.is_some());
+            let radio = ui.add_enabled(available, egui::RadioButton::new(self.kind == kind, kind.title()));
+            if radio.on_hover_text(kind.tip()).on_disabled_hover_text(kind.tip()).clicked() {
+                self.kind = kind;
+                self.path = proposed(kind, cx).display().to_string();
             }
         }
         ui.add_space(4.0);
-        match self.ware {
-            ExportChoice::Matte => {
+        match self.kind {
+            ExportKind::Matte => {
                 ui.spacing_mut().slider_width = 200.0;
-                let slider =
-                    egui::Slider::new(&mut self.keep_surface, 0.0..=1.0).text("surface reflection kept");
+                let slider = egui::Slider::new(&mut self.options.keep_surface, 0.0..=1.0)
+                    .text("surface reflection kept");
                 ui.add(slider.custom_formatter(|v, _| format!("{:.0} %", v * 100.0)).custom_parser(|text| {
                     text.trim_end_matches(['%', ' ']).parse::<f64>().ok().map(|percent| percent / 100.0)
                 }))
@@ -211,12 +139,12 @@ impl Dialogs {
                     "0 %: no highlights. 100 %: the photograph as it was, but for restored pixels.",
                 );
             }
-            ExportChoice::Result => {
-                ui.checkbox(&mut self.force, "replace the folder whatever it holds").on_hover_text(
+            ExportKind::Result => {
+                ui.checkbox(&mut self.options.force, "replace the folder whatever it holds").on_hover_text(
                     "An earlier result is replaced anyway; this replaces any other folder too.",
                 );
             }
-            ExportChoice::View => {
+            ExportKind::View => {
                 ui.horizontal(|ui| {
                     for pane in VIEWS {
                         ui.selectable_value(&mut self.view, pane, pane.title());
@@ -234,7 +162,7 @@ impl Dialogs {
         ui.add_space(4.0);
     }
 
-    /// The field, the system's dialog and the verb. Whether the question is answered.
+    /// Shows the path's field and the buttons. Returns whether the question was answered.
     fn path_row(&mut self, ui: &mut Ui, question: Dialog, cx: &mut PanelContext) -> bool {
         let verb = match question {
             Dialog::Open | Dialog::OpenWorkspace => "Open",
@@ -263,7 +191,7 @@ impl Dialogs {
         });
         if go {
             let path = expanded(self.path.trim());
-            if question == Dialog::Export && self.ware == ExportChoice::View {
+            if question == Dialog::Export && self.kind == ExportKind::View {
                 self.view_export = Some(ViewExport { pane: self.view, size_px: self.size_px, path });
                 return go;
             }
@@ -272,31 +200,18 @@ impl Dialogs {
                 Dialog::Open => JobCommand::Open(Origin::File(path)),
                 Dialog::LoadParameters => JobCommand::LoadParams(path),
                 Dialog::OpenWorkspace => JobCommand::OpenWorkspace(path),
-                Dialog::SaveParameters => JobCommand::Export(Export::Parameters { path }),
-                Dialog::SaveWorkspace => JobCommand::Export(Export::Workspace { path }),
-                Dialog::Export => JobCommand::Export(self.export(path, cx)),
+                Dialog::SaveParameters => JobCommand::Export(ExportKind::Parameters.to(path)),
+                Dialog::SaveWorkspace => JobCommand::Export(ExportKind::Workspace.to(path)),
+                Dialog::Export => {
+                    JobCommand::Export(Export { kind: self.kind, path, options: self.options.clone() })
+                }
             });
         }
         go
     }
 
-    fn export(&self, path: PathBuf, cx: &PanelContext) -> Export {
-        match self.ware {
-            ExportChoice::Result => Export::Result { folder: path, force: self.force },
-            ExportChoice::Matte => Export::Matte { path, keep_surface: self.keep_surface },
-            // Views are drawn before they are written.
-            ExportChoice::Layer | ExportChoice::View => {
-                Export::Layer { path, settings: cx.state.view.image.clone() }
-            }
-            ExportChoice::Selection => Export::Selection { path },
-            ExportChoice::Area => Export::Area { path },
-            ExportChoice::Regions => Export::Regions { path },
-            ExportChoice::Profile => Export::Profile { path },
-        }
-    }
-
-    /// The sample scene and the photographs opened before. Whether one was chosen.
-    fn shelf(ui: &mut Ui, cx: &mut PanelContext) -> bool {
+    /// Shows the sample scenes and the photographs opened before. Returns whether one was chosen.
+    fn samples_and_recent(ui: &mut Ui, cx: &mut PanelContext) -> bool {
         let mut chosen = None;
         ui.add_space(4.0);
         super::widgets::heading(ui, cx.tones, "Sample scenes");
@@ -323,7 +238,7 @@ impl Dialogs {
     }
 
     fn browse(&mut self, ctx: &egui::Context, question: Dialog) {
-        let folder = question == Dialog::Export && self.ware == ExportChoice::Result;
+        let folder = question == Dialog::Export && self.kind.is_folder();
         let writes = matches!(question, Dialog::SaveParameters | Dialog::SaveWorkspace | Dialog::Export);
         let start = expanded(&self.path);
         let ask = move || {
@@ -360,29 +275,28 @@ impl Dialogs {
     }
 }
 
-/// Beside the photograph, or in the folder that the program runs in.
-fn proposed(ware: ExportChoice, cx: &PanelContext) -> PathBuf {
+/// The proposed path of an export: beside the photograph, or in the working directory.
+fn proposed(kind: ExportKind, cx: &PanelContext) -> PathBuf {
     let picture = cx.state.picture.as_ref();
     let photo = picture.and_then(|picture| picture.origin.path());
     let folder = photo.and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();
     let stem = picture.map_or_else(String::new, |picture| {
         Path::new(&picture.origin.name()).file_stem().unwrap_or_default().to_string_lossy().into_owned()
     });
-    let extension = match ware {
-        ExportChoice::Matte => {
-            photo.and_then(Path::extension).map_or("png".to_owned(), |e| e.to_string_lossy().into_owned())
-        }
-        _ => return folder.join(format!("{stem}-{}", ware.file())),
-    };
-    folder.join(format!("{stem}-{}.{extension}", ware.file()))
+    let name = format!("{stem}-{}", kind.file());
+    if kind.is_folder() || kind.file().contains('.') {
+        return folder.join(name);
+    }
+    let extension = photo.and_then(Path::extension).map_or("png".into(), |e| e.to_string_lossy());
+    folder.join(format!("{name}.{extension}"))
 }
 
-/// Whether a path names one of our workspaces.
+/// Whether a path has the extension of workspaces.
 pub fn is_workspace(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "dichroscope")
 }
 
-/// A path as typed, `~/` understood.
+/// A typed path, with `~/` expanded.
 fn expanded(text: &str) -> PathBuf {
     let home = || directories::BaseDirs::new().map(|dirs| dirs.home_dir().to_path_buf());
     text.strip_prefix("~/").and_then(|rest| Some(home()?.join(rest))).unwrap_or_else(|| PathBuf::from(text))

@@ -48,7 +48,7 @@ pub struct ImagePanel {
 
 impl ImagePanel {
     /// Escape gives up what is being drawn, before it is taken to unselect anything.
-    pub fn hear_escape(&mut self, ctx: &egui::Context) {
+    pub fn take_escape(&mut self, ctx: &egui::Context) {
         if self.hand.is_busy() && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
             self.hand.give_up();
         }

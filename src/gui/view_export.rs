@@ -6,7 +6,9 @@ use super::dock::{Pane, Panels};
 use super::offscreen::OffscreenContext;
 use super::task::Task;
 use super::theme::{self, Tones};
-use crate::app::{Command, Export, JobCommand, Severity, State, ViewCommand};
+use crate::app::{
+    Command, DrawnPicture, Export, ExportKind, ExportOptions, JobCommand, Severity, State, ViewCommand,
+};
 use egui_wgpu::{RenderState, WgpuSetupExisting};
 use std::path::PathBuf;
 
@@ -73,10 +75,12 @@ fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderSt
         },
     );
     match drawn {
-        Ok(rgba) => JobCommand::Export(Export::Picture {
-            path: view_export.path.clone(),
-            size: view_export.size_px,
-            rgba: rgba.into(),
+        Ok(rgba) => JobCommand::Export(Export {
+            options: ExportOptions {
+                drawn: Some(DrawnPicture { size: view_export.size_px, rgba: rgba.into() }),
+                ..ExportOptions::default()
+            },
+            ..ExportKind::View.to(view_export.path.clone())
         })
         .into(),
         Err(error) => {

@@ -1,7 +1,7 @@
 //! `dichroscope analyze`, `evaluate` and `screenshot`: what they write, what they say, and how they end.
 
 use crate::folder::{WorkFolder, list, tiny};
-use dichroscope::app::{Application, Edit, Executor, Export, JobCommand, analyze_call};
+use dichroscope::app::{Application, Edit, Executor, ExportKind, JobCommand, analyze_call};
 use dichroscope::describe::RegionFacts;
 use dichroscope::params::{IlluminantSetting, Method, Parameter, Setting, Switch};
 use dichroscope::photo::ReadOptions;
@@ -458,9 +458,9 @@ fn the_call_that_the_window_hands_out_writes_the_windows_result() {
     let inside = (0..width * height).map(|pixel| pixel % width < width * 3 / 4).collect();
     let area = Arc::new(Raster::from_vec(width, height, inside).unwrap());
     application.apply(Edit::RestrictTo(Some(area)));
-    application.apply(JobCommand::Export(Export::Area { path: work.path("area.png") }));
+    application.apply(JobCommand::Export(ExportKind::Area.to(work.path("area.png"))));
     let folder = work.path("window");
-    application.apply(JobCommand::Export(Export::Result { folder: folder.clone(), force: false }));
+    application.apply(JobCommand::Export(ExportKind::Result.to(folder.clone())));
     assert!(folder.is_dir(), "{:?}", application.state().notices);
 
     let call = analyze_call(application.state());

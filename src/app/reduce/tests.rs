@@ -1,6 +1,6 @@
 use super::*;
 use crate::app::report::{self, Report};
-use crate::app::{Application, Ask, Executor};
+use crate::app::{Application, Ask, Executor, ExportKind};
 use crate::params::Setting;
 use crate::truth::sample;
 use crate::view::Item;
@@ -221,7 +221,7 @@ fn a_workspace_brings_everything_back() {
     application.apply(ViewCommand::Layout("three columns".into()));
     application.apply(ViewCommand::ShowPinned(true));
     let (document, view) = (application.state().document.clone(), application.state().view.clone());
-    application.apply(JobCommand::Export(Export::Workspace { path: path.clone() }));
+    application.apply(JobCommand::Export(ExportKind::Workspace.to(path.clone())));
     assert!(path.is_file(), "{:?}", application.state().notices);
 
     let mut again = Application::new(Executor::Inline, || ()).unwrap();
@@ -254,7 +254,7 @@ fn a_mask_of_another_size_is_left_out_of_a_workspace() {
 fn one_export_at_a_time() {
     let mut state = State::default();
     state.jobs.export = Some(crate::app::Job::now());
-    let effects = reduce(&mut state, JobCommand::Export(Export::Regions { path: "a".into() }));
+    let effects = reduce(&mut state, JobCommand::Export(ExportKind::Regions.to("a")));
     assert!(effects.is_empty() && state.notices[0].text.contains("under way"));
     report::reduce(&mut state, Report::Exporting { done: 2, total: 5 });
     assert_eq!(state.jobs.export.unwrap().files, Some((2, 5)));

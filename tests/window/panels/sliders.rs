@@ -4,7 +4,7 @@ use crate::window::{
     Window, apply, choose, click, double_click, drag, named, notice, press, shown, sigma, state, tiny,
     tiny_window, undo,
 };
-use dichroscope::app::{Edit, Export, JobCommand};
+use dichroscope::app::{Edit, ExportKind, JobCommand};
 use dichroscope::gui::Pane;
 use dichroscope::params::{AmbientSetting, Method, Parameter, Params, Preset, Setting};
 use egui::accesskit::Role;
@@ -143,7 +143,7 @@ fn presets_are_in_the_menu_and_parameters_travel_through_a_file() {
     assert_eq!(state(&window).document.params, preset.params());
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("p.toml");
-    apply(&mut window, JobCommand::Export(Export::Parameters { path: path.clone() }));
+    apply(&mut window, JobCommand::Export(ExportKind::Parameters.to(path.clone())));
     undo(&mut window);
     assert_eq!(state(&window).document.params, Params::default());
     choose(&mut window, "Analyze", "Load parameters");

@@ -1,0 +1,56 @@
+//! What an export is made from, and its options.
+
+use super::{Document, State, Workspace};
+use crate::view::{ImageSettings, Picture, ResultSnapshot};
+use std::sync::Arc;
+
+/// Options of an export. Each kind of export reads those that concern it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ExportOptions {
+    /// Share of the surface reflection that stays in the photograph without highlights, 0…1.
+    pub keep_surface: f64,
+    /// Whether a folder that is no earlier result may be replaced.
+    pub force: bool,
+    /// The picture that a view has drawn.
+    pub drawn: Option<DrawnPicture>,
+}
+
+/// A picture that a view has drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnPicture {
+    /// Columns and rows.
+    pub size: [u32; 2],
+    /// sRGB and alpha, row-major.
+    pub rgba: Arc<[u8]>,
+}
+
+/// The parts of the state that exports are made from, as they were when the export was asked for.
+#[derive(Clone, Debug)]
+pub(super) struct ExportInput {
+    pub(super) picture: Option<Arc<Picture>>,
+    pub(super) shown: Option<Arc<ResultSnapshot>>,
+    pub(super) pinned: Option<Arc<ResultSnapshot>>,
+    pub(super) document: Document,
+    /// What the image view shows, and how.
+    pub(super) image: ImageSettings,
+    pub(super) selected_region: Option<u16>,
+    /// Ends of the profile's line, pixels.
+    pub(super) profile: Option<[[f32; 2]; 2]>,
+    pub(super) workspace: Result<Workspace, String>,
+}
+
+impl ExportInput {
+    /// The parts of `state`.
+    pub(super) fn of(state: &State) -> Self {
+        Self {
+            picture: state.picture.clone(),
+            shown: state.shown().cloned(),
+            pinned: state.pinned.clone(),
+            document: state.document.clone(),
+            image: state.view.image.clone(),
+            selected_region: state.selected_region(),
+            profile: state.profile_ends(),
+            workspace: Workspace::of(state),
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! The table of the exports, from which [`ExportKind`], the export dialog and the writing follow.
+//!
+//! A new kind of export is a row here and a writer in `write.rs`.
+
+use super::State;
+use super::export_input::{ExportInput, ExportOptions};
+use super::jobs::Stop;
+use super::write::{self, Contents};
+use crate::export::write_file;
+use std::path::{Path, PathBuf};
+
+/// A file or folder to be written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Export {
+    /// What is written.
+    pub kind: ExportKind,
+    /// The file or folder. The extension of some kinds says in which format.
+    pub path: PathBuf,
+    /// The options.
+    pub options: ExportOptions,
+}
+
+/// Reports how many files of how many are written.
+type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
+
+/// How a kind is written.
+enum Writer {
+    /// The contents of one file.
+    File(fn(&Path, &ExportOptions, &ExportInput) -> Result<Contents, String>),
+    /// A folder, which the function writes; returned is the sentence to show.
+    Folder(fn(&Path, &ExportOptions, &ExportInput, &Stop, Progress) -> Result<String, String>),
+}
+
+/// One kind of export.
+struct ExportRow {
+    /// The name in the export dialog.
+    title: &'static str,
+    /// What is written: a tooltip.
+    tip: &'static str,
+    /// The end of the proposed file name. Without an extension, a file gets the photograph's.
+    file: &'static str,
+    /// Whether the export dialog offers it; the others have dialogs of their own.
+    offered: bool,
+    /// Whether there is anything to write.
+    available: fn(&State) -> bool,
+    /// How it is written.
+    writer: Writer,
+}
+
+/// Makes [`ExportKind`] and its rows from the table.
+macro_rules! exports {
+    ($($(#[$attribute:meta])* $kind:ident: $row:expr;)+) => {
+        /// What an export writes.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum ExportKind {
+            $($(#[$attribute])* $kind,)+
+        }
+
+        impl ExportKind {
+            /// All kinds, in the order of the export dialog.
+            pub const ALL: [Self; [$(stringify!($kind)),+].len()] = [$(Self::$kind),+];
+
+            const fn row(self) -> &'static ExportRow {
+                match self {
+                    $(Self::$kind => const { &$row },)+
+                }
+            }
+        }
+    };
+}
+
+exports! {
+    /// The photograph without its highlights.
+    Matte: ExportRow {
+        title: "Photograph without highlights",
+        tip: "The photograph in its own format, its surface reflection taken away (section 6).",
+        file: "matte",
+        offered: true,
+        available: |_| true,
+        writer: Writer::File(write::matte),
+    };
+    /// The files of `analyze`, as a folder.
+    Result: ExportRow {
+        title: "Everything, as a folder",
+        tip: "The files of `dichroscope analyze`: body, surface and noise as floats, regions, stage pictures, report.",
+        file: "result",
+        offered: true,
+        available: |_| true,
+        writer: Writer::Folder(write::result),
+    };
+    /// What the image view shows, a pixel a pixel.
+    Layer: ExportRow {
+        title: "Image view as PNG",
+        tip: "The layer that the image view shows, a pixel a pixel.",
+        file: "layer.png",
+        offered: true,
+        available: |_| true,
+        writer: Writer::File(write::layer),
+    };
+    /// A picture that a view has drawn.
+    View: ExportRow {
+        title: "A view as PNG",
+        tip: "Color space, plane or profile as they are now, at any size.",
+        file: "view.png",
+        offered: true,
+        available: |_| true,
+        writer: Writer::File(write::drawn),
+    };
+    /// The selection as a mask (`.png`), a table (`.csv`) or points (`.ply`).
+    Selection: ExportRow {
+        title: "Marked pixels",
+        tip: "The marked pixels as a mask (.png), as a table (.csv) or as points in the color cube (.ply).",
+        file: "selection.png",
+        offered: true,
+        available: |state| state.document.selection.marked.is_some(),
+        writer: Writer::File(write::selection),
+    };
+    /// The area that the analysis is restricted to, as a mask for `--area`.
+    Area: ExportRow {
+        title: "Analyzed area",
+        tip: "What the analysis is restricted to, as a mask for `analyze --area`.",
+        file: "area.png",
+        offered: true,
+        available: |state| state.document.area.is_some(),
+        writer: Writer::File(write::area),
+    };
+    /// The regions table, tab separated.
+    Regions: ExportRow {
+        title: "Regions table",
+        tip: "The regions and their vectors, separated by tabs.",
+        file: "regions.tsv",
+        offered: true,
+        available: |_| true,
+        writer: Writer::File(write::regions),
+    };
+    /// The profile's numbers.
+    Profile: ExportRow {
+        title: "Profile",
+        tip: "Input, body, surface and noise along the profile's line, as CSV.",
+        file: "profile.csv",
+        offered: true,
+        available: |_| true,
+        writer: Writer::File(write::profile_table),
+    };
+    /// The parameters as TOML.
+    Parameters: ExportRow {
+        title: "Parameters",
+        tip: "The parameters as TOML.",
+        file: "parameters.toml",
+        offered: false,
+        available: |_| true,
+        writer: Writer::File(write::parameters),
+    };
+    /// The workspace.
+    Workspace: ExportRow {
+        title: "Workspace",
+        tip: "The photograph's place, parameters, selection and views.",
+        file: "workspace.dichroscope",
+        offered: false,
+        available: |_| true,
+        writer: Writer::File(write::workspace),
+    };
+}
+
+impl ExportKind {
+    /// Its name in the export dialog.
+    pub const fn title(self) -> &'static str {
+        self.row().title
+    }
+
+    /// What it writes: a tooltip.
+    pub const fn tip(self) -> &'static str {
+        self.row().tip
+    }
+
+    /// Whether the export dialog offers it; the others have dialogs of their own.
+    pub const fn is_offered(self) -> bool {
+        self.row().offered
+    }
+
+    /// Whether it writes a folder.
+    pub const fn is_folder(self) -> bool {
+        matches!(self.row().writer, Writer::Folder(_))
+    }
+
+    /// Whether there is anything to write.
+    pub fn is_available(self, state: &State) -> bool {
+        (self.row().available)(state)
+    }
+
+    /// The end of the proposed file name. Without an extension, a file gets the photograph's.
+    pub const fn file(self) -> &'static str {
+        self.row().file
+    }
+
+    /// An export of this kind with default options.
+    pub fn to(self, path: impl Into<PathBuf>) -> Export {
+        Export { kind: self, path: path.into(), options: ExportOptions::default() }
+    }
+}
+
+/// Writes an export; every file and folder appears whole or not at all. `tell` is called with the number of files written and
+/// the number of files in all. The sentence says what was written, or what failed, why, and what to do.
+pub(super) fn write_export(
+    export: &Export,
+    input: &ExportInput,
+    stop: &Stop,
+    tell: Progress,
+) -> Result<String, String> {
+    let Export { kind, path, options } = export;
+    let Contents { path, bytes, what } = match kind.row().writer {
+        Writer::Folder(write) => return write(path, options, input, stop, tell),
+        Writer::File(contents) => contents(path, options, input)?,
+    };
+    if stop.stopped() {
+        return Ok(write::stopped(&path));
+    }
+    match write_file(&path, &bytes) {
+        Ok(()) => Ok(format!("wrote {what} to {}", path.display())),
+        Err(error) => Err(format!("{}; choose another place", write::whole_reason(&error))),
+    }
+}
+
+#[cfg(test)]
+mod tests;
