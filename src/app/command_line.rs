@@ -1,4 +1,4 @@
-//! What is on the screen as a call of `dichroscope analyze`.
+//! The call of `dichroscope analyze` that repeats the analysis on the screen.
 
 use super::State;
 use super::write::AREA_FILE;
@@ -6,8 +6,8 @@ use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params
 use crate::view::Origin;
 use std::path::Path;
 
-/// The call that analyses the open photograph as the window does, for a POSIX shell. Only what differs from the defaults is
-/// said. A comment at its end names files that must be exported first.
+/// The call that analyzes the open photograph as the window does, for a POSIX shell. It contains only what differs from the
+/// defaults. A comment at its end names files that must be exported first.
 pub fn analyze_call(state: &State) -> String {
     let mut words = vec!["dichroscope".to_owned(), "analyze".to_owned()];
     let mut hints = Vec::new();
@@ -70,7 +70,7 @@ fn params_words(params: &Params) -> Vec<String> {
     if params.ambient != AmbientSetting::Auto {
         words.extend(["--ambient".to_owned(), params.ambient.to_string()]);
     }
-    // The paper's method refines nothing, whatever the switches say.
+    // The paper's method ignores the switches of the refinements.
     if params.method == Method::Refined {
         for switch in Switch::ALL {
             let on = params.refine.get(switch);
@@ -85,11 +85,11 @@ fn params_words(params: &Params) -> Vec<String> {
 
 fn quoted_path(path: &Path) -> String {
     let text = path.display().to_string();
-    // A name that begins like a flag is none behind its folder.
+    // The folder before a name that begins with `-` keeps it from being read as a flag.
     quoted(&if text.starts_with('-') { format!("./{text}") } else { text })
 }
 
-/// A word as a POSIX shell reads it back.
+/// A word, quoted for a POSIX shell where it needs that.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_@%+=:,./-".contains(c);
     if !word.is_empty() && word.chars().all(plain) {

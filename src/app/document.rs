@@ -1,4 +1,4 @@
-//! What undo takes back: parameters, pins and the selection.
+//! The part of the state that undo restores: parameters, area and selection.
 
 use super::Gesture;
 use crate::params::Params;
@@ -9,11 +9,11 @@ use std::sync::Arc;
 /// Everything that a person decides about the analysis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Document {
-    /// What is asked of the analysis, a pinned illuminant included.
+    /// The parameters of the analysis, with the pinned illuminant.
     pub params: Params,
-    /// The pixels that it is restricted to; none: all.
+    /// The pixels that the analysis is restricted to; none: all.
     pub area: Option<Arc<Mask>>,
-    /// What is selected.
+    /// The selected item and the marked pixels.
     pub selection: Selection,
 }
 
@@ -26,11 +26,11 @@ pub struct History {
     open: Option<Gesture>,
 }
 
-/// Steps kept.
+/// Number of steps kept.
 const LONGEST: usize = 500;
 
 impl History {
-    /// Remembers `before`, the document that is about to change. Changes of one gesture are one step.
+    /// Adds `before`, the document before a change, as a step. Changes of one gesture are one step.
     pub fn step(&mut self, before: &Document, gesture: Option<Gesture>) {
         self.future.clear();
         if gesture.is_some() && self.open == gesture {
@@ -43,12 +43,12 @@ impl History {
         self.past.push(before.clone());
     }
 
-    /// What follows is a step of its own.
+    /// Ends the gesture: the next change is a step of its own.
     pub fn end_gesture(&mut self) {
         self.open = None;
     }
 
-    /// The document before the last step.
+    /// Undoes the last step: returns the document before it, and keeps the present one for redo.
     pub fn undo(&mut self, now: &Document) -> Option<Document> {
         self.open = None;
         let earlier = self.past.pop()?;
@@ -56,7 +56,7 @@ impl History {
         Some(earlier)
     }
 
-    /// The document that was undone last.
+    /// Redoes the last undone step: returns its document, and keeps the present one for undo.
     pub fn redo(&mut self, now: &Document) -> Option<Document> {
         self.open = None;
         let later = self.future.pop()?;
@@ -74,7 +74,7 @@ impl History {
         !self.future.is_empty()
     }
 
-    /// Forgets masks and selections of another picture: a document of another size cannot come back.
+    /// Removes all steps, because their masks and selections belong to another photograph.
     pub fn forget(&mut self) {
         *self = Self::default();
     }

@@ -1,4 +1,4 @@
-//! What is remembered from one session to the next.
+//! Settings that are kept from one session to the next.
 
 use super::{State, ViewSettings};
 use crate::export::write_file;
@@ -10,14 +10,14 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
-    /// Theme, layout and views; what belongs to one picture is left out.
+    /// Theme, layout and views, without what belongs to one photograph.
     pub view: ViewSettings,
     /// Photographs opened before, newest first.
     pub recent: Vec<PathBuf>,
 }
 
 impl Settings {
-    /// What is worth remembering of a state.
+    /// The settings of a state.
     pub fn of(state: &State) -> Self {
         let mut view = state.view.clone();
         (view.image.center_px, view.image.zoom) = (None, None);
@@ -26,14 +26,14 @@ impl Settings {
         Self { view, recent: state.recent.clone() }
     }
 
-    /// The file in the platform's folder for settings; none where it has no such folder. Only the window keeps settings.
+    /// The file in the platform's folder for settings; none where the platform has no such folder.
     #[cfg(feature = "gui")]
     pub fn path() -> Option<PathBuf> {
         let folders = directories::ProjectDirs::from("", "", "dichroscope")?;
         Some(folders.config_dir().join("settings.json"))
     }
 
-    /// The settings in a file, and a warning where there is one that cannot be used: then they are the usual ones.
+    /// The settings in a file; the default ones, with a warning, where the file cannot be used.
     pub fn load(path: &Path) -> (Self, Option<String>) {
         let unusable = |reason: String| {
             let text = format!("{}: {reason}; the usual settings are in force", path.display());
@@ -49,7 +49,7 @@ impl Settings {
         }
     }
 
-    /// Writes the file, its folder too.
+    /// Writes the file, and makes its folder where there is none.
     ///
     /// # Errors
     /// A sentence that names the file.

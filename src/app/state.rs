@@ -1,4 +1,4 @@
-//! All there is to show.
+//! The state of the application.
 
 use super::{Debugger, Document, History, JobState, ViewSettings, WhatIfJob, Workspace};
 use crate::params::Params;
@@ -7,45 +7,45 @@ use crate::view::{Item, Picture, ResultSnapshot};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// All there is to show. Panels read it; only [`super::reduce()`] changes it.
+/// Everything that the panels show. Panels read it; only the reducers change it.
 #[derive(Clone, Debug, Default)]
 pub struct State {
     /// The open photograph.
     pub picture: Option<Arc<Picture>>,
-    /// Parameters, pins and selection.
+    /// Parameters, area and selection.
     pub document: Document,
-    /// What can be undone.
+    /// The steps that can be undone and redone.
     pub history: History,
     /// The newest result.
     pub newest: Option<Arc<ResultSnapshot>>,
     /// The result that was pinned to be compared with.
     pub pinned: Option<Arc<ResultSnapshot>>,
-    /// What the pointer is over, in any panel.
+    /// The item under the pointer, in any panel.
     pub hover: Option<Item>,
     /// How things are shown.
     pub view: ViewSettings,
     /// The step debugger.
     pub debugger: Debugger,
-    /// The pixel that was clicked last, if nothing else has been selected since: its history is told.
+    /// The pixel that was clicked last, if nothing else has been selected since. The panel "Why" explains it.
     pub(super) asked_pixel: Option<u32>,
-    /// What would change a pixel's fate, as far as that has been asked.
+    /// The what-if job, if one was started for the newest result.
     pub what_if_job: Option<WhatIfJob>,
-    /// What goes on in the background.
+    /// Work in the background.
     pub jobs: JobState,
-    /// What a person should know, oldest first.
+    /// Notices, oldest first.
     pub notices: Vec<Notice>,
     /// Photographs opened before, newest first.
     pub recent: Vec<PathBuf>,
-    /// Number of the newest request.
+    /// Number of the newest analysis request.
     pub generation: u64,
     pub(super) notices_so_far: u64,
     /// The workspace whose photograph is being read.
     pub(super) restoring: Option<Box<Workspace>>,
-    /// What follows when a restored workspace's pinned result has been found anew.
+    /// The rest of a restored workspace, which is applied when its pinned result has been computed.
     pub(super) after_pin: Option<AfterPin>,
 }
 
-/// What a restored workspace still lacks while its pinned result is found anew.
+/// The part of a restored workspace that is applied after its pinned result has been computed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AfterPin {
     pub(super) params: Params,
@@ -54,7 +54,7 @@ pub(super) struct AfterPin {
 }
 
 impl State {
-    /// The result that the panels show: the newest, or the pinned one where that is asked for.
+    /// The result that the panels show: the pinned one if it is to be shown, otherwise the newest.
     pub fn shown(&self) -> Option<&Arc<ResultSnapshot>> {
         match &self.pinned {
             Some(pinned) if self.view.show_pinned => Some(pinned),
@@ -62,14 +62,14 @@ impl State {
         }
     }
 
-    /// Whether what is shown was made from the parameters as they are.
+    /// Whether the newest result is complete and belongs to the present parameters.
     pub fn is_current(&self) -> bool {
         self.newest
             .as_ref()
             .is_some_and(|shown| shown.generation == self.generation && shown.stale_from.is_none())
     }
 
-    /// The region that an item is or lies in, in the result shown.
+    /// The region of the result shown that an item is or lies in.
     pub fn region_of(&self, item: Item) -> Option<u16> {
         let shown = self.shown()?;
         let labels = &shown.labels();
@@ -92,7 +92,7 @@ impl State {
         self.picture.as_ref().map(|picture| crate::view::profile_ends(self.view.profile, picture, at))
     }
 
-    /// The pixel that is asked about: the selected one, or the one at which the selected region was clicked.
+    /// The pixel that the panel "Why" explains: the selected one, or the one at which the selected region was clicked.
     pub fn asked_pixel(&self) -> Option<u32> {
         match self.document.selection.item {
             Some(Item::Pixel(pixel)) => Some(pixel),
@@ -100,36 +100,36 @@ impl State {
         }
     }
 
-    /// The cursor, where image, color space and tables show the instant that it stands at, and not the result.
+    /// The debugger's cursor, if image, color space and tables show the instant at the cursor in place of the result.
     pub fn followed(&self) -> Option<&Replay> {
         let replay = self.debugger.stopped().filter(|_| self.view.debug.follow && !self.view.show_pinned)?;
         let (trace, picture) = (replay.trace(), self.picture.as_ref()?);
         (self.newest.is_some() && (trace.width(), trace.height()) == picture.size()).then_some(replay)
     }
 
-    /// The region that panels about one region show: the selected item's.
+    /// The region of the selected item, which the panels about one region show.
     pub fn selected_region(&self) -> Option<u16> {
         self.document.selection.item.and_then(|item| self.region_of(item))
     }
 }
 
-/// How grave a notice is.
+/// The kind of a notice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     /// Something was done.
     Done,
-    /// Something to beware of.
+    /// Something may be wrong.
     Warning,
     /// Something failed.
     Error,
 }
 
-/// A sentence that stays until it is dismissed.
+/// A sentence for the person at the screen, shown until it is dismissed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
-    /// To dismiss it by.
+    /// Identifies the notice when it is dismissed.
     pub id: u64,
-    /// How grave it is.
+    /// Its kind.
     pub severity: Severity,
     /// What happened, to what, and what to do.
     pub text: String,

@@ -1,4 +1,4 @@
-//! How the panels show what there is. Part of a workspace, not of the undo history.
+//! Settings of all views. They are part of a workspace, not of the undo history.
 
 use super::DebugSettings;
 use crate::view::{CubeSettings, ImageSettings, PlaneSettings, ProfileLine, Theme};
@@ -10,20 +10,20 @@ use serde::{Deserialize, Serialize};
 pub struct ViewSettings {
     /// The image view.
     pub image: ImageSettings,
-    /// The color space view, but for its camera.
+    /// The color space view without its camera.
     pub cube: CubeSettings,
     /// The plane view.
     pub plane: PlaneSettings,
-    /// Where the profile runs.
+    /// The line of the profile.
     pub profile: ProfileLine,
     /// The step debugger.
     pub debug: DebugSettings,
     /// Whether the pinned result is shown in place of the newest (A/B).
     pub show_pinned: bool,
-    /// Dark or light.
+    /// The theme.
     pub theme: Theme,
-    /// How panels and cameras are arranged, in words that only the window understands; empty: as usual.
+    /// The arrangement of the panels, in the window's own format; empty: the first arrangement.
     pub layout: String,
-    /// The color space view's camera, as the window writes it; empty: the usual one.
+    /// The camera of the color space view, in the window's own format; empty: the initial camera.
     pub camera: String,
 }

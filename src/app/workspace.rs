@@ -1,4 +1,4 @@
-//! A workspace: the photograph, how it is analyzed and shown, and what is selected, as a file to come back to.
+//! Workspace files: the place of a photograph, the parameters of its analysis, the selection and the views, as JSON.
 
 use super::{State, ViewSettings};
 use crate::params::Params;
@@ -7,7 +7,7 @@ use crate::view::{Item, MaskRuns, Origin};
 use serde::{Deserialize, Serialize};
 use std::path::{Component, Path, PathBuf};
 
-/// Version of the file; it rises when a field changes its name or its meaning.
+/// Version of the format; it rises when a field changes its name or its meaning.
 const SCHEMA: u32 = 1;
 
 /// What a workspace file holds, as JSON.
@@ -18,12 +18,12 @@ pub struct Workspace {
     program: String,
     /// The photograph; in the file, a path is relative to the file's folder where it can be.
     pub origin: Origin,
-    /// What the photograph's values mean, as `--encoding` takes it.
+    /// The encoding of the photograph's values, in the words of `--encoding`.
     pub encoding: String,
     /// Counts of full scale, where it is not 255.
     #[serde(default)]
     pub full_scale: Option<f64>,
-    /// What is asked of the analysis, a given illuminant included.
+    /// The parameters of the analysis, with a given illuminant.
     pub params: Params,
     /// The parameters of the pinned result.
     #[serde(default)]
@@ -42,7 +42,7 @@ pub struct Workspace {
     pub view: ViewSettings,
 }
 
-/// The fields by which a workspace is known, whatever else its schema holds.
+/// The fields that identify a workspace, in every version of the format.
 #[derive(Deserialize)]
 struct Stamp {
     schema: u32,
@@ -51,7 +51,7 @@ struct Stamp {
 }
 
 impl Workspace {
-    /// The workspace as it is.
+    /// The workspace of a state.
     ///
     /// # Errors
     /// A sentence, where no photograph is open or the open one is in no file that could be opened again.
@@ -83,7 +83,7 @@ impl Workspace {
     /// How the photograph is to be read.
     ///
     /// # Errors
-    /// A sentence, where the encoding is none.
+    /// A sentence, where the encoding is unknown.
     pub fn reading(&self) -> Result<ReadOptions, String> {
         let encoding: EncodingChoice = self.encoding.parse().map_err(|error| format!("{error}"))?;
         Ok(ReadOptions { encoding, full_scale: self.full_scale, ..ReadOptions::default() })
@@ -103,7 +103,7 @@ impl Workspace {
             .map_err(|error| format!("{}: cannot be written: {error}", path.display()))
     }
 
-    /// Reads the file at `path`; the photograph's path is then whole.
+    /// Reads the file at `path`, and makes the photograph's path absolute or relative to the working directory.
     ///
     /// # Errors
     /// A sentence that names the file, what is wrong with it and what to do.
@@ -134,14 +134,14 @@ impl Workspace {
                     photo.display()
                 ));
             }
-            // `scenes/../photo.png` is `photo.png` for everybody.
+            // Without `..` components, so that `scenes/../photo.png` becomes `photo.png`.
             workspace.origin = Origin::File(without_detours(&photo));
         }
         Ok(workspace)
     }
 }
 
-/// A path without detours, as whole as it was.
+/// A path without `.` and `..` components; a relative path stays relative.
 fn without_detours(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for component in path.components() {
@@ -156,7 +156,7 @@ fn without_detours(path: &Path) -> PathBuf {
     plain
 }
 
-/// The way to `photo` from the folder of `file`; whole where there is none (another drive).
+/// The path of `photo` relative to the folder of `file`; unchanged where there is none (another drive).
 fn relative_to_file(photo: &Path, file: &Path) -> PathBuf {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let (Ok(whole), Ok(folder)) = (std::path::absolute(photo), std::path::absolute(folder)) else {
@@ -164,7 +164,7 @@ fn relative_to_file(photo: &Path, file: &Path) -> PathBuf {
     };
     let (whole, folder) = (without_detours(&whole), without_detours(&folder));
     let shared = whole.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
-    // Less than a root in common is nothing in common.
+    // Paths that share no root have no relative path.
     if shared == 0 || !whole.components().take(shared).any(|part| part == Component::RootDir) {
         return whole;
     }
@@ -208,7 +208,7 @@ mod tests {
         std::fs::write(&file, text).unwrap();
         assert_eq!(Workspace::load(&file).unwrap(), saved);
 
-        // The whole folder may move.
+        // The folder may be moved as a whole.
         let moved = tempfile::tempdir().unwrap();
         for part in ["photos", "work"] {
             std::fs::rename(root.path().join(part), moved.path().join(part)).unwrap();

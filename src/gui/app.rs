@@ -1,4 +1,4 @@
-//! The application: the app, the panels over it, and what comes in from the keyboard and the desktop.
+//! The window's content: the application, the panels that show it, and input from keyboard and desktop.
 
 use super::dock::{Dock, Pane, Panels};
 use super::files::{Dialogs, is_workspace};
@@ -14,34 +14,34 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The window's content. It needs no window: tests show it in a harness.
 pub struct App {
     application: Application,
-    front: Front,
+    content: WindowContent,
     gpu: Option<egui_wgpu::RenderState>,
-    dressed: Option<Theme>,
-    /// Where the workers ring when they have finished.
-    bell: Arc<Mutex<egui::Context>>,
+    applied_theme: Option<Theme>,
+    /// The context that workers ask for a repaint when they report.
+    repaint: Arc<Mutex<egui::Context>>,
 }
 
-/// What stands before the app: panels and what opens over them.
+/// The panels, and the dialogs that open over them.
 #[derive(Default)]
-struct Front {
+struct WindowContent {
     dock: Dock,
-    /// The arrangement as it was last kept.
+    /// The arrangement as it was last sent to the state.
     layout: String,
-    /// The camera as it was last kept.
+    /// The camera as it was last sent to the state.
     camera: String,
     panels: Panels,
     dialogs: Dialogs,
     view_exporter: ViewExporter,
     help: bool,
     tap: shortcuts::SpaceTap,
-    /// Whether somebody typed in the last frame.
+    /// Whether a text field had the focus in the last frame.
     typing: bool,
-    /// The one panel that is shown, if not all.
+    /// The panel that is shown alone; none: all panels.
     alone: Option<Pane>,
 }
 
 impl App {
-    /// An application in which nothing is open. `gpu` draws the color space; without it that panel says why it is empty.
+    /// An application in which nothing is open. `gpu` draws the color space; without it, that panel shows a sentence instead.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -64,55 +64,55 @@ impl App {
         state: State,
     ) -> std::io::Result<Self> {
         theme::load_fonts(ctx);
-        let bell = Arc::new(Mutex::new(ctx.clone()));
-        let rung = Arc::clone(&bell);
-        let ring = move || rung.lock().unwrap_or_else(PoisonError::into_inner).request_repaint();
-        let application = Application::with_state(executor, state, ring)?;
-        Ok(Self { application, front: Front::default(), gpu, dressed: None, bell })
+        let repaint = Arc::new(Mutex::new(ctx.clone()));
+        let shared = Arc::clone(&repaint);
+        let wake = move || shared.lock().unwrap_or_else(PoisonError::into_inner).request_repaint();
+        let application = Application::with_state(executor, state, wake)?;
+        Ok(Self { application, content: WindowContent::default(), gpu, applied_theme: None, repaint })
     }
 
-    /// Moves to another window, where the graphics device of the first was lost: all stays but what was uploaded.
+    /// Moves to another window after the graphics device was lost: everything stays but what was uploaded to the device.
     pub fn move_to(&mut self, ctx: &egui::Context, gpu: Option<egui_wgpu::RenderState>) {
         theme::load_fonts(ctx);
-        *self.bell.lock().unwrap_or_else(PoisonError::into_inner) = ctx.clone();
-        let cube = self.front.panels.cube.clone_view();
-        self.front.panels = Panels { cube, ..Panels::default() };
-        (self.gpu, self.dressed) = (gpu, None);
+        *self.repaint.lock().unwrap_or_else(PoisonError::into_inner) = ctx.clone();
+        let cube = self.content.panels.cube.clone_view();
+        self.content.panels = Panels { cube, ..Panels::default() };
+        (self.gpu, self.applied_theme) = (gpu, None);
     }
 
-    /// Puts back what was remembered from another session.
+    /// Restores the settings of an earlier session.
     pub fn remember(&mut self, settings: Settings) {
         self.application.remember(settings.view, settings.recent);
     }
 
-    /// Applies a command, as a panel would.
+    /// Applies a command, as if a panel had sent it.
     pub fn apply(&mut self, command: impl Into<Command>) {
         self.application.apply(command);
     }
 
     /// Shows one panel alone, without menu and docking, or all of them again.
     pub fn show_alone(&mut self, pane: Option<Pane>) {
-        self.front.alone = pane;
+        self.content.alone = pane;
     }
 
-    /// All that is shown.
+    /// The state.
     pub fn state(&self) -> &State {
         self.application.state()
     }
 
-    /// What the panels keep.
+    /// The panels.
     pub(super) fn panels(&self) -> &Panels {
-        &self.front.panels
+        &self.content.panels
     }
 
-    /// Shows everything, and obeys.
+    /// Shows everything, and applies the commands of the panels.
     pub fn show(&mut self, ui: &mut Ui) {
         self.application.poll();
         self.play(ui);
         let theme = self.application.state().view.theme;
-        if self.dressed != Some(theme) {
+        if self.applied_theme != Some(theme) {
             theme::apply(ui.ctx(), theme);
-            self.dressed = Some(theme);
+            self.applied_theme = Some(theme);
         }
         let tones = Tones::of(theme);
         let mut out = Vec::new();
@@ -123,11 +123,11 @@ impl App {
             bare: false,
             out: &mut out,
         };
-        self.front.show(ui, &mut cx);
-        self.front.keep_layout(&mut cx);
-        self.front.keep_camera(&mut cx);
+        self.content.show(ui, &mut cx);
+        self.content.keep_layout(&mut cx);
+        self.content.keep_camera(&mut cx);
         if !out.is_empty() {
-            // What a command changes is seen at once, not when the pointer next moves.
+            // Otherwise the change would appear only when the pointer next moves.
             ui.ctx().request_repaint();
         }
         for command in out {
@@ -136,7 +136,7 @@ impl App {
         title(ui, self.application.state());
     }
 
-    /// Playing goes on with the time that has passed; nothing else moves by itself.
+    /// Advances playing by the time since the last frame.
     fn play(&mut self, ui: &Ui) {
         if self.application.state().debugger.playing.is_some() {
             let seconds = f64::from(ui.input(|input| input.stable_dt));
@@ -146,8 +146,9 @@ impl App {
     }
 }
 
-impl Front {
-    /// The panels' arrangement follows the view's, where a workspace brings another, and is kept there.
+impl WindowContent {
+    /// Takes the arrangement of the state where that has changed (a workspace was opened); otherwise sends the panels'
+    /// arrangement to the state.
     fn keep_layout(&mut self, cx: &mut PanelContext) {
         let wanted = &cx.state.view.layout;
         if *wanted != self.layout {
@@ -164,7 +165,7 @@ impl Front {
         }
     }
 
-    /// The cube's camera likewise.
+    /// Does the same for the camera of the color space view.
     fn keep_camera(&mut self, cx: &mut PanelContext) {
         let wanted = &cx.state.view.camera;
         if *wanted != self.camera {
@@ -182,17 +183,17 @@ impl Front {
     }
 
     fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
-        come_in(ui, cx);
+        open_dropped_and_pasted(ui, cx);
         self.dialogs.close_on_escape(ui.ctx());
         self.panels.image.take_escape(ui.ctx());
         self.panels.cube.take_escape(ui.ctx());
-        // egui takes the focus from what is typed in when Escape comes: the frame before tells who had it.
+        // egui removes the focus from a text field on Escape, so the focus of the last frame decides.
         let typed = std::mem::replace(&mut self.typing, false);
         let escape_is_meant = !typed && !egui::Popup::is_any_open(ui.ctx());
         let listeners =
             shortcuts::Listeners::of(cx.state, self.panels.colors.take(), timeline_panel::track_id());
         for action in shortcuts::pressed(ui.ctx(), escape_is_meant, listeners, &mut self.tap) {
-            // A window that opens is measured unseen in its first frame.
+            // A dialog that opens is laid out invisibly in its first frame.
             ui.ctx().request_repaint();
             perform::carry_out(action, cx, &mut self.dialogs, &mut self.help);
         }
@@ -225,8 +226,8 @@ impl eframe::App for App {
     }
 }
 
-/// Files dropped on the window, and what is pasted.
-fn come_in(ui: &Ui, cx: &mut PanelContext) {
+/// Opens files that were dropped on the window, and pasted paths and pictures.
+fn open_dropped_and_pasted(ui: &Ui, cx: &mut PanelContext) {
     let typing = ui.ctx().text_edit_focused();
     let (dropped, pasted) = ui.input(|input| {
         let pastes = |event: &&Event| matches!(event, Event::Paste(_) | Event::PasteImage(_));
@@ -234,7 +235,7 @@ fn come_in(ui: &Ui, cx: &mut PanelContext) {
             if typing { Vec::new() } else { input.events.iter().filter(pastes).cloned().collect() };
         (input.raw.dropped_files.clone(), pasted)
     });
-    // The last of several files wins: one photograph is open at a time.
+    // Of several files the last one is opened: one photograph is open at a time.
     if let Some(file) = dropped.last() {
         let path = file.path().to_path_buf();
         if path.is_file() || path.parent().is_some_and(|parent| !parent.as_os_str().is_empty()) {

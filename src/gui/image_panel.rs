@@ -1,4 +1,4 @@
-//! The photograph and the layers over it: seen from any distance, pointed at, marked and measured.
+//! The image view: the photograph and its layers, with zooming, hovering, marking and measuring.
 
 mod cursor;
 mod geometry;
@@ -27,7 +27,7 @@ use tools::{PointerContext, ToolState};
 
 /// Half the width of the wipe's handle, points.
 const HANDLE_PT: f32 = 6.0;
-/// What an arrow key moves the picture by, points.
+/// Distance that an arrow key moves the picture, points.
 const STEP_PT: f32 = 40.0;
 
 /// The panel: what it has uploaded, and the gesture in progress.
@@ -36,9 +36,9 @@ pub struct ImagePanel {
     textures: TextureCache,
     instant_cache: InstantCache,
     hand: ToolState,
-    /// The pixel that this panel last said the pointer is over.
+    /// The pixel under the pointer that this panel sent last.
     pointed: Option<u32>,
-    /// The layer of the last frame, where the cursor was followed instead of it.
+    /// The layer of the last frame, if the instant at the cursor was shown in its place.
     unseen: Option<Layer>,
     /// The zoom of the last frame, screen points a pixel.
     zoom: f32,
@@ -47,14 +47,14 @@ pub struct ImagePanel {
 }
 
 impl ImagePanel {
-    /// Escape gives up what is being drawn, before it is taken to unselect anything.
+    /// Cancels the gesture in progress on Escape, before Escape clears the selection.
     pub fn take_escape(&mut self, ctx: &egui::Context) {
         if self.hand.is_busy() && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
             self.hand.give_up();
         }
     }
 
-    /// Shows it.
+    /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let Some(picture) = &cx.state.picture else {
             nothing_open(ui, cx);
@@ -67,13 +67,13 @@ impl ImagePanel {
         let unseen = state.followed().map(|_| settings.layer);
         let before_key = std::mem::replace(&mut self.unseen, unseen);
         if before_key.zip(unseen).is_some_and(|(before, now)| before != now) {
-            // A key or the menu asks for a layer of the result.
+            // A key or the menu has chosen a layer of the result.
             debug.follow = false;
         }
         let bar = Frame::new().fill(tones.panel);
         let top = Panel::top("image toolbar").frame(bar.inner_margin(Margin::symmetric(6, 3)));
         let top = top.show(ui, |ui| toolbar::row(ui, state, tones, &mut settings, &mut debug, self.zoom));
-        // A row that wraps is as high as it needs to be from the next frame on.
+        // The height of a row that wraps is known from the next frame on.
         let height = top.response.rect.height();
         if (height - std::mem::replace(&mut self.bar_pt, height)).abs() > 0.5 {
             ui.ctx().request_repaint();
@@ -96,7 +96,7 @@ impl ImagePanel {
         cursor::send(cx, debug);
     }
 
-    /// One view, or two of them.
+    /// Shows one or two views.
     fn views(&mut self, ui: &mut Ui, cx: &mut PanelContext, settings: &mut ImageSettings, size: Vec2) {
         let full = ui.available_rect_before_wrap();
         if full.width() < 8.0 || full.height() < 8.0 {
@@ -117,7 +117,7 @@ impl ImagePanel {
         self.tell(cx, pointed);
     }
 
-    /// One view; the pixel that the pointer is over in it.
+    /// Shows one view. Returns the pixel under the pointer in it.
     fn view(
         &mut self,
         ui: &mut Ui,
@@ -235,7 +235,7 @@ impl ImagePanel {
         cursor::spot(painter, &spot.place, instant);
     }
 
-    /// Tells what the pointer is over, when that has changed.
+    /// Sends the pixel under the pointer, when it has changed.
     fn tell(&mut self, cx: &mut PanelContext, pixel: Option<u32>) {
         let item = pixel.map(Item::Pixel);
         let told = self.pointed.is_some() || pixel.is_some();
@@ -283,7 +283,7 @@ fn words(
     overlay::warnings(painter, cx.tones, view.translate(below), cx.state);
 }
 
-/// Scroll, pinch and keys.
+/// Zooms and pans by scrolling, pinching and keys.
 fn travel(ui: &Ui, response: &Response, place: &Placement, settings: &mut ImageSettings) {
     let pointer = response.hover_pos().filter(|_| response.contains_pointer());
     if response.clicked() || response.drag_started() {

@@ -1,4 +1,4 @@
-//! The menu bar: every deed by name, and the status line.
+//! The menu bar: every action by its name, and the status line.
 
 use super::action::{Action, DebugAction};
 use super::dock::{Dock, Pane};
@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock, dialogs: &mut D
     });
 }
 
-/// A row with its keys. Whether it was chosen.
+/// Shows a row with its keys. Returns whether it was chosen.
 fn item(ui: &mut Ui, text: &str, action: Action, enabled: bool) -> bool {
     let keys = keys_of(ui.ctx(), action);
     ui.add_enabled(enabled, Button::new(text).shortcut_text(keys)).clicked()
@@ -80,7 +80,7 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
     }
 }
 
-/// What the file's values mean, where the file does not say or says wrong.
+/// The menu of the encodings, for files that do not declare theirs or declare it wrongly.
 fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
     let now = cx.state.picture.as_ref().map_or_else(ReadOptions::default, |picture| picture.reading);
     for (choice, name, tip) in [
@@ -104,7 +104,7 @@ fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
         let tip = "Counts that an integer's maximum or a float's 1.0 stands for; 255 unless the file has head-room.";
         ui.label("full scale").on_hover_text(tip);
         let mut counts = now.full_scale.unwrap_or(FULL_SCALE_COUNTS);
-        // Typed, not dragged: each value reads the file anew.
+        // The value is typed and not dragged, because each value reads the file again.
         let field = egui::DragValue::new(&mut counts).range(1.0..=1e6).speed(0.0).update_while_editing(false);
         let field = ui.add(field.suffix(" counts")).on_hover_text(tip);
         field.widget_info(|| {
@@ -160,7 +160,7 @@ fn view(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock) {
     }
 }
 
-/// What moves the cursor in the recorded decisions, and what stops it.
+/// The menu that moves the debugger's cursor.
 fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
     use crate::app::Direction::{Back, Forward};
     let (traced, playing) = (cx.state.debugger.replay.is_some(), cx.state.debugger.playing);
@@ -195,7 +195,7 @@ fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
     row(ui, "Change before, of what is selected", DebugAction::Change(Back), goal);
 }
 
-/// Its first letter large.
+/// A word with a capital first letter.
 fn in_capitals(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

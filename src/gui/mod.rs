@@ -1,7 +1,7 @@
 //! The window: one file per panel, all of them over one [`crate::app::State`].
 //!
-//! A panel reads the state through a [`PanelContext`] and leaves commands there; it keeps nothing but what it has uploaded and the
-//! gesture that the pointer is in the middle of.
+//! A panel reads the state from a [`PanelContext`] and sends commands to it. It keeps only what it has uploaded to the graphics
+//! device, and the gesture in progress.
 
 mod action;
 mod app;

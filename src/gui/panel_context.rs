@@ -1,24 +1,24 @@
-//! What a panel may see, and where it leaves its commands.
+//! The context of a panel: the state that it shows, and the commands that it sends.
 
 use super::theme::Tones;
 use crate::app::{Command, State};
 
-/// Handed to every panel, every frame.
+/// The argument of every panel, made anew in every frame.
 pub struct PanelContext<'a> {
-    /// All there is to show.
+    /// The state to show.
     pub state: &'a State,
     /// The colors of the theme.
     pub tones: &'a Tones,
     /// The graphics device, where there is one.
     pub gpu: Option<&'a egui_wgpu::RenderState>,
-    /// Whether a view is to be drawn without its toolbar: it is a picture, not an instrument.
+    /// Whether views are drawn without their toolbars, because they are exported as pictures.
     pub bare: bool,
-    /// What the panel asks for.
+    /// The commands that panels have sent in this frame.
     pub out: &'a mut Vec<Command>,
 }
 
 impl PanelContext<'_> {
-    /// Leaves a command.
+    /// Sends a command, which is applied after the frame.
     pub fn send(&mut self, command: impl Into<Command>) {
         self.out.push(command.into());
     }

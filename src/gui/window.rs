@@ -24,9 +24,9 @@ pub struct WindowError(String);
 /// When there is no display or no graphics adapter.
 pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
     let mut origin = Some(photograph.map_or_else(|| Origin::Sample(sample::NAME.to_owned()), Origin::File));
-    let passage: Passage = Arc::default();
+    let handover: Handover = Arc::default();
     loop {
-        let (origin, arrived) = (origin.take(), Arc::clone(&passage));
+        let (origin, arrived) = (origin.take(), Arc::clone(&handover));
         let create = move |cc: &eframe::CreationContext<'_>| {
             let app = lock(&arrived).take();
             let app = match (app, origin) {
@@ -38,10 +38,10 @@ pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
             };
             let lost =
                 cc.wgpu_render_state.as_ref().map_or_else(Arc::default, |gpu| watch(gpu, &cc.egui_ctx));
-            Ok(Box::new(Tenant { app: Some(app), lost, passage: arrived }) as Box<dyn eframe::App>)
+            Ok(Box::new(WindowApp { app: Some(app), lost, handover: arrived }) as Box<dyn eframe::App>)
         };
         let ended = eframe::run_native("dichroscope", options(), Box::new(create));
-        if lock(&passage).is_none() {
+        if lock(&handover).is_none() {
             return ended.map_err(|error| WindowError(reason(&error.to_string()).to_owned()));
         }
     }
@@ -50,8 +50,8 @@ pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
 /// Holds the application after a window with a lost device has closed, until the next window opens.
 type Passage = Arc<Mutex<Option<App>>>;
 
-fn lock(passage: &Passage) -> std::sync::MutexGuard<'_, Option<App>> {
-    passage.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock(handover: &Handover) -> std::sync::MutexGuard<'_, Option<App>> {
+    handover.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn options() -> eframe::NativeOptions {
@@ -110,10 +110,10 @@ fn watch(gpu: &RenderState, ctx: &egui::Context) -> Arc<AtomicBool> {
 struct Tenant {
     app: Option<App>,
     lost: Arc<AtomicBool>,
-    passage: Passage,
+    handover: Handover,
 }
 
-impl eframe::App for Tenant {
+impl eframe::App for WindowApp {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         if let Some(gpu) = frame.wgpu_render_state() {
             // The callback of a lost device is called only while the device is polled.
@@ -130,7 +130,7 @@ impl eframe::App for Tenant {
     fn on_exit(&mut self) {
         let Some(app) = self.app.take() else { return };
         if self.lost.load(Ordering::Relaxed) {
-            *lock(&self.passage) = Some(app);
+            *lock(&self.handover) = Some(app);
         } else if let Some(path) = Settings::path()
             && let Err(reason) = Settings::of(app.state()).save(&path)
         {

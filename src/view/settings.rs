@@ -1,9 +1,9 @@
-//! How the panels show what there is. Part of a workspace, not of the undo history.
+//! Settings of the views. They are part of a workspace, not of the undo history.
 
 use super::Layer;
 use serde::{Deserialize, Serialize};
 
-/// Dark or light.
+/// The theme of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Theme {
     /// Light on dark.
@@ -67,18 +67,18 @@ pub struct ImageSettings {
     pub arrangement: Arrangement,
     /// How areas are drawn.
     pub fill: Fill,
-    /// Of areas over the photograph, 0…1.
+    /// Opacity of areas over the photograph, 0…1.
     pub opacity: f32,
-    /// For display only, stops.
+    /// Exposure of the display, stops.
     pub exposure_ev: f32,
-    /// For display only, on top of sRGB's own curve: above 1 the middle tones are brighter, 1 = none.
+    /// Gamma of the display, applied after sRGB's own curve: above 1 the middle tones are brighter, 1 = none.
     pub gamma: f32,
-    /// Point of the picture in the middle of the view, pixels; none: the picture's middle.
+    /// The point of the picture in the center of the view, pixels; none: the picture's center.
     #[serde(alias = "centre_px")]
     pub center_px: Option<[f32; 2]>,
     /// Screen points per pixel; none: the whole picture fits.
     pub zoom: Option<f32>,
-    /// What a drag does.
+    /// The tool of the pointer.
     pub tool: Tool,
     /// Radius of the brush, pixels of the picture.
     pub brush_px: f32,
@@ -118,35 +118,35 @@ pub enum ColorSpace {
     LogRgb,
 }
 
-/// What gives the points their color.
+/// The source of the points' colors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum ColorBy {
-    /// The color that they stand for.
+    /// The color that the point stands for.
     #[default]
     Own,
-    /// The region that most of their pixels are in.
+    /// The region of most of the point's pixels.
     Region,
-    /// The class of most of their pixels' windows.
+    /// The class of the windows of most of the point's pixels.
     Class,
-    /// How many pixels they stand for.
+    /// The number of the point's pixels.
     Density,
 }
 
-/// The color space view, but for its camera, which the view keeps.
+/// The color space view without its camera.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 #[allow(clippy::struct_excessive_bools, reason = "each shows or hides one thing")]
 pub struct CubeSettings {
-    /// Where points are placed.
+    /// The space.
     pub space: ColorSpace,
-    /// What colors them.
+    /// The source of the points' colors.
     #[serde(alias = "colour_by")]
     pub color_by: ColorBy,
     /// Whether points grow with the number of their pixels.
     pub size_by_count: bool,
-    /// Every unique color instead of 64³ bins, when the camera rests.
+    /// Show every unique color instead of 64³ bins while the camera is at rest.
     pub full_detail: bool,
-    /// Dim what is not selected; otherwise everything is shown alike.
+    /// Dim the points that are not selected.
     pub ghost_rest: bool,
     /// The selected region's cylinder and the dark sphere.
     pub show_cylinder: bool,
@@ -158,7 +158,7 @@ pub struct CubeSettings {
     pub show_illuminant: bool,
     /// The covariance ellipsoid of the hovered or selected window.
     pub show_ellipsoid: bool,
-    /// What a drag does.
+    /// The tool of the pointer.
     pub tool: Tool,
     /// Keep the camera when the selection changes.
     pub locked: bool,

@@ -1,15 +1,15 @@
-//! The corresponding place in another trace: where a cursor goes when a parameter moves.
+//! The corresponding place in another trace, to which the cursor moves when a parameter has changed.
 
 use crate::raster::LabelMap;
 use crate::trace::{Block, Event, Kind, Replay, Stage, Topic, Trace};
 use crate::view::RegionNames;
 use std::mem::discriminant;
 
-/// Where a cursor stood, in terms that mean something in another trace too.
+/// A cursor's place in terms that have a meaning in another trace.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Anchor {
     stage: Stage,
-    /// Place within the stage, 0…1: the last resort.
+    /// Place within the stage, 0…1; used where nothing else corresponds.
     share: f64,
     block: Option<BlockAnchor>,
 }
@@ -17,20 +17,20 @@ pub struct Anchor {
 #[derive(Clone, Debug, PartialEq)]
 struct BlockAnchor {
     topic: Topic,
-    /// What the region became; 0: nothing.
+    /// Final number of the region; 0: it became none.
     final_number: u16,
-    /// The area that it started from.
+    /// The area that the hypothesis started from.
     area: Option<u32>,
-    /// How many blocks about the same had come before.
+    /// Number of earlier blocks about the same region.
     turn: usize,
     /// Place within the block, 0…1.
     share: f64,
-    /// The decision on which the cursor stood: its kind, and how many of them came before in the block.
+    /// The decision at the cursor: its kind, and the number of that kind earlier in the block.
     decision: Option<(Kind, usize)>,
 }
 
 impl Anchor {
-    /// Where a cursor stands.
+    /// The anchor of a cursor.
     pub fn of(replay: &Replay, names: &RegionNames) -> Option<Self> {
         let (trace, last) = (replay.trace(), replay.at().checked_sub(1)?);
         let stage = trace.stage_at(last)?;
@@ -70,7 +70,7 @@ impl BlockAnchor {
         };
         let best_overlap =
             best_overlaps.get(usize::from(self.final_number)).copied().filter(|_| self.final_number != 0);
-        // The hypothesis from the same area, if it became the same object; else any that did.
+        // The hypothesis from the same area, if it became the same region; otherwise any that did.
         let from_area = self.area.and_then(|area| born_of(trace, area));
         let from_area = from_area.filter(|&region| {
             best_overlap.is_none_or(|best_overlap| names.final_number(region) == best_overlap)

@@ -1,4 +1,4 @@
-//! What stops the cursor.
+//! Breakpoints: conditions that stop the cursor.
 
 use super::Direction;
 use crate::trace::{
@@ -9,16 +9,16 @@ use serde::{Deserialize, Serialize};
 /// A condition that may be switched off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Breakpoint {
-    /// Whether it stops anything.
+    /// Whether the breakpoint is on.
     pub enabled: bool,
-    /// When.
+    /// The condition.
     pub condition: Condition,
 }
 
-/// When to stop.
+/// The condition of a breakpoint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Condition {
-    /// A pixel changes hands.
+    /// A pixel gets another region.
     PixelChangesOwner(u32),
     /// A region, by its number of birth, or any, grows beyond so many pixels.
     RegionExceeds {
@@ -40,7 +40,7 @@ pub enum Condition {
 /// A test of a highlight candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CandidateCheck {
-    /// Any of them.
+    /// Any test.
     Any,
     /// The lines meet.
     LinesMeet,
@@ -53,10 +53,10 @@ pub enum CandidateCheck {
 }
 
 impl CandidateCheck {
-    /// All of them.
+    /// All tests.
     pub const ALL: [Self; 5] = [Self::Any, Self::LinesMeet, Self::UpperHalf, Self::Positive, Self::Beyond];
 
-    /// Its name in lists.
+    /// The test's name in lists.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Any => "any test",
@@ -129,7 +129,7 @@ pub fn hit(replay: &Replay, goal: usize, breakpoints: &[Breakpoint]) -> Option<(
             stops(&step, &sizes).map(|index| (n + 1, index))
         })
     } else {
-        // The step taken last is where the cursor stands, not on its way.
+        // The step taken last is excluded: the cursor stands there already.
         trace.steps_in(goal..at).rev().find_map(|(n, step)| {
             let stop = (n + 1 < at).then(|| stops(&step, &sizes)).flatten();
             sizes.take(&step, Direction::Back);
@@ -139,7 +139,7 @@ pub fn hit(replay: &Replay, goal: usize, breakpoints: &[Breakpoint]) -> Option<(
 }
 
 impl Condition {
-    /// Whether it holds right after a step, when regions have `size` pixels.
+    /// Whether the condition holds right after a step, at which regions have `size` pixels.
     fn holds(self, step: &Step, size: impl Fn(u16) -> i64) -> bool {
         match (self, step) {
             (Self::PixelChangesOwner(wanted), Step::Claim { pixel, .. }) => *pixel == wanted,
@@ -177,7 +177,7 @@ fn rejects(event: &Event) -> bool {
     }
 }
 
-/// Sizes of regions on the way, without moving the cursor.
+/// Sizes of regions at later steps, computed without moving the cursor.
 struct Sizes<'a> {
     replay: &'a Replay,
     gained: Vec<i64>,

@@ -1,9 +1,9 @@
-//! Where the cursor goes.
+//! Targets of the cursor's moves.
 
 use crate::trace::{Event, Kind, Stage, Step, Trace, WindowClassified, region_id};
 use serde::{Deserialize, Serialize};
 
-/// Forward or back.
+/// A direction in the trace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
     /// Towards the result.
@@ -12,7 +12,7 @@ pub enum Direction {
     Back,
 }
 
-/// What a step of the cursor is.
+/// The unit of a move of the cursor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Grain {
     /// A single step: a pixel's claim, a window's class.
@@ -31,11 +31,11 @@ pub enum Grain {
 }
 
 impl Grain {
-    /// All of them, finest first.
+    /// All units, finest first.
     pub const ALL: [Self; 6] =
         [Self::Claim, Self::Event, Self::Ring, Self::Hypothesis, Self::Pass, Self::Stage];
 
-    /// Its name in menus.
+    /// The unit's name in menus.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Claim => "claim",
@@ -48,7 +48,7 @@ impl Grain {
     }
 }
 
-/// Something to run to.
+/// A goal to run to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Goal {
     /// A step of this kind.
@@ -63,7 +63,7 @@ pub enum Goal {
     Place(usize),
 }
 
-/// Where a step of this grain leads from `at`; rings are the caller's.
+/// The place after one unit from `at`. Rings are resolved by the caller.
 pub fn stepped(trace: &Trace, at: usize, grain: Grain, direction: Direction) -> usize {
     let len = trace.len();
     match (grain, direction) {
@@ -112,7 +112,7 @@ fn next_event(trace: &Trace, at: usize, direction: Direction) -> usize {
     })
 }
 
-/// After the first of these steps for which `test` holds.
+/// The place after the first of these steps for which `test` holds.
 fn first<'a>(
     mut steps: impl Iterator<Item = (usize, Step<'a>)>,
     test: impl Fn(usize, &Step) -> bool,
@@ -120,7 +120,8 @@ fn first<'a>(
     steps.find(|(n, step)| test(*n, step)).map(|(n, _)| n + 1)
 }
 
-/// After the next step that a goal means, or the last one before; none where there is none. Breakpoints are not its matter.
+/// The place after the next step that fits a goal, or the last one before; none where no step fits. Breakpoints are resolved by
+/// the caller.
 pub fn found(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Option<usize> {
     let windows = match goal {
         Goal::Pixel(pixel) => concerning(trace, pixel),

@@ -1,5 +1,4 @@
-//! The step debugger without a screen: a cursor in the trace of the newest result, how it moves, what stops it, and what
-//! there is to see where it stands.
+//! The step debugger without a screen: a cursor in the trace of the newest result, its moves, and the breakpoints.
 
 mod anchor;
 mod breakpoint;
@@ -21,37 +20,37 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The debugger, as long as it is open.
+/// The state of the debugger while it is open.
 #[derive(Clone, Debug, Default)]
 pub struct Debugger {
-    /// The cursor; none until the trace is there.
+    /// The cursor; none until the trace has been recorded.
     pub replay: Option<Replay>,
-    /// What the regions of the trace are called and colored.
+    /// Names and colors of the trace's regions.
     pub names: Arc<RegionNames>,
     /// Number of the result whose trace it is.
     pub generation: u64,
     /// The region that was chosen in a table, by its number of birth.
     pub chosen: Option<u16>,
-    /// Which way it plays; none: it rests.
+    /// The direction in which the cursor plays; none: it does not play.
     pub playing: Option<Direction>,
-    /// What stopped it last: the breakpoint's index in [`DebugSettings::breakpoints`].
+    /// The breakpoint that stopped the cursor last: its index in [`DebugSettings::breakpoints`].
     pub stopped_by: Option<usize>,
-    /// The first step at which the trace differs from the pinned result's, where that was asked for.
+    /// The first step at which the trace differs from the pinned result's, if that was asked for.
     pub difference: Option<Difference>,
     /// The regions of the result whose trace it is.
     pub(super) finals: Option<Arc<FinalRegions>>,
-    /// Playing ends here.
+    /// The step at which playing ends.
     pub(super) until: Option<usize>,
-    /// Units that are due but not whole yet.
+    /// Fraction of a unit that playing has accumulated.
     pub(super) due: f64,
-    /// Ends of the rings of one block, as they were last needed.
+    /// The steps of one block, and the ends of its rings: a cache.
     pub(super) rings: Option<(Range<usize>, Arc<[usize]>)>,
 }
 
-/// Where two traces part.
+/// The first difference between two traces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Difference {
-    /// They do not.
+    /// The traces are the same.
     None,
     /// At this step.
     At(usize),
@@ -60,17 +59,17 @@ pub enum Difference {
 }
 
 impl Debugger {
-    /// The trace, once it is there.
+    /// The trace, once it has been recorded.
     pub fn trace(&self) -> Option<&Arc<Trace>> {
         self.replay.as_ref().map(Replay::trace)
     }
 
-    /// The cursor, where it stands before the end: then panels show that instant, and not the result.
+    /// The cursor, if it stands before the end of the trace; panels then show that instant in place of the result.
     pub fn stopped(&self) -> Option<&Replay> {
         self.replay.as_ref().filter(|replay| replay.at() < replay.trace().len())
     }
 
-    /// The region that the step taken last is about, by its number of birth; the chosen one where it is about none.
+    /// The region of the step taken last, by its number of birth; the chosen one where that step concerns none.
     pub fn focus(&self) -> Option<u16> {
         let replay = self.replay.as_ref()?;
         let block = replay.at().checked_sub(1).and_then(|last| replay.trace().block_at(last));
@@ -78,21 +77,21 @@ impl Debugger {
     }
 }
 
-/// What of the debugger is remembered.
+/// The settings of the debugger, which are saved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct DebugSettings {
     /// Whether decisions are recorded.
     pub open: bool,
-    /// What stops the cursor.
+    /// The breakpoints.
     pub breakpoints: Vec<Breakpoint>,
-    /// What playing advances by.
+    /// The unit by which playing advances.
     pub grain: Grain,
-    /// How many of these a second.
+    /// Speed of playing, units per second.
     pub per_second: f64,
-    /// Whether playing begins anew at the end.
+    /// Whether playing starts again from the beginning at the end.
     pub looped: bool,
-    /// Whether image and color space follow the cursor.
+    /// Whether image, color space and tables show the instant at the cursor.
     pub follow: bool,
 }
 
@@ -109,25 +108,25 @@ impl Default for DebugSettings {
     }
 }
 
-/// A change of the debugger.
+/// A command of the debugger.
 #[derive(Clone, Debug)]
 pub enum DebugCommand {
-    /// Change what is remembered.
+    /// Set the settings.
     Settings(DebugSettings),
-    /// Go to after this many steps.
+    /// Move the cursor behind this many steps.
     Seek(usize),
-    /// Go one such unit.
+    /// Move by one unit.
     Step(Grain, Direction),
-    /// Go into the next block and play it ring by ring.
+    /// Move into the next block and play it ring by ring.
     Into,
-    /// Go to where this happens next, or happened last; to the end of the trace where it does not.
+    /// Move to the next step that fits a goal; to the end of the trace where none does.
     RunTo(Goal, Direction),
-    /// Play, or rest.
+    /// Play in a direction; none: stop playing.
     Play(Option<Direction>),
-    /// So many seconds have passed.
+    /// Advance playing by this time, seconds.
     Tick(f64),
     /// Choose a region, by its number of birth.
     Choose(Option<u16>),
-    /// Find where the trace parts from the pinned result's, and go there.
+    /// Find the first difference from the pinned result's trace, and move there.
     Compare,
 }

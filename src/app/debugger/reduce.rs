@@ -1,4 +1,4 @@
-//! How the debugger changes.
+//! The reducer of the debugger.
 
 use super::anchor::{Anchor, best_overlaps};
 use super::breakpoint::hit;
@@ -9,7 +9,7 @@ use crate::trace::Replay;
 use crate::view::{RegionNames, rings};
 use std::sync::Arc;
 
-/// Longest time that one tick stands for, seconds: a window that was hidden does not leap.
+/// Upper limit of the time of one tick, seconds: after a window was hidden, the cursor does not leap.
 const LONGEST_TICK: f64 = 0.25;
 
 /// Applies a command to the debugger.
@@ -56,7 +56,7 @@ pub fn reduce(state: &mut State, command: DebugCommand) -> Vec<Effect> {
     Vec::new()
 }
 
-/// The trace of a result has come: the cursor goes to the corresponding place.
+/// Takes the trace of a new result, and moves the cursor to the place that corresponds to its old one.
 pub fn trace_arrived(state: &mut State, generation: u64, mut replay: Replay) {
     let newest = state.newest.as_ref().filter(|shown| shown.generation == generation);
     let Some(newest) = newest.filter(|_| state.view.debug.open) else { return };
@@ -106,7 +106,7 @@ impl Debugger {
         (self.playing, self.until, self.due, self.stopped_by) = (None, None, 0.0, None);
     }
 
-    /// Goes somewhere by hand: playing ends.
+    /// Moves to `n` and ends playing.
     fn go(&mut self, n: usize) {
         self.rest();
         self.seek(n);
@@ -118,7 +118,7 @@ impl Debugger {
         }
     }
 
-    /// Where one unit leads from `at`.
+    /// The place one unit from `at`.
     fn target(&mut self, at: usize, grain: Grain, direction: Direction) -> usize {
         if grain == Grain::Ring {
             return self.ring(at, direction);
@@ -182,7 +182,7 @@ impl Debugger {
         }
     }
 
-    /// Playing from the end begins at the beginning.
+    /// Moves to the opposite end of the trace, if the cursor has reached the end that it plays towards.
     fn rewind_if_over(&mut self, direction: Direction) {
         match direction {
             Direction::Forward if self.at() >= self.len() => self.seek(0),
@@ -212,7 +212,7 @@ impl Debugger {
         }
     }
 
-    /// Plays on to `n`, unless something stops it before.
+    /// Plays to `n`, or to a breakpoint before.
     fn play_to(&mut self, n: usize, direction: Direction, settings: &DebugSettings) {
         let n = self.until.map_or(n, |until| n.min(until));
         let stop = self.replay.as_ref().and_then(|replay| hit(replay, n, &settings.breakpoints));

@@ -32,7 +32,7 @@ pub enum Slot {
     Instant,
 }
 
-/// What is to be painted.
+/// A picture to be painted.
 #[derive(Clone)]
 pub struct PaintRequest {
     picture: Arc<Picture>,
@@ -49,7 +49,7 @@ enum Subject {
 }
 
 impl PaintRequest {
-    /// A layer. What does not change its picture is left out, so that it is not painted anew.
+    /// The request of a layer. Settings that do not change the picture are left out, so that it is not painted anew.
     pub fn layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
         let picture = Arc::clone(state.picture.as_ref()?);
         let mut look = Look::of(settings, state.selected_region().filter(|_| layer.dims_regions()));
@@ -61,12 +61,12 @@ impl PaintRequest {
         Some(Self { picture, shown, pinned, subject: Subject::Layer(layer, look) })
     }
 
-    /// What is marked, selected and pointed at elsewhere; none where nothing of this is larger than a pixel.
+    /// The request of the marks: marked, selected and hovered pixels; none where none of these is larger than a pixel.
     pub fn marks(state: &State) -> Option<Self> {
         let followed = state.followed().is_some();
         let large = |item: &Item| match item {
             Item::Pixel(_) => false,
-            // These are the result's, and the cursor is not there yet.
+            // Regions and windows of the result do not exist yet at the debugger's cursor.
             Item::Region(_) | Item::Window(_) => !followed,
             Item::Bin(_) => true,
         };
@@ -81,7 +81,7 @@ impl PaintRequest {
         Some(Self { picture, shown, pinned: None, subject: Subject::Marks(selection, hover) })
     }
 
-    /// The instant at the cursor.
+    /// The request of the instant at the cursor.
     pub fn instant(state: &State, instant: &Arc<Instant>) -> Option<Self> {
         let picture = Arc::clone(state.picture.as_ref()?);
         let look = Look { exposure_ev: 0.0, gamma: 1.0, ..Look::of(&state.view.image, None) };
@@ -129,7 +129,7 @@ impl PaintRequest {
     }
 }
 
-/// Tells sheets apart without keeping results alive.
+/// The identity of a texture. Weak references do not keep results alive.
 #[derive(Clone)]
 struct Key {
     picture: Weak<Picture>,
@@ -252,7 +252,7 @@ impl TextureCache {
     }
 }
 
-/// A painted picture, smaller copies of it, and textures of what was seen of them.
+/// A painted picture, smaller copies of it, and textures of the parts that were visible.
 pub struct LayerTexture {
     key: Key,
     levels: Vec<Raster<[u8; 4]>>,
@@ -295,7 +295,7 @@ impl LayerTexture {
         }
     }
 
-    /// Draws what is in sight, multiplied by `tint`.
+    /// Draws the visible part, multiplied by `tint`.
     pub fn draw(&mut self, painter: &Painter, place: &Placement, tint: Color32) {
         let mut scale = place.zoom * painter.ctx().pixels_per_point();
         if let SubjectKey::Marks(..) = self.key.subject {

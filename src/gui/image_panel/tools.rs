@@ -1,4 +1,4 @@
-//! What clicks and drags in the picture do.
+//! Clicks and drags in the picture: selecting, marking, the profile's line and the white patch.
 
 use super::geometry::Placement;
 use super::icons::{corners, dashed};
@@ -13,7 +13,7 @@ use egui::{
 };
 use std::sync::Arc;
 
-/// Nearer than this to a handle or a first corner is on it, screen points.
+/// Distance within which the pointer is on a handle or a first corner, screen points.
 const GRASP_PT: f32 = 8.0;
 /// A drag shorter than this is a click, screen points.
 const STILL_PT: f32 = 3.0;
@@ -34,7 +34,7 @@ enum Draft {
     Profile(Pos2),
 }
 
-/// The hand that holds the tool.
+/// The state of the tool.
 #[derive(Default)]
 pub struct ToolState {
     draft: Draft,
@@ -43,7 +43,7 @@ pub struct ToolState {
     at: Pos2,
 }
 
-/// Where something happens.
+/// The view under the pointer.
 pub struct PointerContext<'a> {
     /// The view.
     pub response: &'a Response,
@@ -54,12 +54,12 @@ pub struct PointerContext<'a> {
 }
 
 impl ToolState {
-    /// Gives up what is being drawn.
+    /// Cancels the gesture in progress.
     pub fn give_up(&mut self) {
         self.draft = Draft::None;
     }
 
-    /// Whether something is being drawn.
+    /// Whether a gesture is in progress.
     pub fn is_busy(&self) -> bool {
         self.draft != Draft::None
     }
@@ -161,7 +161,7 @@ impl ToolState {
             Draft::Brush(last) if *last != at => {
                 let mask = brush(size(place), &[(*last).into(), at.into()], radius_px);
                 *last = at;
-                // A stroke that replaces does so with its first touch.
+                // A stroke that replaces the marks does so with its first sample.
                 let combine = if modifiers.alt { Combine::Subtract } else { Combine::Union };
                 cx.send(Edit::Mark(Arc::new(mask), combine, Some(Gesture::Brush)));
             }
@@ -223,7 +223,7 @@ impl ToolState {
         }
     }
 
-    /// Draws what is being drawn, and the brush where it is.
+    /// Draws the gesture in progress, and the brush at the pointer.
     pub fn draw(&self, painter: &Painter, place: &Placement, brush_px: Option<f32>) {
         let to_screen = |points: &[Pos2]| -> Vec<Pos2> {
             points.iter().map(|&point| place.screen_from_image(point)).collect()
@@ -258,7 +258,7 @@ impl ToolState {
     }
 }
 
-/// Selects by a click, and fits by two.
+/// Selects on a click, and fits the picture on a double click.
 fn point(spot: &PointerContext, cx: &mut PanelContext, settings: &mut ImageSettings, modifiers: Modifiers) {
     let response = spot.response;
     if response.double_clicked_by(PointerButton::Primary) {
@@ -273,7 +273,7 @@ fn point(spot: &PointerContext, cx: &mut PanelContext, settings: &mut ImageSetti
     }
 }
 
-/// What a click on a pixel selects.
+/// The item that a click on a pixel selects.
 fn item_at(state: &State, layer: Layer, pixel: u32, the_pixel: bool) -> Option<Item> {
     if the_pixel {
         return Some(Item::Pixel(pixel));
@@ -288,7 +288,7 @@ fn item_at(state: &State, layer: Layer, pixel: u32, the_pixel: bool) -> Option<I
     state.region_of(Item::Pixel(pixel)).map(Item::Region)
 }
 
-/// How new marks join those before.
+/// How new marks combine with those before, by the modifier keys.
 fn combine(modifiers: Modifiers) -> Combine {
     match (modifiers.shift, modifiers.alt) {
         (_, true) => Combine::Subtract,
@@ -301,7 +301,7 @@ fn mark(cx: &mut PanelContext, mask: Mask, modifiers: Modifiers) {
     cx.send(Edit::Mark(Arc::new(mask), combine(modifiers), None));
 }
 
-/// A click that draws nothing takes the marks away.
+/// Clears the marks after a click that draws nothing.
 fn unmark(cx: &mut PanelContext, modifiers: Modifiers) {
     if let Some(marked) = &cx.state.document.selection.marked
         && combine(modifiers) == Combine::Replace
@@ -311,7 +311,7 @@ fn unmark(cx: &mut PanelContext, modifiers: Modifiers) {
     }
 }
 
-/// Pins the light's color to the mean of the pixels that can be believed.
+/// Pins the light's color to the mean of the reliable pixels.
 fn pin(cx: &mut PanelContext, mask: &Mask) {
     let command: Command = match mean_direction(cx.state, mask) {
         Some(direction) => Edit::PinIlluminant(Some(direction), None).into(),
