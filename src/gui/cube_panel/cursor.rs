@@ -32,7 +32,7 @@ const THIN_PT: f32 = 1.0;
 const THICK_PT: f32 = 2.0;
 const MARK_PT: f32 = 4.5;
 
-/// The pixels that the step at the cursor looks at, as points.
+/// The pixels that the step at the cursor considers, as points.
 #[derive(Default)]
 pub struct Track {
     of: Option<(InstantKey, CubeSettings, Theme)>,

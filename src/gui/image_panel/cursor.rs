@@ -1,4 +1,4 @@
-//! The instant at the debugger's cursor, in place of the layer.
+//! The instant at the debugger's cursor, shown in place of the layer.
 
 use super::geometry::Placement;
 use super::icons::{corners, cross};
@@ -12,16 +12,16 @@ use egui::accesskit::Role;
 use egui::{Align2, Button, Color32, Painter, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 use std::sync::Arc;
 
-/// From this zoom on a single pixel is framed, before it is crossed; screen points a pixel.
+/// From this zoom on a single pixel is framed, below it is marked with a cross; screen points per pixel.
 const FRAMED: f32 = 8.0;
 
-/// The instant that is shown, taken out of the cursor once.
+/// The instant that is shown, computed once for each place of the cursor.
 #[derive(Default)]
 pub struct InstantCache {
     shown: Option<(Frame, Arc<Instant>)>,
 }
 
-/// What tells instants apart.
+/// The identity of an instant: number of the result, step, chosen region.
 type Frame = (u64, usize, Option<u16>);
 
 impl InstantCache {
@@ -49,7 +49,7 @@ impl InstantCache {
     }
 }
 
-/// The button that follows the cursor; only there while the cursor stands before the end.
+/// The button "Follow", shown while the cursor stands before the end of the trace.
 pub fn toggle(ui: &mut Ui, state: &State, settings: &mut DebugSettings) {
     if state.debugger.stopped().is_none() {
         return;
@@ -68,7 +68,7 @@ pub fn send(cx: &mut PanelContext, settings: DebugSettings) {
     }
 }
 
-/// The window or pixel that the step taken last is about.
+/// Marks the window or pixel of the step taken last.
 pub fn spot(painter: &Painter, place: &Placement, instant: &Instant) {
     let line = |area: Rect, tone: Color32| {
         painter.add(Shape::line(corners(area).to_vec(), Stroke::new(3.4, Color32::from_black_alpha(150))));
@@ -89,7 +89,7 @@ pub fn spot(painter: &Painter, place: &Placement, instant: &Instant) {
     }
 }
 
-/// Where the cursor stands, in the upper left corner, and what the colors mean, along the lower edge.
+/// Shows the cursor's place in the upper left corner, and the legend along the lower edge.
 pub fn words(ui: &Ui, painter: &Painter, tones: &Tones, view: Rect, state: &State, instant: &Instant) {
     let Some(replay) = state.followed() else { return };
     let text = format!("at step {}: {}", grouped(replay.at()), cursor_place(replay));
@@ -104,7 +104,7 @@ pub fn words(ui: &Ui, painter: &Painter, tones: &Tones, view: Rect, state: &Stat
     chosen(painter, tones, area, state);
 }
 
-/// The region in focus, as a chip beside the place.
+/// Shows the region in focus beside the cursor's place.
 fn chosen(painter: &Painter, tones: &Tones, beside: Rect, state: &State) {
     let Some(focus) = state.debugger.focus() else { return };
     let names = &state.debugger.names;
