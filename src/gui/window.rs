@@ -48,7 +48,7 @@ pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
 }
 
 /// Holds the application after a window with a lost device has closed, until the next window opens.
-type Passage = Arc<Mutex<Option<App>>>;
+type Handover = Arc<Mutex<Option<App>>>;
 
 fn lock(handover: &Handover) -> std::sync::MutexGuard<'_, Option<App>> {
     handover.lock().unwrap_or_else(PoisonError::into_inner)
@@ -107,7 +107,7 @@ fn watch(gpu: &RenderState, ctx: &egui::Context) -> Arc<AtomicBool> {
 }
 
 /// The contents of one window.
-struct Tenant {
+struct WindowApp {
     app: Option<App>,
     lost: Arc<AtomicBool>,
     handover: Handover,

@@ -83,7 +83,7 @@ fn what_cannot_be_written_is_said_with_what_to_do() {
     let forced = Export { options, ..ExportKind::Result.to(path.clone()) };
     fails(ExportKind::Regions.to(path.join("below")), &input(), "choose another place");
     fails(forced, &input(), "is a file");
-    fails(ExportKind::Result.to(root.path().into()), &input(), "something else");
+    fails(ExportKind::Result.to(root.path()), &input(), "something else");
     assert_eq!(fs::read_to_string(&path).unwrap(), "a file");
 }
 
