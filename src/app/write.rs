@@ -6,7 +6,7 @@ use crate::analysis::Stage;
 use crate::describe::{AreaFacts, Report, Timings};
 use crate::export::{ExportError, WholeResult, matte_bytes, png_of_rgba};
 use crate::truth::{self, Reference, ReportInput};
-use crate::view::{Look, Picture, ResultSnapshot, paint, profile, profile_csv, regions_text, selected};
+use crate::view::{Picture, ResultSnapshot, paint, profile, profile_csv, regions_text, selected};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
@@ -67,7 +67,7 @@ pub(super) fn profile_table(path: &Path, _: &ExportOptions, input: &ExportInput)
 /// The layer of the image view, a pixel a pixel.
 pub(super) fn layer(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
     let (picture, settings) = (picture(input)?, &input.image);
-    let look = Look::of(settings, input.selected_region);
+    let look = settings.look(input.selected_region);
     let (shown, pinned) = (input.shown.as_deref(), input.pinned.as_deref());
     let painted = paint(settings.layer, picture, shown, pinned, &look);
     let size = [painted.width() as u32, painted.height() as u32];

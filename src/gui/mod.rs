@@ -17,6 +17,7 @@ mod menu;
 mod move_cursor;
 mod notices;
 mod offscreen;
+mod offscreen_app;
 mod panel_context;
 mod parameters;
 mod perform;

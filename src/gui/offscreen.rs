@@ -1,8 +1,6 @@
-//! The whole window drawn into a texture without a desktop, for screenshots and exported views.
+//! An egui context that draws into a texture without a desktop, for screenshots and exported views.
 
-use super::App;
-use crate::app::Executor;
-use crate::gpu::{Headless, NoAdapter, read_texture};
+use crate::gpu::{NoAdapter, read_texture};
 use egui::{FullOutput, Pos2, RawInput, Rect, vec2};
 use egui_wgpu::{
     RenderState, RendererOptions, ScreenDescriptor, WgpuConfiguration, WgpuSetup, WgpuSetupExisting,
@@ -11,13 +9,6 @@ use std::time::Duration;
 
 /// Largest number of frames before a picture is taken, if the interface keeps requesting repaints.
 const MOST_FRAMES: usize = 200;
-
-/// An application that is drawn without a window.
-pub struct Offscreen {
-    /// The application.
-    pub app: App,
-    offscreen_context: OffscreenContext,
-}
 
 /// An egui context with a graphics device and the size of its image.
 pub struct OffscreenContext {
@@ -42,37 +33,6 @@ pub enum OffscreenError {
     Other(#[from] std::io::Error),
 }
 
-impl Offscreen {
-    /// An application without a photograph, in an image of `size_px` columns and rows.
-    ///
-    /// # Errors
-    /// When there is no graphics adapter, not even a software one.
-    pub fn new(size_px: [u32; 2], pixels_per_point: f32) -> Result<Self, OffscreenError> {
-        let Headless { instance, adapter, device, queue } = Headless::new()?;
-        let offscreen_context = OffscreenContext::new(
-            WgpuSetupExisting { instance, adapter, device, queue },
-            size_px,
-            pixels_per_point,
-        )?;
-        let app = App::new(&offscreen_context.ctx, Some(offscreen_context.gpu.clone()), Executor::Inline)?;
-        Ok(Self { app, offscreen_context })
-    }
-
-    /// Sets the size of the image, columns and rows, from the next frame on.
-    pub fn resize(&mut self, size_px: [u32; 2]) {
-        self.offscreen_context.size_px = size_px;
-    }
-
-    /// Shows frames until the application requests no more, and returns the last as sRGB bytes with alpha, row-major.
-    ///
-    /// # Errors
-    /// When the device is lost.
-    pub fn picture(&mut self) -> Result<Vec<u8>, OffscreenError> {
-        let app = &mut self.app;
-        self.offscreen_context.picture(|ui| app.show(ui))
-    }
-}
-
 impl OffscreenContext {
     /// A context that draws with an existing graphics device.
     ///
@@ -89,6 +49,11 @@ impl OffscreenContext {
         let options = RendererOptions::PREDICTABLE;
         let gpu = pollster::block_on(RenderState::create(&configuration, &instance, None, options))?;
         Ok(Self { ctx: egui::Context::default(), gpu, size_px, pixels_per_point, frames: 0 })
+    }
+
+    /// Sets the size of the image, columns and rows, from the next frame on.
+    pub fn resize(&mut self, size_px: [u32; 2]) {
+        self.size_px = size_px;
     }
 
     /// The egui context.

@@ -1,7 +1,8 @@
 //! `dichroscope screenshot`: a gallery of pictures of the window, drawn without a window.
 
 use super::dock::Pane;
-use super::offscreen::{Offscreen, OffscreenError};
+use super::offscreen::OffscreenError;
+use super::offscreen_app::Offscreen;
 use crate::app::{Ask, Command, DebugCommand, Edit, JobCommand, Severity, State, ViewCommand};
 use crate::export::png_of_rgba;
 use crate::trace::{Event, Step, Topic};

@@ -36,8 +36,8 @@ pub use compare::{BodyChange, Comparison, Fate, Figure, PixelFates, RegionFate, 
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
 pub use item::{Item, Selection};
 pub use layers::{
-    ACCENT, DIFFERENCE_COUNTS, Layer, LegendEntry, Look, beside_color, class_entries, instant_legend, legend,
-    marks, paint, paint_instant, pyramid,
+    ACCENT, DIFFERENCE_COUNTS, Fill, Layer, LegendEntry, Look, beside_color, class_entries, instant_legend,
+    legend, marks, paint, paint_instant, pyramid,
 };
 pub use picture::{Origin, Picture};
 pub use plane_points::{
@@ -53,8 +53,7 @@ pub use replay::{
 };
 pub use runs::MaskRuns;
 pub use settings::{
-    Arrangement, ColorBy, ColorSpace, CubeSettings, Fill, ImageSettings, PlaneSettings, ProfileLine, Theme,
-    Tool,
+    Arrangement, ColorBy, ColorSpace, CubeSettings, ImageSettings, PlaneSettings, ProfileLine, Theme, Tool,
 };
 pub use shapes::{
     CursorShapes, PlaneDirections, RegionShapes, cluster_ellipsoid, cursor_shapes, dark_sphere,

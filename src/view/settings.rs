@@ -1,6 +1,6 @@
 //! Settings of the views. They are part of a workspace, not of the undo history.
 
-use super::Layer;
+use super::{Fill, Layer, Look};
 use serde::{Deserialize, Serialize};
 
 /// The theme of the window.
@@ -11,16 +11,6 @@ pub enum Theme {
     Dark,
     /// Dark on light.
     Light,
-}
-
-/// How areas are drawn over the photograph.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Fill {
-    /// As areas.
-    #[default]
-    Fill,
-    /// As their outlines.
-    Outline,
 }
 
 /// How one or two layers share the image view.
@@ -99,6 +89,14 @@ impl Default for ImageSettings {
             tool: Tool::Pointer,
             brush_px: 8.0,
         }
+    }
+}
+
+impl ImageSettings {
+    /// How layers are drawn with these settings; `selected` is the region that has its full color while all others are dimmed.
+    pub fn look(&self, selected: Option<u16>) -> Look {
+        let &Self { exposure_ev, gamma, fill, opacity, .. } = self;
+        Look { exposure_ev, gamma, fill, opacity, selected }
     }
 }
 

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 
 const TINY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
 
-/// A bench in whose calls all work is done, with the tiny scene open and recorded.
+/// An application that does all work inline, with the tiny scene open and its decisions recorded.
 fn application() -> Application {
     let mut application = Application::new(Executor::Inline, || ()).unwrap();
     application.apply(JobCommand::Open(Origin::File(TINY.into())));

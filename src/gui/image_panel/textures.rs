@@ -52,7 +52,7 @@ impl PaintRequest {
     /// The request of a layer. Settings that do not change the picture are left out, so that it is not painted anew.
     pub fn layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
         let picture = Arc::clone(state.picture.as_ref()?);
-        let mut look = Look::of(settings, state.selected_region().filter(|_| layer.dims_regions()));
+        let mut look = settings.look(state.selected_region().filter(|_| layer.dims_regions()));
         if !layer.is_overlay() {
             (look.fill, look.opacity) = (Fill::Fill, 1.0);
         }
@@ -84,7 +84,7 @@ impl PaintRequest {
     /// The request of the instant at the cursor.
     pub fn instant(state: &State, instant: &Arc<Instant>) -> Option<Self> {
         let picture = Arc::clone(state.picture.as_ref()?);
-        let look = Look { exposure_ev: 0.0, gamma: 1.0, ..Look::of(&state.view.image, None) };
+        let look = Look { exposure_ev: 0.0, gamma: 1.0, ..state.view.image.look(None) };
         Some(Self {
             picture,
             shown: None,

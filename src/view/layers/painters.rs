@@ -1,12 +1,13 @@
 //! How each layer is painted, a pixel a pixel.
 
+use super::curve::Curve;
 use super::legends::{CLASSES, LegendEntry, MASKS, REASONS};
-use super::{Curve, DIFFERENCE_COUNTS, Look};
+use super::look::{DIFFERENCE_COUNTS, Fill, Look};
 use crate::export::colored;
 use crate::raster::{LabelMap, Raster};
 use crate::trace::Class;
+use crate::view::ResultSnapshot;
 use crate::view::snapshot::best_overlaps;
-use crate::view::{Fill, ResultSnapshot};
 use rayon::prelude::*;
 
 /// Color of regions of an earlier stage that no final region covers, sRGB.

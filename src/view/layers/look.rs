@@ -1,0 +1,49 @@
+//! How layers are drawn: exposure, fills and outlines, opacity.
+
+use serde::{Deserialize, Serialize};
+
+/// Body reflection that differs by this many counts is black or white in [`super::Layer::Difference`].
+pub const DIFFERENCE_COUNTS: f32 = 64.0;
+
+/// Share of their opacity that regions keep while another region is selected.
+const DIMMED: f32 = 0.35;
+
+/// How areas are drawn over the photograph.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Fill {
+    /// As areas.
+    #[default]
+    Fill,
+    /// As their outlines.
+    Outline,
+}
+
+/// How layers are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Stops; light is brighter by this power of two. It is the gain of [`super::Layer::Noise`] and [`super::Layer::Difference`] as well.
+    pub exposure_ev: f32,
+    /// sRGB values in 0…1 are raised to its inverse: above 1 the middle tones are brighter.
+    pub gamma: f32,
+    /// Fills or outlines.
+    pub fill: Fill,
+    /// Opacity of fills, 0…1; outlines are opaque.
+    pub opacity: f32,
+    /// The region of the result shown that has its full color while all others are dimmed; none: all have theirs.
+    pub selected: Option<u16>,
+}
+
+impl Look {
+    /// A color with its weight over the photograph.
+    pub(super) fn style(&self, color: [u8; 3], selected: bool) -> [u8; 4] {
+        let full = if self.fill == Fill::Fill { self.opacity.clamp(0.0, 1.0) } else { 1.0 };
+        let weight = if selected { full } else { full * DIMMED };
+        [color[0], color[1], color[2], (weight * 255.0).round() as u8]
+    }
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self { exposure_ev: 0.0, gamma: 1.0, fill: Fill::Fill, opacity: 0.75, selected: None }
+    }
+}
