@@ -45,7 +45,7 @@ pub enum WhatIfProgress {
 }
 
 /// A question about a pixel.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub enum Ask {
     /// Why is this pixel what it is?
     Why(u32),

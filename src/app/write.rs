@@ -40,20 +40,20 @@ pub(super) struct Contents {
 }
 
 /// A file at `path`.
-fn file(path: &Path, bytes: Vec<u8>, what: &str) -> Result<Contents, String> {
-    Ok(Contents { path: path.to_owned(), bytes, what: what.to_owned() })
+fn file(path: &Path, bytes: Vec<u8>, what: &str) -> Contents {
+    Contents { path: path.to_owned(), bytes, what: what.to_owned() }
 }
 
 /// The area that the analysis is restricted to, as a mask.
 pub(super) fn area(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
     let area = input.document.area.as_ref();
     let area = area.ok_or("no area to export: the analysis is not restricted to one")?;
-    file(path, selected::mask_png(area), "the area as a mask")
+    Ok(file(path, selected::mask_png(area), "the area as a mask"))
 }
 
 /// The regions table, tab separated.
 pub(super) fn regions(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
-    file(path, regions_text(shown(input)?).into_bytes(), "the regions table")
+    Ok(file(path, regions_text(shown(input)?).into_bytes(), "the regions table"))
 }
 
 /// The numbers along the profile's line.
@@ -61,7 +61,7 @@ pub(super) fn profile_table(path: &Path, _: &ExportOptions, input: &ExportInput)
     let picture = picture(input)?;
     let ends = input.profile.unwrap_or([[0.5; 2]; 2]);
     let samples = profile(picture, input.shown.as_deref(), ends);
-    file(path, profile_csv(&samples, picture.size().0).into_bytes(), "the profile")
+    Ok(file(path, profile_csv(&samples, picture.size().0).into_bytes(), "the profile"))
 }
 
 /// The layer of the image view, a pixel a pixel.
@@ -72,7 +72,7 @@ pub(super) fn layer(path: &Path, _: &ExportOptions, input: &ExportInput) -> Resu
     let painted = paint(settings.layer, picture, shown, pinned, &look);
     let size = [painted.width() as u32, painted.height() as u32];
     let what = format!("the layer \u{201c}{}\u{201d}", settings.layer.name());
-    file(path, png_of_rgba(size, painted.as_slice().as_flattened()), &what)
+    Ok(file(path, png_of_rgba(size, painted.as_slice().as_flattened()), &what))
 }
 
 /// A picture that a view has drawn.
@@ -83,20 +83,20 @@ pub(super) fn drawn(path: &Path, options: &ExportOptions, _: &ExportInput) -> Re
     if bytes.is_empty() {
         return Err(empty());
     }
-    file(path, bytes, &format!("a picture of {} \u{d7} {} pixels", size[0], size[1]))
+    Ok(file(path, bytes, &format!("a picture of {} \u{d7} {} pixels", size[0], size[1])))
 }
 
 /// The parameters as TOML.
 pub(super) fn parameters(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
     let text = toml::to_string(&input.document.params);
     let text = text.map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
-    file(path, text.into_bytes(), "the parameters")
+    Ok(file(path, text.into_bytes(), "the parameters"))
 }
 
 /// The workspace.
 pub(super) fn workspace(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
     let workspace = input.workspace.as_ref().map_err(String::clone)?;
-    file(path, workspace.to_json(path)?.into_bytes(), "the workspace")
+    Ok(file(path, workspace.to_json(path)?.into_bytes(), "the workspace"))
 }
 
 fn picture(input: &ExportInput) -> Result<&Picture, String> {

@@ -157,7 +157,7 @@ fn concerning(trace: &Trace, pixel: u32) -> Vec<usize> {
                 holding = Some((y / size * laid.columns as usize + x / size) as u32);
             }
             Event::WindowClassified(WindowClassified { window, .. }) if holding == Some(*window) => {
-                found.push(n)
+                found.push(n);
             }
             event if event.blob().is_some_and(|blob| Some(blob) == own_blob) => found.push(n),
             _ => {}
