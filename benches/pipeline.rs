@@ -1,4 +1,4 @@
-//! How fast the analysis is, measured against what memory allows: `cargo bench`.
+//! Time of the analysis, compared with the least time that any analysis needs: `cargo bench`.
 //!
 //! For each image size it prints the best of several runs of
 //! (a) a copy of the image, f32 RGB;
@@ -12,8 +12,9 @@
 //! result of the default parameters runs again after one parameter or switch has changed. Best and median of several runs,
 //! and the best as a multiple of (b). For the largest tiling, the stages of a first run.
 //!
-//! Last, what recording every decision costs: time of a recorded run as a multiple of an unrecorded one, bytes a pixel, and
-//! how long it takes to show the state at any step.
+//! Last, the cost of recording every decision: time of a recorded run as a multiple of an unrecorded one, bytes per
+//! pixel,
+//! and the time to restore the state at a step.
 //!
 //! `cargo record` (an alias of `cargo bench --bench pipeline -- --record`) prints the first table alone and appends its ratios
 //! to `benches/history.csv`, with the version and the revision that they were measured at.
@@ -35,11 +36,11 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 const WINDOW_PX: usize = 10;
-/// Values of one row of a window.
+/// Number of values in one row of a window: three bands per pixel.
 const LANES: usize = 3 * WINDOW_PX;
 
 fn main() {
-    // Cargo passes `--bench`; without it (`cargo test --benches`) one run shows that everything still works.
+    // `cargo bench` passes `--bench`. Without it (`cargo test --benches`), one run shows that the benchmark works.
     let asked = |name: &str| std::env::args().any(|argument| argument == name);
     let runs = if asked("--bench") { 15 } else { 1 };
     println!("{:>10}  {:>9}  {:>9}  {:>9}  {:>7}", "size", "copy", "floor", "analysis", "ratio");
@@ -92,7 +93,7 @@ fn record(ratios: &[(f64, f64)]) -> std::io::Result<()> {
     Ok(())
 }
 
-/// The sample, repeated this often to either side.
+/// The sample scene, repeated `tiles` times in both directions.
 fn sample(tiles: usize) -> Arc<LinearImage> {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/plastic8_white/camera8.png"));
     let one =
@@ -107,7 +108,7 @@ fn sample(tiles: usize) -> Arc<LinearImage> {
     Arc::new(LinearImage::new(pixels.expect("invariant: the tiles fill it"), one.saturation))
 }
 
-/// Every parameter and switch with its name, moved a little from where it stands by default.
+/// For each parameter and switch: its name, and the default parameters with a slightly changed value of it.
 fn movements(image: &Arc<LinearImage>) -> Vec<(&'static str, Params)> {
     let base = Params::default();
     let used = Session::new(image.clone()).run(&base, &mut ()).expect("invariant: nobody cancels").used;
@@ -185,7 +186,7 @@ fn traces(tiles: usize, runs: usize) {
     let trace = Arc::new(trace);
     let mut replay = Replay::new(Arc::clone(&trace));
     replay.prepare();
-    // A multiplicative walk through the trace: every place is as likely as any other, and the same on every run.
+    // Multiplicative hashing gives steps spread evenly over the trace, the same on every run.
     let places = (1..=100u64).map(|i| (i.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 11) as usize % trace.len());
     let mut seeks: Vec<Duration> = places.map(|place| best_of(1, || replay.seek(place))).collect();
     seeks.sort_unstable();
@@ -205,7 +206,7 @@ fn milliseconds(time: Duration) -> String {
     format!("{:>6.2} ms", time.as_secs_f64() * 1e3)
 }
 
-/// The shortest of `runs` runs: whatever else the machine does can only make one longer.
+/// The shortest time of `runs` runs: other work on the machine only makes runs longer.
 fn best_of<T>(runs: usize, mut work: impl FnMut() -> T) -> Duration {
     let timed = (0..runs).map(|_| {
         let started = Instant::now();
@@ -233,11 +234,13 @@ fn window_moments(pixels: &Raster<[f32; 3]>) -> Vec<Moments> {
     moments
 }
 
-/// Sums lane by lane, whatever band a lane holds, so that the compiler can use vector instructions; the bands are told
-/// apart once at the end. Products of a lane with its neighbors are of use in one or two lanes of three only.
+/// Mean and covariance of one window. Sums are taken per lane (value of a row), so that the compiler can use vector
+/// instructions, and added per band at the end. Of the products of neighboring lanes, only those within a pixel are
+/// used.
 #[expect(clippy::needless_range_loop, reason = "each lane is read together with its neighbors")]
 fn moments_of(lines: [&[f32; LANES]; WINDOW_PX]) -> Moments {
-    // Relative to the window's first pixel, or single precision would not do for the covariance.
+    // Values are relative to the window's first pixel, because the covariance would lose too much precision in `f32`
+    // otherwise.
     let origin: [f32; LANES] = std::array::from_fn(|lane| lines[0][lane % 3]);
     let mut sums = [[0.0_f32; LANES]; 4];
     let [plain, squares, next, after_next] = &mut sums;

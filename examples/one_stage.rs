@@ -14,7 +14,7 @@ fn main() -> anyhow::Result<()> {
     let path = std::env::args().nth(1).unwrap_or_else(|| SAMPLE.to_owned());
     let image = photo::read(Path::new(&path), &ReadOptions::default())?.image;
 
-    // Which pixels to believe, by the numbers of table 6.
+    // Masks of the pixels that are usable, with the parameters of table 6.
     let clip_threshold =
         image.saturation.map_or(f64::INFINITY, |saturation| f64::from(saturation) * 240.0 / 255.0);
     let masks = Masks::new(&image, &MaskLimits { min_intensity: 23.0, clip_threshold, bloom_density: 1 });

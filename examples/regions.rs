@@ -1,4 +1,5 @@
-//! Read what was found: the light, and of each region its size, its reflection vectors, its fit and its warnings.
+//! Read the result of an analysis: the light, and for each region size, reflection vectors, quality of the fit and
+//! warnings.
 //!
 //! `cargo run --release --example regions [IMAGE]`
 
@@ -39,7 +40,7 @@ fn main() -> anyhow::Result<()> {
             println!("      {warning}");
         }
     }
-    // The label map holds the same numbers: 0 for no region, else `id`.
+    // The label map holds the region's `id` per pixel, and 0 for no region.
     let unassigned = analysis.finals.labels.as_slice().iter().filter(|&&id| id == 0).count();
     println!("\n{unassigned} pixels in no region");
     Ok(())

@@ -20,7 +20,7 @@ fn main() -> anyhow::Result<()> {
     let photo = photo::read(Path::new(&path), &ReadOptions::default())?;
     let analysis = Session::new(Arc::new(photo.image.clone())).run(&Params::default(), &mut ())?;
 
-    // Body reflection alone is the scene as if every surface were matte. Where a pixel is in no region it is the input.
+    // The body image shows the scene as if every surface were matte. A pixel in no region keeps its input color.
     let written = write_matte(&photo, &analysis.intrinsic, 0.0, &folder)?;
     let removed = analysis
         .intrinsic

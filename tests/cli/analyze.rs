@@ -1,4 +1,4 @@
-//! `dichroscope analyze`, `evaluate` and `screenshot`: what they write, what they say, and how they end.
+//! Tests of `dichroscope analyze`, `evaluate` and `screenshot`: files, output and exit codes.
 
 use crate::folder::{WorkFolder, list, tiny};
 use dichroscope::app::{Application, Edit, Executor, ExportKind, JobCommand, analyze_call};
@@ -117,7 +117,7 @@ fn a_photograph_becomes_a_whole_result() {
     assert!(has("body.png", b"sRGB") && !has("regions.png", b"sRGB"));
 }
 
-/// A pipe can be read once: a second reading would take the hash of nothing.
+/// A pipe can be read only once: a second reading would give the hash of no bytes.
 #[cfg(unix)]
 #[test]
 fn a_photograph_from_a_pipe_has_the_hash_of_its_bytes() {
@@ -282,7 +282,7 @@ fn a_light_can_be_given_and_the_report_says_so() {
 fn an_area_restricts_the_analysis_and_must_fit_the_photograph() {
     let work = WorkFolder::new();
     work.photo("a.png");
-    // Its own regions as the area: all of it lies where the picture is lit.
+    // The area is the union of the picture's own regions, which contains lit pixels only.
     work.succeeds("analyze a.png --out out");
     let regions = fs::read(work.path("out/a/regions.png")).unwrap();
     work.put("mask.png", &regions);
@@ -371,7 +371,7 @@ fn evaluate_prints_a_table_or_json() {
     assert_eq!(scores.len(), 14);
     for (name, score) in scores {
         let (a, b) = (score.as_f64(), in_report[name].as_f64());
-        // Files hold counts / 255 as 32-bit floats: a rounding away from what the analysis held.
+        // Files hold counts / 255 as 32-bit floats, so values differ from those of the analysis by rounding.
         assert!(a == b || (a.unwrap() - b.unwrap()).abs() < 1e-3, "{name}: {a:?} and {b:?}");
     }
 }
@@ -402,7 +402,7 @@ fn without_a_display_one_sentence_names_what_needs_none() {
     assert_eq!(work.list(""), ["a.png"]);
 }
 
-/// Without a graphics adapter there is nothing to draw with: a skip, unless `DICHROSCOPE_REQUIRE_GPU` says that there is one.
+/// Skipped without a graphics adapter, unless `DICHROSCOPE_REQUIRE_GPU` is set.
 #[cfg(feature = "gui")]
 #[test]
 fn the_gallery_is_drawn_without_a_display() {
@@ -441,8 +441,9 @@ fn without_arguments_the_sample_is_analyzed() {
     work.fails(2, "", "run this in another folder");
 }
 
-/// The window, without its screen: a photograph is opened, parameters are changed, and the call that the window hands out
-/// is run. Both write the same result, but for the time that it took.
+/// The command line that the window offers for a photograph and changed parameters writes the same result as the
+/// window, but
+/// for the times. The window runs without a screen.
 #[test]
 fn the_call_that_the_window_hands_out_writes_the_windows_result() {
     let work = WorkFolder::new();

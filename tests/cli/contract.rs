@@ -1,4 +1,4 @@
-//! What scripts rely on: the flags of `analyze`, and the names in its report.
+//! The interface that scripts depend on: the flags of `analyze`, and the keys of its report.
 
 use assert_cmd::Command;
 use std::fmt::Write as _;
@@ -26,7 +26,7 @@ fn the_names_in_the_report_are_a_contract() {
     insta::assert_snapshot!(names);
 }
 
-/// The names and kinds of a JSON value, indented; of an array only its first entry.
+/// Keys and types of a JSON value as indented text; of an array only the first entry.
 fn outline(value: &serde_json::Value, depth: usize, text: &mut String) {
     use serde_json::Value;
     match value {

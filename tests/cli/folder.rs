@@ -1,4 +1,4 @@
-//! A temporary folder, and the program run in it.
+//! Helpers that run the program in a temporary folder.
 
 use assert_cmd::cargo::cargo_bin_cmd;
 use dichroscope::describe::Report;
@@ -7,12 +7,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// A folder to work in, and the program in it.
+/// A temporary folder in which the program runs.
 pub struct WorkFolder {
     temporary: TempDir,
 }
 
-/// How a run ended.
+/// Exit code and output of a run.
 pub struct Ended {
     pub code: i32,
     pub out: String,
@@ -28,7 +28,7 @@ impl WorkFolder {
         self.temporary.path().join(name)
     }
 
-    /// A copy of the tiny scene's photograph.
+    /// Copies the tiny scene's photograph into the folder.
     pub fn photo(&self, name: &str) {
         self.put(name, &fs::read(tiny().join("camera8.png")).unwrap());
     }
@@ -39,12 +39,12 @@ impl WorkFolder {
         fs::write(path, bytes).unwrap();
     }
 
-    /// Runs the program as on a machine without a display.
+    /// Runs the program without a display in its environment.
     pub fn run(&self, arguments: &str) -> Ended {
         self.run_piped(arguments, &[])
     }
 
-    /// The same, with `input` in the pipe that is the program's standard input.
+    /// Like [`Self::run`], with `input` piped to the program's standard input.
     pub fn run_piped(&self, arguments: &str, input: &[u8]) -> Ended {
         let tiny = tiny().display().to_string();
         let arguments = arguments.split_whitespace().map(|word| word.replace("TINY", &tiny));
@@ -76,7 +76,7 @@ impl WorkFolder {
         read_report(&self.path(result)).unwrap()
     }
 
-    /// What lies in a folder, hidden files included.
+    /// Names of the files in a folder, including hidden files.
     pub fn list(&self, folder: &str) -> Vec<String> {
         list(&self.path(folder))
     }

@@ -1,4 +1,4 @@
-//! The program end to end: what each command writes, what it says, and with which exit code it ends.
+//! Tests of the program as a whole: the files, output and exit code of each command.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 

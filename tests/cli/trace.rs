@@ -1,4 +1,4 @@
-//! `dichroscope trace` and `dichroscope why` end to end.
+//! Tests of `dichroscope trace` and `dichroscope why`, run as programs.
 
 #[path = "../synthetic/marbled.rs"]
 mod marbled;
@@ -11,7 +11,7 @@ use std::fs;
 use std::io::Read;
 use std::process::{Command, Stdio};
 
-/// Columns of the tiny scene.
+/// Number of columns of the tiny scene.
 const WIDTH: u64 = 178;
 
 struct Ended {
@@ -41,7 +41,7 @@ fn fails(code: i32, arguments: &str, says: &str) {
     assert!(ended.err.contains(says), "{arguments}: expected {says:?} in {:?}", ended.err);
 }
 
-/// The schema line, and the steps.
+/// The schema line of a trace, and the lines of the steps.
 #[track_caller]
 fn lines(text: &str) -> (Value, Vec<Value>) {
     let mut lines = text.lines().map(|line| serde_json::from_str(line).unwrap());
@@ -53,7 +53,7 @@ fn pixel_of(line: &Value) -> Option<[u64; 2]> {
     Some([pixel[0].as_u64()?, pixel[1].as_u64()?])
 }
 
-/// A pixel of the tiny scene with this role.
+/// Column and row of a pixel of the tiny scene with this kind.
 fn pixel_with(steps: &[Value], role: &str) -> [u64; 2] {
     let labeled = |line: &&Value| line["kind"] == "label" && line["values"]["role"] == role;
     pixel_of(steps.iter().filter(labeled).nth(200).unwrap()).unwrap()
@@ -90,7 +90,7 @@ fn a_trace_can_be_narrowed_to_a_stage_a_region_and_a_pixel() {
     let [x, y] = pixel_with(&all, "matte");
     let (_, about) = lines(&succeeds(&format!("trace TINY --out - --pixel {x},{y}")));
     let told: Vec<&Value> = about.iter().filter(|line| pixel_of(line).is_some()).collect();
-    // A refusal happened when a neighbor was claimed.
+    // A refusal happens when a neighbor is claimed.
     let beside = |[u, v]: [u64; 2]| u.abs_diff(x) + v.abs_diff(y) <= 1;
     assert!(told.iter().all(|line| line["kind"] == "hole filled" || pixel_of(line).is_some_and(beside)));
     let own = |line: &&Value| pixel_of(line) == Some([x, y]);
@@ -128,12 +128,14 @@ fn why_tells_newest_first_with_value_and_threshold() {
     assert!(dark.contains("in no region") && dark.contains("counts from black, below 441.0"), "{dark}");
 }
 
-/// Middle of a highlight of the marbled sheet with a clipped heart, of one without, and of a printed speck.
+/// Column and row on the marbled sheet of a highlight with a clipped core (`CLIPPED`), of one without (`HIGHLIGHT`),
+/// and of a
+/// printed speck (`SPECK`).
 const CLIPPED: [usize; 2] = [60, 18];
 const HIGHLIGHT: [usize; 2] = [20, 20];
 const SPECK: [usize; 2] = [33, 137];
 
-/// What is told of a pixel of a marbled sheet with so much body reflection, in which no region holds.
+/// Output of `why` for a pixel of the marbled sheet; `body_share` scales the sheet's body reflection.
 fn why_marbled([x, y]: [usize; 2], body_share: f64) -> String {
     let folder = tempfile::tempdir().unwrap();
     let file = marbled_sheet(&folder, body_share);
@@ -193,7 +195,7 @@ fn why_tells_of_texture_and_of_a_clipped_heart_where_no_region_holds() {
 
 #[test]
 fn why_tells_why_nothing_was_split_locally() {
-    // More highlight than a scene is believed to have.
+    // The share of highlights is larger than the analysis accepts in a scene.
     let text = why_marbled(HIGHLIGHT, 0.3);
     says(
         &text,
@@ -217,7 +219,7 @@ fn what_if_tells_a_value_at_which_the_pixel_is_something_else() {
         dark.contains("is in no region at min intensity \u{2265} ") && dark.ends_with("counts (now 23)"),
         "{dark}"
     );
-    // Taken at its word.
+    // An analysis with the value that was found has the result that was predicted.
     let value = dark.split(['\u{2265}', 'c']).nth(1).unwrap().trim();
     let moved = succeeds(&format!("why TINY {x},{y} --min-intensity {value}"));
     assert!(moved.lines().next().unwrap().ends_with("in no region"), "{moved}");
@@ -252,7 +254,7 @@ fn a_reader_that_has_seen_enough_is_no_failure() {
     assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), b"".as_slice()));
 }
 
-/// Names and kinds of all lines: what scripts rely on.
+/// Keys and value types of all kinds of lines, which scripts depend on.
 #[test]
 fn the_names_in_trace_lines_are_a_contract() {
     let mut kinds: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();

@@ -1,10 +1,12 @@
-//! Holds the walls of the house: which room may use which, and what may happen in it.
+//! Checks the architecture: which room (top-level module) may use which other rooms and which dependencies.
 //!
-//! The sources are read as Rust tokens, so that comments, strings and line breaks cannot fool the check. It sees
-//! every `use` and every path written in place (`crate::photo::…`, `std::fs::…`, also inside macro calls). Links in
-//! documentation may point anywhere.
+//! The sources are read as Rust tokens, so that comments, strings and line breaks do not mislead the check. The check
+//! sees
+//! every `use` and every path in code (`crate::photo::…`, `std::fs::…`, inside macro calls too). Links in
+//! documentation
+//! are not restricted.
 //!
-//! Moved a wall on purpose? Change the tables below and ARCHITECTURE.md together.
+//! To change the rules on purpose, change the tables below and ARCHITECTURE.md together.
 
 mod source;
 
@@ -12,7 +14,7 @@ use source::{Mention, mentions};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A room may use those of earlier lines; the rooms of one line do not know each other.
+/// The rooms in order: a room may use the rooms of earlier lines, but no other room of its own line.
 const ORDER: &[&[&str]] = &[
     &["params", "raster", "color"],
     &["reflection"],
@@ -28,10 +30,11 @@ const ORDER: &[&[&str]] = &[
     &["gui"],
 ];
 
-/// Rooms beside the order: see [`may_use`].
+/// Rooms outside of the order, see [`may_use`].
 const BESIDE: &[&str] = &["cli", "gpu"];
 
-/// Dependencies that are at home in some rooms only: crates (and `crate_*`), rooms, whether tests are bound as well.
+/// Dependencies that only some rooms may use: names of crates (and of `name_*`), rooms, whether the rule holds for
+/// tests too.
 const AT_HOME: &[(&[&str], &[&str], bool)] = &[
     (&["egui", "eframe", "epaint", "emath", "ecolor", "winit"], &["gui"], true),
     (&["wgpu", "naga"], &["gpu", "gui"], true),
@@ -45,11 +48,11 @@ const AT_HOME: &[(&[&str], &[&str], bool)] = &[
     ),
 ];
 
-/// Rooms whose results depend on their arguments alone; their tests may do as they like.
+/// Rooms whose results depend on their arguments alone. Their tests are not restricted.
 const PURE: &[&str] =
     &["params", "raster", "color", "reflection", "trace", "segment", "intrinsic", "analysis", "describe"];
 
-/// What a pure room leaves alone.
+/// Paths that a pure room must not name.
 const IMPURE: &[&[&str]] = &[
     &["std", "fs"],
     &["std", "env"],
@@ -94,7 +97,7 @@ fn collect_rust_files(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()>
     Ok(())
 }
 
-/// Everything that is wrong with the file at `path` (relative to the crate, with slashes), one line each.
+/// All violations in the file at `path` (relative to the crate, with slashes), one line each.
 fn check(path: &str, source: &str) -> Vec<String> {
     let mut complaints = Vec::new();
     let modules = module_path(path);
@@ -147,7 +150,7 @@ fn may_use(user: &str, used: &str) -> bool {
     }
 }
 
-/// What is wrong with this mention in this room; the crate's own front page and `main` stand outside all rooms.
+/// The violation of a path named in a room, if any. `lib.rs` and `main.rs` are in no room.
 fn judge(room: Option<&str>, mention: &Mention) -> Option<String> {
     let path: Vec<&str> = mention.path.iter().map(String::as_str).collect();
     if let (Some(room), ["crate", inside @ ..]) = (room, path.as_slice()) {
@@ -168,12 +171,13 @@ fn judge(room: Option<&str>, mention: &Mention) -> Option<String> {
     impure.then(|| format!("{pure} → {}: a pure room", path.join("::")))
 }
 
-/// `egui` is the family of `egui`, `egui_extras`, …
+/// Whether a crate belongs to a family: `egui` and `egui_extras` belong to the family `egui`.
 fn is_crate(name: &str, family: &str) -> bool {
     name.strip_prefix(family).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
 }
 
-/// Whether `path` is `forbidden`, lies within it, or opens the door to it: `use std::time` opens `std::time::Instant`.
+/// Whether `path` is `forbidden`, lies within it, or is a parent of it: `use std::time` gives access to
+/// `std::time::Instant`.
 fn reaches(path: &[&str], forbidden: &[&str]) -> bool {
     let path = path.strip_suffix(&["*"]).unwrap_or(path);
     path.starts_with(forbidden) || forbidden.starts_with(path)
@@ -182,7 +186,7 @@ fn reaches(path: &[&str], forbidden: &[&str]) -> bool {
 mod the_checker_can_fail {
     use super::*;
 
-    /// Checks `source` as the file at `path` and compares the complaints' beginnings with `expected`.
+    /// Checks `source` as the file at `path`, and compares the beginnings of the violations with `expected`.
     #[track_caller]
     fn assert_complaints(path: &str, source: &str, expected: &[&str]) {
         let found = check(path, source);

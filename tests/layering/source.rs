@@ -1,33 +1,33 @@
-//! Which paths a Rust source names: its `use` trees and the paths written in place, macro calls included.
+//! Finds the paths that a Rust source names: its `use` trees and the paths in code, inside macro calls too.
 
 use proc_macro2::{Delimiter, Group, LexError, TokenStream, TokenTree};
 use std::collections::HashSet;
 
-/// A path that a source file names, with `self`, `super` and our own crate's name resolved to `crate::…`.
+/// A path that a source file names, with `self`, `super` and this crate's name resolved to `crate::…`.
 #[derive(Debug)]
 pub struct Mention {
-    /// From the outermost name inwards; a macro is one name with its `!`, a glob ends in `*`.
+    /// The path's segments. A macro's name includes its `!`; a glob ends in `*`.
     pub path: Vec<String>,
     pub line: usize,
-    /// Whether it stands under `#[cfg(test)]`.
+    /// Whether the path is in an item under `#[cfg(test)]`.
     pub in_test: bool,
 }
 
-/// All that `source` names, the file of module `modules` (from the crate's root).
+/// All paths that `source` names, where `source` is the file of the module with path `modules` from the crate's root.
 pub fn mentions(source: &str, modules: &[String], in_test: bool) -> Result<Vec<Mention>, LexError> {
     let tokens: TokenStream = source.parse()?;
     let mut scan = Scan { modules: modules.to_vec(), own_modules: HashSet::new(), found: Vec::new() };
     scan.walk(tokens, in_test);
-    // A file's own module may be called like a crate, and may be declared below its first use.
+    // A module of the file may have the name of a crate, and may be declared below its first use.
     let Scan { own_modules, mut found, .. } = scan;
     found.retain(|mention| !own_modules.contains(&mention.path[0]));
     Ok(found)
 }
 
 struct Scan {
-    /// The module that the tokens at hand stand in.
+    /// Path of the module that contains the current tokens.
     modules: Vec<String>,
-    /// All that the file declares with `mod`.
+    /// Names of all modules that the file declares.
     own_modules: HashSet<String>,
     found: Vec<Mention>,
 }
@@ -81,7 +81,7 @@ impl Scan {
         }
     }
 
-    /// Reads `a::b::c` or `name!` at the start of `tokens`; returns how many of them it took.
+    /// Reads `a::b::c` or `name!` at the start of `tokens`; returns the number of tokens read.
     fn path_in_place(&mut self, tokens: &[TokenTree], continues: bool, in_test: bool) -> usize {
         let mut path = vec![tokens[0].to_string()];
         let mut taken = 1;
@@ -102,7 +102,7 @@ impl Scan {
         taken
     }
 
-    /// Takes `a::{b, c::*, d as e}` apart.
+    /// Splits a `use` tree such as `a::{b, c::*, d as e}` into paths.
     fn use_tree(&mut self, tokens: &[TokenTree], prefix: &[String], in_test: bool) {
         for branch in tokens.split(|t| is_punct(t, ',')) {
             let mut path = prefix.to_vec();
@@ -152,7 +152,7 @@ fn is_separator(tokens: &[TokenTree]) -> bool {
     tokens.len() > 1 && tokens[..2].iter().all(|t| is_punct(t, ':'))
 }
 
-/// `[cfg(test)]` or `[cfg(all(test, …))]`, the part of the attribute behind its `#`.
+/// Whether the tokens after the `#` of an attribute are `[cfg(test)]` or `[cfg(all(test, …))]`.
 fn is_cfg_test(attribute: &Group) -> bool {
     let text: String = attribute.to_string().split_whitespace().collect();
     text == "[cfg(test)]" || text.starts_with("[cfg(all(test,")

@@ -1,4 +1,4 @@
-//! Files that are not what they should be: one line that helps, or a picture; never a panic, never a hang.
+//! Broken files give an error of one helpful line or a picture, but never a panic or an endless loop.
 
 use crate::files::{self, Png, curv, rgb_icc};
 use crate::{linear, pixels};
@@ -7,7 +7,7 @@ use exr::image::FlatSamples;
 use image::ExtendedColorType::{L8, Rgb8, Rgba8};
 use tiff::encoder::colortype;
 
-/// One intact file of each format, with more than a trivial header.
+/// One intact file of each format, with a header that is not trivial.
 fn intact() -> Vec<(&'static str, Vec<u8>)> {
     let noise = |n: u32| (0..n).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect::<Vec<u8>>();
     let floats: Vec<f32> = noise(17 * 13).iter().map(|&v| f32::from(v) / 255.0).collect();
@@ -43,7 +43,7 @@ fn intact() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// An error must be one line that names the file.
+/// Reads the bytes, and checks that an error is one line that names the file.
 fn error_of(bytes: &[u8], name: &str) -> Option<String> {
     let options = ReadOptions { max_megapixels: 1.0, ..ReadOptions::default() };
     let message = decode(bytes, name, &options).err()?.to_string();
@@ -63,7 +63,7 @@ fn every_truncation_is_an_error() {
     for (name, bytes) in intact() {
         for length in 0..bytes.len() {
             let found = error_of(&bytes[..length], name);
-            // A PNG may lack what follows its picture; a text file may end within its last number.
+            // A PNG is complete without the chunks after its picture; a text file may end within its last number.
             let complete_before_end = match name {
                 "a.png" => 16,
                 "a.pgm" | "a.webp" => 1,
@@ -87,7 +87,7 @@ fn flipped_bytes_never_panic() {
         for _ in 0..600 {
             let mut broken = bytes.clone();
             for _ in 0..=random(3) {
-                // Headers are where it hurts most.
+                // Half of the changes are in the first 200 bytes, the header, where most checks are.
                 let at = if random(2) == 0 { random(bytes.len().min(200)) } else { random(bytes.len()) };
                 broken[at] = [0, 1, 0x7F, 0x80, 0xFF, random(256) as u8][random(6)];
             }
@@ -138,7 +138,7 @@ fn enormous_headers_are_refused_before_memory_is_taken() {
     let mut png = huge.clone();
     png[16..24].copy_from_slice(&[0, 1, 0, 0, 0, 1, 0, 0]);
     let error = decode(&png, "big.png", &ReadOptions::default()).unwrap_err();
-    // The checksum of the header no longer fits, unless the size is looked at first.
+    // The header's checksum is wrong too: the error depends on whether checksum or size is checked first.
     assert!(matches!(error, ReadError::Damaged { .. } | ReadError::TooLarge { .. }), "{error}");
     let error =
         decode(b"P6\n100000 50000\n255\n", "big.ppm", &ReadOptions::default()).unwrap_err().to_string();

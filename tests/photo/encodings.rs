@@ -1,4 +1,4 @@
-//! Whom to believe about the tone curve.
+//! Which information about the tone curve takes precedence.
 
 use crate::files::{self, Png, curv, icc, para, rgb_icc};
 use crate::{pixels, read_with};
@@ -10,7 +10,7 @@ fn auto(bytes: &[u8]) -> Photo {
     read_with(bytes, &ReadOptions::default())
 }
 
-/// A mid-gray pixel with these color chunks.
+/// A PNG of one mid-gray pixel with these color chunks.
 fn tagged(chunks: &[([u8; 4], &[u8])], icc: Option<&[u8]>) -> Photo {
     auto(&Png { size: (1, 1), bits: 8, data: &[128; 3], chunks, icc, ..Png::default() }.bytes())
 }
@@ -97,7 +97,7 @@ fn icc_curves_of_every_kind() {
     let check = |curve: &[u8], expected: f64| {
         let photo = tagged(&[], Some(&rgb_icc(curve)));
         let found = f64::from(pixels(&photo)[0][1]);
-        // Parameters are rounded to 1/65536.
+        // The curve's parameters are rounded to multiples of 1/65536.
         assert!((found - 255.0 * expected).abs() < 1e-2, "{}: {found}", photo.encoding);
         assert!(photo.warnings.is_empty(), "{:?}", photo.warnings);
     };

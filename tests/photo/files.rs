@@ -1,12 +1,12 @@
-//! Small files of every format, written as other programs write them.
+//! Writers of small files of every format, in the variants that other programs write.
 
 use image::{ExtendedColorType, ImageEncoder};
 use std::io::Cursor;
 
-/// Where the first chunk of a PNG ends, which is the header.
+/// End of a PNG's first chunk, the header, bytes.
 const AFTER_IHDR: usize = 8 + 25;
 
-/// What a PNG is made of; samples of 16 bits are big-endian.
+/// The contents of a PNG; samples of 16 bits are big-endian.
 #[derive(Default)]
 pub struct Png<'a> {
     pub size: (u32, u32),
@@ -29,7 +29,8 @@ impl Png<'_> {
         info.trns = self.trns.map(Into::into);
         info.icc_profile = self.icc.map(Into::into);
         info.exif_metadata = self.exif.map(Into::into);
-        // The encoder writes PLTE with its header: cICP and its like go in by hand, right after IHDR.
+        // The encoder writes PLTE together with the header, so cICP and similar chunks are inserted by hand, right
+        // after IHDR.
         let mut bytes = Vec::new();
         let mut writer = png::Encoder::with_info(&mut bytes, info).unwrap().write_header().unwrap();
         writer.write_image_data(self.data).unwrap();
@@ -52,7 +53,7 @@ fn crc32(data: &[u8]) -> u32 {
     })
 }
 
-/// 8-bit RGB, three samples per pixel.
+/// A PNG with 8-bit RGB, three samples per pixel.
 pub fn rgb8_png(size: (u32, u32), data: &[u8]) -> Vec<u8> {
     Png { size, bits: 8, data, ..Png::default() }.bytes()
 }
@@ -87,7 +88,7 @@ pub fn hdr(size: (usize, usize), pixels: &[[f32; 3]]) -> Vec<u8> {
     bytes
 }
 
-/// A layer of named channels, all with the same samples type.
+/// An EXR layer of named channels with the same sample type.
 pub fn exr(size: (usize, usize), channels: &[(&str, exr::image::FlatSamples)]) -> Vec<u8> {
     use exr::prelude::*;
     let list = channels.iter().map(|(name, samples)| AnyChannel::new(*name, samples.clone()));
@@ -98,7 +99,7 @@ pub fn exr(size: (usize, usize), channels: &[(&str, exr::image::FlatSamples)]) -
     bytes.into_inner()
 }
 
-/// A TIFF with any tags beyond the necessary.
+/// A TIFF with additional tags.
 pub fn tiff<C: tiff::encoder::colortype::ColorType>(
     size: (u32, u32),
     data: &[C::Inner],
@@ -125,7 +126,7 @@ where
     bytes.into_inner()
 }
 
-/// One uncompressed strip of rows that are padded to bytes, with a directory made by hand; little-endian.
+/// A little-endian TIFF with one uncompressed strip, rows padded to bytes, and a hand-written directory.
 pub fn raw_tiff(size: (u16, u16), bits: u16, photometric: u16, color_map: &[u16], data: &[u8]) -> Vec<u8> {
     let data_at = 8u32;
     let map_at = data_at + data.len().next_multiple_of(2) as u32;
@@ -160,14 +161,14 @@ pub fn raw_tiff(size: (u16, u16), bits: u16, photometric: u16, color_map: &[u16]
     bytes
 }
 
-/// An EXIF block that holds nothing but an orientation.
+/// An EXIF block with an orientation only.
 pub fn exif(orientation: u8) -> Vec<u8> {
     let mut bytes = b"II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0".to_vec();
     bytes.extend_from_slice(&[orientation, 0, 0, 0, 0, 0, 0, 0]);
     bytes
 }
 
-/// An ICC profile of nothing but a header and these tags; `space` is `RGB ` or `GRAY`.
+/// An ICC profile with a header and these tags only; `space` is `RGB ` or `GRAY`.
 pub fn icc(space: [u8; 4], tags: &[([u8; 4], Vec<u8>)]) -> Vec<u8> {
     let mut bytes = vec![0u8; 128];
     bytes[8..12].copy_from_slice(&[4, 0x30, 0, 0]);
@@ -175,7 +176,7 @@ pub fn icc(space: [u8; 4], tags: &[([u8; 4], Vec<u8>)]) -> Vec<u8> {
     bytes[16..20].copy_from_slice(&space);
     bytes[20..24].copy_from_slice(b"XYZ ");
     bytes[36..40].copy_from_slice(b"acsp");
-    // D50
+    // The illuminant of the profile connection space, D50.
     bytes[68..80].copy_from_slice(&[0, 0, 0xF6, 0xD6, 0, 1, 0, 0, 0, 0, 0xD3, 0x2D]);
     bytes.extend_from_slice(&(tags.len() as u32).to_be_bytes());
     let mut at = 132 + 12 * tags.len();
@@ -196,7 +197,7 @@ pub fn rgb_icc(curve: &[u8]) -> Vec<u8> {
     icc(*b"RGB ", &[*b"rTRC", *b"gTRC", *b"bTRC"].map(|name| (name, curve.to_vec())))
 }
 
-/// A `curveType`.
+/// An ICC tag of type `curveType`.
 pub fn curv(values: &[u16]) -> Vec<u8> {
     let mut bytes = b"curv\0\0\0\0".to_vec();
     bytes.extend_from_slice(&(values.len() as u32).to_be_bytes());
@@ -205,7 +206,7 @@ pub fn curv(values: &[u16]) -> Vec<u8> {
     bytes
 }
 
-/// A `parametricCurveType`.
+/// An ICC tag of type `parametricCurveType`.
 pub fn para(kind: u16, parameters: &[f64]) -> Vec<u8> {
     let mut bytes = b"para\0\0\0\0".to_vec();
     bytes.extend_from_slice(&kind.to_be_bytes());
@@ -214,7 +215,7 @@ pub fn para(kind: u16, parameters: &[f64]) -> Vec<u8> {
     bytes
 }
 
-/// A `lut8Type` that makes everything black.
+/// An ICC tag of type `lut8Type` that maps all colors to black.
 pub fn mft1() -> Vec<u8> {
     let mut bytes = b"mft1\0\0\0\0\x03\x03\x02\0".to_vec();
     let one = [0, 1, 0, 0];

@@ -1,4 +1,4 @@
-//! Every format, depth and layout, read to exact counts.
+//! Every format, depth and layout is read to exact counts.
 
 use crate::files::{self, Png};
 use crate::{gray, pixels, read_linear, read_with};
@@ -78,7 +78,7 @@ fn transparency_is_composited_on_black_and_mentioned() {
     let photo = read_linear(&files::webp((1, 1), Rgba8, &[200, 100, 50, 102]));
     assert_eq!(pixels(&photo), [[200.0f32 * 0.4, 100.0 * 0.4, 50.0 * 0.4]]);
 
-    // Associated alpha is composited already.
+    // Colors with associated alpha are already composited with black.
     let straight = files::tiff::<colortype::RGB8>(
         (1, 1),
         &[100, 50, 25, 51],

@@ -1,4 +1,5 @@
-//! Photographs of every format: written by the test itself, read back to exact linear counts, and written again.
+//! Tests of photographs of every format: files written by the tests are read to exact linear counts, and written
+//! again.
 
 #![allow(clippy::float_cmp, reason = "exactness is what is tested")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
@@ -11,27 +12,27 @@ mod matte;
 
 use dichroscope::photo::{EncodingChoice, Photo, ReadOptions, decode};
 
-/// The options that take every value for linear light.
+/// Options under which samples are linear light.
 fn linear() -> ReadOptions {
     ReadOptions { encoding: EncodingChoice::Linear, ..ReadOptions::default() }
 }
 
-/// Reads a picture that must be readable.
+/// Reads a picture; fails if it cannot be read.
 fn read_with(bytes: &[u8], options: &ReadOptions) -> Photo {
     decode(bytes, "test", options).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Reads a picture as linear light: its counts are its samples over their maximum times 255.
+/// Reads a picture as linear light: counts are samples, divided by their maximum, times 255.
 fn read_linear(bytes: &[u8]) -> Photo {
     read_with(bytes, &linear())
 }
 
-/// The pixels row by row.
+/// The pixels, row-major.
 fn pixels(photo: &Photo) -> &[[f32; 3]] {
     photo.image.pixels.as_slice()
 }
 
-/// Gray pixels of these counts.
+/// Gray pixels with these counts in every band.
 fn gray(counts: &[f32]) -> Vec<[f32; 3]> {
     counts.iter().map(|&c| [c; 3]).collect()
 }

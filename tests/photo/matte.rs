@@ -1,4 +1,4 @@
-//! The photograph written again: what did not change is what it was.
+//! A photograph with its body image written again: unchanged pixels keep their bytes.
 
 use crate::files::{self, Png, curv, rgb_icc};
 use crate::{pixels, read_with};
@@ -12,7 +12,7 @@ use png::ColorType::{Grayscale, GrayscaleAlpha, Rgba};
 use tiff::encoder::colortype;
 use tiff::tags::ExtraSamples;
 
-/// Writes `body` as the matte picture of `photo` and reads it again; also its file name.
+/// Writes `body` as the matte picture of `photo`, and reads the file again; returns picture and file name.
 fn written(photo: &Photo, body: &Raster<[f32; 3]>, options: &ReadOptions) -> (Photo, String) {
     let folder = tempfile::tempdir().unwrap();
     let path = write_matte(photo, &split(body, [0.0; 3]), 0.0, folder.path()).unwrap();
@@ -20,7 +20,7 @@ fn written(photo: &Photo, body: &Raster<[f32; 3]>, options: &ReadOptions) -> (Ph
     (read(&path, options).unwrap(), name)
 }
 
-/// A picture of matte pixels with this body and this surface reflection, counts.
+/// The result of an analysis with this body and surface reflection, counts, in which all pixels are matte.
 fn split(body: &Raster<[f32; 3]>, surface: [f32; 3]) -> Intrinsic {
     let (width, height) = (body.width(), body.height());
     Intrinsic {
@@ -43,7 +43,7 @@ fn bytes(n: u32) -> Vec<u8> {
     shorts(n).iter().map(|v| (v >> 8) as u8).collect()
 }
 
-/// Files without loss, and the name that their matte picture gets.
+/// Files of lossless formats, with the file names of their matte pictures.
 fn lossless() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     let profile = rgb_icc(&curv(&[0, 100, 20000, 65535]));
     let exif = files::exif(5);
@@ -126,14 +126,14 @@ fn an_unchanged_photograph_comes_back_exactly() {
 
 #[test]
 fn what_changes_comes_back_within_half_a_code() {
-    // The codes of the PNM lie five counts apart.
+    // The PNM is left out: its codes are five counts apart.
     for (name, bytes, _) in lossless().into_iter().filter(|(name, ..)| *name != "ppm") {
         let options = ReadOptions::default();
         let photo = read_with(&bytes, &options);
         let body = photo.image.pixels.map(|pixel| pixel.map(|counts| counts * 0.7));
         let (again, _) = written(&photo, &body, &options);
         for (found, wanted) in pixels(&again).iter().flatten().zip(body.as_slice().iter().flatten()) {
-            // The steepest curve here rises by less than three codes in one.
+            // Half a code is less than 1.5 counts: the steepest of these tone curves has a slope below 3.
             assert!((found - wanted).abs() < 1.5, "{name}: {found} instead of {wanted}");
         }
     }

@@ -1,4 +1,6 @@
-//! Ambient light (section 7.5): the same in every pixel, found where the matte lines meet, and given back to the body image.
+//! Ambient light (section 7.5): equal in every pixel, estimated from the point where the matte lines meet, and added
+//! to the body
+//! image again.
 
 use crate::common::{analyze, assert_valid, scores_of, truth_of};
 use crate::prints::photograph;
@@ -14,7 +16,7 @@ fn balls(seed: u64) -> Scene {
     Scene::grid_of_balls([320, 240], 2, 2, seed)
 }
 
-/// The scene behind a veil, which belongs to the body.
+/// The scene with ambient light added to all pixels; the ambient light belongs to the body reflection.
 fn veiled(scene: &Scene) -> Rendered {
     let mut rendered = scene.render();
     for body in rendered.body.as_mut_slice() {

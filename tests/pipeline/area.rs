@@ -1,4 +1,4 @@
-//! An analysis restricted to an area sees nothing else.
+//! The result of an analysis restricted to an area does not depend on pixels outside of the area.
 
 use crate::common::{METHODS, analyze, assert_valid, fingerprint, report};
 use crate::synthetic::Scene;
@@ -9,7 +9,7 @@ use dichroscope::raster::{Mask, UNASSIGNED};
 use proptest::prelude::*;
 use std::sync::Arc;
 
-/// The rectangle from `left, top` on, `width × height` pixels of it.
+/// A mask of the rectangle at `left, top` of `width × height` pixels.
 fn rectangle(image: &LinearImage, [left, top, width, height]: [usize; 4]) -> Arc<Mask> {
     let inside = |pixel: usize| {
         let (x, y) = (pixel % image.width(), pixel / image.width());
@@ -47,7 +47,8 @@ proptest! {
         let assigned: usize = report.regions.iter().map(|region| region.pixels).sum();
         let inside = area.as_slice().iter().filter(|&&inside| inside).count();
         prop_assert_eq!(assigned + report.unassigned_pixels, inside);
-        // Other colors outside, darker ones so that none blooms into the area: the same regions.
+        // With other colors outside, the regions are the same. The colors are darker, so that none blooms into the
+        // area.
         for pixel in (0..image.pixels.len()).filter(|&pixel| !area[pixel] && !analysis.masks.clipped(pixel)) {
             image.pixels[pixel] = image.pixels[pixel].map(|band| 100.0 - band / 3.0);
         }

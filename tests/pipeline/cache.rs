@@ -1,4 +1,5 @@
-//! A changed parameter reruns what it makes stale and nothing else, and the result is a fresh session's.
+//! A changed parameter reruns the stages that it makes stale and no others, and the result equals that of a new
+//! session.
 
 use crate::common::{analyze, fingerprint};
 use crate::synthetic::Scene;
@@ -8,7 +9,7 @@ use dichroscope::photo::LinearImage;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// Notes which stages ran anew, and stops after some.
+/// An observer that records which stages ran, and cancels after `stop_after` stages.
 #[derive(Default)]
 struct Journal {
     started: usize,
@@ -87,7 +88,7 @@ fn a_changed_parameter_reruns_from_the_first_stage_that_looks_at_it() {
     }
 }
 
-/// Keeps what each stage hands out.
+/// An observer that keeps the output of each stage.
 #[derive(Default)]
 struct Collector(Vec<StageOutput>);
 
@@ -152,7 +153,7 @@ fn a_cancelled_run_leaves_a_session_that_works() {
     }
 }
 
-/// Stops after it has been asked so often, wherever that is.
+/// An observer that cancels the run after `patience` queries.
 struct Impatient {
     patience: AtomicUsize,
 }

@@ -1,4 +1,4 @@
-//! Running scenes, and what holds for every result whatever the picture.
+//! Helpers that run scenes, and invariants of every result.
 
 use crate::synthetic::{Rendered, Scene};
 use dichroscope::analysis::{Analysis, Session};
@@ -17,12 +17,12 @@ pub fn picture(width: usize, height: usize, color: impl Fn(usize, usize) -> [f32
     LinearImage::new(Raster::from_vec(width, height, data).unwrap(), Some(255.0))
 }
 
-/// What a new session finds.
+/// The result of a new session.
 pub fn analyze(image: &LinearImage, params: &Params) -> Analysis {
     Session::new(Arc::new(image.clone())).run(params, &mut ()).unwrap()
 }
 
-/// Every number of a result. Printed, a float keeps all its bits, −0 differs from 0, and NaN equals itself.
+/// Every number of a result as text. As text, floats keep all bits, −0 differs from 0, and NaN equals itself.
 pub fn fingerprint(analysis: &Analysis) -> String {
     format!("{analysis:?}")
 }
@@ -39,7 +39,7 @@ pub fn report(analysis: &Analysis, params: &Params) -> Report {
     Report::new(facts, params, analysis, &[])
 }
 
-/// What the scene's pixels are made of, as a truth folder says it.
+/// The scene's ground truth in the form of a truth folder.
 pub fn truth_of(scene: &Scene, rendered: &Rendered) -> GroundTruth {
     let object = |(index, ball): (usize, &crate::synthetic::Ball)| TruthObject {
         id: index as u16 + 1,
@@ -64,9 +64,9 @@ pub fn scores_of(truth: &GroundTruth, image: &LinearImage, analysis: &Analysis, 
     score(truth, &image.pixels, &outcome).unwrap()
 }
 
-/// What holds for every result: labels, report and pictures agree, and every number is a number.
+/// Checks the invariants of every result: labels, report and pictures agree, and no number is NaN or infinite.
 ///
-/// Says what does not hold, so that property tests can shrink to it.
+/// Returns the violation as an error, so that property tests can shrink the input.
 pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
     let (intrinsic, regions) = (&analysis.intrinsic, &analysis.intrinsic.regions);
     let labels = &analysis.finals.labels;

@@ -1,4 +1,5 @@
-//! What is decided where the model does not hold is recorded truly, and played like everything else.
+//! The decisions of the local split, where the model does not explain a region, are recorded and replayed like all
+//! others.
 
 use crate::common::{analyze, fingerprint, picture};
 use crate::marbled;
@@ -45,7 +46,7 @@ impl Traced {
         Self::new(picture(width, height, |x, y| colors[y * width + x].map(f32::from)), params)
     }
 
-    /// The decisions of the local split.
+    /// The recorded decisions of the local split.
     fn decisions(&self) -> impl Iterator<Item = &Event> {
         self.trace.events().map(|(_, event)| event).filter(|event| is_local(event))
     }
@@ -55,7 +56,7 @@ impl Traced {
         history.into_iter().map(|happening| happening.what).collect()
     }
 
-    /// Length of what was found to be surface reflection, counts.
+    /// Length of a pixel's surface reflection, counts.
     fn surface(&self, pixel: usize) -> f32 {
         self.analysis.intrinsic.surface[pixel].iter().map(|band| band * band).sum::<f32>().sqrt()
     }
@@ -240,7 +241,7 @@ fn a_record_of_prints_is_played_forward_and_back_and_ends_in_the_result() {
 
 #[test]
 fn a_light_that_is_not_known_after_all_is_none_in_the_last_state() {
-    // Shaded noise of many colors: planes without any right, and votes for no light in particular.
+    // Shaded noise of many colors: planes that no material causes, and votes that agree on no light.
     let image = picture(160, 120, |x, y| {
         let hue = (x / 20 * 7 + y / 20 * 13) as f32;
         let shade = 40.0 + (x % 20) as f32 * 6.0 + ((x * 31 + y * 17) % 11) as f32;

@@ -1,4 +1,4 @@
-//! Pictures that no camera should take, and parameters at the ends of their ranges: a result or a warning, no panic.
+//! Degenerate pictures, and parameters at the ends of their ranges, give a result or a warning, but never a panic.
 
 use crate::common::{METHODS, analyze, assert_valid, faults, picture};
 use crate::synthetic::{Random, Scene};
@@ -54,7 +54,9 @@ fn pictures() -> Vec<(&'static str, LinearImage)> {
     ]
 }
 
-/// Each method with its defaults, everything at its smallest, at its largest, and each parameter alone at either.
+/// For each method: the defaults, all parameters at their smallest, all at their largest, and each parameter alone at
+/// its
+/// smallest and largest.
 fn ends_of_ranges(method: Method) -> Vec<(String, Params)> {
     let base = Params::of(method);
     let mut all = vec![("defaults".to_owned(), base)];
@@ -148,7 +150,8 @@ fn small_picture() -> impl Strategy<Value = LinearImage> {
         })
 }
 
-/// Mostly the method's own numbers, so that pictures are explained; the others anything between the ends of their ranges.
+/// Random parameters: most have the method's default, so that regions are found; the others have any value of their
+/// range.
 fn any_params() -> impl Strategy<Value = Params> {
     let choice = prop_oneof![6 => Just(None), 1 => Just(Some(None)), 1 => (0f64..=1.0).prop_map(|share| Some(Some(share)))];
     let choices = prop::collection::vec(choice, Parameter::ALL.len());
@@ -159,7 +162,7 @@ fn any_params() -> impl Strategy<Value = Params> {
             for (parameter, choice) in Parameter::ALL.into_iter().zip(choices) {
                 let spec = parameter.spec();
                 let [low, high] = spec.range;
-                // Most of what matters lies near the lower end of wide ranges.
+                // Useful values of wide ranges lie near the lower end.
                 let between = |share: f64| low + (high.min(300.0) - low) * share * share;
                 let whole = |value: f64| if spec.whole { value.round() } else { value };
                 match choice {

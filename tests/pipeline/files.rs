@@ -1,4 +1,4 @@
-//! What is found survives its files.
+//! The result files, read again, hold what the analysis found.
 
 use crate::common::analyze;
 use crate::synthetic::Scene;
@@ -9,7 +9,7 @@ use exr::prelude::read_first_rgba_layer_from_file;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The colors of an EXR file, counts, row after row.
+/// The colors of an EXR file, counts, row-major.
 fn exr_counts(path: &Path) -> Vec<[f32; 3]> {
     let picture = read_first_rgba_layer_from_file(
         path,

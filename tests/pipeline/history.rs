@@ -1,4 +1,4 @@
-//! A pixel's history is complete, in order, and true.
+//! A pixel's history is complete, in order, and agrees with the trace.
 
 use crate::synthetic::Scene;
 use dichroscope::analysis::{Analysis, Session};
@@ -31,7 +31,7 @@ impl Traced {
         pixel_history(&self.trace, &self.image, &self.analysis.masks, pixel)
     }
 
-    /// Pixels to ask about: spread over the picture, and on the borders of regions.
+    /// The pixels whose histories are tested: spread over the picture, and on the borders of regions.
     fn pixels(&self) -> Vec<usize> {
         let labels = &self.analysis.finals.labels;
         let mut border = Vec::new();
@@ -57,7 +57,7 @@ fn random_params() -> impl Strategy<Value = Params> {
     })
 }
 
-/// The owner that a happening leaves a pixel with; none where it leaves it as it was.
+/// The owner of the pixel after a history entry; `None` when the entry does not change the owner.
 fn owner_after(what: &HistoryKind) -> Option<u16> {
     match *what {
         HistoryKind::Seeded { region, .. }
@@ -158,7 +158,7 @@ proptest! {
                 continue;
             }
             let end = events.get(index + 1).map_or(traced.trace.len(), |&(next, _)| next);
-            // What a barren hypothesis gives back follows its growth without a word.
+            // The claims that a rejected hypothesis gives back follow its growth without an event of their own.
             replay.seek(end);
             for (&pixel, history) in pixels.iter().zip(&histories) {
                 let labels = replay.labels();

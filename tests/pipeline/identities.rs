@@ -1,4 +1,4 @@
-//! What body, surface and noise add up to.
+//! Body, surface and noise add up to the input.
 
 use crate::common::{METHODS, analyze};
 use crate::synthetic::Scene;
@@ -8,8 +8,9 @@ use dichroscope::photo::LinearImage;
 use dichroscope::raster::UNASSIGNED;
 use dichroscope::trace::PixelKind;
 
-/// Largest difference between input and body + surface + ε·n over the undistorted pixels of regions with a plane, of
-/// those with surface reflection only where `unclamped`; and how many pixels that were.
+/// Largest difference between input and body + surface + ε·n, counts, over the undistorted pixels of regions with a
+/// plane,
+/// and the number of these pixels. With `unclamped`, only pixels with surface reflection count.
 fn largest_gap(image: &LinearImage, analysis: &Analysis, unclamped: bool) -> (f32, usize) {
     let intrinsic = &analysis.intrinsic;
     let (mut gap, mut looked_at) = (0f32, 0);

@@ -1,4 +1,4 @@
-//! A light that is given is the light, for every plane and every split.
+//! A given light is used for every plane and every split.
 
 use crate::common::{METHODS, analyze, assert_valid, fingerprint, report};
 use crate::synthetic::{Scene, dot};

@@ -1,4 +1,5 @@
-//! The whole pipeline, from linear light to the split, on scenes whose truth is known and on pictures that are none.
+//! Tests of the whole pipeline, from linear light to the split, on scenes with ground truth and on degenerate
+//! pictures.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 #![allow(clippy::float_cmp, reason = "what is exact by construction is tested for exactness")]

@@ -1,4 +1,5 @@
-//! `method = paper` is the algorithm of 1990, its weaknesses included; and each refinement can do without the others.
+//! `method = paper` is the algorithm of 1990 with its known weaknesses; each refinement works with and without the
+//! others.
 
 use crate::common::{analyze, assert_valid, report, scores_of, truth_of};
 use crate::synthetic::Scene;
@@ -47,7 +48,7 @@ fn every_refinement_can_be_left_out() {
     for switch in Switch::ALL {
         let name = switch.name();
         for only in [false, true] {
-            // All but this one, and this one alone.
+            // First all refinements but this one, then this one alone.
             let mut refine = Refine::all(!only);
             refine.set(switch, only);
             let analysis = analyze(&image, &Params { refine, ..Params::default() });

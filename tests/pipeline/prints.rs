@@ -1,4 +1,4 @@
-//! Where the model does not hold: printed objects, and pictures without highlights.
+//! Pictures that the model does not explain: printed objects, and pictures without highlights.
 
 use crate::common::{analyze, assert_valid, scores_of, truth_of};
 use crate::synthetic::{FULL_SCALE, Random, Rendered, Scene};
@@ -7,7 +7,9 @@ use dichroscope::photo::LinearImage;
 use dichroscope::raster::Raster;
 use dichroscope::segment::LightBasis;
 
-/// The scene with checks of 9 px printed on its balls: every other one has its bands in another order, and less of them.
+/// The scene with a checkerboard of 9 px squares printed on the balls: in every other square, the bands of the body
+/// reflection
+/// are permuted and scaled by 0.7.
 pub fn printed(scene: &Scene) -> Rendered {
     let mut rendered = scene.render();
     let width = rendered.body.width();
@@ -31,7 +33,7 @@ pub fn photograph(rendered: &Rendered, noise_sigma: f64) -> LinearImage {
     LinearImage::new(raster, Some(FULL_SCALE as f32))
 }
 
-/// 10·log10(255² / mean square difference).
+/// Peak signal-to-noise ratio, dB: 10·log10(255² / mean squared difference).
 fn psnr_db(a: &Raster<[f32; 3]>, b: &Raster<[f32; 3]>) -> f64 {
     let pairs = a.as_slice().iter().flatten().zip(b.as_slice().iter().flatten());
     let squares: f64 = pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum();

@@ -1,4 +1,4 @@
-//! A trace of all decisions goes forward and back, ends in the result, and recording it changes nothing.
+//! A trace can be replayed forward and backward, ends in the result, and recording does not change the result.
 
 use crate::common::{analyze, fingerprint};
 use crate::synthetic::Scene;
@@ -27,7 +27,7 @@ fn random_params() -> impl Strategy<Value = Params> {
     })
 }
 
-/// The trace of a random scene, and the result.
+/// Trace and result of a random scene.
 fn traced(seed: u64, params: &Params) -> (Analysis, Arc<Trace>) {
     let image = Scene::grid_of_balls([140, 70], 2, 1, seed).render().image;
     let (analysis, trace) = Session::new(Arc::new(image)).run_traced(params, &mut ()).unwrap();
@@ -153,7 +153,7 @@ fn every_stage_announces_itself_once_and_in_order() {
     }
 }
 
-/// Notes the stages that were made anew.
+/// An observer that records which stages ran.
 #[derive(Default)]
 struct Ran(Vec<Stage>);
 

@@ -1,4 +1,4 @@
-//! What the pipeline must reach where the truth is known.
+//! Accuracy that the pipeline must reach on scenes with ground truth.
 
 use crate::common::{analyze, assert_valid, scores_of, truth_of};
 use crate::synthetic::{Ball, Scene, unit};
@@ -17,7 +17,7 @@ fn scores(scene: &Scene) -> Scores {
     scores_of(&truth_of(scene, &rendered), &rendered.image, &analysis, &params)
 }
 
-/// Fails unless each figure is at least as good as its limit, and the body image clearly better than the input.
+/// Fails unless each score is at least as good as its limit, and the body image is clearly better than the input.
 #[track_caller]
 fn assert_reaches(found: &Scores, least: &Scores) {
     let at_least = |name, found: Option<f64>, least: Option<f64>| {
@@ -135,8 +135,9 @@ fn six_balls_in_yellow_light() {
     );
 }
 
-/// Figure 11: under white light a red and a cyan object share one dichromatic plane, so that each one's slice holds the
-/// other's colors.
+/// Figure 11: under white light, a red and a cyan object have the same dichromatic plane, so that the slice of each
+/// contains
+/// the colors of the other.
 #[test]
 fn coplanar_neighbors_keep_their_pixels() {
     let mut scene = Scene::one_ball([150, 100], [0.9, 0.25, 0.25]);
@@ -144,7 +145,8 @@ fn coplanar_neighbors_keep_their_pixels() {
     let cyan = Ball { center_px: [102.0, 50.0], radius_px: 36.0, body: unit([0.2, 0.8, 0.8]), ..red };
     scene = Scene { balls: vec![red, cyan], noise_sigma: 1.25, eight_bit: true, ..scene };
     let rendered = scene.render();
-    // Nothing but the provision keeps them apart when slices have no ends.
+    // With slices of unlimited length, only the provision for coplanar neighbors (section 5.4.2) separates the
+    // objects.
     let refine = Refine { slice_bounds: false, ..Refine::default() };
     for params in [Params::default(), Params { refine, ..Params::default() }] {
         let analysis = analyze(&rendered.image, &params);

@@ -1,10 +1,10 @@
-//! The generator of test images keeps its word: what it calls truth is what its pixels hold.
+//! Tests of the generator of test images: its ground truth agrees with its pixels.
 
 use crate::synthetic::{FULL_SCALE, Random, Scene, dot, unit};
 
 const GREEN: [f64; 3] = [0.2, 0.9, 0.3];
 
-/// Length of the part of `color` across the unit vector `axis`.
+/// Length of the component of `color` perpendicular to the unit vector `axis`.
 fn distance_from_axis(color: [f32; 3], axis: [f64; 3]) -> f64 {
     let color = color.map(f64::from);
     let along = dot(color, axis);
@@ -60,7 +60,7 @@ fn surface_reflection_has_the_color_of_the_light_and_its_peak_between_light_and_
     let peak = (0..rendered.surface.len())
         .max_by(|&a, &b| rendered.surface[a][0].total_cmp(&rendered.surface[b][0]));
     let peak = peak.unwrap();
-    // The light stands 45° from the view, up and to the left: the highlight's normal is 22.5° from the view.
+    // The light is 45° from the view, up and to the left: the normal at the highlight is 22.5° from the view.
     let offset_px = 32.0 * 22.5_f64.to_radians().sin() * 0.5_f64.sqrt();
     let (x, y) = ((peak % 100) as f64 + 0.5, (peak / 100) as f64 + 0.5);
     assert!((x - (50.0 - offset_px)).abs() < 1.0 && (y - (40.0 - offset_px)).abs() < 1.0, "peak at {x}, {y}");
@@ -93,7 +93,7 @@ fn an_eight_bit_camera_gives_whole_counts_with_the_noise_asked_for() {
         .map(|(seen, truth)| f64::from(seen - truth))
         .collect();
     let variance = noise.iter().map(|e| e * e).sum::<f64>() / noise.len() as f64;
-    // Rounding to whole counts adds 1/12.
+    // Rounding to whole counts adds a variance of 1/12.
     let expected = scene.noise_sigma.powi(2) + 1.0 / 12.0;
     assert!((variance - expected).abs() < 0.05 * expected, "variance {variance}, expected {expected}");
 }

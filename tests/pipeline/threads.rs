@@ -1,4 +1,4 @@
-//! The same input gives the same bytes at any number of threads.
+//! The same input gives the same bytes with any number of threads.
 
 use crate::common::{METHODS, analyze, fingerprint, report};
 use crate::synthetic::Scene;

@@ -1,10 +1,11 @@
-//! A marbled sheet under small highlights, some of them clipped, with gray specks printed along its lower edge: no region holds, and
-//! every rule for what to do then has something to decide.
+//! A test image: a marbled sheet under small highlights, some of them clipped, with gray specks printed along its
+//! lower edge.
+//! The skewed T explains no region of this image, so that every rule of the local split has something to decide.
 
-/// Columns and rows.
+/// Columns and rows of the image.
 pub const SIZE_PX: [usize; 2] = [240, 160];
 
-/// Eight-bit colors, row by row, with so much of the body reflection; the noise is a fixed pattern.
+/// The image: 8-bit RGB, row-major. `body_share` scales the body reflection; the noise is a fixed pattern.
 pub fn marbled(body_share: f64) -> Vec<[u8; 3]> {
     let [width, height] = SIZE_PX;
     (0..width * height).map(|pixel| color(pixel % width, pixel / width, body_share)).collect()

@@ -1,4 +1,4 @@
-//! Skewed T's with known truth: images of shiny balls, ray-cast analytically.
+//! Test images with ground truth: shiny balls, ray-cast analytically, whose colors form skewed T's.
 //!
 //! Each ball is a sphere under parallel light, seen along −z by an orthographic camera: x runs right, y down, z towards
 //! the camera, in pixels. Where the light reaches, its color is C = m_b·C_b + m_s·C_s with a Lambertian body
@@ -6,62 +6,63 @@
 //! view. Every pixel is sampled at its center, so that no pixel mixes two objects and the model holds exactly before
 //! noise, clipping and rounding. No cast shadows, no inter-reflection. The same scene gives the same bytes everywhere.
 //!
-//! A test takes it with `mod synthetic;`, a benchmark with `#[path]`.
+//! A test includes this module with `mod synthetic;`, a benchmark with `#[path]`.
 
 #![allow(dead_code, reason = "each test binary that includes this file uses a part of it")]
 
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::{LabelMap, Raster, UNASSIGNED};
 
-/// Counts at which the camera saturates.
+/// Counts at which the camera is saturated.
 pub const FULL_SCALE: f64 = 255.0;
 
-/// A shiny sphere.
+/// A shiny sphere in the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
-    /// Column and row of its center; its depth is that of all others, so that the larger one covers the smaller.
+    /// Column and row of the center. All centers have the same depth, so that a larger ball covers a smaller one.
     pub center_px: [f64; 2],
-    /// Radius.
+    /// Radius, pixels.
     pub radius_px: f64,
-    /// Body reflection vector C_b, unit.
+    /// Body reflection vector C_b, unit length.
     pub body: [f64; 3],
-    /// Length in counts of body reflection where m_b = 1.
+    /// Length of the body reflection where m_b = 1, counts.
     pub body_counts: f64,
-    /// Length in counts of surface reflection where m_s = 1.
+    /// Length of the surface reflection where m_s = 1, counts.
     pub surface_counts: f64,
     /// Beckmann's m, the root mean square slope of the surface: 0.1 is glossy, 0.4 dull.
     pub roughness: f64,
 }
 
-/// What stands before the camera, and the camera.
+/// The objects in front of the camera, the light, and the camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// Columns and rows of the image.
     pub size_px: [usize; 2],
     /// The objects; ball `i` carries the label `i + 1`.
     pub balls: Vec<Ball>,
-    /// Towards the light, unit.
+    /// Direction towards the light, unit length.
     pub light: [f64; 3],
-    /// Surface reflection vector C_s, the color of the light, unit.
+    /// Surface reflection vector C_s, which is the color of the light, unit length.
     pub illuminant: [f64; 3],
     /// Standard deviation of the camera's Gaussian noise, counts.
     pub noise_sigma: f64,
-    /// Whether the camera has 8 bits: rounds to whole counts and clips to 0…255. Otherwise it clips only above.
+    /// Whether the camera has 8 bits, i.e. rounds to whole counts and clips to 0…255. Otherwise it clips above 255
+    /// only.
     pub eight_bit: bool,
-    /// Seed of the noise.
+    /// Seed of the random noise.
     pub seed: u64,
 }
 
-/// The picture and the truth about it.
+/// The image and its ground truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rendered {
-    /// As the camera saw it.
+    /// The photograph, with noise, clipping and rounding.
     pub image: LinearImage,
-    /// Object at each pixel, whether lit or not; 0 is the black background.
+    /// Label of the object at each pixel, lit or not; 0 for the black background.
     pub labels: LabelMap,
-    /// m_b·C_b, counts, without noise, clipping and rounding.
+    /// Body reflection m_b·C_b, counts, without noise, clipping and rounding.
     pub body: Raster<[f32; 3]>,
-    /// m_s·C_s, counts, without noise, clipping and rounding.
+    /// Surface reflection m_s·C_s, counts, without noise, clipping and rounding.
     pub surface: Raster<[f32; 3]>,
 }
 
@@ -88,7 +89,9 @@ impl Scene {
         }
     }
 
-    /// As [`Scene::one_ball`], with `columns × rows` balls of random color, size, strength and gloss, and 8-bit noise.
+    /// Like [`Scene::one_ball`], but with `columns × rows` balls of random color, size, strength and gloss, and an
+    /// 8-bit camera with
+    /// noise.
     pub fn grid_of_balls(size_px: [usize; 2], columns: usize, rows: usize, seed: u64) -> Self {
         let mut random = Random::new(seed);
         let cell_px = [size_px[0] as f64 / columns as f64, size_px[1] as f64 / rows as f64];
@@ -108,7 +111,7 @@ impl Scene {
         Self { balls, noise_sigma: 1.25, eight_bit: true, seed, ..Self::one_ball(size_px, [1.0; 3]) }
     }
 
-    /// Renders the scene and photographs it.
+    /// Renders the scene, and simulates the camera.
     pub fn render(&self) -> Rendered {
         let [width, height] = self.size_px;
         let mut labels = Raster::filled(width, height, UNASSIGNED);
@@ -131,7 +134,7 @@ impl Scene {
         Rendered { image: LinearImage::new(photograph, Some(FULL_SCALE as f32)), labels, body, surface }
     }
 
-    /// The foremost ball at this place, and its normal there.
+    /// The foremost ball at a pixel, and the ball's normal there; `None` for the background.
     fn hit(&self, at_px: [f64; 2]) -> Option<(usize, [f64; 3])> {
         let hits = self.balls.iter().enumerate().filter_map(|(number, ball)| {
             let [x, y] = [0, 1].map(|axis| (at_px[axis] - ball.center_px[axis]) / ball.radius_px);
@@ -144,7 +147,7 @@ impl Scene {
         })
     }
 
-    /// m_b·C_b and m_s·C_s in counts.
+    /// Body reflection m_b·C_b and surface reflection m_s·C_s, counts.
     fn reflection(&self, ball: &Ball, normal: [f64; 3]) -> [[f64; 3]; 2] {
         let cos_incidence = dot(normal, self.light);
         if cos_incidence <= 0.0 {
@@ -160,39 +163,39 @@ impl Scene {
         ]
     }
 
-    /// What the camera makes of one band.
+    /// The camera's value of one band: noise, clipping and rounding.
     fn expose(&self, counts: f64, noise: &mut Random) -> f64 {
         let noisy = counts + self.noise_sigma * noise.normal();
         if self.eight_bit { noisy.round().clamp(0.0, FULL_SCALE) } else { noisy.min(FULL_SCALE) }
     }
 }
 
-/// A small deterministic source of numbers (Knuth's MMIX linear congruential generator, upper bits).
+/// A deterministic random number generator: the upper bits of Knuth's MMIX linear congruential generator.
 pub struct Random(u64);
 
 impl Random {
-    /// A source that depends on `seed` alone.
+    /// A generator that depends on `seed` alone.
     pub fn new(seed: u64) -> Self {
         let mut random = Self(seed);
-        // Neighboring seeds differ in their low bits, which take a step to rise.
+        // Neighboring seeds differ in their low bits, which reach the upper bits after one step.
         random.unit();
         random.unit();
         random
     }
 
-    /// Uniform in 0…1, 1 excluded.
+    /// A number uniform in 0…1, 1 excluded.
     pub fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        // 53 bits fill the mantissa.
+        // An f64 has a significand of 53 bits.
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Uniform in `low…high`.
+    /// A number uniform in `low…high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// Normal with mean 0 and standard deviation 1 (Box–Muller, its cosine half).
+    /// A normally distributed number with mean 0 and standard deviation 1 (Box–Muller, the cosine half).
     pub fn normal(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
         radius * (std::f64::consts::TAU * self.unit()).cos()
@@ -209,13 +212,13 @@ impl Random {
     }
 }
 
-/// `vector` at length 1.
+/// `vector` scaled to unit length.
 pub fn unit(vector: [f64; 3]) -> [f64; 3] {
     let length = dot(vector, vector).sqrt();
     vector.map(|v| v / length)
 }
 
-/// Inner product.
+/// Inner product of two vectors.
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -1,4 +1,4 @@
-//! Whatever can be acted on has a name.
+//! Every widget that can be acted on has an accessible name.
 
 use crate::window::{Fixture, Window, apply, press, state, tiny_window, window, with_gpu};
 use dichroscope::app::{Edit, ViewCommand};
@@ -8,9 +8,9 @@ use egui::accesskit::{Action, Role};
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 
-/// Everything that can be clicked, focused or set, but has no name to be found by.
+/// Descriptions of the widgets that can be clicked or set but have no accessible name.
 fn nameless(window: &Window) -> Vec<String> {
-    // Of a scrolled panel, of a window and of the place between two panels one needs no name.
+    // Containers, windows and the handles between two panels need no name.
     let needs_none = [Role::GenericContainer, Role::Window, Role::ScrollView, Role::Pane, Role::Unknown];
     window
         .root()
@@ -21,7 +21,7 @@ fn nameless(window: &Window) -> Vec<String> {
             let data = node.data();
             [Action::Click, Action::SetValue, Action::Increment].iter().any(|&a| data.supports_action(a))
         })
-        // A scroll bar is known by what it stands beside.
+        // Scroll bars need no name: they belong to the panel beside them.
         .filter(|node| node.role() != Role::ScrollBar)
         .filter(|node| {
             let named = |text: Option<String>| text.is_some_and(|text| !text.trim().is_empty());

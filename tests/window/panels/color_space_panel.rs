@@ -1,4 +1,4 @@
-//! The color space panel on the sample scene: turned, pointed at, drawn in.
+//! Tests of the color space panel on the sample scene: turning, hovering, and marking with tools.
 
 use crate::window::{Fixture, SIZE, Window, with_device, with_gpu};
 use dichroscope::app::{Edit, ViewCommand};
@@ -12,7 +12,7 @@ use egui_kittest::kittest::Queryable;
 use egui_wgpu::RenderState;
 use std::sync::Arc;
 
-/// The sample scene in the window; none without a graphics adapter.
+/// A window with the sample scene; `None` without a graphics adapter.
 fn opened() -> Option<Window> {
     with_gpu(SIZE, Fixture::Sample)
 }
@@ -25,7 +25,7 @@ fn orbit(harness: &Window) -> Orbit {
     drawing(harness).orbit
 }
 
-/// Number of pixels of the panel's picture that are not background.
+/// Number of pixels of the panel's image that differ from the background.
 fn drawn_pixels(harness: &Window, gpu: &RenderState) -> usize {
     let (_, rgba) = color_space_pixels(harness.state(), gpu).expect("drawn");
     let background: [u8; 4] = rgba[..4].try_into().unwrap();
@@ -40,7 +40,7 @@ fn canvas(harness: &Window) -> Rect {
     harness.get_by_role_and_label(Role::Canvas, "Color space view").rect()
 }
 
-/// Where each bin is seen.
+/// Screen position of each bin.
 fn places(harness: &Window) -> Vec<Pos2> {
     let (drawing, rect) = (drawing(harness), canvas(harness));
     drawing.bins.iter().map(|&bin| drawing.screen(rect, bin).expect("in view")).collect()
@@ -58,7 +58,7 @@ fn hover(harness: &mut Window, at: Pos2) {
 fn press(harness: &mut Window, pos: Pos2, pressed: bool, modifiers: Modifiers) {
     let button = PointerButton::Primary;
     harness.event_modifiers(Event::PointerButton { pos, button, pressed, modifiers }, modifiers);
-    // Held for long it would be no click.
+    // The button is released soon, because a long press is not a click.
     harness.run_steps(1);
 }
 
@@ -104,7 +104,7 @@ fn hovering_a_bin_tells_everybody_and_leaving_it_too() {
     let at = place_of(&harness, bin);
     hover(&mut harness, at);
     let Some(Item::Bin(found)) = harness.state().state().hover else { panic!("a bin is hovered") };
-    // Another one may lie in front.
+    // Another bin may lie in front.
     assert!(place_of(&harness, found as usize).distance(at) < 8.0);
     let beside = canvas(&harness).right_top() + vec2(-30.0, 12.0);
     hover(&mut harness, beside);
@@ -153,7 +153,7 @@ fn views_have_names() {
         -(0..3).map(|i| f64::from(forward[i]) * normal[i]).sum::<f64>()
     };
     assert!(facing(&harness, 1) > 0.9999);
-    // The view goes with the selection, until it is locked.
+    // The view follows the selection until it is locked.
     harness.state_mut().apply(Edit::Select(Some(Item::Region(2))));
     harness.run_steps(3);
     assert!(facing(&harness, 2) > 0.9999);
@@ -215,7 +215,7 @@ fn a_lasso_marks_the_pixels_whose_colors_are_inside() {
     press(&mut harness, corners[24], false, Modifiers::NONE);
     let marked = harness.state().state().document.selection.marked.clone().expect("pixels are marked");
     let (picture, places) = (picture(&harness), places(&harness));
-    // An ellipse that the lasso follows to a point or two.
+    // The lasso follows an ellipse to within one or two screen points.
     let radius = |bin: usize| {
         let off = places[bin] - center;
         vec2(off.x / 34.0, off.y / 26.0).length()
@@ -231,7 +231,7 @@ fn a_lasso_marks_the_pixels_whose_colors_are_inside() {
         .filter(|&pixel| marked[pixel])
         .find(|&pixel| picture.histogram.bin_of(pixel).is_none_or(|bin| radius(bin as usize) > 1.1));
     assert_eq!(outside, None);
-    // With Alt the same outline takes its pixels away again.
+    // With Alt, the same outline removes the pixels from the marked ones.
     hover(&mut harness, corners[0]);
     press(&mut harness, corners[0], true, Modifiers::ALT);
     for &corner in &corners {

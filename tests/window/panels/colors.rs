@@ -1,4 +1,4 @@
-//! The color space view, which needs a graphics adapter.
+//! Tests of the color space panel on the small photograph, which need a graphics adapter.
 
 use crate::window::{
     Fixture, SIZE, Window, apply, click, drag, item, marked, named, press, says, shown, size, state, undo,
@@ -9,7 +9,7 @@ use dichroscope::view::{ColorBy, ColorSpace, Item, Tool};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2, Rect};
 
-/// The small photograph in a window that can draw.
+/// A window with the small photograph; `None` without a graphics adapter.
 fn opened() -> Option<Window> {
     with_gpu(SIZE, Fixture::Tiny)
 }
@@ -18,7 +18,7 @@ fn view(window: &Window) -> Rect {
     named(window, Role::Canvas, "Color space view").rect()
 }
 
-/// A closed path along the border of a part of a rectangle, shares of its sides.
+/// A closed path along the border of a part of a rectangle; the part is given in shares of the sides.
 fn around(view: Rect, [left, top, right, bottom]: [f32; 4]) -> Vec<Pos2> {
     let corner = |x, y| view.lerp_inside(egui::vec2(x, y));
     vec![
@@ -59,7 +59,7 @@ fn a_region_is_claimed_by_its_cylinder_and_colors_are_hovered() {
     let Some(mut window) = opened() else { return };
     apply(&mut window, Edit::Select(Some(Item::Region(1))));
     let rect = view(&window);
-    // Somewhere on a fine grid over the view there is a color.
+    // At some point of a fine grid over the view there is a color.
     let places = (0..40).flat_map(|y| (0..40).map(move |x| (x, y)));
     let mut found = None;
     for (x, y) in places {
@@ -98,7 +98,7 @@ fn spaces_and_colorings_are_chosen_by_name() {
     assert!(says(&window, "Color space view"));
 }
 
-/// The middle of a choice: a tab may have the same name, or begin with it.
+/// The middle of a button with this name; the last one, because a tab before it may have the same name.
 fn window_choice(window: &Window, name: &str) -> Pos2 {
     use egui_kittest::kittest::Queryable;
     window.query_all_by_role_and_label(Role::Button, name).last().unwrap().rect().center()
@@ -125,7 +125,7 @@ fn a_drag_turns_the_view_and_keys_bring_it_back() {
     assert!(difference(&turned, &again, rect) < 0.001, "looking at another theme and back changes nothing");
 }
 
-/// Share of the pixels of a part of the screen that differ.
+/// Share of the pixels that differ between two images, within `part`.
 fn difference(a: &image::RgbaImage, b: &image::RgbaImage, part: Rect) -> f32 {
     let inside = |x: u32, y: u32| part.contains(Pos2::new(x as f32, y as f32));
     let pixels = a.enumerate_pixels().filter(|(x, y, _)| inside(*x, *y));

@@ -1,4 +1,4 @@
-//! A pinned result, and the newest beside it.
+//! Tests of the comparison of a pinned result with the newest one.
 
 use crate::window::{click, named, press, says, shown, state, tiny_window};
 use dichroscope::view::Layer;

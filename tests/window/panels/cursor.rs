@@ -1,4 +1,4 @@
-//! The debugger's cursor: image, plane and tables show the instant at which it stands.
+//! Tests of panels at the debugger's cursor: image, plane and tables show the state at the cursor.
 
 use crate::window::{
     Fixture, Window, apply, at, click, inside, item, named, says, shown, state, tiny_window,
@@ -21,12 +21,12 @@ fn seek(window: &mut Window, n: usize) {
     apply(window, Command::Debug(DebugCommand::Seek(n)));
 }
 
-/// The first block about this.
+/// The first block with a topic that `wanted` accepts.
 fn block(window: &Window, wanted: impl Fn(Topic) -> bool) -> Block {
     trace(window).blocks().find(|block| wanted(block.topic)).expect("there is one")
 }
 
-/// After the first highlight candidate that passed.
+/// Number of steps after which the first highlight candidate has passed.
 fn accepted(window: &Window) -> usize {
     let trace = trace(window);
     let passed = trace

@@ -1,4 +1,4 @@
-//! The decisions: played, scrubbed, stepped through and stopped, and what is said of them where the cursor stands.
+//! Tests of the debugger: playing, seeking, stepping, breakpoints, and the texts about the step at the cursor.
 
 use crate::window::{
     Window, apply, at, choose, click, drag, item, named, press, says, state, tiny_window, with_gpu, zoom_in,
@@ -36,7 +36,7 @@ fn settings(window: &mut Window, change: impl FnOnce(&mut DebugSettings)) {
     apply(window, Command::Debug(DebugCommand::Settings(settings)));
 }
 
-/// The first hypothesis on the timeline that is still there in the result.
+/// The first hypothesis on the timeline that is a region of the result.
 fn hypothesis(window: &Window) -> (u16, std::ops::Range<usize>) {
     let names = &state(window).debugger.names;
     let found = trace(window).blocks().find_map(|block| match block.topic {
@@ -46,7 +46,7 @@ fn hypothesis(window: &Window) -> (u16, std::ops::Range<usize>) {
     found.expect("there is a hypothesis")
 }
 
-/// A click that is over before a frame is.
+/// A click with press and release in one frame.
 fn tap(window: &mut Window, pos: Pos2) {
     window.hover_at(pos);
     window.run_steps(1);
@@ -178,7 +178,7 @@ fn the_track_is_dragged_clicked_and_zoomed() {
     );
     assert_eq!(cursor(&window), 0, "to the left of the line is the beginning");
 
-    // A click on a block selects its region and goes to its first decision.
+    // A click on a block selects the block's region and moves the cursor to the block's first decision.
     let (region, steps) = hypothesis(&window);
     let number = state(&window).debugger.names.final_number(region);
     let axis = dichroscope::view::TimelineAxis::of(&trace(&window));
@@ -191,7 +191,7 @@ fn the_track_is_dragged_clicked_and_zoomed() {
     tap(&mut window, block);
     assert_eq!((item(&window), cursor(&window)), (Some(Item::Region(number)), steps.start + 1));
 
-    // Zoomed in far around a place, a click there is exact to the step.
+    // At a large zoom, a click moves the cursor to the exact step.
     let place = spot(share, 0.1);
     let wanted = axis.taken_at(f64::from((place.x - track.left()) / track.width()));
     window.hover_at(place);

@@ -1,4 +1,5 @@
-//! What the window writes is what the library writes; that the command line writes the same is shown in `tests/cli`.
+//! Files exported from the window equal those that the library writes. `tests/cli` tests the same of the command
+//! line.
 
 use crate::window::{
     Window, answer, apply, choose, click, item, marked, named, notice, open_sample, press, shown, sigma,
@@ -14,7 +15,7 @@ use egui::{Key, Modifiers};
 use std::fs;
 use std::path::Path;
 
-/// Asks for one thing from the export window.
+/// Exports one kind of file with the export window.
 fn export(window: &mut Window, ware: &str, path: &Path) {
     press(window, Modifiers::COMMAND, Key::E);
     click(window, Role::RadioButton, ware);
@@ -64,7 +65,7 @@ fn everything_is_what_the_library_writes() {
     for name in names(&ours).iter().filter(|name| *name != "report.json") {
         assert!(fs::read(ours.join(name)).unwrap() == fs::read(theirs.join(name)).unwrap(), "{name} differs");
     }
-    // A folder of somebody else's is not replaced.
+    // A folder that does not hold a result is not replaced.
     let letters = folder.path().join("letters");
     fs::create_dir(&letters).unwrap();
     fs::write(letters.join("love.txt"), "dear").unwrap();

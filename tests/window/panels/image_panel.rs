@@ -1,4 +1,4 @@
-//! The image panel on the sample scene: looked at, clicked and drawn in.
+//! Tests of the image panel on the sample scene: layers, clicks, and marking with tools.
 
 use crate::window::{Fixture, SIZE, Window, with_gpu};
 use dichroscope::app::{Edit, ViewCommand, ViewSettings};
@@ -9,7 +9,7 @@ use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhas
 use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
 
-/// The sample scene in the window; none without a graphics adapter.
+/// A window with the sample scene; `None` without a graphics adapter.
 fn opened() -> Option<Window> {
     with_gpu(SIZE, Fixture::Sample)
 }
@@ -35,7 +35,7 @@ fn place(harness: &Window) -> Placement {
     Placement::new(rect, vec2(width as f32, height as f32), &view(harness).image)
 }
 
-/// Where a point of the picture is on the screen.
+/// Screen position of a point of the picture.
 fn screen(harness: &Window, x: f32, y: f32) -> Pos2 {
     place(harness).screen_from_image(pos2(x, y))
 }
@@ -57,7 +57,7 @@ fn click(harness: &mut Window, pos: Pos2, modifiers: Modifiers) {
     move_to(harness, pos);
     press(harness, pos, true, modifiers);
     press(harness, pos, false, modifiers);
-    // The next click shall not be the second of a double one.
+    // Time passes, so that the next click is not the second of a double click.
     harness.run_steps(30);
 }
 
@@ -76,7 +76,7 @@ fn marked(harness: &Window) -> usize {
     mask.as_ref().map_or(0, |mask| mask.as_slice().iter().filter(|&&on| on).count())
 }
 
-/// The middle of a run of a region's pixels, far from its border.
+/// The middle of a long run of a region's pixels in one row, away from the border.
 fn inside(harness: &Window, region: u16) -> u32 {
     let shown = harness.state().state().newest.as_ref().unwrap();
     let labels = shown.labels();
@@ -126,7 +126,7 @@ fn scrolling_zooms_at_the_pointer_and_keys_travel() {
     harness.run_steps(3);
     assert!((place(&harness).zoom - after.zoom / 1.25).abs() < 1e-3);
     let center = place(&harness).center;
-    // Without the focus arrows step through the decisions.
+    // When the panel does not have the focus, arrow keys step through the decisions.
     harness.get_by_label("Picture").focus();
     harness.run_steps(1);
     harness.key_press(Key::ArrowRight);
@@ -172,7 +172,7 @@ fn dragging_pans_and_two_clicks_fit() {
     assert!((moved - vec2(20.0, 10.0)).length() < 0.1, "{moved:?}");
     move_to(&mut harness, at);
     harness.run_steps(8);
-    // Four events in one frame: a frame of the harness is a quarter of a second.
+    // All four events are in one frame, because a frame of the harness takes a quarter of a second.
     for pressed in [true, false, true, false] {
         let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
         harness.input_mut().events.push(Event::PointerButton { pos: at, button, pressed, modifiers });

@@ -1,4 +1,4 @@
-//! Keys, help, and the theme.
+//! Tests of keyboard shortcuts, the help window, and the theme.
 
 use crate::window::{Window, apply, choose, press, says, state, tiny_window, window};
 use dichroscope::app::{Severity, ViewCommand};

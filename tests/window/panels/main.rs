@@ -1,7 +1,9 @@
-//! The whole window without a screen: found by accessible names, clicked, dragged and typed in, and looked at.
+//! Tests of the whole window without a screen: widgets are found by accessible names, clicked, dragged and typed
+//! into.
 //!
-//! Work is done in the call itself ([`dichroscope::app::Executor::Inline`]), so that no test waits for a thread.
-//! Only what draws the color space or takes pictures needs a graphics adapter, see [`window::with_gpu`].
+//! Work is done in the calling thread ([`dichroscope::app::Executor::Inline`]), so that no test waits for another
+//! thread.
+//! Only tests that draw the color space or compare pictures need a graphics adapter, see [`window::with_gpu`].
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 

@@ -1,4 +1,5 @@
-//! Opening: by menu, path, drop, paste and shelf; and what is said when there is nothing or something is wrong.
+//! Tests of opening photographs by menu, path, drop, paste and list of recent files, and of the messages about
+//! errors.
 
 use crate::window::{
     Window, answer, apply, choose, click, notice, open_sample, press, says, shown, sigma, size, state, tiny,
@@ -144,7 +145,7 @@ fn a_path_pasted_into_a_field_stays_there() {
     assert!(says(&window, "elsewhere.png"));
 }
 
-/// A PPM of one color a column.
+/// A PPM with one color per column.
 fn plain(name: &str, color: impl Fn(usize) -> [u8; 3]) -> Origin {
     let (width, height) = (96, 64);
     let mut bytes = format!("P6 {width} {height} 255\n").into_bytes();

@@ -1,6 +1,7 @@
-//! What the panels look like: a few small pictures, with an allowance for a few pixels.
+//! Pictures of panels are compared with stored ones; a few pixels may differ.
 //!
-//! `UPDATE_SNAPSHOTS=1 cargo test -p dichroscope-window-tests` makes them anew. Nothing in them tells the time.
+//! `UPDATE_SNAPSHOTS=1 cargo test -p dichroscope-window-tests` writes the stored pictures anew. No picture shows a
+//! time.
 
 use crate::window::{Fixture, Window, apply, named, with_software_driver};
 use dichroscope::app::{Command, DebugCommand, Edit, ViewCommand};
@@ -11,10 +12,10 @@ use egui::{Rect, Vec2, pos2, vec2};
 use egui_kittest::{SnapshotOptions, image_snapshot_options};
 use image::imageops::{FilterType, resize};
 
-/// Of a single panel.
+/// Size of a picture of a single panel, points.
 const PANEL: Vec2 = vec2(420.0, 300.0);
 
-/// Pixels that may differ: two versions of a driver round differently on a few edges.
+/// Number of pixels that may differ: versions of a driver round differently on a few edges.
 const EDGES_PX: usize = 60;
 
 fn opened(size: Vec2, pane: Option<Pane>) -> Option<Window> {
@@ -109,7 +110,7 @@ fn the_whole_window() {
     apply(&mut window, Edit::Select(Some(Item::Region(1))));
     look(&mut window, |image| image.layer = Layer::Regions);
     window.run_steps(6);
-    // The status line tells how long the analysis took, and moves with the digits of that.
+    // The status line shows the time of the analysis, and its layout depends on the number of digits.
     let help = named(&window, Role::Button, "Help").rect();
     window.mask(Rect::from_min_max(help.right_top(), pos2(1280.0, help.bottom())));
     let picture = window.render().unwrap();

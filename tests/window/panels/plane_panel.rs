@@ -1,4 +1,4 @@
-//! The plane panel on the sample scene.
+//! Tests of the plane panel on the sample scene.
 
 use crate::window::{Fixture, SIZE, Window, with_gpu};
 use dichroscope::app::Edit;
@@ -8,7 +8,7 @@ use egui::accesskit::Role;
 use egui::{Event, Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
 
-/// The sample scene in the window; none without a graphics adapter.
+/// A window with the sample scene; `None` without a graphics adapter.
 fn opened() -> Option<Window> {
     with_gpu(SIZE, Fixture::Sample)
 }
@@ -25,7 +25,7 @@ fn a_region_is_asked_for_and_shown() {
     assert!(plane.has_plane && !plane.points.is_empty());
     let places = plane.points.iter().map(|point| drawing.screen([point.body, point.surface], rect));
     assert!(places.into_iter().all(|at| rect.contains(at)), "all points are inside the view");
-    // Figure 2's angle between both lines is seen as it is.
+    // The angle between matte and highlight line (figure 2) is the same on the screen as in color space.
     let [start, end] = plane.highlight_lines().next().unwrap().map(|amounts| drawing.screen(amounts, rect));
     let seen_deg = (start.y - end.y).atan2(end.x - start.x).to_degrees();
     assert!((seen_deg - plane.angle_deg).abs() < 0.1, "{seen_deg} {}", plane.angle_deg);

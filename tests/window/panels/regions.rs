@@ -1,4 +1,4 @@
-//! Regions: chosen in the table, in the picture or by key, and the same everywhere.
+//! Tests of selecting regions in the table, in the picture and by key: all panels show the same selection.
 
 use crate::window::{
     Window, apply, at, click, drag, inside, item, named, pointer, press, says, shown, state, tiny_window,
@@ -12,7 +12,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::Node;
 use egui_kittest::kittest::NodeT;
 
-/// The regions in the order of the table's rows.
+/// Region ids in the order of the table's rows.
 fn rows(window: &Window) -> Vec<u16> {
     let of_row = |node: Node<'_>| {
         let id = words(&node)?.strip_prefix("color of region ")?.parse().ok()?;

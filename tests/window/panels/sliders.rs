@@ -1,4 +1,4 @@
-//! Parameters: dragged, typed, reset, switched, and taken back.
+//! Tests of the parameters panel: dragging, typing, resetting, switching, and undoing.
 
 use crate::window::{
     Window, apply, choose, click, double_click, drag, named, notice, press, shown, sigma, state, tiny,
@@ -186,7 +186,7 @@ fn the_call_of_what_is_shown_can_be_copied() {
     window.run_steps(3);
     named(&window, Role::Button, "Copy as command line").click();
     let mut copied = Vec::new();
-    // A frame for each event: the text is in the output of one of them.
+    // Each event has a frame of its own, because the copied text is in the output of one frame only.
     for _ in 0..4 {
         window.run_steps(1);
         copied.extend(window.output().platform_output.commands.iter().filter_map(|command| match command {

@@ -1,4 +1,4 @@
-//! Why a pixel is what it is: its history as links, and what would change it.
+//! Tests of the why panel: the pixel's history as links, and the changes of parameters that change the result.
 
 use crate::window::{Window, apply, click, named, says, state, tiny_window};
 use dichroscope::app::{Ask, Command, Edit};
@@ -13,7 +13,7 @@ fn pixel(window: &Window) -> u32 {
     labels.as_slice().iter().position(|&label| label == 1).unwrap() as u32
 }
 
-/// The panel in all of the window, so that nothing has to be scrolled to.
+/// Shows the panel alone in the window, so that no test has to scroll.
 fn alone(window: &mut Window) {
     window.state_mut().show_alone(Some(Pane::Why));
     window.run_steps(3);

@@ -1,4 +1,4 @@
-//! A window to act on: what a person sees, points at and types.
+//! Helpers that open the window without a screen, find widgets by name, and simulate pointer and keys.
 
 use dichroscope::app::{Application, Command, Edit, Executor, JobCommand, State, ViewCommand};
 use dichroscope::gui::App;
@@ -16,20 +16,21 @@ use std::sync::{Arc, OnceLock};
 
 pub type Window = Harness<'static, App>;
 
-/// Of a first start.
+/// Size of the window at the first start, points.
 pub const SIZE: Vec2 = vec2(1440.0, 900.0);
 
-/// Frames until what a click opened stands still.
+/// Number of frames after which menus and dialogs that a click opened have their final position.
 const FRAMES: usize = 3;
 
-/// A photograph that was read, analyzed and traced once for all tests; each window shows a copy of that state.
+/// A photograph that is read, analyzed and traced once for all tests; each window starts with a copy of that state.
 #[derive(Clone, Copy)]
 pub enum Fixture {
     /// The small photograph of [`tiny`].
     Tiny,
-    /// The same, with the camera's noise set to 2.5 counts: pictures of it do not change with the estimate.
+    /// The photograph of `Tiny`, with the camera's noise set to 2.5 counts, so that pictures do not depend on the
+    /// estimate.
     TinyFixedNoise,
-    /// The sample scene that the program opens by itself.
+    /// The sample scene that the program opens at its start.
     Sample,
 }
 
@@ -54,7 +55,7 @@ impl Fixture {
     }
 }
 
-/// An empty window without a graphics adapter.
+/// A window without a photograph and without a graphics adapter.
 pub fn window() -> Window {
     undrawn(State::default())
 }
@@ -63,13 +64,14 @@ fn undrawn(state: State) -> Window {
     builder(SIZE).build_eframe(|cc| App::with_state(&cc.egui_ctx, None, Executor::Inline, state).unwrap())
 }
 
-/// A window with a graphics adapter. Where there is none the test is skipped with a word, unless
-/// `DICHROSCOPE_REQUIRE_GPU` says that there must be one.
+/// A window with a graphics adapter. Without an adapter, the result is `None` and the test is skipped with a message;
+/// it fails
+/// if `DICHROSCOPE_REQUIRE_GPU` is set.
 pub fn with_gpu(size: Vec2, fixture: Fixture) -> Option<Window> {
     Some(with_device(size, fixture)?.0)
 }
 
-/// As [`with_gpu`], and the device, to read back what was drawn.
+/// Like [`with_gpu`]; also returns the device, with which images can be read back.
 pub fn with_device(size: Vec2, fixture: Fixture) -> Option<(Window, RenderState)> {
     match render_state() {
         Ok(gpu) => Some((drawn_by(gpu.clone(), size, fixture), gpu)),
@@ -77,7 +79,8 @@ pub fn with_device(size: Vec2, fixture: Fixture) -> Option<(Window, RenderState)
     }
 }
 
-/// As [`with_gpu`], of Mesa's software driver: the pictures are its work, and a graphics card's edges lie elsewhere.
+/// Like [`with_gpu`], with Mesa's software driver, which drew the stored pictures: graphics cards draw edges
+/// differently.
 pub fn with_software_driver(size: Vec2, fixture: Fixture) -> Option<Window> {
     let gpu = match render_state() {
         Ok(gpu) => gpu,
@@ -111,7 +114,7 @@ fn builder(size: Vec2) -> HarnessBuilder<App> {
     Harness::builder().with_size(size).with_pixels_per_point(1.0).with_max_steps(32).with_render_cursor(false)
 }
 
-/// Vulkan alone: another interface gives slightly different pictures.
+/// Options that allow Vulkan only: other graphics interfaces give slightly different pictures.
 fn render_state() -> Result<RenderState, String> {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = wgpu::Backends::VULKAN;
@@ -125,7 +128,7 @@ fn render_state() -> Result<RenderState, String> {
         .map_err(|error| error.to_string())
 }
 
-/// A small photograph with three highlights.
+/// Path of a small photograph with three highlights.
 pub fn tiny() -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"))
         .ancestors()
@@ -134,7 +137,7 @@ pub fn tiny() -> PathBuf {
     root.join("assets/tiny/camera8.png")
 }
 
-/// A window in which the small photograph is open.
+/// A window with the small photograph.
 pub fn tiny_window() -> Window {
     undrawn(Fixture::Tiny.state())
 }
@@ -156,7 +159,7 @@ pub fn item(window: &Window) -> Option<Item> {
     state(window).document.selection.item
 }
 
-/// How many pixels are marked.
+/// Number of marked pixels.
 pub fn marked(window: &Window) -> usize {
     let mask = &state(window).document.selection.marked;
     mask.as_ref().map_or(0, |mask| mask.as_slice().iter().filter(|&&on| on).count())
@@ -172,7 +175,7 @@ pub fn notice(window: &Window) -> String {
     state(window).notices.last().expect("there is a notice").text.clone()
 }
 
-/// What has this role and a name that begins so; menus add their keys to a name.
+/// The widget with this role and a name that begins with `name`; entries of menus append their keys to the name.
 #[track_caller]
 pub fn named<'w>(window: &'w Window, role: Role, name: &str) -> Node<'w> {
     let fits = |node: &Node<'w>| {
@@ -183,13 +186,13 @@ pub fn named<'w>(window: &'w Window, role: Role, name: &str) -> Node<'w> {
     found.remove(0)
 }
 
-/// The name of a widget; a label's own text.
+/// The accessible name of a widget; of a label its text.
 pub fn words(node: &Node<'_>) -> Option<String> {
     let node = node.accesskit_node();
     if node.role() == Role::Label { node.value().or(node.label()) } else { node.label() }
 }
 
-/// Whether anything that is shown has these words in its name.
+/// Whether the name of any shown widget contains these words.
 pub fn says(window: &Window, words: &str) -> bool {
     let holds = |text: Option<String>| text.is_some_and(|text| text.contains(words));
     window.root().children_recursive().any(|node| {
@@ -204,12 +207,12 @@ pub fn click(window: &mut Window, role: Role, name: &str) {
     window.run_steps(FRAMES);
 }
 
-/// Opens a menu of the bar and chooses from it.
+/// Opens a menu of the menu bar and clicks an entry.
 #[track_caller]
 pub fn choose(window: &mut Window, menu: &str, entry: &str) {
     window.get_by_role_and_label(Role::Button, menu).click();
     window.run_steps(FRAMES);
-    // A tab may have the name of its panel's entry.
+    // A panel's tab may have the same name as the entry.
     let roles = [Role::CheckBox, Role::RadioButton, Role::Button];
     let found = roles.iter().find_map(|&role| {
         let fits = |node: &Node<'_>| {
@@ -221,7 +224,7 @@ pub fn choose(window: &mut Window, menu: &str, entry: &str) {
     window.run_steps(FRAMES);
 }
 
-/// Opens one of the scenes that the program carries, from the menu.
+/// Opens a bundled scene from the menu.
 pub fn open_sample(window: &mut Window, name: &str) {
     choose(window, "File", "Sample scenes");
     click(window, Role::Button, name);
@@ -237,7 +240,7 @@ pub fn undo(window: &mut Window) {
     press(window, Modifiers::COMMAND, Key::Z);
 }
 
-/// Replaces what stands in the window that asks for a path, and answers it.
+/// Replaces the text of the dialog that asks for a path, and confirms.
 #[track_caller]
 pub fn answer(window: &mut Window, path: &Path) {
     let field = named(window, Role::TextInput, "Path");
@@ -255,7 +258,7 @@ pub fn pointer(window: &mut Window, pos: Pos2, pressed: bool, modifiers: Modifie
     window.run_steps(1);
 }
 
-/// Presses at the first point, moves through the others and lets go.
+/// Drags: presses the primary button at the first point, moves through the others, and releases the button.
 pub fn drag(window: &mut Window, points: &[Pos2], modifiers: Modifiers) {
     let (first, last) = (points[0], points[points.len() - 1]);
     window.hover_at(first);
@@ -269,7 +272,7 @@ pub fn drag(window: &mut Window, points: &[Pos2], modifiers: Modifiers) {
     window.run_steps(2);
 }
 
-/// Two clicks in one frame: a frame of the harness is a quarter of a second.
+/// A double click, in one frame because a frame of the harness takes a quarter of a second.
 pub fn double_click(window: &mut Window, pos: Pos2) {
     window.hover_at(pos);
     window.run_steps(4);
@@ -280,7 +283,7 @@ pub fn double_click(window: &mut Window, pos: Pos2) {
     window.run_steps(FRAMES);
 }
 
-/// Two screen points a pixel, the middle of the picture in the middle of the view: [`at`] relies on it.
+/// Sets the zoom to two screen points per pixel, with the picture's middle in the view's middle, as [`at`] requires.
 pub fn zoom_in(window: &mut Window) {
     let (width, height) = size(window);
     let mut image = state(window).view.image.clone();
@@ -288,19 +291,19 @@ pub fn zoom_in(window: &mut Window) {
     apply(window, ViewCommand::Image(image));
 }
 
-/// Where a point of the picture is on the screen, after [`zoom_in`].
+/// Screen position of a point of the picture after [`zoom_in`].
 pub fn at(window: &Window, x: f32, y: f32) -> Pos2 {
     let (width, height) = size(window);
     let view = window.get_by_role_and_label(Role::Image, "Picture").rect();
     view.center() + 2.0 * vec2(x - width as f32 / 2.0, y - height as f32 / 2.0)
 }
 
-/// Columns and rows of the picture.
+/// Number of columns and rows of the picture.
 pub fn size(window: &Window) -> (usize, usize) {
     state(window).picture.as_ref().expect("a picture is open").size()
 }
 
-/// A pixel of a region far from its border: column and row.
+/// Column and row of a pixel of a region, away from the region's border.
 pub fn inside(window: &Window, region: u16) -> (usize, usize) {
     let shown = shown(window);
     let labels = shown.labels();
