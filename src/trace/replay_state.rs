@@ -120,10 +120,10 @@ impl ReplayState {
         match event {
             Event::WindowsLaid(laid) => self.grids.push(Grid::new(laid)),
             Event::WindowClassified(WindowClassified { window, class, .. }) => {
-                self.classify(*window, Some(*class))
+                self.classify(*window, Some(*class));
             }
             Event::MergeTried(MergeTried { into, from, class, union, .. }) if class == union => {
-                self.join(*from, *into)
+                self.join(*from, *into);
             }
             Event::HypothesisChosen(chosen) => self.hypotheses.push(Hypothesis {
                 area: Some(chosen.area),
@@ -179,7 +179,7 @@ impl ReplayState {
             }
             Event::WindowClassified(WindowClassified { window, .. }) => self.classify(*window, None),
             Event::MergeTried(MergeTried { from, class, union, .. }) if class == union => {
-                self.join(*from, *from)
+                self.join(*from, *from);
             }
             Event::HypothesisChosen(_) | Event::ComponentSplit(_) => {
                 self.hypotheses.pop();

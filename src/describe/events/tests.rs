@@ -36,18 +36,15 @@ fn every_event_has_a_sentence_of_its_own() {
 
 /// Numbers of the hypotheses, regions and blobs that the `ids` of a trace line name, by the keys that name them.
 fn named(ids: &Value) -> BTreeSet<(Subject, u64)> {
-    let of = |key: &str, subject: fn(u16) -> Subject| {
-        ids.get(key).and_then(Value::as_u64).map(|id| (subject(0), id))
-    };
-    let keys: [(&str, fn(u16) -> Subject); 6] = [
-        ("region", Subject::Hypothesis),
-        ("into", Subject::Hypothesis),
-        ("by", Subject::Hypothesis),
-        ("part", Subject::Hypothesis),
-        ("final", Subject::Region),
-        ("blob", Subject::Blob),
-    ];
-    keys.into_iter().filter_map(|(key, subject)| of(key, subject)).collect()
+    let id = |key: &str| ids.get(key).and_then(Value::as_u64);
+    let hypotheses = ["region", "into", "by", "part"].into_iter().filter_map(id);
+    let regions = id("final").into_iter();
+    let blobs = id("blob").into_iter();
+    hypotheses
+        .map(|id| (Subject::Hypothesis(0), id))
+        .chain(regions.map(|id| (Subject::Region(0), id)))
+        .chain(blobs.map(|id| (Subject::Blob(0), id)))
+        .collect()
 }
 
 #[test]
