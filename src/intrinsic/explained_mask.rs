@@ -5,7 +5,7 @@
 //! region), but no object is nothing but highlight. Nor is a clipped blob that is mostly surrounded by another region, which
 //! it reached over a bridge of bright pixels.
 
-use crate::raster::{Mask, Raster, UNASSIGNED};
+use crate::raster::{Border, ComponentSearch, Connectivity, Mask, Raster, UNASSIGNED};
 use crate::segment::{AnalysisInput, FinalRegions, Members, RegionFit, parts};
 use crate::trace::PixelKind;
 
@@ -46,32 +46,14 @@ pub fn explained_mask(
 /// Takes clipped blobs out that other regions surround.
 fn give_up_strangers(input: &AnalysisInput, regions: &FinalRegions, mask: &mut Mask) {
     let labels = &regions.labels;
-    let (width, height) = (labels.width(), labels.height());
-    let mut seen: Mask = Raster::filled(width, height, false);
-    let mut blob = Vec::new();
+    let mut search = ComponentSearch::new(labels.width(), labels.height(), Connectivity::Four);
     for start in 0..labels.len() {
-        if seen[start] || !mask[start] || !input.masks.distorted(start) {
-            continue;
-        }
         let label = labels[start];
-        seen[start] = true;
-        blob.clear();
-        blob.push(start);
-        let (mut at, mut own, mut others) = (0, 0usize, 0usize);
-        while let Some(&pixel) = blob.get(at) {
-            at += 1;
-            labels.for_each_neighbor(pixel, |near| {
-                if !input.masks.distorted(near) {
-                    own += usize::from(labels[near] == label);
-                    others += usize::from(labels[near] != label && labels[near] != UNASSIGNED);
-                } else if !seen[near] && labels[near] == label && mask[near] {
-                    seen[near] = true;
-                    blob.push(near);
-                }
-            });
-        }
-        if (own as f64) < LEAST_OWN * (own + others) as f64 {
-            for &pixel in &blob {
+        let member = |pixel: usize| mask[pixel] && labels[pixel] == label && input.masks.distorted(pixel);
+        let Some(blob) = search.component_at(start, member) else { continue };
+        let border = Border::of(labels, blob, |pixel| !input.masks.distorted(pixel));
+        if (border.sides(label) as f64) < LEAST_OWN * border.assigned_sides() as f64 {
+            for &pixel in blob {
                 mask[pixel] = false;
             }
         }

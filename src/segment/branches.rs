@@ -13,7 +13,7 @@
 
 use super::input::AnalysisInput;
 use super::recorded_labels::Pixels;
-use crate::raster::{LabelMap, Raster};
+use crate::raster::{ComponentSearch, Connectivity, LabelMap, Raster};
 use crate::reflection::{MOST_BRANCHES, ReflectionTransform};
 use crate::trace::{HighlightCore, Measured};
 
@@ -122,33 +122,21 @@ impl BranchSearch<'_> {
         let width = self.labels.width();
         let top = first.pixel as usize / width;
         let rows = last.pixel as usize / width + 1 - top;
-        // Place in `strong` of each pixel still to be visited, from 1.
-        let mut waiting: Raster<u32> = Raster::filled(width, rows, 0);
+        // Place in `strong` of each pixel that reaches `least`, from 1; 0 of all others.
+        let mut place: Raster<u32> = Raster::filled(width, rows, 0);
         for (index, at) in strong.iter().enumerate() {
             if least[index].is_finite() && at.amounts.is_none_or(|[_, surface, _]| surface >= least[index]) {
-                waiting[at.pixel as usize - top * width] = index as u32 + 1;
+                place[at.pixel as usize - top * width] = index as u32 + 1;
             }
         }
-        let mut components = Vec::new();
-        for start in strong.iter().map(|at| at.pixel as usize - top * width) {
-            if waiting[start] == 0 {
-                continue;
-            }
-            let mut component = vec![waiting[start] - 1];
-            waiting[start] = 0;
-            let mut at = 0;
-            while let Some(&index) = component.get(at) {
-                at += 1;
-                for near in waiting.around(strong[index as usize].pixel as usize - top * width) {
-                    if waiting[near] > 0 {
-                        component.push(waiting[near] - 1);
-                        waiting[near] = 0;
-                    }
-                }
-            }
-            components.push(component);
-        }
-        components
+        let mut search = ComponentSearch::new(width, rows, Connectivity::Eight);
+        let starts = strong.iter().map(|at| at.pixel as usize - top * width);
+        starts
+            .filter_map(|start| {
+                let component = search.component_at(start, |pixel| place[pixel] > 0)?;
+                Some(component.iter().map(|&pixel| place[pixel] - 1).collect())
+            })
+            .collect()
     }
 
     /// What a core says, and its strength; none where it is too small, or its clipped heart has no ring around it.

@@ -8,10 +8,9 @@ use super::input::AnalysisInput;
 use super::planar::PlanarRegions;
 use super::recorded_labels::RecordedLabels;
 use crate::color::dot;
-use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
+use crate::raster::{Border, ComponentSearch, Connectivity, LabelMap, UNASSIGNED};
 use crate::trace::{GrowthBegan, HoleFilled, Pass, Recorder};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 
 /// A clipped component joins the region that holds this share of its assigned border.
 const SURROUNDED: f64 = 0.7;
@@ -55,87 +54,55 @@ pub fn clipping_regions<R: Recorder>(
     }
     recorded_labels.begin(Pass::ClippedHoles);
     let clipped = |pixel: usize| input.masks.distorted(pixel) && !input.masks.dark(pixel);
-    fill(&mut recorded_labels, clipped, |_, share| share >= SURROUNDED);
+    fill(&mut recorded_labels, clipped, |hole| hole.border_share >= SURROUNDED);
     if input.stopped() {
         return recorded_labels.labels;
     }
     recorded_labels.begin(Pass::SmallHoles);
     let largest_px = input.used.min_area as usize;
     let lit = |pixel: usize| !input.masks.dark(pixel);
-    fill(&mut recorded_labels, lit, |hole, share| {
-        !hole.open && share >= 1.0 && hole.pixels.len() <= largest_px
+    fill(&mut recorded_labels, lit, |hole| {
+        hole.closed && hole.border_share >= 1.0 && hole.pixels <= largest_px
     });
     recorded_labels.labels
 }
 
-/// A component of unassigned pixels, and who holds its border.
-#[derive(Default)]
+/// A component of unassigned pixels, and the region that most of its border belongs to.
 struct Hole {
-    pixels: Vec<u32>,
-    /// Border pixels that each region holds, counted once per side.
-    border: BTreeMap<u16, usize>,
-    /// Whether something that is no region borders it.
-    open: bool,
+    /// Number of its pixels.
+    pixels: usize,
+    /// Share of the region in the assigned part of the border, 0…1.
+    border_share: f64,
+    /// Whether regions surround it on all sides.
+    closed: bool,
 }
 
-impl Hole {
-    /// The region that holds most of the border, and its share of the assigned border.
-    fn holder(&self) -> Option<(u16, f64)> {
-        let total: usize = self.border.values().sum();
-        let (&region, &most) = self.border.iter().max_by_key(|&(&id, &n)| (n, u16::MAX - id))?;
-        Some((region, most as f64 / total as f64))
-    }
-}
-
-/// Gives components of unassigned pixels for which `member` holds to the region with most of their border, where `fits`
-/// accepts the hole and that share.
+/// Gives components of unassigned pixels for which `member` is true to the region with most of their border, where `fits`
+/// accepts the hole.
 fn fill<R: Recorder>(
     recorded_labels: &mut RecordedLabels<R>,
     member: impl Fn(usize) -> bool,
-    fits: impl Fn(&Hole, f64) -> bool,
+    fits: impl Fn(&Hole) -> bool,
 ) {
-    let mut seen: Mask =
-        Raster::filled(recorded_labels.labels.width(), recorded_labels.labels.height(), false);
-    for start in 0..seen.len() {
-        if recorded_labels.labels[start] != UNASSIGNED || seen[start] || !member(start) {
+    let (width, height) = (recorded_labels.labels.width(), recorded_labels.labels.height());
+    let mut search = ComponentSearch::new(width, height, Connectivity::Four);
+    for start in 0..recorded_labels.labels.len() {
+        let labels = &recorded_labels.labels;
+        let inside = |pixel: usize| labels[pixel] == UNASSIGNED && member(pixel);
+        let Some(component) = search.component_at(start, inside) else { continue };
+        let border = Border::of(labels, component, |pixel| !inside(pixel));
+        let Some((region, border_share)) = border.main_region() else { continue };
+        if !fits(&Hole { pixels: component.len(), border_share, closed: border.is_closed() }) {
             continue;
         }
-        let hole = hole_at(start, &recorded_labels.labels, &member, &mut seen);
-        let Some((region, border_share)) = hole.holder().filter(|&(_, share)| fits(&hole, share)) else {
-            continue;
-        };
         if R::KEEPS {
-            let (pixel, pixels) = (start as u32, hole.pixels.len() as u32);
+            let (pixel, pixels) = (start as u32, component.len() as u32);
             recorded_labels.recorder.record(HoleFilled { region, pixel, pixels, border_share });
         }
-        for pixel in hole.pixels {
-            recorded_labels.assign(pixel as usize, region);
+        for &pixel in component {
+            recorded_labels.assign(pixel, region);
         }
     }
-}
-
-/// The component of unassigned members around `start`.
-fn hole_at(start: usize, labels: &LabelMap, member: impl Fn(usize) -> bool, seen: &mut Mask) -> Hole {
-    let (width, height) = (labels.width(), labels.height());
-    let mut hole = Hole { pixels: vec![start as u32], ..Hole::default() };
-    seen[start] = true;
-    let mut next = 0;
-    while let Some(&pixel) = hole.pixels.get(next) {
-        next += 1;
-        let (x, y) = (pixel as usize % width, pixel as usize / width);
-        hole.open |= x == 0 || y == 0 || x + 1 == width || y + 1 == height;
-        labels.for_each_neighbor(pixel as usize, |near| {
-            if labels[near] != UNASSIGNED {
-                *hole.border.entry(labels[near]).or_default() += 1;
-            } else if !member(near) {
-                hole.open = true;
-            } else if !seen[near] {
-                seen[near] = true;
-                hole.pixels.push(near as u32);
-            }
-        });
-    }
-    hole
 }
 
 #[cfg(test)]

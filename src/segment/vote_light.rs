@@ -15,7 +15,7 @@
 use super::illuminant::unusualness;
 use super::input::AnalysisInput;
 use crate::color::{Vec3, vec3};
-use crate::raster::{Mask, Raster, Roi, blur, dilate};
+use crate::raster::{Components, Connectivity, Mask, Raster, Roi, blur, dilate};
 use rayon::prelude::*;
 
 /// Widths of the two Gaussians, pixels.
@@ -131,18 +131,18 @@ impl Votes {
         for &(index, _) in found {
             mask[index] = true;
         }
-        let sizes_of = blobs(&mask);
+        let blobs = Components::of_mask(&mask, Connectivity::Eight);
         let step = found.len().div_ceil(MOST_VOTERS);
         let voters: Vec<Voter> = found
             .iter()
             .step_by(step)
             .map(|&(pixel, voter)| {
-                let blob = sizes_of.of[pixel] as usize;
-                Voter { weight: (BLOB_PX / sizes_of.pixels[blob] as f64).min(1.0), blob, ..voter }
+                let blob = blobs.of[pixel] as usize;
+                Voter { weight: (BLOB_PX / blobs.sizes[blob] as f64).min(1.0), blob, ..voter }
             })
             .collect();
         let total = voters.iter().map(|voter| voter.weight).sum();
-        Some(Self { voters, blobs: sizes_of.pixels.len(), total })
+        Some(Self { voters, blobs: blobs.sizes.len(), total })
     }
 
     /// H(s) as a share of all votes, 0…1.
@@ -274,40 +274,6 @@ fn cone(center: &Vec3, reach_deg: f64, step_deg: f64) -> Vec<Vec3> {
         }
     }
     lights
-}
-
-/// 8-connected components of a mask.
-struct Blobs {
-    /// Blob of each pixel, where the mask is set.
-    of: Raster<u32>,
-    /// Pixels of each.
-    pixels: Vec<usize>,
-}
-
-fn blobs(mask: &Mask) -> Blobs {
-    let mut of = mask.map(|_| u32::MAX);
-    let mut pixels = Vec::new();
-    let mut stack = Vec::new();
-    for start in 0..mask.len() {
-        if !mask[start] || of[start] != u32::MAX {
-            continue;
-        }
-        let blob = pixels.len() as u32;
-        let mut size = 0;
-        of[start] = blob;
-        stack.push(start);
-        while let Some(pixel) = stack.pop() {
-            size += 1;
-            for near in mask.around(pixel) {
-                if mask[near] && of[near] == u32::MAX {
-                    of[near] = blob;
-                    stack.push(near);
-                }
-            }
-        }
-        pixels.push(size);
-    }
-    Blobs { of, pixels }
 }
 
 #[cfg(test)]

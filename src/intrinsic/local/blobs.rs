@@ -4,7 +4,7 @@
 //! clipped pixels. Without it, all of {ms > high} counts.
 
 use super::shade::Shades;
-use crate::raster::{Mask, Raster, dilate};
+use crate::raster::{ComponentSearch, Connectivity, Mask, Raster, dilate};
 use crate::segment::AnalysisInput;
 use crate::trace::{BlobJudged, LocalPoint, Recorder};
 
@@ -125,29 +125,15 @@ fn opened(mask: &Mask) -> Mask {
 /// component, its first faint pixel first, and whether it is kept.
 fn with_core(faint: &Mask, core: &Mask, clipped: &Mask, mut judged: impl FnMut(&[usize], bool)) -> Mask {
     let mut kept = Raster::filled(faint.width(), faint.height(), false);
-    let mut seen = kept.clone();
-    let mut component = Vec::new();
-    for start in 0..faint.len() {
-        if seen[start] || !faint[start] {
+    let mut search = ComponentSearch::new(faint.width(), faint.height(), Connectivity::Four);
+    for start in (0..faint.len()).filter(|&start| faint[start]) {
+        let Some(component) = search.component_at(start, |pixel| faint[pixel] || clipped[pixel]) else {
             continue;
-        }
-        seen[start] = true;
-        component.clear();
-        component.push(start);
-        let (mut at, mut faint_px, mut believed) = (0, 0, false);
-        while let Some(&pixel) = component.get(at) {
-            at += 1;
-            faint_px += usize::from(faint[pixel]);
-            believed |= clipped[pixel] || (core[pixel] && faint[pixel]);
-            faint.for_each_neighbor(pixel, |near| {
-                if !seen[near] && (faint[near] || clipped[near]) {
-                    seen[near] = true;
-                    component.push(near);
-                }
-            });
-        }
-        let is_kept = believed && faint_px >= LEAST_PX;
-        judged(&component, is_kept);
+        };
+        let faint_px = component.iter().filter(|&&pixel| faint[pixel]).count();
+        let has_core = component.iter().any(|&pixel| clipped[pixel] || (core[pixel] && faint[pixel]));
+        let is_kept = has_core && faint_px >= LEAST_PX;
+        judged(component, is_kept);
         if is_kept {
             component.iter().filter(|&&pixel| faint[pixel]).for_each(|&pixel| kept[pixel] = true);
         }

@@ -5,7 +5,7 @@
 //! alone. Worth 8 dB inside highlights of printed scenes, nothing elsewhere.
 
 use crate::intrinsic::split::Images;
-use crate::raster::{Mask, Raster};
+use crate::raster::{ComponentSearch, Connectivity, Mask, Raster};
 use crate::segment::AnalysisInput;
 use crate::trace::{Measured, PixelKind, RepairTried, RepairVerdict};
 
@@ -24,20 +24,21 @@ pub fn repair(
     confidence: &mut Raster<f32>,
     mut trace_writer: impl FnMut(RepairTried, &[usize]),
 ) {
-    let mut blobs = Blobs { input, mark: outside.map(|_| 0) };
+    let mut search = ComponentSearch::new(outside.width(), outside.height(), Connectivity::Eight);
+    let mut surroundings = Surroundings { input, in_ring: outside.map(|_| false) };
+    let clipped = |pixel: usize| outside[pixel] && input.masks.clipped(pixel);
     for start in 0..outside.len() {
-        let wanted = |pixel: usize| outside[pixel] && input.masks.clipped(pixel);
-        if !wanted(start) || blobs.mark[start] != 0 || input.stopped() {
-            continue;
+        let Some(blob) = search.component_at(start, clipped) else { continue };
+        if input.stopped() {
+            return;
         }
-        let blob = blobs.flood(start, wanted);
-        let rings = blobs.rings(&blob);
-        let tried = tried(&blob, &rings, &images.surface);
-        trace_writer(tried, &blob);
+        let rings = surroundings.rings(blob);
+        let tried = tried(blob, &rings, &images.surface);
+        trace_writer(tried, blob);
         if tried.verdict != RepairVerdict::Filled {
             continue;
         }
-        let filled = blobs.harmonic(&blob, &rings, &images.body);
+        let filled = surroundings.harmonic(blob, &rings, &images.body);
         for (&pixel, fill) in blob.iter().zip(filled) {
             let input = input.pixels[pixel];
             images.body[pixel] = std::array::from_fn(|band| fill[band].clamp(0.0, input[band].max(0.0)));
@@ -79,43 +80,23 @@ fn tried(blob: &[usize], [inner, outer]: &[Vec<usize>; 2], surface: &Raster<[f32
     }
 }
 
-/// Blobs of clipped pixels, found one after the other.
-struct Blobs<'a> {
+/// The unclipped pixels around a blob of clipped ones.
+struct Surroundings<'a> {
     input: &'a AnalysisInput<'a>,
-    /// What has been reached: blobs 1; rings are marked while they are walked.
-    mark: Raster<u8>,
+    /// Pixels of the rings of the blob at hand; none of them between two blobs.
+    in_ring: Mask,
 }
 
-const BLOB: u8 = 1;
-const RING: u8 = 2;
-
-impl Blobs<'_> {
-    /// All pixels that hang together with `start` and are `wanted`.
-    fn flood(&mut self, start: usize, wanted: impl Fn(usize) -> bool) -> Vec<usize> {
-        let mut blob = vec![start];
-        self.mark[start] = BLOB;
-        let mut at = 0;
-        while let Some(&pixel) = blob.get(at) {
-            at += 1;
-            for near in self.mark.around(pixel) {
-                if self.mark[near] == 0 && wanted(near) {
-                    self.mark[near] = BLOB;
-                    blob.push(near);
-                }
-            }
-        }
-        blob
-    }
-
+impl Surroundings<'_> {
     /// The unclipped pixels next to a blob, and those next to them.
     fn rings(&mut self, blob: &[usize]) -> [Vec<usize>; 2] {
         let inner = self.ring(blob);
         let outer = self.ring(&inner);
-        inner.iter().chain(&outer).for_each(|&pixel| self.mark[pixel] = 0);
+        inner.iter().chain(&outer).for_each(|&pixel| self.in_ring[pixel] = false);
         [inner, outer]
     }
 
-    /// Whether a pixel tells what is around a blob.
+    /// Whether the value of a pixel can be used: it is neither clipped nor invalid nor outside of the analyzed area.
     fn known(&self, pixel: usize) -> bool {
         let masks = self.input.masks;
         !masks.clipped(pixel) && !masks.invalid(pixel) && !masks.outside(pixel)
@@ -124,9 +105,9 @@ impl Blobs<'_> {
     fn ring(&mut self, from: &[usize]) -> Vec<usize> {
         let mut ring = Vec::new();
         for &pixel in from {
-            for near in self.mark.around(pixel) {
-                if self.mark[near] == 0 && self.known(near) {
-                    self.mark[near] = RING;
+            for near in self.in_ring.around(pixel) {
+                if !self.in_ring[near] && self.known(near) {
+                    self.in_ring[near] = true;
                     ring.push(near);
                 }
             }
