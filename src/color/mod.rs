@@ -7,12 +7,14 @@ mod cluster;
 mod eigen;
 mod line;
 mod moments;
+mod srgb;
 
 pub use chi_square::ChiSquareTest;
 pub use cluster::{ClusterTest, Trial};
 pub use eigen::{eigenvalues, principal_axes};
 pub use line::{Cylinder, Line, LineFit, closest_points};
 pub use moments::Moments;
+pub use srgb::{linear_from_srgb, srgb_from_linear};
 
 /// A vector or point of the color space, for everything that is not one of millions of pixels.
 pub type Vec3 = nalgebra::Vector3<f64>;

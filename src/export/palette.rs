@@ -4,7 +4,7 @@
 //! fails. How far two colors are apart is the smallest of their `OKLab` distances as seen with normal vision, with
 //! protanopia and with deuteranopia (Viénot, Brettel & Mollon 1999).
 
-use super::png::srgb_from_linear;
+use super::png::code_from_linear;
 
 /// Levels of lightness with the largest chroma at which every hue still lies inside sRGB, as the tests check.
 const LEVELS: [(f32, f32); 3] = [(0.74, 0.12), (0.50, 0.085), (0.88, 0.058)];
@@ -49,7 +49,7 @@ impl Palette {
             (0..3).map(|eye| euclidean(seen[a][eye], seen[b][eye])).fold(f32::INFINITY, f32::min)
         };
         Self {
-            colors: linear.map(|color| color.map(srgb_from_linear)),
+            colors: linear.map(|color| color.map(code_from_linear)),
             distances: std::array::from_fn(|a| std::array::from_fn(|b| distance(a, b))),
         }
     }

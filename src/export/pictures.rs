@@ -1,6 +1,6 @@
 //! The pictures of a result folder.
 
-use super::png::srgb_from_linear;
+use super::png::code_from_linear;
 use super::{ExportError, floats, png, stages};
 use crate::analysis::Analysis;
 use crate::photo::LinearImage;
@@ -77,7 +77,7 @@ fn residual(subject: &Subject) -> Raster<[f32; 3]> {
 
 /// Linear counts as sRGB values; what is brighter than 255 counts is white.
 fn viewable(counts: &Raster<[f32; 3]>) -> Raster<[u8; 3]> {
-    counts.map(|color| color.map(|value| srgb_from_linear(value / 255.0)))
+    counts.map(|color| color.map(|value| code_from_linear(value / 255.0)))
 }
 
 /// Shares as gray values, 0…1 as 0…255.

@@ -1,6 +1,7 @@
 //! Pictures as PNG.
 
 use super::ExportError;
+use crate::color::srgb_from_linear;
 use crate::raster::{LabelMap, Raster};
 use png::{BitDepth, ColorType, Compression, EncodingError, SrgbRenderingIntent};
 use std::fs::File;
@@ -48,11 +49,9 @@ pub fn png_of_rgba(size: [u32; 2], rgba: &[u8]) -> Vec<u8> {
     }
 }
 
-/// Tone curve of IEC 61966-2-1, from linear light where 1 is white; what is brighter is white too.
-pub(super) fn srgb_from_linear(linear: f32) -> u8 {
-    let linear = linear.clamp(0.0, 1.0);
-    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
-    (encoded * 255.0).round() as u8
+/// 8-bit sRGB value of linear light, where 1 is white; brighter light is white too.
+pub(super) fn code_from_linear(linear: f32) -> u8 {
+    (srgb_from_linear(linear.clamp(0.0, 1.0)) * 255.0).round() as u8
 }
 
 struct Kind {
@@ -92,6 +91,6 @@ mod tests {
 
     #[test]
     fn the_tone_curve_meets_its_known_points() {
-        assert_eq!([-3.0, 0.0, 0.002, 0.215_861, 1.0, 9.0].map(srgb_from_linear), [0, 0, 7, 128, 255, 255]);
+        assert_eq!([-3.0, 0.0, 0.002, 0.215_861, 1.0, 9.0].map(code_from_linear), [0, 0, 7, 128, 255, 255]);
     }
 }

@@ -5,12 +5,11 @@ use super::split::Splitter;
 use super::{HighlightBranch, RegionReflection};
 use crate::color::Vec3;
 use crate::raster::Raster;
+use crate::reflection::MIN_ANGLE_DEG;
 use crate::segment::{AnalysisInput, POOR_FIT, Pixels};
 use crate::trace::PixelKind;
 
-/// Below this angle body and surface reflection cannot be told apart at all, degrees.
-pub const MIN_ANGLE_DEG: f64 = 3.0;
-/// Below this angle they can, with noise amplified more than four times.
+/// Below this angle body and surface reflection are told apart with noise amplified more than four times, degrees.
 const SMALL_ANGLE_DEG: f64 = 14.0;
 
 /// A region, split.

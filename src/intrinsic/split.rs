@@ -5,13 +5,13 @@ use super::confidence::ConfidenceInput;
 use super::explained_mask::explained_mask;
 use super::local::split_locally;
 use super::reason::{Reason, ReasonInput};
-use super::region::{MIN_ANGLE_DEG, RegionSummary};
+use super::region::RegionSummary;
 use super::restore::Distorted;
 use super::vectors::{Vectors, fit_vectors, matte_mean};
 use super::{Intrinsic, RegionReflection};
 use crate::color::{Vec3, dot, rgb};
 use crate::raster::{Raster, UNASSIGNED};
-use crate::reflection::{Components, HighlightTest, ReflectionTransform};
+use crate::reflection::{Components, HighlightTest, MIN_ANGLE_DEG, ReflectionTransform};
 use crate::segment::{
     AnalysisInput, BranchSearch, Branches, FinalRegions, Members, Pixels, PlanarHypothesis, RegionFit,
     members, neighbors,

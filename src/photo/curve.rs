@@ -1,5 +1,6 @@
 //! Tone curves: from a coded value (0 to 1) to linear light (0 to 1), and back by search.
 
+use crate::color::linear_from_srgb;
 use rayon::prelude::*;
 
 /// How a file codes linear light.
@@ -29,8 +30,7 @@ impl ToneCurve {
     pub fn linear(&self, coded: f64) -> f64 {
         match self {
             Self::Linear => coded,
-            Self::Srgb if coded <= 0.04045 => coded / 12.92,
-            Self::Srgb => ((coded + 0.055) / 1.055).powf(2.4),
+            Self::Srgb => linear_from_srgb(coded),
             // H.273, table 3, value 1: 0.018 053 968 510 807 × 4.5 is where the two pieces meet.
             Self::Bt709 if coded < 0.081_242_858_298_635 => coded / 4.5,
             Self::Bt709 => ((coded + 0.099_296_826_809_44) / 1.099_296_826_809_44).powf(1.0 / 0.45),

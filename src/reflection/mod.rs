@@ -8,5 +8,5 @@ mod transform;
 
 pub use desaturation::desaturation_limits;
 pub use highlight::{HighlightTest, MOST_BRANCHES};
-pub use plane::{DichromaticPlane, PlaneAxes, PlanePoint, Slice, SliceBound, SliceMiss};
+pub use plane::{DichromaticPlane, MIN_ANGLE_DEG, PlaneAxes, PlanePoint, Slice, SliceBound, SliceMiss};
 pub use transform::{Components, ReflectionTransform};

@@ -6,6 +6,10 @@
 
 use crate::color::{Line, Vec3, dot, rgb};
 
+/// Smallest angle between body and surface reflection vector at which both can be told apart, degrees. Below this angle the
+/// noise is amplified more than nineteen times, and the plane is undetermined.
+pub const MIN_ANGLE_DEG: f64 = 3.0;
+
 /// A dichromatic plane with its matte line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DichromaticPlane {

@@ -26,15 +26,13 @@ use super::two_lights::{Evidence, light_of};
 use super::unite::merge_regions;
 use crate::color::{Cylinder, Line, Vec3, axis_angle_deg};
 use crate::raster::{LabelMap, UNASSIGNED};
-use crate::reflection::{DichromaticPlane, HighlightTest, Slice};
+use crate::reflection::{DichromaticPlane, HighlightTest, MIN_ANGLE_DEG, Slice};
 use crate::trace::{
     Contest, Contribution, GrowthBegan, IlluminantEstimated, IlluminantGiven, Measure, Pass, PassBegan,
     Recorder, SliceMade, TwoLightTest,
 };
 use rayon::prelude::*;
 
-/// Smallest angle between body and surface vector at which a plane means anything, degrees.
-const MIN_ANGLE_DEG: f64 = 3.0;
 /// Without a candidate the highlight is taken to start here on the matte line.
 const DEFAULT_START: f64 = 0.75;
 /// How often illuminant and slices are found again from the grown regions, at most.

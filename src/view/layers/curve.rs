@@ -1,5 +1,6 @@
 //! From linear counts to 8-bit sRGB by one look into a table.
 
+use crate::color::srgb_from_linear;
 use crate::photo::FULL_SCALE_COUNTS;
 
 /// Darker than this share of white is black: 1/4 of a code at gamma 1.
@@ -23,7 +24,7 @@ impl Curve {
         // The first entry stays black.
         for (code, entry) in codes.iter_mut().zip(FIRST..).skip(1) {
             let middle = f32::from_bits((entry << SHIFT) + (1 << (SHIFT - 1)));
-            *code = (255.0 * encoded(middle.min(1.0)).powf(1.0 / gamma.max(0.01))).round() as u8;
+            *code = (255.0 * srgb_from_linear(middle.min(1.0)).powf(1.0 / gamma.max(0.01))).round() as u8;
         }
         Self { per_count: exposure_ev.exp2() / FULL_SCALE_COUNTS as f32, codes }
     }
@@ -37,11 +38,6 @@ impl Curve {
     }
 }
 
-/// Tone curve of IEC 61966-2-1.
-fn encoded(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -51,7 +47,7 @@ mod tests {
         let curve = Curve::new(0.0, 1.0);
         for step in 0..=100_000 {
             let linear = step as f32 / 100_000.0;
-            let exact = 255.0 * encoded(linear);
+            let exact = 255.0 * srgb_from_linear(linear);
             let found = f32::from(curve.code(255.0 * linear));
             assert!((exact - found).abs() < 0.6, "{linear}: {found} instead of {exact}");
         }

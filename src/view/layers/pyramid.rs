@@ -1,5 +1,6 @@
 //! Smaller and smaller copies of a picture, for showing large ones from afar.
 
+use crate::color::linear_from_srgb;
 use crate::raster::Raster;
 use rayon::prelude::*;
 
@@ -30,11 +31,7 @@ struct Light {
 
 impl Light {
     fn new() -> Self {
-        let decode = |code: usize| {
-            let value = code as f32 / 255.0;
-            let linear = if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) };
-            (linear * 65535.0).round() as u16
-        };
+        let decode = |code: usize| (linear_from_srgb(code as f64 / 255.0) * 65535.0).round() as u16;
         let linear: [u16; 256] = std::array::from_fn(decode);
         // Between two codes the nearer one, as decoded.
         let mut code = Vec::with_capacity(1 << 14);
