@@ -37,7 +37,7 @@ pub struct Reference<'a> {
 /// The report of an analysis, for `report.json`.
 ///
 /// # Errors
-/// As [`score`], where there is a reference.
+/// As [`score()`], where there is a reference.
 pub fn report(input: ReportInput) -> Result<Report, ScoreError> {
     let ReportInput { photo, sha256, params, analysis, area, timings_ms, reference } = input;
     let mut report = Report::new(ImageFacts::of(photo, sha256), params, analysis, &photo.warnings);
