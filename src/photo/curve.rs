@@ -1,37 +1,37 @@
-//! Tone curves: from a coded value (0 to 1) to linear light (0 to 1), and back by search.
+//! Tone curves convert coded values (0 to 1) to linear light (0 to 1); the inverse is found by search.
 
 use crate::color::linear_from_srgb;
 use rayon::prelude::*;
 
-/// How a file codes linear light.
+/// Relation between the coded values of a file and linear light.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ToneCurve {
     /// Coded values are linear light.
     Linear,
-    /// IEC 61966-2-1.
+    /// sRGB curve, IEC 61966-2-1.
     Srgb,
-    /// ITU-R BT.709 and its kin (BT.601, BT.2020): the inverse of the camera curve.
+    /// Curve of ITU-R BT.709, BT.601 and BT.2020: the inverse of their camera curve.
     Bt709,
     /// `linear = coded ^ exponent`.
     Gamma(f64),
-    /// ICC.1:2022, 10.18, type 4: `(a·x + b)^g + e` from `d` on, `c·x + f` below.
+    /// ICC.1:2022, 10.18, type 4: `(a·x + b)^g + e` for `x ≥ d`, `c·x + f` below `d`.
     #[allow(missing_docs, reason = "the specification's names")]
     Parametric { g: f64, a: f64, b: f64, c: f64, d: f64, e: f64, f: f64 },
-    /// Equally spaced linear values (65535 = 1), interpolated linearly; at least two.
+    /// Equally spaced linear values (65535 = 1), at least two, interpolated linearly.
     Table(Vec<u16>),
 }
 
 impl ToneCurve {
-    /// Exponents outside this range are a mistake of the file, not a tone curve.
+    /// Plausible exponents; a file with an exponent outside this range is taken to be wrong.
     pub(super) const EXPONENTS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
 
-    /// Linear light of a coded value; beyond 1 the curve goes on (a table stays at its last value).
+    /// Linear light of a coded value. Above 1 the curve is continued, except that a table keeps its last value.
     pub fn linear(&self, coded: f64) -> f64 {
         match self {
             Self::Linear => coded,
             Self::Srgb => linear_from_srgb(coded),
-            // H.273, table 3, value 1: 0.018 053 968 510 807 × 4.5 is where the two pieces meet.
+            // H.273, table 3, value 1: the two pieces of the curve meet at 0.018 053 968 510 807 × 4.5.
             Self::Bt709 if coded < 0.081_242_858_298_635 => coded / 4.5,
             Self::Bt709 => ((coded + 0.099_296_826_809_44) / 1.099_296_826_809_44).powf(1.0 / 0.45),
             Self::Gamma(exponent) => coded.powf(*exponent),
@@ -41,7 +41,7 @@ impl ToneCurve {
         }
     }
 
-    /// Whether the curve can be undone and done again: finite, not negative and never falling from 0 to 1.
+    /// Whether the curve has an inverse: finite, not negative and not falling from 0 to 1.
     pub(super) fn is_usable(&self) -> bool {
         let points: Vec<f64> = (0..=1024).map(|i| self.linear(f64::from(i) / 1024.0)).collect();
         points.iter().all(|v| v.is_finite() && *v >= -1e-3)
@@ -50,7 +50,7 @@ impl ToneCurve {
             && !matches!(self, Self::Table(values) if !values.is_sorted())
     }
 
-    /// Its name in a sentence.
+    /// Name of the curve within a sentence.
     pub(super) fn name(&self) -> String {
         match self {
             Self::Linear => "linear".into(),
@@ -65,17 +65,18 @@ impl ToneCurve {
         }
     }
 
-    /// Counts of each integer code `0..codes`, where `max` (and all above it) is `full_scale` counts at the curve's 1.
+    /// Counts of each integer code `0..codes`. The code `max` and all codes above it have the counts of the curve at 1,
+    /// which is `full_scale` for a curve through (1, 1).
     pub(crate) fn table(&self, codes: usize, max: u32, full_scale: f64) -> Vec<f32> {
         let counts = |code: usize| self.counts((code as u32).min(max), max, full_scale);
         (0..codes).into_par_iter().map(counts).collect()
     }
 
-    /// Counts of one integer code; never negative.
+    /// Counts of one integer code, at least zero.
     #[inline]
     pub(crate) fn counts(&self, code: u32, max: u32, full_scale: f64) -> f32 {
         match self {
-            // One rounding only, so that a linear 8-bit code of 37 is exactly 37 counts.
+            // A single rounding makes a linear 8-bit code of 37 exactly 37 counts.
             Self::Linear => (f64::from(code) * full_scale / f64::from(max)) as f32,
             curve => (curve.linear(f64::from(code) / f64::from(max)) * full_scale).max(0.0) as f32,
         }
@@ -92,10 +93,10 @@ fn interpolate(values: &[u16], coded: f64) -> f64 {
     (low + (high - low) * fraction) / 65535.0
 }
 
-/// The integer code `0..=max` whose counts, by a rising `counts_of`, come nearest to `counts`.
+/// The integer code in `0..=max` whose counts are nearest to `counts`; `counts_of` must not fall.
 pub(crate) fn nearest_code(counts: f32, max: u32, counts_of: impl Fn(u32) -> f32) -> u32 {
     let (mut low, mut high) = (0, max);
-    // A NaN compares as no greater than anything and becomes black.
+    // Comparisons with NaN are false, so NaN gives code 0, black.
     if counts >= counts_of(max) {
         return max;
     }
@@ -145,7 +146,7 @@ mod tests {
         // H.273: V = 1.0993 · 0.18^0.45 − 0.0993 for a mid gray.
         let mid_gray = 1.099_296_826_809_44 * 0.18f64.powf(0.45) - 0.099_296_826_809_44;
         assert!((ToneCurve::Bt709.linear(mid_gray) - 0.18).abs() < 1e-12);
-        // The two pieces meet.
+        // The two pieces of the curve meet at the same value.
         let (below, above) = (ToneCurve::Bt709.linear(0.081_242), ToneCurve::Bt709.linear(0.081_243));
         assert!(below < above && above - below < 1e-6);
         assert!(!ToneCurve::Table(vec![65535, 0]).is_usable());

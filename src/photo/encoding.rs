@@ -1,4 +1,4 @@
-//! Which tone curve a file's values carry: what the user says, else what the file says, else what is usual.
+//! Chooses the tone curve of a file: the user's choice, else the file's statement, else the default of its sample type.
 
 use super::curve::ToneCurve;
 use super::format::Format;
@@ -7,17 +7,17 @@ use super::source::Source;
 use std::fmt;
 use std::str::FromStr;
 
-/// How the file's values are to be understood.
+/// The user's choice of the tone curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum EncodingChoice {
-    /// As the file says; sRGB for integers and linear for floats that say nothing.
+    /// The file's statement decides. Without one, integers are sRGB and floats are linear.
     #[default]
     Auto,
-    /// Linear light, whatever the file says.
+    /// Linear light, whatever the file states.
     Linear,
-    /// sRGB, whatever the file says.
+    /// sRGB, whatever the file states.
     Srgb,
-    /// `linear = value ^ exponent`, whatever the file says.
+    /// `linear = value ^ exponent`, whatever the file states.
     Gamma(f64),
 }
 
@@ -32,7 +32,7 @@ impl fmt::Display for EncodingChoice {
     }
 }
 
-/// A text that is no encoding.
+/// Error: the text is not the name of an encoding.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "`{0}` is no encoding: expected auto, linear, srgb or gamma:G with G from 0.1 to 10 (for example gamma:2.2)"
@@ -61,12 +61,12 @@ impl FromStr for EncodingChoice {
     }
 }
 
-/// The tone curves that were undone, and why these. Displayed as in `sRGB (assumed: the file does not say)`.
+/// The tone curves of a file, and the reason for their choice. Displayed as in `sRGB (assumed: the file does not say)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Encoding {
-    /// Of the red, green and blue band; of a gray picture three times the same.
+    /// Tone curves of the red, green and blue band; three equal curves for a gray picture.
     pub curves: [ToneCurve; 3],
-    /// Where they come from, in words.
+    /// Reason for the choice of the curves, within a sentence.
     pub reason: String,
 }
 
@@ -86,7 +86,8 @@ impl Encoding {
         Self { curves: [curve.clone(), curve.clone(), curve], reason: reason.into() }
     }
 
-    /// The encoding of a file. What the file says in vain (and is therefore read as sRGB) is added to `warnings`.
+    /// The encoding of a file. A statement of the file that cannot be used is added to `warnings`, and the file is read
+    /// as sRGB.
     pub(super) fn of(choice: EncodingChoice, source: &Source, warnings: &mut Vec<String>) -> Self {
         let asked = "as asked";
         match choice {
@@ -109,9 +110,9 @@ impl Encoding {
     }
 }
 
-/// What the file says: nothing, an encoding, or something that we cannot follow.
+/// The file's statement about its tone curve: `None`, an encoding, or the reason why the statement cannot be used.
 ///
-/// Of a PNG's chunks the first of cICP, iCCP, sRGB and gAMA counts (PNG 3rd edition, 12.1 and 13.13).
+/// Of a PNG's chunks the first present one of cICP, iCCP, sRGB and gAMA decides (PNG 3rd edition, 12.1 and 13.13).
 fn said(source: &Source) -> Option<Result<Encoding, String>> {
     match source.format {
         Format::Exr => return Some(Ok(Encoding::new(ToneCurve::Linear, "OpenEXR is linear light"))),
@@ -133,7 +134,7 @@ fn said(source: &Source) -> Option<Result<Encoding, String>> {
     source.png.gama.map(of_gama)
 }
 
-/// The transfer characteristics of ITU-T H.273, table 3; `None` for "unspecified".
+/// Tone curve of the transfer characteristics of ITU-T H.273, table 3; `None` for "unspecified".
 fn of_cicp([_, transfer, _, full_range]: [u8; 4]) -> Option<Result<Encoding, String>> {
     let curve = match transfer {
         2 => return None,
@@ -153,7 +154,7 @@ fn of_cicp([_, transfer, _, full_range]: [u8; 4]) -> Option<Result<Encoding, Str
     })
 }
 
-/// gAMA holds the exponent of the encoding × 100 000; decoding takes its inverse.
+/// The gAMA chunk holds the exponent of the encoding × 100 000; decoding uses the inverse.
 fn of_gama(gama: u32) -> Result<Encoding, String> {
     let exponent = 100_000.0 / f64::from(gama);
     let told = f64::from(gama) / 100_000.0;

@@ -1,4 +1,4 @@
-//! Why a file could not be read: one line that names it, says what was found and what to do.
+//! Errors of reading a file. Each message is one line that names the file, what was found, and what the user can do.
 
 use super::format::Format;
 
@@ -6,95 +6,95 @@ use super::format::Format;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// The operating system would not give us its bytes.
+    /// The operating system could not open or read the file.
     #[error("{file}: cannot be read: {cause}")]
     Io {
-        /// Its name as it was given.
+        /// Name of the file as given by the caller.
         file: String,
-        /// What the system said.
+        /// Error of the operating system.
         cause: std::io::Error,
     },
-    /// No bytes at all.
+    /// The file has no bytes.
     #[error("{file}: the file is empty; expected a picture ({})", Format::NAMES)]
     Empty {
-        /// Its name as it was given.
+        /// Name of the file as given by the caller.
         file: String,
     },
-    /// Its first bytes belong to no format that we read.
+    /// The first bytes match no supported format.
     #[error("{file}: {found} cannot be read; expected {}: convert it to one of these", Format::NAMES)]
     UnknownFormat {
-        /// Its name as it was given.
+        /// Name of the file as given by the caller.
         file: String,
-        /// The format that it seems to be, or its first bytes.
+        /// Name of the recognized but unsupported format, or the first bytes.
         found: String,
     },
-    /// A known format, used in a way that we do not read.
+    /// The format is supported, but not the way in which the file uses it.
     #[error("{file}: this {format} file holds {found}; {hint}")]
     Unsupported {
-        /// Its name as it was given.
+        /// Name of the file as given by the caller.
         file: String,
-        /// The format that its first bytes tell.
+        /// Format according to the first bytes.
         format: Format,
-        /// What cannot be read.
+        /// The unsupported property of the file.
         found: String,
-        /// What to do about it.
+        /// Advice to the user.
         hint: &'static str,
     },
-    /// A known format whose content contradicts itself or ends too early.
+    /// The content of the file contradicts itself or ends too early.
     #[error("{file}: the {format} file is damaged or cut short: {found}; get an intact copy of it")]
     Damaged {
-        /// Its name as it was given.
+        /// Name of the file as given by the caller.
         file: String,
-        /// The format that its first bytes tell.
+        /// Format according to the first bytes.
         format: Format,
-        /// What the decoder stumbled over.
+        /// Message of the decoder.
         found: String,
     },
-    /// A width or a height of zero.
+    /// The file declares a width or a height of zero.
     #[error(
         "{file}: the {format} file declares {width} \u{d7} {height} pixels; expected at least one of each"
     )]
     NoPixels {
-        /// Its name as it was given.
+        /// Name of the file as given by the caller.
         file: String,
-        /// The format that its first bytes tell.
+        /// Format according to the first bytes.
         format: Format,
-        /// Declared columns.
+        /// Number of columns that the file declares.
         width: u64,
-        /// Declared rows.
+        /// Number of rows that the file declares.
         height: u64,
     },
-    /// More pixels than [`ReadOptions::max_megapixels`](super::ReadOptions::max_megapixels).
+    /// The file declares more pixels than [`ReadOptions::max_megapixels`](super::ReadOptions::max_megapixels).
     #[error(
         "{file}: the {format} file declares {width} \u{d7} {height} = {:.1} megapixels, more than the limit of \
          {limit_megapixels}; if that is right, raise it with --max-megapixels",
         *width as f64 * *height as f64 / 1e6
     )]
     TooLarge {
-        /// Its name as it was given.
+        /// Name of the file as given by the caller.
         file: String,
-        /// The format that its first bytes tell.
+        /// Format according to the first bytes.
         format: Format,
-        /// Declared columns.
+        /// Number of columns that the file declares.
         width: u64,
-        /// Declared rows.
+        /// Number of rows that the file declares.
         height: u64,
-        /// The limit in force.
+        /// The limit from the options, megapixels.
         limit_megapixels: f64,
     },
-    /// A number in [`ReadOptions`](super::ReadOptions) that makes no sense.
+    /// A number in [`ReadOptions`](super::ReadOptions) is not positive or not finite.
     #[error("{name} = {value}: expected a positive number{unit}")]
     Option {
         /// Name of the option.
         name: &'static str,
-        /// The number given.
+        /// Value of the option.
         value: f64,
-        /// Its unit, with a leading space.
+        /// Unit of the option, with a leading space.
         unit: &'static str,
     },
 }
 
-/// What a decoder finds wrong; [`Fault::of`] adds the file and its format.
+/// Error of a decoder, without the file's name; [`Fault::of`] adds the name and the format.
 #[derive(Debug)]
 pub(super) enum Fault {
     Damaged(String),
@@ -104,12 +104,12 @@ pub(super) enum Fault {
 }
 
 impl Fault {
-    /// The content is broken; `cause` is cut to its first line.
+    /// Error: the content is damaged. `cause` is joined to one line.
     pub(super) fn damaged(cause: impl std::fmt::Display) -> Self {
         Self::Damaged(one_line(&cause.to_string()))
     }
 
-    /// The content may be fine, but we do not read it.
+    /// Error: the content may be intact, but this program does not support it.
     pub(super) fn unsupported(found: impl std::fmt::Display, hint: &'static str) -> Self {
         Self::Unsupported { found: one_line(&found.to_string()), hint }
     }
@@ -160,7 +160,7 @@ impl From<png::DecodingError> for Fault {
     }
 }
 
-/// What to do about a file that only we cannot read.
+/// Advice to the user about a file that other programs may be able to read.
 pub(super) const CONVERT: &str = "convert it to plain gray or RGB with 8 or 16 bits or 32-bit float";
 
 fn one_line(text: &str) -> String {

@@ -1,27 +1,27 @@
-//! Which format a file is in, by its first bytes.
+//! Recognizes the format of a file by its first bytes.
 
 use std::fmt;
 use std::path::Path;
 
-/// The formats that are read.
+/// The supported file formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Format {
-    /// Portable Network Graphics.
+    /// PNG, Portable Network Graphics.
     Png,
-    /// JPEG.
+    /// JPEG (ITU-T T.81) with gray or RGB colors.
     Jpeg,
     /// TIFF and `BigTIFF`.
     Tiff,
-    /// Windows bitmap.
+    /// BMP, the Windows bitmap.
     Bmp,
-    /// PBM, PGM, PPM and PAM.
+    /// PNM, the netpbm formats PBM, PGM, PPM and PAM.
     Pnm,
-    /// WebP.
+    /// WebP; of an animation the first frame.
     WebP,
-    /// `OpenEXR`.
+    /// `OpenEXR`; the first flat layer with R, G and B, or Y.
     Exr,
-    /// Radiance HDR.
+    /// Radiance HDR, also called RGBE.
     Hdr,
 }
 
@@ -32,13 +32,13 @@ impl fmt::Display for Format {
 }
 
 impl Format {
-    /// All of them, in words.
+    /// Names of all formats as a list within a sentence.
     pub const NAMES: &'static str = "PNG, JPEG, TIFF, BMP, PNM, WebP, OpenEXR or Radiance HDR";
 
-    /// How many bytes [`Format::of_content`] looks at.
+    /// Number of first bytes that [`Format::of_content`] needs.
     pub(super) const MAGIC_BYTES: usize = 16;
 
-    /// Its usual name.
+    /// Usual name of the format.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Png => "PNG",
@@ -52,7 +52,7 @@ impl Format {
         }
     }
 
-    /// File name extensions in lower case.
+    /// Usual file name extensions of the format, in lower case.
     pub const fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Png => &["png", "apng"],
@@ -66,20 +66,20 @@ impl Format {
         }
     }
 
-    /// Whether a file of this name is likely to be in a format that we read.
+    /// Whether the extension of `path` belongs to a supported format.
     pub fn known_extension(path: &Path) -> bool {
         let extension = extension_of(path);
         Self::ALL.iter().any(|format| format.extensions().contains(&extension.as_str()))
     }
 
-    /// All of them.
+    /// All supported formats.
     pub const ALL: [Self; 8] =
         [Self::Png, Self::Jpeg, Self::Tiff, Self::Bmp, Self::Pnm, Self::WebP, Self::Exr, Self::Hdr];
 
-    /// The format that the first bytes of a file tell, whatever its name.
+    /// Recognizes the format by the first bytes of a file, whatever the file's name.
     ///
     /// # Errors
-    /// What it is instead, in words.
+    /// Name of the unsupported format, or the first bytes, within a sentence.
     pub(super) fn of_content(bytes: &[u8]) -> Result<Self, String> {
         let starts = |magic: &[u8]| bytes.starts_with(magic);
         let riff = |kind: &[u8]| starts(b"RIFF") && bytes.get(8..12) == Some(kind);
@@ -121,7 +121,8 @@ impl Format {
         }
     }
 
-    /// A sentence about a name whose extension says something else, if it does.
+    /// A warning when the extension of `name` does not belong to this format; `None` when it does or there is no
+    /// extension.
     pub(super) fn extension_warning(self, name: &str) -> Option<String> {
         let extension = extension_of(Path::new(name));
         let belongs = extension.is_empty() || self.extensions().contains(&extension.as_str());

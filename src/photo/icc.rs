@@ -1,17 +1,17 @@
-//! The tone curves inside an ICC profile (ICC.1:2022, 9.2 and 10.6, 10.18). Primaries and white point are left alone.
+//! Reads the tone curves of an ICC profile (ICC.1:2022, 9.2, 10.6 and 10.18). Primaries and white point are not used.
 
 use super::curve::ToneCurve;
 use moxcms::{ColorProfile, ToneReprCurve};
 
-/// The curves of the red, green and blue band (of a gray picture: three times the same).
+/// The curves of the red, green and blue band; three equal curves for a gray picture.
 ///
 /// # Errors
-/// In words, why the profile's tone curves cannot be used.
+/// The reason, within a sentence, why the profile's tone curves cannot be used.
 pub(super) fn tone_curves(profile: &[u8], gray: bool) -> Result<[ToneCurve; 3], String> {
     let parsed = ColorProfile::new_from_slice(profile)
         .map_err(|error| format!("the ICC profile is broken ({error})"))?;
     let bands = if gray {
-        // Some writers give gray pictures an RGB profile.
+        // Some programs embed an RGB profile in gray pictures.
         let band = parsed.gray_trc.as_ref().or(parsed.green_trc.as_ref());
         [band, band, band]
     } else {
@@ -35,7 +35,7 @@ fn curve(coded: &ToneReprCurve) -> Result<ToneCurve, String> {
     let curve = match coded {
         ToneReprCurve::Lut(values) => match values[..] {
             [] => ToneCurve::Linear,
-            // u8Fixed8Number
+            // The value has the type u8Fixed8Number.
             [exponent] => gamma(f64::from(exponent) / 256.0),
             _ => ToneCurve::Table(values.clone()),
         },
@@ -48,7 +48,7 @@ fn curve(coded: &ToneReprCurve) -> Result<ToneCurve, String> {
     }
 }
 
-/// The five function types of `parametricCurveType`, told apart by their number of parameters.
+/// The five function types of `parametricCurveType`, recognized by their number of parameters.
 fn parametric(parameters: &[f32]) -> Result<ToneCurve, String> {
     let p: Vec<f64> = parameters.iter().map(|&v| f64::from(v)).collect();
     Ok(match p[..] {

@@ -1,26 +1,26 @@
-//! The picture that every later stage works on.
+//! The linear image, the input of all stages.
 
 use crate::raster::{Mask, Raster};
 use rayon::prelude::*;
 
-/// Enough that handing out a task costs nothing.
+/// Pixels of one parallel task: enough that the cost of starting a task does not matter.
 const PIXELS_PER_TASK: usize = 1 << 14;
 
-/// A photograph in linear light: three bands in counts, 255 = full scale, whatever the depth of the file.
+/// A photograph in linear light: three bands in counts, 255 = full scale, whatever the sample depth of the file.
 ///
-/// Pixels that carried a non-finite or negative value are black here and set in `invalid`.
+/// A pixel with a non-finite or negative value in the file is black here and true in `invalid`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearImage {
     /// R, G and B in linear counts.
     pub pixels: Raster<[f32; 3]>,
-    /// Pixels whose values could not be used.
+    /// Pixels with a non-finite or negative value in the file.
     pub invalid: Mask,
-    /// Counts at which the file itself saturates: the largest value of an integer format; none for floats.
+    /// Counts at which the file saturates: the largest value of an integer format; `None` for floats.
     pub saturation: Option<f32>,
 }
 
 impl LinearImage {
-    /// Takes linear counts as they come from a decoder; non-finite and negative pixels become invalid.
+    /// Takes decoded linear counts. Pixels with a non-finite or negative value become black and invalid.
     pub fn new(mut pixels: Raster<[f32; 3]>, saturation: Option<f32>) -> Self {
         let mut invalid = Mask::filled(pixels.width(), pixels.height(), false);
         let both = pixels.as_mut_slice().par_iter_mut().zip(invalid.as_mut_slice());

@@ -1,10 +1,10 @@
-//! From a file's samples to linear counts, composited on black.
+//! Converts the samples of a file to linear counts, composited on black.
 
 use super::curve::ToneCurve;
 use super::source::{AlphaKind, Layout, Samples, Source};
 use rayon::prelude::*;
 
-/// Linear counts of every pixel; `full_scale` counts for the curve's 1.
+/// Linear counts of every pixel; the curve's 1 is `full_scale` counts.
 pub(super) fn linear_pixels(source: &Source, curves: &[ToneCurve; 3], full_scale: f64) -> Vec<[f32; 3]> {
     let (layout, alpha) = (source.layout, source.alpha);
     let max = source.max.unwrap_or(1);
@@ -31,7 +31,7 @@ pub(super) fn linear_pixels(source: &Source, curves: &[ToneCurve; 3], full_scale
     }
 }
 
-/// Number of pixels that are not fully opaque; 0 where there is no alpha.
+/// Number of pixels that are not fully opaque; 0 for a layout without alpha.
 pub(super) fn count_transparent(source: &Source) -> usize {
     fn count<T: Copy + Sync>(samples: &[T], channels: usize, opaque: impl Fn(T) -> bool + Sync) -> usize {
         samples.par_chunks_exact(channels).filter(|pixel| !opaque(pixel[channels - 1])).count()
@@ -49,7 +49,7 @@ pub(super) fn count_transparent(source: &Source) -> usize {
     }
 }
 
-/// Pixels to a task: enough that handing them out costs nothing.
+/// Pixels of one parallel task: enough that the cost of starting a task does not matter.
 const CHUNK: usize = 1 << 14;
 
 fn convert<T: Copy + Sync>(

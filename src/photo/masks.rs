@@ -1,23 +1,23 @@
-//! Which pixels to believe (section 4): dark, clipped, bloomed and invalid ones are marked, and those outside an area that
-//! the analysis is restricted to.
+//! Marks the pixels that are not used (section 4): dark, clipped, bloomed and invalid pixels, and pixels outside an
+//! area that the analysis is restricted to.
 
 use super::LinearImage;
 use crate::color::dot;
 use crate::raster::{Mask, Raster};
 use rayon::prelude::*;
 
-/// The limits of a believable pixel.
+/// Thresholds of the masks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MaskLimits {
-    /// Radius of the sphere around black whose colors are too dark, counts.
+    /// Radius of the sphere around black that contains the dark colors, counts.
     pub min_intensity: f64,
-    /// A band at or above it is clipped, counts; infinite: none is.
+    /// A pixel with a band at or above this value is clipped, counts; infinite: no pixel is clipped.
     pub clip_threshold: f64,
-    /// This many clipped 8-neighbors make a pixel bloomed.
+    /// Number of clipped 8-neighbors from which on a pixel is bloomed.
     pub bloom_density: usize,
 }
 
-/// What is wrong with each pixel.
+/// The marks of each pixel: dark, clipped, bloomed, invalid, outside.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Masks {
     flags: Raster<u8>,
@@ -30,7 +30,7 @@ const INVALID: u8 = 8;
 const OUTSIDE: u8 = 16;
 
 impl Masks {
-    /// Marks the pixels of `image`.
+    /// Computes the masks of `image`.
     pub fn new(image: &LinearImage, limits: &MaskLimits) -> Self {
         let (width, height) = (image.width(), image.height());
         let mut flags = Raster::filled(width, height, 0u8);
@@ -52,8 +52,8 @@ impl Masks {
         Self { flags }
     }
 
-    /// Marks the pixels outside `area`, a mask of the same shape, as not to be analyzed. Clipped ones among them still
-    /// bloom into the area.
+    /// Marks the pixels outside `area`, a mask of the image's size, as excluded from the analysis. Clipped pixels
+    /// outside the area still make pixels inside bloomed.
     #[must_use]
     pub fn within(mut self, area: &Mask) -> Self {
         debug_assert_eq!(area.len(), self.flags.len(), "the caller holds the area against the image");
@@ -63,19 +63,19 @@ impl Masks {
         self
     }
 
-    /// Columns and rows of the picture.
+    /// Number of columns and rows.
     pub fn shape(&self) -> (usize, usize) {
         (self.flags.width(), self.flags.height())
     }
 
-    /// Whether the color can be believed: inside the area, and neither dark nor distorted.
+    /// Whether the color of the pixel is used: the pixel has no mark at all.
     #[inline]
     pub fn usable(&self, pixel: usize) -> bool {
         self.flags[pixel] == 0
     }
 
-    /// Whether there is nothing to analyze: the pixel is too dark, holds no value at all, or lies outside the area. All
-    /// other pixels are lit.
+    /// Whether the pixel is excluded from the analysis: dark, invalid, or outside the area. All other pixels are called
+    /// lit.
     #[inline]
     pub fn dark(&self, pixel: usize) -> bool {
         self.flags[pixel] & (DARK | INVALID | OUTSIDE) != 0
@@ -87,7 +87,7 @@ impl Masks {
         self.flags[pixel] & OUTSIDE != 0
     }
 
-    /// Whether a band is clipped.
+    /// Whether a band of the pixel is clipped.
     #[inline]
     pub fn clipped(&self, pixel: usize) -> bool {
         self.flags[pixel] & CLIPPED != 0
@@ -99,20 +99,21 @@ impl Masks {
         self.flags[pixel] & (CLIPPED | BLOOMED) != 0
     }
 
-    /// Whether the file held no usable value.
+    /// Whether the file held a non-finite or negative value at the pixel.
     #[inline]
     pub fn invalid(&self, pixel: usize) -> bool {
         self.flags[pixel] & INVALID != 0
     }
 
-    /// The pixels for which `test` (one of the methods above) holds, as a mask.
+    /// A mask that is true at the pixels for which `test`, one of the methods above, returns true.
     pub fn mask(&self, test: impl Fn(&Self, usize) -> bool) -> Mask {
         let data = (0..self.flags.len()).map(|pixel| test(self, pixel)).collect();
         Raster::from_vec(self.flags.width(), self.flags.height(), data).unwrap_or_default()
     }
 }
 
-/// Counts clipped 8-neighbors. Clipped pixels are few, so they are visited rather than every pixel's neighbors.
+/// Marks pixels with at least `density` clipped 8-neighbors as bloomed. Only the neighbors of clipped pixels are
+/// visited, because clipped pixels are few.
 fn mark_bloomed(flags: &mut Raster<u8>, density: usize) {
     if density > 8 {
         return;

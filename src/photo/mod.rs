@@ -1,8 +1,9 @@
-//! From a file to linear light, and which of its pixels to believe.
+//! Reads a file into linear light, and masks the pixels that are not used.
 //!
-//! [`read`] takes any of eight formats (by content, not by name), undoes the tone curve that the file, the user
-//! or custom says it has, composites transparency on black, turns the picture upright and hands out a [`Photo`]:
-//! linear counts for the analysis, and the [`Source`] that is needed to write the photograph back as it came.
+//! [`read`] reads eight formats, recognized by content and not by name. The function undoes the tone curve that the
+//! user, the file or the default of the sample type gives, composites transparency on black, and turns the picture
+//! upright. The resulting [`Photo`] holds linear counts for the analysis, and the [`Source`], which is needed to write
+//! a picture in the way of the original file.
 
 mod curve;
 mod decode;
@@ -34,17 +35,17 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// Counts of full scale unless told otherwise.
+/// Default number of counts at full scale.
 pub const FULL_SCALE_COUNTS: f64 = 255.0;
 
-/// How files are read.
+/// Options for reading files.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReadOptions {
-    /// What the file's values mean.
+    /// The user's choice of the tone curve.
     pub encoding: EncodingChoice,
-    /// Counts that an integer's maximum and a float's 1.0 stand for; [`FULL_SCALE_COUNTS`] if not given.
+    /// Counts that an integer's maximum and a float's 1.0 stand for; `None`: [`FULL_SCALE_COUNTS`].
     pub full_scale: Option<f64>,
-    /// Pictures with more pixels are refused before memory is taken for them, megapixels.
+    /// Limit of the number of pixels, megapixels. Larger pictures are rejected before memory is allocated for them.
     pub max_megapixels: f64,
 }
 
@@ -54,27 +55,28 @@ impl Default for ReadOptions {
     }
 }
 
-/// A photograph in linear light, and all that is known of its file.
+/// A photograph in linear light, with all information of its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Photo {
-    /// The file's name as it was given.
+    /// Name of the file as given by the caller.
     pub name: String,
-    /// The picture for the analysis, upright.
+    /// Linear image for the analysis, upright.
     pub image: LinearImage,
-    /// What the file held, upright too.
+    /// Samples and color information of the file, upright.
     pub source: Source,
-    /// The tone curves that were undone, and why these.
+    /// The tone curves of the file, and the reason for their choice.
     pub encoding: Encoding,
-    /// Counts that an integer's maximum or a float's 1.0 stands for.
+    /// Counts that an integer's maximum and a float's 1.0 stand for.
     pub full_scale: f64,
-    /// What to beware of, a sentence each.
+    /// Warnings for the user, each one an English sentence.
     pub warnings: Vec<String>,
 }
 
 /// Reads the photograph at `path`.
 ///
 /// # Errors
-/// [`ReadError`], one line that names the file: not readable, no picture, damaged, too large, or nonsense in `options`.
+/// [`ReadError`], displayed as one line that names the file: the file cannot be read, is no supported picture, is
+/// damaged or too large, or an option has no valid value.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Photo, ReadError> {
     decode(&read_bytes(path)?, &path.display().to_string(), options)
 }
@@ -87,7 +89,7 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     let name = path.display().to_string();
     let io = |cause| ReadError::Io { file: name.clone(), cause };
     let mut file = File::open(path).map_err(io)?;
-    // A file of another kind, however large or endless, is refused by its first bytes.
+    // The first bytes are read alone, so that an unsupported file is rejected quickly, however large or endless it is.
     let mut bytes = Vec::new();
     (&mut file).take(Format::MAGIC_BYTES as u64).read_to_end(&mut bytes).map_err(io)?;
     identify(&bytes, &name)?;
@@ -95,19 +97,20 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     Ok(bytes)
 }
 
-/// Reads any picture as a mask, upright: what is not black is inside. Its tone curve does not matter.
+/// Reads any supported picture as a mask, upright: a pixel is true when a band exceeds zero. The tone curve does not
+/// matter.
 ///
 /// # Errors
-/// As [`read`].
+/// The errors of [`read`].
 pub fn read_mask(path: &Path, options: &ReadOptions) -> Result<Mask, ReadError> {
     let photo = read(path, &ReadOptions { encoding: EncodingChoice::Linear, ..*options })?;
     Ok(photo.image.pixels.map(|color| color.iter().any(|&band| band > 0.0)))
 }
 
-/// Reads the photograph in `bytes`; `name_hint` is used in messages, and its extension is compared with the content.
+/// Reads the photograph in `bytes`. `name_hint` is used in messages, and its extension is compared with the content.
 ///
 /// # Errors
-/// As [`read`].
+/// The errors of [`read`].
 pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Photo, ReadError> {
     check(options)?;
     let format = identify(bytes, name_hint)?;

@@ -1,9 +1,10 @@
-//! The camera's noise, from the picture itself.
+//! Estimates the camera noise from a single image.
 //!
-//! The paper photographs a white board repeatedly (section 7.3). A single picture says as much: within a small window
-//! on one material the colors spread along at most two directions (shading, highlight), so what is left in the third is
-//! noise. The smallest eigenvalue of a window of n×n pixels is biased low, and textured windows are biased high; a low
-//! quantile over all windows and the factor 1 − 1.63/n (simulated with pure noise) undo both.
+//! The paper measures the noise from repeated photographs of a white board (section 7.3). A single image suffices,
+//! because within a small window on one material the colors spread along at most two directions (shading, highlight),
+//! so that only noise remains along the third. The smallest eigenvalue of a window of n×n pixels is biased low, and
+//! textured windows are biased high. A low quantile over all windows and the factor 1 − 1.63/n (from a simulation of
+//! pure noise) correct both biases.
 
 use super::{LinearImage, Masks};
 use crate::color::{Moments, eigenvalues};
@@ -13,7 +14,7 @@ const WINDOW_PX: usize = 10;
 const QUANTILE: f64 = 0.4;
 const MIN_WINDOWS: usize = 8;
 
-/// Standard deviation σ of a band's noise, counts; `None` when there are too few windows to tell.
+/// Standard deviation σ of the noise of a band, counts; `None` when fewer than 8 windows have enough usable pixels.
 pub fn estimate_sigma(image: &LinearImage, masks: &Masks) -> Option<f64> {
     let (width, height) = (image.width(), image.height());
     let mut smallest: Vec<f64> = (0..height / WINDOW_PX)

@@ -1,9 +1,10 @@
-//! Turning a picture upright, as its EXIF orientation asks.
+//! Turns a picture upright according to its EXIF orientation.
 
 use super::source::Samples;
 use image::metadata::Orientation;
 
-/// The samples of the upright picture, and its width and height. `channels` samples per pixel, rows of `width` pixels.
+/// The samples of the upright picture, and its width and height. `samples` holds `channels` samples per pixel in rows
+/// of `width` pixels.
 pub(super) fn upright(
     samples: Samples,
     (width, height): (usize, usize),
@@ -23,7 +24,7 @@ pub(super) fn upright(
     (samples, turn.size())
 }
 
-/// How a stored picture of `width × height` pixels is turned.
+/// The orientation and the size of a stored picture of `width × height` pixels.
 struct Turn {
     width: usize,
     height: usize,
@@ -46,7 +47,7 @@ impl Turn {
         }
     }
 
-    /// Column and row in the stored picture of column `x`, row `y` of the upright one.
+    /// Column and row in the stored picture of the pixel at column `x` and row `y` of the upright picture.
     fn stored_from_upright(&self, x: usize, y: usize) -> (usize, usize) {
         let (right, bottom) = (self.width - 1, self.height - 1);
         match self.orientation {
@@ -79,7 +80,7 @@ impl Turn {
 mod tests {
     use super::*;
 
-    /// The picture `abc/def` as each EXIF orientation (1 to 8) stores it, and what must come out.
+    /// The picture `abc/def` as stored with each EXIF orientation (1 to 8); every one must become `abc/def`.
     #[test]
     fn all_eight_orientations_come_out_upright() {
         let stored: [(&str, usize); 8] = [

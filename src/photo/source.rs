@@ -1,42 +1,42 @@
-//! What a file held, kept so that the photograph can be written back as it came.
+//! The content of a photograph's file, stored so that pictures can be written in the way of the original file.
 
 use super::format::Format;
 
-/// The file behind a photograph: its samples as they were, upright, and what it said about their meaning.
+/// Samples of a photograph's file in the upright orientation, with the file's statements about their meaning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
-    /// The file's format.
+    /// Format of the file.
     pub format: Format,
-    /// The bands of each pixel.
+    /// Bands of each pixel.
     pub layout: Layout,
-    /// All samples, pixel after pixel, in the upright orientation; palettes are already looked up, and gray and
-    /// palette samples of less than 8 bits are spread over 8.
+    /// All samples, pixel by pixel, in the upright orientation. Palette indices are replaced by colors, and gray and
+    /// palette samples of less than 8 bits are scaled to 8 bits.
     pub samples: Samples,
     /// The largest value that an integer sample can take; `None` for floats.
     pub max: Option<u32>,
-    /// What the alpha channel means, where the layout has one.
+    /// Meaning of the alpha channel, for a layout with alpha.
     pub alpha: AlphaKind,
-    /// The embedded ICC profile.
+    /// Bytes of the embedded ICC profile.
     pub icc: Option<Vec<u8>>,
-    /// The color chunks of a PNG other than the profile.
+    /// Color chunks of a PNG file, without the profile.
     pub png: PngColor,
 }
 
-/// The bands of a pixel, in their order.
+/// The channels of a pixel, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
-    /// One band.
+    /// One gray band.
     Gray,
-    /// One band and alpha.
+    /// One gray band and alpha.
     GrayAlpha,
-    /// Three bands.
+    /// Red, green and blue band.
     Rgb,
-    /// Three bands and alpha.
+    /// Red, green and blue band, and alpha.
     Rgba,
 }
 
 impl Layout {
-    /// Samples per pixel.
+    /// Number of samples per pixel.
     pub const fn channels(self) -> usize {
         match self {
             Self::Gray => 1,
@@ -51,17 +51,17 @@ impl Layout {
         matches!(self, Self::GrayAlpha | Self::Rgba)
     }
 
-    /// Whether there is one band, alpha aside.
+    /// Whether the layout has one color band.
     pub const fn is_gray(self) -> bool {
         matches!(self, Self::Gray | Self::GrayAlpha)
     }
 
-    /// The same with three bands.
+    /// The layout with three color bands and the same alpha.
     pub(crate) const fn colored(self) -> Self {
         if self.has_alpha() { Self::Rgba } else { Self::Rgb }
     }
 
-    /// The layout of this many channels.
+    /// The layout with `channels` samples per pixel; `None` for other numbers than 1 to 4.
     pub(super) const fn of_channels(channels: usize) -> Option<Self> {
         match channels {
             1 => Some(Self::Gray),
@@ -73,7 +73,7 @@ impl Layout {
     }
 }
 
-/// Samples in the file's own type (half floats are widened, doubles rounded to single).
+/// Samples in the type of the file. Half floats are converted to 32-bit floats, doubles are rounded to 32 bits.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs, reason = "the types name themselves")]
 pub enum Samples {
@@ -84,7 +84,7 @@ pub enum Samples {
 }
 
 impl Samples {
-    /// Number of samples.
+    /// Number of samples of all channels together.
     pub fn len(&self) -> usize {
         match self {
             Self::U8(v) => v.len(),
@@ -94,7 +94,7 @@ impl Samples {
         }
     }
 
-    /// Whether there is none.
+    /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -110,22 +110,22 @@ impl Samples {
     }
 }
 
-/// What an alpha channel means.
+/// Relation between the color bands and the alpha channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AlphaKind {
-    /// The bands are those of the opaque pixel (PNG, WebP, most TIFFs).
+    /// The bands hold the color of the opaque pixel (PNG, WebP, most TIFFs).
     Straight,
-    /// The bands are multiplied by alpha already: composited on black as they stand (`OpenEXR`, some TIFFs).
+    /// The bands are already multiplied by alpha, so the bands are the picture on black (`OpenEXR`, some TIFFs).
     Associated,
 }
 
-/// The color chunks of a PNG (PNG 3rd edition, 11.3.2), the embedded profile aside.
+/// The color chunks of a PNG (PNG 3rd edition, 11.3.2), without the embedded profile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PngColor {
-    /// cICP: primaries, transfer characteristics, matrix, full range flag.
+    /// Chunk cICP: primaries, transfer characteristics, matrix and full-range flag.
     pub cicp: Option<[u8; 4]>,
-    /// sRGB: the rendering intent.
+    /// Chunk sRGB: number of the rendering intent.
     pub srgb: Option<u8>,
-    /// gAMA: the exponent of the file's encoding × 100 000.
+    /// Chunk gAMA: exponent of the file's encoding × 100 000.
     pub gama: Option<u32>,
 }

@@ -1,4 +1,5 @@
-//! `OpenEXR`: the first layer with R, G and B, or else with Y; half, float and integer channels become floats.
+//! Decoder of `OpenEXR`: reads the first layer with R, G and B, or else the first with Y. Half, float and integer
+//! channels are converted to 32-bit floats.
 
 use super::{Budget, Decoded};
 use crate::photo::error::Fault;
@@ -49,7 +50,7 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     if data.len() != size.0 * size.1 * layout.channels() {
         return Err(Fault::damaged("its pixels do not fill its size"));
     }
-    // "Technical Introduction to OpenEXR", premultiplied vs. un-premultiplied: color is multiplied by alpha.
+    // "Technical Introduction to OpenEXR", premultiplied vs. un-premultiplied: the color is multiplied by alpha.
     let alpha = AlphaKind::Associated;
     Ok(Decoded { alpha, warnings, ..Decoded::plain(size, layout, Samples::F32(data)) })
 }
@@ -67,7 +68,7 @@ fn channel_names(headers: &[Header]) -> String {
     format!("the channels {}", names.join(", "))
 }
 
-/// Samples of one layer as they arrive, in any order of their pixels.
+/// Samples of one layer, which the `exr` crate delivers in any order of the pixels.
 struct Pixels {
     width: usize,
     data: Vec<f32>,
@@ -84,7 +85,7 @@ impl Pixels {
     }
 }
 
-/// One reader per set of channels: the crate knows their number at compile time.
+/// One reader per set of channels, because the `exr` crate needs the number of channels at compile time.
 macro_rules! channel_reader {
     ($name:ident, $count:literal, [$($channel:literal),+], $pixel:pat => $values:expr, $tuple:ty) => {
         fn $name(chunks: Chunks) -> Result<Vec<f32>, Fault> {

@@ -1,4 +1,5 @@
-//! JPEG. The decoder fills what is missing with gray, so that the file's own structure is walked first.
+//! Decoder of JPEG. The decoding library fills missing data with gray, so this decoder first checks that the file is
+//! complete.
 
 use super::{Budget, Decoded};
 use crate::photo::error::Fault;
@@ -24,21 +25,21 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     Ok(Decoded { icc, orientation, ..Decoded::plain(size, layout, Samples::U8(data)) })
 }
 
-/// The number of color components, from a file that is complete (ITU-T T.81, annex B).
+/// Number of color components of a complete file (ITU-T T.81, annex B); an error for a file that ends early.
 fn components(bytes: &[u8]) -> Result<u8, Fault> {
     let cut = || Fault::damaged("it ends before its end marker");
     let mut found = None;
-    // After the start-of-image marker.
+    // The search starts after the start-of-image marker of two bytes.
     let mut at = 2;
     loop {
         let start = at + bytes[at..].iter().position(|&b| b == 0xFF).ok_or_else(cut)?;
-        // Any number of fill bytes may stand before a marker.
+        // Any number of fill bytes may precede a marker.
         let marker_at = start + bytes[start..].iter().position(|&b| b != 0xFF).ok_or_else(cut)?;
         let marker = bytes[marker_at];
         at = marker_at + 1;
         match marker {
             0xD9 => return found.ok_or_else(|| Fault::damaged("it has no frame header")),
-            // Stuffed zeros and markers without content: restarts, TEM and a second start of image.
+            // Stuffed zeros, and markers without content: restart markers, TEM and a second start of image.
             0x00 | 0x01 | 0xD0..=0xD8 => continue,
             _ => {}
         }
@@ -48,7 +49,7 @@ fn components(bytes: &[u8]) -> Result<u8, Fault> {
         if matches!(marker, 0xC0..=0xCF) && !matches!(marker, 0xC4 | 0xC8 | 0xCC) {
             found = segment.get(7).copied();
         }
-        // The coded data after a start of scan hold no marker but restarts: the search above skips them.
+        // The coded data after a start-of-scan segment hold only restart markers, which the search above skips.
         at += length;
     }
 }

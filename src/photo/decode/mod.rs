@@ -1,4 +1,4 @@
-//! One decoder per format: from a file's bytes to its samples, untouched, and what it says about them.
+//! Decoders, one per format: from the bytes of a file to its samples as stored, with the file's statements about them.
 
 mod exr;
 mod jpeg;
@@ -11,26 +11,26 @@ use super::format::Format;
 use super::source::{AlphaKind, Layout, PngColor, Samples};
 use image::metadata::Orientation;
 
-/// What a decoder hands out.
+/// Samples of a decoded file, with the file's statements about them.
 #[derive(Debug)]
 pub(super) struct Decoded {
-    /// Columns and rows as stored.
+    /// Number of columns and rows, before the orientation is applied.
     pub size: (usize, usize),
     pub layout: Layout,
-    /// `layout.channels()` samples for each pixel, row after row as stored.
+    /// `layout.channels()` samples per pixel, row by row, before the orientation is applied.
     pub samples: Samples,
-    /// Largest value of an integer sample.
+    /// Largest value of an integer sample; `None` for floats.
     pub max: Option<u32>,
     pub alpha: AlphaKind,
     pub icc: Option<Vec<u8>>,
     pub png: PngColor,
-    /// What turns the stored picture upright.
+    /// Transformation that turns the stored picture upright.
     pub orientation: Orientation,
     pub warnings: Vec<String>,
 }
 
 impl Decoded {
-    /// Samples of which the file says nothing more.
+    /// Samples of a file that states nothing else about them.
     fn plain(size: (usize, usize), layout: Layout, samples: Samples) -> Self {
         Self {
             size,
@@ -46,16 +46,16 @@ impl Decoded {
     }
 }
 
-/// How much a file may ask for.
+/// Limit of the size of a picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Budget {
     pub max_megapixels: f64,
 }
 
 impl Budget {
-    /// The declared size as it is used in memory, if it may be taken.
+    /// Checks a declared size against the limit; returns columns and rows.
     fn admit(self, width: impl TryInto<u64>, height: impl TryInto<u64>) -> Result<(usize, usize), Fault> {
-        // A size that does not even fit is too large in any case.
+        // A size that exceeds 64 bits is too large in any case.
         let (width, height) = (width.try_into().unwrap_or(u64::MAX), height.try_into().unwrap_or(u64::MAX));
         if width == 0 || height == 0 {
             return Err(Fault::NoPixels { width, height });
@@ -69,17 +69,17 @@ impl Budget {
         Ok((width as usize, height as usize))
     }
 
-    /// Bytes that a decoder may take for itself while it decodes an admitted picture.
+    /// Number of bytes that a decoder may allocate for itself while it decodes an accepted picture.
     fn working_bytes(self) -> usize {
         const OVERHEAD: f64 = (64 << 20) as f64;
         (self.max_megapixels * 1e6).mul_add(BYTES_PER_PIXEL as f64, OVERHEAD) as usize
     }
 }
 
-/// Bytes of the widest pixel: four samples of 64 bits.
+/// Number of bytes of the widest pixel: four samples of 64 bits.
 const BYTES_PER_PIXEL: u64 = 32;
 
-/// The picture in `bytes`, which start as `format` does.
+/// Decodes the picture in `bytes`, whose first bytes are those of `format`.
 pub(super) fn decode(format: Format, bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     match format {
         Format::Png => png::decode(bytes, budget),

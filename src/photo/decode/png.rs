@@ -1,4 +1,4 @@
-//! PNG (3rd edition), through the `png` crate, which hands out the color chunks that `image` keeps to itself.
+//! Decoder of PNG (3rd edition), based on the `png` crate, because the `image` crate does not return the color chunks.
 
 use super::{Budget, Decoded};
 use crate::photo::error::Fault;
@@ -10,7 +10,8 @@ use std::io::Cursor;
 pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: budget.working_bytes() });
     decoder.set_ignore_text_chunk(true);
-    // Palettes are looked up, tRNS becomes alpha, and 1, 2 and 4 bits are spread over 8, which is exact.
+    // The crate replaces palette indices by colors, converts tRNS to alpha, and scales 1, 2 and 4 bits to 8, which is
+    // exact.
     decoder.set_transformations(Transformations::EXPAND);
     let header = decoder.read_header_info()?;
     let size = budget.admit(header.width, header.height)?;

@@ -1,4 +1,4 @@
-//! The formats that `image` reads as we need them: BMP, PNM, WebP and Radiance HDR.
+//! Decoders of the formats that the `image` crate reads sufficiently: BMP, PNM, WebP and Radiance HDR.
 
 use super::{Budget, Decoded};
 use crate::photo::error::{CONVERT, Fault};
@@ -14,7 +14,7 @@ pub(super) fn bmp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     read(BmpDecoder::new(Cursor::new(bytes))?, budget)
 }
 
-/// Of an animation, the first frame.
+/// Decodes WebP; of an animation the first frame.
 pub(super) fn webp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let decoder = WebPDecoder::new(Cursor::new(bytes))?;
     let animated = decoder.has_animation();
@@ -26,7 +26,7 @@ pub(super) fn webp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
 }
 
 pub(super) fn hdr(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
-    // `#?RGBE` is as common as the signature of the specification; only the lenient reader takes it.
+    // The signature `#?RGBE` is as common as the signature of the specification. Only the lenient reader accepts it.
     let decoder = if bytes.starts_with(b"#?RADIANCE") {
         HdrDecoder::new(Cursor::new(bytes))
     } else {
@@ -35,7 +35,7 @@ pub(super) fn hdr(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     read(decoder?, budget)
 }
 
-/// Samples keep the file's own maximum, whatever it is.
+/// Decodes PNM. Samples keep the range 0 to the file's own maximum.
 pub(super) fn pnm(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let decoder = PnmDecoder::new(Cursor::new(bytes))?;
     let max = pnm_max(decoder.header());
@@ -54,7 +54,8 @@ pub(super) fn pnm(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     Ok(Decoded { max: Some(max), samples, ..decoded })
 }
 
-/// `image` spreads samples of `0..=max` over `0..=spread`, rounded; the original of each, by its very arithmetic.
+/// Table that undoes the scaling of the `image` crate: it scales samples of `0..=max` to `0..=spread`, rounded. The
+/// table is computed with the same 32-bit operations and holds the original sample of each scaled one.
 fn codes_before_spreading(spread: u32, max: u32) -> Vec<u32> {
     let factor = spread as f32 / max as f32;
     let mut codes = vec![max; spread as usize + 1];
@@ -74,7 +75,7 @@ fn pnm_max(header: &PnmHeader) -> u32 {
     {
         *maxval
     } else {
-        // `image` spreads black and white over 8 bits.
+        // The `image` crate scales black and white to 8 bits.
         255
     }
 }

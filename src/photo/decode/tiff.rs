@@ -1,4 +1,5 @@
-//! TIFF 6.0 and `BigTIFF`, through the `tiff` crate: gray, palette and RGB of 1 to 32 bits, half to double floats.
+//! Decoder of TIFF 6.0 and `BigTIFF`, based on the `tiff` crate: gray, palette and RGB of 1 to 32 bits, floats of 16 to
+//! 64 bits.
 
 mod palette;
 
@@ -20,7 +21,7 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let mut limits = Limits::default();
     limits.decoding_buffer_size = budget.working_bytes();
     limits.intermediate_buffer_size = budget.working_bytes();
-    // No value is longer than the file, whatever its count says.
+    // No value can be longer than the file, whatever length the file states.
     limits.ifd_value_size = bytes.len();
     let mut reader = reader.with_limits(limits.clone());
 
@@ -33,11 +34,12 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
         }
     };
     let mut decoded = Decoded::plain(size, layout, samples);
-    // 1 is associated, 2 unassociated, and what writers leave out or call unspecified is rarely multiplied.
+    // Value 1 is associated alpha, 2 is unassociated. When the tag is missing or unspecified, the color is rarely
+    // multiplied.
     if extra_samples(&mut reader)?.first() == Some(&1) {
         decoded.alpha = AlphaKind::Associated;
     }
-    // A profile that cannot be read is one that the file does not have.
+    // An unreadable profile is treated like a missing one.
     decoded.icc = reader.get_tag_u8_vec(Tag::IccProfile).ok();
     decoded.orientation = reader
         .find_tag_unsigned::<u8>(Tag::Orientation)?
@@ -53,7 +55,7 @@ fn extra_samples(reader: &mut Reader) -> Result<Vec<u16>, Fault> {
     Ok(reader.find_tag_unsigned_vec::<u16>(Tag::ExtraSamples)?.unwrap_or_default())
 }
 
-/// The bands and the bits of each sample.
+/// Bands of each pixel, and number of bits of each sample.
 fn stored_layout(reader: &mut Reader) -> Result<(Layout, u8), Fault> {
     let color = reader.colortype()?;
     match color {
@@ -62,7 +64,7 @@ fn stored_layout(reader: &mut Reader) -> Result<(Layout, u8), Fault> {
         ColorType::RGB(bits) => Ok((Layout::Rgb, bits)),
         ColorType::RGBA(bits) => Ok((Layout::Rgba, bits)),
         ColorType::Multiband { bit_depth, .. } => {
-            // Gray with more samples; the second counts if it is said to be alpha.
+            // Gray with additional samples; the first additional sample is used if the file declares it as alpha.
             let has_alpha = matches!(extra_samples(reader)?.first(), Some(1 | 2));
             Ok((if has_alpha { Layout::GrayAlpha } else { Layout::Gray }, bit_depth))
         }
@@ -73,7 +75,7 @@ fn stored_layout(reader: &mut Reader) -> Result<(Layout, u8), Fault> {
     }
 }
 
-/// The samples of all bands that mean something; what the file holds beyond them is left out.
+/// Reads the samples of the bands in the layout; further bands of the file are dropped.
 fn read_samples(reader: &mut Reader, (width, height): (usize, usize)) -> Result<(Layout, Samples), Fault> {
     let (layout, bits) = stored_layout(reader)?;
     let (buffer, planes) = read_buffer(reader)?;
@@ -97,7 +99,7 @@ fn read_samples(reader: &mut Reader, (width, height): (usize, usize)) -> Result<
     Ok((layout, samples))
 }
 
-/// Palette indices that the file calls gray.
+/// Reads palette indices from a file whose photometric interpretation was set to gray.
 fn indices(reader: &mut Reader, (width, height): (usize, usize)) -> Result<Vec<u8>, Fault> {
     let (_, bits) = stored_layout(reader)?;
     let (buffer, planes) = read_buffer(reader)?;
@@ -110,7 +112,7 @@ fn indices(reader: &mut Reader, (width, height): (usize, usize)) -> Result<Vec<u
     }
 }
 
-/// All samples as the decoder hands them out, and the number of planes that they lie in.
+/// Reads all samples in the decoder's order, and the number of planes that the samples are divided into.
 fn read_buffer(reader: &mut Reader) -> Result<(DecodingResult, usize), Fault> {
     let mut buffer = DecodingResult::U8(Vec::new());
     let stored = reader.read_image_to_buffer(&mut buffer)?;
@@ -120,7 +122,7 @@ fn read_buffer(reader: &mut Reader) -> Result<(DecodingResult, usize), Fault> {
     Ok((buffer, stored.planes))
 }
 
-/// Samples of 1, 2 or 4 bits in rows that are padded to bytes, one to a byte.
+/// Unpacks samples of 1, 2 or 4 bits, in rows padded to whole bytes, into one byte each.
 fn unpack(packed: &[u8], width: usize, height: usize, bits: u8) -> Result<Vec<u8>, Fault> {
     if !matches!(bits, 1 | 2 | 4) {
         return Err(Fault::unsupported(format!("samples of {bits} bits"), CONVERT));
@@ -141,7 +143,7 @@ fn unpack(packed: &[u8], width: usize, height: usize, bits: u8) -> Result<Vec<u8
     Ok(samples.collect())
 }
 
-/// How samples lie in the decoder's buffer, and how many of each pixel are wanted.
+/// Arrangement of the samples in the decoder's buffer, and number of channels to keep per pixel.
 struct Shape {
     pixels: usize,
     planes: usize,

@@ -1,4 +1,5 @@
-//! Palette pictures (TIFF 6.0, section 5), which the `tiff` crate refuses although their indices are stored as gray is.
+//! Palette pictures (TIFF 6.0, section 5). The `tiff` crate rejects them, although palette indices are stored like gray
+//! values.
 
 use super::Reader;
 use crate::photo::error::Fault;
@@ -8,10 +9,10 @@ use tiff::tags::Tag;
 const PALETTE_COLOR: u16 = 3;
 const BLACK_IS_ZERO: u16 = 1;
 
-/// All reds, then all greens, then all blues; 65535 is full.
+/// Color map of the file: all reds, then all greens, then all blues; 65535 is full intensity.
 pub(super) struct Palette(Vec<u16>);
 
-/// The palette of the first picture, if it has one.
+/// Reads the palette of the first picture; `None` when the picture has no palette.
 pub(super) fn of(reader: &mut Reader) -> Result<Option<Palette>, Fault> {
     if reader.find_tag_unsigned::<u16>(Tag::PhotometricInterpretation)? != Some(PALETTE_COLOR) {
         return Ok(None);
@@ -22,7 +23,8 @@ pub(super) fn of(reader: &mut Reader) -> Result<Option<Palette>, Fault> {
 }
 
 impl Palette {
-    /// R, G and B of each index; with 8 bits if the palette says no more than that.
+    /// R, G and B of each index: 8-bit samples when every palette entry is an exact multiple of 257, else 16-bit
+    /// samples.
     pub(super) fn look_up(&self, indices: &[u8]) -> Result<Samples, Fault> {
         let colors = self.0.len() / 3;
         if indices.iter().any(|&index| usize::from(index) >= colors) {
@@ -38,7 +40,7 @@ impl Palette {
     }
 }
 
-/// A copy of the file whose first picture calls itself gray.
+/// A copy of the file in which the photometric interpretation of the first picture is set to gray.
 pub(super) fn indices_as_gray(bytes: &[u8]) -> Result<Vec<u8>, Fault> {
     let directory = Directory::of(bytes);
     let value_at = directory
@@ -51,7 +53,7 @@ pub(super) fn indices_as_gray(bytes: &[u8]) -> Result<Vec<u8>, Fault> {
     Ok(copy)
 }
 
-/// Where the first image file directory lies (TIFF 6.0, section 2; `BigTIFF` has wider fields).
+/// Position of the first image file directory (TIFF 6.0, section 2; `BigTIFF` has wider fields).
 struct Directory<'a> {
     bytes: &'a [u8],
     big: bool,
@@ -68,7 +70,7 @@ impl<'a> Directory<'a> {
         Some(Self { bytes, big, first_entry: start.checked_add(count_bytes)?, entries })
     }
 
-    /// Where the value of a tag lies that is short enough to lie in its entry.
+    /// Position of the value of a tag whose value is short enough to be stored in the directory entry.
     fn value_of(&self, tag: usize) -> Option<usize> {
         let (entry_bytes, value_offset) = if self.big { (20, 12) } else { (12, 8) };
         let offsets = (0..self.entries).map(|entry| self.first_entry + entry * entry_bytes);
@@ -81,7 +83,7 @@ impl<'a> Directory<'a> {
     }
 }
 
-/// The number of `length` bytes at `at`, in the file's byte order.
+/// The unsigned integer of `length` bytes at `at`, in the file's byte order.
 fn number(bytes: &[u8], at: usize, length: usize) -> Option<usize> {
     let field = bytes.get(at..at.checked_add(length)?)?;
     let append = |number: usize, &byte: &u8| number.checked_mul(256)?.checked_add(usize::from(byte));
