@@ -5,6 +5,7 @@
 
 mod events;
 mod facts;
+mod names;
 mod scores;
 mod trace_line;
 mod words;
@@ -13,9 +14,10 @@ pub use facts::{
     AmbientAsked, AmbientFacts, AreaFacts, HighlightBranchFacts, IlluminantFacts, ImageFacts, LightFacts,
     ParameterFacts, ParamsFacts, RegionFacts, Report, SCHEMA, Timings,
 };
+pub use names::Names;
 pub use scores::Scores;
 pub use trace_line::{TRACE_SCHEMA, schema_line, trace_line};
-pub use words::{Condensed, Names, condense, what_if_sentence};
+pub use words::{Condensed, condense, what_if_sentence};
 
 /// Name of the report in a result folder.
 pub const FILE_NAME: &str = "report.json";

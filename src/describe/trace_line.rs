@@ -7,6 +7,7 @@
 
 use super::Names;
 use super::events::line_objects;
+use super::names::short;
 use crate::trace::{Contest, Measure, Stage, Step, Trace};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -90,15 +91,6 @@ fn contest_parts(contest: &Contest) -> (String, String) {
     };
     let (challenger, holder) = (short(challenger), short(holder));
     (format!("{{\"measure\":\"{name}\",\"challenger\":{challenger}}}"), format!("{{\"{against}\":{holder}}}"))
-}
-
-/// A number as short as it can be read back; `null` where it is none.
-pub(super) fn short(number: f32) -> Value {
-    if !number.is_finite() {
-        return Value::Null;
-    }
-    // By way of its digits: as a double it would carry digits that were never measured.
-    number.to_string().parse::<f64>().map_or(Value::Null, Value::from)
 }
 
 #[cfg(test)]

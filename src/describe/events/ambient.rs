@@ -2,7 +2,7 @@
 
 use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
-use crate::describe::words::count;
+use crate::describe::names::count;
 use crate::trace::Ambient;
 use serde_json::json;
 

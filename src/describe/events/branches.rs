@@ -2,7 +2,7 @@
 
 use super::{Describe, LineObjects};
 use crate::describe::Names;
-use crate::describe::trace_line::short;
+use crate::describe::names::short;
 use crate::trace::{BranchesSought, HighlightCore, Measured};
 use serde_json::{Value, json};
 

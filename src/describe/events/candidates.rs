@@ -2,7 +2,7 @@
 
 use super::{Describe, LineObjects, nothing, vector};
 use crate::describe::Names;
-use crate::describe::words::direction;
+use crate::describe::names::direction;
 use crate::trace::{CandidateChosen, CandidateSource, CandidateTested};
 use serde_json::{Value, json};
 

@@ -2,7 +2,7 @@
 
 use super::{Describe, LineObjects, nothing, place};
 use crate::describe::Names;
-use crate::describe::words::{count, percent};
+use crate::describe::names::{count, percent};
 use crate::trace::{ComponentSplit, Dropped, HoleFilled, Renumbered};
 use serde_json::json;
 

@@ -2,7 +2,7 @@
 
 use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
-use crate::describe::words::{count, direction, percent, tenths};
+use crate::describe::names::{count, direction, percent, tenths};
 use crate::trace::{
     Contribution, IlluminantEstimated, IlluminantGiven, LightBasis, LightChosen, LightLimits, TwoLightTest,
     VoteResult, VotesCast,

@@ -2,8 +2,8 @@
 
 use super::{Describe, LineObjects, line, nothing};
 use crate::describe::Names;
-use crate::describe::trace_line::short;
-use crate::describe::words::{count, direction, ordinal};
+use crate::describe::names::short;
+use crate::describe::names::{count, direction, ordinal};
 use crate::trace::{
     Absorbed, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted, PassedOver, RegionsMerged,
     SeedsPlaced,

@@ -2,8 +2,8 @@
 
 use super::{Describe, LineObjects, nothing, place};
 use crate::describe::Names;
-use crate::describe::trace_line::short;
-use crate::describe::words::{count, percent, tenths};
+use crate::describe::names::short;
+use crate::describe::names::{count, percent, tenths};
 use crate::trace::{
     BlobJudged, BlobsCounted, LocalBegan, LocalStart, PlausibilityTested, RejectReason, RepairTried,
     RepairVerdict,

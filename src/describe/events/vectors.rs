@@ -2,8 +2,8 @@
 
 use super::{Describe, LineObjects, line, vector};
 use crate::describe::Names;
-use crate::describe::trace_line::short;
-use crate::describe::words::direction;
+use crate::describe::names::direction;
+use crate::describe::names::short;
 use crate::trace::{FitLimits, VectorsFitted};
 use serde_json::json;
 

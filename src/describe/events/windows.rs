@@ -2,8 +2,8 @@
 
 use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
-use crate::describe::trace_line::short;
-use crate::describe::words::count;
+use crate::describe::names::count;
+use crate::describe::names::short;
 use crate::trace::{Class, Measured, MergeTried, WindowClassified, WindowsLaid};
 use serde_json::json;
 
