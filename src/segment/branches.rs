@@ -178,9 +178,9 @@ impl BranchSearch<'_> {
     fn gap(&self, low: &HighlightCore, high: &HighlightCore) -> Measured<f32> {
         let valley = VALLEY * low.deviation.hypot(high.deviation);
         let least = LEAST_GAP * self.matte_length as f32;
-        let reject_reason =
+        let light_error_sine =
             self.light_doubt_deg.unwrap_or(0.0).max(LEAST_DOUBT_DEG).to_radians().sin() as f32;
-        let turned = reject_reason * (high.surface - low.surface).abs() / self.transform.sine();
+        let turned = light_error_sine * (high.surface - low.surface).abs() / self.transform.sine();
         Measured::new(high.body - low.body, valley.max(least) + turned)
     }
 }

@@ -75,11 +75,12 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
                 }
                 _ => {
                     // Ways that contradict each other are not as sure as each is of itself.
-                    let reject_reason = light
+                    let disagreement_deg = light
                         .agreement_deg()
                         .filter(|_| light.support < 2.0 * LIGHT_LIMITS.support)
                         .unwrap_or(0.0);
-                    light.interval_deg = light.interval_deg.map(|interval| interval.max(reject_reason / 2.0));
+                    light.interval_deg =
+                        light.interval_deg.map(|interval| interval.max(disagreement_deg / 2.0));
                 }
             }
             let used = light.direction.map(Vec3::from);

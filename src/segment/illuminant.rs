@@ -172,8 +172,8 @@ fn residual_deg(constraint: &Constraint, direction: &Vec3) -> f64 {
 }
 
 fn weight(constraint: &Constraint, direction: &Vec3) -> f64 {
-    let reject_reason = residual_deg(constraint, direction) / constraint.doubt_deg;
-    constraint.reliability / (constraint.variance_deg2 * (1.0 + reject_reason * reject_reason))
+    let relative_residual = residual_deg(constraint, direction) / constraint.doubt_deg;
+    constraint.reliability / (constraint.variance_deg2 * (1.0 + relative_residual * relative_residual))
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Decisions as data: what was decided, about what, on which numbers.
 //!
-//! The stages tell a [`Recorder`] what they decide. [`NoopRecorder`] listens to nothing at no cost; [`TraceRecorder`] keeps everything, a
-//! [`StageTrace`] a stage. A [`Trace`] is all reels in order; a [`Replay`] is a cursor in it that goes forward and back and shows
-//! what stood at that instant.
+//! The stages hand their decisions to a [`Recorder`]. [`NoopRecorder`] keeps nothing at no cost; [`TraceRecorder`] keeps every
+//! decision of a stage in a [`StageTrace`]. A [`Trace`] holds the stage traces in order. A [`Replay`] is a cursor in a trace: it
+//! moves forward and back and shows the state of the analysis at each step.
 
 mod events;
 mod history;

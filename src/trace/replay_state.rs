@@ -13,7 +13,7 @@ use crate::raster::Raster;
 pub(super) struct ReplayState {
     pub(super) grids: Vec<Grid>,
     pub(super) hypotheses: Vec<Hypothesis>,
-    /// Lights so far: reel and event.
+    /// Lights so far: index of the stage trace and of the event.
     pub(super) lights: Vec<EventId>,
     /// What gave the regions their final numbers.
     pub(super) finals: Option<EventId>,

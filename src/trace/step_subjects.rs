@@ -37,3 +37,20 @@ impl Step<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::{BranchesSought, Dropped, Event};
+
+    #[test]
+    fn an_event_of_a_region_concerns_the_hypothesis_that_became_the_region() {
+        let branches = Event::from(BranchesSought { region: 2, cores: Vec::new(), gaps: Vec::new() });
+        let dropped = Event::from(Dropped { region: 2, pixels: 9 });
+        let (branches, dropped) = (Step::Event(&branches), Step::Event(&dropped));
+        assert!(
+            branches.concerns(7, Some(2)) && !branches.concerns(2, Some(1)) && !branches.concerns(2, None)
+        );
+        assert!(dropped.concerns(2, None) && !dropped.concerns(7, Some(2)));
+    }
+}

@@ -13,7 +13,7 @@ pub struct Trace {
     width: usize,
     height: usize,
     stage_traces: Vec<Arc<StageTrace>>,
-    /// First step of each reel, and the end.
+    /// First step of each stage, and the end.
     starts: Vec<usize>,
 }
 
@@ -70,7 +70,7 @@ impl Topic {
 }
 
 impl Trace {
-    /// The reels of a picture of `width × height` pixels, in the order of the stages.
+    /// The traces of the stages of a picture of `width × height` pixels, in the order of the stages.
     pub fn new(width: usize, height: usize, stage_traces: Vec<Arc<StageTrace>>) -> Self {
         let mut starts = vec![0];
         let mut end = 0;
@@ -239,7 +239,7 @@ impl Trace {
         &self.starts
     }
 
-    /// The reel in which step `n` lies, and its number there.
+    /// Index of the stage trace in which step `n` lies, and its number there.
     pub(super) fn locate(&self, n: usize) -> Option<(usize, usize)> {
         if n >= self.len() {
             return None;

@@ -1,10 +1,10 @@
-//! Walking a reel from either end.
+//! Iteration over a stage trace from either end.
 
 use super::StageTrace;
 use crate::trace::Step;
 use std::ops::Range;
 
-/// The steps of a reel, in order.
+/// The steps of a stage trace, in order.
 #[derive(Clone, Debug)]
 pub struct Steps<'a> {
     stage_trace: &'a StageTrace,
