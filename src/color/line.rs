@@ -1,6 +1,6 @@
 //! Straight lines through the color cube, their robust fit, and the cylinders around them (section 5.3.2).
 
-use super::{Moments, Vec3, principal_axes};
+use super::{Moments, Vec3, dot, principal_axes, rgb};
 
 /// A line of the color space: a matte or a highlight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +50,12 @@ impl Line {
     pub fn inward(&self) -> Vec3 {
         let ones = Vec3::repeat(1.0);
         ones - self.direction * self.direction.sum()
+    }
+
+    /// The side of the line that faces away from gray.
+    pub fn outer_side(&self) -> OuterSide {
+        let (inward, mean) = (rgb(&self.inward()), rgb(&self.mean));
+        OuterSide { inward, at_mean: dot(mean, inward) }
     }
 
     /// Iteratively reweighted least squares with Tukey's weights, from this line on.
@@ -107,6 +113,22 @@ pub struct Cylinder {
     mean: [f32; 3],
     direction: [f32; 3],
     radius2: f32,
+}
+
+/// The side of a line that faces away from gray: highlights, which lie towards gray, do not reach there (section 5.4.1, figure 9).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OuterSide {
+    inward: [f32; 3],
+    /// Product of the line's mean with `inward`.
+    at_mean: f32,
+}
+
+impl OuterSide {
+    /// Whether a color lies on this side, or level with the line.
+    #[inline]
+    pub fn contains(&self, color: [f32; 3]) -> bool {
+        dot(color, self.inward) <= self.at_mean
+    }
 }
 
 impl Cylinder {
@@ -170,6 +192,9 @@ mod tests {
         assert_eq!(line.direction, Vec3::x());
         assert!((line.foot() - Vec3::new(0.0, 10.0, 10.0)).norm() < 1e-12);
         assert!(line.inward().dot(&Vec3::new(0.0, 1.0, 1.0)) > 0.0);
+        let outer_side = line.outer_side();
+        assert!(outer_side.contains([90.0, 5.0, 5.0]) && outer_side.contains([20.0, 10.0, 10.0]));
+        assert!(!outer_side.contains([90.0, 15.0, 15.0]));
     }
 
     proptest! {

@@ -12,7 +12,7 @@ mod srgb;
 pub use chi_square::ChiSquareTest;
 pub use cluster::{ClusterTest, Trial};
 pub use eigen::{eigenvalues, principal_axes};
-pub use line::{Cylinder, Line, LineFit, closest_points};
+pub use line::{Cylinder, Line, LineFit, OuterSide, closest_points};
 pub use moments::Moments;
 pub use srgb::{linear_from_srgb, srgb_from_linear};
 

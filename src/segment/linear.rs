@@ -350,14 +350,12 @@ impl<'a> SeedAreas<'a> {
 /// Length of a region's matte line from black, counts: the 99.5 % quantile of C·d over its pixels on the outside of the
 /// line (5.4.1, figure 9: highlights grow inward, so the brightest matte point is sought outside).
 pub fn matte_length(input: &AnalysisInput, line: &Line, pixels: Pixels) -> f64 {
-    let inward = crate::color::rgb(&line.inward());
+    let outer_side = line.outer_side();
     let direction = crate::color::rgb(&line.direction);
-    let mean = crate::color::rgb(&line.mean);
-    let at_mean = crate::color::dot(mean, inward);
     let mut lengths: Vec<f32> = pixels
         .sample(LENGTH_SAMPLES)
         .map(|pixel| input.pixels[pixel as usize])
-        .filter(|&color| crate::color::dot(color, inward) <= at_mean)
+        .filter(|&color| outer_side.contains(color))
         .map(|color| crate::color::dot(color, direction))
         .collect();
     if lengths.is_empty() {

@@ -1,7 +1,7 @@
 //! What the cursor is about, as pixels: what a region has just taken, what it left beside, which clusters are compared.
 
 use super::growth;
-use crate::color::{Cylinder, dot, rgb};
+use crate::color::Cylinder;
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Raster, UNASSIGNED};
 use crate::reflection::Slice;
@@ -165,9 +165,8 @@ pub fn measured_and_ignored(
     pixels: &[u32],
     colors: &Raster<[f32; 3]>,
 ) -> (Vec<u32>, Vec<u32>) {
-    let (inward, mean) = (rgb(&test.matte.inward()), rgb(&test.matte.mean));
-    let at_mean = dot(mean, inward);
-    pixels.iter().partition(|&&pixel| dot(colors.as_slice()[pixel as usize], inward) <= at_mean)
+    let outer_side = test.matte.outer_side();
+    pixels.iter().partition(|&&pixel| outer_side.contains(colors.as_slice()[pixel as usize]))
 }
 
 /// At most `most` of these, evenly chosen.
