@@ -331,8 +331,8 @@ pub struct RegionFacts {
     pub angle_deg: Option<f64>,
     pub fit_rms_counts: f64,
     /// True in reports of versions that did not ask.
-    #[serde(default = "yes")]
-    pub holds: bool,
+    #[serde(rename = "holds", default = "yes")]
+    pub model_fits: bool,
     #[serde(default)]
     pub confidence: f64,
     #[serde(default)]
@@ -385,7 +385,7 @@ impl From<&RegionReflection> for RegionFacts {
             plane_normal: region.plane_normal,
             angle_deg: region.angle_deg,
             fit_rms_counts: region.fit_rms_counts,
-            holds: region.holds,
+            model_fits: region.model_fits,
             confidence: region.confidence,
             texture: region.texture,
             separable: region.separable,

@@ -212,9 +212,9 @@ fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &R
     let rms = RichText::new(format!("{:.2}", region.fit_rms_counts));
     row.col(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let rms = if region.holds { rms } else { rms.color(tones.accent) };
+            let rms = if region.model_fits { rms } else { rms.color(tones.accent) };
             let label = ui.add(Label::new(rms).selectable(false));
-            if !region.holds {
+            if !region.model_fits {
                 label.on_hover_text(format!(
                     "Does not hold: its pixels lie {:.1} counts from the plane (rms), or are texture ({:.2} of at most {TEXTURE_CORRELATION}). \
                      Its plane is not used.",

@@ -6,7 +6,7 @@
 //! it reached over a bridge of bright pixels.
 
 use crate::raster::{Border, ComponentSearch, Connectivity, Mask, Raster, UNASSIGNED};
-use crate::segment::{AnalysisInput, FinalRegions, Members, RegionFit, parts};
+use crate::segment::{AnalysisInput, FinalRegions, Members, parts};
 use crate::trace::PixelKind;
 
 /// A part of a region with a smaller share of matte pixels is no object's.
@@ -14,22 +14,20 @@ const LEAST_MATTE: f64 = 0.1;
 /// A clipped blob of which the own region holds a smaller share of the assigned surroundings is not the region's.
 const LEAST_OWN: f64 = 0.5;
 
-/// Assigned pixels whose region, or part of a region, explains them.
+/// The pixels that the skewed T of their region explains. `model_fits`: whether it explains region `id`, at index `id − 1`.
 pub fn explained_mask(
     input: &AnalysisInput,
     regions: &FinalRegions,
     members: &Members,
-    fits: &[RegionFit],
+    model_fits: &[bool],
     kinds: &Raster<PixelKind>,
 ) -> Mask {
-    let every = !input.refine.region_holds;
-    let holds: Vec<bool> = fits.iter().map(|fit| every || fit.holds(input.sigma())).collect();
-    let mut mask = regions.labels.map(|&label| label != UNASSIGNED && holds[usize::from(label) - 1]);
-    if every {
+    let mut mask = regions.labels.map(|&label| label != UNASSIGNED && model_fits[usize::from(label) - 1]);
+    if !input.refine.region_holds {
         return mask;
     }
     let width = regions.labels.width();
-    for id in (1..=fits.len() as u16).filter(|&id| holds[usize::from(id) - 1]) {
+    for id in (1..=model_fits.len() as u16).filter(|&id| model_fits[usize::from(id) - 1]) {
         for part in parts(width, members.region(id)) {
             let matte = part.iter().filter(|&&pixel| kinds[pixel as usize] == PixelKind::Matte).count();
             if (matte as f64) < LEAST_MATTE * part.len() as f64 {
@@ -39,12 +37,12 @@ pub fn explained_mask(
             }
         }
     }
-    give_up_strangers(input, regions, &mut mask);
+    remove_blobs_of_other_objects(input, regions, &mut mask);
     mask
 }
 
-/// Takes clipped blobs out that other regions surround.
-fn give_up_strangers(input: &AnalysisInput, regions: &FinalRegions, mask: &mut Mask) {
+/// Removes the clipped blobs that are mostly surrounded by other regions than their own.
+fn remove_blobs_of_other_objects(input: &AnalysisInput, regions: &FinalRegions, mask: &mut Mask) {
     let labels = &regions.labels;
     let mut search = ComponentSearch::new(labels.width(), labels.height(), Connectivity::Four);
     for start in 0..labels.len() {

@@ -3,9 +3,12 @@
 mod ambient;
 mod confidence;
 mod explained_mask;
+mod images;
 mod local;
+mod pixel;
 mod reason;
 mod region;
+mod region_plan;
 mod restore;
 mod split;
 mod vectors;
@@ -82,7 +85,7 @@ pub struct RegionReflection {
     /// Root mean square distance of its undistorted pixels from the plane (from the line without one), counts.
     pub fit_rms_counts: f64,
     /// Whether one skewed T explains it; where not, its plane is not used.
-    pub holds: bool,
+    pub model_fits: bool,
     /// How far its split is to be believed, 0…1; 0 where it does not hold.
     pub confidence: f64,
     /// How much surface and body reflection vary against each other from pixel to pixel: 1 for a print, about 0 for highlights.

@@ -110,9 +110,9 @@ impl ReasonInput<'_> {
             |light: [f64; 3]| axis_angle_deg(&Vec3::from(region.body), &Vec3::from(light)) < COLLINEAR_DEG;
         let only_textured = f64::from(self.sigma) * POOR_FIT >= region.fit_rms_counts;
         // A print of several colors lies off its plane as well: what it is says more than what it does.
-        if !region.holds && (only_textured || region.texture > TEXTURE_CORRELATION) {
+        if !region.model_fits && (only_textured || region.texture > TEXTURE_CORRELATION) {
             Reason::Texture
-        } else if !region.holds {
+        } else if !region.model_fits {
             Reason::InterReflection
         } else if !region.separable && self.light.is_some_and(collinear) {
             Reason::Collinear

@@ -1,7 +1,7 @@
 //! What is told of each region, in numbers and in words.
 
 use super::confidence::of_region;
-use super::split::Splitter;
+use super::region_plan::RegionPlan;
 use super::{HighlightBranch, RegionReflection};
 use crate::color::Vec3;
 use crate::raster::Raster;
@@ -24,23 +24,17 @@ pub struct RegionSummary<'a> {
 
 impl RegionSummary<'_> {
     /// What is known of the region.
-    pub fn report(
-        &self,
-        input: &AnalysisInput,
-        splitter: &Splitter,
-        neighbors: Vec<u16>,
-    ) -> RegionReflection {
+    pub fn report(&self, input: &AnalysisInput, plan: &RegionPlan, neighbors: Vec<u16>) -> RegionReflection {
         let pixels = self.pixels;
         let count = |test: &dyn Fn(usize) -> bool| pixels.iter().filter(|&p| test(p as usize)).count();
         let matte_pixels = count(&|pixel| self.kinds[pixel] == PixelKind::Matte);
         let highlight_pixels = pixels.len() - matte_pixels;
-        let vectors = &splitter.vectors;
+        let vectors = &plan.vectors;
         let surface = vectors.surface;
         let angle_deg = surface.map(|surface| crate::color::axis_angle_deg(&vectors.body, &surface));
-        let separable = splitter.transform.is_some();
-        let fit = &splitter.fit;
-        let holds = !input.refine.region_holds || fit.holds(input.sigma());
-        let highlight_branches = self.branches(input, splitter, highlight_pixels);
+        let separable = plan.transform().is_some();
+        let fit = &plan.fit;
+        let highlight_branches = self.branches(input, plan, highlight_pixels);
         RegionReflection {
             id: self.id,
             pixels: pixels.len(),
@@ -50,16 +44,16 @@ impl RegionSummary<'_> {
             body: vectors.body.into(),
             surface: surface.map(Into::into),
             matte_mean: vectors.matte_mean.into(),
-            highlight_start: surface.map(|_| splitter.starts[0].into()),
-            plane_normal: splitter.transform.map(|t| t.normal().map(f64::from)),
+            highlight_start: surface.map(|_| plan.starts[0].into()),
+            plane_normal: plan.transform().map(|t| t.normal().map(f64::from)),
             angle_deg,
             fit_rms_counts: fit.rms_counts,
-            holds,
-            confidence: of_region(fit, holds, angle_deg.filter(|_| separable), input.sigma()),
+            model_fits: plan.model_fits,
+            confidence: of_region(fit, plan.model_fits, angle_deg.filter(|_| separable), input.sigma()),
             texture: fit.texture,
             separable,
             neighbors,
-            warnings: self.warnings(input, splitter, angle_deg, holds),
+            warnings: self.warnings(input, plan, angle_deg),
             highlight_branches,
         }
     }
@@ -69,18 +63,18 @@ impl RegionSummary<'_> {
     fn branches(
         &self,
         input: &AnalysisInput,
-        splitter: &Splitter,
+        plan: &RegionPlan,
         highlight_pixels: usize,
     ) -> Vec<HighlightBranch> {
-        let Some(test) = &splitter.test else { return Vec::new() };
-        let mut pixels = vec![0usize; splitter.starts.len()];
+        let Some(test) = &plan.splitter.highlight_test else { return Vec::new() };
+        let mut pixels = vec![0usize; plan.starts.len()];
         if let [only] = pixels.as_mut_slice() {
             *only = highlight_pixels;
         } else {
             for pixel in self.pixels.iter() {
                 match self.kinds[pixel as usize] {
                     PixelKind::Highlight => pixels[test.nearest(input.pixels[pixel as usize])] += 1,
-                    PixelKind::Restored | PixelKind::Lost => pixels[splitter.branch_near(input, pixel)] += 1,
+                    PixelKind::Restored | PixelKind::Lost => pixels[plan.branch_near(input, pixel)] += 1,
                     PixelKind::Matte | PixelKind::Unassigned => {}
                 }
             }
@@ -91,18 +85,12 @@ impl RegionSummary<'_> {
             pixels,
             share: pixels as f64 / highlight_pixels.max(1) as f64,
         };
-        pixels.into_iter().zip(splitter.starts.iter().zip(&splitter.start_bodies)).map(branch).collect()
+        pixels.into_iter().zip(plan.starts.iter().zip(&plan.start_bodies)).map(branch).collect()
     }
 
-    fn warnings(
-        &self,
-        input: &AnalysisInput,
-        splitter: &Splitter,
-        angle_deg: Option<f64>,
-        holds: bool,
-    ) -> Vec<String> {
+    fn warnings(&self, input: &AnalysisInput, plan: &RegionPlan, angle_deg: Option<f64>) -> Vec<String> {
         let mut warnings = Vec::new();
-        let fit = &splitter.fit;
+        let fit = &plan.fit;
         match angle_deg {
             None => warnings.push("no dichromatic plane: everything counts as body reflection".to_owned()),
             Some(angle) if angle < MIN_ANGLE_DEG => warnings.push(format!(
@@ -115,7 +103,7 @@ impl RegionSummary<'_> {
             Some(_) => {}
         }
         if fit.poor(input.sigma()) {
-            let what = if splitter.transform.is_some() { "plane" } else { "matte line" };
+            let what = if plan.transform().is_some() { "plane" } else { "matte line" };
             let (rms, limit) = (fit.rms_counts, POOR_FIT * input.sigma());
             warnings.push(format!(
                 "poor fit: pixels lie {rms:.1} counts from the {what} (rms), {limit:.1} is noise"
@@ -127,13 +115,13 @@ impl RegionSummary<'_> {
                 fit.texture.min(1.0)
             ));
         }
-        if !holds {
+        if !plan.model_fits {
             warnings.push(
                 "the model does not hold: the plane is not used, what stands out locally is all that is split"
                     .to_owned(),
             );
         }
-        let foot = splitter.hypothesis.matte.foot().norm();
+        let foot = plan.hypothesis.matte.foot().norm();
         if foot > input.sigma() {
             warnings.push(format!(
                 "the matte line misses black by {foot:.1} counts: ambient light, inter-reflection or no single material"
@@ -143,7 +131,7 @@ impl RegionSummary<'_> {
         if lost > 0 {
             warnings.push(format!("{lost} pixels are clipped in every band: their split is a guess"));
         }
-        warnings.extend(several_highlights(&splitter.start_bodies));
+        warnings.extend(several_highlights(&plan.start_bodies));
         warnings
     }
 }

@@ -115,7 +115,7 @@ impl LocalRecord {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::LocalLimits;
+    use crate::trace::{LocalLimits, TextureFade};
 
     #[test]
     fn a_point_keeps_its_figures_as_exactly_as_they_are_told() {
@@ -148,7 +148,8 @@ mod tests {
 
     #[test]
     fn weight_falls_from_all_to_nothing_between_its_limits() {
-        let limits = LocalLimits { texture: [0.1, 0.3], ..LocalLimits::default() };
+        let limits =
+            LocalLimits { texture: TextureFade { start: 0.1, width: 0.2 }, ..LocalLimits::default() };
         let weights = [0.0, 0.1, 0.2, 0.3, 1.0].map(|texture| limits.weight(texture));
         assert!(
             weights.iter().zip([1.0, 1.0, 0.5, 0.0, 0.0]).all(|(a, b)| (a - b).abs() < 1e-6),

@@ -29,8 +29,8 @@ pub use events::{
     IlluminantEstimated, IlluminantGiven, Kind, LightBasis, LightChosen, LightLimits, LineRefitted,
     LocalBegan, LocalLimits, LocalStart, MasksMade, Meeting, MergeTried, Pass, PassBegan, PassedOver,
     PlausibilityLimits, PlausibilityTested, RegionsMerged, RejectReason, Renumbered, RepairTried,
-    RepairVerdict, SeedsPlaced, SliceMade, StageBegan, Subject, TwoLightTest, VectorsFitted, VoteResult,
-    VotesCast, WindowClassified, WindowsLaid,
+    RepairVerdict, SeedsPlaced, SliceMade, StageBegan, Subject, TextureFade, TwoLightTest, VectorsFitted,
+    VoteResult, VotesCast, WindowClassified, WindowsLaid,
 };
 pub use history::{
     Barrier, HistoryEntry, HistoryKind, LocalFate, LocalStory, MaskVerdict, MergeRefusal, MergeStory, Reach,

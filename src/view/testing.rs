@@ -132,7 +132,7 @@ pub(crate) fn region(id: u16, pixels: usize) -> RegionReflection {
         plane_normal: None,
         angle_deg: None,
         fit_rms_counts: 1.5,
-        holds: true,
+        model_fits: true,
         confidence: 1.0,
         texture: 0.0,
         separable: true,

@@ -90,7 +90,6 @@ fn the_walls_stand() -> io::Result<()> {
 const CIRCLES_LEFT: &[(&str, &[&str])] = &[
     ("trace", &["stage_trace", "timeline"]),
     ("segment", &["choice", "planar"]),
-    ("intrinsic", &["local", "region", "split"]),
     ("view", &["accuracy", "snapshot"]),
     (
         "app",

@@ -49,7 +49,7 @@ impl Describe for LocalBegan {
                 "pixels": self.least,
                 "mean": short(limits.mean),
                 "chroma": short(limits.chroma),
-                "texture": limits.texture.map(short),
+                "texture": limits.texture.ends().map(short),
                 "core_texture": short(limits.core_texture),
             }),
         )

@@ -30,7 +30,7 @@ impl Describe for VectorsFitted {
                 "fit_rms_counts": self.rms_counts,
                 "texture": self.texture,
                 "texture_slope": self.texture_slope,
-                "holds": self.holds,
+                "holds": self.model_fits,
             }),
             json!({
                 "least_offset": short(self.least_offset),
@@ -57,7 +57,7 @@ impl Describe for VectorsFitted {
             texture: 0.125,
             texture_slope: 0.0625,
             limits: FitLimits { rms_counts: 1.875, rms_sigmas: 1.5, texture: 0.25, texture_slope: 0.2 },
-            holds: true,
+            model_fits: true,
             origin: [0.0; 3],
         }
     }
@@ -68,7 +68,7 @@ fn verdict(fitted: &VectorsFitted) -> String {
     let VectorsFitted { rms_counts, texture, texture_slope, limits, .. } = fitted;
     let has_plane = fitted.surface.is_some();
     let failed = failed_limits([*rms_counts, *texture, *texture_slope], limits, has_plane);
-    match (fitted.holds, failed.as_str()) {
+    match (fitted.model_fits, failed.as_str()) {
         (false, _) => format!("it does not hold and its plane is not used: {failed}"),
         (true, "") => {
             let texture = if has_plane {

@@ -38,7 +38,7 @@ pub(super) fn surroundings(story: &LocalStory) -> String {
     } else {
         format!("more than noise ({noise:.1}), less than its hue varies ({variation:.1})")
     };
-    let [all, none] = limits.texture;
+    let [all, none] = limits.texture.ends();
     let fate = match story.fate {
         LocalFate::Texture => {
             format!(
@@ -62,7 +62,7 @@ pub(super) fn surroundings(story: &LocalStory) -> String {
 
 /// Why a region's plane is not used for a pixel, and what it has instead.
 pub(super) fn unfit(number: u16, story: &Unfit) -> String {
-    let why = if story.region_holds {
+    let why = if story.model_fits {
         format!(
             "region {number} holds, but not here: this part of it is hardly anything but highlight, or clipped and surrounded by \
              other regions"

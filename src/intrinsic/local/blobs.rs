@@ -1,93 +1,94 @@
 //! Rule `hysteresis`: a highlight is a blob of faint surface reflection with a strong core, or with clipped pixels in it.
 //!
-//! Components of {ms > low, weight > 0}, opened by 3 × 3 and of at least 8 px, that hold an opened core {ms > high, t < 0.15} or
-//! clipped pixels. Without it, all of {ms > high} counts.
+//! Components of {ms > low, weight > 0}, opened by 3 × 3 and of at least 8 px, that contain an opened core {ms > high, t < 0.15} or
+//! clipped pixels. Without this rule, all pixels of {ms > high} are highlight.
 
-use super::shade::Shades;
+use super::desaturation_map::DesaturationMap;
 use crate::raster::{ComponentSearch, Connectivity, Mask, Raster, dilate};
 use crate::segment::AnalysisInput;
-use crate::trace::{BlobJudged, LocalPoint, Recorder};
+use crate::trace::{BlobJudged, LocalLimits, LocalPoint, Recorder};
 
-/// Texture at which surface reflection begins to lose weight, and over which it loses all.
-const TEXTURE: (f32, f32) = (0.1, 0.2);
-/// Where it begins to, and where it has lost all.
-pub const TEXTURE_LIMITS: [f32; 2] = [TEXTURE.0, TEXTURE.0 + TEXTURE.1];
-/// Most texture of a core.
-pub const CORE_TEXTURE: f32 = 0.15;
 /// Fewest pixels of a blob.
 const LEAST_PX: usize = 8;
 
 /// Which pixels of the window are highlights.
 pub struct Highlights {
-    /// The share of ms that is surface reflection, 0…1, of those outside of what holds; 0 of all others.
+    /// The share of ms that is surface reflection, 0…1; 0 for pixels that are explained by a region or in no highlight.
     pub weights: Raster<f32>,
-    /// The blobs that were judged, where that is recorded.
-    pub judged: Judged,
+    /// The blobs that were judged; empty where nothing is recorded.
+    pub blobs: BlobRecord,
 }
 
-/// Finds them; `outside`: what holds no region.
+/// Finds the highlights of a window. `texture`: t of the window's pixels, none without rule `texture_test`. `unexplained`: the lit
+/// pixels of the picture that no region explains.
 pub fn highlights<R: Recorder>(
     input: &AnalysisInput,
-    shades: &Shades,
+    limits: &LocalLimits,
+    map: &DesaturationMap,
     texture: Option<&Raster<f32>>,
-    outside: &Mask,
+    unexplained: &Mask,
 ) -> Highlights {
-    let points = &shades.points;
+    let points = &map.points;
     let texture_at = |pixel: usize| texture.map_or(0.0, |texture| texture[pixel]);
-    let weight = |pixel: usize| 1.0 - ((texture_at(pixel) - TEXTURE.0) / TEXTURE.1).clamp(0.0, 1.0);
-    let roi = shades.roi;
-    let size = (points.width(), points.height());
-    let strong = |pixel: usize| points[pixel].surface > points[pixel].high && points[pixel].high > 0.0;
-    let calm = |pixel: usize| texture_at(pixel) < CORE_TEXTURE;
-    let mut judged = Judged::default();
+    let weight = |pixel: usize| limits.weight(texture_at(pixel));
+    let roi = map.roi;
+    let (width, height) = (points.width(), points.height());
+    let is_strong = |pixel: usize| points[pixel].is_strong();
+    let is_calm = |pixel: usize| texture_at(pixel) < limits.core_texture;
+    let mut blobs = BlobRecord::default();
     let kept = if input.refine.hysteresis {
-        let faint = opened(&mask(size, |pixel| {
-            points[pixel].surface > points[pixel].low && points[pixel].low > 0.0 && weight(pixel) > 0.0
-        }));
-        let core = opened(&mask(size, |pixel| strong(pixel) && calm(pixel)));
+        let faint =
+            opened(&mask(width, height, |pixel| points[pixel].exceeds_noise() && weight(pixel) > 0.0));
+        let core = opened(&mask(width, height, |pixel| is_strong(pixel) && is_calm(pixel)));
         let clipped = roi.raster(|pixel| input.masks.clipped(pixel));
         with_core(&faint, &core, &clipped, |component, kept| {
-            // What lies in regions that hold is theirs.
-            if R::KEEPS && component.iter().any(|&pixel| outside[roi.pixel(pixel)]) {
+            // Blobs that regions explain are not recorded.
+            if R::KEEPS && component.iter().any(|&pixel| unexplained[roi.pixel(pixel)]) {
                 let count = |test: &dyn Fn(usize) -> bool| {
                     component.iter().filter(|&&pixel| test(pixel)).count() as u32
                 };
-                judged.hear(component, &faint, |blob, pixels| BlobJudged {
+                blobs.add(component, &faint, |blob, pixels| BlobJudged {
                     blob,
                     pixel: roi.pixel(component[0]) as u32,
                     pixels,
                     clipped: count(&|pixel| clipped[pixel]),
-                    strong: count(&|pixel| faint[pixel] && strong(pixel)),
-                    calm: count(&|pixel| faint[pixel] && strong(pixel) && calm(pixel)),
+                    strong: count(&|pixel| faint[pixel] && is_strong(pixel)),
+                    calm: count(&|pixel| faint[pixel] && is_strong(pixel) && is_calm(pixel)),
                     core: count(&|pixel| faint[pixel] && core[pixel]),
                     kept,
                 });
             }
         })
     } else {
-        mask(size, strong)
+        mask(width, height, is_strong)
     };
-    let share = |pixel: usize| if kept[pixel] && outside[roi.pixel(pixel)] { weight(pixel) } else { 0.0 };
+    let share = |pixel: usize| if kept[pixel] && unexplained[roi.pixel(pixel)] { weight(pixel) } else { 0.0 };
     let data = (0..points.len()).map(share).collect();
-    let weights = Raster::from_vec(points.width(), points.height(), data).unwrap_or_default();
-    Highlights { weights, judged }
+    let weights = Raster::from_vec(width, height, data).unwrap_or_default();
+    Highlights { weights, blobs }
 }
 
-/// The blobs of a window as they are judged, one after the other.
+/// The blobs of a window that contain unexplained pixels, for the record.
 #[derive(Default)]
-pub struct Judged {
-    /// Those large enough to count, in the order of their first pixels.
-    pub blobs: Vec<BlobJudged>,
-    /// Blobs that do not lie in what holds wholly: all, those too small to count, and the pixels of these.
+pub struct BlobRecord {
+    /// The blobs that have a number, in the order of their first pixels; blob `number` is at index `number − 1`.
+    pub judged: Vec<BlobJudged>,
+    /// Number of all blobs.
     pub found: u32,
+    /// Number of blobs with fewer than [`BlobRecord::LEAST`] pixels.
     pub small: u32,
+    /// Number of pixels in the small blobs.
     pub small_pixels: u32,
-    /// The blob of pixels of the window, as [`LocalPoint`] has it; pixels that are of none are left out.
-    pub of: Vec<(usize, u16)>,
+    /// Pixels of the window (by index) and the blob of each, as in [`LocalPoint::blob`]; pixels that are in no blob are left out.
+    pub pixels: Vec<(usize, u16)>,
 }
 
-impl Judged {
-    fn hear(&mut self, component: &[usize], faint: &Mask, judge: impl FnOnce(u16, u32) -> BlobJudged) {
+impl BlobRecord {
+    /// Fewest pixels of a blob that may be a highlight.
+    pub const LEAST: u32 = LEAST_PX as u32;
+
+    /// Adds the faint pixels of a component as a blob. `judge` makes the event from the blob's number and number of pixels.
+    fn add(&mut self, component: &[usize], faint: &Mask, judge: impl FnOnce(u16, u32) -> BlobJudged) {
         let own = || component.iter().copied().filter(|&pixel| faint[pixel]);
         let pixels = own().count();
         self.found += 1;
@@ -95,34 +96,31 @@ impl Judged {
         if small {
             (self.small, self.small_pixels) = (self.small + 1, self.small_pixels + pixels as u32);
         }
-        let number = if small || self.blobs.len() >= usize::from(LocalPoint::MOST_BLOBS) {
+        let number = if small || self.judged.len() >= usize::from(LocalPoint::MOST_BLOBS) {
             LocalPoint::SMALL
         } else {
-            let number = self.blobs.len() as u16 + 1;
-            self.blobs.push(judge(number, pixels as u32));
+            let number = self.judged.len() as u16 + 1;
+            self.judged.push(judge(number, pixels as u32));
             number
         };
-        self.of.extend(own().map(|pixel| (pixel, number)));
+        self.pixels.extend(own().map(|pixel| (pixel, number)));
     }
-
-    /// Fewest pixels of a blob that counts.
-    pub const LEAST: u32 = LEAST_PX as u32;
 }
 
-/// A mask of the pixels for which `test` holds.
-fn mask((width, height): (usize, usize), test: impl Fn(usize) -> bool) -> Mask {
+/// A mask of the pixels for which `test` is true.
+fn mask(width: usize, height: usize, test: impl Fn(usize) -> bool) -> Mask {
     let data = (0..width * height).map(test).collect();
     Mask::from_vec(width, height, data).unwrap_or_default()
 }
 
-/// What a square of 3 × 3 fits into.
+/// The morphological opening: the pixels of all squares of 3 × 3 pixels inside the mask.
 fn opened(mask: &Mask) -> Mask {
     let rest = dilate(&mask.map(|set| !set), 1);
     dilate(&rest.map(|set| !set), 1)
 }
 
-/// The faint pixels of components, joined by clipped pixels, that hold a core or a clipped pixel. `judged` is told of every
-/// component, its first faint pixel first, and whether it is kept.
+/// The faint pixels of components that contain a core or a clipped pixel; clipped pixels connect faint ones. `judged` receives
+/// every component, its first faint pixel first, and whether the component is kept.
 fn with_core(faint: &Mask, core: &Mask, clipped: &Mask, mut judged: impl FnMut(&[usize], bool)) -> Mask {
     let mut kept = Raster::filled(faint.width(), faint.height(), false);
     let mut search = ComponentSearch::new(faint.width(), faint.height(), Connectivity::Four);

@@ -1,134 +1,150 @@
-//! Where no region holds: what can be said of a pixel from its surroundings alone (real photographs; beyond the paper).
+//! The local split: surface reflection of pixels that no region explains, from their surroundings (beyond the paper).
 //!
-//! Printed cups, fruit and skin break "one object, one skewed T", and a plane fitted to them makes the body image worse than
-//! the input. What still holds there is the dichromatic model at a point: surface reflection adds the light's color, and so
-//! lowers a pixel's saturation below what the same hue has around it. `shade` measures that, `texture` and `blobs` decide
-//! where it is a highlight, `plausibility` whether this picture has any, and `repair` fills what has clipped.
+//! In real photographs, printed cups, fruit and skin break "one object, one skewed T", and a plane fitted to such a region makes
+//! the body image worse than the input. The dichromatic model still applies to each pixel: surface reflection adds the light's
+//! color, and so lowers a pixel's saturation below the saturation of the same hue around the pixel. `desaturation_map` measures
+//! that, `texture` and `blobs` decide where the cause is a highlight, `plausibility` whether this picture has any highlight, and
+//! `repair` fills clipped pixels.
 //!
-//! Body is the input less what is found, so that input = body + surface, and never more than the input. On a rendered scene of
-//! printed objects the body image goes from 19.6 dB (planes alone; doing nothing: 30.2 dB) to 41 dB.
+//! Body reflection is the input minus the surface reflection found, so that input = body + surface and body ≤ input. On a
+//! rendered scene of printed objects the body image goes from 19.6 dB (planes alone; doing nothing: 30.2 dB) to 41 dB.
 
 mod blobs;
+mod desaturation_map;
+mod hue_ratios;
+mod limits;
 mod plausibility;
 mod repair;
-mod shade;
 mod texture;
 mod trace_writer;
 
 use super::confidence::LOCAL;
-use super::split::Images;
+use super::images::Images;
 use crate::color::Vec3;
 use crate::raster::{Mask, Raster, Roi};
 use crate::segment::{AnalysisInput, FinalRegions};
 use crate::trace::{LocalStart, PixelKind, Recorder};
 use blobs::Highlights;
+use desaturation_map::DesaturationMap;
 use rayon::prelude::*;
-use shade::Shades;
 use trace_writer::LocalTraceWriter;
 
-/// Fewest lit pixels that are worth a look, and the least share of all that are lit.
+/// Fewest unexplained pixels for which the local split begins.
 const LEAST_PIXELS: usize = 64;
+/// Least share of unexplained pixels among lit pixels for which the local split begins.
 const LEAST_SHARE: f64 = 0.01;
-/// How far around them the surroundings matter, pixels.
+/// How far around the unexplained pixels the window reaches, pixels.
 const MARGIN_PX: usize = 24;
 
-/// Takes the planes' split back where it does not hold, and splits locally there. Returns the confidence of the pixels that
-/// were split so, 0 elsewhere; none where no pixel was. `origin`: the ambient light that was subtracted from the scene, counts.
+/// Undoes the split of pixels that their region does not explain, and splits these pixels locally. Returns the confidence of the
+/// pixels that were split locally, 0 for others; none where no pixel was. `origin`: the ambient light that was subtracted, counts.
+/// `explained_mask`: the pixels that the skewed T of their region explains.
 pub fn split_locally<R: Recorder>(
-    (input, origin): (&AnalysisInput, &[f64; 3]),
+    input: &AnalysisInput,
+    origin: &[f64; 3],
     regions: &FinalRegions,
     explained_mask: &Mask,
     images: &mut Images,
     recorder: &mut R,
 ) -> Option<Raster<f32>> {
-    let outside = take_back(input, explained_mask, images);
+    let unexplained = undo_unexplained(input, explained_mask, images);
     let mut trace_writer = LocalTraceWriter::new(recorder, *origin);
-    let confidence = split_outside(input, regions, &outside, images, &mut trace_writer);
-    trace_writer.finish(outside);
+    let confidence = split_unexplained(input, regions, &unexplained, images, &mut trace_writer);
+    trace_writer.finish(unexplained);
     confidence
 }
 
-/// Splits what lies outside of what holds.
-fn split_outside<R: Recorder>(
+/// Splits the lit pixels that no region explains. Returns what [`split_locally`] returns.
+fn split_unexplained<R: Recorder>(
     input: &AnalysisInput,
     regions: &FinalRegions,
-    outside: &Mask,
+    unexplained: &Mask,
     images: &mut Images,
     trace_writer: &mut LocalTraceWriter<R>,
 ) -> Option<Raster<f32>> {
-    let pixels = outside.as_slice().iter().filter(|&&outside| outside).count();
-    let lit = (0..outside.len()).filter(|&pixel| !input.masks.dark(pixel)).count();
+    let pixels = unexplained.as_slice().iter().filter(|&&unexplained| unexplained).count();
+    let lit = (0..unexplained.len()).filter(|&pixel| !input.masks.dark(pixel)).count();
     let few = pixels < LEAST_PIXELS || (pixels as f64) < LEAST_SHARE * lit as f64;
+    let limits = limits::limits(input);
     let light = regions.light.direction.map(Vec3::from);
-    let shades = light.filter(|_| input.refine.local_split && !few && !input.stopped()).and_then(|light| {
-        let roi = Roi::around((outside.width(), outside.height()), MARGIN_PX, |pixel| outside[pixel])?;
-        Some((light, Shades::new(input, &light, roi)?))
+    let map = light.filter(|_| input.refine.local_split && !few && !input.stopped()).and_then(|light| {
+        let size = (unexplained.width(), unexplained.height());
+        let roi = Roi::around(size, MARGIN_PX, |pixel| unexplained[pixel])?;
+        Some((light, DesaturationMap::new(input, &limits, &light, roi)?))
     });
-    let start = match shades {
+    let start = match map {
         Some(_) => LocalStart::Begins,
         None if !input.refine.local_split => LocalStart::Off,
         None if few => LocalStart::Few,
         None => LocalStart::NoLight,
     };
-    trace_writer.began(input, start, [pixels, lit], regions.light.direction);
-    let (light, shades) = shades?;
-    let texture = input.refine.texture_test.then(|| texture::texture(&shades, input.sigma()));
-    let Highlights { weights, judged } = blobs::highlights::<R>(input, &shades, texture.as_ref(), outside);
-    trace_writer.judged(input, &shades, texture.as_ref(), outside, &judged);
+    trace_writer.began(input, &limits, start, pixels, lit, regions.light.direction);
+    let (light, map) = map?;
+    let texture = input.refine.texture_test.then(|| texture::texture(&map, input.sigma()));
+    let Highlights { weights, blobs } =
+        blobs::highlights::<R>(input, &limits, &map, texture.as_ref(), unexplained);
+    trace_writer.judged(input, &map, texture.as_ref(), unexplained, &blobs);
     if input.refine.belief {
-        let tested = plausibility::test(input, &regions.light, &shades, &weights, outside);
-        let doubted = tested.reject_reason.is_some();
-        trace_writer.believed(tested);
-        if doubted {
+        let tested = plausibility::test(input, &regions.light, &map, &weights, unexplained);
+        let is_rejected = tested.reject_reason.is_some();
+        trace_writer.plausibility(tested);
+        if is_rejected {
             return None;
         }
     }
-    let mut confidence = apply(&light, &shades, &weights, images);
+    let mut confidence = move_surface(&light, &map, &weights, images);
     if input.refine.clip_repair {
-        trace_writer.repairs();
-        repair::repair(input, outside, images, &mut confidence, |tried, blob| {
+        trace_writer.repairs_began();
+        repair::repair(input, unexplained, images, &mut confidence, |tried, blob| {
             trace_writer.repair(tried, blob);
         });
     }
     Some(confidence)
 }
 
-/// Gives lit pixels outside of what holds their input back, and tells which they are.
-fn take_back(input: &AnalysisInput, explained_mask: &Mask, images: &mut Images) -> Mask {
+/// Resets pixels that no region explains to body = input, surface = 0, noise = 0. Returns the lit pixels among them, with the
+/// lit pixels that are in no region.
+fn undo_unexplained(input: &AnalysisInput, explained_mask: &Mask, images: &mut Images) -> Mask {
     let (width, height) = (explained_mask.width(), explained_mask.height());
-    let mut outside = Raster::filled(width, height, false);
+    let mut unexplained = Raster::filled(width, height, false);
     let rows = (
         images.body.as_mut_slice().par_chunks_mut(width.max(1)),
         images.surface.as_mut_slice().par_chunks_mut(width.max(1)),
         images.noise.as_mut_slice().par_chunks_mut(width.max(1)),
         images.kinds.as_mut_slice().par_chunks_mut(width.max(1)),
-        outside.as_mut_slice().par_chunks_mut(width.max(1)),
+        unexplained.as_mut_slice().par_chunks_mut(width.max(1)),
     );
-    rows.into_par_iter().enumerate().for_each(|(y, (body, surface, noise, kinds, outside))| {
+    rows.into_par_iter().enumerate().for_each(|(y, (body, surface, noise, kinds, unexplained))| {
         for x in 0..width {
             let pixel = y * width + x;
             if explained_mask[pixel] {
                 continue;
             }
-            outside[x] = !input.masks.dark(pixel);
+            unexplained[x] = !input.masks.dark(pixel);
             if kinds[x] == PixelKind::Unassigned {
                 continue;
             }
             (body[x], surface[x], noise[x]) = (input.pixels[pixel], [0.0; 3], 0.0);
-            // Nothing was restored there.
+            // The restored components are gone.
             if kinds[x] == PixelKind::Restored {
                 kinds[x] = PixelKind::Lost;
             }
         }
     });
-    outside
+    unexplained
 }
 
-/// Moves surface reflection from body to surface. Returns the confidence of each pixel.
-fn apply(light: &Vec3, shades: &Shades, weights: &Raster<f32>, images: &mut Images) -> Raster<f32> {
+/// Moves the surface reflection found from the body image to the surface image. Returns the confidence of each pixel, 0 where
+/// nothing was moved.
+fn move_surface(
+    light: &Vec3,
+    map: &DesaturationMap,
+    weights: &Raster<f32>,
+    images: &mut Images,
+) -> Raster<f32> {
     let width = images.body.width();
     let mut confidence = Raster::filled(width, images.body.height(), 0.0);
-    let roi = shades.roi;
+    let roi = map.roi;
     let per_amount: [f32; 3] = std::array::from_fn(|band| (3f64.sqrt() * light[band]) as f32);
     let rows = (
         images.body.as_mut_slice().par_chunks_mut(width.max(1)),
@@ -138,10 +154,10 @@ fn apply(light: &Vec3, shades: &Shades, weights: &Raster<f32>, images: &mut Imag
     );
     let rows = rows.into_par_iter().skip(roi.top).take(roi.height);
     rows.enumerate().for_each(|(row, (body, surface, kinds, confidence))| {
-        let found = weights.row(row).iter().zip(shades.points.row(row));
+        let found = weights.row(row).iter().zip(map.points.row(row));
         for (x, (&weight, point)) in (roi.left..).zip(found).filter(|(_, (weight, _))| **weight > 0.0) {
             let amount = weight * point.surface;
-            // Never more than there is in any band.
+            // The surface reflection in a band is at most the input in that band.
             surface[x] = std::array::from_fn(|band| (amount * per_amount[band]).min(body[x][band].max(0.0)));
             body[x] = std::array::from_fn(|band| body[x][band] - surface[x][band]);
             kinds[x] = if kinds[x] == PixelKind::Unassigned { kinds[x] } else { PixelKind::Highlight };
@@ -170,16 +186,16 @@ mod tests {
         Vec3::new(0.62, 0.57, 0.54).normalize()
     }
 
-    fn numbers() -> UsedParams {
+    fn used_params() -> UsedParams {
         UsedParams { camera_noise: 2.0 * SIGMA, ..UsedParams::paper() }
     }
 
-    /// Splits a picture in which no region was found, under a light that is known.
+    /// The split of a picture in which no region was found, under a known light.
     fn local(color: impl Fn(f64, f64) -> Vec3) -> (LinearImage, crate::intrinsic::Intrinsic) {
         let place = |i: usize| ((i % SIDE_PX) as f64, (i / SIDE_PX) as f64);
         let data = (0..SIDE_PX * SIDE_PX).map(|i| {
             let color = color(place(i).0, place(i).1);
-            // A fixed pattern in the place of noise: well within it, and the same in every run.
+            // A fixed pattern instead of noise: smaller than the noise, and the same in every run.
             let noise = ((i * 7919 % 13) as f32 - 6.0) * 0.15;
             crate::color::rgb(&color).map(|band| (band + noise).clamp(0.0, 255.0))
         });
@@ -187,7 +203,7 @@ mod tests {
         let image = LinearImage::new(pixels, Some(255.0));
         let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 1 };
         let masks = Masks::new(&image, &limits);
-        let used = numbers();
+        let used = used_params();
         let input = AnalysisInput::new(&image, &masks, &used, Params::default().refinements());
         let light = LightFindings {
             direction: Some(light().into()),
@@ -205,7 +221,7 @@ mod tests {
         Vec3::new(0.75, 0.4, 0.25) * (90.0 + 0.4 * x + 0.2 * y)
     }
 
-    /// A highlight of width 4 px at (48, 40).
+    /// The surface reflection at (x, y) of a Gaussian highlight of width 4 px at (48, 40), counts.
     fn highlight(x: f64, y: f64, amount: f64) -> Vec3 {
         light() * (amount * (-((x - 48.0).powi(2) + (y - 40.0).powi(2)) / 32.0).exp())
     }
@@ -215,8 +231,8 @@ mod tests {
         let (_, result) = local(|x, y| slope(x, y) + highlight(x, y, 120.0));
         let error =
             |x: usize, y: usize| (vec3(result.body[y * SIDE_PX + x]) - slope(x as f64, y as f64)).norm();
-        assert!(error(48, 40) < 8.0, "its peak, 120 counts high: {}", error(48, 40));
-        assert!(error(52, 42) < 8.0, "its flank: {}", error(52, 42));
+        assert!(error(48, 40) < 8.0, "the peak of the highlight, 120 counts high: {}", error(48, 40));
+        assert!(error(52, 42) < 8.0, "the flank of the highlight: {}", error(52, 42));
         let found = result.surface[40 * SIDE_PX + 48];
         assert!(crate::color::axis_angle_deg(&vec3(found), &light()) < 0.01);
         assert!(result.confidence[40 * SIDE_PX + 48] > 0.2);
@@ -224,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn a_clipped_heart_takes_the_body_around_it() {
+    fn a_clipped_core_takes_the_body_around_it() {
         let (_, result) = local(|x, y| slope(x, y) + highlight(x, y, 420.0));
         let error = (vec3(result.body[40 * SIDE_PX + 48]) - slope(48.0, 40.0)).norm();
         assert!(error < 20.0, "{error}");

@@ -1,32 +1,34 @@
-//! Rule `plausibility`: does this picture have highlights at all, under this light?
+//! Rule `belief`: whether the picture has highlights at all under this light.
 //!
-//! White paper, gray metal and black print have no hue to be told by, and a light that was guessed wrong makes highlights of
-//! whole surfaces. Doing nothing is then the better answer.
+//! White paper, gray metal and black print have no hue by which highlights could be found, and a wrong light makes highlights of
+//! whole surfaces. In such pictures, no local split at all gives the better result.
 
-use super::shade::Shades;
+use super::desaturation_map::DesaturationMap;
 use crate::raster::{Mask, Raster};
 use crate::segment::{AnalysisInput, LIGHT_LIMITS, LightBasis, LightFindings};
 use crate::trace::{PlausibilityLimits, PlausibilityTested, RejectReason};
 
-/// Most surface reflection, as a share of all light there.
+/// Most surface reflection of a plausible picture, as a share of all light of the unexplained pixels.
 const MOST_SURFACE: f64 = 0.18;
-/// Most of the strong highlights that may outshine the body under them.
+/// Most strong highlight pixels with more surface than body reflection, as a share of all strong highlight pixels.
 const MOST_OUTSHINING: f64 = 0.6;
 
-/// Asks for one reason for doubt after the other, until one is found.
+/// Tests whether the highlights found are plausible: the light's votes first, then the amount of surface reflection, then the
+/// share of highlights that outshine the body. The first test that fails ends the series; figures of later tests stay none.
+/// `weights`: the share of ms that is surface reflection, of the pixels of the window.
 pub fn test(
     input: &AnalysisInput,
     light: &LightFindings,
-    shades: &Shades,
+    map: &DesaturationMap,
     weights: &Raster<f32>,
-    outside: &Mask,
+    unexplained: &Mask,
 ) -> PlausibilityTested {
     let limits =
         PlausibilityLimits { share: LIGHT_LIMITS.share, surface: MOST_SURFACE, outshining: MOST_OUTSHINING };
-    let vouched_for = light.basis == LightBasis::Given || light.support >= LIGHT_LIMITS.support;
-    let asked = input.refine.vote_light && !vouched_for;
+    let is_light_certain = light.basis == LightBasis::Given || light.support >= LIGHT_LIMITS.support;
+    let needs_votes = input.refine.vote_light && !is_light_certain;
     let tested = PlausibilityTested {
-        share: asked.then_some(light.share),
+        share: needs_votes.then_some(light.share),
         surface: None,
         outshining: None,
         limits,
@@ -35,45 +37,53 @@ pub fn test(
     if tested.share.is_some_and(|share| share < limits.share) {
         return PlausibilityTested { reject_reason: Some(RejectReason::NoVote), ..tested };
     }
-    let Found { surface, total, strong, outshining } = Found::of(input, shades, weights, outside);
-    let (share, white) = (surface / total.max(1.0), f64::from(outshining) / f64::from(strong.max(1)));
-    let reject_reason = if share > MOST_SURFACE {
+    let Totals { surface, all_light, strong, outshining } = Totals::of(input, map, weights, unexplained);
+    let surface_share = surface / all_light.max(1.0);
+    let outshining_share = f64::from(outshining) / f64::from(strong.max(1));
+    let reject_reason = if surface_share > limits.surface {
         Some(RejectReason::TooMuch)
     } else {
-        (white > MOST_OUTSHINING).then_some(RejectReason::Outshining)
+        (outshining_share > limits.outshining).then_some(RejectReason::Outshining)
     };
-    PlausibilityTested { surface: Some(share), outshining: Some((white, strong)), reject_reason, ..tested }
+    PlausibilityTested {
+        surface: Some(surface_share),
+        outshining: Some((outshining_share, strong)),
+        reject_reason,
+        ..tested
+    }
 }
 
-/// What would be split.
+/// Totals over the unexplained pixels of the window.
 #[derive(Default)]
-struct Found {
-    /// Surface reflection, and all light there, counts.
+struct Totals {
+    /// Sum of the surface reflection, counts.
     surface: f64,
-    total: f64,
-    /// Strong highlight pixels, and those of them that outshine the body.
+    /// Sum of all light, as the mean of the bands, counts.
+    all_light: f64,
+    /// Number of strong highlight pixels with more surface reflection than 30 % of the body reflection.
     strong: u32,
+    /// Number of strong highlight pixels with more surface than body reflection.
     outshining: u32,
 }
 
-impl Found {
-    fn of(input: &AnalysisInput, shades: &Shades, weights: &Raster<f32>, outside: &Mask) -> Self {
-        let mut found = Self::default();
-        for (index, point) in shades.points.as_slice().iter().enumerate() {
-            let pixel = shades.roi.pixel(index);
-            if !outside[pixel] {
+impl Totals {
+    fn of(input: &AnalysisInput, map: &DesaturationMap, weights: &Raster<f32>, unexplained: &Mask) -> Self {
+        let mut totals = Self::default();
+        for (index, point) in map.points.as_slice().iter().enumerate() {
+            let pixel = map.roi.pixel(index);
+            if !unexplained[pixel] {
                 continue;
             }
-            found.total += f64::from(input.pixels[pixel].iter().sum::<f32>()) / 3.0;
+            totals.all_light += f64::from(input.pixels[pixel].iter().sum::<f32>()) / 3.0;
             if weights[index] <= 0.0 {
                 continue;
             }
-            found.surface += f64::from(weights[index] * point.surface);
-            if point.surface > point.high {
-                found.strong += u32::from(point.surface > 0.3 * point.body);
-                found.outshining += u32::from(point.surface > point.body);
+            totals.surface += f64::from(weights[index] * point.surface);
+            if point.surface > point.variation_limit {
+                totals.strong += u32::from(point.surface > 0.3 * point.body);
+                totals.outshining += u32::from(point.surface > point.body);
             }
         }
-        found
+        totals
     }
 }

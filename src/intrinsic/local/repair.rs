@@ -1,40 +1,41 @@
-//! Rule `clip_repair`: the clipped heart of a highlight takes the body that surrounds it.
+//! Rule `clip_repair`: the clipped core of a highlight takes the body reflection of the pixels around it.
 //!
-//! A blob of clipped pixels is filled where at least 40 % of the ring of 2 px around it are highlight and the highlight rises
-//! towards it: harmonically, which is the smoothest that meets the ring. Other clipped pixels (white paper, the sky) are left
-//! alone. Worth 8 dB inside highlights of printed scenes, nothing elsewhere.
+//! A blob of clipped pixels is filled where at least 40 % of the ring of 2 px around the blob are highlight and surface
+//! reflection rises towards the blob. The fill is harmonic: the smoothest that is continuous with the ring. Other clipped pixels (white paper, the sky) stay as
+//! they are. Worth 8 dB inside highlights of printed scenes, nothing elsewhere.
 
-use crate::intrinsic::split::Images;
+use crate::intrinsic::images::Images;
 use crate::raster::{ComponentSearch, Connectivity, Mask, Raster};
 use crate::segment::AnalysisInput;
 use crate::trace::{Measured, PixelKind, RepairTried, RepairVerdict};
 
-/// Least share of the ring that is highlight.
+/// Least share of highlight pixels in the ring around a blob that is filled.
 const LEAST_HIGHLIGHT: f64 = 0.4;
-/// Most pixels of a blob: larger ones are windows and skies.
+/// Most pixels of a blob that is filled: larger blobs are windows and skies.
 const MOST_PX: usize = 40_000;
 /// Confidence of a repaired pixel.
 const CONFIDENCE: f32 = 0.3;
 
-/// Fills the clipped blobs of `outside` that are highlights; `trace_writer` hears of each blob and its pixels.
+/// Fills the clipped blobs among the `unexplained` pixels that are highlights, and sets the `confidence` of their pixels.
+/// `record` receives each blob's verdict and pixels.
 pub fn repair(
     input: &AnalysisInput,
-    outside: &Mask,
+    unexplained: &Mask,
     images: &mut Images,
     confidence: &mut Raster<f32>,
-    mut trace_writer: impl FnMut(RepairTried, &[usize]),
+    mut record: impl FnMut(RepairTried, &[usize]),
 ) {
-    let mut search = ComponentSearch::new(outside.width(), outside.height(), Connectivity::Eight);
-    let mut surroundings = Surroundings { input, in_ring: outside.map(|_| false) };
-    let clipped = |pixel: usize| outside[pixel] && input.masks.clipped(pixel);
-    for start in 0..outside.len() {
+    let mut search = ComponentSearch::new(unexplained.width(), unexplained.height(), Connectivity::Eight);
+    let mut surroundings = Surroundings { input, in_ring: unexplained.map(|_| false) };
+    let clipped = |pixel: usize| unexplained[pixel] && input.masks.clipped(pixel);
+    for start in 0..unexplained.len() {
         let Some(blob) = search.component_at(start, clipped) else { continue };
         if input.stopped() {
             return;
         }
         let rings = surroundings.rings(blob);
         let tried = tried(blob, &rings, &images.surface);
-        trace_writer(tried, blob);
+        record(tried, blob);
         if tried.verdict != RepairVerdict::Filled {
             continue;
         }
@@ -51,7 +52,8 @@ pub fn repair(
     }
 }
 
-/// Whether the ring around a blob is highlight enough, and more so next to the blob.
+/// The verdict on a blob by the rings around the blob: whether enough of their pixels are highlight, and whether the inner ring
+/// has more surface reflection than the outer one.
 fn tried(blob: &[usize], [inner, outer]: &[Vec<usize>; 2], surface: &Raster<[f32; 3]>) -> RepairTried {
     let amount = |&pixel: &usize| surface[pixel].iter().sum::<f32>();
     let mean = |ring: &[usize]| ring.iter().map(amount).sum::<f32>() / ring.len().max(1) as f32;
@@ -80,15 +82,15 @@ fn tried(blob: &[usize], [inner, outer]: &[Vec<usize>; 2], surface: &Raster<[f32
     }
 }
 
-/// The unclipped pixels around a blob of clipped ones.
+/// Finds the unclipped pixels around blobs of clipped pixels.
 struct Surroundings<'a> {
     input: &'a AnalysisInput<'a>,
-    /// Pixels of the rings of the blob at hand; none of them between two blobs.
+    /// The pixels that are already in a ring of the current blob; all false between two blobs.
     in_ring: Mask,
 }
 
 impl Surroundings<'_> {
-    /// The unclipped pixels next to a blob, and those next to them.
+    /// The inner ring, the unclipped pixels next to a blob, and the outer ring, the unclipped pixels next to the inner ring.
     fn rings(&mut self, blob: &[usize]) -> [Vec<usize>; 2] {
         let inner = self.ring(blob);
         let outer = self.ring(&inner);
@@ -96,12 +98,13 @@ impl Surroundings<'_> {
         [inner, outer]
     }
 
-    /// Whether the value of a pixel can be used: it is neither clipped nor invalid nor outside of the analyzed area.
+    /// Whether the value of a pixel can be used: the pixel is neither clipped nor invalid nor outside of the analyzed area.
     fn known(&self, pixel: usize) -> bool {
         let masks = self.input.masks;
         !masks.clipped(pixel) && !masks.invalid(pixel) && !masks.outside(pixel)
     }
 
+    /// The usable pixels next to the pixels `from` that are in no ring yet.
     fn ring(&mut self, from: &[usize]) -> Vec<usize> {
         let mut ring = Vec::new();
         for &pixel in from {
@@ -115,7 +118,7 @@ impl Surroundings<'_> {
         ring
     }
 
-    /// The values inside a blob that are the mean of their neighbors, by successive over-relaxation.
+    /// The harmonic fill of a blob: body colors, each the mean of its neighbors, by successive over-relaxation.
     fn harmonic(&self, blob: &[usize], rings: &[Vec<usize>; 2], body: &Raster<[f32; 3]>) -> Vec<[f32; 3]> {
         let ring = || rings.iter().flatten().map(|&pixel| body[pixel]);
         let count = ring().count() as f32;
@@ -127,7 +130,7 @@ impl Surroundings<'_> {
             let found = order.binary_search_by_key(&pixel, |&index| blob[index]);
             found.ok().map(|at| order[at])
         };
-        // Of each pixel: its neighbors inside, and the sum and number of those outside.
+        // Of each pixel: the neighbors inside the blob, and the sum and number of the usable neighbors outside.
         let mut near = vec![[usize::MAX; 4]; blob.len()];
         let mut fixed = vec![([0.0f32; 3], 0.0f32); blob.len()];
         for (index, &pixel) in blob.iter().enumerate() {

@@ -1,7 +1,7 @@
-//! What is recorded of the local split; nothing where no record is kept.
+//! The record of the local split. Nothing is computed where no record is kept.
 
-use super::blobs::{CORE_TEXTURE, Judged, TEXTURE_LIMITS};
-use super::shade::{LEAST_CHROMA, LEAST_MEAN, Shades};
+use super::blobs::BlobRecord;
+use super::desaturation_map::DesaturationMap;
 use super::{LEAST_PIXELS, LEAST_SHARE};
 use crate::raster::{Mask, Raster};
 use crate::segment::AnalysisInput;
@@ -11,17 +11,18 @@ use crate::trace::{
 };
 use rayon::prelude::*;
 
-/// Tells a recorder of each decision, and collects what each pixel was judged by.
+/// Records each decision of the local split, and collects what each pixel was judged by.
 pub struct LocalTraceWriter<'a, R> {
     recorder: &'a mut R,
     /// The ambient light that was subtracted, counts.
     origin: [f64; 3],
     points: Option<LocalPoints>,
-    /// Blobs that have a number.
+    /// Number of blobs that have a number.
     numbered: u16,
 }
 
 impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
+    /// A writer to `recorder`. `origin`: the ambient light that was subtracted, counts.
     pub fn new(recorder: &'a mut R, origin: [f64; 3]) -> Self {
         Self { recorder, origin, points: None, numbered: 0 }
     }
@@ -30,12 +31,15 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         self.recorder.record(decision);
     }
 
-    /// It begins, or not. `pixels` lie outside of what holds, of `lit` ones.
+    /// Records that the local split begins, or why not. `pixels`: number of unexplained lit pixels; `lit`: number of lit pixels;
+    /// `light`: the light's color, unit.
     pub fn began(
         &mut self,
         input: &AnalysisInput,
+        limits: &LocalLimits,
         start: LocalStart,
-        [pixels, lit]: [usize; 2],
+        pixels: usize,
+        lit: usize,
         light: Option<[f64; 3]>,
     ) {
         if !R::KEEPS {
@@ -43,13 +47,6 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         }
         self.recorder.record(PassBegan { pass: Pass::LocalSplit });
         let refine = input.refine;
-        let limits = LocalLimits {
-            mean: LEAST_MEAN,
-            chroma: LEAST_CHROMA * input.sigma() as f32,
-            texture: TEXTURE_LIMITS,
-            core_texture: CORE_TEXTURE,
-            sigma: input.sigma() as f32,
-        };
         self.record(LocalBegan {
             start,
             pixels: pixels as u32,
@@ -57,55 +54,55 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
             least: LEAST_PIXELS.max((LEAST_SHARE * lit as f64).ceil() as usize) as u32,
             light,
             origin: self.origin,
-            limits,
+            limits: *limits,
             texture_test: refine.texture_test,
             hysteresis: refine.hysteresis,
             clip_repair: refine.clip_repair,
         });
     }
 
-    /// Each candidate highlight.
+    /// Records the candidate highlights, and what each pixel of the window was judged by.
     pub fn judged(
         &mut self,
         input: &AnalysisInput,
-        shades: &Shades,
+        map: &DesaturationMap,
         texture: Option<&Raster<f32>>,
-        outside: &Mask,
-        judged: &Judged,
+        unexplained: &Mask,
+        blobs: &BlobRecord,
     ) {
         if !R::KEEPS {
             return;
         }
-        let mut of = points(input, shades, texture, outside);
-        for &(index, blob) in &judged.of {
+        let mut of = points(input, map, texture, unexplained);
+        for &(index, blob) in &blobs.pixels {
             of[index].blob = blob;
         }
-        self.points = Some(LocalPoints { roi: shades.roi, of });
-        self.numbered = judged.blobs.len() as u16;
+        self.points = Some(LocalPoints { roi: map.roi, of });
+        self.numbered = blobs.judged.len() as u16;
         if input.refine.hysteresis {
-            let Judged { found, small, small_pixels, .. } = *judged;
-            self.record(BlobsCounted { found, small, small_pixels, least: Judged::LEAST });
+            let BlobRecord { found, small, small_pixels, .. } = *blobs;
+            self.record(BlobsCounted { found, small, small_pixels, least: BlobRecord::LEAST });
         }
-        for &blob in &judged.blobs {
+        for &blob in &blobs.judged {
             self.record(blob);
         }
     }
 
-    /// Whether highlights are believed.
-    pub fn believed(&mut self, tested: PlausibilityTested) {
+    /// Records whether highlights are plausible under the light.
+    pub fn plausibility(&mut self, tested: PlausibilityTested) {
         if R::KEEPS {
             self.record(tested);
         }
     }
 
-    /// What follows is the repair of clipped blobs.
-    pub fn repairs(&mut self) {
+    /// Records that the repair of clipped blobs begins.
+    pub fn repairs_began(&mut self) {
         if R::KEEPS {
             self.recorder.record(PassBegan { pass: Pass::ClipRepair });
         }
     }
 
-    /// A clipped blob was filled, or not.
+    /// Records that a clipped blob with the pixels `blob` was filled, or why not, and gives the blob a number.
     pub fn repair(&mut self, tried: RepairTried, blob: &[usize]) {
         if !R::KEEPS || self.numbered >= LocalPoint::MOST_BLOBS {
             return;
@@ -119,30 +116,30 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         self.record(RepairTried { blob: self.numbered, ..tried });
     }
 
-    /// That was all; `outside`: what lies outside of what holds.
-    pub fn finish(self, outside: Mask) {
+    /// Records what the pixels were judged by; of a split that did not begin, which pixels are `unexplained`.
+    pub fn finish(self, unexplained: Mask) {
         if R::KEEPS {
-            self.recorder.local(self.points.map_or(LocalRecord::Outside(outside), LocalRecord::Points));
+            self.recorder.local(self.points.map_or(LocalRecord::Outside(unexplained), LocalRecord::Points));
         }
     }
 }
 
-/// What each pixel of the window is judged by.
+/// What each pixel of the window is judged by; dark pixels have the default.
 fn points(
     input: &AnalysisInput,
-    shades: &Shades,
+    map: &DesaturationMap,
     texture: Option<&Raster<f32>>,
-    outside: &Mask,
+    unexplained: &Mask,
 ) -> Raster<LocalPoint> {
-    let width = shades.roi.width;
-    let mut points = Raster::filled(width, shades.roi.height, LocalPoint::default());
+    let width = map.roi.width;
+    let mut points = Raster::filled(width, map.roi.height, LocalPoint::default());
     points.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(row, points)| {
         for (column, point) in points.iter_mut().enumerate() {
             let index = row * width + column;
-            let pixel = shades.roi.pixel(index);
+            let pixel = map.roi.pixel(index);
             if !input.masks.dark(pixel) {
                 let texture = texture.map_or(0.0, |texture| texture[index]);
-                *point = LocalPoint::new(outside[pixel], shades.ratios(input, index), texture);
+                *point = LocalPoint::new(unexplained[pixel], map.ratios(input, index), texture);
             }
         }
     });

@@ -1,6 +1,7 @@
 //! Decisions of the local split, where no region explains the pixels (beyond section 6).
 
 use super::{EventData, Subject};
+use crate::reflection::{Desaturation, WhitenedColor};
 use crate::trace::Measured;
 
 /// The local split begins, or why it does not (beyond section 6).
@@ -48,19 +49,52 @@ pub struct LocalLimits {
     pub mean: f32,
     /// Least chromatic part of J that has a hue, counts.
     pub chroma: f32,
-    /// Texture up to which all of a pixel's surface reflection counts, and from which on none does.
-    pub texture: [f32; 2],
+    /// How the weight of surface reflection falls with texture.
+    pub texture: TextureFade,
     /// Texture below which a pixel can be of a strong core.
     pub core_texture: f32,
     /// Standard deviation of a band's noise, counts.
     pub sigma: f32,
 }
 
+/// The range of texture, 0…1, over which the weight of surface reflection falls from 1 to 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TextureFade {
+    /// Texture up to which all of a pixel's surface reflection counts.
+    pub start: f32,
+    /// How far texture rises from `start` until no surface reflection counts.
+    pub width: f32,
+}
+
+impl TextureFade {
+    /// Texture up to which all of a pixel's surface reflection counts, and texture from which on none does.
+    pub fn ends(&self) -> [f32; 2] {
+        [self.start, self.start + self.width]
+    }
+}
+
 impl LocalLimits {
-    /// The share of its surface reflection that counts, 0…1, by texture.
+    /// Whether a color is bright and saturated enough to have a hue.
+    #[inline]
+    pub fn has_hue(&self, color: WhitenedColor) -> bool {
+        color.mean > self.mean && color.chroma > self.chroma
+    }
+
+    /// The desaturation of a pixel. `ratios`: κ and the median of a/c around the pixel. Only unclipped colors that have a hue
+    /// are judged.
+    #[inline]
+    pub fn desaturation(&self, color: WhitenedColor, ratios: [f32; 2], is_clipped: bool) -> Desaturation {
+        if self.has_hue(color) && !is_clipped {
+            Desaturation::new(color, ratios, self.sigma)
+        } else {
+            Desaturation::unjudged(color, ratios[0])
+        }
+    }
+
+    /// The share of a pixel's surface reflection that counts, 0…1, by texture.
+    #[inline]
     pub fn weight(&self, texture: f32) -> f32 {
-        let [all, none] = self.texture;
-        1.0 - ((texture - all) / (none - all)).clamp(0.0, 1.0)
+        1.0 - ((texture - self.texture.start) / self.texture.width).clamp(0.0, 1.0)
     }
 }
 

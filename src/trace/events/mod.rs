@@ -34,7 +34,7 @@ pub use linear::{
 };
 pub use local::{
     BlobJudged, BlobsCounted, LocalBegan, LocalLimits, LocalStart, PlausibilityLimits, PlausibilityTested,
-    RejectReason, RepairTried, RepairVerdict,
+    RejectReason, RepairTried, RepairVerdict, TextureFade,
 };
 pub use masks::MasksMade;
 pub use passes::{Pass, PassBegan, StageBegan};

@@ -32,7 +32,7 @@ pub struct VectorsFitted {
     /// Up to where these may go.
     pub limits: FitLimits,
     /// Whether one skewed T explains it; where not, its plane is not used.
-    pub holds: bool,
+    pub model_fits: bool,
     /// Where body and surface reflection are measured from: black, or the ambient light, counts.
     pub origin: [f64; 3],
 }

@@ -7,6 +7,7 @@ use super::patch::Patch;
 use super::{HistoryEntry, HistoryKind, Release, SplitStory, Unfit};
 use crate::photo::{LinearImage, Masks};
 use crate::raster::UNASSIGNED;
+use crate::reflection::Amounts;
 use crate::trace::stage_trace::Move;
 use crate::trace::{
     Absorbed, ComponentSplit, Contest, Dropped, Event, GrowthBegan, HoleFilled, HypothesisPassedOver,
@@ -369,22 +370,22 @@ impl<'a> HistoryBuilder<'a> {
         let (Some(kind), Some(fitted)) = (kind, fitted) else { return };
         let believed = matches!(kind, PixelKind::Matte | PixelKind::Highlight);
         let test = highlight_test(fitted).filter(|_| fitted.surface.is_some() && believed);
-        let (amounts, cut) = amounts(fitted, self.color);
+        let Amounts { components, removed_offset } = amounts(fitted, self.color);
         self.note(
             step,
             HistoryKind::Split(Box::new(SplitStory {
                 number: fitted.region,
                 kind,
                 lines: test.map(|test| test.distances(self.color)),
-                amounts: believed.then_some(amounts),
-                cut: cut.filter(|_| believed),
+                amounts: believed.then_some(components),
+                cut: removed_offset.filter(|_| believed),
                 least_offset: fitted.least_offset,
                 ambient: fitted.origin,
                 unfit: self.outside.as_ref().map(|outside| Unfit {
                     fit: [fitted.rms_counts, fitted.texture, fitted.texture_slope],
                     limits: fitted.limits,
                     has_plane: fitted.surface.is_some(),
-                    region_holds: fitted.holds,
+                    model_fits: fitted.model_fits,
                     surface: outside.surface,
                 }),
             })),

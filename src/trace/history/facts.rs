@@ -4,7 +4,7 @@ use super::MaskVerdict;
 use super::growth::brightness;
 use crate::color::dot;
 use crate::photo::{LinearImage, MaskLimits, Masks};
-use crate::reflection::{Components, ReflectionTransform};
+use crate::reflection::{AmountRule, Amounts};
 use crate::trace::{Event, Renumbered, Trace, VectorsFitted};
 
 /// Each region's vectors, by its number of birth; none for those that are no more.
@@ -53,19 +53,8 @@ pub(super) fn verdicts(
     found
 }
 
-/// A believed color's amounts (equation 13), and the surface reflection that was cut, counts off the body line.
-pub(super) fn amounts(fitted: &VectorsFitted, color: [f32; 3]) -> (Components, Option<f32>) {
+/// The amounts of a believed color (equation 13), by the rule of the split.
+pub(super) fn amounts(fitted: &VectorsFitted, color: [f32; 3]) -> Amounts {
     let color = std::array::from_fn(|band| color[band] - fitted.origin[band] as f32);
-    let transform = fitted.surface.and_then(|surface| ReflectionTransform::new(&fitted.body, &surface));
-    let Some(transform) = transform else {
-        let body = dot(color, crate::color::rgb(&fitted.body));
-        return (Components { body, surface: 0.0, noise: 0.0 }, None);
-    };
-    let components = transform.split(color);
-    let offset = components.surface * transform.sine();
-    if offset < fitted.least_offset {
-        let body = dot(color, transform.body());
-        return (Components { body, surface: 0.0, ..components }, Some(offset));
-    }
-    (components, None)
+    AmountRule::new(&fitted.body, fitted.surface.as_ref(), fitted.least_offset).amounts(color)
 }

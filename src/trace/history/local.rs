@@ -2,7 +2,7 @@
 
 use super::{HistoryEntry, HistoryKind, LocalFate, LocalStory};
 use crate::photo::{LinearImage, Masks};
-use crate::reflection::desaturation_limits;
+use crate::reflection::{Desaturation, WhitenedColor, WhiteningGain};
 use crate::trace::{
     BlobsCounted, Event, LocalBegan, LocalPoint, LocalStart, PlausibilityTested, RepairVerdict, Stage, Trace,
 };
@@ -112,66 +112,57 @@ impl<'a> Case<'a> {
 
     fn story(&self, began: &LocalBegan, doubted: bool) -> LocalStory {
         let point = self.point.unwrap_or_default();
-        let [mean, chroma] = began.light.map_or([0.0; 2], |light| {
-            let color = std::array::from_fn(|band| f64::from(self.color[band]) - began.origin[band]);
-            whitened(light, color)
+        let gain = began.light.and_then(|light| WhiteningGain::new(&light.into()));
+        let color = gain.map_or(WhitenedColor::default(), |gain| {
+            gain.whitened(std::array::from_fn(|band| self.color[band] - began.origin[band] as f32))
         });
         let ratios = point.ratios();
         let limits = began.limits;
-        let has_hue = mean > limits.mean && chroma > limits.chroma;
-        let known = ratios.filter(|_| has_hue && !self.clipped);
-        let body = ratios.map_or(0.0, |[ratio, _]| ratio * chroma);
-        let [noise, variation] =
-            known.map_or([0.0; 2], |ratios| desaturation_limits(limits.sigma, ratios, body));
-        let mut story = LocalStory {
-            mean,
-            chroma,
+        let found =
+            ratios.map_or(Desaturation::default(), |ratios| limits.desaturation(color, ratios, self.clipped));
+        LocalStory {
+            mean: color.mean,
+            chroma: color.chroma,
             ratios,
-            body,
-            excess: if known.is_some() { (mean - body).max(0.0) } else { 0.0 },
-            noise,
-            variation,
+            body: found.body,
+            excess: found.surface,
+            noise: found.noise_limit,
+            variation: found.variation_limit,
             texture: point.texture(),
             weight: limits.weight(point.texture()),
             limits,
             least_px: self.least_px,
-            fate: LocalFate::Faint,
+            fate: self.fate(began, point, color, &found),
             doubted,
-        };
-        story.fate = self.fate(began, point, &story);
-        story
+        }
     }
 
-    fn fate(&self, began: &LocalBegan, point: LocalPoint, story: &LocalStory) -> LocalFate {
+    fn fate(
+        &self,
+        began: &LocalBegan,
+        point: LocalPoint,
+        color: WhitenedColor,
+        found: &Desaturation,
+    ) -> LocalFate {
         if self.clipped {
             return LocalFate::Clipped;
         }
-        let has_hue = story.mean > story.limits.mean && story.chroma > story.limits.chroma;
-        if !has_hue {
+        if !began.limits.has_hue(color) {
             return LocalFate::Gray;
         }
         if point.ratios().is_none() {
             return LocalFate::Alone;
         }
         if !began.hysteresis {
-            let is_strong = story.excess > story.variation;
-            return if is_strong { LocalFate::Taken } else { LocalFate::Weak };
+            return if found.is_strong() { LocalFate::Taken } else { LocalFate::Weak };
         }
         match point.blob {
-            0 if story.excess <= story.noise => LocalFate::Faint,
-            0 if story.weight <= 0.0 => LocalFate::Texture,
+            0 if !found.exceeds_noise() => LocalFate::Faint,
+            0 if began.limits.weight(point.texture()) <= 0.0 => LocalFate::Texture,
             0 => LocalFate::Thin,
             LocalPoint::SMALL => LocalFate::Small,
             _ if self.kept => LocalFate::Taken,
             _ => LocalFate::NoHighlight,
         }
     }
-}
-
-/// Mean and length of the chromatic part of J = I / (√3 s), s the light: it makes the light white.
-fn whitened(light: [f64; 3], color: [f64; 3]) -> [f32; 2] {
-    let j: [f64; 3] = std::array::from_fn(|band| color[band] / (3f64.sqrt() * light[band]));
-    let mean = j.iter().sum::<f64>() / 3.0;
-    let chroma = j.iter().map(|value| (value - mean).powi(2)).sum::<f64>().sqrt();
-    [mean as f32, chroma as f32]
 }

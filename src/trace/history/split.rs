@@ -36,8 +36,8 @@ pub struct Unfit {
     pub limits: FitLimits,
     /// Whether it has a plane.
     pub has_plane: bool,
-    /// Whether the region holds: then only this part of it does not.
-    pub region_holds: bool,
+    /// Whether the skewed T explains the region as a whole: then the T is not used for this part of the region only.
+    pub model_fits: bool,
     /// Amount of surface reflection m_s that its surroundings tell of, counts; none where it was filled from around it.
     pub surface: Option<f32>,
 }

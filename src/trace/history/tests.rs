@@ -220,7 +220,7 @@ fn the_end_is_a_number_a_role_and_amounts() {
                 texture: 0.0,
                 texture_slope: 0.0,
                 limits: FitLimits::default(),
-                holds: true,
+                model_fits: true,
                 origin: [0.0; 3],
             });
             let kinds = vec![PixelKind::Highlight, PixelKind::Matte];

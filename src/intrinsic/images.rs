@@ -1,0 +1,142 @@
+//! Section 6: the intrinsic images, and the pass over the picture that fills the images from the plans of the regions.
+
+use super::Intrinsic;
+use super::reason::Reason;
+use super::region_plan::RegionPlan;
+use super::restore::Distorted;
+use crate::raster::{Raster, UNASSIGNED};
+use crate::segment::{AnalysisInput, FinalRegions, Members, Pixels};
+use crate::trace::{Ambient, PixelKind};
+use rayon::prelude::*;
+
+/// The intrinsic images while the split runs. All have the size of the picture; colors are counts above the ambient light.
+pub(super) struct Images {
+    /// Body reflection m_b·C_b, counts; the input where a pixel is unassigned.
+    pub(super) body: Raster<[f32; 3]>,
+    /// Surface reflection m_s·C_s, counts; zero where a pixel is unassigned.
+    pub(super) surface: Raster<[f32; 3]>,
+    /// Signed distance ε from the dichromatic plane, counts.
+    pub(super) noise: Raster<f32>,
+    /// Whether each pixel is matte, highlight, restored, lost or unassigned.
+    pub(super) kinds: Raster<PixelKind>,
+}
+
+/// A distorted pixel after restoration.
+struct RestoredPixel {
+    /// Place of the pixel in the picture.
+    pixel: u32,
+    /// Body reflection, counts.
+    body: [f32; 3],
+    /// Surface reflection, counts.
+    surface: [f32; 3],
+    /// [`PixelKind::Restored`] or [`PixelKind::Lost`].
+    kind: PixelKind,
+}
+
+impl Images {
+    /// Splits the undistorted pixels by the plans of their regions, rows in parallel. `plans`: region `id` is at index `id − 1`.
+    pub(super) fn split_undistorted(
+        input: &AnalysisInput,
+        regions: &FinalRegions,
+        plans: &[RegionPlan],
+    ) -> Self {
+        let (width, height) = (input.pixels.width(), input.pixels.height());
+        let mut images = Self {
+            body: Raster::filled(width, height, [0.0; 3]),
+            surface: Raster::filled(width, height, [0.0; 3]),
+            noise: Raster::filled(width, height, 0.0),
+            kinds: Raster::filled(width, height, PixelKind::Unassigned),
+        };
+        let rows = (
+            images.body.as_mut_slice().par_chunks_mut(width.max(1)),
+            images.surface.as_mut_slice().par_chunks_mut(width.max(1)),
+            images.noise.as_mut_slice().par_chunks_mut(width.max(1)),
+            images.kinds.as_mut_slice().par_chunks_mut(width.max(1)),
+        );
+        rows.into_par_iter().enumerate().for_each(|(y, (body, surface, noise, kinds))| {
+            if input.stopped() {
+                return;
+            }
+            // The input is copied row by row and not at once, so that the threads share the cost of fresh memory.
+            body.copy_from_slice(input.pixels.row(y));
+            for (x, &label) in regions.labels.row(y).iter().enumerate() {
+                if label == UNASSIGNED || input.masks.distorted(y * width + x) {
+                    continue;
+                }
+                let split = plans[usize::from(label) - 1].splitter.split(body[x]);
+                (body[x], surface[x], noise[x], kinds[x]) =
+                    (split.body, split.surface, split.noise, split.kind);
+            }
+        });
+        images
+    }
+
+    /// Restores the distorted pixels from their good bands and from the pixels around them. `origin`: the ambient light, counts.
+    pub(super) fn restore(
+        &mut self,
+        origin: &[f64; 3],
+        input: &AnalysisInput,
+        regions: &FinalRegions,
+        plans: &[RegionPlan],
+        members: &Members,
+    ) {
+        let distorted = Distorted {
+            pixels: input.pixels,
+            masks: input.masks,
+            labels: &regions.labels,
+            clip_thresholds: origin.map(|band| (input.used.clip_threshold - band) as f32),
+            sigma: input.sigma() as f32,
+        };
+        let restored: Vec<Vec<RestoredPixel>> = plans
+            .par_iter()
+            .enumerate()
+            .map(|(index, plan)| restored(input, plan, &distorted, members.region(index as u16 + 1)))
+            .collect();
+        for RestoredPixel { pixel, body, surface, kind } in restored.into_iter().flatten() {
+            let pixel = pixel as usize;
+            (self.body[pixel], self.surface[pixel], self.kinds[pixel]) = (body, surface, kind);
+        }
+    }
+
+    /// The result of a run that was stopped: these images, no confidence and no regions.
+    pub(super) fn unfinished(self) -> Intrinsic {
+        let Self { body, surface, noise, kinds } = self;
+        let confidence = Raster::filled(body.width(), body.height(), 0.0);
+        let reasons = confidence.map(|_| Reason::default());
+        let ambient = Ambient::default();
+        Intrinsic { body, surface, noise, kinds, confidence, reasons, ambient, regions: Vec::new() }
+    }
+}
+
+/// The distorted ones among a region's pixels, restored by the region's plan.
+fn restored(
+    input: &AnalysisInput,
+    plan: &RegionPlan,
+    distorted: &Distorted,
+    pixels: Pixels,
+) -> Vec<RestoredPixel> {
+    let waiting: Vec<u32> = pixels.iter().filter(|&pixel| input.masks.distorted(pixel as usize)).collect();
+    let rule = &plan.splitter.rule;
+    let priors = distorted.priors(&waiting, |color| rule.amounts(color).components.body);
+    waiting
+        .into_iter()
+        .zip(priors)
+        .map(|(pixel, prior)| {
+            let Some(transform) = rule.transform() else {
+                let body = input.pixels[pixel as usize];
+                return RestoredPixel { pixel, body, surface: [0.0; 3], kind: PixelKind::Lost };
+            };
+            let start_body = plan.start_bodies[plan.branch_near(input, pixel)];
+            let restored = if input.refine.restore_prior {
+                let prior = if prior.is_nan() { start_body } else { prior };
+                distorted.most_probable(pixel as usize, transform, prior)
+            } else {
+                let test = plan.splitter.highlight_test.as_ref();
+                distorted.smallest_band(pixel as usize, transform, test, start_body)
+            };
+            let [body, surface] = rule.colors(restored.components);
+            let kind = if restored.lost { PixelKind::Lost } else { PixelKind::Restored };
+            RestoredPixel { pixel, body, surface, kind }
+        })
+        .collect()
+}

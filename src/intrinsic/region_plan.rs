@@ -1,0 +1,138 @@
+//! Section 6: how the pixels of one region are split: the region's vectors, highlight lines and tests.
+
+use super::pixel::PixelSplitter;
+use super::vectors::{Vectors, fit_vectors, matte_mean};
+use crate::color::{Vec3, rgb};
+use crate::reflection::{AmountRule, HighlightTest, ReflectionTransform};
+use crate::segment::{
+    AnalysisInput, BranchSearch, Branches, FinalRegions, Pixels, PlanarHypothesis, RegionFit,
+};
+use crate::trace::VectorsFitted;
+
+/// Where a region has several highlight lines, distance from the matte line at which each line begins, standard deviations of
+/// the camera noise.
+const CLEARANCE_SIGMAS: f64 = 2.0;
+
+/// How one region's pixels are split. Colors are counts above the ambient light.
+pub(super) struct RegionPlan {
+    /// The region's hypothesis, measured from the ambient light.
+    pub(super) hypothesis: PlanarHypothesis,
+    /// Body and surface reflection vector.
+    pub(super) vectors: Vectors,
+    /// Splits an undistorted pixel.
+    pub(super) splitter: PixelSplitter,
+    /// How well the region's pixels agree with the vectors.
+    pub(super) fit: RegionFit,
+    /// Whether the skewed T of the vectors explains the region; always true without refinement `region_holds`.
+    pub(super) model_fits: bool,
+    /// The groups of the region's highlights by the body reflection under them; empty without refinement `second_branch`.
+    branches: Branches,
+    /// Where each highlight line leaves the matte line, counts, the strongest line first. At least one.
+    pub(super) starts: Vec<Vec3>,
+    /// Where the lines of the highlight test begin, counts. One line begins at its start. Several lines begin
+    /// [`CLEARANCE_SIGMAS`] away from the matte line: otherwise matte pixels near each start would be taken for highlight
+    /// pixels.
+    test_starts: Vec<Vec3>,
+    /// Amount of body reflection m_b at each of `starts`, counts.
+    pub(super) start_bodies: Vec<f32>,
+}
+
+impl RegionPlan {
+    /// The plan of `region` (from 1), whose pixels are `pixels`.
+    pub(super) fn new(
+        input: &AnalysisInput,
+        regions: &FinalRegions,
+        region: u16,
+        hypothesis: &PlanarHypothesis,
+        pixels: Pixels,
+    ) -> Self {
+        let least_offset =
+            if input.refine.no_negative_surface { input.used.camera_noise as f32 } else { f32::NEG_INFINITY };
+        let vectors = fit_vectors(input, hypothesis, pixels);
+        let rule = AmountRule::new(&vectors.body, vectors.surface.as_ref(), least_offset);
+        let through_origin = (&Vec3::zeros(), &vectors.body, vectors.surface.as_ref());
+        let fit = RegionFit::new(input, &regions.labels, (region, pixels), through_origin);
+        let start_body = rule.transform().map_or(0.0, |t| t.split(rgb(&hypothesis.start)).body.max(0.0));
+        let highlight_test = hypothesis.highlight_test().filter(|_| rule.transform().is_some());
+        let plan = Self {
+            hypothesis: *hypothesis,
+            vectors,
+            splitter: PixelSplitter { rule, highlight_test },
+            fit,
+            model_fits: !input.refine.region_holds || fit.holds(input.sigma()),
+            branches: Branches::default(),
+            starts: vec![hypothesis.start],
+            test_starts: vec![hypothesis.start],
+            start_bodies: vec![start_body],
+        };
+        let wanted = input.refine.second_branch && fit.holds(input.sigma()) && !input.stopped();
+        let Some(transform) = rule.transform().filter(|_| wanted) else { return plan };
+        let search = BranchSearch {
+            input,
+            labels: &regions.labels,
+            region,
+            transform,
+            matte_length: hypothesis.matte_length,
+            light_doubt_deg: regions.light.interval_deg,
+        };
+        plan.with_branches(input, search.run(pixels), pixels)
+    }
+
+    /// This plan with the highlight lines of `branches`. Only more than one branch changes the highlight test and the mean of the
+    /// matte pixels. The body vector stays: it is fitted at the outer edge of the cluster, where no highlight pixels are.
+    fn with_branches(mut self, input: &AnalysisInput, branches: Branches, pixels: Pixels) -> Self {
+        let bodies = branches.bodies();
+        self.branches = branches;
+        let Some(plane) = self.hypothesis.plane.filter(|_| bodies.len() > 1) else { return self };
+        self.starts = bodies.iter().map(|&body| self.vectors.body * f64::from(body)).collect();
+        self.start_bodies = bodies;
+        let clearance = CLEARANCE_SIGMAS * input.used.camera_noise / plane.angle_rad.sin();
+        self.test_starts = self.starts.iter().map(|start| start + plane.surface * clearance).collect();
+        let test = HighlightTest::of_lines(&self.hypothesis.matte, &self.test_starts, &plane.surface);
+        self.vectors.matte_mean = matte_mean(input, pixels, &test).unwrap_or(self.vectors.matte_mean);
+        self.splitter.highlight_test = Some(test);
+        self
+    }
+
+    /// The transform of equation 13; none where all of a pixel's light is body reflection.
+    pub(super) fn transform(&self) -> Option<&ReflectionTransform> {
+        self.splitter.rule.transform()
+    }
+
+    /// The groups of the region's highlights.
+    pub(super) fn branches(&self) -> &Branches {
+        &self.branches
+    }
+
+    /// The place in `starts` of the line of the highlight that contains a pixel or is nearest to the pixel in the picture.
+    pub(super) fn branch_near(&self, input: &AnalysisInput, pixel: u32) -> usize {
+        let width = input.pixels.width() as u32;
+        if self.starts.len() > 1 { self.branches.nearest(pixel % width, pixel / width) } else { 0 }
+    }
+
+    /// The record of this plan. `origin`: the ambient light, from which the plan's colors are measured, counts.
+    pub(super) fn vectors_fitted(
+        &self,
+        input: &AnalysisInput,
+        region: u16,
+        origin: &[f64; 3],
+    ) -> VectorsFitted {
+        let PlanarHypothesis { matte, start, .. } = self.hypothesis.from_origin(&-Vec3::from(*origin));
+        VectorsFitted {
+            region,
+            body: self.vectors.body,
+            surface: self.transform().and(self.vectors.surface),
+            matte,
+            start,
+            starts: self.test_starts.iter().map(|start| start + Vec3::from(*origin)).collect(),
+            highlight: self.hypothesis.plane.map(|plane| plane.surface),
+            least_offset: self.splitter.rule.least_offset(),
+            rms_counts: self.fit.rms_counts,
+            texture: self.fit.texture,
+            texture_slope: self.fit.texture_slope,
+            limits: RegionFit::limits(input.sigma()),
+            model_fits: self.model_fits,
+            origin: *origin,
+        }
+    }
+}
