@@ -157,12 +157,12 @@ fn of_cicp([_, transfer, _, full_range]: [u8; 4]) -> Option<Result<Encoding, Str
 /// The gAMA chunk holds the exponent of the encoding × 100 000; decoding uses the inverse.
 fn of_gama(gama: u32) -> Result<Encoding, String> {
     let exponent = 100_000.0 / f64::from(gama);
-    let told = f64::from(gama) / 100_000.0;
+    let file_exponent = f64::from(gama) / 100_000.0;
     if !ToneCurve::EXPONENTS.contains(&exponent) {
-        return Err(format!("PNG gAMA {told} makes no sense"));
+        return Err(format!("PNG gAMA {file_exponent} makes no sense"));
     }
     let curve = if gama == 100_000 { ToneCurve::Linear } else { ToneCurve::Gamma(exponent) };
-    Ok(Encoding::new(curve, format!("PNG gAMA {told:?}")))
+    Ok(Encoding::new(curve, format!("PNG gAMA {file_exponent:?}")))
 }
 
 #[cfg(test)]

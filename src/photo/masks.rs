@@ -17,6 +17,20 @@ pub struct MaskLimits {
     pub bloom_density: usize,
 }
 
+impl MaskLimits {
+    /// Whether a color is dark: inside the sphere around black.
+    #[inline]
+    pub fn is_dark(&self, color: [f32; 3]) -> bool {
+        dot(color, color) < (self.min_intensity * self.min_intensity) as f32
+    }
+
+    /// Whether a color is clipped: a band reaches the clip threshold.
+    #[inline]
+    pub fn is_clipped(&self, color: [f32; 3]) -> bool {
+        color[0].max(color[1]).max(color[2]) >= self.clip_threshold as f32
+    }
+}
+
 /// The marks of each pixel: dark, clipped, bloomed, invalid, outside.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Masks {
@@ -37,13 +51,10 @@ impl Masks {
         if flags.is_empty() {
             return Self { flags };
         }
-        let dark2 = (limits.min_intensity * limits.min_intensity) as f32;
-        let clip = limits.clip_threshold as f32;
         flags.as_mut_slice().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
             let pixels = image.pixels.row(y).iter().zip(image.invalid.row(y));
             for (flag, (&color, &invalid)) in row.iter_mut().zip(pixels) {
-                let clipped = color[0].max(color[1]).max(color[2]) >= clip;
-                let dark = dot(color, color) < dark2;
+                let (clipped, dark) = (limits.is_clipped(color), limits.is_dark(color));
                 *flag =
                     (u8::from(dark) * DARK) | (u8::from(clipped) * CLIPPED) | (u8::from(invalid) * INVALID);
             }
@@ -56,7 +67,7 @@ impl Masks {
     /// outside the area still make pixels inside bloomed.
     #[must_use]
     pub fn within(mut self, area: &Mask) -> Self {
-        debug_assert_eq!(area.len(), self.flags.len(), "the caller holds the area against the image");
+        debug_assert_eq!(area.len(), self.flags.len(), "the caller checks the size of the area");
         for (flag, &inside) in self.flags.as_mut_slice().iter_mut().zip(area.as_slice()) {
             *flag |= u8::from(!inside) * OUTSIDE;
         }

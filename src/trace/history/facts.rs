@@ -2,7 +2,6 @@
 
 use super::MaskVerdict;
 use super::growth::brightness;
-use crate::color::dot;
 use crate::photo::{LinearImage, MaskLimits, Masks};
 use crate::reflection::{AmountRule, Amounts};
 use crate::trace::{Event, Renumbered, Trace, VectorsFitted};
@@ -38,7 +37,7 @@ pub(super) fn verdicts(
     }
     if masks.invalid(pixel) {
         found.push(MaskVerdict::Invalid);
-    } else if dot(color, color) < (limits.min_intensity * limits.min_intensity) as f32 {
+    } else if limits.is_dark(color) {
         found.push(MaskVerdict::Dark { brightness });
     }
     if masks.clipped(pixel) {
