@@ -1,15 +1,15 @@
 //! Section 7.5: ambient light adds a constant to every pixel, so that the matte lines meet away from black (Shafer's extended
 //! model; refinement `ambient_light`).
 //!
-//! Each region's matte line is refitted to what lies in its cylinder. The common point p minimizes Σ ρ(|Q_k (p − m_k)|²/var_k),
-//! Q_k the projection across line k, m_k a point of it, var_k how well it is known near black: its own noise, .15 counts, and
-//! .1° of direction over the way there. ρ is Cauchy's, at three standard deviations. p is subtracted before the split if at
-//! least three lines tell of it, or two that clearly meet, it is significant (χ² with three degrees of freedom, .999) and above
-//! the noise, a color that light can have, a better meeting point than black, and no brighter than the darkest pixels. After
-//! the split it is added to the body image: ambient light that is reflected is body reflection too.
+//! Each region's matte line is refitted to the colors in the line's cylinder. The common point p minimizes
+//! Σ ρ(|Q_k (p − m_k)|²/var_k), Q_k the projection across line k, m_k a point of line k, var_k the variance of line k near p:
+//! the line's own noise, .15 counts, and .1° of direction over the distance from m_k. ρ is Cauchy's, at three standard deviations. p is subtracted before the split
+//! if at least three lines, or two that clearly meet, determine p, and if p is significant (χ² with three degrees of freedom,
+//! .999), above the noise, not negative, a better meeting point than black, and no brighter than the darkest pixels. After
+//! the split p is added to the body image: reflected ambient light is body reflection too.
 //!
-//! On lab scenes it is at most .3 counts a band; veils of 3 to 12 counts are found to .4 counts (1.3 on one scene of three
-//! blue objects, within its own standard deviation), and the body image is as good as without them.
+//! On lab scenes p is at most .3 counts a band. Ambient light of 3 to 12 counts is found to .4 counts (1.3 on one scene of three
+//! blue objects, within the estimate's standard deviation), and the body image is as good as without ambient light.
 
 use crate::color::{Cylinder, Line, LineFit, Moments, Vec3, principal_axes};
 use crate::params::AmbientSetting;
@@ -18,33 +18,37 @@ use crate::trace::{Ambient, AmbientVerdict, Meeting};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
-/// Three lines can agree on a point. Two nearly meet somewhere: they have to pass each other within half the noise, at a place
-/// known to the noise.
+/// Fewest lines that determine a point by themselves. Any two lines nearly meet somewhere: see [`CLOSE`].
 const LEAST_LINES: usize = 3;
+/// Largest distance of two lines from their common point, standard deviations of the noise; the point has to be known to one
+/// standard deviation.
 const CLOSE: f64 = 0.5;
-/// Fewest pixels of a line, and the most that are looked at, evenly chosen.
+/// Fewest pixels of a line.
 const LEAST_PX: usize = 300;
+/// Most pixels to which a line is fitted, evenly chosen.
 const SAMPLES: usize = 4000;
-/// How far a line has to reach, standard deviation along it, σ.
+/// Least standard deviation of the colors along a line, standard deviations of the noise.
 const LEAST_EXTENT: f64 = 8.0;
-/// Errors that averaging does not remove: of a line's place, counts, and of its direction, degrees.
+/// Standard error of a line's place that averaging does not remove, counts.
 const PLACE_COUNTS: f64 = 0.15;
+/// Standard error of a line's direction that averaging does not remove, degrees.
 const DIRECTION_DEG: f64 = 0.1;
-/// Neighboring pixels err together: so many count as one.
-const TOGETHER: f64 = 4.0;
+/// Number of pixels that count as one independent pixel: errors of neighboring pixels are correlated.
+const PIXELS_PER_INDEPENDENT: f64 = 4.0;
 /// 99.9 % quantile of χ² with three degrees of freedom.
 const SIGNIFICANT: f64 = 16.27;
-/// Lines have to miss the common point by at most this share of what they miss black by.
+/// Largest distance of the lines from the common point, as a share of their distance from black.
 const BETTER: f64 = 0.5;
-/// Lines that miss a point by more do not meet there, σ.
+/// Distance from the common point above which lines do not meet, standard deviations of the noise.
 const FAR: f64 = 2.0;
-/// Share of the pixels that may be darker than the ambient light.
+/// Largest share of pixels that may be darker than the ambient light.
 const DARKEST: f64 = 0.005;
-/// How robust lines are fitted.
+/// Tukey's constant of the robust line fit.
 const TUNING: f64 = 4.7;
+/// Most reweightings of the robust line fit.
 const ITERATIONS: usize = 12;
 
-/// What a segmented picture tells of its ambient light.
+/// The ambient light of a segmented picture: given by the user, estimated, or not asked for.
 pub fn ambient(input: &AnalysisInput, regions: &FinalRegions, members: &Members) -> Ambient {
     match input.used.ambient {
         AmbientSetting::Given(counts) => {
@@ -61,11 +65,11 @@ fn estimated(input: &AnalysisInput, regions: &FinalRegions, members: &Members) -
         .filter_map(|id| MatteLine::new(input, &regions.hypotheses[usize::from(id) - 1], members.region(id)))
         .collect();
     let meeting = meeting(&lines);
-    let tells = |found: &Meeting| {
+    let is_determined = |found: &Meeting| {
         let known = found.sd_counts.iter().all(|sd| *sd <= input.sigma());
         found.lines >= LEAST_LINES || (known && found.miss_counts[0] <= CLOSE * input.sigma())
     };
-    let Some(found) = meeting.filter(tells) else {
+    let Some(found) = meeting.filter(is_determined) else {
         return Ambient { subtracted: None, meeting, verdict: AmbientVerdict::FewLines };
     };
     let color = Vec3::from(found.counts);
@@ -88,7 +92,7 @@ fn estimated(input: &AnalysisInput, regions: &FinalRegions, members: &Members) -
     Ambient { subtracted: (verdict == AmbientVerdict::Subtracted).then_some(light), meeting, verdict }
 }
 
-/// Whether more pixels of the regions than noise explains are darker in some band.
+/// Whether more pixels of the regions than [`DARKEST`] are darker than the ambient light `counts` in some band.
 fn brighter_than_the_darkest(input: &AnalysisInput, regions: &FinalRegions, counts: &[f64; 3]) -> bool {
     let least = counts.map(|band| (band - 3.0 * input.sigma()) as f32);
     let mut darker = [0usize; 3];
@@ -102,17 +106,17 @@ fn brighter_than_the_darkest(input: &AnalysisInput, regions: &FinalRegions, coun
     darker.iter().any(|&count| count as f64 > DARKEST * all as f64)
 }
 
-/// A matte line and how well it is known.
+/// A matte line and its standard errors.
 struct MatteLine {
     line: Line,
-    /// Squared standard error of its place at its mean, counts².
+    /// Squared standard error of the line's place at the mean, counts².
     place: f64,
-    /// Squared standard error of its direction.
+    /// Squared standard error of the line's direction, rad².
     direction: f64,
 }
 
 impl MatteLine {
-    /// Of one region; none where it has too few pixels on a line, or none that is long enough.
+    /// The matte line of one region; none where too few of the region's pixels lie on a line, or where the line is too short.
     fn new(input: &AnalysisInput, hypothesis: &PlanarHypothesis, pixels: Pixels) -> Option<Self> {
         let cylinder = Cylinder::new(&hypothesis.matte, input.used.radius_counts());
         let colors: Vec<[f32; 3]> = pixels
@@ -132,7 +136,7 @@ impl MatteLine {
         let noise = f64::midpoint(across, height);
         let long = along.max(0.0).sqrt() >= LEAST_EXTENT * input.sigma();
         let straight = noise.max(0.0).sqrt() <= POOR_FIT * input.sigma();
-        let independent = moments.n / TOGETHER;
+        let independent = moments.n / PIXELS_PER_INDEPENDENT;
         (moments.n >= LEAST_PX as f64 && long && straight).then(|| Self {
             line,
             place: noise / independent + PLACE_COUNTS * PLACE_COUNTS,
@@ -140,7 +144,7 @@ impl MatteLine {
         })
     }
 
-    /// From a point to the nearest one of the line, and the squared standard error of that.
+    /// Vector from a point to the nearest point of the line, counts, and the squared standard error of that vector, counts².
     fn miss(&self, point: &Vec3) -> (Vec3, f64) {
         let from = point - self.line.mean;
         let way = from.dot(&self.line.direction);
@@ -148,7 +152,7 @@ impl MatteLine {
     }
 }
 
-/// The point nearest to all lines; none where they are too few or parallel.
+/// The point nearest to all lines; none for fewer than two lines and for parallel lines.
 fn meeting(lines: &[MatteLine]) -> Option<Meeting> {
     if lines.len() < 2 {
         return None;
@@ -160,9 +164,9 @@ fn meeting(lines: &[MatteLine]) -> Option<Meeting> {
         information = Matrix3::zeros();
         for line in lines {
             let (miss, variance) = line.miss(&point);
-            let reject_reason = miss.norm_squared() / (9.0 * variance);
+            let cauchy = miss.norm_squared() / (9.0 * variance);
             let across = Matrix3::identity() - line.line.direction * line.line.direction.transpose();
-            let weighted = across / (variance * (1.0 + reject_reason));
+            let weighted = across / (variance * (1.0 + cauchy));
             information += weighted;
             right += weighted * line.line.mean;
         }
@@ -170,7 +174,7 @@ fn meeting(lines: &[MatteLine]) -> Option<Meeting> {
     }
     let squared = |point: &Vec3| lines.iter().map(|line| line.miss(point).0.norm_squared()).sum::<f64>();
     let misfit: f64 = lines.iter().map(|line| line.miss(&point)).map(|(m, v)| m.norm_squared() / v).sum();
-    // Lines that disagree by more than they should tell less than they say.
+    // Where the lines miss the point by more than their standard errors, the covariance is enlarged accordingly.
     let free = (2 * lines.len()) as f64 - 3.0;
     let covariance = information.try_inverse()? * (misfit / free).max(1.0);
     let chi_square = (point.transpose() * covariance.try_inverse()? * point)[0];
@@ -195,7 +199,8 @@ mod tests {
 
     const SIDE_PX: usize = 40;
 
-    /// Stripes of shaded bodies, each from a point of its own, and what is found of their ambient light.
+    /// The ambient light found in a picture of stripes. Each stripe is a shaded body with a body vector and the point at which
+    /// the stripe's matte line starts.
     fn found(bodies: &[([f64; 3], [f64; 3])], setting: AmbientSetting) -> Ambient {
         let width = SIDE_PX * bodies.len();
         let place = |x: f64| (x as usize / SIDE_PX).min(bodies.len() - 1);
@@ -231,18 +236,18 @@ mod tests {
 
     proptest! {
         #[test]
-        fn three_lines_tell_where_they_meet(veil in prop::array::uniform3(2.0f64..15.0)) {
-            let told = found(&[(RED, veil), (GREEN, veil), (BLUE, veil)], AmbientSetting::Auto);
-            prop_assert_eq!(told.verdict, AmbientVerdict::Subtracted);
-            let subtracted = told.subtracted.unwrap();
+        fn the_meeting_point_of_three_lines_is_found(ambient in prop::array::uniform3(2.0f64..15.0)) {
+            let estimate = found(&[(RED, ambient), (GREEN, ambient), (BLUE, ambient)], AmbientSetting::Auto);
+            prop_assert_eq!(estimate.verdict, AmbientVerdict::Subtracted);
+            let subtracted = estimate.subtracted.unwrap();
             for band in 0..3 {
-                prop_assert!((subtracted[band] - veil[band]).abs() < 0.6, "{:?} {:?}", subtracted, veil);
+                prop_assert!((subtracted[band] - ambient[band]).abs() < 0.6, "{:?} {:?}", subtracted, ambient);
             }
         }
     }
 
     #[test]
-    fn black_needs_no_light_and_darkness_is_none() {
+    fn lines_through_black_have_no_ambient_light_and_negative_light_is_refused() {
         let of = |p: [f64; 3]| found(&[(RED, p), (GREEN, p), (BLUE, p)], AmbientSetting::Auto);
         assert_eq!(of([0.0; 3]).verdict, AmbientVerdict::Black);
         let dark = of([-6.0, -5.0, -6.0]);
@@ -250,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_do_not_meet_tell_of_no_light_and_two_have_to_meet_closely() {
+    fn lines_that_do_not_meet_give_no_estimate_and_two_lines_have_to_meet_closely() {
         let apart = [
             (RED, [0.0, 12.0, 0.0]),
             (GREEN, [14.0, 0.0, 0.0]),
@@ -269,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_given_is_taken_and_off_is_off() {
+    fn a_given_light_is_used_and_off_estimates_nothing() {
         let bodies = [(RED, [8.0; 3]), (GREEN, [8.0; 3]), (BLUE, [8.0; 3])];
         assert_eq!(found(&bodies, AmbientSetting::Off), Ambient::default());
         let given = found(&bodies, AmbientSetting::Given([1.0, 2.0, 3.0]));

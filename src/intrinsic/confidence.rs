@@ -1,8 +1,9 @@
-//! How far the split of each pixel is to be believed, 0…1.
+//! Confidence in the split of each pixel, 0…1.
 //!
-//! Where its region holds: how well the region's plane fits, how far body and surface vector are apart, and how far the pixel
-//! itself lies off the plane. Restored pixels are believed less, lost ones hardly. Elsewhere the local split is believed by how
-//! little its surface reflection looks like texture, and what was left alone not at all: there, body is the input.
+//! Where a region's skewed T explains the pixel, confidence falls with the misfit of the region's plane, with a small angle between
+//! body and surface vector, and with the pixel's distance from the plane. Restored pixels keep 60 % of that, lost pixels 10 %.
+//! Elsewhere the confidence of the local split falls with texture. Where nothing was split, the body image is the input and
+//! confidence is 0.
 
 use super::RegionReflection;
 use crate::raster::{LabelMap, Mask, Raster};
@@ -10,35 +11,39 @@ use crate::segment::{POOR_FIT, RegionFit};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
-/// Distance from the plane from which on the split of a pixel or region is not believed at all, σ.
-const HOPELESS: f64 = 2.0 * POOR_FIT;
-/// Angle between body and surface vector from which on noise is no trouble, degrees.
+/// Distance from the plane from which on confidence in a pixel or region is 0, standard deviations of the noise.
+const ZERO_CONFIDENCE_SIGMAS: f64 = 2.0 * POOR_FIT;
+/// Angle between body and surface vector from which on the angle does not lower confidence, degrees.
 const WIDE_DEG: f64 = 14.0;
-/// What restored pixels and those without any good band keep of their region's confidence.
+/// Share of the region's confidence that restored pixels have.
 const RESTORED: f32 = 0.6;
+/// Share of the region's confidence that pixels without any good band have.
 const LOST: f32 = 0.1;
-/// Most that a pixel of the local split has.
+/// Largest confidence of a pixel of the local split.
 pub const LOCAL: f32 = 0.5;
 
-/// Of a region: 1 where all is noise, 0 where it does not hold.
-pub fn of_region(fit: &RegionFit, holds: bool, angle_deg: Option<f64>, sigma: f64) -> f64 {
-    if !holds {
+/// Confidence in a region: 1 where the pixels differ from the plane by noise only, 0 where `model_fits` is false. `angle_deg`: angle
+/// between body and surface vector; none without a plane. `sigma`: standard deviation of the noise, counts.
+pub fn of_region(fit: &RegionFit, model_fits: bool, angle_deg: Option<f64>, sigma: f64) -> f64 {
+    if !model_fits {
         return 0.0;
     }
-    let fitting = ((HOPELESS - fit.rms_counts / sigma.max(1e-9)) / (HOPELESS - 1.0)).clamp(0.0, 1.0);
+    let fitting = ((ZERO_CONFIDENCE_SIGMAS - fit.rms_counts / sigma.max(1e-9))
+        / (ZERO_CONFIDENCE_SIGMAS - 1.0))
+        .clamp(0.0, 1.0);
     let apart = angle_deg
         .map_or(1.0, |angle| (angle.to_radians().sin() / WIDE_DEG.to_radians().sin()).clamp(0.0, 1.0));
-    // The maximum of a number and none is the number.
+    // The maximum of NaN and 0 is 0.
     (fitting * apart * (1.0 - fit.texture.clamp(0.0, 1.0))).max(0.0)
 }
 
-/// What the confidence of pixels is made from.
+/// The data from which the confidence of the pixels is computed.
 pub struct ConfidenceInput<'a> {
     /// Region of each pixel.
     pub labels: &'a LabelMap,
-    /// Where the plane was used.
+    /// The pixels that the skewed T of their region explains.
     pub explained_mask: &'a Mask,
-    /// What each pixel is to its region.
+    /// The kind of each pixel.
     pub kinds: &'a Raster<PixelKind>,
     /// Distance from the plane, counts.
     pub noise: &'a Raster<f32>,
@@ -49,7 +54,8 @@ pub struct ConfidenceInput<'a> {
 }
 
 impl ConfidenceInput<'_> {
-    /// Of each pixel. `local`: that of the local split where it found surface reflection, else 0.
+    /// The confidence of each pixel. `local`: the confidence of the local split, 0 where it found no surface reflection; none where
+    /// it did not run.
     pub fn confidence(&self, local: Option<&Raster<f32>>) -> Raster<f32> {
         let width = self.labels.width();
         let mut confidence = Raster::filled(width, self.labels.height(), 0.0f32);
@@ -66,6 +72,7 @@ impl ConfidenceInput<'_> {
         confidence
     }
 
+    /// The confidence of a pixel that its region explains.
     fn by_plane(&self, pixel: usize) -> f32 {
         let region = self.regions.get(usize::from(self.labels[pixel]).wrapping_sub(1));
         let of_region = region.map_or(0.0, |region| region.confidence as f32);
@@ -74,7 +81,7 @@ impl ConfidenceInput<'_> {
             PixelKind::Lost => LOST,
             _ => {
                 let off = self.noise[pixel].abs() / self.sigma.max(1e-9);
-                (2.0 - off / HOPELESS as f32).clamp(0.0, 1.0)
+                (2.0 - off / ZERO_CONFIDENCE_SIGMAS as f32).clamp(0.0, 1.0)
             }
         };
         of_region * of_kind
@@ -86,13 +93,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn noise_is_trusted_and_what_does_not_hold_is_not() {
+    fn confidence_is_one_for_noise_and_zero_where_the_model_does_not_fit() {
         let fit = |rms_counts| RegionFit { rms_counts, ..RegionFit::default() };
         assert!((of_region(&fit(1.25), true, Some(30.0), 1.25) - 1.0).abs() < 1e-9);
         assert!((of_region(&fit(1.25), true, Some(5.0), 1.25) - 0.36).abs() < 0.01);
         let worse = of_region(&fit(1.8), true, Some(30.0), 1.25);
         assert!(worse < 0.8 && worse > 0.5, "{worse}");
         assert!(of_region(&fit(1.0), false, Some(30.0), 1.25).abs() < 1e-9);
-        assert!(of_region(&fit(f64::NAN), true, None, 0.0).abs() < 1e-9, "no number is no confidence");
+        assert!(of_region(&fit(f64::NAN), true, None, 0.0).abs() < 1e-9, "NaN gives confidence 0");
     }
 }

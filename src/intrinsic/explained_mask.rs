@@ -1,20 +1,22 @@
-//! Which pixels the planar split is to be believed for (refinement `region_holds`).
+//! The pixels that the skewed T of their region explains, and that therefore keep the split by the region's plane (refinement
+//! `region_holds`).
 //!
-//! A region that does not hold (see [`RegionFit`]) is not split by its plane. Nor is a part of a region that lies apart and
-//! holds hardly a matte pixel: clipped highlights of a white cup fit the plane of a teal jug (21.8 → 34.4 dB on the jug's
-//! region), but no object is nothing but highlight. Nor is a clipped blob that is mostly surrounded by another region, which
-//! it reached over a bridge of bright pixels.
+//! Not explained are the pixels of a region whose skewed T does not fit (see [`crate::segment::RegionFit`]); a separate part of a
+//! region with hardly any matte pixel (clipped highlights of a white cup fit the plane of a teal jug, 21.8 → 34.4 dB on the jug's
+//! region, but no object consists of highlight alone); and a clipped blob that is mostly surrounded by other regions, which the
+//! region reached over a bridge of bright pixels.
 
 use crate::raster::{Border, ComponentSearch, Connectivity, Mask, Raster, UNASSIGNED};
 use crate::segment::{AnalysisInput, FinalRegions, Members, parts};
 use crate::trace::PixelKind;
 
-/// A part of a region with a smaller share of matte pixels is no object's.
+/// Least share of matte pixels in a part of a region that is explained.
 const LEAST_MATTE: f64 = 0.1;
-/// A clipped blob of which the own region holds a smaller share of the assigned surroundings is not the region's.
+/// Least share of a clipped blob's own region in the assigned pixels around the blob.
 const LEAST_OWN: f64 = 0.5;
 
-/// The pixels that the skewed T of their region explains. `model_fits`: whether it explains region `id`, at index `id − 1`.
+/// The pixels that the skewed T of their region explains. `model_fits`: whether the skewed T
+/// fits each region; region `id` is at index `id − 1`.
 pub fn explained_mask(
     input: &AnalysisInput,
     regions: &FinalRegions,

@@ -20,7 +20,7 @@ use crate::raster::Raster;
 pub use crate::segment::POOR_FIT;
 pub use crate::trace::{Ambient, AmbientVerdict, Meeting, PixelKind};
 
-/// The intrinsic images and what is known of each region.
+/// The intrinsic images, and the report of each region.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Intrinsic {
     /// Body reflection, counts (m_b·C_b); the input where a pixel is unassigned.
@@ -29,13 +29,13 @@ pub struct Intrinsic {
     pub surface: Raster<[f32; 3]>,
     /// Signed distance ε from the dichromatic plane, counts; zero where a pixel is unassigned.
     pub noise: Raster<f32>,
-    /// What each pixel is to its region.
+    /// Whether each pixel is matte, highlight, restored, lost or unassigned.
     pub kinds: Raster<PixelKind>,
-    /// How far the split of each pixel is to be believed, 0…1.
+    /// Confidence in the split of each pixel, 0…1.
     pub confidence: Raster<f32>,
-    /// Why a pixel is not explained by one region's skewed T.
+    /// The reason why the skewed T of one region does not explain a pixel.
     pub reasons: Raster<Reason>,
-    /// What is known of the ambient light.
+    /// The estimate of the ambient light.
     pub ambient: Ambient,
     /// The regions; region `id` is at index `id − 1`.
     pub regions: Vec<RegionReflection>,
@@ -43,29 +43,31 @@ pub struct Intrinsic {
 
 /// One highlight line of a region, and the highlights on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct HighlightBranch {
-    /// Where it leaves the matte line, counts.
+    /// Color at which the line leaves the matte line, counts.
     pub start: [f64; 3],
     /// Amount of body reflection under its highlights, m_b, counts.
     pub body: f64,
-    /// Its pixels, restored ones included.
+    /// Number of the line's highlight pixels, restored ones included.
     pub pixels: usize,
-    /// Its share of the region's highlight pixels, 0…1; 0 where there are none.
+    /// Share of these in the region's highlight pixels, 0…1; 0 for a region without highlight pixels.
     pub share: f64,
 }
 
 /// One region's reflection vectors and how well they explain its pixels.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RegionReflection {
-    /// Its label, from 1.
+    /// Label of the region, from 1.
     pub id: u16,
-    /// All its pixels.
+    /// Number of the region's pixels.
     pub pixels: usize,
-    /// Pixels nearer to the matte line.
+    /// Number of pixels nearer to the matte line.
     pub matte_pixels: usize,
-    /// Pixels nearer to the highlight line, restored ones included.
+    /// Number of pixels nearer to a highlight line, restored ones included.
     pub highlight_pixels: usize,
-    /// Clipped pixels.
+    /// Number of clipped pixels.
     pub clipped_pixels: usize,
     /// Body reflection vector C_b, unit.
     pub body: [f64; 3],
@@ -73,27 +75,27 @@ pub struct RegionReflection {
     pub surface: Option<[f64; 3]>,
     /// Mean color of the matte pixels, counts.
     pub matte_mean: [f64; 3],
-    /// Where the highlight line leaves the matte line, counts; that of the strongest branch.
+    /// Color at which the strongest highlight line leaves the matte line, counts; none without a surface reflection vector.
     pub highlight_start: Option<[f64; 3]>,
-    /// Its highlight lines (7.4), the strongest first: more than one where highlights lie on different shades. Empty where body
-    /// and surface cannot be told apart.
+    /// The region's highlight lines (section 7.4), the strongest first: more than one where highlights lie on different amounts
+    /// of body reflection. Empty where body and surface reflection cannot be separated.
     pub highlight_branches: Vec<HighlightBranch>,
     /// Unit normal of the dichromatic plane, C_b × C_s.
     pub plane_normal: Option<[f64; 3]>,
     /// Angle between body and surface vector, degrees.
     pub angle_deg: Option<f64>,
-    /// Root mean square distance of its undistorted pixels from the plane (from the line without one), counts.
+    /// Root mean square distance of the undistorted pixels from the plane, counts; without a plane from the matte line.
     pub fit_rms_counts: f64,
-    /// Whether one skewed T explains it; where not, its plane is not used.
+    /// Whether one skewed T explains the region; where not, the region's plane is not used.
     pub model_fits: bool,
-    /// How far its split is to be believed, 0…1; 0 where it does not hold.
+    /// Confidence in the region's split, 0…1; 0 where the skewed T does not explain the region.
     pub confidence: f64,
     /// How much surface and body reflection vary against each other from pixel to pixel: 1 for a print, about 0 for highlights.
     pub texture: f64,
-    /// Whether body and surface can be told apart.
+    /// Whether body and surface reflection can be separated.
     pub separable: bool,
-    /// Regions that it touches, ascending.
+    /// Labels of the adjacent regions, ascending.
     pub neighbors: Vec<u16>,
-    /// What to beware of, in words.
+    /// Warnings about the region's split, each an English phrase.
     pub warnings: Vec<String>,
 }

@@ -1,7 +1,7 @@
-//! Why a pixel is not explained by body and surface reflection of one region (sections 5.6 and 7.5).
+//! The reason why body and surface reflection of one region do not explain a pixel (sections 5.6 and 7.5).
 //!
-//! The paper names what it leaves unexplained: shadows and dark colors, inter-reflection, pixels that mix two objects, clipped
-//! ones, and gray objects whose matte line is the illuminant's. Printed textures are its section 7.5's.
+//! The paper names the effects that the model does not explain: shadows and dark colors, inter-reflection, pixels that mix two
+//! objects, clipped pixels, and gray objects, whose matte line has the direction of the light. Section 7.5 adds printed textures.
 
 use super::RegionReflection;
 use crate::color::{Vec3, axis_angle_deg};
@@ -12,37 +12,38 @@ use crate::segment::{POOR_FIT, TEXTURE_CORRELATION};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
-/// Distance from the plane that noise does not explain, σ.
+/// Distance from the plane above which noise does not explain a pixel, standard deviations of the noise.
 const FAR_OFF: f32 = 2.0 * POOR_FIT as f32;
-/// A body vector so near to the light's is the light's, degrees.
+/// Angle to the light's color below which a body vector counts as the light's color, degrees.
 const COLLINEAR_DEG: f64 = 3.0;
 
-/// What keeps a pixel from being explained.
+/// The reason why one region's skewed T does not explain a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Reason {
-    /// Nothing: its region's skewed T holds.
+    /// The skewed T of the pixel's region explains the pixel.
     #[default]
     Explained,
-    /// It is too dark to be analyzed: shadow or background.
+    /// The pixel is too dark to be analyzed: shadow or background.
     Shadow,
-    /// It is lit, but on no matte line that was found.
+    /// The pixel is lit, but on no matte line that was found.
     NoMatteLine,
-    /// It lies between regions, or between one and the dark, and mixes their colors.
+    /// The pixel lies between two regions, or between a region and the dark, and mixes their colors.
     MixedBoundary,
-    /// It lies off the plane, or its region does: inter-reflection, or more than one material.
+    /// The pixel or its region lies off the dichromatic plane: inter-reflection, or more than one material.
     InterReflection,
-    /// Body and surface reflection of its region vary against each other: a print, a grain.
+    /// Body and surface reflection of the pixel's region vary against each other: a print or a grain.
     Texture,
-    /// It is the clipped highlight of another object than its region's.
+    /// The pixel is the clipped highlight of another object than the object of its region.
     OtherObject,
-    /// Its body reflection has the light's color: gray, white and metal.
+    /// The body reflection of the pixel's region has the light's color: gray, white and metal.
     Collinear,
     /// Every band is clipped.
     ClippedAllBands,
 }
 
 impl Reason {
-    /// All of them, in their order.
+    /// All reasons, in the order of their definition.
     pub const ALL: [Self; 9] = [
         Self::Explained,
         Self::Shadow,
@@ -55,7 +56,7 @@ impl Reason {
         Self::ClippedAllBands,
     ];
 
-    /// Its name in reports and tables.
+    /// Name of the reason in reports and tables.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Explained => "explained",
@@ -71,21 +72,21 @@ impl Reason {
     }
 }
 
-/// What reasons are found from.
+/// The data from which the reasons are derived.
 pub struct ReasonInput<'a> {
-    /// Which pixels are believed.
+    /// The marks of each pixel.
     pub masks: &'a Masks,
     /// Region of each pixel.
     pub labels: &'a LabelMap,
-    /// Where regions' planes were used.
+    /// The pixels that the skewed T of their region explains.
     pub explained_mask: &'a Mask,
-    /// What each pixel is to its region.
+    /// The kind of each pixel.
     pub kinds: &'a Raster<PixelKind>,
     /// Distance from the plane, counts.
     pub noise: &'a Raster<f32>,
     /// The regions.
     pub regions: &'a [RegionReflection],
-    /// The light, unit.
+    /// Color of the light, unit; none where the light is not known.
     pub light: Option<[f64; 3]>,
     /// Standard deviation of a band's noise, counts.
     pub sigma: f32,
@@ -105,11 +106,12 @@ impl ReasonInput<'_> {
         reasons
     }
 
+    /// The reason that applies to a region as a whole.
     fn of_region(&self, region: &RegionReflection) -> Reason {
         let collinear =
             |light: [f64; 3]| axis_angle_deg(&Vec3::from(region.body), &Vec3::from(light)) < COLLINEAR_DEG;
         let only_textured = f64::from(self.sigma) * POOR_FIT >= region.fit_rms_counts;
-        // A print of several colors lies off its plane as well: what it is says more than what it does.
+        // A print of several colors lies off its plane as well; texture is the more specific reason.
         if !region.model_fits && (only_textured || region.texture > TEXTURE_CORRELATION) {
             Reason::Texture
         } else if !region.model_fits {
@@ -121,6 +123,7 @@ impl ReasonInput<'_> {
         }
     }
 
+    /// The reason of one pixel. `of_region`: the reasons of the regions; region `id` is at index `id − 1`.
     fn of_pixel(&self, pixel: usize, of_region: &[Reason]) -> Reason {
         let label = self.labels[pixel];
         if self.masks.dark(pixel) && label == UNASSIGNED {
@@ -142,7 +145,7 @@ impl ReasonInput<'_> {
         }
     }
 
-    /// Whether a neighbor is of a region, and another is not of the same.
+    /// Whether the pixel's neighbors have different labels and at least one of them is in a region.
     fn at_a_border(&self, pixel: usize) -> bool {
         let mut first = None;
         let (mut assigned, mut differ) = (false, false);
@@ -161,7 +164,7 @@ mod tests {
     use crate::photo::{LinearImage, MaskLimits};
 
     #[test]
-    fn dark_lit_mixed_and_clipped_pixels_are_told_apart() {
+    fn dark_lit_mixed_and_clipped_pixels_have_different_reasons() {
         let row = [[5.0; 3], [80.0; 3], [90.0; 3], [255.0; 3], [90.0; 3], [90.0; 3], [90.0; 3]];
         let image = LinearImage::new(Raster::from_vec(7, 1, row.to_vec()).unwrap(), Some(255.0));
         let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 9 };

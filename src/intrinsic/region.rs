@@ -1,4 +1,4 @@
-//! What is told of each region, in numbers and in words.
+//! The report of each region: figures and warnings.
 
 use super::confidence::of_region;
 use super::region_plan::RegionPlan;
@@ -9,21 +9,21 @@ use crate::reflection::MIN_ANGLE_DEG;
 use crate::segment::{AnalysisInput, POOR_FIT, Pixels};
 use crate::trace::PixelKind;
 
-/// Below this angle body and surface reflection are told apart with noise amplified more than four times, degrees.
+/// Below this angle between body and surface vector the split amplifies noise more than four times, degrees.
 const SMALL_ANGLE_DEG: f64 = 14.0;
 
-/// A region, split.
+/// A region and the result of its split.
 pub struct RegionSummary<'a> {
-    /// Its label, from 1.
+    /// Label of the region, from 1.
     pub id: u16,
-    /// Its pixels.
+    /// The region's pixels.
     pub pixels: Pixels<'a>,
-    /// What each pixel of the picture is to its region.
+    /// The kind of each pixel of the picture.
     pub kinds: &'a Raster<PixelKind>,
 }
 
 impl RegionSummary<'_> {
-    /// What is known of the region.
+    /// The report of the region, which was split by `plan` and touches the regions `neighbors`.
     pub fn report(&self, input: &AnalysisInput, plan: &RegionPlan, neighbors: Vec<u16>) -> RegionReflection {
         let pixels = self.pixels;
         let count = |test: &dyn Fn(usize) -> bool| pixels.iter().filter(|&p| test(p as usize)).count();
@@ -58,8 +58,8 @@ impl RegionSummary<'_> {
         }
     }
 
-    /// The region's highlight lines and their pixels: undistorted ones belong to the nearest line, others to the line of the
-    /// highlight that they lie in or near.
+    /// The region's highlight lines and their pixels. An undistorted pixel belongs to the line nearest in color, another pixel to
+    /// the line of the highlight nearest in the picture.
     fn branches(
         &self,
         input: &AnalysisInput,
@@ -136,7 +136,7 @@ impl RegionSummary<'_> {
     }
 }
 
-/// What is said of highlights on different shades, `bodies` counts each; none for fewer than two.
+/// The warning about highlights on different amounts of body reflection `bodies`, counts; none for fewer than two.
 fn several_highlights(bodies: &[f32]) -> Option<String> {
     let (last, others) = bodies.split_last().filter(|(_, others)| !others.is_empty())?;
     let others: Vec<String> = others.iter().map(|body| format!("{body:.0}")).collect();

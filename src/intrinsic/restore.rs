@@ -1,11 +1,12 @@
-//! Section 6: the components of clipped and bloomed pixels, from the bands that still tell the truth.
+//! Section 6: the components of clipped and bloomed pixels, from their undistorted bands.
 //!
-//! The paper assumes that the smallest band does, and takes the pixel on the matte or highlight line with that value.
+//! The paper assumes that the smallest band is undistorted, and takes the color on the matte or highlight line with that value.
 //!
-//! Refined (`restore_prior`, 22 → 31 dB on clipped pixels): a band is good when none of the 8 neighbors and not the pixel
-//! itself clips there; where no band is, an unclipped one has to do. All good bands count, with the body reflection of the
-//! surroundings as prior (standard deviation 10 %): the most probable m_b and m_s. One good band is the paper's rule.
-//! Where every band clips, m_b is the prior and m_s the least that clips as seen; such pixels are flagged as lost.
+//! Refined (`restore_prior`, 22 → 31 dB on clipped pixels): a band is good when neither the pixel nor any of
+//! the 8 neighbors clips there; where no band is good, the unclipped bands are used. The result is the most probable m_b and m_s
+//! given all good bands and the body reflection of the surroundings as prior (standard deviation 10 %). With one good band, the
+//! result is that of the paper's rule. Where every band clips, m_b is the prior and m_s the least amount that reaches the clipped
+//! values; such pixels are marked as lost.
 
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Raster};
@@ -14,15 +15,15 @@ use crate::reflection::{Components, HighlightTest, ReflectionTransform};
 /// Relative standard deviation of the prior for body reflection.
 const PRIOR_SD: f32 = 0.1;
 
-/// What restoration needs to know of the picture.
+/// The picture whose distorted pixels are restored.
 pub struct Distorted<'a> {
     /// Colors, counts.
     pub pixels: &'a Raster<[f32; 3]>,
-    /// Which are distorted.
+    /// The marks of each pixel: distorted pixels are restored.
     pub masks: &'a Masks,
     /// Region of each pixel.
     pub labels: &'a LabelMap,
-    /// A band at or above it is clipped, counts.
+    /// Value from which on each band is clipped, counts.
     pub clip_thresholds: [f32; 3],
     /// Standard deviation of the noise, counts.
     pub sigma: f32,
@@ -31,14 +32,15 @@ pub struct Distorted<'a> {
 /// A restored pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Restored {
-    /// Its components; no noise.
+    /// The components; ε is 0.
     pub components: Components,
-    /// Whether no band could be believed.
+    /// Whether every band is clipped.
     pub lost: bool,
 }
 
 impl Distorted<'_> {
-    /// The paper's rule: the point of matte or highlight line that has the pixel's value in its smallest band.
+    /// The paper's rule: the point of the matte or highlight line that has the pixel's value in the pixel's smallest band.
+    /// `start_body`: amount of body reflection where the highlight line starts, counts.
     pub fn smallest_band(
         &self,
         pixel: usize,
@@ -62,7 +64,7 @@ impl Distorted<'_> {
         Restored { components, lost }
     }
 
-    /// The most probable components, given the good bands and the body reflection around.
+    /// The most probable components, given the good bands and the amount of body reflection around the pixel, `prior_body`, counts.
     pub fn most_probable(&self, pixel: usize, transform: &ReflectionTransform, prior_body: f32) -> Restored {
         let color = self.pixels[pixel];
         let good = self.good_bands(pixel);
@@ -74,7 +76,7 @@ impl Distorted<'_> {
         }
         let variance = self.sigma * self.sigma;
         let prior = 1.0 / (PRIOR_SD * prior_body).max(1.0).powi(2);
-        // Surface reflection is unknown by as much as a picture can hold, which keeps one band solvable.
+        // The prior of surface reflection has a standard deviation of 1000 counts, so that one good band is enough.
         let (mut bb, mut bs, mut ss) = (prior, 0.0, 1e-6);
         let (mut rb, mut rs) = (prior * prior_body, 0.0);
         for j in (0..3).filter(|&j| good[j]) {
@@ -94,7 +96,8 @@ impl Distorted<'_> {
         Restored { components: Components { body: components.body.max(0.0), ..components }, lost: false }
     }
 
-    /// Bands in which neither the pixel nor any of its 8 neighbors clips; without one, those in which the pixel does not.
+    /// The bands in which neither the pixel nor any of its 8 neighbors clips; where there is none, the bands in which the pixel
+    /// itself does not clip.
     fn good_bands(&self, pixel: usize) -> [bool; 3] {
         let mut good = [true; 3];
         for near in self.pixels.around(pixel) {
@@ -108,13 +111,14 @@ impl Distorted<'_> {
         good
     }
 
-    /// Body reflection to expect at each distorted pixel of a region: that of its undistorted surroundings (by `body`, from
-    /// their colors), carried inward ring by ring. NaN where no undistorted pixel reaches. `distorted` is row-major.
+    /// The amount of body reflection around each distorted pixel of a region, counts: the mean of the neighbors in the region,
+    /// propagated inward ring by ring. `body` computes the amount of an undistorted color. NaN where no undistorted pixel of the
+    /// region is connected. `distorted`: the distorted pixels of the region, ascending.
     pub fn priors(&self, distorted: &[u32], body: impl Fn([f32; 3]) -> f32) -> Vec<f32> {
         let mut priors = vec![f32::NAN; distorted.len()];
         let (Some(&first), Some(&last)) = (distorted.first(), distorted.last()) else { return priors };
         let width = self.pixels.width();
-        // Place in `distorted` of each pixel in their rows; 0 for none, so places count from 1.
+        // Index in `distorted`, plus 1, of each pixel from the first row of these on; 0 for other pixels.
         let top = first as usize / width * width;
         let mut place = vec![0u32; last as usize + 1 - top];
         for (index, &pixel) in distorted.iter().enumerate() {
@@ -152,7 +156,7 @@ impl Distorted<'_> {
         priors
     }
 
-    /// Mean of what is known of the pixels around one, in its region; NaN where nothing is.
+    /// Mean of the values that are `known` among the 8 neighbors of a pixel in its region; NaN where none is.
     fn mean_around(&self, pixel: usize, known: impl Fn(usize) -> f32) -> f32 {
         let region = self.labels[pixel];
         let inside = self.pixels.around(pixel).filter(|&near| near != pixel && self.labels[near] == region);
@@ -160,7 +164,7 @@ impl Distorted<'_> {
             .map(known)
             .filter(|value| !value.is_nan())
             .fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
-        // 0 / 0 is NaN, as promised.
+        // 0 / 0 is NaN: no neighbor is known.
         sum / count
     }
 }
@@ -173,7 +177,7 @@ mod tests {
 
     const CLIP: f32 = 240.0;
 
-    /// Restores the middle of nine pixels of one color, with a body reflection of 100 counts around it.
+    /// The restored center of nine pixels of one color, where the prior of body reflection is 100 counts.
     fn restore(color: [f32; 3], transform: &ReflectionTransform) -> Restored {
         let image = LinearImage::new(Raster::filled(3, 3, color), Some(255.0));
         let limits = MaskLimits { min_intensity: 23.0, clip_threshold: f64::from(CLIP), bloom_density: 1 };
@@ -211,20 +215,23 @@ mod tests {
         let made = t.join(Components { body: 130.0, surface: 180.0, noise: 0.0 });
         let Restored { components, lost } = restore([255.0, made[1], made[2]], &t);
         assert!(made[1] < CLIP && made[2] < CLIP && !lost, "{made:?}");
-        // Two bands know the body to 2 counts, the surroundings to 10.
+        // Two good bands determine body reflection to 2 counts, the prior to 10.
         assert!((components.body - 130.0).abs() < 3.0, "{components:?}");
         assert!((components.surface - 180.0).abs() < 3.0, "{components:?}");
     }
 
     #[test]
-    fn without_a_good_band_it_is_lost_and_clips_as_seen() {
+    fn without_a_good_band_a_pixel_is_lost_and_reaches_the_clipped_values() {
         let t = transform();
         let Restored { components, lost } = restore([255.0; 3], &t);
         assert!(lost);
         assert!((components.body - 100.0).abs() < 1e-3);
         let seen = t.join(components);
         let darkest = seen.into_iter().fold(f32::MAX, f32::min);
-        assert!((darkest - 255.0).abs() < 0.1, "the least surface reflection that clips as seen: {seen:?}");
+        assert!(
+            (darkest - 255.0).abs() < 0.1,
+            "the least surface reflection that reaches the clipped values: {seen:?}"
+        );
     }
 
     #[test]

@@ -1,7 +1,7 @@
-//! Section 6: a region's reflection vectors, fitted once more to what the segmentation found.
+//! Section 6: a region's reflection vectors, fitted again to the pixels of the segmented region.
 //!
 //! The paper labels every pixel as matte or highlight by the nearer line and refits both lines. The first eigenvector of
-//! matte pixels need not pass black, and faint surface reflection pulls it inward.
+//! the matte pixels does not in general pass through black, and faint surface reflection turns the eigenvector inward.
 //!
 //! Refined: the body vector is the direction from black in which the matte pixels lie, found from the outer edge of the
 //! cluster inward by mean shift (`edge_body`, rough surfaces .87° → .54°); the surface vector is the scene's illuminant
@@ -23,9 +23,9 @@ pub struct Vectors {
     pub matte_mean: Vec3,
 }
 
-/// Half width of the band around the matte line that the mean shift looks at, in σ.
+/// Half width of the band around the matte line whose pixels the mean shift uses, standard deviations of the noise.
 const BANDWIDTH: f64 = 2.5;
-/// Pixels that a fit looks at, evenly chosen.
+/// Most pixels of a fit, evenly chosen.
 const FIT_SAMPLES: usize = 6000;
 
 /// Fits body and surface vector to the region's undistorted pixels.
@@ -51,13 +51,14 @@ pub fn fit_vectors(input: &AnalysisInput, hypothesis: &PlanarHypothesis, pixels:
     Vectors { body, surface, matte_mean }
 }
 
-/// Mean color of the region's matte pixels, counts, where `test` tells its highlights; none without a matte pixel.
+/// Mean color of the region's matte pixels, counts; none without a matte pixel. `test` recognizes highlight pixels.
 pub fn matte_mean(input: &AnalysisInput, pixels: Pixels, test: &HighlightTest) -> Option<Vec3> {
     let mut matte = undistorted(input.pixels.as_slice(), input.masks, pixels);
     matte.retain(|&color| !test.is_highlight(color));
     (!matte.is_empty()).then(|| matte.into_iter().collect::<Moments>().mean())
 }
 
+/// Colors of at most [`FIT_SAMPLES`] usable pixels.
 fn undistorted(image: &[[f32; 3]], masks: &Masks, pixels: Pixels) -> Vec<[f32; 3]> {
     let usable = pixels.sample(FIT_SAMPLES).filter(|&pixel| masks.usable(pixel as usize));
     usable.map(|pixel| image[pixel as usize]).collect()
@@ -65,9 +66,9 @@ fn undistorted(image: &[[f32; 3]], masks: &Masks, pixels: Pixels) -> Vec<[f32; 3
 
 /// The direction from black along which the matte pixels lie.
 ///
-/// In coordinates along the matte line, `inward` in the plane and `normal` to it, the body line through black has a slope
-/// in the plane and one across. Both start from the outer edge of the cluster, where no surface reflection reaches, and
-/// shift to the mean of the pixels within the bandwidth until they rest.
+/// In the coordinates of the matte line's direction, the direction inward in the plane and the normal of the plane, the body line
+/// through black has two slopes: in the plane and across the plane. The mean shift starts at the outer edge of the cluster, where
+/// no surface reflection is, and moves both slopes to the mean of the pixels within the bandwidth until the slopes are stable.
 fn body_through_black(hypothesis: &PlanarHypothesis, colors: &[[f32; 3]], sigma: f64) -> Vec3 {
     let along_axis = hypothesis.matte.direction;
     let inward = hypothesis.plane.map_or_else(
@@ -119,6 +120,7 @@ fn outer_edge(points: &[[f64; 3]]) -> Option<f64> {
     (!slopes.is_empty()).then(|| *slopes.select_nth_unstable_by(rank, f64::total_cmp).1)
 }
 
+/// A unit vector perpendicular to `direction`.
 fn any_across(direction: &Vec3) -> Vec3 {
     let axis = if direction.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() };
     direction.cross(&axis).normalize()
@@ -139,8 +141,8 @@ mod tests {
     const MATTE_PX: usize = 600;
     const HIGHLIGHT_PX: usize = 200;
 
-    /// A row of pixels of a skewed T: a matte ramp, then a highlight that starts at 0.8 of it. Noise is a fixed zigzag of
-    /// `noise` counts across the plane.
+    /// A row of pixels of a skewed T: a matte ramp, then a highlight that starts at 0.8 of the ramp. Noise alternates between
+    /// ±`noise` counts across the plane. Returns the amounts of body and surface reflection, and the image.
     fn skewed_t(body: &Vec3, surface: &Vec3, noise: f64) -> (Vec<[f64; 2]>, LinearImage) {
         let matte = (0..MATTE_PX).map(|i| [30.0 + 120.0 * i as f64 / MATTE_PX as f64, 0.0]);
         let highlight = (1..=HIGHLIGHT_PX).map(|i| [120.0, 90.0 * i as f64 / HIGHLIGHT_PX as f64]);
@@ -154,7 +156,7 @@ mod tests {
         (amounts, image)
     }
 
-    fn numbers() -> UsedParams {
+    fn used_params() -> UsedParams {
         UsedParams { clip_threshold: f64::INFINITY, ..UsedParams::paper() }
     }
 
@@ -169,11 +171,11 @@ mod tests {
         ) {
             prop_assume!(axis_angle_deg(&body, &surface) > 15.0);
             let (amounts, image) = skewed_t(&body, &surface, 0.8);
-            let used = numbers();
+            let used = used_params();
             let limits = MaskLimits { min_intensity: 23.0, clip_threshold: f64::INFINITY, bloom_density: 9 };
             let masks = Masks::new(&image, &limits);
             let input = AnalysisInput::new(&image, &masks, &used, Params::default().refinements());
-            // The segmentation's line is a little off, as a fit to noise would be.
+            // The segmentation's line differs a little from the true one, like a fit to noise.
             let matte = Line::new(body * 90.0, body + Vec3::new(off, -off, off / 2.0));
             let plane = DichromaticPlane::new(&matte, &surface);
             let start = body * 120.0;
@@ -188,7 +190,7 @@ mod tests {
             prop_assert!(axis_angle_deg(&found.plane_normal.unwrap().into(), &normal) < 0.5);
             for (pixel, [b, s]) in amounts.iter().enumerate() {
                 let sine = body.cross(&surface).norm();
-                // Surface reflection below the noise counts as none.
+                // Surface reflection below the noise is taken for none.
                 if s * sine > 2.0 * used.camera_noise || *s == 0.0 {
                     let (mb, ms) = (vec3(result.body[pixel]).norm(), vec3(result.surface[pixel]).norm());
                     prop_assert!((mb - b).abs() < 1.0 + 0.8 / sine, "{mb} {b}");

@@ -1,8 +1,8 @@
 //! Rule `clip_repair`: the clipped core of a highlight takes the body reflection of the pixels around it.
 //!
 //! A blob of clipped pixels is filled where at least 40 % of the ring of 2 px around the blob are highlight and surface
-//! reflection rises towards the blob. The fill is harmonic: the smoothest that is continuous with the ring. Other clipped pixels (white paper, the sky) stay as
-//! they are. Worth 8 dB inside highlights of printed scenes, nothing elsewhere.
+//! reflection rises towards the blob. The fill is harmonic: the smoothest that is continuous with the ring. Other
+//! clipped pixels (white paper, the sky) do not change. Worth 8 dB inside highlights of printed scenes, nothing elsewhere.
 
 use crate::intrinsic::images::Images;
 use crate::raster::{ComponentSearch, Connectivity, Mask, Raster};
