@@ -1,4 +1,4 @@
-//! Numbers as `OpenEXR`: 32-bit floats, ZIP in blocks of 16 lines.
+//! Writes pictures as `OpenEXR` with 32-bit floats, compressed by ZIP in blocks of 16 lines.
 
 use super::ExportError;
 use crate::raster::Raster;
@@ -7,16 +7,16 @@ use exr::prelude::{
 };
 use std::path::Path;
 
-/// Counts that 1.0 stands for.
+/// Counts that the value 1.0 stands for.
 const COUNTS_PER_UNIT: f32 = 255.0;
 
-/// Channels R, G and B from counts.
+/// Writes counts as channels R, G and B.
 pub(super) fn write_rgb(path: &Path, counts: &Raster<[f32; 3]>) -> Result<(), ExportError> {
     let band = |band: usize| counts.as_slice().iter().map(|c| c[band] / COUNTS_PER_UNIT).collect();
     write(path, (counts.width(), counts.height()), [("R", band(0)), ("G", band(1)), ("B", band(2))])
 }
 
-/// The single channel Y from counts.
+/// Writes counts as the single channel Y.
 pub(super) fn write_single(path: &Path, counts: &Raster<f32>) -> Result<(), ExportError> {
     let values = counts.as_slice().iter().map(|v| v / COUNTS_PER_UNIT).collect();
     write(path, (counts.width(), counts.height()), [("Y", values)])

@@ -1,4 +1,4 @@
-//! The photograph without its highlights, in the format of the photograph's own file.
+//! Writes the photograph without highlights, in the format of the photograph's file.
 
 mod container;
 
@@ -7,7 +7,7 @@ use crate::photo::{AlphaKind, Layout, Photo, Samples, nearest_code};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
-/// The matte picture could not be written.
+/// Why the matte picture could not be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MatteError {
@@ -37,13 +37,13 @@ pub enum MatteError {
     },
 }
 
-/// Writes the body reflection and a share `keep_surface` (0…1, else the nearer of these) of all else to `folder` as `matte.jpg` if the photograph
-/// came as JPEG, `matte.tif` if as TIFF or floats, and `matte.png` otherwise; returns its path.
+/// Writes the body reflection and a share `keep_surface` (clamped to 0…1) of the other light to `folder`, and returns the path of
+/// the file: `matte.jpg` for a JPEG photograph, `matte.tif` for a TIFF or a photograph with floats, otherwise `matte.png`.
 ///
-/// Tone curve, depth, profile and alpha are the photograph's own, with these exceptions: floats are written linear and
+/// Tone curve, depth, profile and alpha are those of the photograph, with these exceptions: floats are written linear and
 /// 32 bits wide, samples of less than 8 bits and palettes as 8 bits, and a PNM whose maximum fits no PNG as 16 bits.
-/// At 0 the picture is `intrinsic.body`, at 1 the photograph again, but for restored pixels: they are body and surface as
-/// restored, as far as the file can hold them.
+/// At 0 the picture is `intrinsic.body`, at 1 it is the photograph, except for restored pixels, which are then the sum of restored
+/// body and surface reflection, limited to the range of the file.
 /// A pixel whose color equals the photograph keeps its samples exactly. A gray photograph stays gray if the body is.
 ///
 /// # Errors
@@ -84,13 +84,13 @@ pub fn matte_bytes(
     encoded.map(|bytes| (extension, bytes)).map_err(|reason| MatteError::Encode { path, reason })
 }
 
-/// Samples for a file, with their bands.
+/// Samples for a file, and their layout.
 struct Picture {
     layout: Layout,
     samples: Samples,
 }
 
-/// The picture in the photograph's own samples.
+/// The picture in the sample type of the photograph.
 fn coded(photo: &Photo, intrinsic: &Intrinsic, keep_surface: f32) -> Picture {
     let (source, curves, full_scale) = (&photo.source, &photo.encoding.curves, photo.full_scale);
     let max = source.max.unwrap_or(1);
@@ -120,8 +120,9 @@ fn coded(photo: &Photo, intrinsic: &Intrinsic, keep_surface: f32) -> Picture {
     }
 }
 
-/// A sample type, and when two samples are the same color.
+/// A type of sample that can be compared.
 trait Sample: Copy + Send + Sync {
+    /// Whether two samples are the same color.
     fn same(self, other: Self) -> bool;
 }
 
@@ -138,7 +139,7 @@ macro_rules! integer_sample {
 integer_sample!(u8, u16, u32);
 
 impl Sample for f32 {
-    /// Up to what arithmetic leaves behind; a masked pixel's NaN is like any other.
+    /// Whether two floats differ by rounding only; NaN, the value of a masked pixel, is the same as any other value.
     fn same(self, other: Self) -> bool {
         let apart = (self - other).abs() > 1e-5 * self.abs().max(other.abs());
         !apart
@@ -154,13 +155,13 @@ struct Matte<'a> {
     intrinsic: &'a Intrinsic,
     /// Share of the surface reflection to keep, 0…1.
     keep_surface: f32,
-    /// Whether pixels that did not change keep their samples as they are.
+    /// Whether unchanged pixels keep the samples of the photograph.
     keep_unchanged: bool,
 }
 
 impl Matte<'_> {
-    /// What is written of a pixel, counts. Between body and photograph an undistorted pixel keeps of its noise the share
-    /// that it keeps of its surface reflection.
+    /// The color that is written for a pixel, counts. An undistorted pixel keeps the same share of noise as of surface
+    /// reflection.
     fn color(&self, index: usize) -> [f32; 3] {
         let (body, share) = (self.intrinsic.body[index], self.keep_surface);
         if share <= 0.0 {
@@ -174,6 +175,8 @@ impl Matte<'_> {
         std::array::from_fn(|band| (1.0 - share) * body[band] + share * photo[band])
     }
 
+    /// The picture in the sample type `T`. `code` makes a sample from a band and counts, `opacity` a share from an alpha sample, and
+    /// `wrap` the samples of a picture.
     fn picture<T: Sample + Default>(
         &self,
         samples: &[T],
@@ -200,14 +203,15 @@ impl Matte<'_> {
             layout.is_gray() && colored.chunks_exact(written).all(|p| p[0].same(p[1]) && p[1].same(p[2]));
         if gray {
             let samples = colored.chunks_exact(written).flat_map(|pixel| &pixel[2..]).copied().collect();
-            // The last band and alpha are what a gray pixel holds.
+            // A gray pixel has the last of the three equal bands, and alpha.
             return Picture { layout, samples: wrap(samples) };
         }
         Picture { layout: layout.colored(), samples: wrap(colored) }
     }
 
-    /// Pixel `index`, which the file holds as `stored`, as three bands and alpha, if there is one.
-    #[allow(clippy::float_cmp, reason = "only what is exactly the same is unchanged")]
+    /// Writes pixel `index` to `pixel` as three bands and alpha, if the layout has alpha. `stored`: the pixel's samples in the
+    /// photograph.
+    #[allow(clippy::float_cmp, reason = "only a color that is exactly the same is unchanged")]
     fn write_pixel<T: Sample>(
         &self,
         index: usize,

@@ -1,7 +1,7 @@
 //! Results as files.
 //!
-//! A result is a folder, and it appears whole or not at all: [`Staging`] collects its files in a hidden sibling
-//! and renames that into place. Floats are linear, 1.0 = 255 counts; `noise.exr` has the one channel `Y`.
+//! A result is a folder. [`Staging`] collects the files in a hidden folder beside the target and renames the hidden folder, so
+//! that a target folder is always complete. Floats are linear, 1.0 = 255 counts; `noise.exr` has the one channel `Y`.
 
 mod floats;
 mod matte;
@@ -15,13 +15,14 @@ mod staging;
 mod whole;
 
 pub use matte::{MatteError, matte_bytes, write_matte};
-pub use palette::Palette;
+pub(crate) use palette::Palette;
 pub use pictures::write_pictures;
-pub use png::{png_of_gray, png_of_rgba};
+pub(crate) use png::{png_of_gray, png_of_rgba};
 pub use result::{ResultError, is_result_folder, read_report};
-pub use single::write_file;
-pub use stages::colored;
-pub use staging::{Staging, check_target};
+pub(crate) use single::write_file;
+pub(crate) use stages::colored;
+use staging::Staging;
+pub use staging::check_target;
 pub use whole::{Watch, WholeResult};
 
 use std::path::PathBuf;
@@ -65,10 +66,10 @@ pub enum ExportError {
     /// The photograph without its highlights could not be written.
     #[error(transparent)]
     Matte(#[from] MatteError),
-    /// The observer of the writing stopped it.
+    /// The observer stopped the writing.
     #[error("stopped before all was written")]
     Stopped,
-    /// The target folder exists and is no earlier result.
+    /// The target folder exists and is not an earlier result.
     #[error("{} exists and is not an earlier result: --force replaces it", .0.display())]
     Occupied(PathBuf),
     /// The target exists and is a file.

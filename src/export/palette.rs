@@ -1,21 +1,21 @@
-//! Colors that tell regions apart, for readers with and without red and green cones alike.
+//! Colors by which regions can be distinguished, with normal vision and with red-green color blindness.
 //!
-//! Hues are spread evenly in OKLCH (Ottosson 2020) on three levels of lightness: lightness is what remains where hue
-//! fails. How far two colors are apart is the smallest of their `OKLab` distances as seen with normal vision, with
-//! protanopia and with deuteranopia (Viénot, Brettel & Mollon 1999).
+//! Hues are spread evenly in OKLCH (Ottosson 2020) on three levels of lightness, because lightness distinguishes colors whose
+//! hues a reader cannot distinguish. The distance of two colors is the smallest of their `OKLab` distances with normal vision,
+//! with protanopia and with deuteranopia (Viénot, Brettel & Mollon 1999).
 
 use super::png::code_from_linear;
 
-/// Levels of lightness with the largest chroma at which every hue still lies inside sRGB, as the tests check.
+/// Levels of lightness, each with the largest chroma at which every hue lies inside sRGB; a test checks this.
 const LEVELS: [(f32, f32); 3] = [(0.74, 0.12), (0.50, 0.085), (0.88, 0.058)];
 const HUES: usize = 8;
-/// Far apart first, so that a picture of few regions uses the whole circle.
+/// Order of the hues: distant hues first, so that a picture of few regions uses the whole circle.
 const HUE_ORDER: [u8; HUES] = [0, 4, 2, 6, 1, 5, 3, 7];
 const COLORS: usize = LEVELS.len() * HUES;
-/// `OKLab` distance from which on two neighbors are easily told apart; beyond it the rarer color is preferred.
-const EASY: f32 = 0.16;
+/// `OKLab` distance from which on two colors are easily distinguished; among such colors the rarest is preferred.
+const EASY_DISTANCE: f32 = 0.16;
 
-/// Linear sRGB as a protanope and a deuteranope see it.
+/// Matrices from linear sRGB to linear sRGB as seen with protanopia and with deuteranopia.
 const CONE_DEFICITS: [[[f32; 3]; 3]; 2] = [
     [[0.112_38, 0.887_62, 0.0], [0.112_38, 0.887_62, 0.0], [0.004_01, -0.004_01, 1.0]],
     [[0.292_75, 0.707_25, 0.0], [0.292_75, 0.707_25, 0.0], [-0.022_34, 0.022_34, 1.0]],
@@ -34,19 +34,19 @@ impl Default for Palette {
 }
 
 impl Palette {
-    /// Computes the colors and how far they are apart.
+    /// Computes the colors and their distances.
     pub fn new() -> Self {
         let linear: [[f32; 3]; COLORS] = std::array::from_fn(|i| {
-            // Eight and three have no common divisor: every hue meets every level.
+            // The numbers of hues and levels have no common divisor, so that every hue occurs on every level.
             let level = i % LEVELS.len();
             let (lightness, chroma) = LEVELS[level];
-            // Each level's hues lie between those of the others.
+            // The hues of a level lie between the hues of the other levels.
             let hue = HUE_ORDER[i % HUES] as f32 + level as f32 / LEVELS.len() as f32;
             linear_srgb_from_oklch(lightness, chroma, std::f32::consts::TAU * hue / HUES as f32)
         });
-        let seen = linear.map(as_seen);
+        let perceived = linear.map(perceived);
         let distance = |a: usize, b: usize| {
-            (0..3).map(|eye| euclidean(seen[a][eye], seen[b][eye])).fold(f32::INFINITY, f32::min)
+            (0..3).map(|eye| euclidean(perceived[a][eye], perceived[b][eye])).fold(f32::INFINITY, f32::min)
         };
         Self {
             colors: linear.map(|color| color.map(code_from_linear)),
@@ -59,22 +59,23 @@ impl Palette {
         &self.colors
     }
 
-    /// One of the colors as 8-bit sRGB.
+    /// The color at `index` as 8-bit sRGB.
     pub fn color(&self, index: u8) -> [u8; 3] {
         self.colors[usize::from(index)]
     }
 
-    /// The color's index; none where it is not one of these.
+    /// Index of an 8-bit sRGB color; none for a color that is not in the palette.
     pub fn index_of(&self, color: [u8; 3]) -> Option<u8> {
         self.colors.iter().position(|known| *known == color).map(|index| index as u8)
     }
 
-    /// A color for each label, in ascending order: far from those of its neighbors, and the rarest of these.
+    /// The index of a color for each label, chosen label by label: a color far from the colors of the label's neighbors, and the
+    /// least used of these. `neighbors`: the labels adjacent to each label.
     pub fn assign(&self, neighbors: &[Vec<u32>]) -> Vec<u8> {
         self.assign_keeping(neighbors, &[])
     }
 
-    /// [`Self::assign`], where the labels that have a color in `kept` keep it and the others stay clear of it.
+    /// As [`Self::assign`], but labels with an index in `kept` keep that color, and their neighbors get distant colors.
     pub fn assign_keeping(&self, neighbors: &[Vec<u32>], kept: &[Option<u8>]) -> Vec<u8> {
         let kept = |label: usize| kept.get(label).copied().flatten();
         let mut chosen: Vec<u8> = (0..neighbors.len()).map(|label| kept(label).unwrap_or(0)).collect();
@@ -84,7 +85,7 @@ impl Palette {
         }
         for label in (1..neighbors.len()).filter(|&label| kept(label).is_none()) {
             let settled = |other: usize| other < label || kept(other).is_some();
-            let mut clearance = [EASY; COLORS];
+            let mut clearance = [EASY_DISTANCE; COLORS];
             for &other in neighbors[label].iter().filter(|&&other| settled(other as usize)) {
                 let taken = &self.distances[usize::from(chosen[other as usize])];
                 for (clearance, distance) in clearance.iter_mut().zip(taken) {
@@ -103,7 +104,7 @@ impl Palette {
 }
 
 /// `OKLab` coordinates with normal vision, protanopia and deuteranopia.
-fn as_seen(linear: [f32; 3]) -> [[f32; 3]; 3] {
+fn perceived(linear: [f32; 3]) -> [[f32; 3]; 3] {
     let [protan, deutan] = CONE_DEFICITS.map(|m| oklab_from_linear_srgb(apply(&m, linear)));
     [oklab_from_linear_srgb(linear), protan, deutan]
 }
@@ -181,8 +182,8 @@ mod tests {
     }
 
     #[test]
-    fn neighbors_are_easily_told_apart_by_all_eyes() {
-        // Four labels that all touch each other, as far as a plane allows, and a ring around them.
+    fn neighbors_are_distinguishable_with_normal_vision_and_color_blindness() {
+        // Four labels that all touch each other (the most that is possible in a plane), and one that touches three of these.
         let mut neighbors = vec![Vec::new(); 6];
         for a in 1..=4u32 {
             neighbors[a as usize] = (1..=4).filter(|&b| b != a).collect();
@@ -199,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn kept_colors_stay_and_their_neighbors_stay_clear_of_them() {
+    fn kept_colors_stay_and_their_neighbors_get_distant_colors() {
         let palette = Palette::new();
         let neighbors = [vec![], vec![2, 3], vec![1, 3], vec![1, 2], vec![]];
         let colors = palette.assign_keeping(&neighbors, &[None, None, None, Some(7), None]);

@@ -1,4 +1,4 @@
-//! The pictures of a result folder.
+//! Writes the pictures of a result folder.
 
 use super::png::code_from_linear;
 use super::{ExportError, floats, png, stages};
@@ -8,18 +8,18 @@ use crate::raster::{LabelMap, Raster};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// What the pictures are made from.
-struct Subject<'a> {
+/// The data from which the pictures are made.
+struct PictureInput<'a> {
     image: &'a LinearImage,
     analysis: &'a Analysis,
 }
 
-type Writer = fn(&Subject, &Path) -> Result<(), ExportError>;
+type Writer = fn(&PictureInput, &Path) -> Result<(), ExportError>;
 
-/// Pictures in a result folder, the matte photograph apart.
+/// Number of pictures in a result folder, without the matte photograph.
 pub(super) const PICTURE_COUNT: usize = 14;
 
-/// Every picture by its name. The largest come first, so that none of them is started last.
+/// Name and writer of every picture. The largest pictures come first, so that no large picture is started last.
 const PICTURES: [(&str, Writer); PICTURE_COUNT] = [
     ("body.exr", |s, path| floats::write_rgb(path, &s.analysis.intrinsic.body)),
     ("residual.exr", |s, path| floats::write_rgb(path, &residual(s))),
@@ -32,12 +32,12 @@ const PICTURES: [(&str, Writer); PICTURE_COUNT] = [
     ("regions.png", |s, path| png::write_labels(path, &s.analysis.finals.labels)),
     ("stage-1-classification.png", |s, path| png::write_rgb(path, &stages::classification(s.analysis))),
     ("stage-2-merged.png", |s, path| png::write_rgb(path, &stages::colored(&s.analysis.areas))),
-    ("stage-3-linear.png", |s, path| png::write_rgb(path, &like_the_last(s, &s.analysis.matte.labels))),
-    ("stage-4-planar.png", |s, path| png::write_rgb(path, &like_the_last(s, &s.analysis.planar.labels))),
+    ("stage-3-linear.png", |s, path| png::write_rgb(path, &in_final_colors(s, &s.analysis.matte.labels))),
+    ("stage-4-planar.png", |s, path| png::write_rgb(path, &in_final_colors(s, &s.analysis.planar.labels))),
     ("stage-5-clipping.png", |s, path| png::write_rgb(path, &stages::colored(&s.analysis.finals.labels))),
 ];
 
-/// Writes everything of a result but the report and the matte photograph into `folder`, in parallel.
+/// Writes the pictures of a result into `folder`, in parallel: all files but the report and the matte photograph.
 ///
 /// # Errors
 /// The first file that could not be written.
@@ -45,29 +45,29 @@ pub fn write_pictures(folder: &Path, image: &LinearImage, analysis: &Analysis) -
     write_pictures_watched(folder, image, analysis, &|| Ok(()))
 }
 
-/// As [`write_pictures`]; after each file `file_done` says whether to go on.
+/// As [`write_pictures`]; an error of `file_done`, which is called after each file, ends the writing.
 pub(super) fn write_pictures_watched(
     folder: &Path,
     image: &LinearImage,
     analysis: &Analysis,
     file_done: &(dyn Fn() -> Result<(), ExportError> + Sync),
 ) -> Result<(), ExportError> {
-    let subject = Subject { image, analysis };
+    let input = PictureInput { image, analysis };
     PICTURES.par_iter().with_max_len(1).try_for_each(|(name, write)| {
-        write(&subject, &folder.join(name))?;
+        write(&input, &folder.join(name))?;
         file_done()
     })
 }
 
-/// A stage's regions in the colors of the final ones.
-fn like_the_last(subject: &Subject, labels: &LabelMap) -> Raster<[u8; 3]> {
-    stages::colored_like(labels, &subject.analysis.finals.labels)
+/// The regions of a stage in the colors of the final regions.
+fn in_final_colors(input: &PictureInput, labels: &LabelMap) -> Raster<[u8; 3]> {
+    stages::colored_like(labels, &input.analysis.finals.labels)
 }
 
 /// Input − body − surface, counts.
-fn residual(subject: &Subject) -> Raster<[f32; 3]> {
-    let intrinsic = &subject.analysis.intrinsic;
-    let mut rest = subject.image.pixels.clone();
+fn residual(input: &PictureInput) -> Raster<[f32; 3]> {
+    let intrinsic = &input.analysis.intrinsic;
+    let mut rest = input.image.pixels.clone();
     let explained = intrinsic.body.as_slice().iter().zip(intrinsic.surface.as_slice());
     for (rest, (body, surface)) in rest.as_mut_slice().iter_mut().zip(explained) {
         *rest = std::array::from_fn(|band| rest[band] - body[band] - surface[band]);
@@ -75,7 +75,7 @@ fn residual(subject: &Subject) -> Raster<[f32; 3]> {
     rest
 }
 
-/// Linear counts as sRGB values; what is brighter than 255 counts is white.
+/// Linear counts as sRGB values; 255 counts and more are white.
 fn viewable(counts: &Raster<[f32; 3]>) -> Raster<[u8; 3]> {
     counts.map(|color| color.map(|value| code_from_linear(value / 255.0)))
 }
@@ -102,8 +102,8 @@ mod tests {
 
     const SIZE: (usize, usize) = (20, 10);
 
-    /// One region with a highlight's worth of surface reflection, and noise that leaves the slice at one pixel.
-    fn made_up() -> (Arc<LinearImage>, Analysis) {
+    /// An image and its analysis with one region, surface reflection of 20 counts, and noise outside of the slice at one pixel.
+    fn image_and_analysis() -> (Arc<LinearImage>, Analysis) {
         let image =
             Arc::new(LinearImage::new(Raster::filled(SIZE.0, SIZE.1, [90.0, 60.5, 33.0]), Some(255.0)));
         let mut analysis = Session::new(Arc::clone(&image)).run(&Params::paper(), &mut ()).unwrap();
@@ -124,22 +124,22 @@ mod tests {
     }
 
     #[test]
-    fn the_residual_is_what_body_and_surface_leave() {
-        let (image, analysis) = made_up();
-        let rest = residual(&Subject { image: &image, analysis: &analysis });
+    fn the_residual_is_the_input_minus_body_and_surface() {
+        let (image, analysis) = image_and_analysis();
+        let rest = residual(&PictureInput { image: &image, analysis: &analysis });
         assert_eq!(rest[7].map(|counts| counts.to_string()), ["0", "0.5", "0"]);
     }
 
     /// The paper's slices are 4 × 2.5 = 10 counts to either side.
     #[test]
     fn noise_is_gray_within_the_slice() {
-        let (_, analysis) = made_up();
+        let (_, analysis) = image_and_analysis();
         assert_eq!(viewable_noise(&analysis).row(0)[..4], [128, 255, 65, 0]);
     }
 
     #[test]
     fn windows_have_the_papers_colors() {
-        let (_, analysis) = made_up();
+        let (_, analysis) = image_and_analysis();
         let picture = stages::classification(&analysis);
         assert_eq!((picture[9], picture[10]), ([255, 0, 0], [0, 0, 0]));
     }

@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_folder_is_known_by_its_report_and_a_bad_one_is_named() {
+    fn a_result_folder_has_a_report_and_errors_name_the_file() {
         let folder = tempfile::tempdir().unwrap();
         let says = |expected: &str| {
             let message = read_report(folder.path()).unwrap_err().to_string();

@@ -1,16 +1,16 @@
-//! A file that appears whole or not at all.
+//! Writes a file so that the target is always complete.
 
 use super::ExportError;
 use super::staging::hidden_sibling;
 use std::fs;
 use std::path::Path;
 
-/// Writes `bytes` to a hidden sibling of `path` and renames that into place. Folders on the way are made.
+/// Writes `bytes` to a hidden file beside `path` and renames the hidden file to `path`. Missing parent folders are made.
 ///
 /// # Errors
-/// When a folder stands there, or something cannot be made, written or renamed; an earlier file then still stands.
+/// When `path` is a folder, or a file or folder cannot be made, written or renamed; an earlier file then remains.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
-    // Links to a file are followed, so that the file itself is replaced and not the link.
+    // A link is followed, so that the file behind the link is replaced and not the link.
     let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let failed = |source| ExportError::Io { path: path.clone(), source };
     if path.is_dir() {
@@ -22,7 +22,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
     let hidden = hidden_sibling(path, "new");
     let written = fs::write(&hidden, bytes).and_then(|()| fs::rename(&hidden, path));
     written.map_err(|source| {
-        // An error of the cleanup would hide the error that made it necessary.
+        // An error of the cleanup is ignored, because it would hide the first error.
         let _ = fs::remove_file(&hidden);
         failed(source)
     })
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_is_replaced_whole_and_nothing_else_is_left() {
+    fn a_file_is_replaced_and_no_hidden_file_remains() {
         let root = tempfile::tempdir().unwrap();
         let path = root.path().join("a/b.txt");
         write_file(&path, b"one").unwrap();

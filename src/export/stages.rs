@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 const BLACK: [u8; 3] = [0; 3];
 
-/// The windows' classes in the paper's colors: point yellow, line red, plane green, volume blue, none black.
+/// The classes of the windows in the paper's colors: point yellow, line red, plane green, volume blue, no class black.
 pub(super) fn classification(analysis: &Analysis) -> Raster<[u8; 3]> {
     let (width, height) = (analysis.areas.width(), analysis.areas.height());
     let windows = &analysis.windows;
@@ -26,7 +26,7 @@ pub(super) fn classification(analysis: &Analysis) -> Raster<[u8; 3]> {
     picture
 }
 
-/// Labels in colors that keep neighbors apart, as 8-bit sRGB; 0 is black.
+/// Labels in colors that differ between neighbors, as 8-bit sRGB; 0 is black.
 pub fn colored<T: Copy + Into<u32>>(labels: &Raster<T>) -> Raster<[u8; 3]> {
     let palette = Palette::new();
     let colors = palette.assign(&neighbors(labels));
@@ -36,8 +36,8 @@ pub fn colored<T: Copy + Into<u32>>(labels: &Raster<T>) -> Raster<[u8; 3]> {
     })
 }
 
-/// `labels` renumbered to look like `finals`: each label becomes the final one that covers most of it, so that a region has
-/// one color through all stages; labels that nothing final covers get numbers of their own.
+/// `labels` with the numbers of `finals`, the labels of the result: each label becomes the final label that covers most of its
+/// pixels, so that a region has one color in the pictures of all stages. Labels that no final label covers get new numbers.
 pub(super) fn aligned(labels: &LabelMap, finals: &LabelMap) -> Raster<u32> {
     let mut shared: BTreeMap<(u16, u16), usize> = BTreeMap::new();
     for (&label, &last) in labels.as_slice().iter().zip(finals.as_slice()) {
@@ -60,7 +60,7 @@ pub(super) fn aligned(labels: &LabelMap, finals: &LabelMap) -> Raster<u32> {
     labels.map(|label| numbers.get(label).copied().unwrap_or(0))
 }
 
-/// Labels in the colors that `finals` has, see [`aligned`].
+/// Labels in the colors of the final labels `finals`, see [`aligned`].
 pub(super) fn colored_like(labels: &LabelMap, finals: &LabelMap) -> Raster<[u8; 3]> {
     let palette = Palette::new();
     let aligned = aligned(labels, finals);
@@ -71,7 +71,7 @@ pub(super) fn colored_like(labels: &LabelMap, finals: &LabelMap) -> Raster<[u8; 
     aligned.map(|&label| if label == 0 { BLACK } else { palette.color(colors[label as usize]) })
 }
 
-/// The labels that each label touches (4-neighborhood), ascending; 0 touches none.
+/// The labels adjacent to each label (4-neighborhood), ascending; 0 has none.
 fn neighbors<T: Copy + Into<u32>>(labels: &Raster<T>) -> Vec<Vec<u32>> {
     let at = |index: usize| -> u32 { labels[index].into() };
     let mut pairs = Vec::new();
@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn labels_touch_across_edges_but_not_across_the_border_of_the_picture() {
+    fn pixels_at_opposite_borders_of_the_picture_are_not_adjacent() {
         let labels = Raster::from_vec(3, 3, vec![1u16, 1, 2, 0, 3, 2, 4, 0, 2]).unwrap();
         assert_eq!(neighbors(&labels), [vec![], vec![2, 3], vec![1, 3], vec![1, 2], vec![]]);
     }

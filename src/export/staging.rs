@@ -1,4 +1,4 @@
-//! A folder that appears whole or not at all.
+//! Writes a result folder so that the target is always complete.
 
 use super::{ExportError, is_result_folder};
 use crate::describe::{self, Report};
@@ -12,7 +12,7 @@ static SERIAL: AtomicU32 = AtomicU32::new(0);
 
 /// An unfinished result in a hidden folder beside its target.
 ///
-/// Dropped without [`Staging::publish`], it leaves nothing behind.
+/// A drop without [`Staging::publish`] deletes the hidden folder.
 #[derive(Debug)]
 pub struct Staging {
     folder: PathBuf,
@@ -20,14 +20,14 @@ pub struct Staging {
     force: bool,
 }
 
-/// Whether a result may be written to `target`: it does not exist, is an empty folder or holds an earlier result.
+/// Checks that a result may be written to `target`: `target` does not exist, is an empty folder or holds an earlier result.
 ///
-/// With `force` any folder may be replaced.
+/// With `force`, any folder may be replaced.
 ///
 /// # Errors
 /// [`ExportError::Occupied`] or [`ExportError::NotAFolder`].
 pub fn check_target(target: &Path, force: bool) -> Result<(), ExportError> {
-    // A dangling link exists too, but is no folder.
+    // A link without a target exists, but is not a folder.
     if fs::symlink_metadata(target).is_err() {
         return Ok(());
     }
@@ -42,13 +42,13 @@ pub fn check_target(target: &Path, force: bool) -> Result<(), ExportError> {
 }
 
 impl Staging {
-    /// Opens a hidden folder beside `target`, whose parents are made.
+    /// Makes a hidden folder beside `target`. Missing parent folders are made.
     ///
     /// # Errors
-    /// When `target` is taken (see [`check_target`]) or the folder cannot be made.
+    /// When `target` must not be replaced (see [`check_target`]), or the folder cannot be made.
     pub fn begin(target: &Path, force: bool) -> Result<Self, ExportError> {
         check_target(target, force)?;
-        // Links to a folder are followed, so that the folder itself is replaced and not the link.
+        // A link is followed, so that the folder behind the link is replaced and not the link.
         let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
         let folder = hidden_sibling(&target, "new");
         fs::create_dir_all(&folder).map_err(|source| ExportError::Io { path: folder.clone(), source })?;
@@ -60,17 +60,17 @@ impl Staging {
         &self.folder
     }
 
-    /// Adds the report and moves the result into place; an earlier one disappears as a whole.
+    /// Adds the report and renames the hidden folder to the target. An earlier result is replaced as a whole.
     ///
     /// # Errors
-    /// When the report cannot be written or the folder cannot be renamed; the earlier result then still stands.
+    /// When the report cannot be written or the folder cannot be renamed; the earlier result then remains.
     pub fn publish(self, report: &Report) -> Result<(), ExportError> {
         let path = self.folder.join(describe::FILE_NAME);
         match report.to_json() {
             Ok(text) => fs::write(&path, text).map_err(|source| ExportError::Io { path, source })?,
             Err(source) => return Err(ExportError::Json { path, source }),
         }
-        // Another process may have created the target since `new`.
+        // Another process may have created the target since `begin`.
         check_target(&self.target, self.force)?;
         let failed = |source| ExportError::Io { path: self.target.clone(), source };
         let old = hidden_sibling(&self.target, "old");
@@ -99,7 +99,7 @@ impl Drop for Staging {
     }
 }
 
-/// `.NAME.PURPOSE-PROCESS-SERIAL` beside `target`, on the same file system.
+/// The path `.NAME.PURPOSE-PROCESS-SERIAL` beside `target`, on the same file system.
 pub(super) fn hidden_sibling(target: &Path, purpose: &str) -> PathBuf {
     let name = target.file_name().unwrap_or_default().to_string_lossy();
     let serial = SERIAL.fetch_add(1, Ordering::Relaxed);
@@ -113,7 +113,7 @@ mod tests {
     const REPORT: &str = r#"{"schema": 1, "program": "0.0.1", "image": {}}"#;
 
     #[test]
-    fn only_nothing_emptiness_and_our_own_results_may_be_replaced() {
+    fn only_empty_folders_and_earlier_results_may_be_replaced() {
         let root = tempfile::tempdir().unwrap();
         let target = root.path().join("result");
         assert!(check_target(&target, false).is_ok());
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_published_leaves_nothing() {
+    fn an_unpublished_result_leaves_no_files() {
         let root = tempfile::tempdir().unwrap();
         let staging = Staging::begin(&root.path().join("a/result"), false).unwrap();
         fs::write(staging.folder().join("half"), "").unwrap();

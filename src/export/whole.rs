@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// What a result folder is made of, its report apart.
+/// The content of a result folder, without the report.
 #[derive(Clone, Copy, Debug)]
 pub struct WholeResult<'a> {
     /// The photograph.
@@ -20,16 +20,17 @@ pub struct WholeResult<'a> {
     pub keep_surface: f64,
 }
 
-/// Told how many files of how many are written; the writing stops when it answers false.
+/// An observer of the writing: receives the number of written files and the number of all files. The writing stops when the
+/// observer returns false.
 pub type Watch<'a> = &'a (dyn Fn(usize, usize) -> bool + Sync);
 
 impl WholeResult<'_> {
-    /// Writes everything to the folder `target`, which appears whole or not at all, and hands the report back with the time
-    /// that the writing took.
+    /// Writes all files to a hidden folder and renames that folder to `target`. Returns the report with the duration of the
+    /// writing.
     ///
     /// # Errors
-    /// When `target` is taken (see [`super::check_target`]), a file cannot be written, or `watch` answers false
-    /// ([`ExportError::Stopped`]); `target` is then as it was.
+    /// When `target` must not be replaced (see [`super::check_target`]), a file cannot be written, or `watch` returns false
+    /// ([`ExportError::Stopped`]); `target` is then unchanged.
     pub fn write(
         &self,
         mut report: Report,
@@ -53,7 +54,7 @@ impl WholeResult<'_> {
         );
         pictures?;
         matte?;
-        // Milliseconds, to the microsecond.
+        // The duration is in milliseconds with a resolution of one microsecond.
         report.timings_ms.write = Some(begin.elapsed().as_micros() as f64 / 1e3);
         staging.publish(&report)?;
         Ok(report)

@@ -33,15 +33,15 @@ pub struct TruthObject {
 
 /// The bytes of a truth folder's files.
 #[derive(Clone, Copy, Debug)]
-pub struct TruthFiles<'a> {
+pub(crate) struct TruthFiles<'a> {
     /// `body.exr`
-    pub body: &'a [u8],
+    pub(crate) body: &'a [u8],
     /// `surface.exr`
-    pub surface: &'a [u8],
+    pub(crate) surface: &'a [u8],
     /// `labels.png`
-    pub labels: &'a [u8],
+    pub(crate) labels: &'a [u8],
     /// `truth.json`
-    pub json: &'a [u8],
+    pub(crate) json: &'a [u8],
 }
 
 #[derive(Deserialize)]
@@ -71,7 +71,7 @@ impl GroundTruth {
     ///
     /// # Errors
     /// When a file cannot be decoded or differs in size from the labels.
-    pub fn decode(files: &TruthFiles, folder: &Path) -> Result<Self, TruthError> {
+    pub(crate) fn decode(files: &TruthFiles, folder: &Path) -> Result<Self, TruthError> {
         let TruthJson { illumination_vector, mut objects } = serde_json::from_slice(files.json)
             .map_err(|source| TruthError::Json { path: folder.join(JSON), source })?;
         objects.sort_by_key(|object| object.id);
@@ -90,7 +90,7 @@ impl GroundTruth {
         })
     }
 
-    /// The body reflection vector of an object, where the truth knows one.
+    /// The body reflection vector of an object; none for an unknown object and for a metal.
     pub fn body_vector(&self, id: u16) -> Option<[f64; 3]> {
         let index = self.objects.binary_search_by_key(&id, |object| object.id).ok()?;
         self.objects[index].body_vector
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_truth_folder_is_read_whole() {
+    fn all_files_of_a_truth_folder_are_read() {
         let truth = GroundTruth::read(&tiny()).unwrap();
         assert_eq!((truth.labels.width(), truth.labels.height()), (truth.body.width(), truth.body.height()));
         let body = truth.body_vector(truth.objects[0].id).unwrap();

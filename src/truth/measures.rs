@@ -3,7 +3,7 @@
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 use std::collections::BTreeMap;
 
-/// How many pixels carry each pair of labels.
+/// Number of pixels with each pair of labels.
 pub(super) type Contingency = BTreeMap<(u16, u16), u64>;
 
 /// Counts pairs of labels.
@@ -17,12 +17,13 @@ pub(super) fn contingency(pairs: impl IntoIterator<Item = (u16, u16)>) -> Contin
 
 /// Adjusted Rand index (Hubert & Arabie 1985) of two labelings, given as the pairs of labels of all pixels.
 ///
-/// 1 for partitions that agree whatever their numbers, about 0 for independent ones, and 1 where there is nothing
-/// to tell apart.
+/// 1 for partitions that agree, whatever their labels; about 0 for independent partitions; 1 where both labelings have one class
+/// only, or one class per pixel.
 pub fn adjusted_rand_index(pairs: impl IntoIterator<Item = (u16, u16)>) -> f64 {
     rand_index_of(&contingency(pairs))
 }
 
+/// The adjusted Rand index of a table of pairs, see [`adjusted_rand_index`].
 pub(super) fn rand_index_of(table: &Contingency) -> f64 {
     let choose_2 = |n: u64| n as f64 * (n as f64 - 1.0) / 2.0;
     let pairs_within = |sizes: BTreeMap<u16, u64>| sizes.into_values().map(choose_2).sum::<f64>();
@@ -35,7 +36,7 @@ pub(super) fn rand_index_of(table: &Contingency) -> f64 {
     if most > expected { (both - expected) / (most - expected) } else { 1.0 }
 }
 
-/// Pixels of each label on one side of the table.
+/// Number of pixels of each label on one side of the table.
 pub(super) fn marginal(table: &Contingency, side: impl Fn(&(u16, u16)) -> u16) -> BTreeMap<u16, u64> {
     let mut sizes = BTreeMap::new();
     for (pair, count) in table {
@@ -59,8 +60,8 @@ pub fn angle_deg(u: [f64; 3], v: [f64; 3]) -> f64 {
 /// Pixels more than `steps` 4-neighbor steps inside an object: each object's mask eroded `steps` times by a
 /// cross, with nothing beyond the border.
 ///
-/// Objects are those for which `is_object` holds.
-pub fn erode_labels(labels: &LabelMap, steps: usize, is_object: impl Fn(u16) -> bool) -> Mask {
+/// Labels for which `is_object` is true are objects.
+pub(super) fn erode_labels(labels: &LabelMap, steps: usize, is_object: impl Fn(u16) -> bool) -> Mask {
     let mut inside = labels.map(|&id| id != UNASSIGNED && is_object(id));
     for _ in 0..steps {
         let mut next = Raster::filled(labels.width(), labels.height(), false);
@@ -84,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn labelings_that_agree_score_one_whatever_their_numbers() {
+    fn labelings_that_agree_score_one_whatever_their_labels() {
         close(adjusted_rand_index([(1, 7), (1, 7), (2, 3), (2, 3), (5, 1)]), 1.0);
         close(adjusted_rand_index([(1, 1); 4]), 1.0);
         close(adjusted_rand_index([]), 1.0);
@@ -116,14 +117,14 @@ mod tests {
     }
 
     #[test]
-    fn angles_are_between_lines_not_arrows() {
+    fn angles_are_between_lines_and_not_between_directions() {
         close(angle_deg([1.0, 0.0, 0.0], [0.0, 2.0, 0.0]), 90.0);
         close(angle_deg([1.0, 1.0, 0.0], [-3.0, -3.0, 0.0]), 0.0);
         close(angle_deg([1.0, 0.0, 0.0], [1.0, 1.0, 0.0]), 45.0);
         assert!(angle_deg([0.0; 3], [1.0, 0.0, 0.0]).is_nan());
     }
 
-    /// Draws labels as digits, `.` = 0, and compares what is left after erosion, drawn the same way.
+    /// Compares the erosion of labels with the expected result; both are drawn as digits, `.` = 0.
     #[track_caller]
     fn check_erosion(steps: usize, before: &[&str], after: &[&str]) {
         let labels: Vec<u16> =
@@ -153,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hole_costs_what_is_within_two_steps_of_it() {
+    fn a_hole_removes_the_pixels_within_two_steps() {
         let before = ["1111111", "1111111", "111.111", "1111111", "1111111", "1111111", "1111111"];
         let after = [".......", ".......", ".......", ".......", "..1.1..", ".......", "......."];
         check_erosion(2, &before, &after);

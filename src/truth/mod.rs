@@ -1,8 +1,8 @@
 //! Ground truth, the scores of a result against it, and the report with these scores.
 //!
 //! A truth folder holds `body.exr` and `surface.exr` (linear RGB, 1.0 = 255 counts), `labels.png` (object at each
-//! pixel, 0 = background) and `truth.json` (true vectors). [`score()`] computes the scores, which were
-//! checked against an independent implementation to the last digit that is printed.
+//! pixel, 0 = background) and `truth.json` (true vectors). [`score()`] computes the scores. The scores were compared with an
+//! independent implementation and agree in every printed digit.
 
 mod folder;
 mod measures;
@@ -11,8 +11,9 @@ mod report;
 pub mod sample;
 mod score;
 
-pub use folder::{GroundTruth, TruthFiles, TruthObject, find_truth};
-pub use measures::{adjusted_rand_index, angle_deg, erode_labels, psnr_db};
+pub(crate) use folder::TruthFiles;
+pub use folder::{GroundTruth, TruthObject, find_truth};
+pub use measures::{adjusted_rand_index, angle_deg, psnr_db};
 pub use pictures::ResultPictures;
 pub use report::{Reference, ReportInput, report};
 pub use score::{Outcome, ScoreError, score};
@@ -47,7 +48,7 @@ pub enum TruthError {
         /// The decoder's error.
         source: image::ImageError,
     },
-    /// A label picture holds something else than 8- or 16-bit integers.
+    /// The samples of a label picture are not 8- or 16-bit integers.
     #[error("{} holds {found}: expected labels as 8- or 16-bit integers", path.display())]
     LabelType {
         /// The file.
@@ -55,7 +56,7 @@ pub enum TruthError {
         /// The sample type found.
         found: String,
     },
-    /// `truth.json` lacks something or is no JSON.
+    /// `truth.json` is not JSON or lacks a required value.
     #[error("{} does not describe a ground truth", path.display())]
     Json {
         /// The file.

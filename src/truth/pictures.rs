@@ -10,7 +10,7 @@ use std::path::Path;
 /// Counts that 1.0 stands for in an EXR file.
 const COUNTS_PER_UNIT: f32 = 255.0;
 
-/// The pictures of a result folder that scores are made from.
+/// The pictures of a result folder from which scores are computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResultPictures {
     /// Region of each pixel, 0 = unassigned.
@@ -39,6 +39,7 @@ impl ResultPictures {
     }
 }
 
+/// The bytes of a file.
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, TruthError> {
     std::fs::read(path).map_err(|source| TruthError::Io { path: path.to_owned(), source })
 }
@@ -88,6 +89,7 @@ pub(super) fn decode_labels(bytes: &[u8], path: &Path) -> Result<LabelMap, Truth
     Ok(Raster::from_vec(width, height, labels).expect("invariant: a decoded picture holds all its pixels"))
 }
 
+/// An error where a picture differs in size from the labels.
 pub(super) fn expect_size<T>(picture: &Raster<T>, labels: &LabelMap, path: &Path) -> Result<(), TruthError> {
     let (found, labels) = ((picture.width(), picture.height()), (labels.width(), labels.height()));
     if found == labels { Ok(()) } else { Err(TruthError::Size { path: path.to_owned(), found, labels }) }

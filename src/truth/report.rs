@@ -1,4 +1,4 @@
-//! From an analysis to its report, the scores against a ground truth included.
+//! The report of an analysis, with the scores against a ground truth.
 
 use super::{GroundTruth, Outcome, ScoreError, score};
 use crate::analysis::Analysis;
@@ -7,13 +7,13 @@ use crate::params::Params;
 use crate::photo::Photo;
 use crate::raster::Raster;
 
-/// What a report is made from.
+/// The data from which a report is made.
 pub struct ReportInput<'a> {
     /// The photograph analyzed.
     pub photo: &'a Photo,
     /// SHA-256 of the photograph's file, hexadecimal.
     pub sha256: &'a str,
-    /// What was asked of the analysis.
+    /// The parameters of the analysis.
     pub params: &'a Params,
     /// The analysis.
     pub analysis: &'a Analysis,
@@ -21,7 +21,7 @@ pub struct ReportInput<'a> {
     pub area: Option<AreaFacts>,
     /// Durations of reading and of the stages.
     pub timings_ms: Timings,
-    /// What to compare the result with; none: the report has no scores.
+    /// The ground truth to compare the result with; none: the report has no scores.
     pub reference: Option<Reference<'a>>,
 }
 

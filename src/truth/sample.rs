@@ -1,4 +1,4 @@
-//! The sample scenes in the program's binary: rendered objects with their ground truth.
+//! The sample scenes that the program's binary contains: rendered objects with their ground truth.
 
 use super::{GroundTruth, TruthError, TruthFiles};
 use std::path::Path;
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_sample_is_whole() {
+    fn every_sample_has_a_photograph_and_a_truth_of_one_size() {
         assert_eq!(SAMPLES[0].name, NAME);
         for sample in &SAMPLES {
             assert!(std::ptr::eq(Sample::find(sample.name).unwrap(), sample));

@@ -12,7 +12,7 @@ const DARK_COUNTS: f64 = 23.0;
 const CLIPPED_COUNTS: f32 = 240.0;
 /// Objects with this many lit pixels or fewer are not scored.
 const SMALL_OBJECT_PIXELS: u64 = 200;
-/// Steps from the edge of an object at which its pixels are no longer mixed with what lies behind it.
+/// Distance from an object's edge up to which the object's pixels mix with the background, steps of one pixel.
 const EDGE_STEPS: usize = 2;
 
 /// The pictures and the vectors of one result, to be scored.
@@ -42,7 +42,7 @@ pub enum ScoreError {
         /// Columns and rows of the truth.
         truth: (usize, usize),
     },
-    /// A picture holds infinite values or none at all.
+    /// A picture holds infinite values or NaN.
     #[error("the {0} holds values that are not finite")]
     NotFinite(&'static str),
     /// The report and the region map contradict each other.
@@ -50,9 +50,9 @@ pub enum ScoreError {
     Pixels {
         /// The region.
         id: u16,
-        /// Pixels according to the report, 0 where the report lacks the region.
+        /// Number of pixels according to the report, 0 where the report lacks the region.
         reported: u64,
-        /// Pixels in the region map.
+        /// Number of pixels in the region map.
         found: u64,
     },
 }
@@ -94,6 +94,7 @@ pub fn score(
     })
 }
 
+/// Checks that sizes agree, that pictures are finite, and that report and region map agree.
 fn check(truth: &GroundTruth, camera: &Raster<[f32; 3]>, outcome: &Outcome) -> Result<(), ScoreError> {
     let expected = (truth.labels.width(), truth.labels.height());
     let sizes = [
@@ -122,7 +123,7 @@ fn check(truth: &GroundTruth, camera: &Raster<[f32; 3]>, outcome: &Outcome) -> R
     Ok(())
 }
 
-/// The region that overlaps an object best.
+/// An object and the region that overlaps the object best.
 struct Match {
     object: u16,
     /// None where no region touches the object.
@@ -130,7 +131,7 @@ struct Match {
     iou: f64,
 }
 
-/// Best region of each object by intersection over union of lit pixels; of equals the later one.
+/// Best region of each object by intersection over union of lit pixels; of equally good regions the one with the higher label.
 fn best_regions(objects: &[u16], lit: &Contingency) -> Vec<Match> {
     let object_sizes = marginal(lit, |pair| pair.0);
     let region_sizes = marginal(lit, |pair| pair.1);
@@ -150,20 +151,21 @@ fn best_regions(objects: &[u16], lit: &Contingency) -> Vec<Match> {
         .collect()
 }
 
-/// Share of pixels that are in a region.
+/// Share of the counted pixels that are in a region; none without pixels.
 fn coverage(visible: &Contingency) -> Option<f64> {
     let assigned = visible.iter().filter(|((_, region), _)| *region != UNASSIGNED);
     let (assigned, all): (u64, u64) = (assigned.map(|(_, n)| n).sum(), visible.values().sum());
     (all > 0).then(|| assigned as f64 / all as f64)
 }
 
-/// Angle between each object's true body vector, where it has one, and that of its best region.
+/// Angle between the true body vector of each object and the body vector of the object's best region, degrees. Objects without
+/// a true body vector or a best region are left out.
 fn body_errors_deg(truth: &GroundTruth, report: &Report, matches: &[Match]) -> Vec<f64> {
     let found = |id| report.regions.iter().find(|region| region.id == id).map(|region| region.body);
     matches.iter().filter_map(|m| Some(angle_deg(found(m.region?)?, truth.body_vector(m.object)?))).collect()
 }
 
-/// The PSNRs of body, surface and restored pixels, and of doing nothing; all other figures are left at zero.
+/// The PSNRs of body, surface and restored pixels, and the PSNRs of the unchanged photograph; all other figures are zero.
 fn pictures(
     truth: &GroundTruth,
     camera: &Raster<[f32; 3]>,
@@ -191,6 +193,7 @@ fn pictures(
     }
 }
 
+/// PSNR between two pictures over the given pixels and all bands; none without pixels.
 fn psnr_between(a: &Raster<[f32; 3]>, b: &Raster<[f32; 3]>, pixels: &[usize]) -> Option<f64> {
     psnr_db(
         pixels.iter().flat_map(|&p| (0..3).map(move |band| f64::from(a[p][band]) - f64::from(b[p][band]))),
@@ -219,7 +222,7 @@ mod tests {
     const SIZE: (usize, usize) = (40, 20);
     const COLORS: [[f32; 3]; 3] = [[0.0; 3], [100.0, 0.0, 0.0], [0.0, 0.0, 60.0]];
 
-    /// Two objects side by side, 18 columns each, with background between them and a clipped pixel in the first.
+    /// Two objects side by side, 18 columns each, with background between the objects and a clipped pixel in the first one.
     struct Scene {
         truth: GroundTruth,
         camera: Raster<[f32; 3]>,
@@ -307,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn what_contradicts_itself_is_not_scored() {
+    fn contradictory_results_are_not_scored() {
         let mut scene = scene();
         let wrong_size = Raster::filled(3, 3, 0);
         let error = scene.score(&wrong_size).unwrap_err().to_string();

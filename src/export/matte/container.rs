@@ -1,4 +1,4 @@
-//! Samples into PNG, JPEG or TIFF, with what the photograph's file said about them.
+//! Encodes samples as PNG, JPEG or TIFF, with the color information of the photograph's file.
 
 use super::Picture;
 use crate::photo::{AlphaKind, Format, Layout, Photo, Samples};
@@ -9,7 +9,7 @@ use std::io::Cursor;
 use tiff::encoder::{TiffEncoder, TiffValue, colortype};
 use tiff::tags::{ExtraSamples, Tag};
 
-/// Hardly visible against the quality of cameras, and 4:4:4.
+/// JPEG quality: the loss is hardly visible compared with the files of cameras. Colors are not subsampled (4:4:4).
 const JPEG_QUALITY: u8 = 97;
 
 type Encoded = Result<Vec<u8>, String>;
@@ -19,7 +19,7 @@ pub(super) fn encode(photo: &Photo, picture: Picture) -> (&'static str, Encoded)
     let Picture { layout, samples } = picture;
     let source = &photo.source;
     let size = (photo.image.width() as u32, photo.image.height() as u32);
-    // A profile for one band says nothing about three; one with a curve is wrong for floats, which leave linear.
+    // A profile for one band does not apply to three bands, and a profile with a tone curve does not apply to linear floats.
     let profile_fits = source.layout == layout && (source.max.is_some() || photo.encoding.is_linear());
     let icc = source.icc.as_deref().filter(|_| profile_fits);
     let max = source.max.unwrap_or(1);
@@ -60,7 +60,7 @@ fn jpeg(
     Ok(bytes)
 }
 
-/// Samples up to the source's own maximum, spread over 16 bits.
+/// The bytes of a 16-bit PNG. Samples from 0 to the maximum of the source are scaled to 16 bits.
 fn png_16(
     photo: &Photo,
     layout: Layout,
@@ -93,7 +93,7 @@ fn png(
     let mut encoder = png::Encoder::with_info(&mut bytes, info)?;
     encoder.set_compression(png::Compression::Fast);
     let mut writer = encoder.write_header()?;
-    // Chunk by chunk as they came: the encoder itself would write only some combinations.
+    // The chunks are written one by one, because the encoder writes only some combinations of these chunks.
     let chunks = photo.source.png;
     if let Some(cicp) = chunks.cicp {
         writer.write_chunk(ChunkType(*b"cICP"), &cicp)?;
