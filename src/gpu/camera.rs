@@ -1,42 +1,42 @@
-//! The camera that circles the color cube.
+//! The camera that turns around the color cube.
 //!
 //! World units are counts / 255: black is the origin, white (1, 1, 1); x is red, y green, z blue. The camera looks at a
-//! target from a distance; its orientation is free, so that it can face any plane, and dragging brings blue back up.
+//! target from a distance. Any orientation is possible, so that the camera can face any plane; dragging turns blue up again.
 
 use super::projector::{Projector, Ray, ScreenPoint};
 use nalgebra::{Matrix3, Matrix4, Quaternion, Rotation3, UnitQuaternion, Vector3, Vector4};
 use serde::{Deserialize, Serialize};
 
-/// Height of the perspective's field of view. Narrow: parallel lines of the cube should look parallel.
-pub const FIELD_OF_VIEW_DEG: f32 = 30.0;
-/// How far a drag of one logical pixel turns the camera.
-pub const TURN_DEG_PER_PX: f32 = 0.4;
-/// Nearest and farthest that zooming goes, world units.
-pub const DISTANCE_RANGE: [f32; 2] = [0.01, 200.0];
+/// Height of the field of view in perspective, degrees. The angle is small, so that parallel lines of the cube look parallel.
+const FIELD_OF_VIEW_DEG: f32 = 30.0;
+/// Angle by which a drag of one logical pixel turns the camera, degrees.
+const TURN_DEG_PER_PX: f32 = 0.4;
+/// Least and greatest distance to which zooming leads, world units.
+const DISTANCE_RANGE: [f32; 2] = [0.01, 200.0];
 
-/// While the camera is turned this far, roll falls to 1/e: blue is up again after a short drag, without a jump.
+/// Angle of a drag after which the roll has fallen to 1/e, degrees: blue is up again after a short drag, without a jump.
 const LEVELING_DEG: f32 = 30.0;
-/// Horizontal part of the viewing direction below which it counts as vertical.
+/// Length of the horizontal part of the unit viewing direction below which the direction counts as vertical.
 const POLE: f32 = 1e-3;
-/// Pictures with head room have colors well outside the unit cube: what lies within this distance is drawn.
+/// Distance from the cube up to which colors are drawn, world units: some pictures have colors far outside of the unit cube.
 const WORLD_RADIUS: f32 = 32.0;
 const CENTER: [f32; 3] = [0.5; 3];
 /// Space around a framed sphere, as a factor of its radius.
 const MARGIN: f32 = 1.06;
 const BLUE: Vector3<f32> = Vector3::new(0.0, 0.0, 1.0);
 
-/// How depth shows.
+/// The projection of depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Projection {
-    /// Farther is smaller.
+    /// Perspective: farther objects are smaller.
     #[default]
     Perspective,
-    /// Parallel lines stay parallel, and equal lengths equal.
+    /// Orthographic projection: parallel lines are parallel, and equal lengths equal.
     Orthographic,
 }
 
-/// Views that have a name.
+/// Named views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Preset {
@@ -53,10 +53,10 @@ pub enum Preset {
 }
 
 impl Preset {
-    /// All of them, in the order of a menu.
+    /// All views, in the order of the menu.
     pub const ALL: [Self; 5] = [Self::Home, Self::Red, Self::Green, Self::Blue, Self::Gray];
 
-    /// Direction of view and what is up in it.
+    /// Direction of view, and the direction that is up on the screen.
     pub fn direction_and_up(self) -> [[f32; 3]; 2] {
         match self {
             Self::Home => [[-0.45, 1.0, -0.5], [0.0, 0.0, 1.0]],
@@ -68,19 +68,19 @@ impl Preset {
     }
 }
 
-/// A camera on a sphere around a target. Plain data: copy it, compare it, store it.
+/// A camera on a sphere around a target, as plain data.
 ///
-/// Screen positions and sizes are in one unit, logical or physical pixels as the caller likes, from the top left corner
-/// with y downwards.
+/// Screen positions and sizes are in one unit, logical or physical pixels; positions are measured from the top left corner, y
+/// downwards.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Orbit {
-    /// What it looks at and turns around, world units.
+    /// The point that the camera looks at and turns around, world units.
     pub target: [f32; 3],
     /// Unit quaternion (i, j, k, real part) from camera axes (right, up, backwards) to world axes.
     pub orientation: [f32; 4],
-    /// From the eye to the target, world units; it also sets the scale of the orthographic projection.
+    /// Distance from the eye to the target, world units. The distance sets the scale of the orthographic projection as well.
     pub distance: f32,
-    /// How depth shows. Switching keeps the size of things at the target.
+    /// The projection of depth. Objects at the target have the same size in both projections.
     pub projection: Projection,
 }
 
@@ -100,7 +100,7 @@ impl Default for Orbit {
 }
 
 impl Orbit {
-    /// This camera, or the default one where its numbers cannot be used: a settings file may hold anything.
+    /// This camera, or the default camera where this camera's numbers cannot be used, for cameras from a settings file.
     #[must_use]
     pub fn checked(self) -> Self {
         let numbers = self.target.iter().chain(&self.orientation).chain([&self.distance]);
@@ -110,8 +110,8 @@ impl Orbit {
         if finite && unit && in_range { self } else { Self::default() }
     }
 
-    /// Turns the camera around its target as the hand drags the scene by `delta` logical pixels (turntable: blue stays
-    /// up; where a face-on view has tilted it, it returns smoothly).
+    /// Turns the camera around the target, as a drag of `delta` logical pixels asks. The camera moves like a turntable: blue stays
+    /// up, and where blue is not up, it returns there smoothly.
     pub fn orbit(&mut self, delta: [f32; 2]) {
         let [yaw, pitch, roll] = self.yaw_pitch_roll();
         let turned_deg = TURN_DEG_PER_PX * delta[0].hypot(delta[1]);
@@ -121,7 +121,7 @@ impl Orbit {
         self.set_yaw_pitch_roll(yaw - delta[0] * step, pitch, roll * (-turned_deg / LEVELING_DEG).exp());
     }
 
-    /// Moves the scene by `delta` on a screen of `height`: what lies at the target's depth follows the hand.
+    /// Moves the scene by `delta` on a screen of `height`: points at the target's depth move by `delta`.
     pub fn pan(&mut self, delta: [f32; 2], height: f32) {
         if height > 0.0 {
             let world_per_px = 2.0 * self.half_height() / height;
@@ -131,7 +131,7 @@ impl Orbit {
         }
     }
 
-    /// Enlarges by `factor` (> 1 is nearer) so that the world point under the cursor, at the target's depth, stays there.
+    /// Enlarges by `factor` (> 1 is nearer). The world point under the cursor at the target's depth keeps its place on the screen.
     pub fn zoom_at(&mut self, factor: f32, cursor: [f32; 2], size: [f32; 2]) {
         if size[1] > 0.0 {
             let world_per_px = 2.0 * self.half_height() / size[1];
@@ -141,7 +141,7 @@ impl Orbit {
         }
     }
 
-    /// Enlarges by `factor` so that the world point `fixed`, at any depth, stays where it is on the screen.
+    /// Enlarges by `factor`. The world point `fixed`, at any depth, keeps its place on the screen.
     pub fn zoom_about(&mut self, factor: f32, fixed: [f32; 3]) {
         if factor > 0.0 && factor.is_finite() {
             let distance = (self.distance / factor).clamp(DISTANCE_RANGE[0], DISTANCE_RANGE[1]);
@@ -151,10 +151,10 @@ impl Orbit {
         }
     }
 
-    /// Looks along `direction` with `up` upwards on the screen; the target and the distance stay.
+    /// Turns the camera to look along `direction` with `up` upwards on the screen; target and distance do not change.
     ///
-    /// `up` need not be perpendicular; where it says nothing (parallel to `direction`), blue or green is up. A direction
-    /// without length changes nothing.
+    /// `up` need not be perpendicular to `direction`; where the two are parallel, blue or green is up. A direction without length
+    /// changes nothing.
     pub fn look_along(&mut self, direction: [f32; 3], up: [f32; 3]) {
         let Some(forward) = Vector3::from(direction).try_normalize(1e-12) else { return };
         let candidates = [Vector3::from(up), BLUE, Vector3::y()];
@@ -167,31 +167,31 @@ impl Orbit {
         }
     }
 
-    /// Looks along a named direction; the target and the distance stay.
+    /// Turns the camera to a named view; target and distance do not change.
     pub fn preset(&mut self, preset: Preset) {
         let [direction, up] = preset.direction_and_up();
         self.look_along(direction, up);
     }
 
-    /// Faces the plane with this normal: the normal points at the viewer, `up` is up.
+    /// Turns the camera to face the plane with this normal: the normal points to the viewer, `up` is up.
     pub fn face(&mut self, normal: [f32; 3], up: [f32; 3]) {
         self.look_along(normal.map(|n| -n), up);
     }
 
-    /// Sees the plane with this normal edge-on, as the upright line in which `up` lies; the normal points right.
+    /// Turns the camera to see the plane with this normal edge-on, as an upright line along `up`; the normal points right.
     pub fn edge_on(&mut self, normal: [f32; 3], up: [f32; 3]) {
         let direction = Vector3::from(up).cross(&Vector3::from(normal));
         self.look_along(direction.into(), up);
     }
 
-    /// Moves the unit cube into the middle, as large as it goes on a screen of this aspect (width / height).
+    /// Moves the unit cube to the center of the screen, as large as possible for this aspect ratio (width / height).
     pub fn fit(&mut self, aspect: f32) {
         self.frame(CENTER, 0.75_f32.sqrt(), aspect);
     }
 
-    /// Moves a sphere into the middle, as large as it goes on a screen of this aspect (width / height).
+    /// Moves a sphere to the center of the screen, as large as possible for this aspect ratio (width / height).
     pub fn frame(&mut self, center: [f32; 3], radius: f32, aspect: f32) {
-        // The sphere's silhouette in perspective is a little larger than its great circle: hence the sine.
+        // The sine is used because the silhouette of a sphere in perspective is a little larger than a great circle.
         let half_angle = (0.5 * FIELD_OF_VIEW_DEG).to_radians();
         let narrow = (half_angle.tan() * aspect.clamp(1e-3, 1.0)).atan();
         let distance = radius.max(0.0) * MARGIN / narrow.sin();
@@ -199,7 +199,7 @@ impl Orbit {
         self.distance = distance.clamp(DISTANCE_RANGE[0], DISTANCE_RANGE[1]);
     }
 
-    /// Where the camera is, world units (in the orthographic projection: the middle of what it sees from).
+    /// Position of the camera, world units; in the orthographic projection the center of the plane from which it looks.
     pub fn eye(&self) -> [f32; 3] {
         let [_, _, backwards] = self.axes();
         (Vector3::from(self.target) + backwards * self.distance).into()
@@ -211,12 +211,12 @@ impl Orbit {
         [right.into(), up.into(), (-backwards).into()]
     }
 
-    /// Half of what is seen at the target's depth from bottom to top, world units.
+    /// Half of the visible height at the target's depth, world units.
     pub fn half_height(&self) -> f32 {
         self.distance * (0.5 * FIELD_OF_VIEW_DEG).to_radians().tan()
     }
 
-    /// From world coordinates to wgpu's clip space: x right, y up, depth 0 (near) to 1.
+    /// The matrix from world coordinates to wgpu's clip space: x right, y up, depth from 0 (near) to 1.
     pub fn view_projection(&self, aspect: f32) -> Matrix4<f32> {
         let from_camera = self.rotation();
         let from_world = from_camera.inverse().to_homogeneous();
@@ -229,7 +229,7 @@ impl Orbit {
         Projector::new(&self.view_projection(size[0].max(1.0) / size[1].max(1.0)), size)
     }
 
-    /// Where a world point is on a screen of this size; `None` when it is behind the near plane.
+    /// The position of a world point on a screen of this size; `None` for a point behind the near plane.
     pub fn screen_from_world(&self, world: [f32; 3], size: [f32; 2]) -> Option<ScreenPoint> {
         self.projector(size).screen_from_world(world)
     }
@@ -247,7 +247,7 @@ impl Orbit {
         Ray { origin: origin.into(), direction: direction.into() }
     }
 
-    /// nalgebra's own matrices map depth to −1…1, wgpu wants 0…1.
+    /// The projection matrix with depth from 0 to 1, as wgpu needs; nalgebra's matrices have depth from −1 to 1.
     fn projection_matrix(&self, aspect: f32) -> Matrix4<f32> {
         let reach = WORLD_RADIUS + (Vector3::from(self.target) - Vector3::from(CENTER)).norm();
         let aspect = if aspect > 0.0 { aspect } else { 1.0 };
@@ -280,7 +280,7 @@ impl Orbit {
         UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k))
     }
 
-    /// Right, up and backwards (towards the viewer) in world axes.
+    /// The directions right, up and backwards (to the viewer), in world axes.
     fn axes(&self) -> [Vector3<f32>; 3] {
         let rotation = self.rotation();
         [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| rotation * axis)
@@ -300,7 +300,7 @@ impl Orbit {
         let horizontal = forward.x.hypot(forward.y);
         let pitch = forward.z.atan2(horizontal);
         if horizontal < POLE {
-            // Seen from above, the heading is what is up on the screen; from below, what is down.
+            // Seen from above, the heading is the direction that is up on the screen; from below, the direction that is down.
             let heading = up * -forward.z.signum();
             return [heading.y.atan2(heading.x), pitch, 0.0];
         }

@@ -1,21 +1,21 @@
-//! A graphics device without a window: for picture files, `screenshot` and tests.
+//! A graphics device without a window, for picture files, `screenshot` and tests.
 
 use thiserror::Error;
 
-/// A device to draw with, and where it comes from.
+/// A graphics device, with the adapter and the instance that the device comes from.
 #[derive(Debug)]
 pub struct Headless {
     /// The graphics interface.
     pub instance: wgpu::Instance,
-    /// The graphics card, or the software that stands in for one.
+    /// The graphics card, or a software renderer.
     pub adapter: wgpu::Adapter,
-    /// What makes buffers, textures and pipelines.
+    /// The device, which makes buffers, textures and pipelines.
     pub device: wgpu::Device,
-    /// Where work is submitted.
+    /// The queue to which commands are submitted.
     pub queue: wgpu::Queue,
 }
 
-/// Nothing here can draw.
+/// No graphics adapter can be used; the text says why.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error(
     "no graphics device can draw the color space ({0}); install the graphics card's Vulkan driver or, without a card, \
@@ -24,24 +24,18 @@ pub struct Headless {
 pub struct NoAdapter(String);
 
 impl Headless {
-    /// Vulkan where there is one, then whatever else the system has.
+    /// Opens a device by Vulkan, or where there is none, by any other interface of the system.
     ///
-    /// One interface at a time: asked for all at once, the same machine may answer with OpenGL, whose pictures differ
-    /// slightly.
+    /// The interfaces are requested one after the other, because a request for all interfaces may return OpenGL, whose pictures
+    /// differ slightly.
     ///
     /// # Errors
-    /// When no adapter is found or the one found refuses to work.
+    /// When no adapter is found, or the adapter cannot open a device.
     pub fn new() -> Result<Self, NoAdapter> {
         Self::on(wgpu::Backends::VULKAN).or_else(|vulkan| {
             let others = wgpu::Backends::all() - wgpu::Backends::VULKAN;
             Self::on(others).map_err(|other| NoAdapter(format!("Vulkan: {vulkan}; others: {other}")))
         })
-    }
-
-    /// What draws, in words: "llvmpipe (LLVM 15.0.6, 256 bits), Vulkan".
-    pub fn description(&self) -> String {
-        let info = self.adapter.get_info();
-        format!("{}, {:?}", info.name, info.backend)
     }
 
     fn on(backends: wgpu::Backends) -> Result<Self, String> {

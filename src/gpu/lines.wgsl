@@ -1,18 +1,18 @@
 // Lines as rectangles on the screen, with soft edges and round ends. Instances are `Segment`s of upload.rs.
 
-// Share of the color that is left of a `Faint` line where something nearer hides it; 1 in the other pipelines.
+// Opacity of the hidden parts of a `Faint` line, as a share of the line's own; 1 in the other pipelines.
 override strength: f32 = 1.0;
 
 struct Stroke {
     @builtin(position) position: vec4f,
-    // Along the line from its first end on the screen, and across, physical pixels.
+    // Position along the line from the first end on the screen, and across the line, physical pixels.
     @location(0) @interpolate(linear) place_px: vec2f,
     @location(1) @interpolate(flat) color: vec4f,
-    // Length on the screen, half the width, length of a dash (0: solid).
+    // Length on the screen, half the width, length of a dash (0: solid line), physical pixels.
     @location(2) @interpolate(flat) shape_px: vec3f,
 }
 
-// The part of the way between two depths, one of them negative, at which the near plane is met.
+// The place of the near plane between two depths of which one is negative, as a share of their distance.
 fn cut(from_depth: f32, to_depth: f32) -> f32 {
     return from_depth / (from_depth - to_depth);
 }
@@ -41,7 +41,7 @@ fn vertex(
     let from_px = px_from_clip(from_clip);
     let to_px = px_from_clip(to_clip);
     let length_px = distance(from_px, to_px);
-    // A line seen along itself is a dot.
+    // A line in the direction of view is drawn as a dot.
     let along = select(vec2f(1.0, 0.0), (to_px - from_px) / length_px, length_px > 1e-4);
     let across = vec2f(-along.y, along.x);
 
@@ -54,7 +54,7 @@ fn vertex(
     let from_depth = from_clip.z / from_clip.w;
     let to_depth = to_clip.z / to_clip.w;
     stroke.position = clip_from_px(at_px, select(from_depth, to_depth, at_end));
-    // Thinner than a pixel means fainter, not thinner.
+    // A line thinner than a pixel is drawn one pixel wide and fainter.
     stroke.color = vec4f(color.rgb, color.a * clamp(width_px * globals.scale, 0.0, 1.0) * strength);
     stroke.shape_px = vec3f(length_px, 0.5 * width, dash_px * globals.scale);
     return stroke;
@@ -67,7 +67,7 @@ fn fragment(stroke: Stroke) -> @location(0) vec4f {
     var dash_start = 0.0;
     var dash_end = stroke.shape_px.x;
     if dash > 0.0 {
-        // The nearest dash that begins on the line.
+        // The nearest one of the dashes that begin on the line.
         let period = 2.0 * dash;
         let nearest = floor(max(stroke.place_px.x, 0.0) / period + 0.25);
         dash_start = min(nearest, floor(dash_end / period)) * period;

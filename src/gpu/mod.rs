@@ -1,13 +1,13 @@
-//! The color space in three dimensions: plain data in, pixels out.
+//! Draws the color space in three dimensions, from plain data to pixels.
 //!
-//! A [`Scene`] holds points, lines and translucent solids in world units (counts / 255); an [`Orbit`] camera looks at it;
-//! a [`Renderer`] draws it into a texture of its own, so that the window, picture files and tests show the same pixels.
-//! [`Headless`] is a graphics device without a window; [`pick`] finds what lies under a cursor, without a graphics device.
-//! This room knows nothing of the program's other rooms, and nothing of the window's toolkit.
+//! A [`Scene`] holds points, lines and translucent solids in world units (counts / 255); an [`Orbit`] camera looks at the scene;
+//! a [`Renderer`] draws the scene into a separate texture, so that the window, picture files and tests show the same pixels.
+//! [`Headless`] is a graphics device without a window; [`pick`] finds the points under a cursor, without a graphics device.
+//! This room uses neither the program's other rooms nor the window's toolkit.
 
 mod camera;
 mod headless;
-pub mod pick;
+pub(crate) mod pick;
 mod pipelines;
 mod projector;
 mod renderer;
@@ -19,9 +19,11 @@ mod upload;
 #[cfg(test)]
 mod tests;
 
-pub use camera::{DISTANCE_RANGE, FIELD_OF_VIEW_DEG, Orbit, Preset, Projection, TURN_DEG_PER_PX};
-pub use headless::{Headless, NoAdapter};
+pub use camera::{Orbit, Preset, Projection};
 pub use projector::{Projector, Ray, ScreenPoint};
-pub use renderer::Renderer;
-pub use scene::{Batch, Line, Mesh, Overlay, Point, Scene, Vertex};
-pub use target::read_texture;
+pub use scene::Vertex;
+
+pub(crate) use headless::{Headless, NoAdapter};
+pub(crate) use renderer::Renderer;
+pub(crate) use scene::{Batch, Line, Mesh, Overlay, Point, Scene};
+pub(crate) use target::read_texture;

@@ -1,23 +1,24 @@
-//! What lies under a cursor or inside a lasso; on the CPU, from the same numbers that are drawn.
+//! Finds the points under a cursor or inside a lasso, on the CPU, from the data that is drawn.
 //!
-//! Screen positions are in logical pixels, the unit of [`Point::size_px`]; make the [`Projector`] for that size.
+//! Screen positions are in logical pixels, the unit of [`Point::size_px`]. The [`Projector`] has to be made for a size in logical
+//! pixels.
 
 use super::projector::Projector;
 use super::scene::Point;
 
-/// A point that was hit.
+/// A point at the cursor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Its place in the list.
+    /// Index of the point in the list.
     pub index: usize,
-    /// From the cursor to the rim of its dot, logical pixels; 0 when the cursor is on the dot.
+    /// Distance from the cursor to the rim of the point's dot, logical pixels; 0 when the cursor is on the dot.
     pub beside_px: f32,
-    /// 0 at the near plane, 1 at the far one.
+    /// Depth of the point: 0 at the near plane, 1 at the far plane.
     pub depth: f32,
 }
 
-/// The point at the cursor: of the dots under it the front-most, otherwise the dot whose rim is nearest, if its center is
-/// within `radius_px`.
+/// The point at the cursor: the front-most of the dots under the cursor; without such a dot, the dot whose rim is nearest, if the
+/// dot's center is within `radius_px` of the cursor.
 pub fn nearest(points: &[Point], projector: &Projector, cursor: [f32; 2], radius_px: f32) -> Option<Hit> {
     let mut best: Option<Hit> = None;
     for (index, point) in points.iter().enumerate() {
@@ -37,7 +38,7 @@ pub fn nearest(points: &[Point], projector: &Projector, cursor: [f32; 2], radius
     best
 }
 
-/// The points whose centers are seen inside the polygon, in the order of the list; see [`encloses`].
+/// Indices of the points whose centers are projected into the polygon (see [`encloses`]), ascending.
 pub fn inside_polygon(points: &[Point], projector: &Projector, polygon: &[[f32; 2]]) -> Vec<usize> {
     let low = [0, 1].map(|axis| polygon.iter().map(|p| p[axis]).fold(f32::INFINITY, f32::min));
     let high = [0, 1].map(|axis| polygon.iter().map(|p| p[axis]).fold(f32::NEG_INFINITY, f32::max));
@@ -50,14 +51,14 @@ pub fn inside_polygon(points: &[Point], projector: &Projector, polygon: &[[f32; 
     (0..points.len()).filter(|&index| inside(&points[index])).collect()
 }
 
-/// Whether a position lies inside a closed polygon, by the even-odd rule: where its border crosses itself, what is
-/// enclosed twice is outside. Fewer than three corners enclose nothing.
+/// Whether a position lies inside a closed polygon, by the even-odd rule: where the border crosses itself, areas that are
+/// enclosed twice are outside. Fewer than three corners enclose nothing.
 pub fn encloses(polygon: &[[f32; 2]], [x, y]: [f32; 2]) -> bool {
     let Some(&last) = polygon.last() else { return false };
     let mut inside = false;
     let mut from = last;
     for &to in polygon {
-        // Half-open: a corner belongs to one of its two sides.
+        // The interval is half-open, so that a corner belongs to one of the two sides that meet there.
         if (from[1] > y) != (to[1] > y) {
             let crossing = from[0] + (y - from[1]) / (to[1] - from[1]) * (to[0] - from[0]);
             inside ^= x < crossing;
@@ -74,7 +75,7 @@ mod tests {
 
     const SIZE: [f32; 2] = [200.0, 200.0];
 
-    /// Along green, red to the right, blue up; the cube's middle in the middle of the screen.
+    /// A camera that looks along green, with red to the right and blue up, at the center of the cube.
     fn front() -> Orbit {
         let mut camera = Orbit { projection: Projection::Orthographic, ..Orbit::default() };
         camera.preset(Preset::Green);
@@ -91,14 +92,14 @@ mod tests {
     }
 
     #[test]
-    fn the_dot_in_front_wins_where_dots_overlap() {
+    fn the_front_most_dot_is_found_where_dots_overlap() {
         let points = [dot([0.5, 0.9, 0.5], 8.0), dot([0.5, 0.1, 0.5], 8.0), dot([0.5, 0.5, 0.5], 8.0)];
         let hit = nearest(&points, &front().projector(SIZE), at([0.5; 3]), 20.0).expect("three dots");
         assert_eq!((hit.index, hit.beside_px), (1, 0.0));
     }
 
     #[test]
-    fn beside_all_dots_the_nearest_wins_within_the_radius() {
+    fn beside_all_dots_the_nearest_within_the_radius_is_found() {
         let points = [dot([0.2, 0.1, 0.5], 2.0), dot([0.6, 0.9, 0.5], 2.0)];
         let projector = front().projector(SIZE);
         let middle = at([0.5; 3]);
@@ -119,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lasso_takes_what_it_surrounds() {
+    fn a_lasso_selects_the_points_inside() {
         let points: Vec<Point> =
             (0..5).map(|i| dot([0.2 + 0.15 * i as f32, 0.3 * i as f32, 0.5], 2.0)).collect();
         let [left, right] = [at([0.3, 0.0, 0.4]), at([0.7, 0.0, 0.6])];
@@ -129,11 +130,11 @@ mod tests {
     }
 
     #[test]
-    fn even_odd() {
+    fn areas_that_a_polygon_encloses_twice_are_outside() {
         let star = [0, 2, 4, 1, 3]
             .map(|k| (1.25 + k as f32 * 0.4) * std::f32::consts::PI)
             .map(|a| [a.cos(), a.sin()]);
-        assert!(!encloses(&star, [0.0, 0.0]), "the heart of a pentagram is surrounded twice");
+        assert!(!encloses(&star, [0.0, 0.0]), "the center of a pentagram is enclosed twice");
         let tip = star[0].map(|c| 0.7 * c);
         assert!(encloses(&star, tip));
         assert!(!encloses(&star, star[0].map(|c| -0.8 * c)));

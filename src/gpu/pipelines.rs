@@ -1,4 +1,4 @@
-//! The five ways to draw: how vertices are read, which depths pass, and what is blended.
+//! The render pipelines: the layout of vertices, the depth test and the blending of each.
 
 use super::scene::{Point, Vertex};
 use super::target::{COLOR_FORMAT, DEPTH_FORMAT};
@@ -9,25 +9,26 @@ pub(super) const POINTS_WGSL: &str = concat!(include_str!("globals.wgsl"), inclu
 pub(super) const LINES_WGSL: &str = concat!(include_str!("globals.wgsl"), include_str!("lines.wgsl"));
 pub(super) const SOLIDS_WGSL: &str = concat!(include_str!("globals.wgsl"), include_str!("solids.wgsl"));
 
-/// What is left of a `Faint` line behind nearer points.
+/// Opacity of the parts of a `Faint` line that nearer points hide, as a share of the line's own opacity.
 const FAINT: f64 = 0.3;
 
-/// The fields of [`Point`].
+/// Vertex attributes of a [`Point`].
 const POINT: [VertexAttribute; 3] = vertex_attr_array![0 => Float32x3, 1 => Unorm8x4, 2 => Float32];
-/// The fields of [`Segment`].
+/// Vertex attributes of a [`Segment`].
 const SEGMENT: [VertexAttribute; 5] =
     vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4, 3 => Float32, 4 => Float32];
-/// The fields of [`Vertex`].
+/// Vertex attributes of a [`Vertex`].
 const VERTEX: [VertexAttribute; 3] = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4];
 
-/// One pipeline for each way to draw, and the buffer that they all read.
+/// The render pipelines, and the buffer of globals that all pipelines read.
 pub(super) struct Pipelines {
+    /// Points.
     pub(super) points: wgpu::RenderPipeline,
-    /// Lines where nothing hides them.
+    /// The visible parts of lines.
     pub(super) lines: wgpu::RenderPipeline,
-    /// Lines where something hides them, faintly.
+    /// The hidden parts of lines, drawn faintly.
     pub(super) faint_lines: wgpu::RenderPipeline,
-    /// Lines whatever is in front of them.
+    /// Lines without a depth test.
     pub(super) over_lines: wgpu::RenderPipeline,
     pub(super) back_faces: wgpu::RenderPipeline,
     pub(super) front_faces: wgpu::RenderPipeline,
@@ -35,14 +36,14 @@ pub(super) struct Pipelines {
     pub(super) globals: wgpu::Buffer,
 }
 
-/// What differs between the pipelines.
-struct Way<'a> {
+/// The settings that differ between the pipelines.
+struct PipelineSettings<'a> {
     shader: &'a wgpu::ShaderModule,
     stride: usize,
     attributes: &'a [VertexAttribute],
     step: VertexStepMode,
     topology: wgpu::PrimitiveTopology,
-    /// Which side of a triangle is left out.
+    /// The side of triangles that is not drawn.
     cull: Option<wgpu::Face>,
     passes: CompareFunction,
     writes_depth: bool,
@@ -75,8 +76,8 @@ impl Pipelines {
                     source: wgpu::ShaderSource::Wgsl(text.into()),
                 })
             });
-        let make = |way: &Way| pipeline(device, &layout, way);
-        let point = Way {
+        let make = |settings: &PipelineSettings| pipeline(device, &layout, settings);
+        let point = PipelineSettings {
             shader: &points,
             stride: size_of::<Point>(),
             attributes: &POINT,
@@ -87,14 +88,14 @@ impl Pipelines {
             writes_depth: true,
             constants: &[],
         };
-        let line = Way {
+        let line = PipelineSettings {
             shader: &lines,
             stride: size_of::<Segment>(),
             attributes: &SEGMENT,
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             ..point
         };
-        let solid = Way {
+        let solid = PipelineSettings {
             shader: &solids,
             stride: size_of::<Vertex>(),
             attributes: &VERTEX,
@@ -107,15 +108,19 @@ impl Pipelines {
         Self {
             points: make(&point),
             lines: make(&line),
-            faint_lines: make(&Way {
+            faint_lines: make(&PipelineSettings {
                 passes: CompareFunction::Greater,
                 writes_depth: false,
                 constants: &faint,
                 ..line
             }),
-            over_lines: make(&Way { passes: CompareFunction::Always, writes_depth: false, ..line }),
-            back_faces: make(&Way { cull: Some(wgpu::Face::Front), ..solid }),
-            front_faces: make(&Way { cull: Some(wgpu::Face::Back), ..solid }),
+            over_lines: make(&PipelineSettings {
+                passes: CompareFunction::Always,
+                writes_depth: false,
+                ..line
+            }),
+            back_faces: make(&PipelineSettings { cull: Some(wgpu::Face::Front), ..solid }),
+            front_faces: make(&PipelineSettings { cull: Some(wgpu::Face::Back), ..solid }),
             bind_group,
             globals,
         }
@@ -138,37 +143,41 @@ fn bind_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     })
 }
 
-fn pipeline(device: &wgpu::Device, layout: &wgpu::PipelineLayout, way: &Way) -> wgpu::RenderPipeline {
+fn pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::PipelineLayout,
+    settings: &PipelineSettings,
+) -> wgpu::RenderPipeline {
     let compilation_options =
-        wgpu::PipelineCompilationOptions { constants: way.constants, ..Default::default() };
+        wgpu::PipelineCompilationOptions { constants: settings.constants, ..Default::default() };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("color space"),
         layout: Some(layout),
         vertex: wgpu::VertexState {
-            module: way.shader,
+            module: settings.shader,
             entry_point: Some("vertex"),
             compilation_options: compilation_options.clone(),
             buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: way.stride as u64,
-                step_mode: way.step,
-                attributes: way.attributes,
+                array_stride: settings.stride as u64,
+                step_mode: settings.step,
+                attributes: settings.attributes,
             })],
         },
         primitive: wgpu::PrimitiveState {
-            topology: way.topology,
-            cull_mode: way.cull,
+            topology: settings.topology,
+            cull_mode: settings.cull,
             ..wgpu::PrimitiveState::default()
         },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH_FORMAT,
-            depth_write_enabled: Some(way.writes_depth),
-            depth_compare: Some(way.passes),
+            depth_write_enabled: Some(settings.writes_depth),
+            depth_compare: Some(settings.passes),
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),
         }),
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
-            module: way.shader,
+            module: settings.shader,
             entry_point: Some("fragment"),
             compilation_options,
             targets: &[Some(wgpu::ColorTargetState {

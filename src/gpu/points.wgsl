@@ -2,13 +2,14 @@
 
 struct Dot {
     @builtin(position) position: vec4f,
-    // From the center, physical pixels.
+    // Position from the center of the dot, physical pixels.
     @location(0) @interpolate(linear) offset_px: vec2f,
     @location(1) @interpolate(flat) color: vec4f,
     @location(2) @interpolate(flat) radius_px: f32,
 }
 
-// One triangle around the disc instead of two for a square: fewer vertices, and the corners cost less than the setup.
+// One triangle around the disc instead of two for a square: fewer vertices, and the pixels in the corners cost less time than
+// the vertices.
 const CORNERS = array(vec2f(0.0, -2.0), vec2f(1.7320508, 1.0), vec2f(-1.7320508, 1.0));
 
 @vertex
@@ -19,7 +20,7 @@ fn vertex(
     @location(2) size_px: f32,
 ) -> Dot {
     let clip = globals.clip_from_world * vec4f(position, 1.0);
-    // Smaller than a pixel means fainter, not smaller.
+    // A dot smaller than a pixel is drawn one pixel wide and fainter.
     let diameter_px = size_px * globals.scale;
     let radius_px = 0.5 * max(diameter_px, 1.0);
     var corners = CORNERS;
@@ -30,7 +31,7 @@ fn vertex(
     if clip.w > 0.0 && clip.z >= 0.0 {
         dot.position = clip_from_px(px_from_clip(clip) + dot.offset_px, clip.z / clip.w);
     } else {
-        // Behind the viewer: all three corners at one place outside.
+        // A point behind the viewer gets three equal corners outside of the screen, so that nothing is drawn.
         dot.position = vec4f(2.0, 2.0, 2.0, 1.0);
     }
     return dot;
@@ -47,7 +48,6 @@ fn fragment(dot: Dot) -> Shaded {
     if coverage <= 0.0 {
         discard;
     }
-    // The outer half of the soft rim is as deep as the background: it softens the edge against it, and neither covers
-    // nor hides other points.
+    // The outer half of the soft rim has the depth of the background, so that the rim neither covers nor hides other points.
     return Shaded(premultiplied(dot.color, coverage), select(1.0, dot.position.z, coverage >= 0.5));
 }

@@ -1,27 +1,27 @@
-//! From the world to the screen, one point after the other.
+//! Projects single points from the world to the screen.
 
 use nalgebra::{Matrix4, Vector3};
 
-/// Where a world point is seen.
+/// The position of a world point on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScreenPoint {
-    /// From the top left corner, y downwards, in the unit of the screen's size.
+    /// Position from the top left corner, y downwards, in the unit of the screen's size.
     pub at: [f32; 2],
-    /// 0 at the near plane, 1 at the far one: smaller is in front.
+    /// Depth: 0 at the near plane, 1 at the far plane. A smaller depth is in front.
     pub depth: f32,
 }
 
 /// A line of sight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts, world units.
+    /// Start of the line of sight, world units.
     pub origin: [f32; 3],
-    /// Unit vector.
+    /// Direction, unit vector.
     pub direction: [f32; 3],
 }
 
 impl Ray {
-    /// Where it meets the plane through `point`; `None` when it runs along the plane.
+    /// The point at which the ray meets the plane through `point`; `None` for a ray parallel to the plane.
     pub fn meet_plane(&self, point: [f32; 3], normal: [f32; 3]) -> Option<[f32; 3]> {
         let [origin, direction, point, normal] =
             [self.origin, self.direction, point, normal].map(Vector3::from);
@@ -49,11 +49,11 @@ impl Projector {
         Self { clip_from_world: *clip_from_world, size }
     }
 
-    /// Where a world point is on the screen, or beside it; `None` when it is behind the near plane.
+    /// The position of a world point on the screen or outside of the screen; `None` for a point behind the near plane.
     pub fn screen_from_world(&self, world: [f32; 3]) -> Option<ScreenPoint> {
         let m = &self.clip_from_world;
         let [x, y, z] = world;
-        // Written out: this runs once a point, and debug builds do not inline nalgebra's product.
+        // The product is written out, because the function is called for each point and debug builds do not inline nalgebra's.
         let clip = |row: usize| m[(row, 0)] * x + m[(row, 1)] * y + m[(row, 2)] * z + m[(row, 3)];
         let (w, depth) = (clip(3), clip(2));
         (w > 0.0 && depth >= 0.0).then(|| ScreenPoint {

@@ -1,4 +1,4 @@
-//! Draws a scene as a camera sees it, when something has changed.
+//! Draws a scene from the view of a camera, when the scene, the camera or the size has changed.
 
 use super::camera::Orbit;
 use super::pipelines::Pipelines;
@@ -11,7 +11,7 @@ use std::ops::Range;
 const CORNERS_OF_A_DOT: u32 = 3;
 const CORNERS_OF_A_LINE: u32 = 4;
 
-/// Draws into a texture of its own, on any device with or without a window.
+/// Draws scenes into a texture, on a device with or without a window.
 pub struct Renderer {
     pipelines: Pipelines,
     uploads: Uploads,
@@ -20,7 +20,7 @@ pub struct Renderer {
     drawn: Option<Frame>,
 }
 
-/// All that a picture depends on.
+/// Everything that a picture depends on.
 #[derive(PartialEq)]
 struct Frame {
     camera: Orbit,
@@ -42,10 +42,11 @@ impl Renderer {
         }
     }
 
-    /// Brings the picture up to date; returns whether that took drawing.
+    /// Draws the picture if anything has changed; returns whether the picture was drawn.
     ///
-    /// `size_px` are physical pixels, `pixels_per_point` of them a logical one. A size larger than the device's largest
-    /// texture is reduced to it, in shape ([`Self::size_px`] tells); at a size of 0 the picture stays as it is.
+    /// `size_px` is in physical pixels; a logical pixel has `pixels_per_point` physical pixels. A size larger than the device's
+    /// largest texture is reduced to that size with the same aspect ratio, see [`Self::size_px`]. At a size of 0 the picture does not
+    /// change.
     pub fn draw(
         &mut self,
         device: &wgpu::Device,
@@ -83,12 +84,12 @@ impl Renderer {
         true
     }
 
-    /// The picture: Rgba8Unorm, sRGB, premultiplied alpha.
+    /// The picture: format `Rgba8Unorm`, sRGB, premultiplied alpha.
     pub fn view(&self) -> &wgpu::TextureView {
         &self.target.color_view
     }
 
-    /// Grows by one whenever [`Self::view`] becomes another one, which then has to be registered anew.
+    /// A number that rises by one when [`Self::view`] returns another view, which then has to be registered again.
     pub fn generation(&self) -> u64 {
         self.generation
     }
@@ -98,8 +99,8 @@ impl Renderer {
         self.target.size_px
     }
 
-    /// Waits for the picture and returns it: rows from the top, sRGB bytes RGBA with straight alpha. `None` when the
-    /// device was lost.
+    /// The picture as rows from the top, sRGB bytes RGBA with straight alpha. Waits for the device; `None` when the device was
+    /// lost.
     pub fn read_back(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Option<Vec<u8>> {
         let mut bytes = self.target.read_back(device, queue)?;
         for [rgb @ .., alpha] in bytes.as_chunks_mut::<4>().0 {
@@ -141,7 +142,7 @@ impl Renderer {
             pass.draw(0..CORNERS_OF_A_DOT, 0..*items);
         }
         let of_lines = &self.uploads.lines;
-        // The hidden parts first: the visible parts write depth, and would hide their own line.
+        // The hidden parts are drawn first, because the visible parts write depth and would hide parts of the same line.
         self.encode_lines(&mut pass, faint_lines, of_lines.faint.clone());
         self.encode_lines(&mut pass, lines, of_lines.hidden.start..of_lines.faint.end);
         self.encode_solids(&mut pass, &scene.meshes, camera);
@@ -156,7 +157,7 @@ impl Renderer {
         }
     }
 
-    /// Far solids before near ones, and each one's far side before its near side.
+    /// Draws far solids before near ones, and the far side of each solid before the near side.
     fn encode_solids(&self, pass: &mut wgpu::RenderPass, meshes: &[Mesh], camera: &Orbit) {
         let [_, _, forward] = camera.right_up_forward();
         let depth = |mesh: &Mesh| Vector3::from(mesh.center).dot(&Vector3::from(forward));
@@ -174,7 +175,7 @@ impl Renderer {
     }
 }
 
-/// Premultiplied, as the picture is.
+/// The color of the background with premultiplied alpha, like the picture.
 fn clear_color([r, g, b, a]: [u8; 4]) -> wgpu::Color {
     let a = f64::from(a) / 255.0;
     let [r, g, b] = [r, g, b].map(|c| f64::from(c) / 255.0 * a);

@@ -1,17 +1,17 @@
-//! What is to be drawn, as plain data.
+//! The scene to draw, as plain data.
 //!
-//! Positions are in world units (counts / 255). Colors are sRGB bytes red, green, blue and straight alpha; they are
-//! blended as they are, like the window's own. Sizes and widths are in logical pixels: the renderer multiplies them with
-//! the screen's scale.
+//! Positions are in world units (counts / 255). Colors are sRGB bytes red, green, blue and straight alpha; colors
+//! are blended without conversion to linear light, like the window's colors. Sizes and widths are in logical pixels: the renderer
+//! multiplies sizes and widths by the screen's scale.
 
 use bytemuck::{Pod, Zeroable};
 use std::ops::Deref;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A shared list that knows whether it is the same as before: clones are, a new list never is.
+/// A shared list with a revision: clones have the same revision, every new list has another one.
 ///
-/// The renderer uploads a batch once and draws it until it is gone from the scene.
+/// The renderer uploads a batch once and draws the batch as long as it is in the scene.
 #[derive(Clone, Debug)]
 pub struct Batch<T> {
     items: Arc<[T]>,
@@ -19,16 +19,16 @@ pub struct Batch<T> {
 }
 
 impl<T> Batch<T> {
-    /// A new batch, different from all others.
+    /// A new batch with a new revision.
     pub fn new(items: impl Into<Arc<[T]>>) -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(1);
         let items = items.into();
-        // All empty lists are the same one: nothing is drawn again when nothing replaces nothing.
+        // All empty lists have the same revision, so that an empty list that replaces an empty list causes no drawing.
         let revision = if items.is_empty() { 0 } else { NEXT.fetch_add(1, Ordering::Relaxed) };
         Self { items, revision }
     }
 
-    /// A number that no other content has while the program runs.
+    /// A number that no other list has while the program runs.
     pub fn revision(&self) -> u64 {
         self.revision
     }
@@ -54,21 +54,21 @@ impl<T> Deref for Batch<T> {
 pub struct Point {
     /// Center, world units.
     pub position: [f32; 3],
-    /// sRGB and straight alpha. A translucent point still hides what is drawn behind it later.
+    /// sRGB and straight alpha. A translucent point hides the points behind it that are drawn later.
     pub color: [u8; 4],
-    /// Diameter, logical pixels, whatever the distance.
+    /// Diameter, logical pixels, at any distance.
     pub size_px: f32,
 }
 
-/// Where a line shows.
+/// The visibility of a line behind nearer points and solids.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Overlay {
-    /// Where nothing nearer hides it: the wire cube.
+    /// The line is visible where nothing nearer hides the line. For the wire cube.
     #[default]
     Hidden,
-    /// Everywhere, faintly behind nearer points: axes of cylinders within their cluster.
+    /// The line is visible everywhere, faintly behind nearer points. For axes of cylinders within their cluster.
     Faint,
-    /// Everywhere, on top of all else: the selection.
+    /// The line is drawn on top of everything. For the selection.
     Over,
 }
 
@@ -81,11 +81,11 @@ pub struct Line {
     pub b: [f32; 3],
     /// sRGB and straight alpha.
     pub color: [u8; 4],
-    /// Logical pixels, whatever the distance.
+    /// Width, logical pixels, at any distance.
     pub width_px: f32,
     /// Length of dashes and of the gaps between them, logical pixels; 0: a solid line.
     pub dash_px: f32,
-    /// What happens where something nearer is in the way.
+    /// The visibility of the line behind nearer points and solids.
     pub overlay: Overlay,
 }
 
@@ -93,11 +93,11 @@ pub struct Line {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Vertex {
-    /// World units.
+    /// Position, world units.
     pub position: [f32; 3],
-    /// Unit vector out of the solid; of an open sheet either side.
+    /// Unit vector out of the solid; for an open sheet, to either side.
     pub normal: [f32; 3],
-    /// sRGB and straight alpha of the surface seen face-on; it thickens towards the silhouette.
+    /// sRGB and straight alpha of the surface seen face-on; opacity rises towards the silhouette.
     pub color: [u8; 4],
 }
 
@@ -109,28 +109,28 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Three vertices a triangle, counter-clockwise seen from outside.
+    /// A mesh with three vertices per triangle, counter-clockwise seen from outside.
     ///
-    /// Back faces are drawn before front faces, and far meshes before near ones: exact for convex solids that do not
-    /// intersect, close enough for the rest.
+    /// Back faces are drawn before front faces, and far meshes before near ones. The result is exact for convex solids that do not
+    /// intersect, and an approximation for other solids.
     pub fn new(triangles: Vec<Vertex>) -> Self {
         let n = triangles.len().max(1) as f32;
         let center = [0, 1, 2].map(|axis| triangles.iter().map(|v| v.position[axis]).sum::<f32>() / n);
         Self { triangles: Batch::new(triangles), center }
     }
 
-    /// Its vertices, three a triangle.
+    /// The vertices, three per triangle.
     pub fn triangles(&self) -> &Batch<Vertex> {
         &self.triangles
     }
 }
 
-/// Everything that is drawn: points, then solids over what lies behind them, then the lines that lie over all.
+/// Everything that is drawn: points first, then solids, then the lines on top.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// sRGB and straight alpha; transparent for a picture to paste elsewhere.
+    /// Color of the background, sRGB and straight alpha; transparent for pictures that are pasted into documents.
     pub background: [u8; 4],
-    /// Clouds of points. What changes at another pace (a hovered point, a selection) is best a batch of its own.
+    /// Clouds of points. Points that change at different times (a hovered point, a selection) are best kept in different batches.
     pub points: Vec<Batch<Point>>,
     /// All lines.
     pub lines: Batch<Line>,
@@ -139,7 +139,7 @@ pub struct Scene {
 }
 
 impl Default for Scene {
-    /// Nothing on black.
+    /// An empty scene with a black background.
     fn default() -> Self {
         Self { background: [0, 0, 0, 255], points: Vec::new(), lines: Batch::default(), meshes: Vec::new() }
     }
@@ -150,7 +150,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_batch_is_itself_and_no_other() {
+    fn clones_of_a_batch_have_one_revision_and_new_batches_have_others() {
         let one = Batch::new(vec![1, 2, 3]);
         assert_eq!(one.revision(), one.clone().revision());
         assert_ne!(one.revision(), Batch::new(vec![1, 2, 3]).revision());
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn the_layouts_that_the_shaders_read() {
+    fn sizes_of_the_layouts_that_the_shaders_read() {
         assert_eq!(size_of::<Point>(), 20);
         assert_eq!(size_of::<Vertex>(), 28);
     }

@@ -14,7 +14,7 @@ const CORNERS: [[f32; 3]; 8] = [
     [1.0, 1.0, 1.0],
 ];
 
-/// The twelve edges of the unit cube, each from its end nearer to black.
+/// The twelve edges of the unit cube, each with the end nearer to black first.
 pub fn cube_edges() -> [[[f32; 3]; 2]; 12] {
     std::array::from_fn(|edge| {
         let (axis, side) = (edge / 4, edge % 4);
@@ -25,7 +25,8 @@ pub fn cube_edges() -> [[[f32; 3]; 2]; 12] {
     })
 }
 
-/// A cylinder around the line from `a` to `b`, with flat ends, of `sides` facets that look round.
+/// Triangles of a cylinder around the line from `a` to `b`, with flat ends and `sides` facets. The facets look round, because their
+/// normals are those of the cylinder.
 pub fn cylinder(a: [f32; 3], b: [f32; 3], radius: f32, sides: usize, color: [u8; 4]) -> Vec<Vertex> {
     let [a, b] = [a, b].map(Vector3::from);
     let Some(axis) = (b - a).try_normalize(1e-9) else { return Vec::new() };
@@ -54,7 +55,8 @@ pub fn cylinder(a: [f32; 3], b: [f32; 3], radius: f32, sides: usize, color: [u8;
     triangles
 }
 
-/// A slab: a flat convex polygon, thickened to both sides by `half_width` along its normal. With no width a sheet.
+/// Triangles of a slab: a flat convex polygon, extended to both sides by `half_width` along the polygon's normal. A slab without
+/// width is a single sheet.
 pub fn slab(polygon: &[[f32; 3]], half_width: f32, color: [u8; 4]) -> Vec<Vertex> {
     let corners: Vec<Vector3<f32>> = polygon.iter().map(|&corner| Vector3::from(corner)).collect();
     let Some(normal) = polygon_normal(&corners) else { return Vec::new() };
@@ -80,8 +82,8 @@ pub fn slab(polygon: &[[f32; 3]], half_width: f32, color: [u8; 4]) -> Vec<Vertex
     triangles
 }
 
-/// Where a plane cuts the unit cube: a convex polygon of three to six corners, counter-clockwise seen against the normal;
-/// empty where it misses the cube.
+/// The intersection of a plane and the unit cube: a convex polygon of three to six corners, counter-clockwise seen against the
+/// normal; empty where the plane misses the cube.
 pub fn plane_in_cube(point: [f32; 3], normal: [f32; 3]) -> Vec<[f32; 3]> {
     let point = Vector3::from(point);
     let Some(normal) = Vector3::from(normal).try_normalize(1e-9) else { return Vec::new() };
@@ -91,7 +93,7 @@ pub fn plane_in_cube(point: [f32; 3], normal: [f32; 3]) -> Vec<[f32; 3]> {
         let along = above / (above - below);
         if (0.0..=1.0).contains(&along) {
             let corner = from + (to - from) * along;
-            // Through a corner of the cube three edges lead.
+            // Three edges meet at a corner of the cube, so that a corner may be found more than once.
             if corners.iter().all(|known| (known - corner).norm() > 1e-5) {
                 corners.push(corner);
             }
@@ -107,14 +109,14 @@ pub fn plane_in_cube(point: [f32; 3], normal: [f32; 3]) -> Vec<[f32; 3]> {
     corners.into_iter().map(Into::into).collect()
 }
 
-/// Two unit vectors that make a right-handed frame with this one: u × v = axis.
+/// Two unit vectors u and v that are perpendicular to `axis`, with u × v = axis.
 fn perpendicular(axis: Vector3<f32>) -> [Vector3<f32>; 2] {
     let helper = if axis.z.abs() < 0.9 { Vector3::z() } else { Vector3::x() };
     let u = helper.cross(&axis).normalize();
     [u, axis.cross(&u)]
 }
 
-/// Unit normal of a flat polygon whose corners run counter-clockwise around it; `None` when it has no area.
+/// Unit normal of a flat polygon whose corners run counter-clockwise around the normal; `None` for a polygon without area.
 fn polygon_normal(corners: &[Vector3<f32>]) -> Option<Vector3<f32>> {
     let first = corners.first()?;
     let fans = corners[1..].windows(2).map(|pair| (pair[0] - first).cross(&(pair[1] - first)));
@@ -127,7 +129,8 @@ mod tests {
 
     const COLOR: [u8; 4] = [200, 100, 50, 90];
 
-    /// Every triangle turns the way its normals point, and closes with its neighbors: the faces' areas cancel out.
+    /// Checks that every triangle is counter-clockwise around the triangle's normals, and that the surface is closed: the vectors
+    /// of all areas add up to zero.
     #[track_caller]
     fn assert_closed_and_outward(triangles: &[Vertex]) {
         let mut total = Vector3::zeros();
@@ -178,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn planes_of_every_number_of_corners() {
+    fn planes_cut_polygons_of_three_to_six_corners() {
         for (point, normal, corners) in [
             ([0.2, 0.0, 0.0], [1.0, 1.0, 1.0], 3),
             ([0.5; 3], [1.0, 0.0, 0.0], 4),

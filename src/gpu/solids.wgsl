@@ -16,21 +16,21 @@ fn vertex(
     return Surface(globals.clip_from_world * vec4f(position, 1.0), position, normal, color);
 }
 
-// Share of the color that is left where the surface turns away from the viewer.
+// Brightness of a surface perpendicular to the viewer's direction, as a share of the surface's color.
 const DIMMEST = 0.6;
-// Below this cosine the skin gets no thicker: the silhouette is a line of a few pixels, not a hard wall.
+// Least cosine for the thickness of the skin, so that the silhouette is a line of a few pixels and not opaque.
 const GRAZING = 0.18;
 
 @fragment
 fn fragment(surface: Surface) -> @location(0) vec4f {
     let to_viewer = normalize(globals.viewer.xyz - surface.world * globals.viewer.w);
     let facing = abs(dot(normalize(surface.normal), to_viewer));
-    // A skin of even thickness: light crosses 1 / cos of it, and each layer lets the same share through. So a
-    // cylinder has a light middle and dark rims, as a tube of glass has.
+    // The surface is a skin of constant thickness: light crosses 1 / cos of the thickness, and each layer transmits the same
+    // share. A cylinder therefore has a light middle and dark rims, like a glass tube.
     let through = pow(1.0 - surface.color.a, 1.0 / max(facing, GRAZING));
     let shaded = surface.color.rgb * mix(DIMMEST, 1.0, facing);
-    // Towards the silhouette of a round body the cosine falls like the square root of the distance, which this
-    // recovers, in pixels: a soft edge without more samples a pixel. Flat faces are far from it everywhere.
+    // Towards the silhouette of a round body the cosine falls like the square root of the distance. The distance in pixels is
+    // computed from the cosine, for a soft edge without more samples per pixel. Flat faces are everywhere far from such an edge.
     let inside_px = 0.5 * facing / max(fwidth(facing), 1e-6);
     return premultiplied(vec4f(shaded, 1.0 - through), saturate(inside_px));
 }

@@ -1,12 +1,12 @@
-//! The picture that is drawn into, and the way back to the CPU.
+//! The textures that are drawn into, and reading textures back to the CPU.
 
 use wgpu::{TextureFormat, TextureUsages};
 
-/// sRGB bytes as they are: colors are blended as the window blends its own.
+/// Format of the picture: sRGB bytes without conversion, so that colors are blended like the window's colors.
 pub(super) const COLOR_FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 pub(super) const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
 
-/// A picture with depth.
+/// The textures of a picture: color and depth.
 pub(super) struct Target {
     pub(super) size_px: [u32; 2],
     color: wgpu::Texture,
@@ -28,14 +28,14 @@ impl Target {
         }
     }
 
-    /// Waits for the picture; rows of premultiplied RGBA without padding. `None` when the device was lost.
+    /// The picture as rows of premultiplied RGBA without padding. Waits for the device; `None` when the device was lost.
     pub(super) fn read_back(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Option<Vec<u8>> {
         read_texture(device, queue, &self.color)
     }
 }
 
-/// The pixels of an RGBA texture of 8 bits a channel that may be copied from; rows without padding. Waits for the device;
-/// `None` when that was lost.
+/// The pixels of an RGBA texture with 8 bits per channel and the usage `COPY_SRC`, as rows without padding. Waits for the device;
+/// `None` when the device was lost.
 pub fn read_texture(device: &wgpu::Device, queue: &wgpu::Queue, texture: &wgpu::Texture) -> Option<Vec<u8>> {
     let (width, height) = (texture.width(), texture.height());
     let row_bytes = 4 * width;
@@ -60,7 +60,7 @@ pub fn read_texture(device: &wgpu::Device, queue: &wgpu::Queue, texture: &wgpu::
         texture.size(),
     );
     queue.submit([encoder.finish()]);
-    // A failure shows when the range is asked for.
+    // A failure of the mapping is found when the mapped range is read.
     buffer.map_async(wgpu::MapMode::Read, .., |_| ());
     device.poll(wgpu::PollType::wait_indefinitely()).ok()?;
     let mapped = buffer.get_mapped_range(..).ok()?;
@@ -68,7 +68,8 @@ pub fn read_texture(device: &wgpu::Device, queue: &wgpu::Queue, texture: &wgpu::
     Some(rows.flat_map(|row| &row[..row_bytes as usize]).copied().collect())
 }
 
-/// The largest size of the same shape that a texture can have (at least one pixel), and by how much it is smaller.
+/// The largest size with the same aspect ratio whose sides are at most `limit_px` and at least one pixel, and the factor to that
+/// size.
 pub(super) fn within_limits(size_px: [u32; 2], limit_px: u32) -> ([u32; 2], f32) {
     let longest = size_px[0].max(size_px[1]);
     if longest <= limit_px {

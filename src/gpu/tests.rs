@@ -1,4 +1,4 @@
-//! Pictures of small scenes, judged by numbers at the pixels where the camera says that things are.
+//! Tests of pictures of small scenes, by the colors of the pixels to which the camera projects points.
 
 mod speed;
 
@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 const SIZE: [u32; 2] = [160, 120];
 
-/// The device that all tests share, or why there is none.
+/// The device that all tests share; `None` where there is no device.
 fn device() -> Option<&'static Headless> {
     static DEVICE: OnceLock<Result<Headless, NoAdapter>> = OnceLock::new();
     let device = DEVICE.get_or_init(Headless::new);
@@ -22,7 +22,7 @@ fn device() -> Option<&'static Headless> {
     }
 }
 
-/// A picture with its camera, ready for questions.
+/// A picture and the camera that it was drawn with.
 struct Picture {
     rgba: Vec<u8>,
     size_px: [u32; 2],
@@ -49,7 +49,7 @@ impl Picture {
         self.rgba.as_chunks::<4>().0[y * self.size_px[0] as usize + x]
     }
 
-    /// The pixel in which a world point lies.
+    /// The color of the pixel to which a world point is projected.
     #[track_caller]
     fn at_world(&self, world: [f32; 3]) -> [u8; 4] {
         let [x, y] = self.place_px(world);
@@ -62,7 +62,7 @@ impl Picture {
         self.camera.screen_from_world(world, size).expect("in view").at
     }
 
-    /// Sum over all pixels of how much of channel `c` is there, and its center, in pixels.
+    /// Sum of channel `c` over all pixels, and the center of that sum, pixels.
     fn mass_and_center(&self, c: usize) -> (f32, [f32; 2]) {
         let (mut mass, mut x_sum, mut y_sum) = (0.0, 0.0, 0.0);
         for (index, pixel) in self.rgba.as_chunks::<4>().0.iter().enumerate() {
@@ -76,7 +76,7 @@ impl Picture {
     }
 }
 
-/// Along green: red to the right, blue up, green into the screen; the middle of the cube in the middle.
+/// A camera that looks along green at the center of the cube, with red to the right and blue up.
 fn front(projection: Projection) -> Orbit {
     let mut camera = Orbit { projection, ..Orbit::default() };
     camera.preset(Preset::Green);
@@ -125,7 +125,7 @@ fn every_shader_is_valid() {
 }
 
 #[test]
-fn points_are_where_the_camera_says() {
+fn points_are_drawn_where_the_camera_projects_them() {
     let mut askew = Orbit::default();
     askew.look_along([-0.7, 0.6, -0.35], [0.2, 0.1, 1.0]);
     for camera in [orthographic(), front(Projection::Perspective), askew] {
@@ -143,7 +143,7 @@ fn points_are_where_the_camera_says() {
 }
 
 #[test]
-fn dots_are_round_and_as_large_as_they_say() {
+fn dots_are_round_and_have_their_diameter() {
     for (size_px, scale) in [(3.0, 1.0), (10.0, 1.0), (24.0, 1.0), (7.0, 2.0)] {
         let scene = scene_of(vec![dot([0.5; 3], RED, size_px)]);
         let Some(picture) = Picture::sized(&scene, &orthographic(), SIZE, scale) else { return };
@@ -190,7 +190,7 @@ fn nearer_dots_hide_farther_ones_whatever_the_order() {
             let Some(picture) = Picture::of(&scene_of(points), &camera) else { return };
             assert_eq!(picture.at_world([0.5; 3]), RED);
             let (blue, _) = picture.mass_and_center(2);
-            // Where two soft rims coincide, a little of both shows.
+            // Where two soft rims coincide, both colors are visible a little.
             assert!(blue < 15.0, "{blue} pixels of the dot behind shine around the one in front");
         }
     }
@@ -205,7 +205,7 @@ fn batches_share_one_depth() {
 }
 
 #[test]
-fn lines_as_wide_as_they_say() {
+fn lines_have_their_width() {
     let lines = vec![line([0.2, 0.5, 0.3], [0.8, 0.5, 0.7], Overlay::Hidden)];
     let scene = Scene { lines: Batch::new(lines), ..Scene::default() };
     let Some(picture) = Picture::of(&scene, &front(Projection::Perspective)) else { return };
@@ -233,7 +233,7 @@ fn dashes_leave_half_of_the_line() {
 }
 
 #[test]
-fn overlays() {
+fn hidden_lines_are_faint_or_visible_by_their_overlay() {
     for (overlay, expected) in
         [(Overlay::Hidden, RED), (Overlay::Faint, [178, 77, 0, 255]), (Overlay::Over, GREEN)]
     {
@@ -259,7 +259,7 @@ fn a_line_from_behind_the_viewer_is_cut() {
     assert_eq!(picture.at_world([0.9, 0.8, 0.9]), BLACK, "no mirror image of what is behind");
 }
 
-/// A square across the view at depth `y`.
+/// A square perpendicular to the direction of view, at depth `y`.
 fn sheet(y: f32, color: [u8; 4]) -> Mesh {
     let polygon = [[0.3, y, 0.3], [0.7, y, 0.3], [0.7, y, 0.7], [0.3, y, 0.7]];
     Mesh::new(shapes::slab(&polygon, 0.0, color))
@@ -267,11 +267,12 @@ fn sheet(y: f32, color: [u8; 4]) -> Mesh {
 
 #[test]
 fn a_sheet_tints_what_is_behind_it_by_its_alpha() {
-    let veil = [0, 0, 255, 102];
+    let translucent_blue = [0, 0, 255, 102];
     let behind = scene_of(vec![dot([0.5; 3], RED, 20.0)]);
     for (y, expected) in [(0.2, [153, 0, 102, 255]), (0.8, RED)] {
         for turned in [false, true] {
-            let mut triangles = shapes::slab(&[[0.3, y, 0.3], [0.7, y, 0.3], [0.7, y, 0.7]], 0.0, veil);
+            let mut triangles =
+                shapes::slab(&[[0.3, y, 0.3], [0.7, y, 0.3], [0.7, y, 0.7]], 0.0, translucent_blue);
             if turned {
                 triangles.as_chunks_mut::<3>().0.iter_mut().for_each(|corners| corners.swap(1, 2));
             }
@@ -324,7 +325,7 @@ fn the_empty_scene_is_its_background() {
 }
 
 #[test]
-fn drawn_again_only_when_something_changed() {
+fn a_picture_is_drawn_only_when_something_changed() {
     let Some(Headless { device, queue, .. }) = device() else { return };
     let mut renderer = Renderer::new(device);
     let mut scene = scene_of(vec![dot([0.5; 3], RED, 9.0)]);

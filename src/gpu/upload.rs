@@ -1,4 +1,4 @@
-//! From a scene's lists to buffers on the graphics device, each list once.
+//! Uploads the lists of a scene to buffers on the graphics device, each list once.
 
 use super::camera::{Orbit, Projection};
 use super::scene::{Batch, Line, Overlay, Scene};
@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 use wgpu::util::DeviceExt;
 
-/// What all shaders know; `globals.wgsl` reads this layout.
+/// The data that all shaders read; `globals.wgsl` has the same layout.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct Globals {
@@ -36,7 +36,7 @@ impl Globals {
     }
 }
 
-/// A [`Line`] as `lines.wgsl` reads it.
+/// A [`Line`] in the layout of `lines.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct Segment {
@@ -60,7 +60,7 @@ pub(super) struct Chunk {
     pub(super) items: u32,
 }
 
-/// All lines in one buffer, ordered by where they show.
+/// All lines in one buffer, ordered by [`Overlay`], with the range of each kind.
 #[derive(Default)]
 pub(super) struct Lines {
     revision: u64,
@@ -70,16 +70,16 @@ pub(super) struct Lines {
     pub(super) over: Range<u32>,
 }
 
-/// What is on the device.
+/// The data on the device.
 #[derive(Default)]
 pub(super) struct Uploads {
-    /// Points and triangles by revision. A long list is divided among several buffers.
+    /// The buffers of points and triangles by revision. A long list is divided among several buffers.
     batches: HashMap<u64, Vec<Chunk>>,
     pub(super) lines: Lines,
 }
 
 impl Uploads {
-    /// Uploads what is new in the scene and forgets what has gone from it.
+    /// Uploads the new lists of the scene and deletes the buffers of lists that are not in the scene.
     pub(super) fn update(&mut self, device: &wgpu::Device, scene: &Scene) {
         let revisions = revisions(scene);
         self.batches.retain(|revision, _| revisions.contains(revision));
@@ -94,7 +94,7 @@ impl Uploads {
         }
     }
 
-    /// The buffers of a list that [`Self::update`] has seen.
+    /// The buffers of a list of the scene that was passed to [`Self::update`].
     pub(super) fn chunks<T>(&self, batch: &Batch<T>) -> &[Chunk] {
         self.batches.get(&batch.revision()).map_or(&[], Vec::as_slice)
     }
@@ -102,7 +102,7 @@ impl Uploads {
     fn add<T: Pod>(&mut self, device: &wgpu::Device, batch: &Batch<T>, label: &str) {
         self.batches.entry(batch.revision()).or_insert_with(|| {
             let most = device.limits().max_buffer_size / size_of::<T>() as u64;
-            // Whole triangles.
+            // The length of a buffer is a multiple of three items, so that no triangle is divided.
             let most = usize::try_from(most - most % 3).unwrap_or(usize::MAX - 2).max(3);
             let chunks = batch.chunks(most);
             chunks
@@ -130,7 +130,7 @@ impl Lines {
     }
 }
 
-/// The revisions of all that the scene holds, in the order in which it is drawn.
+/// The revisions of all lists of the scene, in the order of drawing.
 pub(super) fn revisions(scene: &Scene) -> Vec<u64> {
     let points = scene.points.iter().map(Batch::revision);
     let meshes = scene.meshes.iter().map(|mesh| mesh.triangles.revision());

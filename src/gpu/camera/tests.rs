@@ -3,7 +3,7 @@ use super::*;
 const SIZE: [f32; 2] = [800.0, 600.0];
 const BOTH: [Projection; 2] = [Projection::Perspective, Projection::Orthographic];
 
-/// A camera that nothing is aligned with.
+/// A camera whose axes are parallel to no axis of the world.
 fn askew(projection: Projection) -> Orbit {
     let mut camera = Orbit { projection, target: [0.4, 0.55, 0.3], distance: 2.5, ..Orbit::default() };
     camera.look_along([-0.7, 0.6, -0.35], [0.2, 0.1, 1.0]);
@@ -37,7 +37,7 @@ fn switching_the_projection_keeps_the_target_plane() {
     let [right, up, forward] = perspective.right_up_forward().map(Vector3::from);
     let on_plane = Vector3::from(perspective.target) + right * 0.3 - up * 0.2;
     assert_near(screen(&perspective, on_plane.into()), screen(&orthographic, on_plane.into()), 1e-2);
-    // Half way to the eye, perspective doubles what the orthographic projection leaves as it is.
+    // Halfway to the eye, perspective doubles lengths that the orthographic projection does not change.
     let nearer = (on_plane - forward * 0.5 * perspective.distance).into();
     let [x, y] = screen(&orthographic, nearer);
     let doubled = [400.0 + 2.0 * (x - 400.0), 300.0 + 2.0 * (y - 300.0)];
@@ -81,7 +81,7 @@ fn depth_runs_from_near_to_far() {
 }
 
 #[test]
-fn zooming_holds_what_is_under_the_cursor() {
+fn zooming_keeps_the_place_of_the_point_under_the_cursor() {
     for mut camera in BOTH.map(askew) {
         let cursor = [650.0, 120.0];
         let ray = camera.ray_from_screen(cursor, SIZE);
@@ -97,7 +97,7 @@ fn zooming_holds_what_is_under_the_cursor() {
 }
 
 #[test]
-fn zooming_holds_a_point_at_any_depth() {
+fn zooming_keeps_the_place_of_a_point_at_any_depth() {
     for mut camera in BOTH.map(askew) {
         let held = [0.9, 0.2, 0.7];
         let before = screen(&camera, held);
@@ -107,7 +107,7 @@ fn zooming_holds_a_point_at_any_depth() {
 }
 
 #[test]
-fn zooming_ends_where_it_must() {
+fn zooming_stays_within_the_range_of_distances() {
     let mut camera = askew(Projection::Perspective);
     for _ in 0..100 {
         camera.zoom_at(2.0, [0.0, 0.0], SIZE);
@@ -122,7 +122,7 @@ fn zooming_ends_where_it_must() {
 }
 
 #[test]
-fn panning_takes_the_target_plane_along() {
+fn panning_moves_the_plane_of_the_target() {
     for mut camera in BOTH.map(askew) {
         let [right, _, _] = camera.right_up_forward().map(Vector3::from);
         let grabbed = (Vector3::from(camera.target) + right * 0.2).into();
@@ -161,8 +161,8 @@ fn a_plane_seen_edge_on_is_an_upright_line() {
 }
 
 #[test]
-fn presets_show_the_axes_where_they_say() {
-    // What points right and what points up on the screen.
+fn presets_show_the_axes_in_the_documented_directions() {
+    // The axis that points right and the axis that points up on the screen.
     for (preset, right, up) in [
         (Preset::Red, [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
         (Preset::Green, [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
@@ -185,12 +185,12 @@ fn presets_show_the_axes_where_they_say() {
 }
 
 #[test]
-fn looking_along_nothing_changes_nothing() {
+fn a_direction_without_length_changes_nothing() {
     let mut camera = askew(Projection::Perspective);
     let before = camera;
     camera.look_along([0.0; 3], [0.0, 0.0, 1.0]);
     assert_eq!(camera, before);
-    // Up along the direction says nothing: still a view along the direction.
+    // Where up is parallel to the direction, the view is still along the direction.
     camera.look_along([0.0, 0.0, 2.0], [0.0, 0.0, 1.0]);
     assert_near(camera.right_up_forward()[2], [0.0, 0.0, 1.0], 1e-5);
 }
@@ -209,8 +209,8 @@ fn orbiting_keeps_blue_up_and_the_distance() {
 }
 
 #[test]
-fn orbiting_follows_the_hand() {
-    // What is in front of the target moves with the hand, to the right and down.
+fn orbiting_moves_the_scene_with_the_drag() {
+    // Points in front of the target move with the drag, to the right and down.
     let mut camera = Orbit::default();
     let front: [f32; 3] = {
         let forward = camera.right_up_forward()[2];

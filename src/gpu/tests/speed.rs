@@ -1,14 +1,16 @@
-//! What a frame and a search cost; prints, and judges nothing.
+//! Prints the duration of a frame and of a search; checks nothing.
 
 use super::*;
 use std::time::{Duration, Instant};
 
-/// `cargo test --release frame_times -- --ignored --nocapture`: what a frame and a search cost on this machine.
+/// `cargo test --release frame_times -- --ignored --nocapture`: prints the duration of a frame and of a search on this
+/// machine.
 #[test]
 #[ignore = "measures, and judges nothing"]
 fn frame_times() {
     let Some(device) = device() else { return };
-    println!("{}, 800×600, best and median of 15", device.description());
+    let adapter = device.adapter.get_info();
+    println!("{}, {:?}, 800×600, best and median of 15", adapter.name, adapter.backend);
     for (side, size_px) in [(31, 3.0), (64, 1.5), (64, 3.0)] {
         let points = lattice(side, size_px);
         let name = format!("{} points of {size_px} px", points.len());
@@ -30,7 +32,7 @@ fn frame_times() {
     }
 }
 
-/// Points through the whole cube, `side` along each axis.
+/// Points on a lattice through the whole cube, `side` points along each axis.
 fn lattice(side: usize, size_px: f32) -> Vec<Point> {
     let at = |index: usize| (index % side) as f32 / (side - 1) as f32;
     let place = |index: usize| [at(index), at(index / side), at(index / side / side)];
@@ -38,7 +40,7 @@ fn lattice(side: usize, size_px: f32) -> Vec<Point> {
     (0..side.pow(3)).map(|index| colored(place(index))).collect()
 }
 
-/// Times turning the camera, with the device's work and without the first frame's uploads.
+/// Measures frames while the camera turns, with the work of the device and without the uploads of the first frame.
 fn report_frames(name: &str, Headless { device, queue, .. }: &Headless, scene: &Scene) {
     let mut renderer = Renderer::new(device);
     let mut camera = Orbit::default();
