@@ -60,14 +60,14 @@ fn png_chunks_count_in_the_order_of_the_specification() {
         tagged(&[cicp, gama, srgb_chunk], Some(&profile)).encoding.to_string(),
         "linear (PNG cICP transfer 8)"
     );
-    let told = tagged(&[(*b"gAMA", &45455u32.to_be_bytes())], None);
-    assert_eq!(told.encoding.to_string(), "gamma 2.2 (PNG gAMA 0.45455)");
+    let photo = tagged(&[(*b"gAMA", &45455u32.to_be_bytes())], None);
+    assert_eq!(photo.encoding.to_string(), "gamma 2.2 (PNG gAMA 0.45455)");
     let unspecified: [u8; 4] = [2, 2, 0, 1];
     assert_eq!(tagged(&[(*b"cICP", &unspecified), gama], None).encoding.to_string(), "linear (PNG gAMA 1.0)");
 }
 
 #[test]
-fn what_is_not_supported_is_read_as_srgb_with_a_warning() {
+fn unsupported_color_information_is_read_as_srgb_with_a_warning() {
     let pq: [u8; 4] = [9, 16, 0, 1];
     let photo = tagged(&[(*b"cICP", &pq)], None);
     assert_eq!(photo.encoding.curves[0], ToneCurve::Srgb);

@@ -215,7 +215,7 @@ fn floats_are_linear_and_know_no_saturation() {
 }
 
 #[test]
-fn full_scale_is_what_the_user_says() {
+fn the_user_can_choose_the_full_scale() {
     let options = ReadOptions { full_scale: Some(2040.0), ..crate::linear() };
     let photo = read_with(
         &Png { size: (1, 1), color: Some(Grayscale), bits: 16, data: &[255; 2], ..Png::default() }.bytes(),

@@ -1,4 +1,4 @@
-//! A photograph with its body image written again: unchanged pixels keep their bytes.
+//! Writing matte pictures and reading them: unchanged pixels keep their bytes.
 
 use crate::files::{self, Png, curv, rgb_icc};
 use crate::{pixels, read_with};
@@ -12,7 +12,7 @@ use png::ColorType::{Grayscale, GrayscaleAlpha, Rgba};
 use tiff::encoder::colortype;
 use tiff::tags::ExtraSamples;
 
-/// Writes `body` as the matte picture of `photo`, and reads the file again; returns picture and file name.
+/// Writes `body` as the matte picture of `photo` and reads the file; returns the picture and the file name.
 fn written(photo: &Photo, body: &Raster<[f32; 3]>, options: &ReadOptions) -> (Photo, String) {
     let folder = tempfile::tempdir().unwrap();
     let path = write_matte(photo, &split(body, [0.0; 3]), 0.0, folder.path()).unwrap();
@@ -111,12 +111,12 @@ fn an_unchanged_photograph_comes_back_exactly() {
         let options = ReadOptions { full_scale, ..ReadOptions::default() };
         for (name, bytes, expected) in lossless() {
             let photo = read_with(&bytes, &options);
-            let (again, file) = written(&photo, &photo.image.pixels, &options);
+            let (reread, file) = written(&photo, &photo.image.pixels, &options);
             assert_eq!(file, expected, "{name}");
-            assert_eq!(again.image, photo.image, "{name}");
-            assert_eq!(again.source.layout, photo.source.layout, "{name}");
+            assert_eq!(reread.image, photo.image, "{name}");
+            assert_eq!(reread.source.layout, photo.source.layout, "{name}");
             assert_eq!(
-                (&again.source.icc, again.source.png),
+                (&reread.source.icc, reread.source.png),
                 (&photo.source.icc, photo.source.png),
                 "{name}"
             );
@@ -125,14 +125,14 @@ fn an_unchanged_photograph_comes_back_exactly() {
 }
 
 #[test]
-fn what_changes_comes_back_within_half_a_code() {
+fn changed_pixels_are_read_within_half_a_code() {
     // The PNM is left out: its codes are five counts apart.
     for (name, bytes, _) in lossless().into_iter().filter(|(name, ..)| *name != "ppm") {
         let options = ReadOptions::default();
         let photo = read_with(&bytes, &options);
         let body = photo.image.pixels.map(|pixel| pixel.map(|counts| counts * 0.7));
-        let (again, _) = written(&photo, &body, &options);
-        for (found, wanted) in pixels(&again).iter().flatten().zip(body.as_slice().iter().flatten()) {
+        let (reread, _) = written(&photo, &body, &options);
+        for (found, wanted) in pixels(&reread).iter().flatten().zip(body.as_slice().iter().flatten()) {
             // Half a code is less than 1.5 counts: the steepest of these tone curves has a slope below 3.
             assert!((found - wanted).abs() < 1.5, "{name}: {found} instead of {wanted}");
         }
@@ -146,10 +146,10 @@ fn jpegs_stay_jpegs() {
         let smooth: Vec<u8> = data.iter().map(|v| 100 + v / 32).collect();
         let icc = (layout == Layout::Rgb).then_some(&profile[..]);
         let photo = read_with(&files::jpeg((8, 8), color, &smooth, icc), &ReadOptions::default());
-        let (again, file) = written(&photo, &photo.image.pixels, &ReadOptions::default());
-        assert_eq!((file.as_str(), again.source.layout), ("matte.jpg", layout));
-        assert_eq!(again.source.icc, photo.source.icc);
-        for (a, b) in pixels(&again).iter().flatten().zip(pixels(&photo).iter().flatten()) {
+        let (reread, file) = written(&photo, &photo.image.pixels, &ReadOptions::default());
+        assert_eq!((file.as_str(), reread.source.layout), ("matte.jpg", layout));
+        assert_eq!(reread.source.icc, photo.source.icc);
+        for (a, b) in pixels(&reread).iter().flatten().zip(pixels(&photo).iter().flatten()) {
             assert!((a - b).abs() < 6.0, "{a} {b}");
         }
     }
@@ -163,13 +163,13 @@ fn a_gray_photograph_becomes_colored_only_with_its_body() {
     let body = Raster::from_vec(2, 1, vec![[40.0; 3], [79.9, 80.1, 80.0]]).unwrap();
     assert_eq!(written(&photo, &body, &crate::linear()).0.source.layout, Layout::Gray);
     let body = Raster::from_vec(2, 1, vec![[40.0; 3], [10.0, 20.0, 30.0]]).unwrap();
-    let (again, _) = written(&photo, &body, &crate::linear());
-    assert_eq!(again.source.layout, Layout::Rgb);
-    assert_eq!(pixels(&again), body.as_slice());
+    let (reread, _) = written(&photo, &body, &crate::linear());
+    assert_eq!(reread.source.layout, Layout::Rgb);
+    assert_eq!(pixels(&reread), body.as_slice());
 }
 
 #[test]
-fn transparent_pixels_keep_what_they_hide() {
+fn transparent_pixels_keep_their_hidden_samples() {
     let bytes = Png {
         size: (2, 1),
         color: Some(Rgba),
@@ -180,8 +180,8 @@ fn transparent_pixels_keep_what_they_hide() {
     .bytes();
     let photo = decode(&bytes, "x.png", &crate::linear()).unwrap();
     let body = Raster::from_vec(2, 1, vec![[0.0; 3], [20.0, 10.0, 5.0]]).unwrap();
-    let (again, _) = written(&photo, &body, &crate::linear());
-    assert_eq!(again.source.samples, dichroscope::photo::Samples::U8(vec![9, 8, 7, 0, 100, 50, 25, 51]));
+    let (reread, _) = written(&photo, &body, &crate::linear());
+    assert_eq!(reread.source.samples, dichroscope::photo::Samples::U8(vec![9, 8, 7, 0, 100, 50, 25, 51]));
 }
 
 #[test]

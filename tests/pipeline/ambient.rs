@@ -1,6 +1,5 @@
-//! Ambient light (section 7.5): equal in every pixel, estimated from the point where the matte lines meet, and added
-//! to the body
-//! image again.
+//! Ambient light (section 7.5): equal in every pixel, estimated from the point where the matte lines meet, and added to the body
+//! image after the split.
 
 use crate::common::{analyze, assert_valid, scores_of, truth_of};
 use crate::prints::photograph;
@@ -10,27 +9,28 @@ use dichroscope::params::{AmbientSetting, Params};
 use dichroscope::trace::{AmbientVerdict, HistoryKind, pixel_history};
 use std::sync::Arc;
 
-const VEIL: [f32; 3] = [5.0, 7.0, 9.0];
+/// The ambient light of the scenes, counts.
+const AMBIENT: [f32; 3] = [5.0, 7.0, 9.0];
 
 fn balls(seed: u64) -> Scene {
     Scene::grid_of_balls([320, 240], 2, 2, seed)
 }
 
 /// The scene with ambient light added to all pixels; the ambient light belongs to the body reflection.
-fn veiled(scene: &Scene) -> Rendered {
+fn with_ambient_light(scene: &Scene) -> Rendered {
     let mut rendered = scene.render();
     for body in rendered.body.as_mut_slice() {
-        *body = std::array::from_fn(|band| body[band] + VEIL[band]);
+        *body = std::array::from_fn(|band| body[band] + AMBIENT[band]);
     }
     rendered.image = photograph(&rendered, scene.noise_sigma);
     rendered
 }
 
 #[test]
-fn a_veil_is_found_and_the_body_is_as_good_as_without() {
+fn ambient_light_is_found_and_the_body_image_is_as_good_as_without() {
     for seed in [51, 52, 53] {
         let scene = balls(seed);
-        let (clear, veiled) = (scene.render(), veiled(&scene));
+        let (clear, hazy) = (scene.render(), with_ambient_light(&scene));
         let params = Params::default();
         let score = |rendered: &Rendered, params: &Params| {
             let analysis = analyze(&rendered.image, params);
@@ -40,14 +40,14 @@ fn a_veil_is_found_and_the_body_is_as_good_as_without() {
         };
         let (without, none) = score(&clear, &params);
         assert_eq!(none.subtracted, None, "seed {seed}: {none:?}");
-        let (found, ambient) = score(&veiled, &params);
+        let (found, ambient) = score(&hazy, &params);
         let subtracted = ambient.subtracted.unwrap();
         for band in 0..3 {
-            let off = (subtracted[band] - f64::from(VEIL[band])).abs();
+            let off = (subtracted[band] - f64::from(AMBIENT[band])).abs();
             assert!(off < 1.0, "seed {seed}: {ambient:?}");
         }
         assert!(found.psnr_body.unwrap() > without.psnr_body.unwrap() - 1.0, "{found:?}, {without:?}");
-        let (left, off) = score(&veiled, &Params { ambient: AmbientSetting::Off, ..params });
+        let (left, off) = score(&hazy, &Params { ambient: AmbientSetting::Off, ..params });
         assert_eq!(off.verdict, AmbientVerdict::Off);
         assert!(found.psnr_body.unwrap() > left.psnr_body.unwrap() + 2.0, "{found:?}, {left:?}");
     }
@@ -55,8 +55,8 @@ fn a_veil_is_found_and_the_body_is_as_good_as_without() {
 
 #[test]
 fn the_history_of_a_pixel_counts_from_the_ambient_light() {
-    let image = Arc::new(veiled(&balls(51)).image);
-    let params = Params { ambient: AmbientSetting::Given(VEIL.map(f64::from)), ..Params::default() };
+    let image = Arc::new(with_ambient_light(&balls(51)).image);
+    let params = Params { ambient: AmbientSetting::Given(AMBIENT.map(f64::from)), ..Params::default() };
     let (analysis, trace) = Session::new(image.clone()).run_traced(&params, &mut ()).unwrap();
     let matte = (0..image.pixels.len()).find(|&pixel| {
         let [body, surface] =
@@ -70,9 +70,9 @@ fn the_history_of_a_pixel_counts_from_the_ambient_light() {
         _ => None,
     });
     let story = split.unwrap();
-    assert_eq!(story.ambient, VEIL.map(f64::from));
+    assert_eq!(story.ambient, AMBIENT.map(f64::from));
     let body = analysis.intrinsic.body[pixel];
-    let less: [f32; 3] = std::array::from_fn(|band| body[band] - VEIL[band]);
-    let length = less.iter().map(|band| band * band).sum::<f32>().sqrt();
+    let above_ambient: [f32; 3] = std::array::from_fn(|band| body[band] - AMBIENT[band]);
+    let length = above_ambient.iter().map(|band| band * band).sum::<f32>().sqrt();
     assert!((story.amounts.unwrap().body - length).abs() < 0.1, "{story:?} {length}");
 }

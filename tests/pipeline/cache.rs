@@ -153,38 +153,38 @@ fn a_cancelled_run_leaves_a_session_that_works() {
     }
 }
 
-/// An observer that cancels the run after `patience` queries.
-struct Impatient {
-    patience: AtomicUsize,
+/// An observer that cancels the run at the query after `queries_left` queries.
+struct CancelsAfter {
+    queries_left: AtomicUsize,
 }
 
-impl Observer for Impatient {
+impl Observer for CancelsAfter {
     fn cancelled(&self) -> bool {
-        self.patience.fetch_update(Relaxed, Relaxed, |left| left.checked_sub(1)).is_err()
+        self.queries_left.fetch_update(Relaxed, Relaxed, |left| left.checked_sub(1)).is_err()
     }
 }
 
 #[test]
-fn a_run_that_is_cancelled_within_a_stage_leaves_nothing_half_made() {
+fn a_run_cancelled_within_a_stage_keeps_no_incomplete_output() {
     let image = balls();
     let params = Params::default();
     let fresh = fingerprint(&analyze(&image, &params));
     let mut cancelled = 0;
-    for patience in (0..400).step_by(7) {
+    for queries in (0..400).step_by(7) {
         let mut session = Session::new(Arc::new(image.clone()));
-        let mut impatient = Impatient { patience: AtomicUsize::new(patience) };
-        match session.run(&params, &mut impatient) {
-            Ok(analysis) => assert!(fingerprint(&analysis) == fresh, "asked {patience} times"),
+        let mut observer = CancelsAfter { queries_left: AtomicUsize::new(queries) };
+        match session.run(&params, &mut observer) {
+            Ok(analysis) => assert!(fingerprint(&analysis) == fresh, "after {queries} queries"),
             Err(Cancelled) => cancelled += 1,
         }
         let analysis = session.run(&params, &mut ()).unwrap();
-        assert!(fingerprint(&analysis) == fresh, "cancelled after {patience} questions");
+        assert!(fingerprint(&analysis) == fresh, "cancelled after {queries} queries");
     }
-    assert!(cancelled > 10, "stages ask on their way, not only between them");
+    assert!(cancelled > 10, "the observer is queried within stages, not only between stages");
 }
 
 #[test]
-fn what_a_cancelled_run_had_finished_is_kept() {
+fn stages_that_finished_before_a_cancellation_are_kept() {
     let mut session = Session::new(Arc::new(balls()));
     let mut first = Journal { stop_after: Some(3), ..Journal::default() };
     session.run(&Params::default(), &mut first).unwrap_err();

@@ -1,4 +1,4 @@
-//! The result files, read again, hold what the analysis found.
+//! The result files hold the values of the analysis.
 
 use crate::common::analyze;
 use crate::synthetic::Scene;
