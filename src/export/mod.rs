@@ -1,6 +1,6 @@
 //! Results as files.
 //!
-//! A result is a folder. [`Staging`] collects the files in a hidden folder beside the target and renames the hidden folder, so
+//! A result is a folder. `Staging` collects the files in a hidden folder beside the target and renames the hidden folder, so
 //! that a target folder is always complete. Floats are linear, 1.0 = 255 counts; `noise.exr` has the one channel `Y`.
 
 mod floats;

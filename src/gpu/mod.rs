@@ -1,8 +1,8 @@
 //! Draws the color space in three dimensions, from plain data to pixels.
 //!
-//! A [`Scene`] holds points, lines and translucent solids in world units (counts / 255); an [`Orbit`] camera looks at the scene;
-//! a [`Renderer`] draws the scene into a separate texture, so that the window, picture files and tests show the same pixels.
-//! [`Headless`] is a graphics device without a window; [`pick`] finds the points under a cursor, without a graphics device.
+//! A `Scene` holds points, lines and translucent solids in world units (counts / 255); an [`Orbit`] camera looks at the scene;
+//! a `Renderer` draws the scene into a separate texture, so that the window, picture files and tests show the same pixels.
+//! `Headless` is a graphics device without a window; `pick` finds the points under a cursor, without a graphics device.
 //! This room uses neither the program's other rooms nor the window's toolkit.
 
 mod camera;

@@ -48,7 +48,7 @@ impl Sample {
     /// The scene's ground truth.
     ///
     /// # Errors
-    /// As [`GroundTruth::decode`].
+    /// When a file cannot be decoded or differs in size from the labels.
     pub fn truth(&self) -> Result<GroundTruth, TruthError> {
         GroundTruth::decode(&self.files, Path::new(self.name))
     }
