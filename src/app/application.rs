@@ -184,7 +184,7 @@ impl Application {
             let mut session = Session::new(Arc::new(picture.photo.image.clone()));
             // An area of another picture restricts nothing.
             let _ = session.restrict(area);
-            let found = what_if(&mut session, &params, asked.pixel as usize, &mut observer);
+            let found = what_if(&mut session, &params, asked.pixel, &mut observer);
             Report::WhatIf(asked, found.map_or(WhatIfProgress::Stopped, WhatIfProgress::Found))
         });
     }

@@ -1,6 +1,7 @@
 //! What an export is made from, and its options.
 
 use super::{Document, State, Workspace};
+use crate::raster::RegionId;
 use crate::view::{ImageSettings, Picture, ResultSnapshot};
 use std::sync::Arc;
 
@@ -33,7 +34,7 @@ pub(super) struct ExportInput {
     pub(super) document: Document,
     /// What the image view shows, and how.
     pub(super) image: ImageSettings,
-    pub(super) selected_region: Option<u16>,
+    pub(super) selected_region: Option<RegionId>,
     /// Ends of the profile's line, pixels.
     pub(super) profile: Option<[[f32; 2]; 2]>,
     pub(super) workspace: Result<Workspace, String>,

@@ -2,6 +2,7 @@
 
 use super::{Debugger, Document, History, JobState, ViewSettings, WhatIfJob, Workspace};
 use crate::params::Params;
+use crate::raster::{PixelIndex, RegionId};
 use crate::trace::Replay;
 use crate::view::{Item, Picture, ResultSnapshot};
 use std::path::PathBuf;
@@ -27,7 +28,7 @@ pub struct State {
     /// The step debugger.
     pub debugger: Debugger,
     /// The pixel that was clicked last, if nothing else has been selected since. The panel "Why" explains it.
-    pub(super) asked_pixel: Option<u32>,
+    pub(super) asked_pixel: Option<PixelIndex>,
     /// The what-if job, if one was started for the newest result.
     pub what_if_job: Option<WhatIfJob>,
     /// Work in the background.
@@ -70,15 +71,15 @@ impl State {
     }
 
     /// The region of the result shown that an item is or lies in.
-    pub fn region_of(&self, item: Item) -> Option<u16> {
+    pub fn region_of(&self, item: Item) -> Option<RegionId> {
         let shown = self.shown()?;
         let labels = &shown.labels();
         let region = match item {
             Item::Region(region) => region,
-            Item::Pixel(pixel) => *labels.as_slice().get(pixel as usize)?,
+            Item::Pixel(pixel) => RegionId::from_label(*labels.as_slice().get(pixel.index())?)?,
             Item::Window(_) | Item::Bin(_) => return None,
         };
-        (region != 0 && usize::from(region) <= shown.analysis.intrinsic.regions.len()).then_some(region)
+        (region.index() < shown.analysis.intrinsic.regions.len()).then_some(region)
     }
 
     /// The ends of the profile's line, in pixels of the picture: through the hovered pixel, else through the selected one,
@@ -93,7 +94,7 @@ impl State {
     }
 
     /// The pixel that the panel "Why" explains: the selected one, or the one at which the selected region was clicked.
-    pub fn asked_pixel(&self) -> Option<u32> {
+    pub fn asked_pixel(&self) -> Option<PixelIndex> {
         match self.document.selection.item {
             Some(Item::Pixel(pixel)) => Some(pixel),
             _ => self.asked_pixel,
@@ -108,7 +109,7 @@ impl State {
     }
 
     /// The region of the selected item, which the panels about one region show.
-    pub fn selected_region(&self) -> Option<u16> {
+    pub fn selected_region(&self) -> Option<RegionId> {
         self.document.selection.item.and_then(|item| self.region_of(item))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Effect, State};
 use crate::analysis::WhatIf;
+use crate::raster::PixelIndex;
 use std::sync::Arc;
 
 /// The search for parameters that would make a pixel something else, which repeats the analysis.
@@ -20,8 +21,8 @@ pub struct WhatIfJob {
 /// The question of one job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
-    /// The pixel, row-major.
-    pub pixel: u32,
+    /// The pixel.
+    pub pixel: PixelIndex,
     /// Number of the result that the question is about.
     pub generation: u64,
 }
@@ -48,9 +49,9 @@ pub enum WhatIfProgress {
 #[derive(Clone, Copy, Debug)]
 pub enum Ask {
     /// Why is this pixel what it is?
-    Why(u32),
+    Why(PixelIndex),
     /// How far must each parameter change for this pixel to become something else? None: stop the search.
-    WhatIf(Option<u32>),
+    WhatIf(Option<PixelIndex>),
 }
 
 /// Asks a question.
@@ -64,12 +65,12 @@ pub(super) fn reduce(state: &mut State, ask: Ask) -> Vec<Effect> {
     }
 }
 
-fn is_inside(state: &State, pixel: u32) -> bool {
-    state.picture.as_ref().is_some_and(|picture| (pixel as usize) < picture.photo.image.pixels.len())
+fn is_inside(state: &State, pixel: PixelIndex) -> bool {
+    state.picture.as_ref().is_some_and(|picture| pixel.index() < picture.photo.image.pixels.len())
 }
 
 /// Stops the job under way and starts another one, if one is asked for.
-fn ask_what_if(state: &mut State, pixel: Option<u32>) -> Vec<Effect> {
+fn ask_what_if(state: &mut State, pixel: Option<PixelIndex>) -> Vec<Effect> {
     let asked = pixel
         .filter(|&pixel| is_inside(state, pixel))
         .map(|pixel| Asked { pixel, generation: state.generation });

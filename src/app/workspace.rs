@@ -189,7 +189,7 @@ mod tests {
         let mask =
             crate::raster::Raster::from_vec(3, 2, vec![true, false, true, true, false, false]).unwrap();
         state.document.selection.marked = Some(Arc::new(mask));
-        state.document.selection.item = Some(Item::Region(2));
+        state.document.selection.item = Some(Item::Region(crate::raster::RegionId::from_index(1)));
         state.view.image.exposure_ev = 0.3;
         state.view.layout = "opaque".into();
         Workspace::of(&state).unwrap()

@@ -6,6 +6,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dichroscope::describe::{Names, schema_line, trace_line};
+use dichroscope::raster::{HypothesisId, PixelIndex, RegionId};
 use dichroscope::trace::{Stage, Step, lineage, pixel_history};
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -91,28 +92,29 @@ fn write(traced: &Traced, wanted: &Wanted, path: &Path) -> io::Result<()> {
 struct Wanted {
     stage: Option<Stage>,
     /// A pixel, and the steps of its history.
-    pixel: Option<(u32, BTreeSet<usize>)>,
-    /// Regions by their numbers of birth, and the final one.
-    regions: Option<(BTreeSet<u16>, u16)>,
+    pixel: Option<(PixelIndex, BTreeSet<usize>)>,
+    /// The hypotheses that made a region, and the region.
+    regions: Option<(BTreeSet<HypothesisId>, RegionId)>,
 }
 
 impl Wanted {
     fn new(arguments: &Arguments, traced: &Traced, pixel: Option<usize>) -> Result<Self> {
         let Traced { image, analysis, trace, .. } = traced;
         let pixel = pixel.map(|pixel| {
+            let pixel = PixelIndex::from_index(pixel);
             let history = pixel_history(trace, image, &analysis.masks, pixel);
-            (pixel as u32, history.into_iter().map(|happening| happening.step).collect())
+            (pixel, history.into_iter().map(|happening| happening.step).collect())
         });
         let regions = arguments
             .region
             .map(|number| {
-                let regions: BTreeSet<u16> =
-                    lineage(trace, number).into_iter().map(|ancestor| ancestor.region).collect();
-                if regions.is_empty() {
-                    let count = analysis.intrinsic.regions.len();
+                let count = analysis.intrinsic.regions.len();
+                let region = RegionId::from_label(number).filter(|region| region.index() < count);
+                let Some(region) = region else {
                     bail!("--region {number}: the result has {count} regions, numbered from 1");
-                }
-                Ok((regions, number))
+                };
+                let ancestors = lineage(trace, region).into_iter();
+                Ok((ancestors.map(|ancestor| ancestor.hypothesis).collect(), region))
             })
             .transpose()
             .with_context(|| arguments.subject.image.display().to_string())?;

@@ -7,7 +7,7 @@ use clap::Args;
 use dichroscope::analysis::{WhatIfObserver, what_if};
 use dichroscope::describe::{Condensed, Names, condense, what_if_sentence};
 use dichroscope::intrinsic::PixelKind;
-use dichroscope::raster::UNASSIGNED;
+use dichroscope::raster::{PixelIndex, RegionId};
 use dichroscope::trace::{lineage, pixel_history};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Write;
@@ -51,7 +51,7 @@ fn why(arguments: &Arguments) -> Result<Outcome> {
 /// The text for the parameter values at which the pixel's fate changes.
 fn changes(traced: &mut Traced, pixel: usize) -> Result<String> {
     let mut bar = Bar::new();
-    let found = what_if(&mut traced.session, &traced.params, pixel, &mut bar)?;
+    let found = what_if(&mut traced.session, &traced.params, PixelIndex::from_index(pixel), &mut bar)?;
     bar.0.finish_and_clear();
     let mut text = "\nwhat if\n".to_owned();
     if found.is_empty() {
@@ -86,7 +86,8 @@ impl WhatIfObserver for Bar {
 /// The text for a pixel: its kind and region, and its history, newest decision first.
 fn history(traced: &Traced, pixel: usize) -> String {
     let names = Names::of(&traced.trace);
-    let happened = pixel_history(&traced.trace, &traced.image, &traced.analysis.masks, pixel);
+    let happened =
+        pixel_history(&traced.trace, &traced.image, &traced.analysis.masks, PixelIndex::from_index(pixel));
     let mut text = headline(traced, &names, pixel);
     text.push('\n');
     let condensed = condense(&happened);
@@ -109,23 +110,31 @@ fn history(traced: &Traced, pixel: usize) -> String {
 /// `pixel (12, 7), color (120.3, 40.1, 38.8) counts: matte, in region 3`
 fn headline(traced: &Traced, names: &Names, pixel: usize) -> String {
     let [r, g, b] = traced.image.pixels[pixel];
-    let what = match traced.analysis.finals.labels[pixel] {
-        UNASSIGNED => "in no region".to_owned(),
-        region => {
+    let what = match region_of(traced, pixel) {
+        None => "in no region".to_owned(),
+        Some(region) => {
             let kind: PixelKind = traced.analysis.intrinsic.kinds[pixel];
             format!("{}, in region {region}", kind.name())
         }
     };
-    format!("pixel {}, color ({r:.1}, {g:.1}, {b:.1}) counts: {what}\n", names.pixel(pixel as u32))
+    format!(
+        "pixel {}, color ({r:.1}, {g:.1}, {b:.1}) counts: {what}\n",
+        names.pixel(PixelIndex::from_index(pixel))
+    )
+}
+
+fn region_of(traced: &Traced, pixel: usize) -> Option<RegionId> {
+    RegionId::from_label(traced.analysis.finals.labels[pixel])
 }
 
 /// The hypotheses that the pixel's region is made of, where they are more than one.
 fn origin(traced: &Traced, names: &Names, pixel: usize) -> String {
-    let ancestors = lineage(&traced.trace, traced.analysis.finals.labels[pixel]);
+    let Some(region) = region_of(traced, pixel) else { return String::new() };
+    let ancestors = lineage(&traced.trace, region);
     if ancestors.len() < 2 {
         return String::new();
     }
-    let mut text = format!("\nregion {} is made of\n", traced.analysis.finals.labels[pixel]);
+    let mut text = format!("\nregion {region} is made of\n");
     for ancestor in &ancestors {
         let _ = writeln!(text, "  {:1$}{2}", "", 2 * ancestor.depth, names.ancestor(ancestor));
     }

@@ -372,7 +372,7 @@ const fn yes() -> bool {
 impl From<&RegionReflection> for RegionFacts {
     fn from(region: &RegionReflection) -> Self {
         Self {
-            id: region.id,
+            id: region.id.get(),
             pixels: region.pixels,
             matte_pixels: region.matte_pixels,
             highlight_pixels: region.highlight_pixels,
@@ -389,7 +389,7 @@ impl From<&RegionReflection> for RegionFacts {
             confidence: region.confidence,
             texture: region.texture,
             separable: region.separable,
-            neighbors: region.neighbors.clone(),
+            neighbors: region.neighbors.iter().map(|id| id.get()).collect(),
             warnings: region.warnings.clone(),
         }
     }

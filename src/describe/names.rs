@@ -1,56 +1,55 @@
 //! What hypotheses, regions and pixels are called in sentences, and how numbers are written there.
 
-use crate::trace::{Trace, final_numbers};
+use crate::raster::{HypothesisId, PixelIndex, RegionId};
+use crate::trace::{Trace, regions_of};
 use serde_json::Value;
 
 /// What regions and pixels are called in sentences.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     pub(super) width: usize,
-    pub(super) finals: Vec<u16>,
+    /// Region of each hypothesis, by [`HypothesisId::index`].
+    pub(super) regions: Vec<Option<RegionId>>,
 }
 
 impl Names {
-    /// The names in a trace. A region that is in the result is called by both its numbers.
+    /// The names in a trace. A hypothesis that became a region is named by both its numbers.
     pub fn of(trace: &Trace) -> Self {
-        let finals = final_numbers(trace).map_or_else(Vec::new, <[u16]>::to_vec);
-        Self { width: trace.width(), finals }
+        Self { width: trace.width(), regions: regions_of(trace).unwrap_or_default().to_vec() }
     }
 
-    /// `hypothesis 7 (region 3)`: its number of birth, and its number in the result where it is in it.
-    pub fn region(&self, region: u16) -> String {
-        match self.number(region) {
-            Some(number) => format!("hypothesis {region} (region {number})"),
-            None => format!("hypothesis {region}"),
+    /// `hypothesis 7 (region 3)`: the number of a hypothesis, and the number of the region that the hypothesis became.
+    pub fn hypothesis(&self, hypothesis: HypothesisId) -> String {
+        match self.region_of(hypothesis) {
+            Some(region) => format!("hypothesis {hypothesis} (region {region})"),
+            None => format!("hypothesis {hypothesis}"),
         }
     }
 
-    /// Its number in the result; none for one that is not in it.
-    pub fn number(&self, region: u16) -> Option<u16> {
-        let index = usize::from(region).checked_sub(1)?;
-        self.finals.get(index).copied().filter(|&number| number > 0)
+    /// The region that a hypothesis became; none for a hypothesis that is in no region.
+    pub fn region_of(&self, hypothesis: HypothesisId) -> Option<RegionId> {
+        self.regions.get(hypothesis.index()).copied().flatten()
     }
 
-    /// Several regions: `hypotheses 1, 2 and 5`.
-    pub(super) fn regions(&self, regions: &[u16]) -> String {
-        let [only] = regions else {
-            let numbers: Vec<String> = regions.iter().map(u16::to_string).collect();
+    /// Several hypotheses: `hypotheses 1, 2 and 5`.
+    pub(super) fn hypotheses(&self, hypotheses: &[HypothesisId]) -> String {
+        let [only] = hypotheses else {
+            let numbers: Vec<String> = hypotheses.iter().map(HypothesisId::to_string).collect();
             let Some((last, others)) = numbers.split_last() else { return "no hypothesis".to_owned() };
             return format!("hypotheses {} and {last}", others.join(", "));
         };
-        self.region(*only)
+        self.hypothesis(*only)
     }
 
-    /// `(12, 7)`: column and row.
-    pub fn pixel(&self, pixel: u32) -> String {
-        let (x, y) = self.place(pixel);
+    /// `(12, 7)`: column and row of a pixel.
+    pub fn pixel(&self, pixel: PixelIndex) -> String {
+        let [x, y] = self.position(pixel);
         format!("({x}, {y})")
     }
 
     /// Column and row of a pixel.
-    pub fn place(&self, pixel: u32) -> (usize, usize) {
-        let width = self.width.max(1);
-        (pixel as usize % width, pixel as usize / width)
+    pub fn position(&self, pixel: PixelIndex) -> [usize; 2] {
+        pixel.position(self.width)
     }
 }
 

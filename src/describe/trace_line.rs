@@ -8,6 +8,7 @@
 use super::Names;
 use super::events::line_objects;
 use super::names::short;
+use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::trace::{Contest, Measure, Stage, Step, Trace};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -16,13 +17,14 @@ use std::fmt::Write;
 pub const TRACE_SCHEMA: u32 = 1;
 
 /// What comes before all steps: schema, program, size of the picture, number of steps and each stage's first one, and the
-/// final number of each region by its number of birth (0: not in the result).
+/// region of each hypothesis, in the order of the hypotheses (0: in no region of the result).
 pub fn schema_line(trace: &Trace, program: &str) -> String {
     let stages: serde_json::Map<String, Value> = trace
         .stages()
         .map(|(stage, steps)| (stage.name().to_owned(), json!([steps.start, steps.end])))
         .collect();
-    let regions = crate::trace::final_numbers(trace).unwrap_or_default();
+    let regions = crate::trace::regions_of(trace).unwrap_or_default();
+    let regions: Vec<u16> = regions.iter().map(|&region| RegionId::label(region)).collect();
     json!({
         "schema": TRACE_SCHEMA,
         "program": program,
@@ -43,8 +45,8 @@ pub fn trace_line(names: &Names, seq: usize, stage: Stage, step: &Step, out: &mu
         let _ = write!(out, "{{\"seq\":{seq},\"stage\":\"{}\",\"kind\":\"{kind}\",", stage.name());
     };
     begin(out, step.kind().name());
-    let pixel = |pixel: u32| {
-        let (x, y) = names.place(pixel);
+    let pixel = |pixel: PixelIndex| {
+        let [x, y] = names.position(pixel);
         format!("\"pixel\":[{x},{y}]")
     };
     let _ = match *step {
@@ -54,7 +56,7 @@ pub fn trace_line(names: &Names, seq: usize, stage: Stage, step: &Step, out: &mu
         }
         Step::Claim { pixel: at, before, after, contest } => {
             let (values, thresholds) = contest.map_or_else(nothing, |contest| contest_parts(&contest));
-            let at = pixel(at);
+            let (at, before, after) = (pixel(at), HypothesisId::label(before), HypothesisId::label(after));
             write!(
                 out,
                 "\"ids\":{{{at},\"region\":{after},\"from\":{before}}},\"values\":{values},\"thresholds\":{thresholds}}}"
@@ -107,7 +109,12 @@ mod tests {
     #[test]
     fn a_contested_claim_says_what_was_measured_against_what() {
         let contest = Contest { measure: Measure::Axis, challenger: 2.1, holder: 6.25 };
-        let step = Step::Claim { pixel: 3, before: 1, after: 2, contest: Some(contest) };
+        let step = Step::Claim {
+            pixel: PixelIndex::new(3),
+            before: HypothesisId::from_label(1),
+            after: HypothesisId::from_label(2),
+            contest: Some(contest),
+        };
         let expected = json!({
             "seq": 7, "stage": "linear", "kind": "claim",
             "ids": {"pixel": [0, 3], "region": 2, "from": 1},
@@ -120,14 +127,19 @@ mod tests {
     #[test]
     fn numbers_that_are_none_are_null_and_names_are_text() {
         let contest = Contest { measure: Measure::Vote, challenger: f32::NAN, holder: f32::INFINITY };
-        let refusal = line(&Step::Refusal { pixel: 0, holder: 1, challenger: 2, contest });
+        let refusal = line(&Step::Refusal {
+            pixel: PixelIndex::new(0),
+            holder: HypothesisId::from_index(0),
+            challenger: HypothesisId::from_index(1),
+            contest,
+        });
         assert_eq!(
             (&refusal["values"]["challenger"], &refusal["thresholds"]["all"]),
             (&Value::Null, &Value::Null)
         );
         let pass = line(&Step::Event(&Event::PassBegan(PassBegan { pass: Pass::SecondLook(6) })));
         assert_eq!(pass["values"], json!({"pass": "second look", "window_size": 6}));
-        let label = line(&Step::Label { pixel: 1, kind: PixelKind::Lost });
+        let label = line(&Step::Label { pixel: PixelIndex::new(1), kind: PixelKind::Lost });
         assert_eq!(label["values"]["role"], "lost");
     }
 }

@@ -5,6 +5,7 @@ use super::{PanelContext, widgets};
 use crate::app::{
     Breakpoint, CandidateCheck, Command, Condition, DebugCommand, DebugSettings, Edit, SavedClass, State,
 };
+use crate::raster::{HypothesisId, PixelIndex};
 use crate::view::Item;
 use egui::accesskit::Role;
 use egui::{ComboBox, DragValue, Response, RichText, ScrollArea, Ui, WidgetInfo};
@@ -51,14 +52,14 @@ impl About {
 
     /// A new condition of this kind, for the selected pixel or region.
     fn usual(self, state: &State) -> Condition {
-        let region = chosen_region(state);
+        let hypothesis = chosen_hypothesis(state);
         match self {
-            Self::Pixel => Condition::PixelChangesOwner(state.asked_pixel().unwrap_or(0)),
-            Self::Size => Condition::RegionExceeds { region, pixels: USUAL_PIXELS },
+            Self::Pixel => Condition::PixelChangesOwner(state.asked_pixel().unwrap_or_default()),
+            Self::Size => Condition::RegionExceeds { hypothesis, pixels: USUAL_PIXELS },
             Self::Rejected => Condition::HypothesisRejected,
             Self::Candidate => Condition::CandidateFails(CandidateCheck::Any),
             Self::Class => Condition::ClassIs(SavedClass::Volume),
-            Self::Conflict => Condition::Conflict(region, None),
+            Self::Conflict => Condition::Conflict(hypothesis, None),
         }
     }
 }
@@ -164,8 +165,8 @@ fn named(response: &Response, role: Role, name: String) {
 fn details(ui: &mut Ui, cx: &mut PanelContext, number: usize, condition: &mut Condition) {
     match condition {
         Condition::PixelChangesOwner(pixel) => pixel_controls(ui, cx.state, number, pixel),
-        Condition::RegionExceeds { region, pixels } => {
-            region_control(ui, cx, &format!("Region of breakpoint {number}"), region);
+        Condition::RegionExceeds { hypothesis, pixels } => {
+            hypothesis_control(ui, cx, &format!("Region of breakpoint {number}"), hypothesis);
             let field = ui.add(DragValue::new(pixels).range(1..=u32::MAX).speed(10.0).suffix(" px"));
             named(&field, Role::SpinButton, format!("Pixels of breakpoint {number}"));
         }
@@ -181,9 +182,9 @@ fn details(ui: &mut Ui, cx: &mut PanelContext, number: usize, condition: &mut Co
             choose(ui, format!("Class of breakpoint {number}"), class, &choices);
         }
         Condition::Conflict(one, other) => {
-            region_control(ui, cx, &format!("First region of breakpoint {number}"), one);
+            hypothesis_control(ui, cx, &format!("First region of breakpoint {number}"), one);
             ui.label(RichText::new("and").color(cx.tones.quiet));
-            region_control(ui, cx, &format!("Second region of breakpoint {number}"), other);
+            hypothesis_control(ui, cx, &format!("Second region of breakpoint {number}"), other);
         }
     }
 }
@@ -200,15 +201,15 @@ fn choose<T: Copy + PartialEq>(ui: &mut Ui, name: String, value: &mut T, choices
 }
 
 /// Shows fields for column and row of a pixel, and a button that takes the selected pixel.
-fn pixel_controls(ui: &mut Ui, state: &State, number: usize, pixel: &mut u32) {
+fn pixel_controls(ui: &mut Ui, state: &State, number: usize, pixel: &mut PixelIndex) {
     let Some((width, height)) = state.picture.as_ref().map(|picture| picture.size()) else { return };
-    let (mut x, mut y) = (*pixel as usize % width.max(1), *pixel as usize / width.max(1));
+    let [mut x, mut y] = pixel.position(width);
     for (name, value, size) in [("Column", &mut x, width), ("Row", &mut y, height)] {
         let prefix = if name == "Column" { "x " } else { "y " };
         let field = ui.add(DragValue::new(value).range(0..=size.saturating_sub(1)).prefix(prefix));
         named(&field, Role::SpinButton, format!("{name} of breakpoint {number}"));
     }
-    *pixel = (y * width + x) as u32;
+    *pixel = PixelIndex::from_index(y * width + x);
     let selected = state.asked_pixel();
     let button = ui.add_enabled(selected.is_some(), egui::Button::new("selected pixel").small());
     named(&button, Role::Button, format!("Selected pixel for breakpoint {number}"));
@@ -219,12 +220,13 @@ fn pixel_controls(ui: &mut Ui, state: &State, number: usize, pixel: &mut u32) {
 }
 
 /// Shows a field for a hypothesis id; 0 stands for any region.
-fn region_control(ui: &mut Ui, cx: &PanelContext, name: &str, region: &mut Option<u16>) {
-    if let Some(region) = *region {
-        let color = widgets::color(cx.state.debugger.names.color(region));
-        widgets::chip(ui, color, &format!("color of hypothesis {region}"));
+fn hypothesis_control(ui: &mut Ui, cx: &PanelContext, name: &str, hypothesis: &mut Option<HypothesisId>) {
+    if let Some(hypothesis) = *hypothesis {
+        let color = widgets::color(cx.state.debugger.names.color(hypothesis));
+        widgets::chip(ui, color, &format!("color of hypothesis {hypothesis}"));
     }
-    let mut number = region.unwrap_or(0);
+    let before = HypothesisId::label(*hypothesis);
+    let mut number = before;
     let field = DragValue::new(&mut number)
         .range(0..=u16::MAX - 1)
         .speed(0.1)
@@ -239,10 +241,10 @@ fn region_control(ui: &mut Ui, cx: &PanelContext, name: &str, region: &mut Optio
     let field = ui.add(field);
     field.widget_info(|| WidgetInfo {
         label: Some(name.to_owned()),
-        ..WidgetInfo::drag_value(true, f64::from(region.unwrap_or(0)))
+        ..WidgetInfo::drag_value(true, f64::from(before))
     });
     field.on_hover_text("A region by the number of its hypothesis, as on the timeline; 0: any.");
-    *region = (number > 0).then_some(number);
+    *hypothesis = HypothesisId::from_label(number);
 }
 
 /// The kind of condition of a new breakpoint: by the kind of the selected item.
@@ -255,9 +257,9 @@ fn about_selection(state: &State) -> About {
 }
 
 /// Id of the first hypothesis of the selected region; without a selected region, the chosen hypothesis.
-fn chosen_region(state: &State) -> Option<u16> {
+fn chosen_hypothesis(state: &State) -> Option<HypothesisId> {
     match state.document.selection.item {
-        Some(Item::Region(region)) => state.debugger.names.births_of(region).next(),
+        Some(Item::Region(region)) => state.debugger.names.hypotheses_of(region).next(),
         _ => state.debugger.chosen,
     }
 }
@@ -266,10 +268,10 @@ fn chosen_region(state: &State) -> Option<u16> {
 fn item_of(state: &State, condition: Condition) -> Option<Item> {
     match condition {
         Condition::PixelChangesOwner(pixel) => Some(Item::Pixel(pixel)),
-        Condition::RegionExceeds { region: Some(region), .. }
-        | Condition::Conflict(Some(region), _)
-        | Condition::Conflict(None, Some(region)) => {
-            Some(state.debugger.names.final_number(region)).filter(|&number| number > 0).map(Item::Region)
+        Condition::RegionExceeds { hypothesis: Some(hypothesis), .. }
+        | Condition::Conflict(Some(hypothesis), _)
+        | Condition::Conflict(None, Some(hypothesis)) => {
+            state.debugger.names.region_of(hypothesis).map(Item::Region)
         }
         _ => None,
     }

@@ -5,6 +5,7 @@ use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::app::{Command, DebugCommand, Difference, Edit, ViewCommand};
 use crate::describe::Names;
+use crate::raster::RegionId;
 use crate::view::{Comparison, Fate, ImageSettings, Item, Layer, compare};
 use egui::{Grid, RichText, ScrollArea, Ui};
 
@@ -191,7 +192,7 @@ fn regions(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
         ui.label(quiet(cx, "none"));
     }
     for fate in others {
-        let id = |id: Option<u16>| id.map_or("\u{2013}".to_owned(), |id| id.to_string());
+        let id = |id: Option<RegionId>| id.map_or("\u{2013}".to_owned(), |id| id.to_string());
         let word = match fate.fate {
             Fate::Gained => "gained",
             Fate::Lost => "lost",

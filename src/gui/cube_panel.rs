@@ -19,6 +19,7 @@ pub mod testing;
 use super::{PanelContext, widgets};
 use crate::app::{Combine, Edit, ViewCommand};
 use crate::gpu::{Batch, Line, Orbit, Projector, Scene, pick};
+use crate::raster::RegionId;
 use crate::view::{Item, Picture, Tool};
 use camera_controller::{CameraController, Plane};
 use canvas::Canvas;
@@ -213,13 +214,13 @@ impl CubePanel {
     }
 
     /// Color, number of pixels and region of the pixel or bin that is hovered.
-    fn hovered(&self, cx: &PanelContext, picture: &Picture) -> Option<([f32; 3], u32, Option<u16>)> {
+    fn hovered(&self, cx: &PanelContext, picture: &Picture) -> Option<([f32; 3], u32, Option<RegionId>)> {
         let item = cx.state.hover?;
         // While the debugger's cursor is followed, the regions of the result do not exist yet.
-        let region = |region: Option<u16>| region.filter(|_| cx.state.followed().is_none());
+        let region = |region: Option<RegionId>| region.filter(|_| cx.state.followed().is_none());
         match item {
             Item::Pixel(pixel) => {
-                let color = *picture.photo.image.pixels.as_slice().get(pixel as usize)?;
+                let color = *picture.photo.image.pixels.as_slice().get(pixel.index())?;
                 Some((color, 1, region(cx.state.region_of(item))))
             }
             Item::Bin(bin) => {

@@ -13,6 +13,7 @@ mod tools;
 use super::status::PATIENCE;
 use super::{PanelContext, widgets};
 use crate::app::ViewCommand;
+use crate::raster::PixelIndex;
 use crate::view::{Arrangement, ImageSettings, Instant, Item, Layer, Tool};
 use cursor::InstantCache;
 use egui::accesskit::Role;
@@ -37,7 +38,7 @@ pub struct ImagePanel {
     instant_cache: InstantCache,
     hand: ToolState,
     /// The pixel under the pointer that this panel sent last.
-    pointed: Option<u32>,
+    pointed: Option<PixelIndex>,
     /// The layer of the last frame, if the instant at the cursor was shown in its place.
     unseen: Option<Layer>,
     /// The zoom of the last frame, screen points a pixel.
@@ -125,7 +126,7 @@ impl ImagePanel {
         settings: &mut ImageSettings,
         place: Placement,
         slot: Slot,
-    ) -> Option<u32> {
+    ) -> Option<PixelIndex> {
         self.zoom = place.zoom;
         let name = if slot == Slot::Layer { "Picture" } else { "Second picture" };
         let response = ui.interact(place.view, ui.scope_id().with(name), Sense::click_and_drag());
@@ -236,7 +237,7 @@ impl ImagePanel {
     }
 
     /// Sends the pixel under the pointer, when it has changed.
-    fn tell(&mut self, cx: &mut PanelContext, pixel: Option<u32>) {
+    fn tell(&mut self, cx: &mut PanelContext, pixel: Option<PixelIndex>) {
         let item = pixel.map(Item::Pixel);
         let told = self.pointed.is_some() || pixel.is_some();
         if told

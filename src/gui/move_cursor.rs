@@ -41,7 +41,7 @@ pub fn selected(state: &State) -> Option<Goal> {
         return Some(Goal::Pixel(pixel));
     }
     match state.document.selection.item {
-        Some(Item::Region(region)) => names.births_of(region).next().map(Goal::Region),
-        _ => state.debugger.chosen.map(Goal::Region),
+        Some(Item::Region(region)) => names.hypotheses_of(region).next().map(Goal::Hypothesis),
+        _ => state.debugger.chosen.map(Goal::Hypothesis),
     }
 }

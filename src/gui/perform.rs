@@ -4,6 +4,7 @@ use super::action::Action;
 use super::move_cursor::move_cursor;
 use super::{PanelContext, files};
 use crate::app::{Combine, Edit, ViewCommand};
+use crate::raster::RegionId;
 use crate::view::{Item, Tool};
 
 /// Carries out an action: sends its command, or opens a dialog or the list of keys (`help`).
@@ -61,22 +62,22 @@ fn look(action: Action, cx: &mut PanelContext) {
 
 fn mark_region(cx: &mut PanelContext) {
     let (Some(region), Some(shown)) = (cx.state.selected_region(), cx.state.shown()) else { return };
-    let mask = shown.labels().map(|&label| label == region);
+    let mask = shown.labels().map(|&label| label == region.get());
     cx.send(Edit::Mark(std::sync::Arc::new(mask), Combine::Replace, None));
 }
 
 fn step_region(cx: &mut PanelContext, next: bool) {
-    let Some(count) = cx.state.shown().map(|shown| shown.analysis.intrinsic.regions.len() as u16) else {
+    let Some(count) = cx.state.shown().map(|shown| shown.analysis.intrinsic.regions.len()) else {
         return;
     };
     if count == 0 {
         return;
     }
     let region = match (cx.state.selected_region(), next) {
-        (Some(region), true) => region % count + 1,
-        (Some(region), false) => (region + count - 2) % count + 1,
-        (None, true) => 1,
-        (None, false) => count,
+        (Some(region), true) => (region.index() + 1) % count,
+        (Some(region), false) => (region.index() + count - 1) % count,
+        (None, true) => 0,
+        (None, false) => count - 1,
     };
-    cx.send(Edit::Select(Some(Item::Region(region))));
+    cx.send(Edit::Select(Some(Item::Region(RegionId::from_index(region)))));
 }

@@ -8,6 +8,7 @@ pub mod testing;
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::app::{Edit, ViewCommand};
+use crate::raster::RegionId;
 use crate::view::{Item, Picture, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, region_plane};
 use chart::Chart;
 use egui::{Align2, Color32, FontId, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
@@ -22,7 +23,7 @@ const SCROLL_PT: f32 = 260.0;
 /// The plane panel.
 #[derive(Default)]
 pub struct PlanePanel {
-    of: Option<(Arc<ResultSnapshot>, u16)>,
+    of: Option<(Arc<ResultSnapshot>, RegionId)>,
     /// The instant at the debugger's cursor that is shown; `None` when the result is shown.
     frame: Option<cursor::Frame>,
     plane: Option<RegionPlane>,
@@ -81,7 +82,7 @@ impl PlanePanel {
         self.point(cx, &response, chart, rect);
     }
 
-    fn update(&mut self, shown: &Arc<ResultSnapshot>, region: u16) {
+    fn update(&mut self, shown: &Arc<ResultSnapshot>, region: RegionId) {
         if self.frame.take().is_some() {
             (self.of, self.chart) = (None, None);
         }
@@ -168,7 +169,8 @@ fn edge_notes(
     shown: &ResultSnapshot,
     rect: Rect,
 ) {
-    let region = &shown.analysis.intrinsic.regions[usize::from(plane.region) - 1];
+    let regions = &shown.analysis.intrinsic.regions;
+    let Some(region) = plane.region.and_then(|region| regions.get(region.index())) else { return };
     let rms = region.fit_rms_counts;
     let text = if plane.has_plane {
         let (angle, slice) = (plane.angle_deg, plane.slice_half_width);
@@ -209,13 +211,13 @@ fn hovered(
     rect: Rect,
 ) {
     let color: Option<Point> = match cx.state.hover {
-        Some(Item::Pixel(pixel)) => picture.photo.image.pixels.as_slice().get(pixel as usize).copied(),
+        Some(Item::Pixel(pixel)) => picture.photo.image.pixels.as_slice().get(pixel.index()).copied(),
         Some(Item::Bin(bin)) => picture.histogram.bins.get(bin as usize).map(|bin| bin.mean),
         _ => None,
     };
     let Some(amounts) = color.map(|color| plane.amounts(color)) else { return };
     let at = chart.screen(plane.oblique(amounts.body, amounts.surface), rect);
-    let elsewhere = |item| matches!(item, Item::Pixel(_)) && cx.state.region_of(item) != Some(plane.region);
+    let elsewhere = |item| matches!(item, Item::Pixel(_)) && cx.state.region_of(item) != plane.region;
     let inside = !cx.state.hover.is_some_and(elsewhere);
     let color = if inside { cx.tones.accent } else { cx.tones.quiet };
     painter.circle_stroke(at, RING_PT, Stroke::new(3.5, Color32::from_black_alpha(140)));

@@ -2,6 +2,7 @@
 
 use super::{PanelContext, widgets};
 use crate::app::ViewCommand;
+use crate::raster::PixelIndex;
 use crate::view::{Item, ProfileLine, ProfileSample, Tool, profile, profile_ends};
 use egui::{Color32, Ui};
 use egui_plot::{Corner, HoverPosition, Legend, Line, Plot, PlotPoints, VLine};
@@ -87,7 +88,7 @@ fn bar(ui: &mut Ui, cx: &mut PanelContext, ends: [[f32; 2]; 2], samples: &[Profi
     });
 }
 
-fn plot(ui: &mut Ui, cx: &mut PanelContext, samples: &[ProfileSample], hovered: Option<u32>) {
+fn plot(ui: &mut Ui, cx: &mut PanelContext, samples: &[ProfileSample], hovered: Option<PixelIndex>) {
     let accent = cx.tones.accent;
     let plot = Plot::new("profile")
         .legend(Legend::default().position(Corner::RightTop).background_alpha(0.6))
@@ -107,7 +108,7 @@ fn plot(ui: &mut Ui, cx: &mut PanelContext, samples: &[ProfileSample], hovered: 
                 plot.line(Line::new(name, PlotPoints::from(part)).color(color).width(1.3));
             }
         }
-        let position = |pixel: u32| samples.iter().find(|sample| sample.pixel == pixel);
+        let position = |pixel: PixelIndex| samples.iter().find(|sample| sample.pixel == pixel);
         if let Some(sample) = hovered.and_then(position) {
             plot.vline(VLine::new("pointer", f64::from(sample.position_px)).color(accent).width(1.0));
         }

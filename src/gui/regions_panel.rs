@@ -107,9 +107,7 @@ impl RegionsPanel {
             table =
                 table.column(if last { Column::remainder().at_least(width) } else { Column::exact(width) });
         }
-        if let Some(row) =
-            selected.and_then(|id| order.iter().position(|&index| index + 1 == usize::from(id)))
-        {
+        if let Some(row) = selected.and_then(|id| order.iter().position(|&index| index == id.index())) {
             table = table.scroll_to_row(row, None);
         }
         table
@@ -154,7 +152,7 @@ impl RegionsPanel {
     fn order(&self, regions: &[RegionReflection]) -> Vec<usize> {
         let mut order: Vec<usize> = (0..regions.len()).collect();
         let value = |region: &RegionReflection| match self.key {
-            Key::Id => f64::from(region.id),
+            Key::Id => f64::from(region.id.get()),
             Key::Pixels => region.pixels as f64,
             Key::Body => hue_rad(region.body),
             Key::Surface => region.surface.map_or(-10.0, hue_rad),
@@ -187,7 +185,7 @@ fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &R
     let none = || RichText::new("\u{2013}").color(tones.quiet);
     let plain = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).selectable(false));
     cell(row, |ui| {
-        let color = shown.region_colors.get(usize::from(region.id) - 1).copied().unwrap_or([128; 3]);
+        let color = shown.region_colors.get(region.id.index()).copied().unwrap_or([128; 3]);
         widgets::chip(ui, widgets::color(color), &format!("color of region {}", region.id));
         plain(ui, RichText::new(region.id.to_string()));
     });

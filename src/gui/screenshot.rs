@@ -5,6 +5,7 @@ use super::offscreen::OffscreenError;
 use super::offscreen_app::Offscreen;
 use crate::app::{Ask, Command, DebugCommand, Edit, JobCommand, Severity, State, ViewCommand};
 use crate::export::png_of_rgba;
+use crate::raster::{PixelIndex, RegionId};
 use crate::trace::{Event, Step, Topic};
 use crate::view::{
     Arrangement, ColorBy, CubeSettings, Fill, ImageSettings, Item, Layer, Origin, ProfileLine, Theme,
@@ -36,7 +37,7 @@ struct Shot {
     /// The panel shown alone; `None` for the whole window.
     pane: Option<Pane>,
     theme: Theme,
-    region: Option<u16>,
+    region: Option<RegionId>,
     image: ImageSettings,
     cube: CubeSettings,
     /// Position of the debugger's cursor; `None` for the end of the trace.
@@ -80,7 +81,7 @@ fn whole(name: &'static str) -> Shot {
         name,
         pane: None,
         theme: Theme::Dark,
-        region: Some(1),
+        region: RegionId::from_label(1),
         image: ImageSettings { layer: Layer::Regions, fill: Fill::Outline, ..ImageSettings::default() },
         cube: CubeSettings::default(),
         moment: None,
@@ -97,7 +98,7 @@ fn image(name: &'static str, layer: Layer) -> Shot {
     Shot { pane: Some(Pane::Image), region: None, image, ..whole(name) }
 }
 
-fn colors(name: &'static str, region: Option<u16>, color_by: ColorBy) -> Shot {
+fn colors(name: &'static str, region: Option<RegionId>, color_by: ColorBy) -> Shot {
     let cube = CubeSettings { color_by, ..CubeSettings::default() };
     Shot { pane: Some(Pane::Colors), region, cube, ..whole(name) }
 }
@@ -117,7 +118,7 @@ fn gallery() -> Vec<Shot> {
         image("image-regions", Layer::Regions),
         image("image-surface", Layer::Surface),
         colors("colors", None, ColorBy::Own),
-        colors("colors-region", Some(1), ColorBy::Region),
+        colors("colors-region", RegionId::from_label(1), ColorBy::Region),
         Shot { pane: Some(Pane::Plane), ..whole("plane") },
         Shot { pane: Some(Pane::Profile), ..whole("profile") },
         stopped("debugger-slice", Moment::Slice),
@@ -155,7 +156,7 @@ pub fn screenshot(folder: &Path, size_px: [u32; 2], origin: Origin) -> Result<Ve
 }
 
 /// The pixel of the last claim that two regions contested; `None` without such a claim.
-fn contested(state: &State) -> Option<u32> {
+fn contested(state: &State) -> Option<PixelIndex> {
     let mut steps = state.debugger.trace()?.steps().rev();
     steps.find_map(|(_, step)| match step {
         Step::Claim { pixel, contest: Some(_), .. } => Some(pixel),

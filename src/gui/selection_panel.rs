@@ -69,7 +69,8 @@ impl SelectionPanel {
 fn name_of(item: Item, width: usize) -> String {
     match item {
         Item::Pixel(pixel) => {
-            format!("Pixel {}, {}", pixel as usize % width.max(1), pixel as usize / width.max(1))
+            let [x, y] = pixel.position(width);
+            format!("Pixel {x}, {y}")
         }
         Item::Window(window) => format!("Window {}", window + 1),
         Item::Region(region) => format!("Region {region}"),
@@ -133,7 +134,7 @@ fn facts(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
         .iter()
         .take(4)
         .map(|&(id, n)| {
-            let name = if id == 0 { "none".to_owned() } else { id.to_string() };
+            let name = id.map_or("none".to_owned(), |id| id.to_string());
             format!("{name}: {}", percent(n))
         })
         .collect();

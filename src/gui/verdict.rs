@@ -12,7 +12,7 @@ const MARK_PT: f32 = 12.0;
 /// Shows the test with its upper left corner at `corner`, on the background color `ground`; returns the rectangle.
 pub fn show(ui: &Ui, tones: &Tones, ground: Color32, corner: Pos2, test: &CandidateTested) -> Rect {
     let halo = ground.gamma_multiply(0.8);
-    let head = format!("highlight of {}: {}?", test.region, candidate_name(test.candidate));
+    let head = format!("highlight of {}: {}?", test.hypothesis, candidate_name(test.candidate));
     let tip =
         "A neighboring cluster is the region's highlight if both lines form a skewed T (section 5.4.1).";
     let mut room = line(ui, (tones, halo), corner, &head, None, tip);

@@ -121,9 +121,9 @@ fn of_run(watch: &Watch) -> Vec<Line> {
 
 /// Lines about the hypothesis that the step at the cursor concerns.
 fn of_current(current: &Current) -> Vec<Line> {
-    let number = match current.final_number {
-        0 => current.region.to_string(),
-        number => format!("{} (region {number})", current.region),
+    let number = match current.region {
+        None => current.hypothesis.to_string(),
+        Some(region) => format!("{} (region {region})", current.hypothesis),
     };
     let pixels = widgets::grouped(current.pixels as usize);
     let vector = |v: &Vec3, digits: usize| v.iter().map(|v| format!("{v:.digits$}")).collect();
@@ -142,13 +142,13 @@ fn of_current(current: &Current) -> Vec<Line> {
 
 /// Lines about the selected pixel; `width` is the photograph's, pixels.
 fn of_pixel(pixel: &WatchedPixel, width: usize) -> Vec<Line> {
-    let (x, y) = (pixel.pixel as usize % width.max(1), pixel.pixel as usize / width.max(1));
+    let [x, y] = pixel.pixel.position(width);
     let class = match pixel.class {
         None => none(),
         Some(None) => "too few pixels".to_owned(),
         Some(Some(class)) => class.name().to_owned(),
     };
-    let holder = if pixel.region == 0 { none() } else { format!("hypothesis {}", pixel.region) };
+    let holder = pixel.hypothesis.map_or_else(none, |hypothesis| format!("hypothesis {hypothesis}"));
     let color = pixel.color.map(|v| format!("{v:.1}")).to_vec();
     let role = pixel.kind.name().to_owned();
     vec![
@@ -240,9 +240,13 @@ fn row(ui: &mut Ui, cx: &PanelContext, distance: &AxisDistance) {
     let size = vec2(REGION_PT, LINE_PT);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         ui.set_min_size(size);
-        let region = distance.region;
-        widgets::chip(ui, widgets::color(names.color(region)), &format!("color of hypothesis {region}"));
-        ui.label(RichText::new(format!("hypothesis {region}")).color(tones.quiet));
+        let hypothesis = distance.hypothesis;
+        widgets::chip(
+            ui,
+            widgets::color(names.color(hypothesis)),
+            &format!("color of hypothesis {hypothesis}"),
+        );
+        ui.label(RichText::new(format!("hypothesis {hypothesis}")).color(tones.quiet));
     });
     let against = |[value, limit]: [f64; 2]| {
         let ink: Color32 = if value <= limit { tones.text } else { tones.quiet };

@@ -9,12 +9,13 @@ use crate::analysis::WhatIf;
 use crate::app::{Ask, Command, DebugCommand, Edit, WhatIfJob};
 use crate::describe::what_if_sentence;
 use crate::params::Setting;
+use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::view::{Account, Why, why};
 use egui::{FontId, Response, RichText, ScrollArea, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
 /// Identity of the answers: generation of the trace, pixel, and hypothesis id.
-type Dialog = (u64, Option<u32>, Option<u16>);
+type Dialog = (u64, Option<PixelIndex>, Option<HypothesisId>);
 
 /// The why panel.
 #[derive(Default)]
@@ -31,7 +32,7 @@ impl WhyPanel {
         };
         let pixel = cx.state.asked_pixel();
         let selected = cx.state.selected_region().filter(|_| pixel.is_none());
-        let of_region = selected.and_then(|region| debugger.names.births_of(region).next());
+        let of_region = selected.and_then(|region| debugger.names.hypotheses_of(region).next());
         let birth = debugger.chosen.filter(|_| pixel.is_none()).or(of_region);
         if pixel.is_none() && birth.is_none() {
             let text =
@@ -98,19 +99,18 @@ fn answers(ui: &mut Ui, cx: &mut PanelContext, found: &Why) {
 }
 
 /// Shows the pixel's position, color, region and kind.
-fn about_pixel(ui: &mut Ui, cx: &PanelContext, pixel: u32) {
+fn about_pixel(ui: &mut Ui, cx: &PanelContext, pixel: PixelIndex) {
     let (Some(picture), Some(shown)) = (&cx.state.picture, &cx.state.newest) else { return };
-    let width = picture.size().0.max(1);
-    let (x, y) = (pixel as usize % width, pixel as usize / width);
-    let color = picture.photo.image.pixels[pixel as usize];
-    let region = shown.labels()[pixel as usize];
+    let [x, y] = pixel.position(picture.size().0);
+    let color = picture.photo.image.pixels[pixel.index()];
+    let region = RegionId::from_label(shown.labels()[pixel.index()]);
     ui.horizontal(|ui| {
         widgets::chip(ui, widgets::own_color(color), "the pixel's color");
         ui.label(format!("Pixel {x}, {y}"));
         let [r, g, b] = color;
         ui.label(RichText::new(format!("{r:.0} {g:.0} {b:.0} counts")).color(cx.tones.quiet));
-        let kind = shown.analysis.intrinsic.kinds[pixel as usize].name();
-        let fate = if region == 0 { kind.to_owned() } else { format!("region {region}, {kind}") };
+        let kind = shown.analysis.intrinsic.kinds[pixel.index()].name();
+        let fate = region.map_or_else(|| kind.to_owned(), |region| format!("region {region}, {kind}"));
         ui.label(fate);
     });
 }
@@ -162,7 +162,7 @@ fn entry(ui: &mut Ui, cx: &PanelContext, account: &Account, now: bool) -> Respon
 /// Shows how far each parameter would have to move for the pixel's result to change, the progress of that search, or
 /// the
 /// button that starts the search.
-fn what_if(ui: &mut Ui, cx: &mut PanelContext, pixel: u32) {
+fn what_if(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
     let heading = widgets::heading(ui, cx.tones, "What if");
     heading.on_hover_text(
         "How far each parameter would have to move for this pixel to end otherwise, tried by analyzing again.",

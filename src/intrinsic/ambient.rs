@@ -13,6 +13,7 @@
 
 use crate::color::{Cylinder, Line, LineFit, Moments, Vec3, principal_axes};
 use crate::params::AmbientSetting;
+use crate::raster::RegionId;
 use crate::segment::{AnalysisInput, FinalRegions, Members, POOR_FIT, Pixels, PlanarHypothesis};
 use crate::trace::{Ambient, AmbientVerdict, Meeting};
 use nalgebra::Matrix3;
@@ -60,9 +61,10 @@ pub fn ambient(input: &AnalysisInput, regions: &FinalRegions, members: &Members)
 }
 
 fn estimated(input: &AnalysisInput, regions: &FinalRegions, members: &Members) -> Ambient {
-    let lines: Vec<MatteLine> = (1..=regions.hypotheses.len() as u16)
+    let lines: Vec<MatteLine> = (0..regions.hypotheses.len())
         .into_par_iter()
-        .filter_map(|id| MatteLine::new(input, &regions.hypotheses[usize::from(id) - 1], members.region(id)))
+        .map(RegionId::from_index)
+        .filter_map(|id| MatteLine::new(input, &regions.hypotheses[id.index()], members.region(id)))
         .collect();
     let meeting = meeting(&lines);
     let is_determined = |found: &Meeting| {
@@ -192,7 +194,7 @@ fn meeting(lines: &[MatteLine]) -> Option<Meeting> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::raster::LabelMap;
+    use crate::raster::{HypothesisId, LabelMap};
     use crate::segment::testing::Drawing;
     use crate::segment::{LightFindings, members};
     use proptest::prelude::*;
@@ -211,7 +213,7 @@ mod tests {
         drawing.used.ambient = setting;
         let of_pixel = |i: usize| place((i % width) as f64) as u16 + 1;
         let labels = LabelMap::from_vec(width, width, (0..width * width).map(of_pixel).collect()).unwrap();
-        let hypotheses = (1..).zip(bodies).map(|(origin, (body, from))| {
+        let hypotheses = HypothesisId::all(bodies.len()).zip(bodies).map(|(origin, (body, from))| {
             let direction = Vec3::from(*body).normalize();
             let matte = Line::new(Vec3::from(*from) + direction * 90.0, direction);
             let start = matte.mean;

@@ -6,7 +6,7 @@
 //! region, but no object consists of highlight alone); and a clipped blob that is mostly surrounded by other regions, which the
 //! region reached over a bridge of bright pixels.
 
-use crate::raster::{Border, ComponentSearch, Connectivity, Mask, Raster, UNASSIGNED};
+use crate::raster::{Border, ComponentSearch, Connectivity, Mask, Raster, RegionId};
 use crate::segment::{AnalysisInput, FinalRegions, Members, parts};
 use crate::trace::PixelKind;
 
@@ -16,7 +16,7 @@ const LEAST_MATTE: f64 = 0.1;
 const LEAST_OWN: f64 = 0.5;
 
 /// The pixels that the skewed T of their region explains. `model_fits`: whether the skewed T
-/// fits each region; region `id` is at index `id − 1`.
+/// fits each region, by [`RegionId::index`].
 pub fn explained_mask(
     input: &AnalysisInput,
     regions: &FinalRegions,
@@ -24,12 +24,13 @@ pub fn explained_mask(
     model_fits: &[bool],
     kinds: &Raster<PixelKind>,
 ) -> Mask {
-    let mut mask = regions.labels.map(|&label| label != UNASSIGNED && model_fits[usize::from(label) - 1]);
+    let mut mask =
+        regions.labels.map(|&label| RegionId::from_label(label).is_some_and(|id| model_fits[id.index()]));
     if !input.refine.region_holds {
         return mask;
     }
     let width = regions.labels.width();
-    for id in (1..=model_fits.len() as u16).filter(|&id| model_fits[usize::from(id) - 1]) {
+    for id in RegionId::all(model_fits.len()).filter(|id| model_fits[id.index()]) {
         for part in parts(width, members.region(id)) {
             let matte = part.iter().filter(|&&pixel| kinds[pixel as usize] == PixelKind::Matte).count();
             if (matte as f64) < LEAST_MATTE * part.len() as f64 {

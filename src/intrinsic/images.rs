@@ -4,7 +4,7 @@ use super::Intrinsic;
 use super::reason::Reason;
 use super::region_plan::RegionPlan;
 use super::restore::Distorted;
-use crate::raster::{Raster, UNASSIGNED};
+use crate::raster::{Raster, RegionId, UNASSIGNED};
 use crate::segment::{AnalysisInput, FinalRegions, Members, Pixels};
 use crate::trace::{Ambient, PixelKind};
 use rayon::prelude::*;
@@ -90,7 +90,9 @@ impl Images {
         let restored: Vec<Vec<RestoredPixel>> = plans
             .par_iter()
             .enumerate()
-            .map(|(index, plan)| restored(input, plan, &distorted, members.region(index as u16 + 1)))
+            .map(|(index, plan)| {
+                restored(input, plan, &distorted, members.region(RegionId::from_index(index)))
+            })
             .collect();
         for RestoredPixel { pixel, body, surface, kind } in restored.into_iter().flatten() {
             let pixel = pixel as usize;

@@ -16,7 +16,7 @@ mod vectors;
 pub use reason::Reason;
 pub use split::split;
 
-use crate::raster::Raster;
+use crate::raster::{Raster, RegionId};
 pub use crate::segment::POOR_FIT;
 pub use crate::trace::{Ambient, AmbientVerdict, Meeting, PixelKind};
 
@@ -37,7 +37,7 @@ pub struct Intrinsic {
     pub reasons: Raster<Reason>,
     /// The estimate of the ambient light.
     pub ambient: Ambient,
-    /// The regions; region `id` is at index `id − 1`.
+    /// The regions, by [`RegionId::index`].
     pub regions: Vec<RegionReflection>,
 }
 
@@ -59,8 +59,8 @@ pub struct HighlightBranch {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RegionReflection {
-    /// Label of the region, from 1.
-    pub id: u16,
+    /// The region.
+    pub id: RegionId,
     /// Number of the region's pixels.
     pub pixels: usize,
     /// Number of pixels nearer to the matte line.
@@ -94,8 +94,8 @@ pub struct RegionReflection {
     pub texture: f64,
     /// Whether body and surface reflection can be separated.
     pub separable: bool,
-    /// Labels of the adjacent regions, ascending.
-    pub neighbors: Vec<u16>,
+    /// The adjacent regions, ascending.
+    pub neighbors: Vec<RegionId>,
     /// Warnings about the region's split, each an English phrase.
     pub warnings: Vec<String>,
 }

@@ -4,7 +4,7 @@ use super::confidence::of_region;
 use super::region_plan::RegionPlan;
 use super::{HighlightBranch, RegionReflection};
 use crate::color::Vec3;
-use crate::raster::Raster;
+use crate::raster::{Raster, RegionId};
 use crate::reflection::MIN_ANGLE_DEG;
 use crate::segment::{AnalysisInput, POOR_FIT, Pixels};
 use crate::trace::PixelKind;
@@ -14,8 +14,8 @@ const SMALL_ANGLE_DEG: f64 = 14.0;
 
 /// A region and the result of its split.
 pub struct RegionSummary<'a> {
-    /// Label of the region, from 1.
-    pub id: u16,
+    /// The region.
+    pub id: RegionId,
     /// The region's pixels.
     pub pixels: Pixels<'a>,
     /// The kind of each pixel of the picture.
@@ -24,7 +24,12 @@ pub struct RegionSummary<'a> {
 
 impl RegionSummary<'_> {
     /// The report of the region, which was split by `plan` and touches the regions `neighbors`.
-    pub fn report(&self, input: &AnalysisInput, plan: &RegionPlan, neighbors: Vec<u16>) -> RegionReflection {
+    pub fn report(
+        &self,
+        input: &AnalysisInput,
+        plan: &RegionPlan,
+        neighbors: Vec<RegionId>,
+    ) -> RegionReflection {
         let pixels = self.pixels;
         let count = |test: &dyn Fn(usize) -> bool| pixels.iter().filter(|&p| test(p as usize)).count();
         let matte_pixels = count(&|pixel| self.kinds[pixel] == PixelKind::Matte);

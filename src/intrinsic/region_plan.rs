@@ -3,6 +3,7 @@
 use super::pixel::PixelSplitter;
 use super::vectors::{Vectors, fit_vectors, matte_mean};
 use crate::color::{Vec3, rgb};
+use crate::raster::RegionId;
 use crate::reflection::{AmountRule, HighlightTest, ReflectionTransform};
 use crate::segment::{
     AnalysisInput, BranchSearch, Branches, FinalRegions, Pixels, PlanarHypothesis, RegionFit,
@@ -42,7 +43,7 @@ impl RegionPlan {
     pub(super) fn new(
         input: &AnalysisInput,
         regions: &FinalRegions,
-        region: u16,
+        region: RegionId,
         hypothesis: &PlanarHypothesis,
         pixels: Pixels,
     ) -> Self {
@@ -51,7 +52,7 @@ impl RegionPlan {
         let vectors = fit_vectors(input, hypothesis, pixels);
         let rule = AmountRule::new(&vectors.body, vectors.surface.as_ref(), least_offset);
         let through_origin = (&Vec3::zeros(), &vectors.body, vectors.surface.as_ref());
-        let fit = RegionFit::new(input, &regions.labels, (region, pixels), through_origin);
+        let fit = RegionFit::new(input, &regions.labels, (region.get(), pixels), through_origin);
         let start_body = rule.transform().map_or(0.0, |t| t.split(rgb(&hypothesis.start)).body.max(0.0));
         let highlight_test = hypothesis.highlight_test().filter(|_| rule.transform().is_some());
         let plan = Self {
@@ -114,7 +115,7 @@ impl RegionPlan {
     pub(super) fn vectors_fitted(
         &self,
         input: &AnalysisInput,
-        region: u16,
+        region: RegionId,
         origin: &[f64; 3],
     ) -> VectorsFitted {
         let PlanarHypothesis { matte, start, .. } = self.hypothesis.from_origin(&-Vec3::from(*origin));

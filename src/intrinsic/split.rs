@@ -9,7 +9,7 @@ use super::reason::ReasonInput;
 use super::region::RegionSummary;
 use super::region_plan::RegionPlan;
 use super::{Intrinsic, RegionReflection};
-use crate::raster::{Mask, Raster};
+use crate::raster::{Mask, Raster, RegionId};
 use crate::segment::{AnalysisInput, Branches, FinalRegions, Members, members, neighbors};
 use crate::trace::{Ambient, BranchesSought, Pass, PassBegan, Recorder};
 use rayon::prelude::*;
@@ -63,7 +63,7 @@ fn split_from<R: Recorder>(
         .par_iter()
         .enumerate()
         .map(|(index, hypothesis)| {
-            let id = index as u16 + 1;
+            let id = RegionId::from_index(index);
             RegionPlan::new(input, regions, id, hypothesis, members.region(id))
         })
         .collect();
@@ -86,7 +86,7 @@ fn split_from<R: Recorder>(
         .zip(touching)
         .enumerate()
         .map(|(index, (plan, neighbors))| {
-            let id = index as u16 + 1;
+            let id = RegionId::from_index(index);
             let summary = RegionSummary { id, pixels: members.region(id), kinds: &images.kinds };
             summary.report(input, plan, neighbors)
         })
@@ -105,7 +105,7 @@ fn record_plans<R: Recorder>(
         return;
     }
     recorder.record(PassBegan { pass: Pass::Vectors });
-    for (region, plan) in (1..).zip(plans) {
+    for (region, plan) in RegionId::all(plans.len()).zip(plans) {
         let Branches { cores, gaps } = plan.branches().clone();
         if !cores.is_empty() {
             recorder.record(BranchesSought { region, cores, gaps });

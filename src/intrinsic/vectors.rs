@@ -180,7 +180,7 @@ mod tests {
             let plane = DichromaticPlane::new(&matte, &surface);
             let start = body * 120.0;
             let hypothesis =
-                PlanarHypothesis { origin: 1, matte, matte_length: 150.0, plane, start, highlight: None, alive: true };
+                PlanarHypothesis { origin: crate::raster::HypothesisId::from_index(0), matte, matte_length: 150.0, plane, start, highlight: None, alive: true };
             let labels = LabelMap::filled(amounts.len(), 1, 1);
             let regions = FinalRegions { labels, hypotheses: vec![hypothesis], light: LightFindings::default() };
             let result = split(&input, &regions, &mut NoopRecorder);

@@ -5,11 +5,13 @@
 mod blur;
 mod components;
 mod grid;
+mod ids;
 mod morphology;
 mod roi;
 
 pub use blur::blur;
 pub use components::{Border, ComponentSearch, Components, Connectivity};
 pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};
+pub use ids::{HypothesisId, PixelIndex, RegionId};
 pub use morphology::dilate;
 pub use roi::Roi;

@@ -1,9 +1,15 @@
 //! Which regions lie next to one another.
 
-use crate::raster::{LabelMap, UNASSIGNED};
+use crate::raster::{HypothesisId, LabelMap, UNASSIGNED};
 use std::collections::BTreeSet;
 
-/// Pairs of regions (smaller number first) of which two pixels lie at most `reach_px` apart along a row or a column.
+/// Pairs of hypotheses (smaller number first) of which two pixels lie at most `reach_px` apart along a row or a column.
+pub fn near_hypotheses(labels: &LabelMap, reach_px: usize) -> BTreeSet<(HypothesisId, HypothesisId)> {
+    let pairs = near_pairs(labels, reach_px).into_iter();
+    pairs.filter_map(|(a, b)| Some((HypothesisId::from_label(a)?, HypothesisId::from_label(b)?))).collect()
+}
+
+/// Pairs of labels (smaller number first) of which two pixels lie at most `reach_px` apart along a row or a column.
 pub fn near_pairs(labels: &LabelMap, reach_px: usize) -> BTreeSet<(u16, u16)> {
     let (width, height) = (labels.width(), labels.height());
     let data = labels.as_slice();

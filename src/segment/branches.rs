@@ -13,7 +13,7 @@
 
 use super::input::AnalysisInput;
 use super::recorded_labels::Pixels;
-use crate::raster::{ComponentSearch, Connectivity, LabelMap, Raster};
+use crate::raster::{ComponentSearch, Connectivity, LabelMap, Raster, RegionId};
 use crate::reflection::{MOST_BRANCHES, ReflectionTransform};
 use crate::trace::{HighlightCore, Measured};
 
@@ -43,7 +43,7 @@ pub struct BranchSearch<'a> {
     /// Region of each pixel.
     pub labels: &'a LabelMap,
     /// The region.
-    pub region: u16,
+    pub region: RegionId,
     /// Its T.
     pub transform: &'a ReflectionTransform,
     /// Length of its matte line, counts.
@@ -105,7 +105,7 @@ impl BranchSearch<'_> {
         let clear = |pixel: usize| {
             input.masks.distorted(pixel) || crate::color::dot(surface_row, input.pixels[pixel]) > least
         };
-        let inside = |pixel: usize| labels.around(pixel).all(|near| labels[near] == self.region);
+        let inside = |pixel: usize| labels.around(pixel).all(|near| labels[near] == self.region.get());
         let of = |pixel: u32| {
             let amounts = (!input.masks.distorted(pixel as usize)).then(|| {
                 let found = transform.split(input.pixels[pixel as usize]);

@@ -8,14 +8,14 @@
 //! neighboring linear regions, and regions absorbed as broad highlights.
 
 use super::absorb::is_positive;
-use super::borders::near_pairs;
+use super::borders::near_hypotheses;
 use super::classify::{Classifier, Windows};
 use super::input::AnalysisInput;
 use super::linear::Hypothesis;
 use super::merge::Areas;
 use super::recorded_labels::Members;
 use crate::color::{Line, Moments, Vec3, closest_points};
-use crate::raster::{LabelMap, UNASSIGNED};
+use crate::raster::{HypothesisId, LabelMap, UNASSIGNED};
 use crate::trace::{
     CandidateChosen, CandidateSource, CandidateTested, CandidateVerdict, Class, Measured, Recorder,
 };
@@ -62,8 +62,8 @@ pub fn highlight_lines<R: Recorder>(
 ) -> Vec<Option<HighlightLine>> {
     let Found { labels, hypotheses, .. } = *found;
     let mut neighbors = leftover_neighbors(input, found.windows, found.areas, labels);
-    let mut clusters: BTreeMap<u16, Moments> = BTreeMap::new();
-    for (a, b) in near_pairs(labels, 1) {
+    let mut clusters: BTreeMap<HypothesisId, Moments> = BTreeMap::new();
+    for (a, b) in near_hypotheses(labels, 1) {
         for (own, other) in [(a, b), (b, a)] {
             let cluster = clusters.entry(other).or_insert_with(|| {
                 members
@@ -72,20 +72,20 @@ pub fn highlight_lines<R: Recorder>(
                     .map(|pixel| input.pixels[pixel as usize])
                     .collect()
             });
-            neighbors.entry(own).or_default().push((CandidateSource::Region(other), *cluster));
+            neighbors.entry(own).or_default().push((CandidateSource::Hypothesis(other), *cluster));
         }
     }
     let mut classifier = Classifier::new(input.used.camera_noise, input.refine.tail_test);
-    (1..=hypotheses.len() as u16)
+    HypothesisId::all(hypotheses.len())
         .map(|id| {
-            let hypothesis = &hypotheses[usize::from(id) - 1];
+            let hypothesis = &hypotheses[id.index()];
             if !hypothesis.alive {
                 return None;
             }
             let mut clusters = neighbors.remove(&id).unwrap_or_default();
             clusters.extend_from_slice(&hypothesis.highlights);
-            let length = lengths[usize::from(id) - 1];
-            let mut tests = Tests { input, region: id, matte: hypothesis.line, length, recorder };
+            let length = lengths[id.index()];
+            let mut tests = Tests { input, hypothesis: id, matte: hypothesis.line, length, recorder };
             let accepted: Vec<Accepted> = clusters
                 .iter()
                 .filter(|(_, cluster)| {
@@ -104,10 +104,10 @@ fn leftover_neighbors(
     windows: &Windows,
     areas: &Areas,
     labels: &LabelMap,
-) -> BTreeMap<u16, Vec<(CandidateSource, Moments)>> {
+) -> BTreeMap<HypothesisId, Vec<(CandidateSource, Moments)>> {
     let width = labels.width();
     let mut leftovers: BTreeMap<u32, Moments> = BTreeMap::new();
-    let mut touching: BTreeSet<(u16, u32)> = BTreeSet::new();
+    let mut touching: BTreeSet<(HypothesisId, u32)> = BTreeSet::new();
     for pixel in 0..labels.len() {
         if labels[pixel] != UNASSIGNED || !input.masks.usable(pixel) {
             continue;
@@ -115,15 +115,15 @@ fn leftover_neighbors(
         let area = areas.of_window[windows.window_of(pixel, width)];
         leftovers.entry(area).or_default().add(input.pixels[pixel]);
         labels.for_each_neighbor(pixel, |near| {
-            if labels[near] != UNASSIGNED {
-                touching.insert((labels[near], area));
+            if let Some(hypothesis) = HypothesisId::from_label(labels[near]) {
+                touching.insert((hypothesis, area));
             }
         });
     }
-    let mut neighbors: BTreeMap<u16, Vec<_>> = BTreeMap::new();
-    for (region, area) in touching {
+    let mut neighbors: BTreeMap<HypothesisId, Vec<_>> = BTreeMap::new();
+    for (hypothesis, area) in touching {
         if let Some(&cluster) = leftovers.get(&area) {
-            neighbors.entry(region).or_default().push((CandidateSource::Leftover(area), cluster));
+            neighbors.entry(hypothesis).or_default().push((CandidateSource::Leftover(area), cluster));
         }
     }
     neighbors
@@ -140,7 +140,7 @@ struct Accepted {
 /// The skewed-T tests of one region's neighbors.
 struct Tests<'a, 's, R: Recorder> {
     input: &'a AnalysisInput<'s>,
-    region: u16,
+    hypothesis: HypothesisId,
     matte: Line,
     length: f64,
     recorder: &'a mut R,
@@ -162,7 +162,7 @@ impl<R: Recorder> Tests<'_, '_, R> {
         if R::KEEPS {
             let percent = |position: f64| 100.0 * position / self.length.max(f64::MIN_POSITIVE);
             self.recorder.record(CandidateTested {
-                region: self.region,
+                hypothesis: self.hypothesis,
                 candidate: source,
                 pixels: cluster.n as u32,
                 matte: self.matte,
@@ -193,7 +193,7 @@ impl<R: Recorder> Tests<'_, '_, R> {
         let chosen = accepted.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
         if R::KEEPS {
             self.recorder.record(CandidateChosen {
-                region: self.region,
+                hypothesis: self.hypothesis,
                 candidate: chosen.source,
                 meeting_point: start,
                 direction: chosen.direction,
@@ -227,9 +227,14 @@ mod tests {
             (1..=20).map(|step| rgb(&(start + direction * (f64::from(step) * 4.0)))).collect();
         let matte = Line::new(body() * LENGTH / 2.0, body());
         let mut recorder = TraceRecorder::default();
-        let mut tests =
-            Tests { input: &drawing.input(), region: 1, matte, length: LENGTH, recorder: &mut recorder };
-        let accepted = tests.run(CandidateSource::Region(2), &cluster);
+        let mut tests = Tests {
+            input: &drawing.input(),
+            hypothesis: HypothesisId::from_index(0),
+            matte,
+            length: LENGTH,
+            recorder: &mut recorder,
+        };
+        let accepted = tests.run(CandidateSource::Hypothesis(HypothesisId::from_index(1)), &cluster);
         let stage_trace = recorder.finish(Stage::Planar).unwrap();
         let Some(Step::Event(crate::trace::Event::CandidateTested(test))) = stage_trace.step(0) else {
             panic!("one test, one event: {stage_trace:?}")
@@ -263,8 +268,13 @@ mod tests {
         };
         let mut silent = crate::trace::NoopRecorder;
         let matte = Line::new(body(), body());
-        let mut tests =
-            Tests { input: &drawing.input(), region: 1, matte, length: LENGTH, recorder: &mut silent };
+        let mut tests = Tests {
+            input: &drawing.input(),
+            hypothesis: HypothesisId::from_index(0),
+            matte,
+            length: LENGTH,
+            recorder: &mut silent,
+        };
         let few = accepted(0.5, Vec3::x(), 10.0);
         let many = accepted(0.9, Vec3::y(), 90.0);
         let chosen = tests.choose(&[few, many]).unwrap();

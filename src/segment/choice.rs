@@ -14,7 +14,7 @@ use super::planar::{PlanarHypothesis, PlanarRegions, PlanarState};
 use super::recorded_labels::Members;
 use super::vote_light::{LEAST_VOTERS, Votes};
 use crate::color::Vec3;
-use crate::raster::LabelMap;
+use crate::raster::{HypothesisId, LabelMap};
 use crate::trace::{LightChosen, LightLimits, Pass, Recorder, VoteResult, VotesCast};
 use rayon::prelude::*;
 
@@ -150,10 +150,11 @@ fn better(light: &LightFindings, elected: Option<&VoteResult>) -> LightBasis {
 /// Share of the lit pixels that lie in regions which hold and show a highlight.
 fn support(input: &AnalysisInput, labels: &LabelMap, hypotheses: &[PlanarHypothesis]) -> f64 {
     let members = Members::of(labels, hypotheses.len());
-    let supporting = (1..=hypotheses.len() as u16)
+    let supporting = (0..hypotheses.len())
         .into_par_iter()
+        .map(HypothesisId::from_index)
         .map(|id| {
-            let hypothesis = &hypotheses[usize::from(id) - 1];
+            let hypothesis = &hypotheses[id.index()];
             let pixels = members.region(id);
             let Some((plane, test)) = hypothesis.plane.zip(hypothesis.highlight_test()) else { return 0 };
             if input.stopped() || pixels.len() < HIGHLIGHT_PX {
@@ -166,7 +167,8 @@ fn support(input: &AnalysisInput, labels: &LabelMap, hypotheses: &[PlanarHypothe
             });
             let share = highlight as f64 / f64::from(seen.max(1));
             let shows = share >= HIGHLIGHT_SHARE && share * pixels.len() as f64 >= HIGHLIGHT_PX as f64;
-            let holds = shows && RegionFit::new(input, labels, (id, pixels), vectors).holds(input.sigma());
+            let holds =
+                shows && RegionFit::new(input, labels, (id.get(), pixels), vectors).holds(input.sigma());
             if holds { pixels.len() } else { 0 }
         })
         .sum::<usize>();

@@ -8,7 +8,7 @@ use super::input::AnalysisInput;
 use super::planar::PlanarRegions;
 use super::recorded_labels::RecordedLabels;
 use crate::color::dot;
-use crate::raster::{Border, ComponentSearch, Connectivity, LabelMap, UNASSIGNED};
+use crate::raster::{Border, ComponentSearch, Connectivity, HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
 use crate::trace::{GrowthBegan, HoleFilled, Pass, Recorder};
 use rayon::prelude::*;
 
@@ -31,16 +31,17 @@ pub fn clipping_regions<R: Recorder>(
         .map(|(index, hypothesis)| {
             let Some(highlight) = hypothesis.highlight_test() else { return Vec::new() };
             let is_highlight = |&pixel: &u32| highlight.is_highlight(input.pixels[pixel as usize]);
-            members.region(index as u16 + 1).iter().filter(is_highlight).collect()
+            members.region(HypothesisId::from_index(index)).iter().filter(is_highlight).collect()
         })
         .collect();
-    for ((id, hypothesis), mut front) in (1..).zip(&planar.hypotheses).zip(fronts) {
+    let ids = HypothesisId::all(planar.hypotheses.len());
+    for ((id, hypothesis), mut front) in ids.zip(&planar.hypotheses).zip(fronts) {
         if input.stopped() {
             return recorded_labels.labels;
         }
         let start2 = hypothesis.start.norm_squared() as f32;
         if R::KEEPS && !front.is_empty() {
-            recorded_labels.recorder.record(GrowthBegan { region: id, limit: start2.sqrt() });
+            recorded_labels.recorder.record(GrowthBegan { hypothesis: id, limit: start2.sqrt() });
         }
         recorded_labels.grow(
             id,
@@ -48,7 +49,7 @@ pub fn clipping_regions<R: Recorder>(
             || input.stopped(),
             |_, pixel, holder| {
                 let color = input.pixels[pixel];
-                holder == UNASSIGNED && !input.masks.dark(pixel) && dot(color, color) > start2
+                holder.is_none() && !input.masks.dark(pixel) && dot(color, color) > start2
             },
         );
     }
@@ -91,16 +92,17 @@ fn fill<R: Recorder>(
         let inside = |pixel: usize| labels[pixel] == UNASSIGNED && member(pixel);
         let Some(component) = search.component_at(start, inside) else { continue };
         let border = Border::of(labels, component, |pixel| !inside(pixel));
-        let Some((region, border_share)) = border.main_region() else { continue };
+        let Some((label, border_share)) = border.main_region() else { continue };
+        let Some(hypothesis) = HypothesisId::from_label(label) else { continue };
         if !fits(&Hole { pixels: component.len(), border_share, closed: border.is_closed() }) {
             continue;
         }
         if R::KEEPS {
-            let (pixel, pixels) = (start as u32, component.len() as u32);
-            recorded_labels.recorder.record(HoleFilled { region, pixel, pixels, border_share });
+            let (pixel, pixels) = (PixelIndex::from_index(start), component.len() as u32);
+            recorded_labels.recorder.record(HoleFilled { hypothesis, pixel, pixels, border_share });
         }
         for &pixel in component {
-            recorded_labels.assign(pixel, region);
+            recorded_labels.assign(pixel, Some(hypothesis));
         }
     }
 }
@@ -132,7 +134,7 @@ mod tests {
     fn fill_in(drawing: &Drawing, before: &[&str], with_plane: bool, after: &[&str]) {
         let matte = Line::new(body() * 80.0, body());
         let hypothesis = PlanarHypothesis {
-            origin: 1,
+            origin: HypothesisId::from_index(0),
             matte,
             matte_length: 150.0,
             plane: DichromaticPlane::new(&matte, &Vec3::repeat(1.0)).filter(|_| with_plane),

@@ -7,7 +7,7 @@ use super::in_plane::{InPlane, Rise};
 use super::input::AnalysisInput;
 use super::recorded_labels::Pixels;
 use crate::color::Vec3;
-use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
+use crate::raster::{HypothesisId, LabelMap, Mask, Raster, UNASSIGNED};
 use crate::reflection::DichromaticPlane;
 
 /// Unclaimed pixels on the inside of a plane, reached within 8 px of its matte region.
@@ -71,7 +71,7 @@ fn normal_of(plane: &DichromaticPlane, tangent: f64) -> Vec3 {
 /// The plane through all of a region's pixels off the matte line.
 pub fn plane_constraint(
     input: &AnalysisInput,
-    region: u16,
+    hypothesis: HypothesisId,
     plane: &DichromaticPlane,
     matte_length: f64,
     pixels: impl Iterator<Item = u32>,
@@ -93,7 +93,7 @@ pub fn plane_constraint(
     }
     let per_pixel = fit.residual.max(sigma).powi(2);
     Some(Constraint {
-        region,
+        hypothesis,
         normal: normal_of(plane, fit.tangent),
         variance_deg2: per_pixel / fit.squares * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG,
         doubt_deg: 1.0,
@@ -147,7 +147,7 @@ pub fn branch_constraint(lies_in: &Constraint, plane: &DichromaticPlane, branch:
     let light = (plane.matte.direction * branch.cotangent + inward).normalize();
     let variance_deg2 = branch.variance_rad2 * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG;
     Constraint {
-        region: lies_in.region,
+        hypothesis: lies_in.hypothesis,
         normal: lies_in.normal.cross(&light),
         variance_deg2,
         doubt_deg: 4.0,

@@ -16,14 +16,15 @@
 
 use super::candidates::HighlightLine;
 use crate::color::{Vec3, axis_angle_deg};
+use crate::raster::HypothesisId;
 use crate::trace::Contribution;
 use nalgebra::Matrix3;
 
 /// Something that the illuminant is perpendicular to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraint {
-    /// The region that says so.
-    pub region: u16,
+    /// The hypothesis that says so.
+    pub hypothesis: HypothesisId,
     /// Unit vector.
     pub normal: Vec3,
     /// Variance of its angle, degrees².
@@ -84,7 +85,7 @@ pub fn intersect(constraints: &[Constraint], prior: &Prior) -> Intersection {
         .max_by(|a, b| merit(constraints, prior, a).total_cmp(&merit(constraints, prior, b)))
         .unwrap_or(prior.direction);
     let said = |c: &Constraint| Contribution {
-        region: c.region,
+        hypothesis: c.hypothesis,
         residual_deg: residual_deg(c, &direction),
         weight: weight(c, &direction),
     };
@@ -181,9 +182,15 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn plane_of(region: u16, body: Vec3, light: &Vec3) -> Constraint {
+    fn plane_of(number: usize, body: Vec3, light: &Vec3) -> Constraint {
         let normal = body.cross(light).normalize();
-        Constraint { region, normal, variance_deg2: 0.2, doubt_deg: 1.0, reliability: 1.0 }
+        Constraint {
+            hypothesis: HypothesisId::from_index(number - 1),
+            normal,
+            variance_deg2: 0.2,
+            doubt_deg: 1.0,
+            reliability: 1.0,
+        }
     }
 
     proptest! {
@@ -196,7 +203,7 @@ mod tests {
             let mut planes: Vec<Constraint> =
                 bodies.iter().map(|&b| plane_of(1, Vec3::from(b), &light)).collect();
             let stranger = Vec3::new(0.5, -0.4, 0.1).normalize();
-            planes.push(Constraint { region: 9, normal: stranger, variance_deg2: 0.2, doubt_deg: 1.0, reliability: 1.0 });
+            planes.push(Constraint { hypothesis: HypothesisId::from_index(8), normal: stranger, variance_deg2: 0.2, doubt_deg: 1.0, reliability: 1.0 });
             let prior = Prior { direction: Vec3::repeat(1.0).normalize(), sd_deg: 30.0 };
             let found = intersect(&planes, &prior);
             prop_assert!(axis_angle_deg(&found.direction, &light) < 0.5);

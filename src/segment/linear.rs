@@ -12,7 +12,7 @@ use super::input::AnalysisInput;
 use super::merge::Areas;
 use super::recorded_labels::{Pixels, RecordedLabels};
 use crate::color::{Cylinder, Line, LineFit, Moments};
-use crate::raster::UNASSIGNED;
+use crate::raster::{HypothesisId, PixelIndex, UNASSIGNED};
 use crate::trace::{
     CandidateSource, Class, Contest, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted,
     Measure, Pass, PassedOver, Recorder, SeedsPlaced,
@@ -46,8 +46,6 @@ pub struct Choice {
     pub through_black: bool,
 }
 
-/// Largest number of regions that a label map can hold.
-const MAX_REGIONS: usize = u16::MAX as usize;
 /// Pixels that a fit looks at, evenly chosen from more.
 const FIT_SAMPLES: usize = 4000;
 
@@ -80,7 +78,7 @@ pub fn linear<R: Recorder>(
             pass_over(recorded_labels, PassedOver::Consumed);
             continue;
         }
-        if hypotheses.len() >= MAX_REGIONS {
+        if hypotheses.len() >= HypothesisId::MOST {
             pass_over(recorded_labels, PassedOver::NoNumberLeft);
             continue;
         }
@@ -92,10 +90,10 @@ pub fn linear<R: Recorder>(
             pass_over(recorded_labels, PassedOver::FarFromBlack);
             continue;
         }
-        let region = hypotheses.len() as u16 + 1;
+        let hypothesis = HypothesisId::from_index(hypotheses.len());
         if R::KEEPS {
             recorded_labels.recorder.record(HypothesisChosen {
-                region,
+                hypothesis,
                 area: area as u32,
                 rank: rank - 1,
                 pixels: pixels.len() as u32,
@@ -104,12 +102,12 @@ pub fn linear<R: Recorder>(
             });
         }
         hypotheses.push(Hypothesis::new(line));
-        let claimed = exploit(input, region, &pixels, hypotheses, recorded_labels);
+        let claimed = exploit(input, hypothesis, &pixels, hypotheses, recorded_labels);
         seed_areas.take(&claimed, windows, recorded_labels.labels.width());
         if choice.through_black && claimed.len() < choice.min_area_px {
-            hypotheses[usize::from(region) - 1].alive = false;
+            hypotheses[hypothesis.index()].alive = false;
             for pixel in claimed {
-                recorded_labels.assign(pixel as usize, UNASSIGNED);
+                recorded_labels.assign(pixel as usize, None);
             }
             pass_over(recorded_labels, PassedOver::Barren);
         }
@@ -141,50 +139,50 @@ pub fn line_fit(input: &AnalysisInput, iterations: usize) -> LineFit {
 /// Grows the newest hypothesis from an area's unclaimed pixels; refined: fits and grows once more. Returns its pixels.
 fn exploit<R: Recorder>(
     input: &AnalysisInput,
-    region: u16,
+    hypothesis: HypothesisId,
     area_pixels: &[u32],
     hypotheses: &mut [Hypothesis],
     recorded_labels: &mut RecordedLabels<R>,
 ) -> Vec<u32> {
-    let index = usize::from(region) - 1;
+    let index = hypothesis.index();
     let mut cylinders = cylinders(input, hypotheses);
     let mut claimed = seeds(input, &hypotheses[index].line, cylinders[index], area_pixels);
     if R::KEEPS {
-        recorded_labels.recorder.record(SeedsPlaced { region, pixels: claimed.len() as u32 });
+        recorded_labels.recorder.record(SeedsPlaced { hypothesis, pixels: claimed.len() as u32 });
     }
     for &pixel in &claimed {
-        recorded_labels.assign(pixel as usize, region);
+        recorded_labels.assign(pixel as usize, Some(hypothesis));
     }
-    grow_cylinder(input, region, &cylinders, &mut claimed, recorded_labels);
+    grow_cylinder(input, hypothesis, &cylinders, &mut claimed, recorded_labels);
     if !input.refine.robust_lines || claimed.is_empty() {
         return claimed;
     }
-    refit(input, region, &claimed, hypotheses, recorded_labels);
+    refit(input, hypothesis, &claimed, hypotheses, recorded_labels);
     cylinders[index] = Cylinder::new(&hypotheses[index].line, input.used.radius_counts());
     claimed.retain(|&pixel| {
         let inside = cylinders[index].contains(input.pixels[pixel as usize]);
         if !inside {
-            recorded_labels.assign(pixel as usize, UNASSIGNED);
+            recorded_labels.assign(pixel as usize, None);
         }
         inside
     });
-    grow_cylinder(input, region, &cylinders, &mut claimed, recorded_labels);
+    grow_cylinder(input, hypothesis, &cylinders, &mut claimed, recorded_labels);
     claimed
 }
 
 /// Fits a region's line to its pixels.
 fn refit<R: Recorder>(
     input: &AnalysisInput,
-    region: u16,
+    hypothesis: HypothesisId,
     pixels: &[u32],
     hypotheses: &mut [Hypothesis],
     recorded_labels: &mut RecordedLabels<R>,
 ) {
     let colors = sample(input, pixels);
-    let line = &mut hypotheses[usize::from(region) - 1].line;
+    let line = &mut hypotheses[hypothesis.index()].line;
     *line = line.refit(&colors, &line_fit(input, 6));
     if R::KEEPS {
-        recorded_labels.recorder.record(LineRefitted { region, line: *line });
+        recorded_labels.recorder.record(LineRefitted { hypothesis, line: *line });
     }
 }
 
@@ -215,18 +213,18 @@ fn seeds(input: &AnalysisInput, line: &Line, cylinder: Cylinder, area_pixels: &[
 /// Grows a region into what its cylinder holds; pixels of others only where its own axis is nearer.
 fn grow_cylinder<R: Recorder>(
     input: &AnalysisInput,
-    region: u16,
+    hypothesis: HypothesisId,
     cylinders: &[Cylinder],
     claimed: &mut Vec<u32>,
     recorded_labels: &mut RecordedLabels<R>,
 ) {
-    let own = cylinders[usize::from(region) - 1];
+    let own = cylinders[hypothesis.index()];
     if R::KEEPS {
         let limit = input.used.radius_counts() as f32;
-        recorded_labels.recorder.record(GrowthBegan { region, limit });
+        recorded_labels.recorder.record(GrowthBegan { hypothesis, limit });
     }
     recorded_labels.grow(
-        region,
+        hypothesis,
         claimed,
         || input.stopped(),
         |recorder, pixel, holder| {
@@ -234,15 +232,14 @@ fn grow_cylinder<R: Recorder>(
             if !input.claimable(pixel) || !own.contains(color) {
                 return false;
             }
-            if holder == UNASSIGNED {
-                return true;
-            }
-            let (mine, theirs) = (own.distance2(color), cylinders[usize::from(holder) - 1].distance2(color));
+            let Some(holder) = holder else { return true };
+            let (mine, theirs) = (own.distance2(color), cylinders[holder.index()].distance2(color));
             let taken = mine < theirs;
             if R::KEEPS {
                 let contest =
                     Contest { measure: Measure::Axis, challenger: mine.sqrt(), holder: theirs.sqrt() };
-                recorder.contest(pixel as u32, holder, region, taken, contest);
+                let pixel = PixelIndex::from_index(pixel);
+                recorder.contest(pixel, holder, hypothesis, taken, contest);
             }
             taken
         },
@@ -382,7 +379,13 @@ mod tests {
         let mut recorded_labels = RecordedLabels::new(before.clone(), &mut recorder);
         let mut claimed: Vec<u32> = (0..before.len() as u32).filter(|&p| before[p as usize] == 1).collect();
         let input = drawing.input();
-        grow_cylinder(&input, 1, &cylinders(&input, &hypotheses), &mut claimed, &mut recorded_labels);
+        grow_cylinder(
+            &input,
+            HypothesisId::from_index(0),
+            &cylinders(&input, &hypotheses),
+            &mut claimed,
+            &mut recorded_labels,
+        );
         check(&recorded_labels.labels, after);
         recorder.finish(Stage::Linear).unwrap()
     }
@@ -414,8 +417,8 @@ mod tests {
         let verdicts: Vec<(u32, bool)> = stage_trace
             .steps()
             .filter_map(|step| match step {
-                Step::Claim { pixel, contest: Some(_), .. } => Some((pixel, true)),
-                Step::Refusal { pixel, .. } => Some((pixel, false)),
+                Step::Claim { pixel, contest: Some(_), .. } => Some((pixel.get(), true)),
+                Step::Refusal { pixel, .. } => Some((pixel.get(), false)),
                 _ => None,
             })
             .collect();

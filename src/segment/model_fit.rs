@@ -159,7 +159,7 @@ mod tests {
         let labels = LabelMap::filled(40, 40, 1);
         let members = Members::of(&labels, 1);
         let input = drawing.input();
-        RegionFit::new(&input, &labels, (1, members.region(1)), (&Vec3::zeros(), &body, Some(&surface)))
+        RegionFit::new(&input, &labels, (1, members.region(1u16)), (&Vec3::zeros(), &body, Some(&surface)))
     }
 
     #[test]

@@ -25,7 +25,7 @@ use super::recorded_labels::{Members, RecordedLabels};
 use super::two_lights::{Evidence, light_of};
 use super::unite::merge_regions;
 use crate::color::{Cylinder, Line, Vec3, axis_angle_deg};
-use crate::raster::{LabelMap, UNASSIGNED};
+use crate::raster::{HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
 use crate::reflection::{DichromaticPlane, HighlightTest, MIN_ANGLE_DEG, Slice};
 use crate::trace::{
     Contest, Contribution, GrowthBegan, IlluminantEstimated, IlluminantGiven, Measure, Pass, PassBegan,
@@ -45,8 +45,8 @@ const BRANCH_SAMPLES: usize = 16_000;
 /// A region's skewed T.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanarHypothesis {
-    /// The linear hypothesis that it came from, from 1: its label in [`MatteRegions`].
-    pub origin: u16,
+    /// The linear hypothesis that it came from: its label in [`MatteRegions`].
+    pub origin: HypothesisId,
     /// Matte line, the axis of that hypothesis's cylinder.
     pub matte: Line,
     /// Length of the matte line from black, counts.
@@ -100,9 +100,12 @@ pub fn planar_regions<R: Recorder>(
     recorder: &mut R,
 ) -> PlanarRegions {
     let members = Members::of(&matte.labels, matte.hypotheses.len());
-    let lengths: Vec<f64> = (1..=matte.hypotheses.len() as u16)
+    let lengths: Vec<f64> = (0..matte.hypotheses.len())
         .into_par_iter()
-        .map(|id| matte_length(input, &matte.hypotheses[usize::from(id) - 1].line, members.region(id)))
+        .map(|index| {
+            let pixels = members.region(HypothesisId::from_index(index));
+            matte_length(input, &matte.hypotheses[index].line, pixels)
+        })
         .collect();
     if R::KEEPS {
         recorder.record(PassBegan { pass: Pass::Candidates });
@@ -195,13 +198,14 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
         let candidates = weighted_direction(&self.lines);
         let white = Vec3::repeat(1.0).normalize();
         let start = candidates.unwrap_or(white);
-        let constraints: Vec<Constraint> = (1..=self.matte.len() as u16)
+        let constraints: Vec<Constraint> = (0..self.matte.len())
             .into_par_iter()
-            .filter(|&id| self.matte[usize::from(id) - 1].alive && !self.input.stopped())
+            .map(HypothesisId::from_index)
+            .filter(|&id| self.matte[id.index()].alive && !self.input.stopped())
             .filter_map(|id| {
-                let line = &self.matte[usize::from(id) - 1].line;
+                let line = &self.matte[id.index()].line;
                 let plane = DichromaticPlane::new(line, &start)?;
-                let length = self.lengths[usize::from(id) - 1];
+                let length = self.lengths[id.index()];
                 let nearby =
                     nearby_highlight(self.input, &self.matte_labels, &plane, length, members.region(id));
                 plane_constraint(self.input, id, &plane, length, nearby.into_iter())
@@ -226,10 +230,11 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
     fn illuminant_again(&mut self, hypotheses: &[PlanarHypothesis], before: &Vec3) -> (Vec3, ByPlanes) {
         let members = Members::of(&self.recorded_labels.labels, hypotheses.len());
         let budget = BRANCH_SAMPLES / hypotheses.iter().filter(|h| h.plane.is_some()).count().max(1);
-        let evidence: Vec<Evidence> = (1..=hypotheses.len() as u16)
+        let evidence: Vec<Evidence> = (0..hypotheses.len())
             .into_par_iter()
+            .map(HypothesisId::from_index)
             .filter_map(|id| {
-                let hypothesis = &hypotheses[usize::from(id) - 1];
+                let hypothesis = &hypotheses[id.index()];
                 let wanted = hypothesis.alive && !self.input.stopped();
                 let plane = hypothesis.plane.filter(|_| wanted)?;
                 let (pixels, length) = (members.region(id), hypothesis.matte_length);
@@ -237,7 +242,7 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
                 let search = InPlaneSearch {
                     input: self.input,
                     labels: &self.recorded_labels.labels,
-                    region: id,
+                    hypothesis: id,
                     plane: &plane,
                     matte_length: length,
                     budget,
@@ -266,16 +271,16 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
         }
         self.recorded_labels.begin(Pass::Uniting);
         let into = merge_regions(self.input, &mut self.matte, &mut self.recorded_labels);
-        if into.iter().enumerate().all(|(id, &into)| id == usize::from(into)) {
+        if HypothesisId::all(into.len()).eq(into.iter().copied()) {
             return;
         }
         for label in self.matte_labels.as_mut_slice() {
-            *label = into[usize::from(*label)];
+            let owner = HypothesisId::from_label(*label).map(|id| into[id.index()]);
+            *label = HypothesisId::label(owner);
         }
         let members = Members::of(&self.matte_labels, self.matte.len());
-        for (id, hypothesis) in (1..).zip(&self.matte) {
-            self.lengths[usize::from(id) - 1] =
-                matte_length(self.input, &hypothesis.line, members.region(id));
+        for (id, hypothesis) in HypothesisId::all(self.matte.len()).zip(&self.matte) {
+            self.lengths[id.index()] = matte_length(self.input, &hypothesis.line, members.region(id));
         }
     }
 
@@ -283,7 +288,8 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
     pub(super) fn reset(&mut self) {
         self.recorded_labels.begin(Pass::Reset);
         for pixel in 0..self.matte_labels.len() {
-            self.recorded_labels.assign(pixel, self.matte_labels[pixel]);
+            let owner = HypothesisId::from_label(self.matte_labels[pixel]);
+            self.recorded_labels.assign(pixel, owner);
         }
     }
 
@@ -299,21 +305,19 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
         let slices: Vec<Option<Slice>> = hypotheses.iter().map(|h| self.slice(h)).collect();
         let cylinders = cylinders(self.input, &self.matte);
         self.recorded_labels.begin(Pass::Slices);
-        let mut order: Vec<u16> = (1..=hypotheses.len() as u16).collect();
+        let mut order: Vec<HypothesisId> = HypothesisId::all(hypotheses.len()).collect();
         order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
         for id in order {
             if self.input.stopped() {
                 break;
             }
-            if let (Some(slice), Some(plane)) =
-                (&slices[usize::from(id) - 1], &hypotheses[usize::from(id) - 1].plane)
-            {
+            if let (Some(slice), Some(plane)) = (&slices[id.index()], &hypotheses[id.index()].plane) {
                 if R::KEEPS {
                     self.recorded_labels.recorder.record(SliceMade {
-                        region: id,
+                        hypothesis: id,
                         plane: *plane,
-                        matte_length: self.lengths[usize::from(id) - 1],
-                        start: hypotheses[usize::from(id) - 1].start,
+                        matte_length: self.lengths[id.index()],
+                        start: hypotheses[id.index()].start,
                         half_width: self.input.used.slice_half_width_counts(),
                         slice: *slice,
                     });
@@ -334,7 +338,7 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
             .filter(|plane| plane.angle_deg() >= MIN_ANGLE_DEG || !self.input.refine.extend_planes);
         let start = own.map_or(line.foot() + line.direction * (DEFAULT_START * matte_length), |o| o.start);
         PlanarHypothesis {
-            origin: index as u16 + 1,
+            origin: HypothesisId::from_index(index),
             matte: line,
             matte_length,
             plane,
@@ -356,18 +360,18 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
 
     fn grow_slice(
         &mut self,
-        id: u16,
+        id: HypothesisId,
         slice: &Slice,
         (slices, cylinders): (&[Option<Slice>], &[Cylinder]),
         members: &Members,
     ) {
         let input = self.input;
-        let own = cylinders[usize::from(id) - 1];
+        let own = cylinders[id.index()];
         let matte_labels = &self.matte_labels;
         let mut front = self.recorded_labels.border(id, members.region(id));
         if R::KEEPS {
             let limit = input.used.slice_half_width_counts() as f32;
-            self.recorded_labels.recorder.record(GrowthBegan { region: id, limit });
+            self.recorded_labels.recorder.record(GrowthBegan { hypothesis: id, limit });
         }
         self.recorded_labels.grow(
             id,
@@ -378,11 +382,9 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
                 if !input.claimable(pixel) || !slice.contains(color) {
                     return false;
                 }
-                if holder == UNASSIGNED {
-                    return true;
-                }
+                let Some(holder) = holder else { return true };
                 let matte = matte_labels[pixel];
-                let foreign = matte != UNASSIGNED && matte != id;
+                let foreign = matte != UNASSIGNED && matte != id.get();
                 if foreign && !own.contains(color) {
                     if R::KEEPS {
                         let contest = Contest {
@@ -390,23 +392,23 @@ impl<R: Recorder> PlanarState<'_, '_, R> {
                             challenger: own.distance2(color).sqrt(),
                             holder: input.used.radius_counts() as f32,
                         };
-                        recorder.contest(pixel as u32, holder, id, false, contest);
+                        recorder.contest(PixelIndex::from_index(pixel), holder, id, false, contest);
                     }
                     return false;
                 }
-                let theirs = &slices[usize::from(holder) - 1];
+                let theirs = &slices[holder.index()];
                 let (measure, mine, held) = match theirs {
                     Some(theirs) if !foreign => {
                         (Measure::Plane, slice.distance(color), theirs.distance(color))
                     }
                     _ => {
-                        let axis = &cylinders[usize::from(holder) - 1];
+                        let axis = &cylinders[holder.index()];
                         (Measure::Axis, own.distance2(color).sqrt(), axis.distance2(color).sqrt())
                     }
                 };
                 if R::KEEPS {
                     let contest = Contest { measure, challenger: mine, holder: held };
-                    recorder.contest(pixel as u32, holder, id, mine < held, contest);
+                    recorder.contest(PixelIndex::from_index(pixel), holder, id, mine < held, contest);
                 }
                 mine < held
             },

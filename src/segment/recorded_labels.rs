@@ -1,6 +1,6 @@
 //! Who holds which pixel. Every change of hands goes through here, so that a record of claims is complete.
 
-use crate::raster::{LabelMap, UNASSIGNED};
+use crate::raster::{HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
 use crate::trace::{Pass, PassBegan, Recorder};
 
 /// So many pixels are grown from between two questions whether to stop: about a millisecond.
@@ -27,27 +27,29 @@ impl<'a, R: Recorder> RecordedLabels<'a, R> {
         }
     }
 
-    /// Gives a pixel to a region, or to none.
+    /// Gives a pixel to a hypothesis, or to none.
     #[inline]
-    pub fn assign(&mut self, pixel: usize, region: u16) {
+    pub fn assign(&mut self, pixel: usize, owner: Option<HypothesisId>) {
         let before = self.labels[pixel];
-        if before != region {
-            self.labels[pixel] = region;
+        let after = HypothesisId::label(owner);
+        if before != after {
+            self.labels[pixel] = after;
             if R::KEEPS {
-                self.recorder.claim(pixel as u32, before, region);
+                let before = HypothesisId::from_label(before);
+                self.recorder.claim(PixelIndex::from_index(pixel), before, owner);
             }
         }
     }
 
-    /// Grows a region from the pixels in `front`, 4-connected and ring by ring: each neighbor that is not the region's
-    /// is claimed when `accept(recorder, pixel, holder)` says so. Seeds must be the region's already. Claimed pixels are
+    /// Grows a hypothesis from the pixels in `front`, 4-connected and ring by ring: each neighbor that is not the hypothesis's
+    /// is claimed when `accept(recorder, pixel, holder)` says so. Seeds must be the hypothesis's already. Claimed pixels are
     /// appended to `front`, in order. Gives up soon after `stop` turns true.
     pub fn grow(
         &mut self,
-        region: u16,
+        hypothesis: HypothesisId,
         front: &mut Vec<u32>,
         stop: impl Fn() -> bool,
-        mut accept: impl FnMut(&mut R, usize, u16) -> bool,
+        mut accept: impl FnMut(&mut R, usize, Option<HypothesisId>) -> bool,
     ) {
         let (width, len) = (self.labels.width(), self.labels.len());
         let mut next = 0;
@@ -59,8 +61,9 @@ impl<'a, R: Recorder> RecordedLabels<'a, R> {
             }
             let mut visit = |near: usize| {
                 let holder = self.labels[near];
-                if holder != region && accept(self.recorder, near, holder) {
-                    self.assign(near, region);
+                if holder != hypothesis.get() && accept(self.recorder, near, HypothesisId::from_label(holder))
+                {
+                    self.assign(near, Some(hypothesis));
                     front.push(near as u32);
                 }
             };
@@ -79,9 +82,10 @@ impl<'a, R: Recorder> RecordedLabels<'a, R> {
         }
     }
 
-    /// Those of `pixels` that are `region`'s and have a neighbor that is not: all that growth has to start from, in the
+    /// Those of `pixels` that are `hypothesis`'s and have a neighbor that is not: all that growth has to start from, in the
     /// order of `pixels`. Of a large region they are few.
-    pub fn border(&self, region: u16, pixels: Pixels) -> Vec<u32> {
+    pub fn border(&self, hypothesis: HypothesisId, pixels: Pixels) -> Vec<u32> {
+        let own = hypothesis.get();
         let (width, labels) = (self.labels.width(), self.labels.as_slice());
         let mut border = Vec::new();
         for &(first, length) in pixels.runs() {
@@ -89,12 +93,12 @@ impl<'a, R: Recorder> RecordedLabels<'a, R> {
             let (first, x) = (first as usize, first as usize % width);
             for pixel in first..first + length as usize {
                 let column = x + pixel - first;
-                let other = |near: usize| labels[near] != region;
+                let other = |near: usize| labels[near] != own;
                 let edge = (pixel >= width && other(pixel - width))
                     || (column > 0 && other(pixel - 1))
                     || (column + 1 < width && other(pixel + 1))
                     || (pixel + width < labels.len() && other(pixel + width));
-                if edge && labels[pixel] == region {
+                if edge && labels[pixel] == own {
                     border.push(pixel as u32);
                 }
             }
@@ -158,9 +162,9 @@ impl Members {
         Self { starts, runs, sizes }
     }
 
-    /// Pixels of region `id` (from 1).
-    pub fn region(&self, id: u16) -> Pixels<'_> {
-        let id = usize::from(id);
+    /// Pixels of a hypothesis or region, whichever the label map holds.
+    pub fn region(&self, id: impl Into<u16>) -> Pixels<'_> {
+        let id = usize::from(id.into());
         Pixels { runs: &self.runs[self.starts[id]..self.starts[id + 1]], size: self.sizes[id] }
     }
 }
@@ -211,16 +215,18 @@ mod tests {
     use super::*;
     use crate::trace::{Stage, TraceRecorder};
 
+    const FIRST: HypothesisId = HypothesisId::from_index(0);
+
     #[test]
     fn members_are_sorted_by_region() {
         let labels = LabelMap::from_vec(3, 2, vec![2, 0, 1, 1, 2, 2]).unwrap();
         let members = Members::of(&labels, 3);
-        let pixels = |id| members.region(id).iter().collect::<Vec<_>>();
+        let pixels = |id: u16| members.region(id).iter().collect::<Vec<_>>();
         assert_eq!(pixels(1), [2, 3]);
         assert_eq!(pixels(2), [0, 4, 5]);
-        assert_eq!(members.region(2).len(), 3);
-        assert!(members.region(3).is_empty());
-        assert_eq!(members.region(2).sample(2).collect::<Vec<_>>(), [0, 5]);
+        assert_eq!(members.region(2u16).len(), 3);
+        assert!(members.region(3u16).is_empty());
+        assert_eq!(members.region(2u16).sample(2).collect::<Vec<_>>(), [0, 5]);
     }
 
     #[test]
@@ -231,10 +237,11 @@ mod tests {
         let grown = |from_border: bool| {
             let mut recorder = TraceRecorder::default();
             let mut recorded_labels = RecordedLabels::new(labels.clone(), &mut recorder);
-            let all = members.region(1);
-            let mut front = if from_border { recorded_labels.border(1, all) } else { all.iter().collect() };
+            let all = members.region(1u16);
+            let mut front =
+                if from_border { recorded_labels.border(FIRST, all) } else { all.iter().collect() };
             let seeds = front.clone();
-            recorded_labels.grow(1, &mut front, || false, |_, _, holder| holder == 0);
+            recorded_labels.grow(FIRST, &mut front, || false, |_, _, holder| holder.is_none());
             (recorder.finish(Stage::Linear).unwrap(), seeds)
         };
         let (from_border, seeds) = grown(true);
@@ -247,8 +254,8 @@ mod tests {
         let mut recorder = TraceRecorder::default();
         let mut recorded_labels = RecordedLabels::new(LabelMap::filled(3, 3, 0), &mut recorder);
         let mut front = vec![4];
-        recorded_labels.assign(4, 1);
-        recorded_labels.grow(1, &mut front, || false, |_, pixel, _| pixel != 0);
+        recorded_labels.assign(4, Some(FIRST));
+        recorded_labels.grow(FIRST, &mut front, || false, |_, pixel, _| pixel != 0);
         assert_eq!(front, [4, 1, 3, 5, 7, 2, 6, 8]);
         assert_eq!(recorded_labels.labels.as_slice(), [0, 1, 1, 1, 1, 1, 1, 1, 1]);
         let end = recorded_labels.labels.clone();

@@ -11,7 +11,7 @@ use super::planar::{PlanarHypothesis, PlanarRegions};
 use super::recorded_labels::{Members, Pixels, RecordedLabels};
 use super::unite::{MAX_ANGLE_DEG, matte_cluster, one_line};
 use crate::color::{Moments, axis_angle_deg};
-use crate::raster::{LabelMap, UNASSIGNED};
+use crate::raster::{HypothesisId, LabelMap, RegionId, UNASSIGNED};
 use crate::trace::{ComponentSplit, Dropped, Pass, Recorder, RegionsMerged, Renumbered};
 use std::collections::BTreeMap;
 
@@ -53,7 +53,7 @@ pub fn final_regions<R: Recorder>(
     if input.refine.split_components {
         recorded_labels.begin(Pass::Separating);
         let members = recorded_labels.members(hypotheses.len());
-        for id in 1..=hypotheses.len() as u16 {
+        for id in HypothesisId::all(hypotheses.len()) {
             if input.stopped() {
                 break;
             }
@@ -62,30 +62,31 @@ pub fn final_regions<R: Recorder>(
     }
     recorded_labels.begin(Pass::Numbering);
     let members = recorded_labels.members(hypotheses.len());
-    let mut order: Vec<u16> = (1..=hypotheses.len() as u16).collect();
+    let mut order: Vec<HypothesisId> = HypothesisId::all(hypotheses.len()).collect();
     order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
-    let mut finals = vec![UNASSIGNED; hypotheses.len()];
+    let mut region_of: Vec<Option<RegionId>> = vec![None; hypotheses.len()];
     let mut kept = Vec::new();
     for id in order {
         let pixels = members.region(id);
         if pixels.len() >= MIN_REGION_PX {
-            kept.push(hypotheses[usize::from(id) - 1]);
-            finals[usize::from(id) - 1] = kept.len() as u16;
+            region_of[id.index()] = Some(RegionId::from_index(kept.len()));
+            kept.push(hypotheses[id.index()]);
         } else if !pixels.is_empty() {
             if R::KEEPS {
-                recorded_labels.recorder.record(Dropped { region: id, pixels: pixels.len() as u32 });
+                recorded_labels.recorder.record(Dropped { hypothesis: id, pixels: pixels.len() as u32 });
             }
             for pixel in pixels.iter() {
-                recorded_labels.assign(pixel as usize, UNASSIGNED);
+                recorded_labels.assign(pixel as usize, None);
             }
         }
     }
     let mut labels = recorded_labels.labels;
-    for label in labels.as_mut_slice().iter_mut().filter(|label| **label != UNASSIGNED) {
-        *label = finals[usize::from(*label) - 1];
+    for label in labels.as_mut_slice() {
+        let region = HypothesisId::from_label(*label).and_then(|hypothesis| region_of[hypothesis.index()]);
+        *label = RegionId::label(region);
     }
     if R::KEEPS {
-        recorder.record(Renumbered { finals: finals.into() });
+        recorder.record(Renumbered { regions: region_of.into() });
     }
     FinalRegions { labels, hypotheses: kept, light: planar.light }
 }
@@ -97,19 +98,19 @@ fn join_across<R: Recorder>(
     recorded_labels: &mut RecordedLabels<R>,
 ) {
     let members = recorded_labels.members(hypotheses.len());
-    let mut order: Vec<u16> =
-        (1..=hypotheses.len() as u16).filter(|&id| members.region(id).len() >= MIN_REGION_PX).collect();
+    let mut order: Vec<HypothesisId> =
+        HypothesisId::all(hypotheses.len()).filter(|&id| members.region(id).len() >= MIN_REGION_PX).collect();
     order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
-    let line = |id: u16| &hypotheses[usize::from(id) - 1].matte;
-    let mut outlines: BTreeMap<u16, Outline> = BTreeMap::new();
-    let mut clusters: BTreeMap<u16, Moments> = BTreeMap::new();
-    let mut into_of: Vec<u16> = (0..=hypotheses.len() as u16).collect();
+    let line = |id: HypothesisId| &hypotheses[id.index()].matte;
+    let mut outlines: BTreeMap<HypothesisId, Outline> = BTreeMap::new();
+    let mut clusters: BTreeMap<HypothesisId, Moments> = BTreeMap::new();
+    let mut into_of: Vec<HypothesisId> = HypothesisId::all(hypotheses.len()).collect();
     for (i, &into) in order.iter().enumerate() {
         if input.stopped() {
             break;
         }
         for &from in &order[i + 1..] {
-            let free = into_of[usize::from(from)] == from && into_of[usize::from(into)] == into;
+            let free = into_of[from.index()] == from && into_of[into.index()] == into;
             let angle_deg = axis_angle_deg(&line(from).direction, &line(into).direction);
             if !free || angle_deg >= MAX_ANGLE_DEG {
                 continue;
@@ -126,23 +127,23 @@ fn join_across<R: Recorder>(
                 .entry(from)
                 .or_insert_with(|| matte_cluster(input, line(from), members.region(from)));
             if let Some(rms) = one_line(input, cluster, line(from), line(into)) {
-                into_of[usize::from(from)] = into;
+                into_of[from.index()] = into;
                 if R::KEEPS {
-                    recorded_labels.recorder.record(RegionsMerged { region: from, into, angle_deg, rms });
+                    recorded_labels.recorder.record(RegionsMerged { hypothesis: from, into, angle_deg, rms });
                 }
             }
         }
     }
-    for &from in order.iter().filter(|&&from| into_of[usize::from(from)] != from) {
+    for &from in order.iter().filter(|&&from| into_of[from.index()] != from) {
         for pixel in members.region(from).iter() {
-            recorded_labels.assign(pixel as usize, into_of[usize::from(from)]);
+            recorded_labels.assign(pixel as usize, Some(into_of[from.index()]));
         }
     }
 }
 
 /// Gives the parts of a region that are objects of their own new numbers.
 fn separate<R: Recorder>(
-    id: u16,
+    id: HypothesisId,
     pixels: Pixels,
     hypotheses: &mut Vec<PlanarHypothesis>,
     recorded_labels: &mut RecordedLabels<R>,
@@ -165,17 +166,17 @@ fn separate<R: Recorder>(
         }
     }
     for group in groups.into_iter().skip(1) {
-        if hypotheses.len() >= usize::from(u16::MAX) {
+        if hypotheses.len() >= HypothesisId::MOST {
             return;
         }
-        hypotheses.push(hypotheses[usize::from(id) - 1]);
-        let part = hypotheses.len() as u16;
+        let part = HypothesisId::from_index(hypotheses.len());
+        hypotheses.push(hypotheses[id.index()]);
         if R::KEEPS {
             let pixels = group.iter().map(Vec::len).sum::<usize>() as u32;
-            recorded_labels.recorder.record(ComponentSplit { region: id, part, pixels });
+            recorded_labels.recorder.record(ComponentSplit { hypothesis: id, part, pixels });
         }
         for pixel in group.into_iter().flatten() {
-            recorded_labels.assign(pixel as usize, part);
+            recorded_labels.assign(pixel as usize, Some(part));
         }
     }
 }
@@ -294,12 +295,14 @@ fn same_object(labels: &LabelMap, one: &Outline, other: &Outline) -> bool {
     assigned * 2 > total
 }
 
-/// Which regions touch each region: ascending lists, region `id` at index `id − 1`.
-pub fn neighbors(labels: &LabelMap, regions: usize) -> Vec<Vec<u16>> {
+/// Which regions touch each region: ascending lists, by [`RegionId::index`].
+pub fn neighbors(labels: &LabelMap, regions: usize) -> Vec<Vec<RegionId>> {
     let mut lists = vec![Vec::new(); regions];
     for (a, b) in super::borders::near_pairs(labels, 1) {
-        lists[usize::from(a) - 1].push(b);
-        lists[usize::from(b) - 1].push(a);
+        if let (Some(a), Some(b)) = (RegionId::from_label(a), RegionId::from_label(b)) {
+            lists[a.index()].push(b);
+            lists[b.index()].push(a);
+        }
     }
     for list in &mut lists {
         list.sort_unstable();
@@ -332,7 +335,7 @@ mod tests {
             }
         }
         let lines = [Vec3::new(1.0, 0.2, 0.2), Vec3::new(0.2, 1.0, 0.2), Vec3::new(0.2, 0.2, 1.0)];
-        let hypothesis = |(origin, direction): (u16, &Vec3)| PlanarHypothesis {
+        let hypothesis = |(origin, direction): (HypothesisId, &Vec3)| PlanarHypothesis {
             origin,
             matte: Line::new(direction * 50.0, *direction),
             matte_length: 90.0,
@@ -343,7 +346,7 @@ mod tests {
         };
         let planar = PlanarRegions {
             labels: labels.clone(),
-            hypotheses: (1..).zip(&lines).map(hypothesis).collect(),
+            hypotheses: HypothesisId::all(lines.len()).zip(&lines).map(hypothesis).collect(),
             illuminant: None,
             light: LightFindings::default(),
         };

@@ -123,7 +123,7 @@ mod tests {
                 };
                 let normal = body.cross(faint).normalize();
                 let lies_in = Constraint {
-                    region: index as u16 + 1,
+                    hypothesis: crate::raster::HypothesisId::from_index(index),
                     normal,
                     variance_deg2: 0.2,
                     doubt_deg: 1.0,

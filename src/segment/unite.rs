@@ -5,12 +5,12 @@
 //! `proximity_vote`: where two cylinders overlap, the nearer axis is decided by noise; a contested pixel follows a clear
 //! majority of its 5×5 surroundings (no salt and pepper at σ ≥ 2.5).
 
-use super::borders::near_pairs;
+use super::borders::near_hypotheses;
 use super::input::AnalysisInput;
 use super::linear::{Hypothesis, cylinders};
 use super::recorded_labels::{Members, Pixels, RecordedLabels};
 use crate::color::{Cylinder, Line, Moments, axis_angle_deg};
-use crate::raster::{LabelMap, UNASSIGNED};
+use crate::raster::{HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
 use crate::trace::{Contest, Measure, Recorder, RegionsMerged};
 use std::collections::BTreeMap;
 
@@ -27,17 +27,17 @@ const VOTE_RADIUS: usize = 2;
 const MAJORITY_PERCENT: usize = 60;
 
 /// Unites neighboring regions whose matte lines cannot be told apart, smaller into larger. Returns the new owner of each
-/// region's pixels, by number.
+/// hypothesis's pixels.
 pub fn merge_regions<R: Recorder>(
     input: &AnalysisInput,
     hypotheses: &mut [Hypothesis],
     recorded_labels: &mut RecordedLabels<R>,
-) -> Vec<u16> {
-    let mut into_of: Vec<u16> = (0..=hypotheses.len() as u16).collect();
-    let pairs: Vec<(u16, u16)> = near_pairs(&recorded_labels.labels, REACH_PX)
+) -> Vec<HypothesisId> {
+    let mut into_of: Vec<HypothesisId> = HypothesisId::all(hypotheses.len()).collect();
+    let pairs: Vec<(HypothesisId, HypothesisId)> = near_hypotheses(&recorded_labels.labels, REACH_PX)
         .into_iter()
         .filter(|&(a, b)| {
-            let direction = |id: u16| &hypotheses[usize::from(id) - 1].line.direction;
+            let direction = |id: HypothesisId| &hypotheses[id.index()].line.direction;
             axis_angle_deg(direction(a), direction(b)) < MAX_ANGLE_DEG
         })
         .collect();
@@ -45,13 +45,13 @@ pub fn merge_regions<R: Recorder>(
         return into_of;
     }
     let members = recorded_labels.members(hypotheses.len());
-    let mut clusters: BTreeMap<u16, Moments> = BTreeMap::new();
+    let mut clusters: BTreeMap<HypothesisId, Moments> = BTreeMap::new();
     for (a, b) in pairs {
-        let (a, b) = (into_of[usize::from(a)], into_of[usize::from(b)]);
+        let (a, b) = (into_of[a.index()], into_of[b.index()]);
         if a == b {
             continue;
         }
-        let line = |id: u16| hypotheses[usize::from(id) - 1].line;
+        let line = |id: HypothesisId| hypotheses[id.index()].line;
         let mut cluster =
             |id| *clusters.entry(id).or_insert_with(|| matte_cluster(input, &line(id), members.region(id)));
         let angle_deg = axis_angle_deg(&line(a).direction, &line(b).direction);
@@ -63,13 +63,13 @@ pub fn merge_regions<R: Recorder>(
         let from_cluster = if from == a { of_a } else { of_b };
         let Some(rms) = one_line(input, &from_cluster, &line(from), &line(into)) else { continue };
         if R::KEEPS {
-            recorded_labels.recorder.record(RegionsMerged { region: from, into, angle_deg, rms });
+            recorded_labels.recorder.record(RegionsMerged { hypothesis: from, into, angle_deg, rms });
         }
         clusters.insert(into, of_a.merged(&of_b));
-        let vanished = &mut hypotheses[usize::from(from) - 1];
+        let vanished = &mut hypotheses[from.index()];
         vanished.alive = false;
         let mut highlights = std::mem::take(&mut vanished.highlights);
-        hypotheses[usize::from(into) - 1].highlights.append(&mut highlights);
+        hypotheses[into.index()].highlights.append(&mut highlights);
         for owner in into_of.iter_mut().filter(|owner| **owner == from) {
             *owner = into;
         }
@@ -104,11 +104,15 @@ fn rms_from(cluster: &Moments, line: &Line) -> f64 {
     (across + offset).max(0.0).sqrt()
 }
 
-fn reassign<R: Recorder>(members: &Members, into_of: &[u16], recorded_labels: &mut RecordedLabels<R>) {
-    for (region, &into) in into_of.iter().enumerate().skip(1) {
-        if usize::from(into) != region {
-            for pixel in members.region(region as u16).iter() {
-                recorded_labels.assign(pixel as usize, into);
+fn reassign<R: Recorder>(
+    members: &Members,
+    into_of: &[HypothesisId],
+    recorded_labels: &mut RecordedLabels<R>,
+) {
+    for (own, &into) in HypothesisId::all(into_of.len()).zip(into_of) {
+        if into != own {
+            for pixel in members.region(own).iter() {
+                recorded_labels.assign(pixel as usize, Some(into));
             }
         }
     }
@@ -126,14 +130,16 @@ pub fn vote<R: Recorder>(
         let (winner, count, total) = majority(&before, pixel);
         if winner != before[pixel]
             && count * 100 >= total * MAJORITY_PERCENT
-            && cylinders[usize::from(winner) - 1].contains(input.pixels[pixel])
+            && let Some(winner) = HypothesisId::from_label(winner)
+            && let Some(loser) = HypothesisId::from_label(before[pixel])
+            && cylinders[winner.index()].contains(input.pixels[pixel])
         {
             if R::KEEPS {
                 let (challenger, holder) = (count as f32, total as f32);
                 let contest = Contest { measure: Measure::Vote, challenger, holder };
-                recorded_labels.recorder.contest(pixel as u32, before[pixel], winner, true, contest);
+                recorded_labels.recorder.contest(PixelIndex::from_index(pixel), loser, winner, true, contest);
             }
-            recorded_labels.assign(pixel, winner);
+            recorded_labels.assign(pixel, Some(winner));
         }
     }
 }
@@ -244,7 +250,7 @@ mod tests {
         let mut found = hypotheses(&[RED, RED, RED]);
         let into = merge_regions(&drawing(&["rr..rrrr....r"; 2]).input(), &mut found, &mut recorded_labels);
         check(&recorded_labels.labels, &["22..2222....3", "22..2222....3"]);
-        assert_eq!(into, [0, 2, 2, 3]);
+        assert_eq!(into.iter().map(|id| id.get()).collect::<Vec<_>>(), [2, 2, 3]);
         assert_eq!(found.iter().map(|h| h.alive).collect::<Vec<_>>(), [false, true, true]);
     }
 

@@ -5,12 +5,13 @@ use super::{
     Absorbed, CandidateChosen, CandidateTested, ComponentSplit, Dropped, Event, HypothesisChosen,
     HypothesisPassedOver, LineRefitted, PassedOver, RegionsMerged, Renumbered, SliceMade, Trace,
 };
+use crate::raster::{HypothesisId, RegionId};
 
 /// A hypothesis that a region is made of. In the list of [`lineage`] those that joined it follow it, one deeper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ancestor<'a> {
-    /// The region, by its number of birth.
-    pub region: u16,
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
     /// How many joinings lie between it and the final region.
     pub depth: usize,
     /// How it began.
@@ -41,8 +42,8 @@ pub enum Birth<'a> {
     Part {
         /// The step.
         step: usize,
-        /// The region that it was separated from.
-        of: u16,
+        /// The hypothesis that it was separated from.
+        of: HypothesisId,
         /// Pixels of the part.
         pixels: u32,
     },
@@ -53,8 +54,8 @@ pub enum Birth<'a> {
 pub struct Joined {
     /// The step.
     pub step: usize,
-    /// The region that it became part of.
-    pub to: u16,
+    /// The hypothesis that it became part of.
+    pub to: HypothesisId,
     /// How.
     pub how: JoinedHow,
 }
@@ -82,25 +83,24 @@ pub enum JoinedHow {
     Whole,
 }
 
-/// The hypotheses that made a region, by its final number: itself first, each followed by those that joined it, in the
-/// order of their joining. Empty where there is no such region.
-pub fn lineage(trace: &Trace, number: u16) -> Vec<Ancestor<'_>> {
-    let Some(region) = birth_number(trace, number) else { return Vec::new() };
+/// The hypotheses that made a region: the hypothesis that became the region first, each followed by those that joined it, in
+/// the order of their joining. Empty where there is no such region.
+pub fn lineage(trace: &Trace, region: RegionId) -> Vec<Ancestor<'_>> {
+    let Some(hypothesis) = hypothesis_of(trace, region) else { return Vec::new() };
     let (births, joins) = (births(trace), joins(trace));
     let mut ancestors = Vec::new();
-    // Region, depth, how it joined, and the step from which on nothing concerns this region any more.
-    let mut waiting = vec![(region, 0, None, usize::MAX)];
-    while let Some((region, depth, joined, before)) = waiting.pop() {
-        let index = usize::from(region) - 1;
-        let Some(&birth) = births.get(index) else { continue };
-        ancestors.push(Ancestor { region, depth, birth, joined });
+    // Hypothesis, depth, how the hypothesis joined, and the step from which on nothing concerns the region any more.
+    let mut waiting = vec![(hypothesis, 0, None, usize::MAX)];
+    while let Some((hypothesis, depth, joined, before)) = waiting.pop() {
+        let Some(&birth) = births.get(hypothesis.index()) else { continue };
+        ancestors.push(Ancestor { hypothesis, depth, birth, joined });
         let mut found: Vec<_> = joins
             .iter()
-            .filter(|(_, joined)| joined.to == region && joined.step < before)
+            .filter(|(_, joined)| joined.to == hypothesis && joined.step < before)
             .map(|&(from, joined)| (from, depth + 1, Some(joined), joined.step))
             .collect();
         if let Birth::Part { step, of, .. } = birth {
-            let joined = Joined { step, to: region, how: JoinedHow::Whole };
+            let joined = Joined { step, to: hypothesis, how: JoinedHow::Whole };
             found.push((of, depth + 1, Some(joined), step));
         }
         found.sort_by_key(|&(.., before)| std::cmp::Reverse(before));
@@ -110,25 +110,24 @@ pub fn lineage(trace: &Trace, number: u16) -> Vec<Ancestor<'_>> {
     ancestors
 }
 
-/// A region's number of birth from its final one.
-fn birth_number(trace: &Trace, number: u16) -> Option<u16> {
-    let finals = final_numbers(trace)?;
-    let index = finals.iter().position(|&given| given == number && number > 0)?;
-    Some(index as u16 + 1)
+/// The hypothesis that became a region; none where there is no such region.
+fn hypothesis_of(trace: &Trace, region: RegionId) -> Option<HypothesisId> {
+    let index = regions_of(trace)?.iter().position(|&found| found == Some(region))?;
+    Some(HypothesisId::from_index(index))
 }
 
-/// The final number of each region at index `birth − 1`, 0 for those that are no more; none before numbers are given.
-pub fn final_numbers(trace: &Trace) -> Option<&[u16]> {
+/// The region of each hypothesis, by [`HypothesisId::index`], none for a hypothesis that is in no region; `None` before the
+/// regions are numbered.
+pub fn regions_of(trace: &Trace) -> Option<&[Option<RegionId>]> {
     trace.events().rev().find_map(|(_, event)| match event {
-        Event::Renumbered(Renumbered { finals }) => Some(&**finals),
+        Event::Renumbered(Renumbered { regions }) => Some(&**regions),
         _ => None,
     })
 }
 
-/// Region id of a hypothesis in the result; `None` when the hypothesis is in no region.
-pub fn region_id(trace: &Trace, hypothesis: u16) -> Option<u16> {
-    let index = usize::from(hypothesis).checked_sub(1)?;
-    final_numbers(trace)?.get(index).copied().filter(|&region| region > 0)
+/// The region of a hypothesis in the result; none when the hypothesis is in no region.
+pub fn region_of(trace: &Trace, hypothesis: HypothesisId) -> Option<RegionId> {
+    regions_of(trace)?.get(hypothesis.index()).copied().flatten()
 }
 
 fn births(trace: &Trace) -> Vec<Birth<'_>> {
@@ -136,8 +135,8 @@ fn births(trace: &Trace) -> Vec<Birth<'_>> {
     for (step, event) in trace.events() {
         match event {
             Event::HypothesisChosen(chosen) => births.push(Birth::Area { step, chosen }),
-            Event::ComponentSplit(ComponentSplit { region, pixels, .. }) => {
-                births.push(Birth::Part { step, of: *region, pixels: *pixels });
+            Event::ComponentSplit(ComponentSplit { hypothesis, pixels, .. }) => {
+                births.push(Birth::Part { step, of: *hypothesis, pixels: *pixels });
             }
             _ => {}
         }
@@ -145,14 +144,14 @@ fn births(trace: &Trace) -> Vec<Birth<'_>> {
     births
 }
 
-fn joins(trace: &Trace) -> Vec<(u16, Joined)> {
+fn joins(trace: &Trace) -> Vec<(HypothesisId, Joined)> {
     let joined = |(step, event): (usize, &Event)| match *event {
-        Event::Absorbed(Absorbed { region, by, highlight_foot, object_foot, gap }) => Some((
-            region,
+        Event::Absorbed(Absorbed { hypothesis, by, highlight_foot, object_foot, gap }) => Some((
+            hypothesis,
             Joined { step, to: by, how: JoinedHow::Absorbed { highlight_foot, object_foot, gap } },
         )),
-        Event::RegionsMerged(RegionsMerged { region, into, angle_deg, rms }) => {
-            Some((region, Joined { step, to: into, how: JoinedHow::Merged { angle_deg, rms } }))
+        Event::RegionsMerged(RegionsMerged { hypothesis, into, angle_deg, rms }) => {
+            Some((hypothesis, Joined { step, to: into, how: JoinedHow::Merged { angle_deg, rms } }))
         }
         _ => None,
     };
@@ -164,8 +163,8 @@ fn joins(trace: &Trace) -> Vec<(u16, Joined)> {
 pub struct HypothesisStory<'a> {
     /// Why it was chosen; none for a part that was separated.
     pub chosen: Option<(usize, &'a HypothesisChosen)>,
-    /// Step at which it was separated, the region that it was part of, and its pixels.
-    pub separated: Option<(usize, u16, u32)>,
+    /// Step at which it was separated, the hypothesis that it was part of, and its pixels.
+    pub separated: Option<(usize, HypothesisId, u32)>,
     /// Its line after each fit that followed the first.
     pub refits: Vec<(usize, &'a LineRefitted)>,
     /// Its neighbors, tested as its highlight (5.4.1).
@@ -174,47 +173,49 @@ pub struct HypothesisStory<'a> {
     pub highlight: Option<(usize, &'a CandidateChosen)>,
     /// Its slices, one for each estimate of the light.
     pub slices: Vec<(usize, &'a SliceMade)>,
-    /// Regions that became part of it.
-    pub joined: Vec<(u16, Joined)>,
+    /// Hypotheses that became part of it.
+    pub joined: Vec<(HypothesisId, Joined)>,
     /// The event that ended it; none where it stands.
     pub end: Option<(usize, &'a Event)>,
-    /// Its number in the result; 0 where it is not in it, none before numbers are given.
-    pub number: Option<u16>,
+    /// Its region in the result; none where it is in no region, and before the regions are numbered.
+    pub region: Option<RegionId>,
 }
 
-/// The story of a hypothesis by its number of birth; none where there is no such hypothesis.
-pub fn story(trace: &Trace, region: u16) -> Option<HypothesisStory<'_>> {
+/// The story of a hypothesis; none where there is no such hypothesis.
+pub fn story(trace: &Trace, hypothesis: HypothesisId) -> Option<HypothesisStory<'_>> {
     let mut story = HypothesisStory::default();
-    let mut born = 0u16;
+    let mut newest = None;
     for (step, event) in trace.events() {
         match event {
             Event::HypothesisChosen(chosen) => {
-                born = chosen.region;
-                if born == region {
+                newest = Some(chosen.hypothesis);
+                if newest == Some(hypothesis) {
                     story.chosen = Some((step, chosen));
                 }
             }
-            Event::ComponentSplit(ComponentSplit { region: of, part, pixels }) => {
-                born = *part;
-                if born == region {
+            Event::ComponentSplit(ComponentSplit { hypothesis: of, part, pixels }) => {
+                newest = Some(*part);
+                if newest == Some(hypothesis) {
                     story.separated = Some((step, *of, *pixels));
                 }
             }
-            Event::LineRefitted(refitted) if refitted.region == region => story.refits.push((step, refitted)),
-            Event::CandidateTested(test) if test.region == region => story.tests.push((step, test)),
-            Event::CandidateChosen(chosen) if chosen.region == region => {
+            Event::LineRefitted(refitted) if refitted.hypothesis == hypothesis => {
+                story.refits.push((step, refitted))
+            }
+            Event::CandidateTested(test) if test.hypothesis == hypothesis => story.tests.push((step, test)),
+            Event::CandidateChosen(chosen) if chosen.hypothesis == hypothesis => {
                 story.highlight = Some((step, chosen));
             }
-            Event::SliceMade(made) if made.region == region => story.slices.push((step, made)),
+            Event::SliceMade(made) if made.hypothesis == hypothesis => story.slices.push((step, made)),
             Event::HypothesisPassedOver(HypothesisPassedOver { reason: PassedOver::Barren, .. })
-                if born == region =>
+                if newest == Some(hypothesis) =>
             {
                 story.end = Some((step, event));
             }
-            Event::Absorbed(Absorbed { region: ended, .. })
-            | Event::RegionsMerged(RegionsMerged { region: ended, .. })
-            | Event::Dropped(Dropped { region: ended, .. })
-                if *ended == region =>
+            Event::Absorbed(Absorbed { hypothesis: ended, .. })
+            | Event::RegionsMerged(RegionsMerged { hypothesis: ended, .. })
+            | Event::Dropped(Dropped { hypothesis: ended, .. })
+                if *ended == hypothesis =>
             {
                 story.end = Some((step, event));
             }
@@ -224,8 +225,7 @@ pub fn story(trace: &Trace, region: u16) -> Option<HypothesisStory<'_>> {
     if story.chosen.is_none() && story.separated.is_none() {
         return None;
     }
-    story.joined = joins(trace).into_iter().filter(|(_, joined)| joined.to == region).collect();
-    let index = usize::from(region).checked_sub(1);
-    story.number = final_numbers(trace).and_then(|finals| finals.get(index?).copied());
+    story.joined = joins(trace).into_iter().filter(|(_, joined)| joined.to == hypothesis).collect();
+    story.region = region_of(trace, hypothesis);
     Some(story)
 }

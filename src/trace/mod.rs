@@ -37,7 +37,7 @@ pub use history::{
     Release, SplitStory, Unfit, WindowStory, pixel_history,
 };
 pub use lineage::{
-    Ancestor, Birth, HypothesisStory, Joined, JoinedHow, final_numbers, lineage, region_id, story,
+    Ancestor, Birth, HypothesisStory, Joined, JoinedHow, lineage, region_of, regions_of, story,
 };
 pub use local::{LocalPoint, LocalPoints, LocalRecord};
 pub use measured::Measured;

@@ -1,7 +1,7 @@
 //! Who listens to the decisions while they are made.
 
 use super::{Contest, Event, LocalRecord, PixelKind, Stage, StageTrace};
-use crate::raster::Raster;
+use crate::raster::{HypothesisId, PixelIndex, Raster};
 
 /// Takes one stage's decisions in their order. Stages are generic over it, so that [`NoopRecorder`] costs nothing.
 pub trait Recorder: Default {
@@ -12,10 +12,17 @@ pub trait Recorder: Default {
     fn record(&mut self, event: impl Into<Event>);
 
     /// A pixel changed hands.
-    fn claim(&mut self, pixel: u32, before: u16, after: u16);
+    fn claim(&mut self, pixel: PixelIndex, before: Option<HypothesisId>, after: Option<HypothesisId>);
 
     /// `challenger` wanted a pixel that `holder` has; a claim of it follows where that was granted.
-    fn contest(&mut self, pixel: u32, holder: u16, challenger: u16, granted: bool, contest: Contest);
+    fn contest(
+        &mut self,
+        pixel: PixelIndex,
+        holder: HypothesisId,
+        challenger: HypothesisId,
+        granted: bool,
+        contest: Contest,
+    );
 
     /// Every pixel's final role was decided.
     fn labels(&mut self, kinds: &Raster<PixelKind>);
@@ -38,10 +45,18 @@ impl Recorder for NoopRecorder {
     fn record(&mut self, _event: impl Into<Event>) {}
 
     #[inline]
-    fn claim(&mut self, _pixel: u32, _before: u16, _after: u16) {}
+    fn claim(&mut self, _pixel: PixelIndex, _before: Option<HypothesisId>, _after: Option<HypothesisId>) {}
 
     #[inline]
-    fn contest(&mut self, _pixel: u32, _holder: u16, _challenger: u16, _granted: bool, _contest: Contest) {}
+    fn contest(
+        &mut self,
+        _pixel: PixelIndex,
+        _holder: HypothesisId,
+        _challenger: HypothesisId,
+        _granted: bool,
+        _contest: Contest,
+    ) {
+    }
 
     #[inline]
     fn labels(&mut self, _kinds: &Raster<PixelKind>) {}
@@ -66,12 +81,19 @@ impl Recorder for TraceRecorder {
     }
 
     #[inline]
-    fn claim(&mut self, pixel: u32, before: u16, after: u16) {
+    fn claim(&mut self, pixel: PixelIndex, before: Option<HypothesisId>, after: Option<HypothesisId>) {
         self.0.push_claim(pixel, before, after);
     }
 
     #[inline]
-    fn contest(&mut self, pixel: u32, holder: u16, challenger: u16, granted: bool, contest: Contest) {
+    fn contest(
+        &mut self,
+        pixel: PixelIndex,
+        holder: HypothesisId,
+        challenger: HypothesisId,
+        granted: bool,
+        contest: Contest,
+    ) {
         self.0.push_contest(pixel, holder, challenger, granted, contest);
     }
 

@@ -4,11 +4,12 @@
 //! and popped back. A long way is shortened by starting from a keyframe: labels as they were at one of a few steps.
 
 use super::replay_state::{EventId, Grid, Hypothesis, ReplayState};
+use super::stage_trace::Owners;
 use super::{
     CandidateChosen, Event, IlluminantGiven, Pass, PixelKind, Renumbered, SliceMade, Stage, StageTrace, Step,
     Trace,
 };
-use crate::raster::{LabelMap, UNASSIGNED};
+use crate::raster::{HypothesisId, LabelMap, RegionId, UNASSIGNED};
 use std::sync::Arc;
 
 /// Steps nearer than this are played from where the cursor is.
@@ -20,7 +21,7 @@ pub struct Replay {
     trace: Arc<Trace>,
     at: usize,
     labels: LabelMap,
-    /// Pixels of each region, by its number of birth; the first: of none.
+    /// Pixels of each label: of no hypothesis first, then of each hypothesis.
     sizes: Vec<u32>,
     standing: ReplayState,
     keyframes: Vec<Keyframe>,
@@ -67,37 +68,49 @@ impl Replay {
         self.trace.pass_at(self.at.checked_sub(1)?).map(|span| span.pass)
     }
 
-    /// Region of each pixel, by its number of birth.
+    /// Hypothesis of each pixel.
     pub fn labels(&self) -> &LabelMap {
         &self.labels
     }
 
-    /// Pixels of a region by its number of birth; of no region: 0.
-    pub fn size(&self, region: u16) -> u32 {
-        self.sizes.get(usize::from(region)).copied().unwrap_or(0)
+    /// Number of pixels in no hypothesis.
+    pub fn unassigned(&self) -> u32 {
+        self.sizes[usize::from(UNASSIGNED)]
     }
 
-    /// The regions so far, ended ones included; region `id` at index `id − 1`.
+    /// Number of pixels of a hypothesis.
+    pub fn size(&self, hypothesis: HypothesisId) -> u32 {
+        self.sizes.get(usize::from(hypothesis.get())).copied().unwrap_or(0)
+    }
+
+    /// The hypotheses so far, ended ones included, by [`HypothesisId::index`].
     pub fn hypotheses(&self) -> &[Hypothesis] {
         &self.standing.hypotheses
     }
 
-    /// One region.
-    pub fn hypothesis(&self, region: u16) -> Option<&Hypothesis> {
-        self.standing.hypotheses.get(usize::from(region).checked_sub(1)?)
+    /// The hypotheses so far, ended ones included, each with its id.
+    pub fn numbered_hypotheses(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = (HypothesisId, &Hypothesis)> + ExactSizeIterator {
+        HypothesisId::all(self.standing.hypotheses.len()).zip(&self.standing.hypotheses)
     }
 
-    /// A region's slice, where it has one.
-    pub fn slice(&self, region: u16) -> Option<&SliceMade> {
-        match self.find(*self.hypothesis(region)?.slices.last()?) {
+    /// One hypothesis; none where the hypothesis was not made yet.
+    pub fn hypothesis(&self, hypothesis: HypothesisId) -> Option<&Hypothesis> {
+        self.standing.hypotheses.get(hypothesis.index())
+    }
+
+    /// The slice of a hypothesis, where there is one.
+    pub fn slice(&self, hypothesis: HypothesisId) -> Option<&SliceMade> {
+        match self.find(*self.hypothesis(hypothesis)?.slices.last()?) {
             Event::SliceMade(made) => Some(made),
             _ => None,
         }
     }
 
-    /// The highlight line chosen for a region.
-    pub fn highlight(&self, region: u16) -> Option<&CandidateChosen> {
-        match self.find(*self.hypothesis(region)?.highlights.last()?) {
+    /// The highlight line chosen for a hypothesis.
+    pub fn highlight(&self, hypothesis: HypothesisId) -> Option<&CandidateChosen> {
+        match self.find(*self.hypothesis(hypothesis)?.highlights.last()?) {
             Event::CandidateChosen(chosen) => Some(chosen),
             _ => None,
         }
@@ -123,12 +136,11 @@ impl Replay {
         }
     }
 
-    /// The final number of a region, once numbers are given; 0 for one that is no more.
-    pub fn final_number(&self, region: u16) -> Option<u16> {
+    /// The region that a hypothesis became, once the regions of the result are numbered; none before that, and for a
+    /// hypothesis that became no region.
+    pub fn region_of(&self, hypothesis: HypothesisId) -> Option<RegionId> {
         match self.find(self.standing.finals?) {
-            Event::Renumbered(Renumbered { finals }) => Some(
-                usize::from(region).checked_sub(1).and_then(|index| finals.get(index)).copied().unwrap_or(0),
-            ),
+            Event::Renumbered(Renumbered { regions }) => regions.get(hypothesis.index()).copied().flatten(),
             _ => None,
         }
     }
@@ -250,7 +262,7 @@ impl Replay {
                 for change in
                     &stage_trace.moves()[range(stage_trace, start, from)..range(stage_trace, start, to)]
                 {
-                    if let Some((before, after)) = change.hands() {
+                    if let Some(Owners { before, after }) = change.change() {
                         self.hand_over(change.pixel(), before, after);
                     }
                 }
@@ -262,7 +274,7 @@ impl Replay {
                     .iter()
                     .rev()
                 {
-                    if let Some((before, after)) = change.hands() {
+                    if let Some(Owners { before, after }) = change.change() {
                         self.hand_over(change.pixel(), after, before);
                     }
                 }
@@ -271,7 +283,8 @@ impl Replay {
     }
 
     #[inline]
-    fn hand_over(&mut self, pixel: usize, from: u16, to: u16) {
+    fn hand_over(&mut self, pixel: usize, from: Option<HypothesisId>, to: Option<HypothesisId>) {
+        let (from, to) = (HypothesisId::label(from), HypothesisId::label(to));
         debug_assert_eq!(self.labels[pixel], from, "pixel {pixel}");
         self.labels[pixel] = to;
         let most = usize::from(from.max(to));

@@ -6,7 +6,7 @@ use super::{
     RegionsMerged, WindowClassified, WindowsLaid,
 };
 use crate::color::Line;
-use crate::raster::Raster;
+use crate::raster::{HypothesisId, Raster};
 
 /// Everything but the labels.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -75,8 +75,8 @@ impl Grid {
 pub struct Hypothesis {
     /// First window of the area that it started from; none for a part that was separated.
     pub area: Option<u32>,
-    /// The region that it was separated from.
-    pub parent: Option<u16>,
+    /// The hypothesis that it was separated from.
+    pub parent: Option<HypothesisId>,
     /// Radius of its cylinder, counts.
     pub radius: f64,
     lines: Vec<Line>,
@@ -90,10 +90,10 @@ pub struct Hypothesis {
 pub enum End {
     /// It claimed too few pixels.
     Barren,
-    /// It was the broad highlight of this region.
-    Absorbed(u16),
-    /// It became part of this region.
-    Merged(u16),
+    /// The hypothesis was the broad highlight of this one.
+    Absorbed(HypothesisId),
+    /// The hypothesis became part of this one.
+    Merged(HypothesisId),
     /// It was too small to keep.
     Dropped,
 }
@@ -111,8 +111,8 @@ impl Hypothesis {
 }
 
 impl ReplayState {
-    fn of(&mut self, region: u16) -> Option<&mut Hypothesis> {
-        self.hypotheses.get_mut(usize::from(region).checked_sub(1)?)
+    fn of(&mut self, hypothesis: HypothesisId) -> Option<&mut Hypothesis> {
+        self.hypotheses.get_mut(hypothesis.index())
     }
 
     /// Takes an event in.
@@ -134,26 +134,26 @@ impl ReplayState {
                 highlights: Vec::new(),
                 ends: Vec::new(),
             }),
-            Event::ComponentSplit(ComponentSplit { region, .. }) => {
-                let mut part = self.of(*region).cloned();
+            Event::ComponentSplit(ComponentSplit { hypothesis, .. }) => {
+                let mut part = self.of(*hypothesis).cloned();
                 if let Some(part) = &mut part {
-                    (part.area, part.parent) = (None, Some(*region));
+                    (part.area, part.parent) = (None, Some(*hypothesis));
                     part.ends.clear();
                 }
                 self.hypotheses.extend(part);
             }
             Event::LineRefitted(refitted) => {
-                if let Some(hypothesis) = self.of(refitted.region) {
+                if let Some(hypothesis) = self.of(refitted.hypothesis) {
                     hypothesis.lines.push(refitted.line);
                 }
             }
             Event::SliceMade(made) => {
-                if let Some(hypothesis) = self.of(made.region) {
+                if let Some(hypothesis) = self.of(made.hypothesis) {
                     hypothesis.slices.push(id);
                 }
             }
             Event::CandidateChosen(chosen) => {
-                if let Some(hypothesis) = self.of(chosen.region) {
+                if let Some(hypothesis) = self.of(chosen.hypothesis) {
                     hypothesis.highlights.push(id);
                 }
             }
@@ -162,8 +162,8 @@ impl ReplayState {
             }
             Event::Renumbered(_) => self.finals = Some(id),
             other => {
-                if let Some((region, end)) = self.ending(other)
-                    && let Some(hypothesis) = self.of(region)
+                if let Some((ended, end)) = self.ending(other)
+                    && let Some(hypothesis) = self.of(ended)
                 {
                     hypothesis.ends.push(end);
                 }
@@ -185,35 +185,38 @@ impl ReplayState {
                 self.hypotheses.pop();
             }
             Event::LineRefitted(refitted) => {
-                self.of(refitted.region).and_then(|hypothesis| hypothesis.lines.pop());
+                self.of(refitted.hypothesis).and_then(|hypothesis| hypothesis.lines.pop());
             }
             Event::SliceMade(made) => {
-                self.of(made.region).and_then(|hypothesis| hypothesis.slices.pop());
+                self.of(made.hypothesis).and_then(|hypothesis| hypothesis.slices.pop());
             }
             Event::CandidateChosen(chosen) => {
-                self.of(chosen.region).and_then(|hypothesis| hypothesis.highlights.pop());
+                self.of(chosen.hypothesis).and_then(|hypothesis| hypothesis.highlights.pop());
             }
             Event::IlluminantEstimated(_) | Event::IlluminantGiven(_) | Event::LightChosen(_) => {
                 self.lights.pop();
             }
             Event::Renumbered(_) => self.finals = None,
             other => {
-                if let Some((region, _)) = self.ending(other) {
-                    self.of(region).and_then(|hypothesis| hypothesis.ends.pop());
+                if let Some((ended, _)) = self.ending(other) {
+                    self.of(ended).and_then(|hypothesis| hypothesis.ends.pop());
                 }
             }
         }
     }
 
-    /// The region that an event ends, and how.
-    fn ending(&self, event: &Event) -> Option<(u16, End)> {
+    /// The hypothesis that an event ends, and how.
+    fn ending(&self, event: &Event) -> Option<(HypothesisId, End)> {
         match event {
             Event::HypothesisPassedOver(HypothesisPassedOver { reason: PassedOver::Barren, .. }) => {
-                Some((self.hypotheses.len() as u16, End::Barren))
+                let newest = self.hypotheses.len().checked_sub(1)?;
+                Some((HypothesisId::from_index(newest), End::Barren))
             }
-            Event::Absorbed(Absorbed { region, by, .. }) => Some((*region, End::Absorbed(*by))),
-            Event::RegionsMerged(RegionsMerged { region, into, .. }) => Some((*region, End::Merged(*into))),
-            Event::Dropped(Dropped { region, .. }) => Some((*region, End::Dropped)),
+            Event::Absorbed(Absorbed { hypothesis, by, .. }) => Some((*hypothesis, End::Absorbed(*by))),
+            Event::RegionsMerged(RegionsMerged { hypothesis, into, .. }) => {
+                Some((*hypothesis, End::Merged(*into)))
+            }
+            Event::Dropped(Dropped { hypothesis, .. }) => Some((*hypothesis, End::Dropped)),
             _ => None,
         }
     }

@@ -10,18 +10,24 @@ pub use steps::Steps;
 
 use super::timeline::Contents;
 use super::{Block, Contest, Event, LocalRecord, Measure, PassSpan, PixelKind, Stage, Step};
-use crate::raster::{LabelMap, Raster};
+use crate::raster::{HypothesisId, LabelMap, PixelIndex, Raster};
 use std::ops::Range;
 
-/// Set in a move's pixel where the pixel did not change hands.
+/// Set in the pixel of a move where the pixel kept its owner.
 const REFUSED: u32 = 1 << 31;
 
-/// A change of hands, or with [`REFUSED`] one that did not happen.
+/// A change of a pixel's owner, or with [`REFUSED`] a change that was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Move {
     pixel: u32,
-    before: u16,
-    after: u16,
+    owners: Owners,
+}
+
+/// The owner of a pixel before and after a change; none: no hypothesis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Owners {
+    pub(super) before: Option<HypothesisId>,
+    pub(super) after: Option<HypothesisId>,
 }
 
 impl Move {
@@ -31,16 +37,17 @@ impl Move {
         (self.pixel & !REFUSED) as usize
     }
 
-    /// Whether the pixel changed hands: from the first region to the second.
+    /// The owners of the pixel before and after the change; none where the change was refused.
     #[inline]
-    pub(super) fn hands(self) -> Option<(u16, u16)> {
-        (self.pixel & REFUSED == 0).then_some((self.before, self.after))
+    pub(super) fn change(self) -> Option<Owners> {
+        (self.pixel & REFUSED == 0).then_some(self.owners)
     }
 
-    /// The regions concerned, whether or not the pixel changed hands.
+    /// The hypothesis that has the pixel and the hypothesis that wanted the pixel, as owners before and after, whether or not
+    /// the change was refused.
     #[inline]
-    pub(super) fn regions(self) -> (u16, u16) {
-        (self.before, self.after)
+    pub(super) fn owners(self) -> Owners {
+        self.owners
     }
 }
 
@@ -76,16 +83,21 @@ impl StageTrace {
     }
 
     #[inline]
-    pub(super) fn push_claim(&mut self, pixel: u32, before: u16, after: u16) {
-        debug_assert_eq!(pixel & REFUSED, 0, "pictures of two thousand megapixels are not read");
-        self.moves.push(Move { pixel, before, after });
+    pub(super) fn push_claim(
+        &mut self,
+        pixel: PixelIndex,
+        before: Option<HypothesisId>,
+        after: Option<HypothesisId>,
+    ) {
+        debug_assert_eq!(pixel.get() & REFUSED, 0, "pictures of two thousand megapixels are not read");
+        self.moves.push(Move { pixel: pixel.get(), owners: Owners { before, after } });
     }
 
     pub(super) fn push_contest(
         &mut self,
-        pixel: u32,
-        holder: u16,
-        challenger: u16,
+        pixel: PixelIndex,
+        holder: HypothesisId,
+        challenger: HypothesisId,
         granted: bool,
         contest: Contest,
     ) {
@@ -93,7 +105,8 @@ impl StageTrace {
         self.shown.push([contest.challenger, contest.holder]);
         self.measures.push(contest.measure);
         if !granted {
-            self.moves.push(Move { pixel: pixel | REFUSED, before: holder, after: challenger });
+            let owners = Owners { before: Some(holder), after: Some(challenger) };
+            self.moves.push(Move { pixel: pixel.get() | REFUSED, owners });
         }
     }
 
@@ -167,7 +180,7 @@ impl StageTrace {
             + self.local.as_ref().map_or(0, |local| local.bytes())
     }
 
-    /// Plays all changes of hands on `labels`, by the regions' numbers of birth.
+    /// Plays all changes of owners on `labels`, which hold hypotheses.
     ///
     /// # Errors
     /// The number of the first change that contradicts what went before it: of a pixel that was in other hands, or outside
@@ -175,11 +188,11 @@ impl StageTrace {
     pub fn play(&self, labels: &mut LabelMap) -> Result<(), usize> {
         for (index, change) in self.moves.iter().enumerate() {
             let label = labels.as_mut_slice().get_mut(change.pixel()).ok_or(index)?;
-            if *label != change.before {
+            if *label != HypothesisId::label(change.owners.before) {
                 return Err(index);
             }
-            if let Some((_, after)) = change.hands() {
-                *label = after;
+            if let Some(Owners { after, .. }) = change.change() {
+                *label = HypothesisId::label(after);
             }
         }
         Ok(())
@@ -272,7 +285,7 @@ impl StageTrace {
         let labels = self.labels.as_ref()?;
         let pixel = self.labeled_pixel(n);
         let kind = *labels.kinds.as_slice().get(pixel)?;
-        Some(Step::Label { pixel: pixel as u32, kind })
+        Some(Step::Label { pixel: PixelIndex::from_index(pixel), kind })
     }
 
     fn moved(&self, index: usize) -> Step<'_> {
@@ -287,12 +300,13 @@ impl StageTrace {
 
 impl Move {
     fn step<'a>(self, contest: Option<Contest>) -> Step<'a> {
-        let pixel = self.pixel() as u32;
-        match (self.hands(), contest) {
-            (None, Some(contest)) => {
-                Step::Refusal { pixel, holder: self.before, challenger: self.after, contest }
+        let pixel = PixelIndex::from_index(self.pixel());
+        let Owners { before, after } = self.owners;
+        match (self.change(), contest, before, after) {
+            (None, Some(contest), Some(holder), Some(challenger)) => {
+                Step::Refusal { pixel, holder, challenger, contest }
             }
-            (_, contest) => Step::Claim { pixel, before: self.before, after: self.after, contest },
+            (_, contest, ..) => Step::Claim { pixel, before, after, contest },
         }
     }
 }
@@ -302,15 +316,25 @@ mod tests {
     use super::*;
     use crate::trace::{Dropped, Recorder, StageBegan, TraceRecorder};
 
+    fn hypothesis(number: u16) -> HypothesisId {
+        HypothesisId::from_label(number).unwrap()
+    }
+
     fn recorder() -> TraceRecorder {
         let mut recorder = TraceRecorder::default();
         recorder.record(StageBegan { stage: Stage::Linear });
-        recorder.claim(1, 0, 1);
+        recorder.claim(PixelIndex::new(1), HypothesisId::from_label(0), HypothesisId::from_label(1));
         let contest = Contest { measure: Measure::Axis, challenger: 2.0, holder: 1.0 };
-        recorder.contest(1, 1, 2, false, contest);
-        recorder.record(Dropped { region: 3, pixels: 0 });
-        recorder.contest(1, 1, 3, true, Contest { challenger: 0.5, ..contest });
-        recorder.claim(1, 1, 3);
+        recorder.contest(PixelIndex::new(1), hypothesis(1), hypothesis(2), false, contest);
+        recorder.record(Dropped { hypothesis: hypothesis(3), pixels: 0 });
+        recorder.contest(
+            PixelIndex::new(1),
+            hypothesis(1),
+            hypothesis(3),
+            true,
+            Contest { challenger: 0.5, ..contest },
+        );
+        recorder.claim(PixelIndex::new(1), HypothesisId::from_label(1), HypothesisId::from_label(3));
         recorder.labels(
             &Raster::from_vec(
                 2,
@@ -329,12 +353,27 @@ mod tests {
         let won = Contest { measure: Measure::Axis, challenger: 0.5, holder: 1.0 };
         let expected = [
             Step::Event(&Event::StageBegan(StageBegan { stage: Stage::Linear })),
-            Step::Claim { pixel: 1, before: 0, after: 1, contest: None },
-            Step::Refusal { pixel: 1, holder: 1, challenger: 2, contest: lost },
-            Step::Event(&Event::Dropped(Dropped { region: 3, pixels: 0 })),
-            Step::Claim { pixel: 1, before: 1, after: 3, contest: Some(won) },
-            Step::Label { pixel: 1, kind: PixelKind::Matte },
-            Step::Label { pixel: 3, kind: PixelKind::Highlight },
+            Step::Claim {
+                pixel: PixelIndex::new(1),
+                before: HypothesisId::from_label(0),
+                after: HypothesisId::from_label(1),
+                contest: None,
+            },
+            Step::Refusal {
+                pixel: PixelIndex::new(1),
+                holder: hypothesis(1),
+                challenger: hypothesis(2),
+                contest: lost,
+            },
+            Step::Event(&Event::Dropped(Dropped { hypothesis: hypothesis(3), pixels: 0 })),
+            Step::Claim {
+                pixel: PixelIndex::new(1),
+                before: HypothesisId::from_label(1),
+                after: HypothesisId::from_label(3),
+                contest: Some(won),
+            },
+            Step::Label { pixel: PixelIndex::new(1), kind: PixelKind::Matte },
+            Step::Label { pixel: PixelIndex::new(3), kind: PixelKind::Highlight },
         ];
         assert_eq!(stage_trace.len(), expected.len());
         assert_eq!(stage_trace.steps().collect::<Vec<_>>(), expected);
@@ -355,7 +394,8 @@ mod tests {
         let play = |claims: &[(u32, u16, u16)]| {
             let mut recorder = TraceRecorder::default();
             for &(pixel, before, after) in claims {
-                recorder.claim(pixel, before, after);
+                let [before, after] = [before, after].map(HypothesisId::from_label);
+                recorder.claim(PixelIndex::new(pixel), before, after);
             }
             recorder.finish(Stage::Linear).unwrap().play(&mut LabelMap::filled(1, 1, 0))
         };

@@ -1,6 +1,7 @@
 //! One entry of a trace: an event, or what happened to one pixel, and by what it was decided.
 
 use super::{Event, PixelKind};
+use crate::raster::{HypothesisId, PixelIndex};
 
 /// Two regions wanted a pixel, or a region did not take one that lay in its reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,30 +34,30 @@ pub enum Step<'a> {
     Event(&'a Event),
     /// A pixel changed hands.
     Claim {
-        /// The pixel, `y · width + x`.
-        pixel: u32,
-        /// The region that had it.
-        before: u16,
-        /// The region that has it now.
-        after: u16,
+        /// The pixel.
+        pixel: PixelIndex,
+        /// The hypothesis that had the pixel; none: no hypothesis.
+        before: Option<HypothesisId>,
+        /// The hypothesis that has the pixel from now on; none: no hypothesis.
+        after: Option<HypothesisId>,
         /// Why, where two regions wanted it.
         contest: Option<Contest>,
     },
     /// A pixel did not change hands.
     Refusal {
         /// The pixel.
-        pixel: u32,
-        /// The region that keeps it.
-        holder: u16,
-        /// The region that wanted it.
-        challenger: u16,
+        pixel: PixelIndex,
+        /// The hypothesis that keeps the pixel.
+        holder: HypothesisId,
+        /// The hypothesis that wanted the pixel.
+        challenger: HypothesisId,
         /// Why.
         contest: Contest,
     },
     /// A pixel's final role (section 6).
     Label {
         /// The pixel.
-        pixel: u32,
+        pixel: PixelIndex,
         /// Its role.
         kind: PixelKind,
     },

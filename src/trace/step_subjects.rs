@@ -1,6 +1,7 @@
 //! What a step is about.
 
 use super::{Kind, Step, Subject};
+use crate::raster::{HypothesisId, PixelIndex, RegionId};
 
 impl Step<'_> {
     /// The kind of the step.
@@ -14,7 +15,7 @@ impl Step<'_> {
     }
 
     /// The pixel that the step is about; `None` for an event.
-    pub fn pixel(&self) -> Option<u32> {
+    pub fn pixel(&self) -> Option<PixelIndex> {
         match self {
             Step::Claim { pixel, .. } | Step::Refusal { pixel, .. } | Step::Label { pixel, .. } => {
                 Some(*pixel)
@@ -24,14 +25,14 @@ impl Step<'_> {
     }
 
     /// Whether the step is about a hypothesis, or about the region `region` that the hypothesis became.
-    pub fn concerns(&self, hypothesis: u16, region: Option<u16>) -> bool {
+    pub fn concerns(&self, hypothesis: HypothesisId, region: Option<RegionId>) -> bool {
         match self {
             Step::Event(event) => event.subjects().into_iter().flatten().any(|subject| match subject {
                 Subject::Hypothesis(id) => id == hypothesis,
                 Subject::Region(id) => region == Some(id),
                 Subject::Blob(_) => false,
             }),
-            Step::Claim { before, after, .. } => *before == hypothesis || *after == hypothesis,
+            Step::Claim { before, after, .. } => [*before, *after].contains(&Some(hypothesis)),
             Step::Refusal { holder, challenger, .. } => *holder == hypothesis || *challenger == hypothesis,
             Step::Label { .. } => false,
         }
@@ -45,12 +46,20 @@ mod tests {
 
     #[test]
     fn an_event_of_a_region_concerns_the_hypothesis_that_became_the_region() {
-        let branches = Event::from(BranchesSought { region: 2, cores: Vec::new(), gaps: Vec::new() });
-        let dropped = Event::from(Dropped { region: 2, pixels: 9 });
+        let branches = Event::from(BranchesSought {
+            region: RegionId::from_index(1),
+            cores: Vec::new(),
+            gaps: Vec::new(),
+        });
+        let dropped = Event::from(Dropped { hypothesis: HypothesisId::from_index(1), pixels: 9 });
+        let (second, seventh) = (HypothesisId::from_index(1), HypothesisId::from_index(6));
+        let region = |number| RegionId::from_label(number);
         let (branches, dropped) = (Step::Event(&branches), Step::Event(&dropped));
         assert!(
-            branches.concerns(7, Some(2)) && !branches.concerns(2, Some(1)) && !branches.concerns(2, None)
+            branches.concerns(seventh, region(2))
+                && !branches.concerns(second, region(1))
+                && !branches.concerns(second, None)
         );
-        assert!(dropped.concerns(2, None) && !dropped.concerns(7, Some(2)));
+        assert!(dropped.concerns(second, None) && !dropped.concerns(seventh, region(2)));
     }
 }

@@ -4,6 +4,7 @@ use super::{
     Absorbed, ComponentSplit, Event, GrowthBegan, HoleFilled, HypothesisPassedOver, Pass, PassBegan,
     PassedOver, Stage, StageTrace, Step,
 };
+use crate::raster::HypothesisId;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -39,32 +40,32 @@ pub struct Block {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Topic {
     /// A linear hypothesis is chosen and grows (5.3).
-    Hypothesis(u16),
+    Hypothesis(HypothesisId),
     /// A broad highlight goes back to its object.
-    Absorption(u16),
+    Absorption(HypothesisId),
     /// The neighbors of a region are tested as its highlight (5.4.1).
-    Candidates(u16),
+    Candidates(HypothesisId),
     /// A region's slice is made and grows (5.4.2).
-    Slice(u16),
+    Slice(HypothesisId),
     /// A region's highlight grows by brightness (5.5).
-    Brightness(u16),
+    Brightness(HypothesisId),
     /// A hole is given to a region (5.5).
-    Hole(u16),
+    Hole(HypothesisId),
     /// A part becomes a region of its own.
-    Part(u16),
+    Part(HypothesisId),
 }
 
 impl Topic {
-    /// The region that it is about.
-    pub fn region(self) -> u16 {
+    /// The hypothesis that the block is about.
+    pub fn hypothesis(self) -> HypothesisId {
         match self {
-            Self::Hypothesis(region)
-            | Self::Absorption(region)
-            | Self::Candidates(region)
-            | Self::Slice(region)
-            | Self::Brightness(region)
-            | Self::Hole(region)
-            | Self::Part(region) => region,
+            Self::Hypothesis(hypothesis)
+            | Self::Absorption(hypothesis)
+            | Self::Candidates(hypothesis)
+            | Self::Slice(hypothesis)
+            | Self::Brightness(hypothesis)
+            | Self::Hole(hypothesis)
+            | Self::Part(hypothesis) => hypothesis,
         }
     }
 }
@@ -293,15 +294,15 @@ impl Contents {
                 return self.close(step + 1);
             }
             Event::HypothesisPassedOver(_) => return self.close(step),
-            Event::HypothesisChosen(chosen) => Topic::Hypothesis(chosen.region),
-            Event::Absorbed(Absorbed { region, .. }) => Topic::Absorption(*region),
-            Event::CandidateTested(test) => Topic::Candidates(test.region),
-            Event::SliceMade(made) => Topic::Slice(made.region),
+            Event::HypothesisChosen(chosen) => Topic::Hypothesis(chosen.hypothesis),
+            Event::Absorbed(Absorbed { hypothesis, .. }) => Topic::Absorption(*hypothesis),
+            Event::CandidateTested(test) => Topic::Candidates(test.hypothesis),
+            Event::SliceMade(made) => Topic::Slice(made.hypothesis),
             // The growth of hypotheses and slices lies within their blocks.
-            Event::GrowthBegan(GrowthBegan { region, .. }) if self.pass() == Some(Pass::Brightness) => {
-                Topic::Brightness(*region)
+            Event::GrowthBegan(GrowthBegan { hypothesis, .. }) if self.pass() == Some(Pass::Brightness) => {
+                Topic::Brightness(*hypothesis)
             }
-            Event::HoleFilled(HoleFilled { region, .. }) => Topic::Hole(*region),
+            Event::HoleFilled(HoleFilled { hypothesis, .. }) => Topic::Hole(*hypothesis),
             Event::ComponentSplit(ComponentSplit { part, .. }) => Topic::Part(*part),
             _ => return,
         };

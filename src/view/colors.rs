@@ -3,7 +3,7 @@
 use super::snapshot::overlaps;
 use crate::analysis::Analysis;
 use crate::export::Palette;
-use crate::raster::{LabelMap, UNASSIGNED};
+use crate::raster::{LabelMap, RegionId, UNASSIGNED};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ const SHARED: f64 = 0.2;
 /// A color for each final region: its former self's where it overlaps one, otherwise one far from its neighbors'.
 pub(crate) fn region_colors(analysis: &Analysis, before: Option<(&LabelMap, &[[u8; 3]])>) -> Vec<[u8; 3]> {
     let regions = analysis.intrinsic.regions.iter();
-    let neighbors: Vec<&[u16]> = regions.map(|region| region.neighbors.as_slice()).collect();
+    let neighbors: Vec<&[RegionId]> = regions.map(|region| region.neighbors.as_slice()).collect();
     colors(&analysis.finals.labels, &neighbors, before)
 }
 
@@ -26,8 +26,12 @@ pub(crate) fn orphan_colors(taken: &[[u8; 3]], count: usize) -> Vec<[u8; 3]> {
     from.iter().copied().cycle().take(count).collect()
 }
 
-/// Region `id` is at index `id − 1` of `neighbors`, of the former colors and of the result.
-fn colors(labels: &LabelMap, neighbors: &[&[u16]], before: Option<(&LabelMap, &[[u8; 3]])>) -> Vec<[u8; 3]> {
+/// `neighbors`, the former colors and the result are lists by [`RegionId::index`].
+fn colors(
+    labels: &LabelMap,
+    neighbors: &[&[RegionId]],
+    before: Option<(&LabelMap, &[[u8; 3]])>,
+) -> Vec<[u8; 3]> {
     let palette = Palette::new();
     let mut kept = vec![None; neighbors.len() + 1];
     if let Some((former, colors)) = before {
@@ -40,13 +44,14 @@ fn colors(labels: &LabelMap, neighbors: &[&[u16]], before: Option<(&LabelMap, &[
     }
     // Regions of one color that have come to touch would look like one: the smaller, which has the higher number, gives way.
     for now in 1..kept.len() {
-        let touched = neighbors[now - 1].iter().map(|&other| usize::from(other)).filter(|&other| other < now);
+        let touched =
+            neighbors[now - 1].iter().map(|other| usize::from(other.get())).filter(|&other| other < now);
         if kept[now].is_some() && touched.into_iter().any(|other| kept[other] == kept[now]) {
             kept[now] = None;
         }
     }
     let mut touching = vec![Vec::new()];
-    touching.extend(neighbors.iter().map(|list| list.iter().map(|&id| u32::from(id)).collect()));
+    touching.extend(neighbors.iter().map(|list| list.iter().map(|id| u32::from(id.get())).collect()));
     palette.assign_keeping(&touching, &kept)[1..].iter().map(|&index| palette.color(index)).collect()
 }
 

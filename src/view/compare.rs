@@ -3,7 +3,7 @@
 use super::ResultSnapshot;
 use super::snapshot::{best_overlaps, overlaps};
 use crate::params::{Parameter, Switch};
-use crate::raster::UNASSIGNED;
+use crate::raster::RegionId;
 use crate::truth::angle_deg;
 use rayon::prelude::*;
 
@@ -69,10 +69,10 @@ pub enum Fate {
 pub struct RegionFate {
     /// What became of it.
     pub fate: Fate,
-    /// Its number in the pinned result.
-    pub pinned: Option<u16>,
-    /// Its number in the newest result.
-    pub newest: Option<u16>,
+    /// The region in the pinned result.
+    pub pinned: Option<RegionId>,
+    /// The region in the newest result.
+    pub newest: Option<RegionId>,
     /// Pixels in the pinned result.
     pub pixels_pinned: usize,
     /// Pixels in the newest result.
@@ -203,22 +203,23 @@ fn fates(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> (Vec<RegionFate>, 
     let (into, from) =
         (best_overlaps(pinned.labels(), newest.labels()), best_overlaps(newest.labels(), pinned.labels()));
     let sum = |covers: &[(u16, usize)]| covers.iter().map(|cover| cover.1).sum::<usize>();
+    // By label: of unassigned pixels first.
     let sizes_pinned: Vec<usize> = shared.iter().map(|covers| sum(covers)).collect();
     let mut sizes_newest = vec![0; from.len()];
     for &(label, pixels) in shared.iter().flatten() {
         sizes_newest[usize::from(label)] += pixels;
     }
-    let pair = |old: u16| {
-        let new = into[usize::from(old)];
-        (old != UNASSIGNED && new != UNASSIGNED && from[usize::from(new)] == old).then_some(new)
-    };
+    let pair = |old: RegionId| into[old.index() + 1].filter(|new| from[new.index() + 1] == Some(old));
     let mut regions = Vec::new();
-    for new in (1..from.len() as u16).filter(|&new| sizes_newest[usize::from(new)] > 0) {
-        let old = Some(from[usize::from(new)]).filter(|&old| pair(old) == Some(new));
-        let pixels_newest = sizes_newest[usize::from(new)];
-        let pixels_pinned = old.map_or(0, |old| sizes_pinned[usize::from(old)]);
-        let covers = old.map_or(&[][..], |old| &shared[usize::from(old)]);
-        let pixels_shared = covers.iter().find(|cover| cover.0 == new).map_or(0, |cover| cover.1);
+    for new in RegionId::all(from.len().saturating_sub(1)) {
+        let pixels_newest = sizes_newest[new.index() + 1];
+        if pixels_newest == 0 {
+            continue;
+        }
+        let old = from[new.index() + 1].filter(|&old| pair(old) == Some(new));
+        let pixels_pinned = old.map_or(0, |old| sizes_pinned[old.index() + 1]);
+        let covers = old.map_or(&[][..], |old| &shared[old.index() + 1]);
+        let pixels_shared = covers.iter().find(|cover| cover.0 == new.get()).map_or(0, |cover| cover.1);
         let fate = match old {
             None => Fate::Gained,
             Some(_) if pixels_shared == pixels_pinned && pixels_shared == pixels_newest => Fate::Kept,
@@ -233,25 +234,24 @@ fn fates(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> (Vec<RegionFate>, 
             pixels_shared,
         });
     }
-    for old in (1..into.len() as u16).filter(|&old| sizes_pinned[usize::from(old)] > 0 && pair(old).is_none())
-    {
-        regions.push(RegionFate {
-            fate: Fate::Lost,
-            pinned: Some(old),
-            newest: None,
-            pixels_pinned: sizes_pinned[usize::from(old)],
-            pixels_newest: 0,
-            pixels_shared: 0,
-        });
-    }
+    let lost = RegionId::all(into.len().saturating_sub(1))
+        .filter(|&old| sizes_pinned[old.index() + 1] > 0 && pair(old).is_none());
+    regions.extend(lost.map(|old| RegionFate {
+        fate: Fate::Lost,
+        pinned: Some(old),
+        newest: None,
+        pixels_pinned: sizes_pinned[old.index() + 1],
+        pixels_newest: 0,
+        pixels_shared: 0,
+    }));
     let mut pixels = PixelFates::default();
     for (old, covers) in (0u16..).zip(&shared) {
         for &(new, count) in covers {
-            match (old, new) {
-                (UNASSIGNED, UNASSIGNED) => pixels.kept += count,
-                (UNASSIGNED, _) => pixels.gained += count,
-                (_, UNASSIGNED) => pixels.lost += count,
-                _ if pair(old) == Some(new) => pixels.kept += count,
+            match (RegionId::from_label(old), RegionId::from_label(new)) {
+                (None, None) => pixels.kept += count,
+                (None, Some(_)) => pixels.gained += count,
+                (Some(_), None) => pixels.lost += count,
+                (Some(old), new) if pair(old) == new => pixels.kept += count,
                 _ => pixels.changed += count,
             }
         }
@@ -299,7 +299,7 @@ mod tests {
         let picture = gray(before, 90);
         let found = compare(&divided(&picture, before), &divided(&picture, after)).unwrap();
         let plain = |fate: &RegionFate| {
-            (fate.fate, fate.pinned.unwrap_or(0), fate.newest.unwrap_or(0), fate.pixels_shared)
+            (fate.fate, RegionId::label(fate.pinned), RegionId::label(fate.newest), fate.pixels_shared)
         };
         assert_eq!(found.regions.iter().map(plain).collect::<Vec<_>>(), regions);
         let PixelFates { kept, gained, lost, changed } = found.pixels;

@@ -1,18 +1,18 @@
 //! What can be pointed at. One hover and one selection are shared by every panel.
 
-use crate::raster::Mask;
+use crate::raster::{Mask, PixelIndex, RegionId};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Something that a person can point at, wherever it is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Item {
-    /// A pixel, by its row-major index.
-    Pixel(u32),
+    /// A pixel.
+    Pixel(PixelIndex),
     /// A window of the classification, by its row-major index.
     Window(u32),
-    /// A final region, by its label from 1.
-    Region(u16),
+    /// A region of the result.
+    Region(RegionId),
     /// A bin of the color histogram, by its index in [`super::Histogram::bins`].
     Bin(u32),
 }

@@ -4,7 +4,7 @@
 //! pixels whose centers lie in it. What lies outside the picture is cut off.
 
 use super::{Histogram, Item, Picture, ResultSnapshot};
-use crate::raster::{LabelMap, Mask, Raster};
+use crate::raster::{LabelMap, Mask, PixelIndex, Raster, RegionId};
 
 /// Columns and rows of a picture.
 pub type Size = (usize, usize);
@@ -84,7 +84,7 @@ pub fn mask_of(item: Item, shown: &ResultSnapshot) -> Option<Mask> {
     let (width, height) = shown.picture.size();
     let mut mask = Mask::filled(width, height, false);
     match item {
-        Item::Pixel(pixel) => *mask.as_mut_slice().get_mut(pixel as usize)? = true,
+        Item::Pixel(pixel) => *mask.as_mut_slice().get_mut(pixel.index())? = true,
         Item::Window(window) => {
             let windows = &shown.analysis.windows;
             let (columns, size_px) = (windows.classes.width(), windows.size_px);
@@ -104,8 +104,9 @@ pub fn mask_of(item: Item, shown: &ResultSnapshot) -> Option<Mask> {
 }
 
 /// The pixels of a region; none where it has no pixels.
-pub fn of_region(labels: &LabelMap, region: u16) -> Option<Mask> {
-    let mask = labels.map(|&label| label == region && region != 0);
+pub fn of_region(labels: &LabelMap, region: RegionId) -> Option<Mask> {
+    let region = region.get();
+    let mask = labels.map(|&label| label == region);
     mask.as_slice().contains(&true).then_some(mask)
 }
 
@@ -125,11 +126,12 @@ pub fn of_bins(picture: &Picture, bins: &[u32]) -> Option<Mask> {
 }
 
 /// The pixels of one color around a pixel: those of its bin that are 4-connected to it.
-pub fn flood(size: Size, histogram: &Histogram, pixel: u32) -> Option<Mask> {
-    let bin = histogram.bin_of(pixel as usize)?;
+pub fn flood(size: Size, histogram: &Histogram, pixel: PixelIndex) -> Option<Mask> {
+    let pixel = pixel.index();
+    let bin = histogram.bin_of(pixel)?;
     let mut mask = Mask::filled(size.0, size.1, false);
-    *mask.as_mut_slice().get_mut(pixel as usize)? = true;
-    let mut front = vec![pixel as usize];
+    *mask.as_mut_slice().get_mut(pixel)? = true;
+    let mut front = vec![pixel];
     let mut found = Vec::with_capacity(4);
     while let Some(pixel) = front.pop() {
         mask.for_each_neighbor(pixel, |near| found.push(near));
@@ -253,19 +255,21 @@ mod tests {
             rows.iter().flat_map(|row| row.bytes()).map(|c| [f32::from(c - b'.'), 9.0, 9.0]).collect();
         let image = LinearImage::new(Raster::from_vec(5, 3, colors).unwrap(), Some(63.0));
         let histogram = Histogram::of(&image);
-        check(&flood((5, 3), &histogram, 0).unwrap(), &["##...", "#....", "###.."]);
-        assert!(flood((5, 3), &histogram, 15).is_none());
+        check(&flood((5, 3), &histogram, PixelIndex::new(0)).unwrap(), &["##...", "#....", "###.."]);
+        assert!(flood((5, 3), &histogram, PixelIndex::new(15)).is_none());
     }
 
     #[test]
     fn things_have_their_pixels() {
         let shown = tiny();
         let count = |item| mask_of(item, &shown).map(|mask| mask.as_slice().iter().filter(|&&on| on).count());
-        assert_eq!(count(Item::Pixel(7)), Some(1));
-        assert_eq!(count(Item::Pixel(u32::MAX)), None);
-        assert_eq!(count(Item::Region(1)), Some(shown.analysis.intrinsic.regions[0].pixels));
-        assert_eq!(count(Item::Region(0)), None);
-        assert_eq!(count(Item::Region(999)), None);
+        assert_eq!(count(Item::Pixel(PixelIndex::new(7))), Some(1));
+        assert_eq!(count(Item::Pixel(PixelIndex::new(u32::MAX))), None);
+        assert_eq!(
+            count(Item::Region(RegionId::from_index(0))),
+            Some(shown.analysis.intrinsic.regions[0].pixels)
+        );
+        assert_eq!(count(Item::Region(RegionId::from_index(998))), None);
         let size_px = shown.analysis.windows.size_px;
         assert_eq!(count(Item::Window(0)), Some(size_px * size_px));
         assert_eq!(count(Item::Window(u32::MAX)), None);

@@ -7,7 +7,7 @@ pub use cursor::{growing_plane, test_plane};
 use super::shapes::{across, hypothesis, starts};
 use super::{Point, ResultSnapshot};
 use crate::color::{Vec3, rgb};
-use crate::raster::LabelMap;
+use crate::raster::{LabelMap, PixelIndex, RegionId};
 use crate::reflection::{Components, ReflectionTransform};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
@@ -22,8 +22,8 @@ const KINDS: usize = 5;
 /// A region in its dichromatic plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionPlane {
-    /// The region, from 1.
-    pub region: u16,
+    /// The region; none at a cursor where nothing is left of the hypothesis in the result.
+    pub region: Option<RegionId>,
     /// C_b, unit: the direction of m_b.
     pub body: Point,
     /// C_s, unit: the direction of m_s. Without a plane, a direction across the matte line.
@@ -70,7 +70,7 @@ pub struct PlanePixel {
     /// What the pixels are to the region; all pixels of a cell are of one kind.
     pub kind: PixelKind,
     /// The pixel, or the first one of the cell.
-    pub pixel: u32,
+    pub pixel: PixelIndex,
     /// How many pixels it stands for.
     pub count: u32,
 }
@@ -78,9 +78,9 @@ pub struct PlanePixel {
 /// The plane of a region; none where there is no such region.
 ///
 /// Pixels lie where their measured colors do, clipped ones too.
-pub fn region_plane(shown: &ResultSnapshot, region: u16) -> Option<RegionPlane> {
+pub fn region_plane(shown: &ResultSnapshot, region: RegionId) -> Option<RegionPlane> {
     let hypothesis = hypothesis(shown, region)?;
-    let reflection = shown.analysis.intrinsic.regions.get(usize::from(region) - 1)?;
+    let reflection = shown.analysis.intrinsic.regions.get(region.index())?;
     let body = Vec3::from(reflection.body);
     let made = reflection.surface.and_then(|surface| ReflectionTransform::new(&body, &surface.into()));
     let stand_in = || {
@@ -97,7 +97,7 @@ pub fn region_plane(shown: &ResultSnapshot, region: u16) -> Option<RegionPlane> 
     let starts = starts(reflection, hypothesis).into_iter().filter(|_| has_plane);
     let meeting_points: Vec<f32> = starts.map(amount).collect();
     Some(RegionPlane {
-        region,
+        region: Some(region),
         body: transform.body(),
         surface: transform.surface(),
         has_plane,
@@ -189,7 +189,7 @@ impl RegionPlane {
 
 fn points(
     shown: &ResultSnapshot,
-    region: u16,
+    region: RegionId,
     amounts_of: &(dyn Fn(Point) -> Components + Sync),
 ) -> Vec<PlanePixel> {
     let colors = shown.picture.photo.image.pixels.as_slice();
@@ -197,7 +197,14 @@ fn points(
     let place = |pixel: u32| {
         let color = colors[pixel as usize];
         let Components { body, surface, .. } = amounts_of(color);
-        PlanePixel { body, surface, color, kind: kinds[pixel as usize], pixel, count: 1 }
+        PlanePixel {
+            body,
+            surface,
+            color,
+            kind: kinds[pixel as usize],
+            pixel: PixelIndex::new(pixel),
+            count: 1,
+        }
     };
     let pixels = pixels_of(shown.labels(), region);
     if pixels.len() <= MOST_PLANE_POINTS {
@@ -232,15 +239,22 @@ fn points(
     }
     let point = |(sum, count, pixel): ([f64; 5], u32, u32)| {
         let [body, surface, r, g, b] = sum.map(|v| (v / f64::from(count)) as f32);
-        PlanePixel { body, surface, color: [r, g, b], kind: kinds[pixel as usize], pixel, count }
+        PlanePixel {
+            body,
+            surface,
+            color: [r, g, b],
+            kind: kinds[pixel as usize],
+            pixel: PixelIndex::new(pixel),
+            count,
+        }
     };
     sums.into_iter().map(point).collect()
 }
 
 /// The pixels of a region, in row order.
-fn pixels_of(labels: &LabelMap, region: u16) -> Vec<u32> {
+fn pixels_of(labels: &LabelMap, region: RegionId) -> Vec<u32> {
     let labels = labels.as_slice().par_iter().with_min_len(1 << 14).enumerate();
-    labels.filter(|(_, label)| **label == region).map(|(pixel, _)| pixel as u32).collect()
+    labels.filter(|(_, label)| **label == region.get()).map(|(pixel, _)| pixel as u32).collect()
 }
 
 /// Square cells over all amounts.
@@ -329,7 +343,7 @@ mod tests {
             assert!(plane.nearest([-1e6, 0.0], 10.0).is_none());
             assert!(plane.matte_length > 0.0 && plane.branches.is_empty() != plane.has_plane);
         }
-        assert!(region_plane(&shown, 0).is_none() && region_plane(&shown, 999).is_none());
+        assert!(region_plane(&shown, RegionId::from_index(998)).is_none());
     }
 
     #[test]
@@ -339,7 +353,7 @@ mod tests {
             surface,
             color: [0.0; 3],
             kind,
-            pixel: 0,
+            pixel: PixelIndex::new(0),
             count: 1,
         };
         let points = [

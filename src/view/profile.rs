@@ -1,6 +1,7 @@
 //! Body, surface and noise along a line through the picture, like the paper's color figure 11.
 
 use super::{Picture, ProfileLine, ResultSnapshot};
+use crate::raster::{PixelIndex, RegionId};
 use crate::trace::PixelKind;
 use std::fmt::Write;
 
@@ -9,8 +10,8 @@ use std::fmt::Write;
 pub struct ProfileSample {
     /// Distance from the line's beginning, pixels.
     pub position_px: f32,
-    /// The pixel, row-major.
-    pub pixel: u32,
+    /// The pixel.
+    pub pixel: PixelIndex,
     /// Its color, linear counts.
     pub input: [f32; 3],
     /// m_b: its body reflection along C_b, counts; none where it is in no region.
@@ -19,8 +20,8 @@ pub struct ProfileSample {
     pub surface: Option<f32>,
     /// ε: its distance from the dichromatic plane, counts.
     pub noise: Option<f32>,
-    /// Its region, 0 for none.
-    pub region: u16,
+    /// The region of the pixel; none: no region.
+    pub region: Option<RegionId>,
     /// What it is to its region.
     pub kind: PixelKind,
 }
@@ -28,9 +29,9 @@ pub struct ProfileSample {
 /// The ends of a line: the middles of its first and last pixel, in pixels of the picture (pixel (0, 0) covers 0…1).
 ///
 /// Rows and columns go through pixel `at`, or the picture's middle.
-pub fn profile_ends(line: ProfileLine, picture: &Picture, at: Option<u32>) -> [[f32; 2]; 2] {
+pub fn profile_ends(line: ProfileLine, picture: &Picture, at: Option<PixelIndex>) -> [[f32; 2]; 2] {
     let (width, height) = picture.size();
-    let at = at.map(|pixel| pixel as usize).filter(|&pixel| pixel < width * height);
+    let at = at.map(PixelIndex::index).filter(|&pixel| pixel < width * height);
     let (x, y) = at.map_or((width / 2, height / 2), |pixel| (pixel % width, pixel / width));
     let (x, y) = (x as f32 + 0.5, y as f32 + 0.5);
     match line {
@@ -65,18 +66,18 @@ pub fn profile(
 fn at(picture: &Picture, shown: Option<&ResultSnapshot>, pixel: usize, position_px: f32) -> ProfileSample {
     let bare = ProfileSample {
         position_px,
-        pixel: pixel as u32,
+        pixel: PixelIndex::from_index(pixel),
         input: picture.photo.image.pixels[pixel],
         body: None,
         surface: None,
         noise: None,
-        region: 0,
+        region: None,
         kind: PixelKind::Unassigned,
     };
     let Some(shown) = shown else { return bare };
     let intrinsic = &shown.analysis.intrinsic;
-    let region = shown.labels()[pixel];
-    let Some(vectors) = intrinsic.regions.get(usize::from(region).wrapping_sub(1)) else { return bare };
+    let region = RegionId::from_label(shown.labels()[pixel]);
+    let Some(vectors) = region.and_then(|region| intrinsic.regions.get(region.index())) else { return bare };
     ProfileSample {
         body: Some(along(intrinsic.body[pixel], vectors.body)),
         surface: vectors.surface.map(|surface| along(intrinsic.surface[pixel], surface)),
@@ -100,7 +101,7 @@ pub fn profile_csv(samples: &[ProfileSample], width: usize) -> String {
     let number = |value: Option<f32>| value.map_or_else(String::new, |value| format!("{value:.3}"));
     for sample in samples {
         let ProfileSample { position_px, pixel, input: [r, g, b], region, .. } = *sample;
-        let (x, y) = (pixel as usize % width.max(1), pixel as usize / width.max(1));
+        let ([x, y], region) = (pixel.position(width), RegionId::label(region));
         let [body, surface, noise] = [sample.body, sample.surface, sample.noise].map(number);
         let kind = sample.kind.name();
         // Writing to a string cannot fail.
@@ -124,13 +125,13 @@ mod tests {
     const ROWS: [&str; 3] = [".....", "11122", "11122"];
 
     fn pixels(ends: [[f32; 2]; 2]) -> Vec<u32> {
-        profile(&gray(&ROWS, 80), None, ends).iter().map(|sample| sample.pixel).collect()
+        profile(&gray(&ROWS, 80), None, ends).iter().map(|sample| sample.pixel.get()).collect()
     }
 
     #[test]
     fn rows_and_columns_go_through_a_pixel_or_the_middle() {
         let picture = gray(&ROWS, 80);
-        let through = |line, at| pixels(profile_ends(line, &picture, at));
+        let through = |line, at: Option<u32>| pixels(profile_ends(line, &picture, at.map(PixelIndex::new)));
         assert_eq!(through(ProfileLine::Row, None), [5, 6, 7, 8, 9]);
         assert_eq!(through(ProfileLine::Row, Some(11)), [10, 11, 12, 13, 14]);
         assert_eq!(through(ProfileLine::Column, Some(11)), [1, 6, 11]);
@@ -164,14 +165,22 @@ mod tests {
             regions,
             ..Intrinsic::clone(&shown.analysis.intrinsic)
         });
-        let row = profile(&picture, Some(&shown), profile_ends(ProfileLine::Row, &picture, Some(6)));
+        let row = profile(
+            &picture,
+            Some(&shown),
+            profile_ends(ProfileLine::Row, &picture, Some(PixelIndex::new(6))),
+        );
         let close = |found: Option<f32>, expected: f32| assert!((found.unwrap() - expected).abs() < 1e-4);
         close(row[1].body, 30.0 * 3f32.sqrt());
         close(row[1].surface, -4.0);
-        assert_eq!((row[1].noise, row[1].region), (Some(1.5), 1));
-        assert_eq!((row[3].surface, row[3].region), (None, 2));
-        let above = profile(&picture, Some(&shown), profile_ends(ProfileLine::Row, &picture, Some(0)));
-        assert_eq!((above[0].body, above[0].noise, above[0].region), (None, None, 0));
+        assert_eq!((row[1].noise, row[1].region), (Some(1.5), RegionId::from_label(1)));
+        assert_eq!((row[3].surface, row[3].region), (None, RegionId::from_label(2)));
+        let above = profile(
+            &picture,
+            Some(&shown),
+            profile_ends(ProfileLine::Row, &picture, Some(PixelIndex::new(0))),
+        );
+        assert_eq!((above[0].body, above[0].noise, above[0].region), (None, None, None));
         let csv = profile_csv(&row[1..2], 5);
         assert_eq!(
             csv.lines().nth(1),

@@ -60,7 +60,7 @@ pub(crate) fn ply(mask: &Mask, picture: &Picture) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::raster::Raster;
+    use crate::raster::{PixelIndex, Raster, RegionId};
     use crate::view::Item;
     use crate::view::testing::{divided, gray, picture};
     use std::sync::Arc;
@@ -76,15 +76,23 @@ mod tests {
             selected_pixels(&selection, &picture, Some(&shown)).map(Raster::into_vec)
         };
         let (t, f) = (true, false);
-        assert_eq!(of(Some(Item::Region(2)), None), Some(vec![f, t, t, f, f, t]));
-        assert_eq!(of(Some(Item::Pixel(4)), None), Some(vec![f, f, f, f, t, f]));
+        assert_eq!(of(Some(Item::Region(RegionId::from_index(2 - 1))), None), Some(vec![f, t, t, f, f, t]));
+        assert_eq!(of(Some(Item::Pixel(PixelIndex::new(4))), None), Some(vec![f, f, f, f, t, f]));
         assert_eq!(of(Some(Item::Window(0)), None), Some(vec![t; 6]));
         assert_eq!(of(picture.histogram.bin_of(0).map(Item::Bin), None), Some(vec![t; 6]));
-        for nothing in [Item::Region(9), Item::Pixel(99), Item::Bin(99), Item::Window(99)] {
+        for nothing in [
+            Item::Region(RegionId::from_index(9 - 1)),
+            Item::Pixel(PixelIndex::new(99)),
+            Item::Bin(99),
+            Item::Window(99),
+        ] {
             assert_eq!(of(Some(nothing), None), None, "{nothing:?}");
         }
         let marked = Raster::from_vec(3, 2, vec![t, f, f, f, f, f]).unwrap();
-        assert_eq!(of(Some(Item::Region(2)), Some(&marked)), Some(marked.into_vec()));
+        assert_eq!(
+            of(Some(Item::Region(RegionId::from_index(2 - 1))), Some(&marked)),
+            Some(marked.into_vec())
+        );
     }
 
     #[test]

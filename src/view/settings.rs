@@ -1,6 +1,7 @@
 //! Settings of the views. They are part of a workspace, not of the undo history.
 
 use super::{Fill, Layer, Look};
+use crate::raster::RegionId;
 use serde::{Deserialize, Serialize};
 
 /// The theme of the window.
@@ -94,7 +95,7 @@ impl Default for ImageSettings {
 
 impl ImageSettings {
     /// How layers are drawn with these settings; `selected` is the region that has its full color while all others are dimmed.
-    pub fn look(&self, selected: Option<u16>) -> Look {
+    pub fn look(&self, selected: Option<RegionId>) -> Look {
         let &Self { exposure_ev, gamma, fill, opacity, .. } = self;
         Look { exposure_ev, gamma, fill, opacity, selected }
     }

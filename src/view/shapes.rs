@@ -9,6 +9,7 @@ use super::solid::{HalfSpace, Solid, Tube, convex_body, cube, ellipsoid, octant}
 use super::vector::{Point, dot64};
 use crate::color::{Moments, Vec3, dot, principal_axes, rgb};
 use crate::intrinsic::RegionReflection;
+use crate::raster::RegionId;
 use crate::reflection::{DichromaticPlane, HighlightTest, MOST_BRANCHES};
 use crate::segment::PlanarHypothesis;
 use crate::trace::PixelKind;
@@ -20,8 +21,8 @@ const ELLIPSOID_SIGMAS: f64 = 2.0;
 /// The skewed T of a region and the parts of the cube that it claims, in counts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionShapes {
-    /// The region, from 1.
-    pub region: u16,
+    /// The region.
+    pub region: RegionId,
     /// Its cylinder (5.3.2), from the dark sphere to the cube's end; none where nothing lies between them.
     pub cylinder: Option<Solid>,
     /// The axis of the cylinder, as far as it reaches.
@@ -52,7 +53,7 @@ pub struct PlaneDirections {
 }
 
 /// The shapes of a region; none where there is no such region.
-pub fn region_shapes(shown: &ResultSnapshot, region: u16) -> Option<RegionShapes> {
+pub fn region_shapes(shown: &ResultSnapshot, region: RegionId) -> Option<RegionShapes> {
     let hypothesis = hypothesis(shown, region)?;
     let full = full(shown);
     let tube = Tube {
@@ -64,7 +65,7 @@ pub fn region_shapes(shown: &ResultSnapshot, region: u16) -> Option<RegionShapes
     };
     let foot = hypothesis.matte.foot();
     let end = foot + hypothesis.matte.direction * hypothesis.matte_length;
-    let reflection = shown.analysis.intrinsic.regions.get(usize::from(region) - 1)?;
+    let reflection = shown.analysis.intrinsic.regions.get(region.index())?;
     let starts = if hypothesis.plane.is_some() { starts(reflection, hypothesis) } else { Vec::new() };
     let highlight_lines = hypothesis.plane.map(|plane| highlight_lines(shown, region, &starts, &plane));
     Some(RegionShapes {
@@ -108,7 +109,7 @@ fn ellipsoid_of(moments: &Moments) -> Option<Solid> {
 }
 
 /// Directions along and across a region's plane; none where there is no such region.
-pub fn plane_directions(shown: &ResultSnapshot, region: u16) -> Option<PlaneDirections> {
+pub fn plane_directions(shown: &ResultSnapshot, region: RegionId) -> Option<PlaneDirections> {
     let hypothesis = hypothesis(shown, region)?;
     let body = hypothesis.matte.direction;
     let inward = hypothesis.plane.map_or_else(|| across(hypothesis), |plane| plane.inward);
@@ -116,8 +117,8 @@ pub fn plane_directions(shown: &ResultSnapshot, region: u16) -> Option<PlaneDire
 }
 
 /// A region's skewed T.
-pub(super) fn hypothesis(shown: &ResultSnapshot, region: u16) -> Option<&PlanarHypothesis> {
-    shown.analysis.finals.hypotheses.get(usize::from(region).checked_sub(1)?)
+pub(super) fn hypothesis(shown: &ResultSnapshot, region: RegionId) -> Option<&PlanarHypothesis> {
+    shown.analysis.finals.hypotheses.get(region.index())
 }
 
 /// A direction across the matte line where no light says which: towards gray, or any for a gray object.
@@ -179,7 +180,7 @@ pub(super) fn starts(reflection: &RegionReflection, hypothesis: &PlanarHypothesi
 /// From each start along the light to the brightest highlight pixel that is nearer to it than to the others, counts.
 fn highlight_lines(
     shown: &ResultSnapshot,
-    region: u16,
+    region: RegionId,
     starts: &[Vec3],
     plane: &DichromaticPlane,
 ) -> Vec<[Point; 2]> {
@@ -189,7 +190,7 @@ fn highlight_lines(
     let kinds = shown.analysis.intrinsic.kinds.as_slice();
     let pixels = shown.picture.photo.image.pixels.as_slice();
     let reach = |mut reach: [f32; MOST_BRANCHES], ((&label, &kind), &color): ((&u16, &PixelKind), &Point)| {
-        if label == region && kind == PixelKind::Highlight {
+        if label == region.get() && kind == PixelKind::Highlight {
             let branch = test.nearest(color);
             reach[branch] = reach[branch].max(dot(color, surface) - at_start[branch]);
         }
@@ -210,18 +211,19 @@ mod tests {
     use crate::reflection::Slice;
     use crate::view::testing::tiny;
 
-    fn line_distance(shown: &ResultSnapshot, region: u16, p: Point) -> f64 {
+    fn line_distance(shown: &ResultSnapshot, region: RegionId, p: Point) -> f64 {
         hypothesis(shown, region).unwrap().matte.distance(&crate::color::vec3(p))
     }
 
     #[test]
     fn every_region_has_its_shapes() {
         let shown = tiny();
-        let regions = shown.analysis.intrinsic.regions.len() as u16;
-        assert!(regions > 0 && region_shapes(&shown, 0).is_none());
-        assert!(region_shapes(&shown, regions + 1).is_none() && plane_directions(&shown, 0).is_none());
+        let regions = shown.analysis.intrinsic.regions.len();
+        let beyond = RegionId::from_index(regions);
+        assert!(regions > 0 && region_shapes(&shown, beyond).is_none());
+        assert!(plane_directions(&shown, beyond).is_none());
         let radius = shown.analysis.used.radius_counts();
-        for region in 1..=regions {
+        for region in RegionId::all(regions) {
             let shapes = region_shapes(&shown, region).unwrap();
             for &p in &shapes.cylinder.unwrap().surface.points {
                 assert!((line_distance(&shown, region, p) - radius).abs() < 1e-2);
@@ -241,7 +243,7 @@ mod tests {
         let [black, end] = illuminant_line(&shown).unwrap();
         assert_eq!((black, end.iter().fold(0.0f32, |most, v| most.max(*v))), ([0.0; 3], 255.0));
         let mut lines = 0;
-        for region in 1..=shown.analysis.intrinsic.regions.len() as u16 {
+        for region in RegionId::all(shown.analysis.intrinsic.regions.len()) {
             for [from, to] in region_shapes(&shown, region).unwrap().highlight_lines {
                 let along: Point = std::array::from_fn(|i| to[i] - from[i]);
                 assert!(dot(cross(along, light), cross(along, light)).sqrt() < 0.02 * distance(from, to));
@@ -256,7 +258,7 @@ mod tests {
         let shown = tiny();
         let used = &shown.analysis.used;
         let mut slices = 0;
-        for region in 1..=shown.analysis.intrinsic.regions.len() as u16 {
+        for region in RegionId::all(shown.analysis.intrinsic.regions.len()) {
             let hypothesis = hypothesis(&shown, region).unwrap();
             let (Some(plane), Some(body)) = (hypothesis.plane, region_shapes(&shown, region).unwrap().slice)
             else {

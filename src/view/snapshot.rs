@@ -3,7 +3,7 @@
 use super::{Accuracy, Picture};
 use crate::analysis::{Analysis, Stage};
 use crate::params::Params;
-use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
+use crate::raster::{LabelMap, Mask, Raster, RegionId, UNASSIGNED};
 use crate::trace::{Class, Trace};
 use std::cmp::Reverse;
 use std::sync::{Arc, OnceLock};
@@ -23,7 +23,7 @@ pub struct ResultSnapshot {
     pub analysis: Analysis,
     /// The first stage whose output is still an older request's; none: all is of this one.
     pub stale_from: Option<Stage>,
-    /// Colors of the final regions, sRGB; region `id` at index `id − 1`. They stay with the objects while parameters move.
+    /// Colors of the regions, sRGB, by [`RegionId::index`]. They stay with the objects while parameters move.
     pub region_colors: Vec<[u8; 3]>,
     /// Share of the pixels that are not dark which are in a region; 0 where all are dark.
     pub coverage: f64,
@@ -88,21 +88,19 @@ impl ResultSnapshot {
 }
 
 /// The region of `after` that covers most of `region`'s pixels in `before`; none where none covers any.
-pub(crate) fn best_overlap(before: &LabelMap, after: &LabelMap, region: u16) -> Option<u16> {
-    best_overlaps(before, after)
-        .get(usize::from(region))
-        .copied()
-        .filter(|&best_overlap| best_overlap != UNASSIGNED)
+pub(crate) fn best_overlap(before: &LabelMap, after: &LabelMap, region: RegionId) -> Option<RegionId> {
+    best_overlaps(before, after).get(usize::from(region.get())).copied().flatten()
 }
 
 /// For each label of `before` (the first: of unassigned pixels) the region of `after` that covers most of its pixels, of
-/// equals the one with the smaller number; 0 where none covers any.
-pub(crate) fn best_overlaps(before: &LabelMap, after: &LabelMap) -> Vec<u16> {
+/// equals the one with the smaller number; none where none covers any.
+pub(crate) fn best_overlaps(before: &LabelMap, after: &LabelMap) -> Vec<Option<RegionId>> {
     overlaps(before, after)
         .iter()
         .map(|covers| {
-            let best = covers.iter().filter(|(region, _)| *region != UNASSIGNED);
-            best.max_by_key(|&&(region, pixels)| (pixels, Reverse(region))).map_or(UNASSIGNED, |best| best.0)
+            let regions =
+                covers.iter().filter_map(|&(label, pixels)| Some((pixels, RegionId::from_label(label)?)));
+            regions.max_by_key(|&(pixels, region)| (pixels, Reverse(region))).map(|(_, region)| region)
         })
         .collect()
 }
@@ -146,7 +144,10 @@ mod tests {
     #[test]
     fn an_heir_covers_most_and_of_equals_has_the_smaller_number() {
         let (before, after) = (labels("0111122223340"), labels("1330122110443"));
-        assert_eq!(best_overlaps(&before, &after), [1, 3, 1, 4, 4]);
+        assert_eq!(best_overlaps(&before, &after), [1, 3, 1, 4, 4].map(RegionId::from_label));
+        let best_overlap = |before: &LabelMap, after: &LabelMap, region: usize| {
+            best_overlap(before, after, RegionId::from_index(region - 1)).map(RegionId::get)
+        };
         assert_eq!((best_overlap(&before, &after, 2), best_overlap(&before, &after, 9)), (Some(1), None));
         assert_eq!(best_overlap(&labels("11"), &labels("00"), 1), None);
     }

@@ -2,7 +2,7 @@
 
 use super::{Item, ResultSnapshot, marking};
 use crate::color::{Moments, principal_axes};
-use crate::raster::{Mask, UNASSIGNED};
+use crate::raster::{Mask, RegionId};
 use crate::segment::Classifier;
 use crate::trace::Class;
 use rayon::prelude::*;
@@ -36,8 +36,8 @@ pub struct Statistics {
     pub class: Option<Class>,
     /// The smallest rectangle that holds the pixels.
     pub bounds: Bounds,
-    /// Regions that hold some of them, with how many; most first, [`UNASSIGNED`] for those in none.
-    pub regions: Vec<(u16, usize)>,
+    /// Regions that hold some of them, with how many; most first; no region after a region with as many.
+    pub regions: Vec<(Option<RegionId>, usize)>,
     /// Pixels of which a band is clipped.
     pub clipped: usize,
     /// Pixels that are too dark.
@@ -95,9 +95,10 @@ pub fn statistics(shown: &ResultSnapshot, mask: &Mask) -> Option<Statistics> {
     let refined = shown.params.refinements().tail_test;
     let mut classifier = Classifier::new(shown.analysis.used.camera_noise, refined);
     let (variances, axes) = principal_axes(&whole.counted.covariance());
-    let mut regions: Vec<(u16, usize)> =
-        whole.regions.iter().enumerate().filter(|(_, n)| **n > 0).map(|(id, &n)| (id as u16, n)).collect();
-    regions.sort_by_key(|&(id, n)| (std::cmp::Reverse(n), id == UNASSIGNED, id));
+    let counted = (0..).zip(&whole.regions).filter(|(_, n)| **n > 0);
+    let mut regions: Vec<(Option<RegionId>, usize)> =
+        counted.map(|(label, &n)| (RegionId::from_label(label), n)).collect();
+    regions.sort_by_key(|&(region, n)| (std::cmp::Reverse(n), region.is_none(), region));
     let [columns, rows] = [whole.columns, whole.rows];
     Some(Statistics {
         pixels: whole.pixels,
@@ -318,13 +319,13 @@ mod tests {
     fn a_region_knows_itself() {
         let shown = tiny();
         let reflection = &shown.analysis.intrinsic.regions[0];
-        let found = statistics_of(&shown, Item::Region(1)).unwrap();
+        let found = statistics_of(&shown, Item::Region(RegionId::from_index(0))).unwrap();
         assert_eq!(
             (found.pixels, found.regions.as_slice()),
-            (reflection.pixels, [(1, reflection.pixels)].as_slice())
+            (reflection.pixels, [(RegionId::from_label(1), reflection.pixels)].as_slice())
         );
         assert_eq!(found.clipped, reflection.clipped_pixels);
-        assert!(statistics_of(&shown, Item::Region(0)).is_none());
+        assert!(statistics_of(&shown, Item::Region(RegionId::from_index(998))).is_none());
         let other = Mask::filled(1, 1, true);
         assert!(statistics(&shown, &other).is_none(), "a mask of another size");
     }

@@ -5,7 +5,7 @@ use crate::analysis::{Analysis, Session};
 use crate::intrinsic::{Intrinsic, RegionReflection};
 use crate::params::Params;
 use crate::photo::{self, EncodingChoice, ReadOptions};
-use crate::raster::{LabelMap, Raster};
+use crate::raster::{LabelMap, Raster, RegionId};
 use crate::segment::FinalRegions;
 use std::sync::{Arc, OnceLock};
 
@@ -107,8 +107,8 @@ pub(crate) fn divided(picture: &Arc<Picture>, rows: &[&str]) -> ResultSnapshot {
     let mut shown = shown(picture);
     let labels = labels(rows);
     let last = labels.as_slice().iter().copied().max().unwrap_or(0);
-    let pixels = |id| labels.as_slice().iter().filter(|&&label| label == id).count();
-    let regions = (1..=last).map(|id| region(id, pixels(id))).collect();
+    let pixels = |id: RegionId| labels.as_slice().iter().filter(|&&label| label == id.get()).count();
+    let regions = RegionId::all(usize::from(last)).map(|id| region(id, pixels(id))).collect();
     shown.region_colors = (1..=last).map(|id| [10 * id as u8; 3]).collect();
     shown.analysis.intrinsic = Arc::new(Intrinsic { regions, ..Intrinsic::clone(&shown.analysis.intrinsic) });
     let finals = FinalRegions { labels, ..FinalRegions::clone(&shown.analysis.finals) };
@@ -117,7 +117,7 @@ pub(crate) fn divided(picture: &Arc<Picture>, rows: &[&str]) -> ResultSnapshot {
 }
 
 /// A gray region under red light.
-pub(crate) fn region(id: u16, pixels: usize) -> RegionReflection {
+pub(crate) fn region(id: RegionId, pixels: usize) -> RegionReflection {
     RegionReflection {
         id,
         pixels,

@@ -6,6 +6,7 @@ use crate::prints::photograph;
 use crate::synthetic::{Rendered, Scene};
 use dichroscope::analysis::Session;
 use dichroscope::params::{AmbientSetting, Params};
+use dichroscope::raster::PixelIndex;
 use dichroscope::trace::{AmbientVerdict, HistoryKind, pixel_history};
 use std::sync::Arc;
 
@@ -64,7 +65,7 @@ fn the_history_of_a_pixel_counts_from_the_ambient_light() {
         analysis.finals.labels[pixel] > 0 && body[0] > 60.0 && surface == [0.0; 3]
     });
     let pixel = matte.unwrap();
-    let history = pixel_history(&trace, &image, &analysis.masks, pixel);
+    let history = pixel_history(&trace, &image, &analysis.masks, PixelIndex::from_index(pixel));
     let split = history.iter().find_map(|happening| match &happening.what {
         HistoryKind::Split(story) => Some(**story),
         _ => None,

@@ -5,7 +5,7 @@ use dichroscope::analysis::{Analysis, Session};
 use dichroscope::describe::{ImageFacts, Report, Scores};
 use dichroscope::params::{Method, Params};
 use dichroscope::photo::LinearImage;
-use dichroscope::raster::{Raster, UNASSIGNED};
+use dichroscope::raster::{Raster, RegionId, UNASSIGNED};
 use dichroscope::trace::PixelKind;
 use dichroscope::truth::{GroundTruth, Outcome, TruthObject, score};
 use std::sync::Arc;
@@ -111,12 +111,12 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
     expect(intrinsic.reasons.len() == labels.len(), "the reasons have another size");
     expect(analysis.finals.hypotheses.len() == regions.len(), "a region without a skewed T");
     for hypothesis in &analysis.finals.hypotheses {
-        let origin = analysis.matte.hypotheses.get(usize::from(hypothesis.origin) - 1);
+        let origin = analysis.matte.hypotheses.get(hypothesis.origin.index());
         expect(origin.is_some(), "a region that comes from no linear hypothesis");
     }
     for (index, region) in regions.iter().enumerate() {
         let reported = [region.pixels, region.matte_pixels, region.clipped_pixels];
-        expect(usize::from(region.id) == index + 1, "region numbers have gaps");
+        expect(region.id.index() == index, "region numbers have gaps");
         expect(reported == counts[index + 1], "the report counts other pixels than the map holds");
         expect(region.matte_pixels + region.highlight_pixels == region.pixels, "matte + highlight ≠ pixels");
         expect(index == 0 || regions[index - 1].pixels >= region.pixels, "regions are not sorted by size");
@@ -127,8 +127,8 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
         expect((0.0..=1.0).contains(&region.confidence), "a region's confidence is no share");
         expect(region.texture.is_finite(), "a texture is no number");
         expect(region.neighbors.is_sorted(), "neighbors are not sorted");
-        let mutual = |&other: &u16| {
-            regions.get(usize::from(other) - 1).is_some_and(|other| other.neighbors.contains(&region.id))
+        let mutual = |other: &RegionId| {
+            regions.get(other.index()).is_some_and(|other| other.neighbors.contains(&region.id))
         };
         expect(region.neighbors.iter().all(mutual), "a neighbor does not know its neighbor");
     }

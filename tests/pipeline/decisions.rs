@@ -9,6 +9,7 @@ use dichroscope::analysis::{Analysis, Session};
 use dichroscope::describe::{Names, trace_line};
 use dichroscope::params::{Params, Refine};
 use dichroscope::photo::LinearImage;
+use dichroscope::raster::PixelIndex;
 use dichroscope::segment::LightBasis;
 use dichroscope::trace::{
     Event, HistoryKind, Kind, LocalFate, PixelKind, RejectReason, RepairVerdict, Replay, Stage, Step, Trace,
@@ -52,7 +53,8 @@ impl Traced {
     }
 
     fn history(&self, pixel: usize) -> Vec<HistoryKind> {
-        let history = pixel_history(&self.trace, &self.image, &self.analysis.masks, pixel);
+        let history =
+            pixel_history(&self.trace, &self.image, &self.analysis.masks, PixelIndex::from_index(pixel));
         history.into_iter().map(|happening| happening.what).collect()
     }
 
@@ -103,7 +105,7 @@ fn every_highlight_found_locally_is_of_a_blob_that_was_kept_or_filled() {
         match decision {
             Event::BlobJudged(judged) => {
                 let pixels = record.blob(judged.blob);
-                assert_eq!((pixels.len(), pixels[0]), (judged.pixels as usize, judged.pixel));
+                assert_eq!((pixels.len(), pixels[0]), (judged.pixels as usize, judged.pixel.get()));
                 assert_eq!(judged.kept, judged.core > 0 || judged.clipped > 0, "{judged:?}");
                 assert!(judged.core <= judged.calm && judged.calm <= judged.strong, "{judged:?}");
                 if judged.kept {

@@ -5,7 +5,7 @@ use dichroscope::analysis::{Analysis, Session};
 use dichroscope::describe::{Names, condense, trace_line};
 use dichroscope::params::{Method, Params, Setting};
 use dichroscope::photo::LinearImage;
-use dichroscope::raster::UNASSIGNED;
+use dichroscope::raster::{HypothesisId, PixelIndex, RegionId};
 use dichroscope::reflection::{SliceBound, SliceMiss};
 use dichroscope::trace::{
     Barrier, Birth, Event, GrowthBegan, HistoryEntry, HistoryKind, JoinedHow, Pass, PixelKind, Reach, Replay,
@@ -28,7 +28,7 @@ impl Traced {
     }
 
     fn history(&self, pixel: usize) -> Vec<HistoryEntry> {
-        pixel_history(&self.trace, &self.image, &self.analysis.masks, pixel)
+        pixel_history(&self.trace, &self.image, &self.analysis.masks, PixelIndex::from_index(pixel))
     }
 
     /// The pixels whose histories are tested: spread over the picture, and on the borders of regions.
@@ -58,16 +58,17 @@ fn random_params() -> impl Strategy<Value = Params> {
 }
 
 /// The owner of the pixel after a history entry; `None` when the entry does not change the owner.
-fn owner_after(what: &HistoryKind) -> Option<u16> {
+#[allow(clippy::option_option, reason = "no owner is an owner too")]
+fn owner_after(what: &HistoryKind) -> Option<Option<HypothesisId>> {
     match *what {
-        HistoryKind::Seeded { region, .. }
-        | HistoryKind::Claimed { region, .. }
-        | HistoryKind::Voted { region, .. }
-        | HistoryKind::Filled { region, .. } => Some(region),
-        HistoryKind::Released { .. } => Some(UNASSIGNED),
-        HistoryKind::Merged { into, .. } => Some(into),
+        HistoryKind::Seeded { hypothesis, .. }
+        | HistoryKind::Claimed { hypothesis, .. }
+        | HistoryKind::Voted { hypothesis, .. }
+        | HistoryKind::Filled { hypothesis, .. } => Some(Some(hypothesis)),
+        HistoryKind::Released { .. } => Some(None),
+        HistoryKind::Merged { into, .. } => Some(Some(into)),
         HistoryKind::Reset { to, .. } => Some(to),
-        HistoryKind::Separated { part, .. } => Some(part),
+        HistoryKind::Separated { part, .. } => Some(Some(part)),
         _ => None,
     }
 }
@@ -82,22 +83,23 @@ proptest! {
         let mut claims = vec![Vec::new(); traced.image.pixels.len()];
         for (n, step) in traced.trace.steps() {
             if let Step::Claim { pixel, after, .. } = step {
-                claims[pixel as usize].push((n, after));
+                claims[pixel.index()].push((n, after));
             }
         }
         for pixel in pixels {
             let history = traced.history(pixel);
             prop_assert!(history.is_sorted_by_key(|happening| happening.step));
-            let told: Vec<(usize, u16)> =
+            let told: Vec<(usize, Option<HypothesisId>)> =
                 history.iter().filter_map(|h| Some((h.step, owner_after(&h.what)?))).collect();
             prop_assert_eq!(&told, &claims[pixel], "pixel {}", pixel);
             let split = history.iter().find_map(|h| match &h.what {
-                HistoryKind::Split(story) => Some((story.number, story.kind)),
+                HistoryKind::Split(story) => Some((story.region, story.kind)),
                 _ => None,
             });
             let label = traced.analysis.finals.labels[pixel];
             let kind = traced.analysis.intrinsic.kinds[pixel];
-            prop_assert_eq!(split, (label != UNASSIGNED).then_some((label, kind)), "pixel {}", pixel);
+            let expected = RegionId::from_label(label).map(|region| (region, kind));
+            prop_assert_eq!(split, expected, "pixel {}", pixel);
         }
     }
 
@@ -153,7 +155,7 @@ proptest! {
         let mut replay = Replay::new(Arc::clone(&traced.trace));
         let events: Vec<(usize, &Event)> = traced.trace.events().collect();
         for (index, &(step, event)) in events.iter().enumerate() {
-            let Event::GrowthBegan(GrowthBegan { region, .. }) = *event else { continue };
+            let Event::GrowthBegan(GrowthBegan { hypothesis, .. }) = *event else { continue };
             if traced.trace.pass_at(step).map(|span| span.pass) == Some(Pass::Brightness) {
                 continue;
             }
@@ -163,23 +165,23 @@ proptest! {
             for (&pixel, history) in pixels.iter().zip(&histories) {
                 let labels = replay.labels();
                 let mut beside = false;
-                labels.for_each_neighbor(pixel, |near| beside |= labels[near] == region);
-                if !beside || labels[pixel] == region {
+                labels.for_each_neighbor(pixel, |near| beside |= labels[near] == hypothesis.get());
+                if !beside || labels[pixel] == hypothesis.get() {
                     continue;
                 }
                 let stage = traced.trace.stage_at(step);
                 let told = history.iter().any(|happening| {
                     let here = (step..end).contains(&happening.step);
                     match &happening.what {
-                        HistoryKind::Refused { region: by, .. } => here && *by == region,
-                        HistoryKind::Kept { challenger, .. } => here && *challenger == region,
-                        HistoryKind::Unclaimable { regions } => {
-                            Some(happening.stage) == stage && regions.contains(&region)
+                        HistoryKind::Refused { hypothesis: by, .. } => here && *by == hypothesis,
+                        HistoryKind::Kept { challenger, .. } => here && *challenger == hypothesis,
+                        HistoryKind::Unclaimable { hypotheses } => {
+                            Some(happening.stage) == stage && hypotheses.contains(&hypothesis)
                         }
                         _ => false,
                     }
                 });
-                prop_assert!(told, "pixel {}, hypothesis {} at {}: {:#?}", pixel, region, step, history);
+                prop_assert!(told, "pixel {}, hypothesis {} at {}: {:#?}", pixel, hypothesis, step, history);
             }
         }
     }
@@ -207,23 +209,26 @@ proptest! {
     #[test]
     fn a_region_descends_from_every_hypothesis_that_joined_it(seed in any::<u64>(), params in random_params()) {
         let traced = Traced::new(seed, &params);
-        for number in 1..=traced.analysis.intrinsic.regions.len() as u16 {
-            let ancestors = lineage(&traced.trace, number);
+        let regions = traced.analysis.intrinsic.regions.len();
+        for region in RegionId::all(regions) {
+            let ancestors = lineage(&traced.trace, region);
             prop_assert_eq!((ancestors[0].depth, ancestors[0].joined), (0, None));
             for ancestor in &ancestors {
-                let told = story(&traced.trace, ancestor.region).unwrap();
+                let told = story(&traced.trace, ancestor.hypothesis).unwrap();
                 prop_assert_eq!(told.chosen.is_some(), matches!(ancestor.birth, Birth::Area { .. }));
                 let Some(joined) = ancestor.joined else {
-                    prop_assert!(told.end.is_none() && told.number == Some(number));
+                    prop_assert!(told.end.is_none() && told.region == Some(region));
                     continue;
                 };
-                prop_assert!(ancestors.iter().any(|other| other.region == joined.to));
+                prop_assert!(ancestors.iter().any(|other| other.hypothesis == joined.to));
                 if joined.how != JoinedHow::Whole {
                     prop_assert_eq!(told.end.map(|(step, _)| step), Some(joined.step));
                 }
             }
         }
-        prop_assert!(lineage(&traced.trace, 0).is_empty() && story(&traced.trace, 0).is_none());
+        let last = HypothesisId::from_index(HypothesisId::MOST);
+        prop_assert!(lineage(&traced.trace, RegionId::from_index(regions)).is_empty());
+        prop_assert!(story(&traced.trace, last).is_none());
     }
 }
 

@@ -4,7 +4,7 @@ use crate::common::{analyze, fingerprint};
 use crate::synthetic::Scene;
 use dichroscope::analysis::{Analysis, Observer, Session};
 use dichroscope::params::{Method, Params, Setting};
-use dichroscope::raster::UNASSIGNED;
+use dichroscope::raster::{HypothesisId, RegionId};
 use dichroscope::trace::{Class, Event, PassBegan, PixelKind, Replay, Stage, StageBegan, Trace};
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -42,14 +42,14 @@ proptest! {
         let (analysis, trace) = traced(seed, &params);
         let mut replay = Replay::new(Arc::clone(&trace));
         replay.seek(trace.len());
-        let finals = replay.labels().map(|&label| match label {
-            UNASSIGNED => UNASSIGNED,
-            region => replay.final_number(region).unwrap(),
+        let finals = replay.labels().map(|&label| {
+            RegionId::label(HypothesisId::from_label(label).and_then(|hypothesis| replay.region_of(hypothesis)))
         });
         prop_assert!(finals == analysis.finals.labels, "regions differ");
-        for (region, pixels) in (1..).zip(replay.hypotheses()).map(|(id, _)| (id, replay.size(id))) {
-            let held = replay.labels().as_slice().iter().filter(|&&label| label == region).count();
-            prop_assert_eq!(pixels as usize, held, "size of region {}", region);
+        for (hypothesis, _) in replay.numbered_hypotheses() {
+            let pixels = replay.size(hypothesis);
+            let held = replay.labels().as_slice().iter().filter(|&&label| label == hypothesis.get()).count();
+            prop_assert_eq!(pixels as usize, held, "size of hypothesis {}", hypothesis);
         }
         let kinds: Vec<PixelKind> = (0..finals.len()).map(|pixel| replay.kind(pixel)).collect();
         prop_assert!(kinds == analysis.intrinsic.kinds.as_slice(), "kinds differ");
@@ -71,7 +71,7 @@ proptest! {
 
         replay.seek(trace.steps_of(Stage::Linear).end);
         prop_assert!(*replay.labels() == analysis.matte.labels, "matte regions differ");
-        for (id, hypothesis) in (1..).zip(&analysis.matte.hypotheses) {
+        for (id, hypothesis) in HypothesisId::all(analysis.matte.hypotheses.len()).zip(&analysis.matte.hypotheses) {
             prop_assert_eq!(replay.hypothesis(id).unwrap().line(), Some(&hypothesis.line));
             prop_assert_eq!(replay.hypothesis(id).unwrap().end().is_none(), hypothesis.alive);
         }

@@ -15,7 +15,7 @@ mod tests;
 
 use super::{Analysis, Cancelled, Observer, Session};
 use crate::params::{Parameter, Params, Setting};
-use crate::raster::{LabelMap, UNASSIGNED};
+use crate::raster::{LabelMap, PixelIndex, RegionId, UNASSIGNED};
 use crate::trace::{PixelKind, pixel_history};
 use guess::{Guess, guesses};
 use ladder::Ladder;
@@ -38,7 +38,7 @@ pub enum Home {
     /// In no region.
     Nowhere,
     /// In what overlaps this region of the unchanged result most.
-    Region(u16),
+    Region(RegionId),
     /// In a region where the unchanged result has none.
     New,
 }
@@ -100,21 +100,19 @@ impl WhatIfObserver for () {}
 pub fn what_if(
     session: &mut Session,
     params: &Params,
-    pixel: usize,
+    pixel: PixelIndex,
     observer: &mut impl WhatIfObserver,
 ) -> Result<Vec<WhatIf>, Cancelled> {
-    if pixel >= session.image.pixels.len() {
+    if pixel.index() >= session.image.pixels.len() {
         return Ok(Vec::new());
     }
     let (analysis, trace) = session.run_traced(params, &mut Quiet(observer))?;
     let history = pixel_history(&trace, &session.image, &analysis.masks, pixel);
+    let pixel = pixel.index();
     let guesses = guesses(&history, params, &analysis.used);
     let movable = movable(params, &analysis, pixel);
     let before = Fate {
-        home: match analysis.finals.labels[pixel] {
-            UNASSIGNED => Home::Nowhere,
-            region => Home::Region(region),
-        },
+        home: RegionId::from_label(analysis.finals.labels[pixel]).map_or(Home::Nowhere, Home::Region),
         kind: analysis.intrinsic.kinds[pixel],
     };
     let mut search = Search { session, params, pixel, unchanged: analysis, before };
@@ -254,13 +252,15 @@ fn home(before: &LabelMap, after: &LabelMap, pixel: usize) -> Home {
     if own == UNASSIGNED {
         return Home::Nowhere;
     }
-    let mut overlap: BTreeMap<u16, usize> = BTreeMap::new();
+    let mut overlap: BTreeMap<RegionId, usize> = BTreeMap::new();
     for (&old, &new) in before.as_slice().iter().zip(after.as_slice()) {
-        if new == own && old != UNASSIGNED {
+        if new == own
+            && let Some(old) = RegionId::from_label(old)
+        {
             *overlap.entry(old).or_default() += 1;
         }
     }
-    let most = overlap.into_iter().max_by_key(|&(region, pixels)| (pixels, u16::MAX - region));
+    let most = overlap.into_iter().max_by_key(|&(region, pixels)| (pixels, Reverse(region)));
     most.map_or(Home::New, |(region, _)| Home::Region(region))
 }
 

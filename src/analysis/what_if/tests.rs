@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::photo::LinearImage;
-use crate::raster::Raster;
+use crate::raster::{PixelIndex, Raster, RegionId};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -46,7 +46,7 @@ fn params() -> Params {
 }
 
 fn found(pixel: usize) -> Vec<WhatIf> {
-    what_if(&mut Session::new(Arc::new(image())), &params(), pixel, &mut ()).unwrap()
+    what_if(&mut Session::new(Arc::new(image())), &params(), PixelIndex::from_index(pixel), &mut ()).unwrap()
 }
 
 /// The fate at a value, in a session of its own.
@@ -85,7 +85,7 @@ fn a_pixel_off_its_line_joins_when_the_cylinder_is_wide_enough() {
         .unwrap();
     assert!(wider.predicted, "its distance was recorded: {wider:?}");
     let own = analysis.finals.labels[pixel + 5];
-    assert_eq!(wider.after.home, Home::Region(own));
+    assert_eq!(wider.after.home, Home::Region(RegionId::from_label(own).unwrap()));
     // √2 · 9 counts across, σ0 2.
     assert!((wider.at - 9.0 * 2f64.sqrt() / 2.0).abs() < 0.6, "{wider:?}");
 }
@@ -113,7 +113,10 @@ fn of_a_dark_pixel_only_darkness_is_asked() {
     assert!(found.iter().all(|what_if| what_if.parameter == Parameter::MinIntensity), "{found:?}");
     assert_eq!(super::tests::found(WIDTH * HEIGHT), [], "outside the picture");
     let empty = Arc::new(LinearImage::new(Raster::filled(0, 0, [0.0; 3]), None));
-    assert_eq!(what_if(&mut Session::new(empty), &Params::default(), 0, &mut ()), Ok(Vec::new()));
+    assert_eq!(
+        what_if(&mut Session::new(empty), &Params::default(), PixelIndex::new(0), &mut ()),
+        Ok(Vec::new())
+    );
 }
 
 /// Says stop at the `n`-th question.
@@ -138,7 +141,7 @@ fn a_search_tells_how_far_it_is_and_can_be_cancelled() {
     let run = |patience| {
         let mut observer = Impatient { questions: AtomicUsize::new(0), patience, progress: Vec::new() };
         let mut session = Session::new(Arc::new(image()));
-        let result = what_if(&mut session, &params(), odd_one(), &mut observer);
+        let result = what_if(&mut session, &params(), PixelIndex::from_index(odd_one()), &mut observer);
         (result, observer.progress)
     };
     let (result, progress) = run(usize::MAX);

@@ -1,6 +1,6 @@
 //! The corresponding place in another trace, to which the cursor moves when a parameter has changed.
 
-use crate::raster::LabelMap;
+use crate::raster::{HypothesisId, LabelMap, RegionId};
 use crate::trace::{Block, Event, Kind, Replay, Stage, Topic, Trace};
 use crate::view::RegionNames;
 use std::mem::discriminant;
@@ -17,8 +17,8 @@ pub struct Anchor {
 #[derive(Clone, Debug, PartialEq)]
 struct BlockAnchor {
     topic: Topic,
-    /// Final number of the region; 0: it became none.
-    final_number: u16,
+    /// The region that the hypothesis became part of; none: nothing is left of the hypothesis.
+    region: Option<RegionId>,
     /// The area that the hypothesis started from.
     area: Option<u32>,
     /// Number of earlier blocks about the same region.
@@ -37,12 +37,12 @@ impl Anchor {
         let share =
             |steps: &std::ops::Range<usize>| (last + 1 - steps.start) as f64 / steps.len().max(1) as f64;
         let block = trace.block_at(last).map(|block| {
-            let region = block.topic.region();
+            let hypothesis = block.topic.hypothesis();
             let turn = trace.blocks().filter(|b| b.topic == block.topic && b.steps.start < block.steps.start);
             BlockAnchor {
                 topic: block.topic,
-                final_number: names.final_number(region),
-                area: replay.hypothesis(region).and_then(|hypothesis| hypothesis.area),
+                region: names.region_of(hypothesis),
+                area: replay.hypothesis(hypothesis).and_then(|hypothesis| hypothesis.area),
                 turn: turn.count(),
                 share: share(&block.steps),
                 decision: trace.event(last).map(|event| {
@@ -53,9 +53,9 @@ impl Anchor {
         Some(Self { stage, share: share(&trace.steps_of(stage)), block })
     }
 
-    /// The corresponding number of steps in another trace. `best_overlaps` gives for each final number of the first trace the one
-    /// that covers most of its pixels.
-    pub fn find(&self, trace: &Trace, names: &RegionNames, best_overlaps: &[u16]) -> usize {
+    /// The corresponding number of steps in another trace. `best_overlaps` gives for each label of the first result the region of
+    /// the other that covers most of its pixels.
+    pub fn find(&self, trace: &Trace, names: &RegionNames, best_overlaps: &[Option<RegionId>]) -> usize {
         let steps = trace.steps_of(self.stage);
         let found = self.block.as_ref().and_then(|block| block.find(trace, names, best_overlaps));
         found.unwrap_or_else(|| steps.start + (self.share * steps.len() as f64).round() as usize)
@@ -63,23 +63,22 @@ impl Anchor {
 }
 
 impl BlockAnchor {
-    fn find(&self, trace: &Trace, names: &RegionNames, best_overlaps: &[u16]) -> Option<usize> {
-        let blocks = |region: u16| {
+    fn find(&self, trace: &Trace, names: &RegionNames, best_overlaps: &[Option<RegionId>]) -> Option<usize> {
+        let blocks = |hypothesis: HypothesisId| {
             let alike = |block: &Block| discriminant(&block.topic) == discriminant(&self.topic);
-            trace.blocks().filter(move |block| alike(block) && block.topic.region() == region)
+            trace.blocks().filter(move |block| alike(block) && block.topic.hypothesis() == hypothesis)
         };
+        // None where the hypothesis became no region.
         let best_overlap =
-            best_overlaps.get(usize::from(self.final_number)).copied().filter(|_| self.final_number != 0);
+            self.region.and_then(|region| best_overlaps.get(usize::from(region.get())).copied());
         // The hypothesis from the same area, if it became the same region; otherwise any that did.
         let from_area = self.area.and_then(|area| born_of(trace, area));
-        let from_area = from_area.filter(|&region| {
-            best_overlap.is_none_or(|best_overlap| names.final_number(region) == best_overlap)
-        });
-        let region = from_area.filter(|&region| blocks(region).next().is_some()).or_else(|| {
-            let best_overlap = best_overlap.filter(|&best_overlap| best_overlap != 0)?;
-            names.births_of(best_overlap).find(|&region| blocks(region).next().is_some())
+        let from_area = from_area
+            .filter(|&id| best_overlap.is_none_or(|best_overlap| names.region_of(id) == best_overlap));
+        let hypothesis = from_area.filter(|&id| blocks(id).next().is_some()).or_else(|| {
+            names.hypotheses_of(best_overlap.flatten()?).find(|&id| blocks(id).next().is_some())
         })?;
-        let block = blocks(region).nth(self.turn).or_else(|| blocks(region).next_back())?;
+        let block = blocks(hypothesis).nth(self.turn).or_else(|| blocks(hypothesis).next_back())?;
         Some(self.place_in(trace, &block))
     }
 
@@ -95,10 +94,10 @@ impl BlockAnchor {
     }
 }
 
-/// The region that started from an area of the picture's own grid.
-fn born_of(trace: &Trace, area: u32) -> Option<u16> {
+/// The hypothesis that started from an area of the picture's own grid.
+fn born_of(trace: &Trace, area: u32) -> Option<HypothesisId> {
     trace.events().find_map(|(_, event)| match event {
-        Event::HypothesisChosen(chosen) if chosen.area == area => Some(chosen.region),
+        Event::HypothesisChosen(chosen) if chosen.area == area => Some(chosen.hypothesis),
         _ => None,
     })
 }
@@ -108,8 +107,8 @@ fn events_of(trace: &Trace, steps: std::ops::Range<usize>, kind: Kind) -> impl I
     trace.events().filter(move |(n, event)| steps.contains(n) && event.kind() == kind).map(|(n, _)| n)
 }
 
-/// For each final number of the earlier result the one of the later that covers most of its pixels.
-pub fn best_overlaps(before: &LabelMap, after: &LabelMap) -> Vec<u16> {
+/// For each label of the earlier result the region of the later result that covers most of its pixels.
+pub fn best_overlaps(before: &LabelMap, after: &LabelMap) -> Vec<Option<RegionId>> {
     if (before.width(), before.height()) != (after.width(), after.height()) {
         return Vec::new();
     }

@@ -1,6 +1,7 @@
 //! Breakpoints: conditions that stop the cursor.
 
 use super::Direction;
+use crate::raster::{HypothesisId, PixelIndex};
 use crate::trace::{
     CandidateVerdict, Class, Event, HypothesisPassedOver, PassedOver, Replay, Step, WindowClassified,
 };
@@ -19,11 +20,12 @@ pub struct Breakpoint {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Condition {
     /// A pixel gets another region.
-    PixelChangesOwner(u32),
-    /// A region, by its number of birth, or any, grows beyond so many pixels.
+    PixelChangesOwner(PixelIndex),
+    /// A hypothesis, or any, grows beyond so many pixels.
     RegionExceeds {
-        /// The region; none: any.
-        region: Option<u16>,
+        /// The hypothesis; none: any.
+        #[serde(rename = "region")]
+        hypothesis: Option<HypothesisId>,
         /// The pixels.
         pixels: u32,
     },
@@ -33,8 +35,8 @@ pub enum Condition {
     CandidateFails(CandidateCheck),
     /// A window is of this class.
     ClassIs(SavedClass),
-    /// Two regions, by their numbers of birth, want the same pixel; none: any region.
-    Conflict(Option<u16>, Option<u16>),
+    /// Two hypotheses want the same pixel; none: any hypothesis.
+    Conflict(Option<HypothesisId>, Option<HypothesisId>),
 }
 
 /// A test of a highlight candidate.
@@ -139,14 +141,12 @@ pub fn hit(replay: &Replay, goal: usize, breakpoints: &[Breakpoint]) -> Option<(
 }
 
 impl Condition {
-    /// Whether the condition holds right after a step, at which regions have `size` pixels.
-    fn holds(self, step: &Step, size: impl Fn(u16) -> i64) -> bool {
+    /// Whether the condition holds right after a step, at which hypotheses have `size` pixels.
+    fn holds(self, step: &Step, size: impl Fn(HypothesisId) -> i64) -> bool {
         match (self, step) {
             (Self::PixelChangesOwner(wanted), Step::Claim { pixel, .. }) => *pixel == wanted,
-            (Self::RegionExceeds { region, pixels }, Step::Claim { after, .. }) => {
-                *after != 0
-                    && region.is_none_or(|wanted| wanted == *after)
-                    && size(*after) == i64::from(pixels) + 1
+            (Self::RegionExceeds { hypothesis, pixels }, Step::Claim { after: Some(after), .. }) => {
+                hypothesis.is_none_or(|wanted| wanted == *after) && size(*after) == i64::from(pixels) + 1
             }
             (Self::HypothesisRejected, Step::Event(event)) => rejects(event),
             (Self::CandidateFails(check), Step::Event(Event::CandidateTested(test))) => {
@@ -159,9 +159,9 @@ impl Condition {
             (
                 Self::Conflict(one, other),
                 Step::Refusal { holder: a, challenger: b, .. }
-                | Step::Claim { before: a, after: b, contest: Some(_), .. },
+                | Step::Claim { before: Some(a), after: Some(b), contest: Some(_), .. },
             ) => {
-                let is = |wanted: Option<u16>, found: u16| wanted.is_none_or(|wanted| wanted == found);
+                let is = |wanted: Option<HypothesisId>, found| wanted.is_none_or(|wanted| wanted == found);
                 (is(one, *a) && is(other, *b)) || (is(one, *b) && is(other, *a))
             }
             _ => false,
@@ -177,25 +177,28 @@ fn rejects(event: &Event) -> bool {
     }
 }
 
-/// Sizes of regions at later steps, computed without moving the cursor.
+/// Sizes of hypotheses at later steps, computed without moving the cursor.
 struct Sizes<'a> {
     replay: &'a Replay,
+    /// Pixels gained since the cursor, by [`HypothesisId::index`].
     gained: Vec<i64>,
 }
 
 impl Sizes<'_> {
-    fn of(&self, region: u16) -> i64 {
-        i64::from(self.replay.size(region)) + self.gained.get(usize::from(region)).copied().unwrap_or(0)
+    fn of(&self, hypothesis: HypothesisId) -> i64 {
+        let gained = self.gained.get(hypothesis.index()).copied().unwrap_or(0);
+        i64::from(self.replay.size(hypothesis)) + gained
     }
 
     fn take(&mut self, step: &Step, direction: Direction) {
         let Step::Claim { before, after, .. } = step else { return };
-        let most = usize::from(*before.max(after));
-        if self.gained.len() <= most {
-            self.gained.resize(most + 1, 0);
-        }
         let gain = if direction == Direction::Forward { 1 } else { -1 };
-        self.gained[usize::from(*before)] -= gain;
-        self.gained[usize::from(*after)] += gain;
+        for (hypothesis, gain) in [(before, -gain), (after, gain)] {
+            let Some(index) = hypothesis.map(HypothesisId::index) else { continue };
+            if self.gained.len() <= index {
+                self.gained.resize(index + 1, 0);
+            }
+            self.gained[index] += gain;
+        }
     }
 }

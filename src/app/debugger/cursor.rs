@@ -1,6 +1,7 @@
 //! Targets of the cursor's moves.
 
-use crate::trace::{Event, Kind, Stage, Step, Trace, WindowClassified, region_id};
+use crate::raster::{HypothesisId, PixelIndex};
+use crate::trace::{Event, Kind, Stage, Step, Trace, WindowClassified, region_of};
 use serde::{Deserialize, Serialize};
 
 /// A direction in the trace.
@@ -54,9 +55,9 @@ pub enum Goal {
     /// A step of this kind.
     Kind(Kind),
     /// A step about this pixel.
-    Pixel(u32),
-    /// A step about this region, by its number of birth.
-    Region(u16),
+    Pixel(PixelIndex),
+    /// A step about this hypothesis, or the region that the hypothesis became.
+    Hypothesis(HypothesisId),
     /// The next breakpoint.
     Breakpoint,
     /// After this many steps, or a breakpoint on the way.
@@ -128,13 +129,13 @@ pub fn found(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Opti
         _ => Vec::new(),
     };
     let region = match goal {
-        Goal::Region(hypothesis) => region_id(trace, hypothesis),
+        Goal::Hypothesis(hypothesis) => region_of(trace, hypothesis),
         _ => None,
     };
     let meant = |n: usize, step: &Step| match goal {
         Goal::Kind(kind) => step.kind() == kind,
         Goal::Pixel(pixel) => step.pixel() == Some(pixel) || windows.binary_search(&n).is_ok(),
-        Goal::Region(hypothesis) => step.concerns(hypothesis, region),
+        Goal::Hypothesis(hypothesis) => step.concerns(hypothesis, region),
         Goal::Breakpoint | Goal::Place(_) => false,
     };
     match direction {
@@ -144,11 +145,11 @@ pub fn found(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Opti
 }
 
 /// The steps at which windows and blobs that hold a pixel were judged, ascending.
-fn concerning(trace: &Trace, pixel: u32) -> Vec<usize> {
-    let (x, y) = (pixel as usize % trace.width().max(1), pixel as usize / trace.width().max(1));
+fn concerning(trace: &Trace, pixel: PixelIndex) -> Vec<usize> {
+    let [x, y] = pixel.position(trace.width());
     let mut holding = None;
     let local = trace.stage_trace(Stage::Split).and_then(|stage_trace| stage_trace.local());
-    let own_blob = local.and_then(|local| local.point(pixel as usize)).map(|point| point.blob);
+    let own_blob = local.and_then(|local| local.point(pixel.index())).map(|point| point.blob);
     let mut found = Vec::new();
     for (n, event) in trace.events() {
         match event {

@@ -1,6 +1,6 @@
 use crate::app::{Application, Command, DebugCommand, Executor, JobCommand};
 use crate::photo::Masks;
-use crate::raster::Raster;
+use crate::raster::{HypothesisId, Raster};
 use crate::trace::Replay;
 use crate::trace::{CandidateSource, MergeTried, Trace, WindowClassified};
 use crate::trace::{Event, Stage, Step, Topic};
@@ -79,8 +79,8 @@ fn after_the_linear_stage_the_instant_is_the_linear_layer() {
     let painted = paint_instant(&view, width, height, &look);
     let mut compared = 0;
     for (pixel, (now, then)) in painted.as_slice().iter().zip(layer.as_slice()).enumerate() {
-        let birth = shown.linear_labels()[pixel];
-        if birth != 0 && application.state().debugger.names.final_number(birth) != 0 {
+        let hypothesis = HypothesisId::from_label(shown.linear_labels()[pixel]);
+        if hypothesis.and_then(|id| application.state().debugger.names.region_of(id)).is_some() {
             assert_eq!(now, then, "pixel {pixel}");
             compared += 1;
         }
@@ -141,21 +141,21 @@ fn what_a_region_took_lies_inside_and_what_it_left_outside_or_elsewhere() {
         seek(&mut application, block.steps.start + block.steps.len() * 3 / 5);
         let replay = application.state().followed().unwrap();
         let tracks = tracks(replay, colors(&application), masks(&application)).unwrap();
-        let region = block.topic.region();
-        assert_eq!(tracks.region, region);
-        let held = |pixel: &u32| replay.labels()[*pixel as usize] == region;
+        let hypothesis = block.topic.hypothesis();
+        assert_eq!(tracks.hypothesis, hypothesis);
+        let held = |pixel: &u32| replay.labels()[*pixel as usize] == hypothesis.get();
         assert!(tracks.claimed.iter().chain(&tracks.newest).all(held));
         assert!(!tracks.outside.iter().chain(&tracks.kept_out).any(held));
-        if let (Topic::Hypothesis(_), Some(hypothesis)) = (block.topic, replay.hypothesis(region)) {
+        if let (Topic::Hypothesis(_), Some(known)) = (block.topic, replay.hypothesis(hypothesis)) {
             let away = |pixel: u32| {
                 let color = crate::color::vec3(colors(&application)[pixel as usize]);
-                hypothesis.line().unwrap().distance(&color)
+                known.line().unwrap().distance(&color)
             };
-            assert!(tracks.outside.iter().all(|&pixel| away(pixel) > hypothesis.radius - 1e-3));
+            assert!(tracks.outside.iter().all(|&pixel| away(pixel) > known.radius - 1e-3));
         }
         outside += tracks.outside.len();
         let shown = regions(instant(&application));
-        assert_eq!((shown.focus, shown.newest.len()), (Some(region), tracks.newest.len()));
+        assert_eq!((shown.focus, shown.newest.len()), (Some(hypothesis), tracks.newest.len()));
     }
     assert!(outside > 0);
 }
@@ -196,7 +196,7 @@ fn a_test_looks_at_both_clusters_and_at_what_it_ignores() {
     seek(&mut application, n);
     let replay = application.state().followed().unwrap();
     let test = test_at_cursor(replay).unwrap();
-    let own = pixels_of_region(replay, test.region);
+    let own = pixels_of_region(replay, test.hypothesis);
     let (measured, ignored) = measured_and_ignored(test, &own, colors(&application));
     assert_eq!(measured.len() + ignored.len(), own.len());
     let along =
@@ -220,20 +220,21 @@ fn a_test_looks_at_both_clusters_and_at_what_it_ignores() {
 fn rows_tell_what_became_of_each_hypothesis_by_now() {
     let mut application = application();
     let trace = trace(&application);
-    let block = trace.blocks().find(|block| block.topic == Topic::Hypothesis(2)).unwrap();
+    let block =
+        trace.blocks().find(|block| block.topic == Topic::Hypothesis(HypothesisId::from_index(1))).unwrap();
     seek(&mut application, block.steps.end - 1);
     let (state, replay) = (application.state(), application.state().followed().unwrap());
     let rows = hypothesis_rows(replay, &state.debugger.names);
-    assert_eq!(rows.iter().map(|row| row.region).collect::<Vec<_>>(), [1, 2]);
+    assert_eq!(rows.iter().map(|row| row.hypothesis.get()).collect::<Vec<_>>(), [1, 2]);
     assert_eq!(rows[1].status, Status::AtWork);
-    assert_eq!(rows[1].pixels, replay.size(2));
+    assert_eq!(rows[1].pixels, replay.size(HypothesisId::from_index(1)));
     let length: f64 = rows[0].direction.unwrap().iter().map(|v| v * v).sum();
     assert!((length - 1.0).abs() < 1e-9 && rows[0].radius > 0.0);
     let words = [
         (Status::AtWork, "at work"),
         (Status::Stands, "stands"),
-        (Status::Absorbed(3), "absorbed by 3"),
-        (Status::Merged(4), "merged into 4"),
+        (Status::Absorbed(HypothesisId::from_index(2)), "absorbed by 3"),
+        (Status::Merged(HypothesisId::from_index(3)), "merged into 4"),
         (Status::Barren, "barren"),
         (Status::Dropped, "dropped"),
     ];
@@ -245,7 +246,7 @@ fn rows_tell_what_became_of_each_hypothesis_by_now() {
     let (state, replay) = (application.state(), application.state().followed().unwrap());
     for row in hypothesis_rows(replay, &state.debugger.names) {
         let over = !matches!(row.status, Status::Stands | Status::AtWork);
-        assert!(over || row.final_number != 0, "what stands to the end has a number: {row:?}");
+        assert!(over || row.region.is_some(), "what stands to the end has a number: {row:?}");
     }
 }
 
@@ -255,7 +256,8 @@ fn the_place_is_told_in_a_few_words() {
     let trace = trace(&application);
     seek(&mut application, 0);
     assert_eq!(cursor_place(application.state().followed().unwrap()), "before the first step");
-    let block = trace.blocks().find(|block| block.topic == Topic::Hypothesis(2)).unwrap();
+    let block =
+        trace.blocks().find(|block| block.topic == Topic::Hypothesis(HypothesisId::from_index(1))).unwrap();
     seek(&mut application, block.steps.start + 1);
     assert_eq!(cursor_place(application.state().followed().unwrap()), "linear \u{b7} hypothesis 2");
     seek(&mut application, trace.steps_of(Stage::Merge).start + 1);

@@ -13,6 +13,7 @@ pub use breakpoint::{Breakpoint, CandidateCheck, Condition, SavedClass};
 pub use cursor::{Direction, Goal, Grain};
 pub(super) use reduce::{reduce, trace_arrived};
 
+use crate::raster::HypothesisId;
 use crate::segment::FinalRegions;
 use crate::trace::{Replay, Trace};
 use crate::view::RegionNames;
@@ -29,8 +30,8 @@ pub struct Debugger {
     pub names: Arc<RegionNames>,
     /// Number of the result whose trace it is.
     pub generation: u64,
-    /// The region that was chosen in a table, by its number of birth.
-    pub chosen: Option<u16>,
+    /// The hypothesis that was chosen in a table.
+    pub chosen: Option<HypothesisId>,
     /// The direction in which the cursor plays; none: it does not play.
     pub playing: Option<Direction>,
     /// The breakpoint that stopped the cursor last: its index in [`DebugSettings::breakpoints`].
@@ -69,11 +70,11 @@ impl Debugger {
         self.replay.as_ref().filter(|replay| replay.at() < replay.trace().len())
     }
 
-    /// The region of the step taken last, by its number of birth; the chosen one where that step concerns none.
-    pub fn focus(&self) -> Option<u16> {
+    /// The hypothesis of the step taken last; the chosen one where that step concerns none.
+    pub fn focus(&self) -> Option<HypothesisId> {
         let replay = self.replay.as_ref()?;
         let block = replay.at().checked_sub(1).and_then(|last| replay.trace().block_at(last));
-        block.map(|block| block.topic.region()).or(self.chosen)
+        block.map(|block| block.topic.hypothesis()).or(self.chosen)
     }
 }
 
@@ -125,8 +126,8 @@ pub enum DebugCommand {
     Play(Option<Direction>),
     /// Advance playing by this time, seconds.
     Tick(f64),
-    /// Choose a region, by its number of birth.
-    Choose(Option<u16>),
+    /// Choose a hypothesis.
+    Choose(Option<HypothesisId>),
     /// Find the first difference from the pinned result's trace, and move there.
     Compare,
 }

@@ -2,12 +2,16 @@ use super::cursor::stepped;
 use super::*;
 use crate::app::{Application, Command, Edit, Executor, JobCommand, State, ViewCommand};
 use crate::params::{Parameter, Setting};
+use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::trace::{Event, Kind, Stage, Step, Topic, WindowClassified};
 use crate::view::Origin;
 use crate::view::{Why, growth, rings, watch, why};
 use proptest::prelude::*;
 
 const TINY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
+
+/// A pixel outside of every picture.
+const OUTSIDE: PixelIndex = PixelIndex::new(u32::MAX);
 
 /// An application that does all work inline, with the tiny scene open and its decisions recorded.
 fn application() -> Application {
@@ -56,11 +60,13 @@ fn a_result_comes_with_its_trace_and_the_cursor_at_its_end() {
     assert!(Arc::ptr_eq(state.newest.as_ref().unwrap().trace().unwrap(), &trace(&application)));
     let finals = &state.newest.as_ref().unwrap().analysis.finals.labels;
     for (pixel, &label) in replay(state).labels().as_slice().iter().enumerate() {
-        assert_eq!(state.debugger.names.final_number(label), finals[pixel]);
+        let region = HypothesisId::from_label(label).and_then(|id| state.debugger.names.region_of(id));
+        assert_eq!(RegionId::label(region), finals[pixel]);
     }
     for (index, &color) in state.newest.as_ref().unwrap().region_colors.iter().enumerate() {
-        let birth = state.debugger.names.births_of(index as u16 + 1).next().unwrap();
-        assert_eq!(state.debugger.names.color(birth), color);
+        let region = RegionId::from_index(index);
+        let hypothesis = state.debugger.names.hypotheses_of(region).next().unwrap();
+        assert_eq!(state.debugger.names.color(hypothesis), color);
     }
 }
 
@@ -130,7 +136,7 @@ fn rings_are_what_one_more_step_from_the_region_reaches() {
     let trace = trace(&application);
     for first in trace.blocks().filter(|block| matches!(block.topic, Topic::Hypothesis(_) | Topic::Slice(_)))
     {
-        let region = first.topic.region();
+        let hypothesis = first.topic.hypothesis();
         let mut cursor = replay(application.state()).clone();
         let ends = rings(&mut cursor, &first);
         assert_eq!(cursor.at(), at(&application), "the cursor comes back");
@@ -142,11 +148,11 @@ fn rings_are_what_one_more_step_from_the_region_reaches() {
             let seeds = matches!(trace.event(from), Some(Event::SeedsPlaced(_)));
             for (n, step) in trace.steps_in(from..end) {
                 let Step::Claim { pixel, after, .. } = step else { continue };
-                if after != region || seeds {
+                if after != Some(hypothesis) || seeds {
                     continue;
                 }
                 let mut reached = false;
-                held.for_each_neighbor(pixel as usize, |near| reached |= held[near] == region);
+                held.for_each_neighbor(pixel.index(), |near| reached |= held[near] == hypothesis.get());
                 assert!(reached, "step {n} is not of the ring that ends at {end}");
             }
             from = end;
@@ -225,7 +231,8 @@ fn goals_are_found_in_both_directions() {
     );
 
     let labels = &application.state().newest.as_ref().unwrap().analysis.finals.labels;
-    let pixel = labels.as_slice().iter().position(|&label| label != 0).unwrap() as u32;
+    let pixel = labels.as_slice().iter().position(|&label| label != 0).unwrap();
+    let pixel = PixelIndex::from_index(pixel);
     let mut owners = Vec::new();
     loop {
         let n = run(&mut application, Goal::Pixel(pixel), Direction::Forward);
@@ -246,8 +253,8 @@ fn breakpoints_stop_playing_and_running_in_both_directions() {
     let mut application = application();
     let trace = trace(&application);
     let first = block(&trace, grows);
-    let region = first.topic.region();
-    let condition = Condition::RegionExceeds { region: Some(region), pixels: 40 };
+    let hypothesis = first.topic.hypothesis();
+    let condition = Condition::RegionExceeds { hypothesis: Some(hypothesis), pixels: 40 };
     settings(&mut application, |settings| {
         settings.breakpoints = vec![
             Breakpoint { enabled: false, condition: Condition::HypothesisRejected },
@@ -259,7 +266,7 @@ fn breakpoints_stop_playing_and_running_in_both_directions() {
     debug(&mut application, DebugCommand::Tick(0.2));
     let debugger = &application.state().debugger;
     assert_eq!((debugger.playing, debugger.stopped_by), (None, Some(1)));
-    assert_eq!(replay(application.state()).size(region), 41, "right after it has outgrown it");
+    assert_eq!(replay(application.state()).size(hypothesis), 41, "right after it has outgrown it");
     let stopped = at(&application);
     for (place, arrives) in [(stopped - 5, stopped - 5), (first.steps.end, stopped)] {
         debug(&mut application, DebugCommand::Seek(0));
@@ -282,10 +289,10 @@ fn each_condition_stops_where_it_holds() {
     let mut conditions: Vec<Condition> = all_classes.map(Condition::ClassIs).to_vec();
     conditions.extend(CandidateCheck::ALL.map(Condition::CandidateFails));
     conditions.extend([
-        Condition::PixelChangesOwner(700),
+        Condition::PixelChangesOwner(PixelIndex::new(700)),
         Condition::HypothesisRejected,
         Condition::Conflict(None, None),
-        Condition::RegionExceeds { region: None, pixels: 60 },
+        Condition::RegionExceeds { hypothesis: None, pixels: 60 },
     ]);
     let mut stopped = 0;
     for condition in conditions {
@@ -321,7 +328,7 @@ fn each_condition_stops_where_it_holds() {
                 (Condition::Conflict(..), Step::Refusal { .. } | Step::Claim { contest: Some(_), .. }) => {
                     true
                 }
-                (Condition::RegionExceeds { .. }, Step::Claim { after, .. }) => {
+                (Condition::RegionExceeds { .. }, Step::Claim { after: Some(after), .. }) => {
                     replay(application.state()).size(after) == 61
                 }
                 _ => false,
@@ -345,7 +352,7 @@ fn a_moved_slider_leaves_the_cursor_at_the_same_hypothesis() {
         let before = trace(&application);
         let start = block(&before, |topic| topic == wanted.topic).steps;
         debug(&mut application, DebugCommand::Seek(start.start + start.len() / 2));
-        let object = application.state().debugger.names.final_number(wanted.topic.region());
+        let object = application.state().debugger.names.region_of(wanted.topic.hypothesis());
         let labels = application.state().newest.as_ref().unwrap().analysis.finals.clone();
         application.apply(Edit::SetParameter(Parameter::CylinderWidth, Setting::Value(3.5), None));
         let state = application.state();
@@ -354,7 +361,8 @@ fn a_moved_slider_leaves_the_cursor_at_the_same_hypothesis() {
         assert_eq!(std::mem::discriminant(&now.topic), std::mem::discriminant(&wanted.topic));
         let best_overlaps =
             anchor::best_overlaps(&labels.labels, &state.newest.as_ref().unwrap().analysis.finals.labels);
-        assert_eq!(state.debugger.names.final_number(now.topic.region()), best_overlaps[usize::from(object)]);
+        let object = usize::from(RegionId::label(object));
+        assert_eq!(state.debugger.names.region_of(now.topic.hypothesis()), best_overlaps[object]);
     }
 }
 
@@ -392,18 +400,20 @@ fn what_is_watched_is_what_stands_at_the_cursor() {
     let first = block(&trace(&application), grows);
     debug(&mut application, DebugCommand::Seek(first.steps.end));
     let cursor = replay(application.state());
-    let pixel = cursor.labels().as_slice().iter().position(|&label| label == first.topic.region()).unwrap();
+    let hypothesis = first.topic.hypothesis();
+    let pixel = cursor.labels().as_slice().iter().position(|&label| label == hypothesis.get()).unwrap();
+    let pixel = PixelIndex::from_index(pixel);
     let names = &application.state().debugger.names;
-    let watched = watch(cursor, names, &picture.photo.image.pixels, Some(pixel as u32));
+    let watched = watch(cursor, names, &picture.photo.image.pixels, Some(pixel));
     assert_eq!(watched.stage, Some(Stage::Linear));
     assert_eq!(watched.regions, [1, 1]);
     let current = watched.current.unwrap();
-    assert_eq!((current.region, current.pixels), (first.topic.region(), cursor.size(first.topic.region())));
+    assert_eq!((current.hypothesis, current.pixels), (hypothesis, cursor.size(hypothesis)));
     let of_pixel = watched.pixel.unwrap();
-    assert_eq!(of_pixel.region, first.topic.region());
+    assert_eq!(of_pixel.hypothesis, Some(hypothesis));
     let [distance, radius] = of_pixel.distances[0].axis;
     assert!(distance <= radius, "a claimed pixel lies inside the cylinder");
-    assert_eq!(watch(cursor, names, &picture.photo.image.pixels, Some(u32::MAX)).pixel, None);
+    assert_eq!(watch(cursor, names, &picture.photo.image.pixels, Some(OUTSIDE)).pixel, None);
 }
 
 #[test]
@@ -413,8 +423,8 @@ fn the_growth_at_the_cursor_is_the_regions_and_its_surroundings_are_not() {
     debug(&mut application, DebugCommand::Seek(first.steps.end));
     let cursor = replay(application.state());
     let found = growth(cursor).unwrap();
-    assert_eq!(found.claimed.len(), cursor.size(found.region) as usize, "all of it has grown here");
-    assert!(found.around.iter().all(|&pixel| cursor.labels()[pixel as usize] != found.region));
+    assert_eq!(found.claimed.len(), cursor.size(found.hypothesis) as usize, "all of it has grown here");
+    assert!(found.around.iter().all(|&pixel| cursor.labels()[pixel as usize] != found.hypothesis.get()));
     debug(&mut application, DebugCommand::Seek(1));
     assert_eq!(growth(replay(application.state())), None);
 }
@@ -425,23 +435,27 @@ fn a_pixel_is_told_newest_first_with_its_hypothesis_and_its_region() {
     let (state, trace) = (application.state(), trace(&application));
     let shown = state.newest.as_ref().unwrap();
     let names = &state.debugger.names;
-    let pixel = shown.labels().as_slice().iter().position(|&label| label == 1).unwrap() as u32;
+    let pixel = shown.labels().as_slice().iter().position(|&label| label == 1).unwrap();
+    let pixel = PixelIndex::from_index(pixel);
     let told = why(shown, &trace, names, Some(pixel), None);
     let (about, history) = told.pixel.unwrap();
     assert_eq!(about, pixel);
     assert_eq!(history.first().map(|account| account.stage), Some(Stage::Split), "{history:?}");
     assert_eq!(history.last().map(|account| account.stage), Some(Stage::Masks), "{history:?}");
     assert!(history.is_sorted_by(|a, b| a.step >= b.step));
-    let (birth, story) = told.hypothesis.unwrap();
-    assert_eq!(names.final_number(birth), 1);
+    let (hypothesis, story) = told.hypothesis.unwrap();
+    assert_eq!(names.region_of(hypothesis), RegionId::from_label(1));
     assert!(matches!(trace.event(story[0].step), Some(Event::HypothesisChosen(_))));
-    let (number, made_of) = told.region.unwrap();
-    assert_eq!((number, made_of[0].depth), (1, 0));
+    let (region, made_of) = told.region.unwrap();
+    assert_eq!((region.get(), made_of[0].depth), (1, 0));
     assert!(made_of.iter().all(|account| trace.event(account.step).is_some()));
 
-    let of_hypothesis = why(shown, &trace, names, None, Some(birth));
+    let of_hypothesis = why(shown, &trace, names, None, Some(hypothesis));
     assert_eq!((of_hypothesis.pixel, of_hypothesis.hypothesis.unwrap().1), (None, story));
-    assert_eq!(why(shown, &trace, names, Some(u32::MAX), Some(u16::MAX)), Why::default());
+    assert_eq!(
+        why(shown, &trace, names, Some(OUTSIDE), Some(HypothesisId::from_index(u16::MAX.into()))),
+        Why::default()
+    );
 }
 
 proptest! {

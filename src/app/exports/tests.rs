@@ -15,7 +15,7 @@ fn input() -> ExportInput {
     let picture = gray(&ROWS, 120);
     let shown = Arc::new(divided(&picture, &ROWS));
     let mut state = State { picture: Some(picture), newest: Some(shown), ..State::default() };
-    state.document.selection.item = Some(Item::Region(2));
+    state.document.selection.item = Some(Item::Region(crate::raster::RegionId::from_index(1)));
     ExportInput::of(&state)
 }
 

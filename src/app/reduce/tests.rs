@@ -2,6 +2,7 @@ use super::*;
 use crate::app::report::{self, Report};
 use crate::app::{Application, Ask, Executor, ExportKind};
 use crate::params::Setting;
+use crate::raster::{PixelIndex, RegionId};
 use crate::truth::sample;
 use crate::view::Item;
 use std::sync::mpsc::{self, Receiver};
@@ -86,10 +87,10 @@ fn a_selected_region_follows_its_heir() {
     let mut application = opened_tiny();
     let shown = Arc::clone(application.state().shown().unwrap());
     assert!(!shown.analysis.intrinsic.regions.is_empty());
-    application.apply(Edit::Select(Some(Item::Region(1))));
+    application.apply(Edit::Select(Some(Item::Region(RegionId::from_index(0)))));
     application.apply(Edit::SetMethod(Method::Paper));
     let after = application.state().shown().unwrap();
-    let best_overlap = crate::view::best_overlap(shown.labels(), after.labels(), 1);
+    let best_overlap = crate::view::best_overlap(shown.labels(), after.labels(), RegionId::from_index(0));
     assert_eq!(application.state().document.selection.item, best_overlap.map(Item::Region));
     assert_eq!(application.state().selected_region(), best_overlap);
 }
@@ -153,7 +154,7 @@ fn a_pinned_illuminant_is_a_parameter() {
 fn a_second_photograph_keeps_the_parameters_and_forgets_the_rest() {
     let mut application = opened_tiny();
     application.apply(set_sigma(4.0));
-    application.apply(Edit::Select(Some(Item::Region(1))));
+    application.apply(Edit::Select(Some(Item::Region(RegionId::from_index(0)))));
     application.apply(Edit::InvertMarked);
     application.apply(ViewCommand::Pin(true));
     application.apply(JobCommand::Open(Origin::Sample(sample::NAME.into())));
@@ -167,7 +168,7 @@ fn a_second_photograph_keeps_the_parameters_and_forgets_the_rest() {
 #[test]
 fn what_cannot_be_opened_leaves_everything_as_it_was() {
     let mut application = opened_tiny();
-    application.apply(Edit::Select(Some(Item::Region(1))));
+    application.apply(Edit::Select(Some(Item::Region(RegionId::from_index(0)))));
     let (document, newest) =
         (application.state().document.clone(), application.state().newest.clone().unwrap());
     for origin in [Origin::File("nowhere.png".into()), Origin::Sample("nothing".into())] {
@@ -216,7 +217,7 @@ fn a_workspace_brings_everything_back() {
     let mut application = opened_tiny();
     application.apply(ViewCommand::Pin(true));
     application.apply(set_sigma(4.0));
-    application.apply(Edit::Select(Some(Item::Pixel(5))));
+    application.apply(Edit::Select(Some(Item::Pixel(PixelIndex::new(5)))));
     application.apply(Edit::InvertMarked);
     application.apply(ViewCommand::Layout("three columns".into()));
     application.apply(ViewCommand::ShowPinned(true));
@@ -300,9 +301,10 @@ fn on_threads_the_newest_request_wins() {
 fn what_would_change_a_pixel_is_asked_in_the_background_and_forgotten_with_the_result() {
     let mut application = opened_tiny();
     let labels = application.state().shown().unwrap().labels().clone();
-    let pixel = labels.as_slice().iter().position(|&label| label == 1).unwrap() as u32;
+    let pixel = labels.as_slice().iter().position(|&label| label == 1).unwrap();
+    let pixel = PixelIndex::from_index(pixel);
     let kind_of = |application: &Application| {
-        application.state().shown().unwrap().analysis.intrinsic.kinds[pixel as usize]
+        application.state().shown().unwrap().analysis.intrinsic.kinds[pixel.index()]
     };
     let before = kind_of(&application);
     application.apply(Ask::WhatIf(Some(pixel)));
@@ -313,9 +315,9 @@ fn what_would_change_a_pixel_is_asked_in_the_background_and_forgotten_with_the_r
     application.apply(Edit::SetParameter(first.parameter, Setting::Value(first.at), None));
     assert!(application.state().what_if_job.is_none(), "another result, another question");
     let now = application.state().shown().unwrap().labels();
-    let stayed = crate::view::best_overlaps(&labels, now)[1] == now[pixel as usize];
+    let stayed = crate::view::best_overlaps(&labels, now)[1] == RegionId::from_label(now[pixel.index()]);
     assert_eq!(kind_of(&application), first.after.kind, "what was foretold has come");
     assert!(!stayed || kind_of(&application) != before, "and it is another fate");
-    application.apply(Ask::WhatIf(Some(u32::MAX)));
+    application.apply(Ask::WhatIf(Some(PixelIndex::new(u32::MAX))));
     assert!(application.state().what_if_job.is_none(), "no such pixel");
 }

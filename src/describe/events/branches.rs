@@ -60,6 +60,10 @@ impl Describe for BranchesSought {
             branch,
         };
         let gaps = vec![Measured::new(40.0, 15.0)];
-        Self { region: 1, cores: vec![core(80.0, 1), core(120.0, 0)], gaps }
+        Self {
+            region: crate::raster::RegionId::from_index(0),
+            cores: vec![core(80.0, 1), core(120.0, 0)],
+            gaps,
+        }
     }
 }

@@ -1,5 +1,7 @@
 //! Highlight candidates (section 5.4.1).
 
+#[cfg(test)]
+use super::hypothesis;
 use super::{Describe, LineObjects, nothing, vector};
 use crate::describe::Names;
 use crate::describe::names::direction;
@@ -14,7 +16,7 @@ impl Describe for CandidateTested {
             "{} ({} px) as highlight of {}: the lines pass {:.1} counts from one another, at {:.0} % of the matte line: {verdict}",
             names.candidate(self.candidate),
             self.pixels,
-            names.region(self.region),
+            names.hypothesis(self.hypothesis),
             self.gap.value,
             self.position_percent
         )
@@ -23,7 +25,7 @@ impl Describe for CandidateTested {
     fn line_objects(&self, _names: &Names) -> LineObjects {
         let verdict = self.verdict;
         LineObjects::new(
-            json!({"region": self.region, "candidate": candidate(self.candidate)}),
+            json!({"region": self.hypothesis, "candidate": candidate(self.candidate)}),
             json!({
                 "pixels": self.pixels,
                 "gap": self.gap.value,
@@ -45,7 +47,7 @@ impl Describe for CandidateTested {
     fn example() -> Self {
         let line = super::linear::example_line();
         Self {
-            region: 1,
+            hypothesis: hypothesis(1),
             candidate: CandidateSource::Leftover(6),
             pixels: 120,
             matte: line,
@@ -71,14 +73,14 @@ impl Describe for CandidateChosen {
         format!(
             "{} is the highlight of {}: direction {}",
             names.candidate(self.candidate),
-            names.region(self.region),
+            names.hypothesis(self.hypothesis),
             direction(self.direction.into())
         )
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
         LineObjects::new(
-            json!({"region": self.region, "candidate": candidate(self.candidate)}),
+            json!({"region": self.hypothesis, "candidate": candidate(self.candidate)}),
             json!({"meeting_point": vector(&self.meeting_point), "direction": vector(&self.direction)}),
             nothing(),
         )
@@ -88,8 +90,8 @@ impl Describe for CandidateChosen {
     fn example() -> Self {
         let line = super::linear::example_line();
         Self {
-            region: 1,
-            candidate: CandidateSource::Region(2),
+            hypothesis: hypothesis(1),
+            candidate: CandidateSource::Hypothesis(hypothesis(2)),
             meeting_point: line.mean,
             direction: line.direction,
         }
@@ -101,8 +103,8 @@ impl Names {
     pub fn candidate(&self, source: CandidateSource) -> String {
         match source {
             CandidateSource::Leftover(area) => format!("what is left of area {area}"),
-            CandidateSource::Region(region) => self.region(region),
-            CandidateSource::Absorbed(region) => format!("absorbed {}", self.region(region)),
+            CandidateSource::Hypothesis(hypothesis) => self.hypothesis(hypothesis),
+            CandidateSource::Absorbed(hypothesis) => format!("absorbed {}", self.hypothesis(hypothesis)),
         }
     }
 }
@@ -132,7 +134,7 @@ fn failed_tests(test: &CandidateTested) -> Vec<String> {
 fn candidate(source: CandidateSource) -> Value {
     match source {
         CandidateSource::Leftover(area) => json!({"leftover_of_area": area}),
-        CandidateSource::Region(region) => json!({"region": region}),
-        CandidateSource::Absorbed(region) => json!({"absorbed": region}),
+        CandidateSource::Hypothesis(hypothesis) => json!({"region": hypothesis}),
+        CandidateSource::Absorbed(hypothesis) => json!({"absorbed": hypothesis}),
     }
 }

@@ -1,26 +1,29 @@
 //! Holes, and which hypotheses become regions (section 5.5).
 
-use super::{Describe, LineObjects, nothing, place};
+#[cfg(test)]
+use super::hypothesis;
+use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
 use crate::describe::names::{count, percent};
+use crate::raster::RegionId;
 use crate::trace::{ComponentSplit, Dropped, HoleFilled, Renumbered};
 use serde_json::json;
 
 impl Describe for HoleFilled {
     fn sentence(&self, names: &Names) -> String {
-        let Self { region, pixel, pixels, border_share } = self;
+        let Self { hypothesis, pixel, pixels, border_share } = self;
         format!(
             "a hole of {} at {} goes to {}, which holds {} of its border",
             count(*pixels, "pixel"),
             names.pixel(*pixel),
-            names.region(*region),
+            names.hypothesis(*hypothesis),
             percent(*border_share)
         )
     }
 
     fn line_objects(&self, names: &Names) -> LineObjects {
         LineObjects::new(
-            json!({"region": self.region, "pixel": place(names, self.pixel)}),
+            json!({"region": self.hypothesis, "pixel": names.position(self.pixel)}),
             json!({"pixels": self.pixels, "border_share": self.border_share}),
             nothing(),
         )
@@ -28,22 +31,31 @@ impl Describe for HoleFilled {
 
     #[cfg(test)]
     fn example() -> Self {
-        Self { region: 1, pixel: 23, pixels: 9, border_share: 0.75 }
+        Self {
+            hypothesis: hypothesis(1),
+            pixel: crate::raster::PixelIndex::new(23),
+            pixels: 9,
+            border_share: 0.75,
+        }
     }
 }
 
 impl Describe for Dropped {
     fn sentence(&self, names: &Names) -> String {
-        format!("{} is dropped, too small: {}", names.region(self.region), count(self.pixels, "pixel"))
+        format!(
+            "{} is dropped, too small: {}",
+            names.hypothesis(self.hypothesis),
+            count(self.pixels, "pixel")
+        )
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
-        LineObjects::new(json!({"region": self.region}), json!({"pixels": self.pixels}), nothing())
+        LineObjects::new(json!({"region": self.hypothesis}), json!({"pixels": self.pixels}), nothing())
     }
 
     #[cfg(test)]
     fn example() -> Self {
-        Self { region: 2, pixels: 14 }
+        Self { hypothesis: hypothesis(2), pixels: 14 }
     }
 }
 
@@ -52,14 +64,14 @@ impl Describe for ComponentSplit {
         format!(
             "{} of {} lie apart and become {}",
             count(self.pixels, "pixel"),
-            names.region(self.region),
-            names.region(self.part)
+            names.hypothesis(self.hypothesis),
+            names.hypothesis(self.part)
         )
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
         LineObjects::new(
-            json!({"region": self.region, "part": self.part}),
+            json!({"region": self.hypothesis, "part": self.part}),
             json!({"pixels": self.pixels}),
             nothing(),
         )
@@ -67,22 +79,23 @@ impl Describe for ComponentSplit {
 
     #[cfg(test)]
     fn example() -> Self {
-        Self { region: 1, part: 4, pixels: 80 }
+        Self { hypothesis: hypothesis(1), part: hypothesis(4), pixels: 80 }
     }
 }
 
 impl Describe for Renumbered {
     fn sentence(&self, _names: &Names) -> String {
-        let kept = self.finals.iter().filter(|&&number| number > 0).count();
-        format!("of {} hypotheses {kept} are regions, numbered by size", self.finals.len())
+        let kept = self.regions.iter().flatten().count();
+        format!("of {} hypotheses {kept} are regions, numbered by size", self.regions.len())
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
-        LineObjects::new(nothing(), json!({"regions": self.finals}), nothing())
+        let regions: Vec<u16> = self.regions.iter().map(|&region| RegionId::label(region)).collect();
+        LineObjects::new(nothing(), json!({"regions": regions}), nothing())
     }
 
     #[cfg(test)]
     fn example() -> Self {
-        Self { finals: [2, 0, 1].into() }
+        Self { regions: [2, 0, 1].map(RegionId::from_label).into() }
     }
 }

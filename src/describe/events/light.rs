@@ -23,7 +23,7 @@ impl Describe for IlluminantEstimated {
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
-        let contribution = |c: &Contribution| json!({"region": c.region, "residual_deg": c.residual_deg, "weight": c.weight});
+        let contribution = |c: &Contribution| json!({"region": c.hypothesis, "residual_deg": c.residual_deg, "weight": c.weight});
         let contributions: Vec<Value> = self.contributions.iter().map(contribution).collect();
         LineObjects::new(
             nothing(),
@@ -46,7 +46,7 @@ impl Describe for IlluminantEstimated {
             limits: [4.0, 2.0],
             taken: true,
         };
-        let contribution = Contribution { region: 1, residual_deg: 0.25, weight: 2.0 };
+        let contribution = Contribution { hypothesis: super::hypothesis(1), residual_deg: 0.25, weight: 2.0 };
         Self { direction: [0.6, 0.0, 0.8], contributions: vec![contribution], outshone: Some(outshone) }
     }
 }

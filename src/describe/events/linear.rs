@@ -1,5 +1,7 @@
 //! Linear hypotheses (section 5.3).
 
+#[cfg(test)]
+use super::hypothesis;
 use super::{Describe, LineObjects, line, nothing};
 use crate::describe::Names;
 use crate::describe::names::short;
@@ -12,10 +14,10 @@ use serde_json::json;
 
 impl Describe for HypothesisChosen {
     fn sentence(&self, names: &Names) -> String {
-        let Self { region, area, rank, pixels, line, radius } = self;
+        let Self { hypothesis, area, rank, pixels, line, radius } = self;
         format!(
             "{} starts from area {area}, {} in size: {pixels} unclaimed pixels, direction {}, radius {radius:.1} counts",
-            names.region(*region),
+            names.hypothesis(*hypothesis),
             ordinal(*rank),
             direction(line.direction.into())
         )
@@ -23,7 +25,7 @@ impl Describe for HypothesisChosen {
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
         LineObjects::new(
-            json!({"region": self.region, "area": self.area}),
+            json!({"region": self.hypothesis, "area": self.area}),
             json!({"rank": self.rank, "pixels": self.pixels, "line": line(&self.line)}),
             json!({"radius": self.radius}),
         )
@@ -31,7 +33,7 @@ impl Describe for HypothesisChosen {
 
     #[cfg(test)]
     fn example() -> Self {
-        Self { region: 1, area: 4, rank: 0, pixels: 900, line: example_line(), radius: 8.0 }
+        Self { hypothesis: hypothesis(1), area: 4, rank: 0, pixels: 900, line: example_line(), radius: 8.0 }
     }
 }
 
@@ -65,64 +67,64 @@ impl Describe for HypothesisPassedOver {
 
 impl Describe for SeedsPlaced {
     fn sentence(&self, names: &Names) -> String {
-        format!("{} starts from {}", names.region(self.region), count(self.pixels, "pixel"))
+        format!("{} starts from {}", names.hypothesis(self.hypothesis), count(self.pixels, "pixel"))
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
-        LineObjects::new(json!({"region": self.region}), json!({"pixels": self.pixels}), nothing())
+        LineObjects::new(json!({"region": self.hypothesis}), json!({"pixels": self.pixels}), nothing())
     }
 
     #[cfg(test)]
     fn example() -> Self {
-        Self { region: 1, pixels: 640 }
+        Self { hypothesis: hypothesis(1), pixels: 640 }
     }
 }
 
 impl Describe for GrowthBegan {
     fn sentence(&self, names: &Names) -> String {
-        format!("{} grows, limit {:.1} counts", names.region(self.region), self.limit)
+        format!("{} grows, limit {:.1} counts", names.hypothesis(self.hypothesis), self.limit)
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
-        LineObjects::new(json!({"region": self.region}), nothing(), json!({"limit": short(self.limit)}))
+        LineObjects::new(json!({"region": self.hypothesis}), nothing(), json!({"limit": short(self.limit)}))
     }
 
     #[cfg(test)]
     fn example() -> Self {
-        Self { region: 1, limit: 8.0 }
+        Self { hypothesis: hypothesis(1), limit: 8.0 }
     }
 }
 
 impl Describe for LineRefitted {
     fn sentence(&self, names: &Names) -> String {
         let line = direction(self.line.direction.into());
-        format!("the line of {} is fitted again: direction {line}", names.region(self.region))
+        format!("the line of {} is fitted again: direction {line}", names.hypothesis(self.hypothesis))
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
-        LineObjects::new(json!({"region": self.region}), json!({"line": line(&self.line)}), nothing())
+        LineObjects::new(json!({"region": self.hypothesis}), json!({"line": line(&self.line)}), nothing())
     }
 
     #[cfg(test)]
     fn example() -> Self {
-        Self { region: 1, line: example_line() }
+        Self { hypothesis: hypothesis(1), line: example_line() }
     }
 }
 
 impl Describe for Absorbed {
     fn sentence(&self, names: &Names) -> String {
-        let Self { region, by, highlight_foot, object_foot, gap } = self;
+        let Self { hypothesis, by, highlight_foot, object_foot, gap } = self;
         format!(
             "{} is the broad highlight of {}: its line misses black by {highlight_foot:.1} counts, the object's by \
              {object_foot:.1}; the lines pass {gap:.1} counts from one another",
-            names.region(*region),
-            names.region(*by)
+            names.hypothesis(*hypothesis),
+            names.hypothesis(*by)
         )
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
         LineObjects::new(
-            json!({"region": self.region, "by": self.by}),
+            json!({"region": self.hypothesis, "by": self.by}),
             json!({"foot": self.highlight_foot, "gap": self.gap}),
             json!({"object_foot": self.object_foot}),
         )
@@ -130,24 +132,30 @@ impl Describe for Absorbed {
 
     #[cfg(test)]
     fn example() -> Self {
-        Self { region: 2, by: 1, highlight_foot: 40.0, object_foot: 1.5, gap: 2.5 }
+        Self {
+            hypothesis: hypothesis(2),
+            by: hypothesis(1),
+            highlight_foot: 40.0,
+            object_foot: 1.5,
+            gap: 2.5,
+        }
     }
 }
 
 impl Describe for RegionsMerged {
     fn sentence(&self, names: &Names) -> String {
-        let Self { region, into, angle_deg, rms } = self;
+        let Self { hypothesis, into, angle_deg, rms } = self;
         format!(
             "{} joins {}: their lines differ by {angle_deg:.1}\u{b0} and its pixels lie {rms:.1} counts from the \
              other's (rms)",
-            names.region(*region),
-            names.region(*into)
+            names.hypothesis(*hypothesis),
+            names.hypothesis(*into)
         )
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
         LineObjects::new(
-            json!({"region": self.region, "into": self.into}),
+            json!({"region": self.hypothesis, "into": self.into}),
             json!({"angle_deg": self.angle_deg, "rms": self.rms}),
             nothing(),
         )
@@ -155,7 +163,7 @@ impl Describe for RegionsMerged {
 
     #[cfg(test)]
     fn example() -> Self {
-        Self { region: 2, into: 1, angle_deg: 0.5, rms: 1.25 }
+        Self { hypothesis: hypothesis(2), into: hypothesis(1), angle_deg: 0.5, rms: 1.25 }
     }
 }
 

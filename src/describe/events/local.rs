@@ -1,6 +1,6 @@
 //! The local split, where no region explains the pixels (beyond section 6).
 
-use super::{Describe, LineObjects, nothing, place};
+use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
 use crate::describe::names::short;
 use crate::describe::names::{count, percent, tenths};
@@ -123,7 +123,7 @@ impl Describe for BlobJudged {
 
     fn line_objects(&self, names: &Names) -> LineObjects {
         LineObjects::new(
-            json!({"blob": self.blob, "pixel": place(names, self.pixel)}),
+            json!({"blob": self.blob, "pixel": names.position(self.pixel)}),
             json!({
                 "pixels": self.pixels,
                 "clipped": self.clipped,
@@ -138,7 +138,16 @@ impl Describe for BlobJudged {
 
     #[cfg(test)]
     fn example() -> Self {
-        Self { blob: 3, pixel: 23, pixels: 60, clipped: 0, strong: 30, calm: 20, core: 9, kept: true }
+        Self {
+            blob: 3,
+            pixel: crate::raster::PixelIndex::new(23),
+            pixels: 60,
+            clipped: 0,
+            strong: 30,
+            calm: 20,
+            core: 9,
+            kept: true,
+        }
     }
 }
 
@@ -229,7 +238,7 @@ impl Describe for RepairTried {
 
     fn line_objects(&self, names: &Names) -> LineObjects {
         LineObjects::new(
-            json!({"blob": self.blob, "pixel": place(names, self.pixel)}),
+            json!({"blob": self.blob, "pixel": names.position(self.pixel)}),
             json!({
                 "pixels": self.pixels,
                 "ring": short(self.ring.value),
@@ -245,7 +254,7 @@ impl Describe for RepairTried {
     fn example() -> Self {
         Self {
             blob: 4,
-            pixel: 23,
+            pixel: crate::raster::PixelIndex::new(23),
             pixels: 12,
             ring: crate::trace::Measured::new(0.75, 0.5),
             inner: 40.0,

@@ -21,6 +21,8 @@ pub(super) use windows::variances;
 
 use super::Names;
 use crate::color::{Line, Vec3};
+#[cfg(test)]
+use crate::raster::HypothesisId;
 use crate::trace::{Event, dispatch_event};
 use serde_json::{Value, json};
 
@@ -97,8 +99,8 @@ fn vector(vector: &Vec3) -> [f64; 3] {
     (*vector).into()
 }
 
-/// Column and row of a pixel.
-fn place(names: &Names, pixel: u32) -> [usize; 2] {
-    let (x, y) = names.place(pixel);
-    [x, y]
+/// The hypothesis with a number, for examples.
+#[cfg(test)]
+fn hypothesis(number: u16) -> HypothesisId {
+    HypothesisId::from_label(number).expect("hypotheses count from 1")
 }

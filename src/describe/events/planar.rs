@@ -1,5 +1,7 @@
 //! Slices (section 5.4.2).
 
+#[cfg(test)]
+use super::hypothesis;
 use super::{Describe, LineObjects, vector};
 use crate::describe::Names;
 use crate::trace::SliceMade;
@@ -9,7 +11,7 @@ impl Describe for SliceMade {
     fn sentence(&self, names: &Names) -> String {
         format!(
             "slice of {}: light {:.0}\u{b0} from the matte line, which is {:.0} counts long; half width {:.1} counts",
-            names.region(self.region),
+            names.hypothesis(self.hypothesis),
             self.plane.angle_deg(),
             self.matte_length,
             self.half_width
@@ -18,7 +20,7 @@ impl Describe for SliceMade {
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
         LineObjects::new(
-            json!({"region": self.region}),
+            json!({"region": self.hypothesis}),
             json!({
                 "angle_deg": self.plane.angle_deg(),
                 "normal": vector(&self.plane.normal),
@@ -36,7 +38,7 @@ impl Describe for SliceMade {
         let white = crate::color::Vec3::repeat(1.0).normalize();
         let plane = DichromaticPlane::new(&matte, &white).expect("invariant: the directions differ");
         Self {
-            region: 1,
+            hypothesis: hypothesis(1),
             plane,
             matte_length: 100.0,
             start: matte.mean,

@@ -2,6 +2,7 @@
 
 use super::{Describe, LineObjects, line_objects};
 use crate::describe::Names;
+use crate::raster::RegionId;
 use crate::trace::{self, Event, EventData, Kind, Subject};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -35,15 +36,15 @@ fn every_event_has_a_sentence_of_its_own() {
 }
 
 /// Numbers of the hypotheses, regions and blobs that the `ids` of a trace line name, by the keys that name them.
-fn named(ids: &Value) -> BTreeSet<(Subject, u64)> {
+fn named(ids: &Value) -> BTreeSet<(&'static str, u64)> {
     let id = |key: &str| ids.get(key).and_then(Value::as_u64);
     let hypotheses = ["region", "into", "by", "part"].into_iter().filter_map(id);
     let regions = id("final").into_iter();
     let blobs = id("blob").into_iter();
     hypotheses
-        .map(|id| (Subject::Hypothesis(0), id))
-        .chain(regions.map(|id| (Subject::Region(0), id)))
-        .chain(blobs.map(|id| (Subject::Blob(0), id)))
+        .map(|id| ("hypothesis", id))
+        .chain(regions.map(|id| ("region", id)))
+        .chain(blobs.map(|id| ("blob", id)))
         .collect()
 }
 
@@ -56,14 +57,14 @@ fn what_an_event_is_about_is_what_its_trace_line_names() {
         }
         let has_keys = [&ids, &values, &thresholds].iter().any(|object| object != &&super::nothing());
         assert!(has_keys || event.kind() == Kind::Stage, "{event:?} says nothing");
-        let about: BTreeSet<(Subject, u64)> = event
+        let about: BTreeSet<(&str, u64)> = event
             .subjects()
             .into_iter()
             .flatten()
             .map(|subject| match subject {
-                Subject::Hypothesis(id) => (Subject::Hypothesis(0), u64::from(id)),
-                Subject::Region(id) => (Subject::Region(0), u64::from(id)),
-                Subject::Blob(id) => (Subject::Blob(0), u64::from(id)),
+                Subject::Hypothesis(id) => ("hypothesis", u64::from(id.get())),
+                Subject::Region(id) => ("region", u64::from(id.get())),
+                Subject::Blob(id) => ("blob", u64::from(id)),
             })
             .collect();
         // The areas of a merge are areas, not hypotheses.
@@ -80,8 +81,12 @@ fn an_event_on_the_heap_counts_its_structure() {
         let boxed = matches!(event.kind(), Kind::Masks | Kind::Slice | Kind::Vectors | Kind::Candidate);
         assert!(!boxed || event.heap_bytes() > inline, "{event:?}");
     }
-    let list = trace::Renumbered { finals: vec![1; 100].into() };
+    let list = trace::Renumbered { regions: vec![None; 100].into() };
     assert_eq!(list.heap_bytes(), 200);
-    let boxed = Event::from(trace::BranchesSought { region: 1, cores: Vec::new(), gaps: Vec::new() });
+    let boxed = Event::from(trace::BranchesSought {
+        region: RegionId::from_index(0),
+        cores: Vec::new(),
+        gaps: Vec::new(),
+    });
     assert_eq!(boxed.heap_bytes(), size_of::<trace::BranchesSought>());
 }

@@ -45,7 +45,7 @@ impl Describe for VectorsFitted {
     fn example() -> Self {
         let matte = super::linear::example_line();
         Self {
-            region: 1,
+            region: crate::raster::RegionId::from_index(0),
             body: matte.direction,
             surface: None,
             matte,

@@ -24,10 +24,12 @@ pub struct Condensed {
 pub fn condense(history: &[HistoryEntry]) -> Vec<Condensed> {
     let mut condensed: Vec<Condensed> = Vec::new();
     let key = |happening: &HistoryEntry| match happening.what {
-        HistoryKind::Refused { region, .. } => Some((happening.stage, 0, region, 0)),
-        HistoryKind::Kept { holder, challenger, .. } => Some((happening.stage, 1, challenger, holder)),
-        HistoryKind::Claimed { region, from, .. } => Some((happening.stage, 2, region, from)),
-        HistoryKind::Reset { from, to } => Some((happening.stage, 3, from, to)),
+        HistoryKind::Refused { hypothesis, .. } => Some((happening.stage, 0, Some(hypothesis), None)),
+        HistoryKind::Kept { holder, challenger, .. } => {
+            Some((happening.stage, 1, Some(challenger), Some(holder)))
+        }
+        HistoryKind::Claimed { hypothesis, from, .. } => Some((happening.stage, 2, Some(hypothesis), from)),
+        HistoryKind::Reset { from, to } => Some((happening.stage, 3, Some(from), to)),
         _ => None,
     };
     for happening in history {
@@ -50,37 +52,41 @@ impl Names {
             HistoryKind::Masked(verdict) => masked(verdict),
             HistoryKind::Window(story) => window(story),
             HistoryKind::Merging(story) => merging(story),
-            HistoryKind::AreaChosen { region, rank, pixels, radius } => format!(
+            HistoryKind::AreaChosen { hypothesis, rank, pixels, radius } => format!(
                 "its area, {} with {pixels} unclaimed pixels, starts {}, radius {radius:.1} counts",
                 ordinal(*rank),
-                self.region(*region)
+                self.hypothesis(*hypothesis)
             ),
             HistoryKind::AreaPassedOver { pixels, least, reason } => {
                 format!("its area starts no hypothesis: {}", passed_over(*reason, *pixels, *least))
             }
-            HistoryKind::Seeded { region, reach } => {
-                format!("{} starts from it: {}", self.region(*region), inside(*reach))
+            HistoryKind::Seeded { hypothesis, reach } => {
+                format!("{} starts from it: {}", self.hypothesis(*hypothesis), inside(*reach))
             }
-            HistoryKind::Claimed { region, from, reach, contest } => {
+            HistoryKind::Claimed { hypothesis, from, reach, contest } => {
                 let from_whom =
-                    if *from > 0 { format!(" from {}", self.region(*from)) } else { String::new() };
+                    from.map_or_else(String::new, |from| format!(" from {}", self.hypothesis(from)));
                 let how = match contest {
                     Some(contest) => format!("{}{}", won(contest), limit(*reach)),
                     None => inside(*reach),
                 };
-                format!("{} takes it{from_whom}: {how}", self.region(*region))
+                format!("{} takes it{from_whom}: {how}", self.hypothesis(*hypothesis))
             }
             HistoryKind::Kept { holder, challenger, contest } => {
                 let why = self.kept(*challenger, contest);
-                format!("{} keeps it: {why}", self.region(*holder))
+                format!("{} keeps it: {why}", self.hypothesis(*holder))
             }
-            HistoryKind::Refused { region, barrier } => {
-                format!("{} grows beside it and refuses it: {}", self.region(*region), outside(*barrier))
+            HistoryKind::Refused { hypothesis, barrier } => {
+                format!(
+                    "{} grows beside it and refuses it: {}",
+                    self.hypothesis(*hypothesis),
+                    outside(*barrier)
+                )
             }
-            HistoryKind::Unclaimable { regions } => {
+            HistoryKind::Unclaimable { hypotheses } => {
                 format!(
                     "{} grew beside it, but its mask keeps it from being claimed by its color",
-                    self.regions(regions)
+                    self.hypotheses(hypotheses)
                 )
             }
             HistoryKind::Split(story) => split(story),
@@ -93,44 +99,44 @@ impl Names {
     /// Changes of hands that are no claims.
     fn moved(&self, what: &HistoryKind) -> String {
         match what {
-            HistoryKind::Released { region, why } => {
-                format!("{} gives it up: {}", self.region(*region), self.release(*why))
+            HistoryKind::Released { hypothesis, why } => {
+                format!("{} gives it up: {}", self.hypothesis(*hypothesis), self.release(*why))
             }
             HistoryKind::Merged { from, into, angle_deg, rms } => format!(
                 "with all of {} it joins {}: their lines differ by {angle_deg:.1}\u{b0}, rms distance {rms:.1} counts",
-                self.region(*from),
-                self.region(*into)
+                self.hypothesis(*from),
+                self.hypothesis(*into)
             ),
-            HistoryKind::Voted { from, region, votes: [own, all] } => format!(
+            HistoryKind::Voted { from, hypothesis, votes: [own, all] } => format!(
                 "from {} it follows the majority to {}: {own} of {all} assigned pixels around it",
-                self.region(*from),
-                self.region(*region)
+                self.hypothesis(*from),
+                self.hypothesis(*hypothesis)
             ),
-            HistoryKind::Reset { from, to: 0 } => {
-                format!("{} gives it back: slices start anew under a better light", self.region(*from))
+            HistoryKind::Reset { from, to: None } => {
+                format!("{} gives it back: slices start anew under a better light", self.hypothesis(*from))
             }
-            HistoryKind::Reset { from, to } => format!(
+            HistoryKind::Reset { from, to: Some(to) } => format!(
                 "it goes back from {} to {}: slices start anew under a better light",
-                self.region(*from),
-                self.region(*to)
+                self.hypothesis(*from),
+                self.hypothesis(*to)
             ),
-            HistoryKind::Filled { region, pixels, border_share } => format!(
+            HistoryKind::Filled { hypothesis, pixels, border_share } => format!(
                 "a hole of {} around it goes to {}, which holds {} of its border",
                 count(*pixels, "pixel"),
-                self.region(*region),
+                self.hypothesis(*hypothesis),
                 percent(*border_share)
             ),
-            HistoryKind::Separated { region, part, pixels } => format!(
+            HistoryKind::Separated { hypothesis, part, pixels } => format!(
                 "with {} that lie apart from {} it becomes {}",
                 count(*pixels, "pixel"),
-                self.region(*region),
-                self.region(*part)
+                self.hypothesis(*hypothesis),
+                self.hypothesis(*part)
             ),
-            HistoryKind::Numbered { region, number: 0 } => {
-                format!("hypothesis {region} is not in the result")
+            HistoryKind::Numbered { hypothesis, region: None } => {
+                format!("hypothesis {hypothesis} is not in the result")
             }
-            HistoryKind::Numbered { region, number } => {
-                format!("hypothesis {region} becomes region {number}")
+            HistoryKind::Numbered { hypothesis, region: Some(region) } => {
+                format!("hypothesis {hypothesis} becomes region {region}")
             }
             // All others are said above.
             _ => String::new(),
@@ -146,7 +152,7 @@ impl Names {
             Release::Absorbed { by, highlight_foot: highlight, object_foot: object, gap } => format!(
                 "it is the broad highlight of {}: its line misses black by {highlight:.1} counts (the object's by \
                  {object:.1}), gap {gap:.1}",
-                self.region(by)
+                self.hypothesis(by)
             ),
             Release::Dropped { pixels } => format!("too small to keep, {}", count(pixels, "pixel")),
         }
@@ -271,9 +277,9 @@ fn outside(barrier: Barrier) -> String {
 
 fn split(story: &SplitStory) -> String {
     if let Some(why) = &story.unfit {
-        return unfit(story.number, why);
+        return unfit(story.region, why);
     }
-    let SplitStory { number, kind, lines, amounts, cut, least_offset, ambient, .. } = story;
+    let SplitStory { region, kind, lines, amounts, cut, least_offset, ambient, .. } = story;
     let what = match (kind, lines) {
         (PixelKind::Restored, _) => "is restored from the bands that can be believed".to_owned(),
         (PixelKind::Lost, _) => "is clipped in every band: its split is a guess".to_owned(),
@@ -281,7 +287,7 @@ fn split(story: &SplitStory) -> String {
             "is {}: {matte:.1} counts from the matte line, {highlight:.1} from the highlight line",
             kind.name()
         ),
-        (_, None) => format!("is {}: region {number} has no highlight line", kind.name()),
+        (_, None) => format!("is {}: region {region} has no highlight line", kind.name()),
     };
     let amounts = amounts.map_or_else(String::new, |amounts| {
         let none = cut.map_or_else(String::new, |offset| {
@@ -298,5 +304,5 @@ fn split(story: &SplitStory) -> String {
         let [r, g, b] = ambient;
         format!(", without ambient light of {r:.1}, {g:.1}, {b:.1} counts")
     };
-    format!("in region {number} it {what}{amounts}{without}")
+    format!("in region {region} it {what}{amounts}{without}")
 }

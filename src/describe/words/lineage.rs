@@ -10,7 +10,7 @@ impl Names {
         let born = match ancestor.birth {
             Birth::Area { chosen, .. } => format!("from area {} of {} pixels", chosen.area, chosen.pixels),
             Birth::Part { of, pixels, .. } => {
-                format!("separated from {}: {}", self.region(of), count(pixels, "pixel"))
+                format!("separated from {}: {}", self.hypothesis(of), count(pixels, "pixel"))
             }
         };
         let joined = ancestor.joined.map_or_else(String::new, |joined| match joined.how {
@@ -23,7 +23,7 @@ impl Names {
             }
             JoinedHow::Whole => "; it was separated from this one".to_owned(),
         });
-        format!("{} {born}{joined}", self.region(ancestor.region))
+        format!("{} {born}{joined}", self.hypothesis(ancestor.hypothesis))
     }
 
     /// The story of a hypothesis, each sentence with the step that it tells of; in the order of the steps.
@@ -33,14 +33,14 @@ impl Names {
             told.push((step, chosen.sentence(self)));
         }
         if let Some((step, of, pixels)) = story.separated {
-            told.push((step, format!("separated from {}: {}", self.region(of), count(pixels, "pixel"))));
+            told.push((step, format!("separated from {}: {}", self.hypothesis(of), count(pixels, "pixel"))));
         }
         told.extend(story.tests.iter().map(|&(step, test)| (step, test.sentence(self))));
         if let Some((step, chosen)) = story.highlight {
             told.push((step, format!("{} is its highlight", self.candidate(chosen.candidate))));
         }
         told.extend(story.slices.iter().map(|&(step, made)| (step, made.sentence(self))));
-        told.extend(story.joined.iter().map(|&(region, joined)| {
+        told.extend(story.joined.iter().map(|&(hypothesis, joined)| {
             let how = match joined.how {
                 JoinedHow::Absorbed { gap, .. } => {
                     format!("absorbs its broad highlight, gap {gap:.1} counts")
@@ -48,7 +48,7 @@ impl Names {
                 JoinedHow::Merged { angle_deg, .. } => format!("is joined, {angle_deg:.1}\u{b0} off, by"),
                 JoinedHow::Whole => "was part of".to_owned(),
             };
-            (joined.step, format!("{how}: {}", self.region(region)))
+            (joined.step, format!("{how}: {}", self.hypothesis(hypothesis)))
         }));
         told.extend(story.end.map(|(step, event)| (step, self.event(event))));
         told.sort_by_key(|&(step, _)| step);

@@ -1,6 +1,7 @@
 //! A pixel's surroundings in words, where no region explains it.
 
 use super::super::events::failed_limits;
+use crate::raster::RegionId;
 use crate::trace::{LocalFate, LocalStory, Unfit};
 
 /// What a pixel was judged by.
@@ -61,15 +62,15 @@ pub(super) fn surroundings(story: &LocalStory) -> String {
 }
 
 /// Why a region's plane is not used for a pixel, and what it has instead.
-pub(super) fn unfit(number: u16, story: &Unfit) -> String {
+pub(super) fn unfit(region: RegionId, story: &Unfit) -> String {
     let why = if story.model_fits {
         format!(
-            "region {number} holds, but not here: this part of it is hardly anything but highlight, or clipped and surrounded by \
+            "region {region} holds, but not here: this part of it is hardly anything but highlight, or clipped and surrounded by \
              other regions"
         )
     } else {
         let failed = failed_limits(story.fit, &story.limits, story.has_plane);
-        format!("region {number} does not hold: {failed}")
+        format!("region {region} does not hold: {failed}")
     };
     let instead = match story.surface {
         None => "it is filled with the body around it".to_owned(),

@@ -12,6 +12,7 @@ pub use history::{Condensed, condense};
 pub use what_if::what_if_sentence;
 
 use super::names::{Names, count, ordinal, percent};
+use crate::raster::HypothesisId;
 use crate::trace::{Contest, Measure, Step};
 
 impl Names {
@@ -19,34 +20,38 @@ impl Names {
     pub fn step(&self, step: &Step) -> String {
         match step {
             Step::Event(event) => self.event(event),
-            Step::Claim { pixel, before, after, contest } => self.claim(*pixel, (*before, *after), *contest),
+            Step::Claim { pixel, before, after, contest } => {
+                let pixel = self.pixel(*pixel);
+                match (before, after, contest) {
+                    (Some(before), Some(after), Some(contest)) => {
+                        let from = self.hypothesis(*before);
+                        format!(
+                            "{} takes pixel {pixel} from {from}: {}",
+                            self.hypothesis(*after),
+                            won(contest)
+                        )
+                    }
+                    (Some(before), Some(after), None) => {
+                        let (before, after) = (self.hypothesis(*before), self.hypothesis(*after));
+                        format!("pixel {pixel} goes from {before} to {after}")
+                    }
+                    (Some(before), None, _) => format!("{} gives up pixel {pixel}", self.hypothesis(*before)),
+                    (None, Some(after), _) => format!("{} takes pixel {pixel}", self.hypothesis(*after)),
+                    (None, None, _) => format!("pixel {pixel} stays in no hypothesis"),
+                }
+            }
             Step::Refusal { pixel, holder, challenger, contest } => {
                 let contest = self.kept(*challenger, contest);
-                format!("{} keeps pixel {}: {contest}", self.region(*holder), self.pixel(*pixel))
+                format!("{} keeps pixel {}: {contest}", self.hypothesis(*holder), self.pixel(*pixel))
             }
             Step::Label { pixel, kind } => format!("pixel {} is {}", self.pixel(*pixel), kind.name()),
         }
     }
 
-    fn claim(&self, pixel: u32, (before, after): (u16, u16), contest: Option<Contest>) -> String {
-        let pixel = self.pixel(pixel);
-        let (Some(contest), true) = (contest, after > 0) else {
-            return match (before, after) {
-                (0, after) => format!("{} takes pixel {pixel}", self.region(after)),
-                (before, 0) => format!("{} gives up pixel {pixel}", self.region(before)),
-                (before, after) => {
-                    format!("pixel {pixel} goes from {} to {}", self.region(before), self.region(after))
-                }
-            };
-        };
-        let from = self.region(before);
-        format!("{} takes pixel {pixel} from {from}: {}", self.region(after), won(&contest))
-    }
-
     /// Why a challenger did not get a pixel.
-    fn kept(&self, challenger: u16, contest: &Contest) -> String {
+    fn kept(&self, challenger: HypothesisId, contest: &Contest) -> String {
         let Contest { measure, challenger: shown, holder } = *contest;
-        let challenger = self.region(challenger);
+        let challenger = self.hypothesis(challenger);
         match measure {
             Measure::Axis => {
                 format!("{holder:.1} counts from its axis, {shown:.1} from that of {challenger}")

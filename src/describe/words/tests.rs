@@ -1,6 +1,7 @@
 //! Sentences say value against threshold.
 
 use super::*;
+use crate::raster::{PixelIndex, RegionId};
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::trace::{
     Barrier, CandidateSource, Dropped, Event, HistoryEntry, HistoryKind, MaskVerdict, Measured, PassedOver,
@@ -8,8 +9,14 @@ use crate::trace::{
 };
 
 fn names() -> Names {
-    Names { width: 10, finals: vec![2, 0, 1] }
+    Names { width: 10, regions: [2, 0, 1].map(RegionId::from_label).to_vec() }
 }
+
+fn hypothesis(number: u16) -> HypothesisId {
+    HypothesisId::from_label(number).unwrap()
+}
+
+const PIXEL: PixelIndex = PixelIndex::new(23);
 
 fn say(what: HistoryKind) -> String {
     names().happening(&HistoryEntry { step: 0, stage: Stage::Linear, what })
@@ -17,18 +24,17 @@ fn say(what: HistoryKind) -> String {
 
 #[test]
 fn a_region_has_the_number_of_its_birth_and_in_the_result_another() {
-    assert_eq!(names().region(1), "hypothesis 1 (region 2)");
-    assert_eq!(names().region(2), "hypothesis 2");
-    assert_eq!(names().region(9), "hypothesis 9");
-    assert_eq!(names().region(0), "hypothesis 0");
-    assert_eq!(names().regions(&[1, 2, 3]), "hypotheses 1, 2 and 3");
-    assert_eq!(names().regions(&[3]), "hypothesis 3 (region 1)");
-    assert_eq!(names().pixel(23), "(3, 2)");
+    assert_eq!(names().hypothesis(hypothesis(1)), "hypothesis 1 (region 2)");
+    assert_eq!(names().hypothesis(hypothesis(2)), "hypothesis 2");
+    assert_eq!(names().hypothesis(hypothesis(9)), "hypothesis 9");
+    assert_eq!(names().hypotheses(&[1, 2, 3].map(hypothesis)), "hypotheses 1, 2 and 3");
+    assert_eq!(names().hypotheses(&[hypothesis(3)]), "hypothesis 3 (region 1)");
+    assert_eq!(names().pixel(PIXEL), "(3, 2)");
 }
 
 #[test]
 fn refusals_say_how_far_outside() {
-    let refused = |barrier| say(HistoryKind::Refused { region: 1, barrier });
+    let refused = |barrier| say(HistoryKind::Refused { hypothesis: hypothesis(1), barrier });
     let who = "hypothesis 1 (region 2) grows beside it and refuses it: ";
     let cylinder = Barrier::Cylinder { distance: 12.43, radius: 10.0 };
     assert_eq!(refused(cylinder), format!("{who}12.4 counts from its axis, radius 10.0"));
@@ -52,16 +58,24 @@ fn claims_conflicts_and_releases_carry_both_numbers() {
     let reach = Reach::Axis { distance: 3.25, radius: 10.0 };
     let contest = Some(Contest { measure: Measure::Axis, challenger: 3.25, holder: 6.5 });
     assert_eq!(
-        say(HistoryKind::Claimed { region: 3, from: 2, reach, contest }),
+        say(HistoryKind::Claimed {
+            hypothesis: hypothesis(3),
+            from: HypothesisId::from_label(2),
+            reach,
+            contest
+        }),
         "hypothesis 3 (region 1) takes it from hypothesis 2: 3.2 counts from its axis against 6.5, radius 10.0"
     );
     let contest = Contest { measure: Measure::Plane, challenger: 6.0, holder: 2.0 };
     assert_eq!(
-        say(HistoryKind::Kept { holder: 3, challenger: 2, contest }),
+        say(HistoryKind::Kept { holder: hypothesis(3), challenger: hypothesis(2), contest }),
         "hypothesis 3 (region 1) keeps it: 2.0 counts from its plane, 6.0 from that of hypothesis 2"
     );
     assert_eq!(
-        say(HistoryKind::Released { region: 2, why: Release::Refit { distance: 11.0, radius: 10.0 } }),
+        say(HistoryKind::Released {
+            hypothesis: hypothesis(2),
+            why: Release::Refit { distance: 11.0, radius: 10.0 }
+        }),
         "hypothesis 2 gives it up: 11.0 counts from its refitted axis, radius 10.0"
     );
     assert_eq!(
@@ -80,8 +94,8 @@ fn a_failed_skewed_t_names_the_test_and_its_limit() {
     use crate::trace::{CandidateTested, CandidateVerdict};
     let line = Line::new(Vec3::x() * 50.0, Vec3::x());
     let test = CandidateTested {
-        region: 1,
-        candidate: CandidateSource::Region(3),
+        hypothesis: hypothesis(1),
+        candidate: CandidateSource::Hypothesis(hypothesis(3)),
         pixels: 120,
         matte: line,
         matte_length: 160.0,
@@ -100,23 +114,36 @@ fn a_failed_skewed_t_names_the_test_and_its_limit() {
 
 #[test]
 fn rounds_of_one_stage_are_one_line_in_which_the_last_stands_for_all() {
-    let refused = |step, stage, region, distance| HistoryEntry {
+    let refused = |step, stage, number, distance| HistoryEntry {
         step,
         stage,
-        what: HistoryKind::Refused { region, barrier: Barrier::Cylinder { distance, radius: 8.0 } },
+        what: HistoryKind::Refused {
+            hypothesis: hypothesis(number),
+            barrier: Barrier::Cylinder { distance, radius: 8.0 },
+        },
     };
     let happened = |step, what| HistoryEntry { step, stage: Stage::Planar, what };
     let reach = Reach::Plane { distance: 1.0, half_width: 8.0 };
-    let taken = |step| happened(step, HistoryKind::Claimed { region: 1, from: 0, reach, contest: None });
+    let taken = |step| {
+        happened(
+            step,
+            HistoryKind::Claimed {
+                hypothesis: hypothesis(1),
+                from: HypothesisId::from_label(0),
+                reach,
+                contest: None,
+            },
+        )
+    };
     let history = [
         refused(1, Stage::Linear, 1, 9.0),
         refused(2, Stage::Linear, 2, 12.0),
         refused(3, Stage::Linear, 1, 8.5),
         refused(4, Stage::Planar, 2, 8.4),
         taken(5),
-        happened(6, HistoryKind::Reset { from: 1, to: 0 }),
+        happened(6, HistoryKind::Reset { from: hypothesis(1), to: HypothesisId::from_label(0) }),
         taken(7),
-        happened(8, HistoryKind::Numbered { region: 1, number: 1 }),
+        happened(8, HistoryKind::Numbered { hypothesis: hypothesis(1), region: RegionId::from_label(1) }),
     ];
     let told: Vec<(usize, usize)> =
         condense(&history).into_iter().map(|line| (line.last.step, line.times)).collect();
@@ -128,17 +155,35 @@ fn every_step_is_a_sentence() {
     let contest = Contest { measure: Measure::Vote, challenger: 14.0, holder: 20.0 };
     let steps = [
         (
-            Step::Claim { pixel: 23, before: 0, after: 1, contest: None },
+            Step::Claim {
+                pixel: PIXEL,
+                before: HypothesisId::from_label(0),
+                after: HypothesisId::from_label(1),
+                contest: None,
+            },
             "hypothesis 1 (region 2) takes pixel (3, 2)",
         ),
-        (Step::Claim { pixel: 23, before: 2, after: 0, contest: None }, "hypothesis 2 gives up pixel (3, 2)"),
         (
-            Step::Claim { pixel: 23, before: 2, after: 1, contest: Some(contest) },
+            Step::Claim {
+                pixel: PIXEL,
+                before: HypothesisId::from_label(2),
+                after: HypothesisId::from_label(0),
+                contest: None,
+            },
+            "hypothesis 2 gives up pixel (3, 2)",
+        ),
+        (
+            Step::Claim {
+                pixel: PIXEL,
+                before: HypothesisId::from_label(2),
+                after: HypothesisId::from_label(1),
+                contest: Some(contest),
+            },
             "hypothesis 1 (region 2) takes pixel (3, 2) from hypothesis 2: it has 14 of the 20 assigned pixels around it",
         ),
-        (Step::Label { pixel: 23, kind: PixelKind::Matte }, "pixel (3, 2) is matte"),
+        (Step::Label { pixel: PIXEL, kind: PixelKind::Matte }, "pixel (3, 2) is matte"),
         (
-            Step::Event(&Event::Dropped(Dropped { region: 2, pixels: 1 })),
+            Step::Event(&Event::Dropped(Dropped { hypothesis: hypothesis(2), pixels: 1 })),
             "hypothesis 2 is dropped, too small: 1 pixel",
         ),
     ];
@@ -150,8 +195,16 @@ fn every_step_is_a_sentence() {
 #[test]
 fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
     use crate::trace::{BlobJudged, RepairTried, RepairVerdict};
-    let all =
-        BlobJudged { blob: 1, pixel: 23, pixels: 40, clipped: 0, strong: 21, calm: 12, core: 9, kept: true };
+    let all = BlobJudged {
+        blob: 1,
+        pixel: PIXEL,
+        pixels: 40,
+        clipped: 0,
+        strong: 21,
+        calm: 12,
+        core: 9,
+        kept: true,
+    };
     let verdicts = [
         (all, "passes: 9 of them are a strong core"),
         (BlobJudged { core: 0, clipped: 1, ..all }, "no strong core, but 1 clipped pixel in it"),
@@ -172,7 +225,7 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
     }
     let tried = RepairTried {
         blob: 2,
-        pixel: 23,
+        pixel: PIXEL,
         pixels: 12,
         ring: Measured::new(0.62, 0.4),
         inner: 40.0,

@@ -38,6 +38,7 @@ fn number(value: f64) -> String {
 mod tests {
     use super::*;
     use crate::params::Parameter;
+    use crate::raster::RegionId;
     use crate::trace::PixelKind;
 
     #[test]
@@ -58,16 +59,30 @@ mod tests {
             })
         };
         assert_eq!(
-            say(Parameter::CylinderWidth, Direction::Up, 4.0, 4.9, nowhere, matte(Home::Region(3))),
+            say(
+                Parameter::CylinderWidth,
+                Direction::Up,
+                4.0,
+                4.9,
+                nowhere,
+                matte(Home::Region(RegionId::from_index(2)))
+            ),
             "joins region 3, matte, at cylinder width \u{2265} 4.9 (now 4)"
         );
         assert_eq!(
             say(Parameter::MinArea, Direction::Down, 500.0, 320.0, nowhere, matte(Home::New)),
             "joins a region that is not there now, matte, at min area \u{2264} 320 px (now 500)"
         );
-        let highlight = Fate { kind: PixelKind::Highlight, ..matte(Home::Region(3)) };
+        let highlight = Fate { kind: PixelKind::Highlight, ..matte(Home::Region(RegionId::from_index(2))) };
         assert_eq!(
-            say(Parameter::CameraNoise, Direction::Up, 2.564_34, 3.0, matte(Home::Region(3)), highlight),
+            say(
+                Parameter::CameraNoise,
+                Direction::Up,
+                2.564_34,
+                3.0,
+                matte(Home::Region(RegionId::from_index(2))),
+                highlight
+            ),
             "becomes highlight at camera noise \u{2265} 3 counts (now 2.564)"
         );
         assert_eq!(

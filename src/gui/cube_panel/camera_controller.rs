@@ -77,8 +77,8 @@ pub struct Plane {
 impl Plane {
     /// The plane of the selected region; `None` when the region has no plane or the space is not RGB.
     pub fn of(state: &State) -> Option<Self> {
-        let region = usize::from(state.selected_region()?);
-        let region = state.shown()?.analysis.intrinsic.regions.get(region.checked_sub(1)?)?;
+        let region = state.selected_region()?;
+        let region = state.shown()?.analysis.intrinsic.regions.get(region.index())?;
         let normal = region.plane_normal.filter(|_| state.view.cube.space == ColorSpace::Rgb)?;
         Some(Self { normal: normal.map(|v| v as f32), body: region.body.map(|v| v as f32) })
     }

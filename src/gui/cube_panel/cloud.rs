@@ -4,6 +4,7 @@ use crate::app::State;
 use crate::gpu::{Batch, Point};
 use crate::gui::theme::Tones;
 use crate::raster::Mask;
+use crate::raster::RegionId;
 use crate::trace::Class;
 use crate::view::{
     ColorBy, ColorSpace, CubeSettings, Item, Picture, ResultSnapshot, Theme, UniqueColor, marking,
@@ -154,8 +155,8 @@ impl Cloud {
     }
 
     /// The region that most pixels of a bin are in; `None` when most are in none.
-    pub fn region_of(&self, bin: u32) -> Option<u16> {
-        self.tally.regions.get(bin as usize).copied().filter(|&region| region != 0)
+    pub fn region_of(&self, bin: u32) -> Option<RegionId> {
+        RegionId::from_label(*self.tally.regions.get(bin as usize)?)
     }
 }
 

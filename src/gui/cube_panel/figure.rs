@@ -6,6 +6,7 @@ use crate::app::State;
 use crate::gpu::{self, Line, Orbit, Overlay, Projection, Projector, Vertex};
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::gui::widgets;
+use crate::raster::RegionId;
 use crate::view::{
     self, ColorSpace, CubeSettings, Item, Mesh, Picture, Point, RegionShapes, ResultSnapshot, Solid, Theme,
 };
@@ -48,7 +49,7 @@ struct Note {
 struct Inputs {
     /// The result, compared by its address. The `Arc` is kept, so that no other result can take the address.
     shown: Same,
-    region: Option<u16>,
+    region: Option<RegionId>,
     window: Option<u32>,
     view: (ColorSpace, [bool; 5], Theme),
     /// The instant at the debugger's cursor, in place of the result.
@@ -114,7 +115,7 @@ impl Figure {
         if let Some(region) = region
             && let Some(shapes) = view::region_shapes(&shown, region)
         {
-            let color = shown.region_colors.get(usize::from(region) - 1);
+            let color = shown.region_colors.get(region.index());
             let color = color.map_or(tones.quiet, |&color| widgets::color(color));
             if cylinder {
                 pen.cylinder(&shown, &shapes, color, tones.quiet);

@@ -3,6 +3,7 @@
 use super::{CubePanel, frame};
 use crate::gpu::Orbit;
 use crate::gui::App;
+use crate::raster::RegionId;
 use egui::{Pos2, Rect};
 use egui_wgpu::RenderState;
 
@@ -14,7 +15,7 @@ pub struct ColorSpaceDrawing {
     /// Position of each bin of the color histogram, world units (counts / 255).
     pub bins: Vec<[f32; 3]>,
     /// The region that most pixels of each bin are in.
-    pub bin_regions: Vec<Option<u16>>,
+    pub bin_regions: Vec<Option<RegionId>>,
     /// Number of points in focus, and number of points drawn faint behind them.
     pub points: [usize; 2],
     /// Vertices of each solid, three a triangle, world units.

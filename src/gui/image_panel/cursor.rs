@@ -7,6 +7,7 @@ use crate::app::{Command, DebugCommand, DebugSettings, State};
 use crate::gui::PanelContext;
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::gui::widgets::{color, grouped};
+use crate::raster::HypothesisId;
 use crate::view::{Instant, cursor_place, instant_legend};
 use egui::accesskit::Role;
 use egui::{Align2, Button, Color32, Painter, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
@@ -22,7 +23,7 @@ pub struct InstantCache {
 }
 
 /// The identity of an instant: number of the result, step, chosen region.
-type Frame = (u64, usize, Option<u16>);
+type Frame = (u64, usize, Option<HypothesisId>);
 
 impl InstantCache {
     /// The instant at the cursor, where it is followed; an older one while `busy`, so that a large picture is not copied
@@ -108,9 +109,9 @@ pub fn words(ui: &Ui, painter: &Painter, tones: &Tones, view: Rect, state: &Stat
 fn chosen(painter: &Painter, tones: &Tones, beside: Rect, state: &State) {
     let Some(focus) = state.debugger.focus() else { return };
     let names = &state.debugger.names;
-    let text = match names.final_number(focus) {
-        0 => "nothing is left of it".to_owned(),
-        number => format!("\u{2192} region {number}"),
+    let text = match names.region_of(focus) {
+        None => "nothing is left of it".to_owned(),
+        Some(number) => format!("\u{2192} region {number}"),
     };
     let font = egui::FontId::proportional(SMALL_PT);
     let galley = painter.layout_no_wrap(text, font, tones.quiet);

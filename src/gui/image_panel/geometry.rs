@@ -1,6 +1,7 @@
 //! The picture's position on the screen. The pixel of column x and row y covers the square from (x, y) to (x + 1, y +
 //! 1).
 
+use crate::raster::PixelIndex;
 use crate::view::ImageSettings;
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
 
@@ -62,16 +63,16 @@ impl Placement {
     }
 
     /// Row-major index of the pixel at a screen position; `None` outside of the picture.
-    pub fn pixel_at(&self, point: Pos2) -> Option<u32> {
+    pub fn pixel_at(&self, point: Pos2) -> Option<PixelIndex> {
         let at = self.image_from_screen(point);
         let inside = at.x >= 0.0 && at.y >= 0.0 && at.x < self.size.x && at.y < self.size.y;
-        inside.then(|| at.y as u32 * self.size.x as u32 + at.x as u32)
+        inside.then(|| PixelIndex::new(at.y as u32 * self.size.x as u32 + at.x as u32))
     }
 
     /// The square that a pixel covers in the picture, pixels.
-    pub fn square_of(&self, pixel: u32) -> Rect {
-        let width = (self.size.x as u32).max(1);
-        Rect::from_min_size(pos2((pixel % width) as f32, (pixel / width) as f32), vec2(1.0, 1.0))
+    pub fn square_of(&self, pixel: PixelIndex) -> Rect {
+        let [x, y] = pixel.position(self.size.x as usize);
+        Rect::from_min_size(pos2(x as f32, y as f32), vec2(1.0, 1.0))
     }
 
     /// The visible part of the picture: the ranges of columns and of rows.
@@ -165,7 +166,7 @@ mod tests {
     fn a_point_is_in_the_pixel_whose_square_holds_it() {
         let place = placed(&ImageSettings { zoom: Some(4.0), ..ImageSettings::default() });
         let pixel = place.pixel_at(pos2(400.0, 250.0)).unwrap();
-        assert_eq!(pixel, 240 * 512 + 256);
+        assert_eq!(pixel, PixelIndex::new(240 * 512 + 256));
         assert!(place.screen_rect_of(place.square_of(pixel)).contains(pos2(401.0, 251.0)));
         let fitted = placed(&ImageSettings::default());
         assert_eq!(fitted.pixel_at(fitted.screen_rect().min - vec2(1.0, 1.0)), None);

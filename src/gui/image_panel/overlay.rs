@@ -89,7 +89,8 @@ pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
     for (item, color) in [(selection.item, MARK), (state.hover, Color32::WHITE)] {
         match (item, shown) {
             (Some(Item::Region(region)), Some(shown)) => {
-                edges(painter, place, color, |x, y| shown.labels().get(x, y) == Some(&region));
+                let label = region.get();
+                edges(painter, place, color, |x, y| shown.labels().get(x, y) == Some(&label));
             }
             (Some(Item::Window(window)), Some(shown)) => {
                 let (side_px, columns) = (shown.window_px(), shown.classes().width().max(1));

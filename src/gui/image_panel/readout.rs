@@ -3,6 +3,7 @@
 use crate::app::State;
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::intrinsic::PixelKind;
+use crate::raster::HypothesisId;
 use crate::trace::{Class, Replay};
 use crate::view::{Item, Picture, RegionNames, ResultSnapshot};
 use egui::accesskit::Role;
@@ -66,7 +67,7 @@ fn name_width(ui: &Ui, name: &str) -> f32 {
 pub fn show(ui: &mut Ui, state: &State, tones: &Tones) {
     let full = ui.available_rect_before_wrap();
     let pixel = [state.hover, state.document.selection.item].into_iter().find_map(|item| match item {
-        Some(Item::Pixel(pixel)) => Some(pixel as usize),
+        Some(Item::Pixel(pixel)) => Some(pixel.index()),
         _ => None,
     });
     let facts = state.picture.as_ref().zip(pixel).and_then(|(picture, pixel)| match state.followed() {
@@ -135,6 +136,7 @@ struct Facts {
 struct Found {
     class: Option<Class>,
     kind: PixelKind,
+    /// Number of the region; at the debugger's cursor, of the hypothesis.
     region: Option<u16>,
     split: Option<Split>,
 }
@@ -167,9 +169,10 @@ impl Facts {
             let window = grid.window_of(pixel, image.width());
             grid.classes.as_slice().get(window).copied().flatten().flatten()
         });
-        let region = Some(*replay.labels().as_slice().get(pixel)?).filter(|&region| region != 0);
+        let hypothesis = HypothesisId::from_label(*replay.labels().as_slice().get(pixel)?);
+        let region = hypothesis.map(HypothesisId::get);
         let found = Found { class, kind: replay.kind(pixel), region, split: None };
-        let chip = region.map(|region| crate::gui::widgets::color(names.color(region)));
+        let chip = hypothesis.map(|hypothesis| crate::gui::widgets::color(names.color(hypothesis)));
         let at = [pixel % image.width(), pixel / image.width()];
         Some(Self { at, color, found: Some(found), chip })
     }

@@ -5,7 +5,7 @@ use super::icons::{corners, dashed};
 use super::overlay::MARK;
 use crate::app::{Ask, Combine, Command, Edit, Gesture, Severity, State, ViewCommand};
 use crate::gui::PanelContext;
-use crate::raster::Mask;
+use crate::raster::{Mask, PixelIndex};
 use crate::view::marking::{brush, outline, rectangle};
 use crate::view::{ImageSettings, Item, Layer, ProfileLine, Tool};
 use egui::{
@@ -274,14 +274,14 @@ fn point(spot: &PointerContext, cx: &mut PanelContext, settings: &mut ImageSetti
 }
 
 /// The item that a click on a pixel selects.
-fn item_at(state: &State, layer: Layer, pixel: u32, the_pixel: bool) -> Option<Item> {
+fn item_at(state: &State, layer: Layer, pixel: PixelIndex, the_pixel: bool) -> Option<Item> {
     if the_pixel {
         return Some(Item::Pixel(pixel));
     }
     let shown = state.shown()?;
     if layer == Layer::Classes {
         let width = shown.picture.size().0;
-        let (x, y) = (pixel as usize % width / shown.window_px(), pixel as usize / width / shown.window_px());
+        let [x, y] = pixel.position(width).map(|place| place / shown.window_px());
         let class = shown.classes().get(x, y).copied().flatten();
         return class.map(|_| Item::Window((y * shown.classes().width() + x) as u32));
     }

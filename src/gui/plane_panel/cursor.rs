@@ -5,6 +5,7 @@
 use super::{PlanePanel, cloud, hovered, kinds, navigate, quiet};
 use crate::app::State;
 use crate::gui::{PanelContext, verdict, widgets};
+use crate::raster::HypothesisId;
 use crate::trace::{PixelKind, Replay};
 use crate::view::{growing_plane, test_at_cursor, test_plane};
 use egui::{Sense, Stroke, Ui, vec2};
@@ -43,16 +44,16 @@ const GROWING: [Name; 3] = [
 ];
 
 /// Identity of an instant: generation of the trace, number of steps taken, and id of the hypothesis shown.
-pub type Frame = (u64, usize, u16);
+pub type Frame = (u64, usize, HypothesisId);
 
 /// The instant to show at the cursor; `None` when the step concerns no hypothesis.
 pub fn frame(state: &State) -> Option<Frame> {
     let replay = state.followed()?;
-    let region = match test_at_cursor(replay) {
-        Some(test) => test.region,
+    let hypothesis = match test_at_cursor(replay) {
+        Some(test) => test.hypothesis,
         None => state.debugger.focus().filter(|&focus| replay.hypothesis(focus).is_some())?,
     };
-    Some((state.debugger.generation, replay.at(), region))
+    Some((state.debugger.generation, replay.at(), hypothesis))
 }
 
 impl PlanePanel {
@@ -105,7 +106,7 @@ impl PlanePanel {
         if self.frame == Some(frame) {
             return;
         }
-        let (region, masks) = (state.debugger.names.final_number(frame.2), &shown.analysis.masks);
+        let (region, masks) = (state.debugger.names.region_of(frame.2), &shown.analysis.masks);
         let test = test_at_cursor(replay);
         self.plane = match test {
             Some(test) => test_plane(replay, test, region, picture, masks),

@@ -6,6 +6,7 @@ use super::{ROW_PT, cell, vector};
 use crate::app::{Command, DebugCommand, Edit, ViewCommand};
 use crate::gui::theme::Tones;
 use crate::gui::{PanelContext, widgets};
+use crate::raster::RegionId;
 use crate::trace::Replay;
 use crate::view::{
     HypothesisRow, Item, LegendEntry, RegionNames, Status, WindowCounts, class_entries, hypothesis_rows,
@@ -78,7 +79,7 @@ impl Sorting {
             table =
                 table.column(if last { Column::remainder().at_least(width) } else { Column::exact(width) });
         }
-        if let Some(row) = order.iter().position(|&index| Some(rows[index].region) == focus) {
+        if let Some(row) = order.iter().position(|&index| Some(rows[index].hypothesis) == focus) {
             table = table.scroll_to_row(row, None);
         }
         table
@@ -90,15 +91,15 @@ impl Sorting {
             .body(|body| {
                 body.rows(ROW_PT, order.len(), |mut row| {
                     let of = &rows[order[row.index()]];
-                    row.set_selected(Some(of.region) == focus);
+                    row.set_selected(Some(of.hypothesis) == focus);
                     cells(&mut row, cx.tones, of, &cx.state.debugger.names);
                     let response = row.response();
-                    let becomes = (of.final_number != 0).then_some(Item::Region(of.final_number));
+                    let becomes = of.region.map(Item::Region);
                     if response.hovered() {
                         hovered = becomes;
                     }
                     if response.clicked() {
-                        cx.send(Command::Debug(DebugCommand::Choose(Some(of.region))));
+                        cx.send(Command::Debug(DebugCommand::Choose(Some(of.hypothesis))));
                         cx.out.extend(becomes.map(|item| Edit::Select(Some(item)).into()));
                     }
                 });
@@ -125,7 +126,7 @@ impl Sorting {
     fn order(self, rows: &[HypothesisRow]) -> Vec<usize> {
         let mut order: Vec<usize> = (0..rows.len()).collect();
         let value = |row: &HypothesisRow| match self.key {
-            Key::Birth => f64::from(row.region),
+            Key::Birth => f64::from(row.hypothesis.get()),
             Key::Pixels => f64::from(row.pixels),
             Key::Direction => row.direction.map_or(-10.0, super::hue_rad),
             Key::Radius => row.radius,
@@ -137,7 +138,7 @@ impl Sorting {
                 Status::Barren => 4.0,
                 Status::Dropped => 5.0,
             },
-            Key::Becomes => f64::from(row.final_number),
+            Key::Becomes => f64::from(RegionId::label(row.region)),
         };
         order.sort_by(|&a, &b| {
             let by_value = value(&rows[a]).total_cmp(&value(&rows[b]));
@@ -159,18 +160,18 @@ fn cells(row: &mut TableRow, tones: &Tones, of: &HypothesisRow, names: &RegionNa
         });
     };
     cell(row, |ui| {
-        let color = widgets::color(names.color(of.region));
-        widgets::chip(ui, color, &format!("color of hypothesis {}", of.region));
-        plain(ui, of.region.to_string());
+        let color = widgets::color(names.color(of.hypothesis));
+        widgets::chip(ui, color, &format!("color of hypothesis {}", of.hypothesis));
+        plain(ui, of.hypothesis.to_string());
     });
     number(row, widgets::grouped(of.pixels as usize));
     cell(row, |ui| vector(ui, tones, of.direction));
     number(row, format!("{:.1}", of.radius));
     cell(row, |ui| plain(ui, of.status.text()));
     cell(row, |ui| {
-        let becomes = match of.final_number {
-            0 => "\u{2013}".to_owned(),
-            number => format!("\u{2192} region {number}"),
+        let becomes = match of.region {
+            None => "\u{2013}".to_owned(),
+            Some(number) => format!("\u{2192} region {number}"),
         };
         plain(ui, becomes);
     });

@@ -101,16 +101,16 @@ fn blocks(painter: &Painter, cx: &PanelContext, scale: &Scale, lane: Rect, trace
             continue;
         }
         drawn = (rect.left() + 1.0).max(rect.right());
-        let region = block.topic.region();
-        let number = Some(names.final_number(region)).filter(|&number| number > 0);
-        let mut fill = widgets::color(names.color(region));
-        if selected.is_some() && number != selected {
+        let hypothesis = block.topic.hypothesis();
+        let region = names.region_of(hypothesis);
+        let mut fill = widgets::color(names.color(hypothesis));
+        if selected.is_some() && region != selected {
             fill = fill.gamma_multiply(0.55);
         }
         let gap = if rect.width() > 3.0 { 1.0 } else { 0.0 };
         let rect = rect.with_max_x((rect.right() - gap).max(rect.left() + 1.0));
         painter.rect_filled(rect, 0.0, fill);
-        if number.is_some() && (number == selected || number == hovered) {
+        if region.is_some() && (region == selected || region == hovered) {
             outlined.push(rect);
         }
     }

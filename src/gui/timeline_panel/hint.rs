@@ -16,8 +16,8 @@ pub fn lines(trace: &Trace, regions: &RegionNames, names: &Names, step: usize) -
     if let Some(block) = trace.block_at(step) {
         let decisions = trace.decisions_in(block.steps.clone());
         let claims = block.steps.len().saturating_sub(decisions);
-        let number = regions.final_number(block.topic.region());
-        let region = if number > 0 { format!(", in the result region {number}") } else { String::new() };
+        let region = regions.region_of(block.topic.hypothesis());
+        let region = region.map_or_else(String::new, |region| format!(", in the result region {region}"));
         let claims = if claims > 0 { format!(": {} claims", grouped(claims)) } else { String::new() };
         lines.push(format!("{}{region}{claims}", topic(block.topic)));
     }
@@ -29,12 +29,12 @@ pub fn lines(trace: &Trace, regions: &RegionNames, names: &Names, step: usize) -
 
 fn topic(topic: Topic) -> String {
     match topic {
-        Topic::Hypothesis(region) => format!("hypothesis {region}"),
-        Topic::Absorption(region) => format!("hypothesis {region} is absorbed"),
-        Topic::Candidates(region) => format!("highlight candidates of hypothesis {region}"),
-        Topic::Slice(region) => format!("slice of hypothesis {region}"),
-        Topic::Brightness(region) => format!("hypothesis {region} grows by brightness"),
-        Topic::Hole(region) => format!("a hole of hypothesis {region}"),
-        Topic::Part(region) => format!("a part becomes hypothesis {region}"),
+        Topic::Hypothesis(id) => format!("hypothesis {id}"),
+        Topic::Absorption(id) => format!("hypothesis {id} is absorbed"),
+        Topic::Candidates(id) => format!("highlight candidates of hypothesis {id}"),
+        Topic::Slice(id) => format!("slice of hypothesis {id}"),
+        Topic::Brightness(id) => format!("hypothesis {id} grows by brightness"),
+        Topic::Hole(id) => format!("a hole of hypothesis {id}"),
+        Topic::Part(id) => format!("a part becomes hypothesis {id}"),
     }
 }

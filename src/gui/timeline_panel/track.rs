@@ -6,6 +6,7 @@ use super::scale::{Lanes, Scale};
 use crate::app::{Command, DebugCommand, Direction, Edit, Goal, ViewCommand};
 use crate::describe::Names;
 use crate::gui::PanelContext;
+use crate::raster::RegionId;
 use crate::trace::{Block, Replay};
 use crate::view::{Item, TimelineAxis, TimelineSection, timeline_density};
 use egui::accesskit::{Action, ActionData};
@@ -31,7 +32,7 @@ pub struct Track {
     /// Position of the cursor and length of the trace in the last frame, steps.
     cursor: [usize; 2],
     /// The region that this panel last reported as hovered.
-    pointed: Option<u16>,
+    pointed: Option<RegionId>,
 }
 
 impl Track {
@@ -146,7 +147,7 @@ impl Track {
     /// Sends the region under the pointer, when it has changed.
     fn point(&mut self, cx: &mut PanelContext, block: Option<&Block>) {
         let names = &cx.state.debugger.names;
-        let region = block.map(|block| names.final_number(block.topic.region())).filter(|&number| number > 0);
+        let region = block.and_then(|block| names.region_of(block.topic.hypothesis()));
         if region != self.pointed {
             let ours = self.pointed.map(Item::Region) == cx.state.hover;
             if region.is_some() || ours {
@@ -159,13 +160,12 @@ impl Track {
 
 /// Selects a block's region, and goes to its first decision.
 fn choose(cx: &mut PanelContext, block: &Block) {
-    let region = block.topic.region();
-    let number = cx.state.debugger.names.final_number(region);
-    let item = Some(Item::Region(number)).filter(|_| number > 0);
+    let hypothesis = block.topic.hypothesis();
+    let item = cx.state.debugger.names.region_of(hypothesis).map(Item::Region);
     if item.is_some() && item != cx.state.document.selection.item {
         cx.send(Edit::Select(item));
     }
-    cx.send(Command::Debug(DebugCommand::Choose(Some(region))));
+    cx.send(Command::Debug(DebugCommand::Choose(Some(hypothesis))));
     cx.send(Command::Debug(DebugCommand::Seek(block.steps.start + 1)));
 }
 

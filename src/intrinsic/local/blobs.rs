@@ -4,7 +4,7 @@
 //! clipped pixels. Without this rule, all pixels of {ms > high} are highlight.
 
 use super::desaturation_map::DesaturationMap;
-use crate::raster::{ComponentSearch, Connectivity, Mask, Raster, dilate};
+use crate::raster::{ComponentSearch, Connectivity, Mask, PixelIndex, Raster, dilate};
 use crate::segment::AnalysisInput;
 use crate::trace::{BlobJudged, LocalLimits, LocalPoint, Recorder};
 
@@ -49,7 +49,7 @@ pub fn highlights<R: Recorder>(
                 };
                 blobs.add(component, &faint, |blob, pixels| BlobJudged {
                     blob,
-                    pixel: roi.pixel(component[0]) as u32,
+                    pixel: PixelIndex::from_index(roi.pixel(component[0])),
                     pixels,
                     clipped: count(&|pixel| clipped[pixel]),
                     strong: count(&|pixel| faint[pixel] && is_strong(pixel)),

@@ -5,7 +5,7 @@
 //! clipped pixels (white paper, the sky) do not change. Worth 8 dB inside highlights of printed scenes, nothing elsewhere.
 
 use crate::intrinsic::images::Images;
-use crate::raster::{ComponentSearch, Connectivity, Mask, Raster};
+use crate::raster::{ComponentSearch, Connectivity, Mask, PixelIndex, Raster};
 use crate::segment::AnalysisInput;
 use crate::trace::{Measured, PixelKind, RepairTried, RepairVerdict};
 
@@ -73,7 +73,7 @@ fn tried(blob: &[usize], [inner, outer]: &[Vec<usize>; 2], surface: &Raster<[f32
     };
     RepairTried {
         blob: 0,
-        pixel: blob.first().map_or(0, |&first| first as u32),
+        pixel: PixelIndex::from_index(blob.first().copied().unwrap_or(0)),
         pixels: blob.len() as u32,
         ring: Measured::new(highlight as f32 / count.max(1) as f32, LEAST_HIGHLIGHT as f32),
         inner: rise[0] / 3.0,

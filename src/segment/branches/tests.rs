@@ -1,5 +1,6 @@
 use super::*;
 use crate::color::Vec3;
+use crate::raster::RegionId;
 use crate::segment::Members;
 use crate::segment::testing::Drawing;
 use proptest::prelude::*;
@@ -37,12 +38,12 @@ fn search(amounts: impl Fn(f64, f64) -> (f64, f64), seed: u64, label: impl Fn(us
     let search = BranchSearch {
         input: &input,
         labels: &labels,
-        region: 1,
+        region: RegionId::from_index(0),
         transform: &ReflectionTransform::new(&body, &surface).unwrap(),
         matte_length: LENGTH,
         light_doubt_deg: None,
     };
-    search.run(Members::of(&labels, 2).region(1))
+    search.run(Members::of(&labels, 2).region(1u16))
 }
 
 /// Nearly normal: the sum of twelve uniform numbers (xorshift).

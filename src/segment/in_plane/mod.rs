@@ -19,7 +19,7 @@ mod regress;
 
 use super::input::AnalysisInput;
 use super::recorded_labels::Pixels;
-use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED, dilate};
+use crate::raster::{HypothesisId, LabelMap, Mask, Raster, UNASSIGNED, dilate};
 use crate::reflection::DichromaticPlane;
 use regress::{CUBIC, QUADRATIC, QUARTIC, Sample, regress};
 use std::ops::Range;
@@ -60,8 +60,8 @@ pub struct InPlaneSearch<'a> {
     pub input: &'a AnalysisInput<'a>,
     /// Region of each pixel.
     pub labels: &'a LabelMap,
-    /// The region.
-    pub region: u16,
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
     /// Its dichromatic plane.
     pub plane: &'a DichromaticPlane,
     /// Length of its matte line from black, counts.
@@ -138,16 +138,18 @@ impl InPlaneSearch<'_> {
 
     /// Which pixels of some rows are highlights of the region, or distorted and not another's.
     fn bright_rows(&self, rows: Range<usize>) -> Mask {
-        let Self { input, labels, region, .. } = *self;
+        let Self { input, labels, hypothesis, .. } = *self;
+        let own_label = hypothesis.get();
         let axes = self.plane.coordinates();
         let least = input.used.radius_counts() as f32;
         let width = labels.width();
         let bright = |pixel: usize| {
             let label = labels[pixel];
-            if label != region && label != UNASSIGNED {
+            if label != own_label && label != UNASSIGNED {
                 return false;
             }
-            input.masks.distorted(pixel) || (label == region && axes.of(input.pixels[pixel]).offset > least)
+            input.masks.distorted(pixel)
+                || (label == own_label && axes.of(input.pixels[pixel]).offset > least)
         };
         let data = (rows.start * width..rows.end * width).map(bright).collect();
         Raster::from_vec(width, rows.len(), data).unwrap_or_default()
@@ -155,7 +157,8 @@ impl InPlaneSearch<'_> {
 
     /// The believable pixels of the region within `radius_px` of a highlight.
     fn samples(&self, blob: &Blob, radius_px: usize) -> Vec<Sample> {
-        let Self { input, labels, region, .. } = *self;
+        let Self { input, labels, hypothesis, .. } = *self;
+        let own_label = hypothesis.get();
         let axes = self.plane.coordinates();
         let thickness = input.used.radius_counts() as f32;
         let least_along = (0.3 * self.matte_length) as f32;
@@ -166,13 +169,13 @@ impl InPlaneSearch<'_> {
             let (x, y) = (index % width + blob.left, index / width + blob.top);
             let pixel = y * labels.width() + x;
             let label = labels[pixel];
-            if (label != region && label != UNASSIGNED) || !input.masks.usable(pixel) {
+            if (label != own_label && label != UNASSIGNED) || !input.masks.usable(pixel) {
                 continue;
             }
             let point = axes.of(input.pixels[pixel]);
             // A plane that is off loses the strongest pixels first: what lies inside it at a small angle is looked at too.
             let inside = point.height.abs() < (point.offset / 2.0).max(thickness);
-            let own = label == region || point.offset > thickness;
+            let own = label == own_label || point.offset > thickness;
             if own && inside && point.along > least_along {
                 let [along, offset, height] = [point.along, point.offset, point.height].map(f64::from);
                 samples.push(Sample { x: x as f64, y: y as f64, along, offset, height });

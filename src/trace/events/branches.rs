@@ -1,13 +1,14 @@
 //! Whether a region has more than one highlight line (section 7.4, figure 13).
 
 use super::{EventData, Subject};
+use crate::raster::RegionId;
 use crate::trace::Measured;
 
 /// The highlights of a region were held against one another: do they lie on different shades (section 7.4)?
 #[derive(Clone, Debug, PartialEq)]
 pub struct BranchesSought {
-    /// The region, by its final number.
-    pub region: u16,
+    /// The region.
+    pub region: RegionId,
     /// Its highlights' cores, by ascending body reflection.
     pub cores: Vec<HighlightCore>,
     /// From each core to the next: how much their body reflection differs, and from which difference on they belong to two

@@ -2,13 +2,14 @@
 
 use super::{EventData, Subject};
 use crate::color::{Line, Vec3};
+use crate::raster::HypothesisId;
 use crate::trace::Measured;
 
 /// A neighbor was tested as a hypothesis's highlight (section 5.4.1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct CandidateTested {
-    /// The region.
-    pub region: u16,
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
     /// The neighbor.
     pub candidate: CandidateSource,
     /// Pixels of the neighbor.
@@ -36,8 +37,8 @@ pub struct CandidateTested {
 /// The highlight line of a hypothesis was chosen from the candidates that passed (section 5.4.1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct CandidateChosen {
-    /// The region.
-    pub region: u16,
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
     /// The neighbor whose meeting point lies nearest to the mean of all.
     pub candidate: CandidateSource,
     /// Weighted mean of the meeting points, counts.
@@ -51,10 +52,10 @@ pub struct CandidateChosen {
 pub enum CandidateSource {
     /// What growing left of a merged area (its first window).
     Leftover(u32),
-    /// A neighboring linear region.
-    Region(u16),
-    /// A region that was absorbed as a broad highlight.
-    Absorbed(u16),
+    /// A neighboring hypothesis.
+    Hypothesis(HypothesisId),
+    /// A hypothesis that was absorbed as a broad highlight.
+    Absorbed(HypothesisId),
 }
 
 /// The tests of a highlight candidate, each true when passed.
@@ -80,7 +81,7 @@ impl CandidateVerdict {
 
 impl EventData for CandidateTested {
     fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Hypothesis(self.region)), None]
+        [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
 
     fn heap_bytes(&self) -> usize {
@@ -90,7 +91,7 @@ impl EventData for CandidateTested {
 
 impl EventData for CandidateChosen {
     fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Hypothesis(self.region)), None]
+        [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
 
     fn heap_bytes(&self) -> usize {

@@ -1,14 +1,15 @@
 //! Clipped pixels and holes (section 5.5), and which hypotheses become regions of the result.
 
 use super::{EventData, Subject};
+use crate::raster::{HypothesisId, PixelIndex, RegionId};
 
 /// A component of unassigned pixels was given to the hypothesis around it (section 5.5).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HoleFilled {
     /// The hypothesis.
-    pub region: u16,
+    pub hypothesis: HypothesisId,
     /// First pixel of the component, row-major.
-    pub pixel: u32,
+    pub pixel: PixelIndex,
     /// Pixels of the component.
     pub pixels: u32,
     /// Share of the component's assigned border that the hypothesis holds, 0…1.
@@ -19,7 +20,7 @@ pub struct HoleFilled {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dropped {
     /// The hypothesis.
-    pub region: u16,
+    pub hypothesis: HypothesisId,
     /// Pixels of the hypothesis.
     pub pixels: u32,
 }
@@ -28,9 +29,9 @@ pub struct Dropped {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ComponentSplit {
     /// The hypothesis that the part was separated from.
-    pub region: u16,
+    pub hypothesis: HypothesisId,
     /// The new hypothesis.
-    pub part: u16,
+    pub part: HypothesisId,
     /// Pixels of the part.
     pub pixels: u32,
 }
@@ -38,13 +39,13 @@ pub struct ComponentSplit {
 /// The hypotheses that are left became the regions of the result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Renumbered {
-    /// Region id of hypothesis `i + 1` at index `i`; 0 for a hypothesis that is in no region.
-    pub finals: Box<[u16]>,
+    /// The region of each hypothesis, by [`HypothesisId::index`]; none for a hypothesis that is in no region.
+    pub regions: Box<[Option<RegionId>]>,
 }
 
 impl EventData for HoleFilled {
     fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Hypothesis(self.region)), None]
+        [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
 
     fn heap_bytes(&self) -> usize {
@@ -54,7 +55,7 @@ impl EventData for HoleFilled {
 
 impl EventData for Dropped {
     fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Hypothesis(self.region)), None]
+        [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
 
     fn heap_bytes(&self) -> usize {
@@ -64,7 +65,7 @@ impl EventData for Dropped {
 
 impl EventData for ComponentSplit {
     fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Hypothesis(self.region)), Some(Subject::Hypothesis(self.part))]
+        [Some(Subject::Hypothesis(self.hypothesis)), Some(Subject::Hypothesis(self.part))]
     }
 
     fn heap_bytes(&self) -> usize {
@@ -78,6 +79,6 @@ impl EventData for Renumbered {
     }
 
     fn heap_bytes(&self) -> usize {
-        size_of_val(&*self.finals)
+        size_of_val(&*self.regions)
     }
 }

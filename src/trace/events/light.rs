@@ -1,6 +1,7 @@
 //! Which light is used, and on what it rests: the planes of regions, or the votes of small highlights (beyond 5.4).
 
 use super::{EventData, Subject};
+use crate::raster::HypothesisId;
 
 /// The color of the light was estimated (section 5.4.1).
 #[derive(Clone, Debug, PartialEq)]
@@ -16,8 +17,8 @@ pub struct IlluminantEstimated {
 /// What one region said about the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contribution {
-    /// The region.
-    pub region: u16,
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
     /// How far the light lies from where the region puts it, degrees.
     pub residual_deg: f64,
     /// Its weight.

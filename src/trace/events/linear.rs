@@ -2,12 +2,13 @@
 
 use super::{EventData, Subject};
 use crate::color::Line;
+use crate::raster::HypothesisId;
 
 /// A merged area started a linear hypothesis (section 5.3.1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct HypothesisChosen {
-    /// The new region.
-    pub region: u16,
+    /// The new hypothesis.
+    pub hypothesis: HypothesisId,
     /// First window of the area.
     pub area: u32,
     /// How many areas had been looked at before in this pass: 0 for the largest.
@@ -54,7 +55,7 @@ pub enum PassedOver {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SeedsPlaced {
     /// The hypothesis.
-    pub region: u16,
+    pub hypothesis: HypothesisId,
     /// Number of the claims.
     pub pixels: u32,
 }
@@ -63,7 +64,7 @@ pub struct SeedsPlaced {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GrowthBegan {
     /// The hypothesis.
-    pub region: u16,
+    pub hypothesis: HypothesisId,
     /// Bound of the growth, counts: radius of the cylinder (linear stage), half thickness of the slice (planar stage), least
     /// brightness (clipping stage).
     pub limit: f32,
@@ -72,8 +73,8 @@ pub struct GrowthBegan {
 /// The line of a hypothesis was fitted again to the pixels that the hypothesis had grown into.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineRefitted {
-    /// The region.
-    pub region: u16,
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
     /// The axis of its cylinder from now on.
     pub line: Line,
 }
@@ -82,9 +83,9 @@ pub struct LineRefitted {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Absorbed {
     /// The highlight, a hypothesis no longer.
-    pub region: u16,
+    pub hypothesis: HypothesisId,
     /// The object that the highlight lies on.
-    pub by: u16,
+    pub by: HypothesisId,
     /// Distance of the highlight's line from black, counts.
     pub highlight_foot: f64,
     /// Distance of the object's line from black, counts.
@@ -97,9 +98,9 @@ pub struct Absorbed {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegionsMerged {
     /// The hypothesis that vanished.
-    pub region: u16,
+    pub hypothesis: HypothesisId,
     /// The hypothesis that has its pixels now.
-    pub into: u16,
+    pub into: HypothesisId,
     /// Angle between both lines, degrees.
     pub angle_deg: f64,
     /// Root mean square distance of the vanished hypothesis's pixels from the other's line, counts.
@@ -108,7 +109,7 @@ pub struct RegionsMerged {
 
 impl EventData for HypothesisChosen {
     fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Hypothesis(self.region)), None]
+        [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
 
     fn heap_bytes(&self) -> usize {
@@ -128,7 +129,7 @@ impl EventData for HypothesisPassedOver {
 
 impl EventData for SeedsPlaced {
     fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Hypothesis(self.region)), None]
+        [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
 
     fn heap_bytes(&self) -> usize {
@@ -138,7 +139,7 @@ impl EventData for SeedsPlaced {
 
 impl EventData for GrowthBegan {
     fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Hypothesis(self.region)), None]
+        [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
 
     fn heap_bytes(&self) -> usize {
@@ -148,7 +149,7 @@ impl EventData for GrowthBegan {
 
 impl EventData for LineRefitted {
     fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Hypothesis(self.region)), None]
+        [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
 
     fn heap_bytes(&self) -> usize {
@@ -158,7 +159,7 @@ impl EventData for LineRefitted {
 
 impl EventData for Absorbed {
     fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Hypothesis(self.region)), Some(Subject::Hypothesis(self.by))]
+        [Some(Subject::Hypothesis(self.hypothesis)), Some(Subject::Hypothesis(self.by))]
     }
 
     fn heap_bytes(&self) -> usize {
@@ -168,7 +169,7 @@ impl EventData for Absorbed {
 
 impl EventData for RegionsMerged {
     fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Hypothesis(self.region)), Some(Subject::Hypothesis(self.into))]
+        [Some(Subject::Hypothesis(self.hypothesis)), Some(Subject::Hypothesis(self.into))]
     }
 
     fn heap_bytes(&self) -> usize {

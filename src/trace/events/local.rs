@@ -1,6 +1,7 @@
 //! Decisions of the local split, where no region explains the pixels (beyond section 6).
 
 use super::{EventData, Subject};
+use crate::raster::PixelIndex;
 use crate::reflection::{Desaturation, WhitenedColor};
 use crate::trace::Measured;
 
@@ -104,7 +105,7 @@ pub struct BlobJudged {
     /// Its number, from 1; repaired blobs go on counting.
     pub blob: u16,
     /// Its first pixel.
-    pub pixel: u32,
+    pub pixel: PixelIndex,
     /// Its pixels, clipped ones apart.
     pub pixels: u32,
     /// Clipped pixels that hang together with it.
@@ -173,7 +174,7 @@ pub struct RepairTried {
     /// Its number, after those of the candidate highlights.
     pub blob: u16,
     /// Its first pixel.
-    pub pixel: u32,
+    pub pixel: PixelIndex,
     /// Its pixels.
     pub pixels: u32,
     /// Share of the ring of 2 px around the blob that is highlight, 0…1, and the least share at which it is filled.

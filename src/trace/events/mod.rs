@@ -42,13 +42,15 @@ pub use planar::SliceMade;
 pub use vectors::{FitLimits, VectorsFitted};
 pub use windows::{MergeTried, WindowClassified, WindowsLaid};
 
+use crate::raster::{HypothesisId, RegionId};
+
 /// What an event is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Subject {
-    /// A hypothesis, by its hypothesis id: its place in the order in which hypotheses were made, from 1.
-    Hypothesis(u16),
-    /// A region of the result, by its region id from 1.
-    Region(u16),
+    /// A hypothesis.
+    Hypothesis(HypothesisId),
+    /// A region of the result.
+    Region(RegionId),
     /// A candidate highlight or a clipped blob of the local split, by its number from 1.
     Blob(u16),
 }

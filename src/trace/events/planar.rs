@@ -2,13 +2,14 @@
 
 use super::{EventData, Subject};
 use crate::color::Vec3;
+use crate::raster::HypothesisId;
 use crate::reflection::{DichromaticPlane, Slice};
 
 /// The dichromatic plane of a hypothesis became a slice (section 5.4.2).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SliceMade {
-    /// The region.
-    pub region: u16,
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
     /// Its dichromatic plane.
     pub plane: DichromaticPlane,
     /// Length of the matte line from black, counts.
@@ -23,7 +24,7 @@ pub struct SliceMade {
 
 impl EventData for SliceMade {
     fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Hypothesis(self.region)), None]
+        [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
 
     fn heap_bytes(&self) -> usize {

@@ -2,12 +2,13 @@
 
 use super::{EventData, Subject};
 use crate::color::{Line, Vec3};
+use crate::raster::RegionId;
 
 /// The vectors by which a region's pixels are split were fitted (section 6).
 #[derive(Clone, Debug, PartialEq)]
 pub struct VectorsFitted {
-    /// The region, by its final number.
-    pub region: u16,
+    /// The region.
+    pub region: RegionId,
     /// Unit body reflection vector.
     pub body: Vec3,
     /// Unit surface reflection vector; none: everything is body reflection.

@@ -6,13 +6,13 @@ use super::local::Outside;
 use super::patch::Patch;
 use super::{HistoryEntry, HistoryKind, Release, SplitStory, Unfit};
 use crate::photo::{LinearImage, Masks};
-use crate::raster::UNASSIGNED;
+use crate::raster::HypothesisId;
 use crate::reflection::Amounts;
-use crate::trace::stage_trace::Move;
+use crate::trace::stage_trace::{Move, Owners};
 use crate::trace::{
-    Absorbed, ComponentSplit, Contest, Dropped, Event, GrowthBegan, HoleFilled, HypothesisPassedOver,
-    Measure, Pass, PassBegan, PassedOver, PixelKind, RegionsMerged, Renumbered, Stage, StageTrace, Trace,
-    VectorsFitted,
+    Absorbed, ComponentSplit, Contest, Dropped, Event, GrowthBegan, HoleFilled, HypothesisChosen,
+    HypothesisPassedOver, Measure, Pass, PassBegan, PassedOver, PixelKind, RegionsMerged, Renumbered, Stage,
+    StageTrace, Trace, VectorsFitted,
 };
 
 /// What an event makes of the changes of hands that follow it.
@@ -32,13 +32,14 @@ pub(super) struct HistoryBuilder<'a> {
     masks: &'a Masks,
     pixel: usize,
     color: [f32; 3],
-    /// The 4-neighbors and whose they are.
-    near: Vec<(usize, u16)>,
-    holder: u16,
+    /// The 4-neighbors and the hypothesis that has each.
+    near: Vec<(usize, Option<HypothesisId>)>,
+    /// The hypothesis that has the pixel.
+    holder: Option<HypothesisId>,
     /// Whether distorted pixels wait for the clipping stage.
     waits: bool,
     regions: Regions<'a>,
-    /// How the final regions are split, by their numbers of birth.
+    /// How the region of each hypothesis is split, by [`HypothesisId::index`].
     fitted: Vec<Option<&'a VectorsFitted>>,
     patch: Option<Patch<'a>>,
     /// What was decided where its region does not explain it.
@@ -47,8 +48,8 @@ pub(super) struct HistoryBuilder<'a> {
     pass: Option<Pass>,
     cause: Cause<'a>,
     growth: Option<Growth<'a>>,
-    /// Regions merged in this pass: which, angle, distance.
-    merges: Vec<(u16, f64, f64)>,
+    /// Hypotheses merged in this pass: which, angle, distance.
+    merges: Vec<(HypothesisId, f64, f64)>,
     told: Vec<HistoryEntry>,
 }
 
@@ -56,7 +57,7 @@ impl<'a> HistoryBuilder<'a> {
     /// Of a pixel inside the picture.
     pub(super) fn new(trace: &'a Trace, image: &'a LinearImage, masks: &'a Masks, pixel: usize) -> Self {
         let mut near = Vec::with_capacity(4);
-        image.pixels.for_each_neighbor(pixel, |index| near.push((index, UNASSIGNED)));
+        image.pixels.for_each_neighbor(pixel, |index| near.push((index, None)));
         Self {
             trace,
             image,
@@ -64,7 +65,7 @@ impl<'a> HistoryBuilder<'a> {
             pixel,
             color: image.pixels[pixel],
             near,
-            holder: UNASSIGNED,
+            holder: None,
             waits: false,
             regions: Regions::default(),
             fitted: final_vectors(trace),
@@ -147,20 +148,23 @@ impl<'a> HistoryBuilder<'a> {
             Event::WindowsLaid(laid) => {
                 self.waits = if self.stage == Stage::Classify { laid.tail_test } else { self.waits };
                 // A second look is at what is in no region.
-                let looked_at = self.holder == UNASSIGNED && self.masks.usable(self.pixel);
+                let looked_at = self.holder.is_none() && self.masks.usable(self.pixel);
                 self.patch = (self.stage == Stage::Classify || looked_at)
                     .then(|| Patch::new(laid, self.pixel, self.image.width()));
             }
             Event::SeedsPlaced(_) => self.cause = Cause::Seeds,
-            Event::GrowthBegan(GrowthBegan { region, limit }) => self.begin_growth(step, *region, *limit),
-            Event::RegionsMerged(RegionsMerged { region, angle_deg, rms, .. }) => {
-                self.merges.push((*region, *angle_deg, *rms));
+            Event::GrowthBegan(GrowthBegan { hypothesis, limit }) => {
+                self.begin_growth(step, *hypothesis, *limit);
+            }
+            Event::RegionsMerged(RegionsMerged { hypothesis, angle_deg, rms, .. }) => {
+                self.merges.push((*hypothesis, *angle_deg, *rms));
             }
             Event::HypothesisChosen(_) | Event::HypothesisPassedOver(_) => self.hear_of_area(step, event),
-            Event::Renumbered(Renumbered { finals }) => {
-                let index = usize::from(self.holder).checked_sub(1);
-                if let Some(&number) = index.and_then(|index| finals.get(index)) {
-                    self.note(step, HistoryKind::Numbered { region: self.holder, number });
+            Event::Renumbered(Renumbered { regions }) => {
+                if let Some(hypothesis) = self.holder
+                    && let Some(&region) = regions.get(hypothesis.index())
+                {
+                    self.note(step, HistoryKind::Numbered { hypothesis, region });
                 }
             }
             _ => {}
@@ -171,10 +175,8 @@ impl<'a> HistoryBuilder<'a> {
         let is_own = |area| self.patch.as_ref().is_some_and(|patch| patch.is_area(area));
         match event {
             Event::HypothesisChosen(chosen) if is_own(chosen.area) => {
-                let (region, radius) = (chosen.region, chosen.radius);
-                let what =
-                    HistoryKind::AreaChosen { region, rank: chosen.rank, pixels: chosen.pixels, radius };
-                self.note(step, what);
+                let &HypothesisChosen { hypothesis, rank, pixels, radius, .. } = &**chosen;
+                self.note(step, HistoryKind::AreaChosen { hypothesis, rank, pixels, radius });
             }
             Event::HypothesisPassedOver(HypothesisPassedOver {
                 pixels,
@@ -194,7 +196,7 @@ impl<'a> HistoryBuilder<'a> {
                 }
             }
             Event::HypothesisPassedOver(HypothesisPassedOver { area, pixels, least, reason })
-                if is_own(*area) && self.holder == UNASSIGNED =>
+                if is_own(*area) && self.holder.is_none() =>
             {
                 let what = HistoryKind::AreaPassedOver { pixels: *pixels, least: *least, reason: *reason };
                 self.note(step, what);
@@ -212,30 +214,30 @@ impl<'a> HistoryBuilder<'a> {
         }
     }
 
-    fn begin_growth(&mut self, step: usize, region: u16, limit: f32) {
+    fn begin_growth(&mut self, step: usize, hypothesis: HypothesisId, limit: f32) {
         self.cause = Cause::Growth;
         let reaching = match self.stage {
             Stage::Linear => {
-                self.regions.cylinder(region).map(|(axis, radius)| Reaching::Cylinder(axis, radius))
+                self.regions.cylinder(hypothesis).map(|(axis, radius)| Reaching::Cylinder(axis, radius))
             }
-            Stage::Planar => self.regions.slice(region).map(Reaching::Slice),
+            Stage::Planar => self.regions.slice(hypothesis).map(Reaching::Slice),
             _ => Some(Reaching::Brighter(limit)),
         };
         let Some(reaching) = reaching else { return };
-        let test = usize::from(region).checked_sub(1).and_then(|index| *self.fitted.get(index)?);
+        let test = self.fitted.get(hypothesis.index()).copied().flatten();
         let test = test.and_then(growing_test);
         // By brightness only highlight pixels grow.
         let grows = |pixel: usize| match reaching {
             Reaching::Brighter(_) => test.is_some_and(|test| test.is_highlight(self.image.pixels[pixel])),
             _ => true,
         };
-        let beside = self.near.iter().any(|&(pixel, holder)| holder == region && grows(pixel));
-        let visited = (beside && self.holder != region).then_some(step);
-        self.growth = Some(Growth { region, reaching, visited, settled: false });
+        let beside = self.near.iter().any(|&(pixel, holder)| holder == Some(hypothesis) && grows(pixel));
+        let visited = (beside && self.holder != Some(hypothesis)).then_some(step);
+        self.growth = Some(Growth { hypothesis, reaching, visited, settled: false });
     }
 
     fn end_growth(&mut self) {
-        let Some(Growth { region, reaching, visited: Some(step), settled: false }) = self.growth.take()
+        let Some(Growth { hypothesis, reaching, visited: Some(step), settled: false }) = self.growth.take()
         else {
             return;
         };
@@ -249,77 +251,71 @@ impl<'a> HistoryBuilder<'a> {
             let stage = self.stage;
             let earlier = self.told.iter_mut().rev().take_while(|happening| happening.stage == stage);
             let mut lists = earlier.filter_map(|happening| match &mut happening.what {
-                HistoryKind::Unclaimable { regions } => Some(regions),
+                HistoryKind::Unclaimable { hypotheses } => Some(hypotheses),
                 _ => None,
             });
             match lists.next() {
-                Some(regions) if regions.contains(&region) => {}
-                Some(regions) => regions.push(region),
-                None => self.note(step, HistoryKind::Unclaimable { regions: vec![region] }),
+                Some(hypotheses) if hypotheses.contains(&hypothesis) => {}
+                Some(hypotheses) => hypotheses.push(hypothesis),
+                None => self.note(step, HistoryKind::Unclaimable { hypotheses: vec![hypothesis] }),
             }
             return;
         }
         // What has an owner is not asked for its brightness.
-        if by_brightness && self.holder != UNASSIGNED {
+        if by_brightness && self.holder.is_some() {
             return;
         }
         if let Some(barrier) = reaching.barrier(self.color) {
-            self.note(step, HistoryKind::Refused { region, barrier });
+            self.note(step, HistoryKind::Refused { hypothesis, barrier });
         }
     }
 
     fn moved(&mut self, step: usize, change: Move, contest: Option<Contest>) {
         if change.pixel() == self.pixel {
-            match change.hands() {
-                Some((from, to)) => {
-                    self.handed(step, (from, to), contest);
-                    self.holder = to;
+            match change.change() {
+                Some(owners) => {
+                    self.handed(step, owners, contest);
+                    self.holder = owners.after;
                 }
-                None => self.kept(step, change.regions(), contest),
+                None => self.kept(step, change.owners(), contest),
             }
             return;
         }
-        let Some((_, to)) = change.hands() else { return };
+        let Some(Owners { after, .. }) = change.change() else { return };
         for (pixel, holder) in &mut self.near {
             if *pixel == change.pixel() {
-                *holder = to;
+                *holder = after;
             }
         }
         if let Some(growth) = &mut self.growth
-            && growth.region == to
-            && self.holder != to
+            && Some(growth.hypothesis) == after
+            && self.holder != after
         {
             growth.visited.get_or_insert(step);
         }
     }
 
-    fn kept(&mut self, step: usize, (holder, challenger): (u16, u16), contest: Option<Contest>) {
-        let known = self.growth.as_mut().filter(|growth| growth.region == challenger);
-        // A region that comes from several sides is refused each time, on the same numbers.
+    fn kept(&mut self, step: usize, owners: Owners, contest: Option<Contest>) {
+        let Owners { before: Some(holder), after: Some(challenger) } = owners else { return };
+        let known = self.growth.as_mut().filter(|growth| growth.hypothesis == challenger);
+        // A hypothesis that comes from several sides is refused each time, on the same numbers.
         let again = known.is_some_and(|growth| std::mem::replace(&mut growth.settled, true));
         if let Some(contest) = contest.filter(|_| !again) {
             self.note(step, HistoryKind::Kept { holder, challenger, contest });
         }
     }
 
-    fn handed(&mut self, step: usize, (from, to): (u16, u16), contest: Option<Contest>) {
+    fn handed(&mut self, step: usize, owners: Owners, contest: Option<Contest>) {
         let vote = contest.filter(|contest| contest.measure == Measure::Vote);
         let what = match (self.pass, vote, self.cause) {
-            (_, Some(vote), _) => {
-                let votes = [vote.challenger as u32, vote.holder as u32];
-                Some(HistoryKind::Voted { from, region: to, votes })
+            (_, Some(vote), _) => voted(owners, &vote),
+            (Some(Pass::Reset), ..) => {
+                owners.before.map(|from| HistoryKind::Reset { from, to: owners.after })
             }
-            (Some(Pass::Reset), ..) => Some(HistoryKind::Reset { from, to }),
-            (Some(Pass::Uniting | Pass::Joining), ..) => {
-                let merge = self.merges.iter().find(|(region, ..)| *region == from);
-                merge.map(|&(_, angle_deg, rms)| HistoryKind::Merged { from, into: to, angle_deg, rms })
-            }
-            (_, _, Cause::Seeds) => self.regions.cylinder(to).map(|(axis, radius)| HistoryKind::Seeded {
-                region: to,
-                reach: Reaching::Cylinder(axis, radius).reach(self.color),
-            }),
-            (_, _, Cause::Growth) => self.grown(from, to, contest),
-            (_, _, Cause::Event(event)) => self.given(from, to, event),
+            (Some(Pass::Uniting | Pass::Joining), ..) => self.merged(owners),
+            (_, _, Cause::Seeds) => self.seeded(owners),
+            (_, _, Cause::Growth) => self.grown(owners, contest),
+            (_, _, Cause::Event(event)) => self.given(owners, event),
             (_, _, Cause::Nothing) => None,
         };
         if let Some(what) = what {
@@ -327,37 +323,52 @@ impl<'a> HistoryBuilder<'a> {
         }
     }
 
+    /// What a change of owner was for which two hypotheses became one.
+    fn merged(&self, owners: Owners) -> Option<HistoryKind> {
+        let (from, into) = (owners.before?, owners.after?);
+        let merge = self.merges.iter().find(|(vanished, ..)| *vanished == from);
+        merge.map(|&(_, angle_deg, rms)| HistoryKind::Merged { from, into, angle_deg, rms })
+    }
+
+    /// What a change of owner before a hypothesis's growth was.
+    fn seeded(&self, owners: Owners) -> Option<HistoryKind> {
+        let hypothesis = owners.after?;
+        let (axis, radius) = self.regions.cylinder(hypothesis)?;
+        Some(HistoryKind::Seeded { hypothesis, reach: Reaching::Cylinder(axis, radius).reach(self.color) })
+    }
+
     /// What a change of hands during a region's growth was.
-    fn grown(&mut self, from: u16, to: u16, contest: Option<Contest>) -> Option<HistoryKind> {
+    fn grown(&mut self, owners: Owners, contest: Option<Contest>) -> Option<HistoryKind> {
         let growth = self.growth.as_mut()?;
-        if growth.region == to {
+        let (hypothesis, from) = (growth.hypothesis, owners.before);
+        if Some(hypothesis) == owners.after {
             growth.settled = true;
             let reach = growth.reaching.reach(self.color);
-            return Some(HistoryKind::Claimed { region: to, from, reach, contest });
+            return Some(HistoryKind::Claimed { hypothesis, from, reach, contest });
         }
         // Growth gives nothing back: it has ended and was for nothing. The numbers come with the next event.
         growth.settled = true;
         let why = Release::Barren { pixels: 0, least: 0 };
-        Some(HistoryKind::Released { region: from, why })
+        from.map(|hypothesis| HistoryKind::Released { hypothesis, why })
     }
 
     /// What a change of hands that an event announced was.
-    fn given(&self, from: u16, to: u16, event: &Event) -> Option<HistoryKind> {
-        let released = |why| Some(HistoryKind::Released { region: from, why });
+    fn given(&self, owners: Owners, event: &Event) -> Option<HistoryKind> {
+        let released = |why| owners.before.map(|hypothesis| HistoryKind::Released { hypothesis, why });
         match *event {
             Event::LineRefitted(_) => {
-                let (axis, radius) = self.regions.cylinder(from)?;
+                let (axis, radius) = self.regions.cylinder(owners.before?)?;
                 released(Release::Refit { distance: axis.distance2(self.color).sqrt(), radius })
             }
             Event::Absorbed(Absorbed { by, highlight_foot, object_foot, gap, .. }) => {
                 released(Release::Absorbed { by, highlight_foot, object_foot, gap })
             }
             Event::Dropped(Dropped { pixels, .. }) => released(Release::Dropped { pixels }),
-            Event::HoleFilled(HoleFilled { region, pixels, border_share, .. }) => {
-                Some(HistoryKind::Filled { region, pixels, border_share })
+            Event::HoleFilled(HoleFilled { hypothesis, pixels, border_share, .. }) => {
+                Some(HistoryKind::Filled { hypothesis, pixels, border_share })
             }
-            Event::ComponentSplit(ComponentSplit { region, pixels, .. }) => {
-                Some(HistoryKind::Separated { region, part: to, pixels })
+            Event::ComponentSplit(ComponentSplit { hypothesis, part, pixels }) => {
+                Some(HistoryKind::Separated { hypothesis, part, pixels })
             }
             _ => None,
         }
@@ -365,8 +376,7 @@ impl<'a> HistoryBuilder<'a> {
 
     fn split(&mut self, step: usize, stage_trace: &StageTrace) {
         let kind = stage_trace.kinds().and_then(|kinds| kinds.as_slice().get(self.pixel)).copied();
-        let index = usize::from(self.holder).checked_sub(1);
-        let fitted = index.and_then(|index| *self.fitted.get(index)?);
+        let fitted = self.holder.and_then(|holder| *self.fitted.get(holder.index())?);
         let (Some(kind), Some(fitted)) = (kind, fitted) else { return };
         let believed = matches!(kind, PixelKind::Matte | PixelKind::Highlight);
         let test = highlight_test(fitted).filter(|_| fitted.surface.is_some() && believed);
@@ -374,7 +384,7 @@ impl<'a> HistoryBuilder<'a> {
         self.note(
             step,
             HistoryKind::Split(Box::new(SplitStory {
-                number: fitted.region,
+                region: fitted.region,
                 kind,
                 lines: test.map(|test| test.distances(self.color)),
                 amounts: believed.then_some(components),
@@ -391,4 +401,11 @@ impl<'a> HistoryBuilder<'a> {
             })),
         );
     }
+}
+
+/// What a change of owner by the majority around a pixel was.
+fn voted(owners: Owners, vote: &Contest) -> Option<HistoryKind> {
+    let (from, hypothesis) = (owners.before?, owners.after?);
+    let votes = [vote.challenger as u32, vote.holder as u32];
+    Some(HistoryKind::Voted { from, hypothesis, votes })
 }

@@ -3,22 +3,24 @@
 use super::MaskVerdict;
 use super::growth::brightness;
 use crate::photo::{LinearImage, MaskLimits, Masks};
+use crate::raster::RegionId;
 use crate::reflection::{AmountRule, Amounts};
 use crate::trace::{Event, Renumbered, Trace, VectorsFitted};
 
-/// Each region's vectors, by its number of birth; none for those that are no more.
+/// The vectors of each hypothesis's region, by [`HypothesisId::index`](crate::raster::HypothesisId::index); none for a
+/// hypothesis that is in no region.
 pub(super) fn final_vectors(trace: &Trace) -> Vec<Option<&VectorsFitted>> {
     let mut vectors: Vec<&VectorsFitted> = Vec::new();
-    let mut numbers: &[u16] = &[];
+    let mut regions: &[Option<RegionId>] = &[];
     for (_, event) in trace.events() {
         match event {
             Event::VectorsFitted(fitted) => vectors.push(fitted),
-            Event::Renumbered(Renumbered { finals }) => numbers = finals,
+            Event::Renumbered(Renumbered { regions: found }) => regions = found,
             _ => {}
         }
     }
-    let of = |&number: &u16| usize::from(number).checked_sub(1).and_then(|index| vectors.get(index)).copied();
-    numbers.iter().map(of).collect()
+    let of = |region: &Option<RegionId>| region.and_then(|region| vectors.get(region.index()).copied());
+    regions.iter().map(of).collect()
 }
 
 /// Everything that is said of a pixel's mask.

@@ -2,6 +2,7 @@
 
 use super::{Barrier, Reach};
 use crate::color::{Cylinder, Line, dot};
+use crate::raster::HypothesisId;
 use crate::reflection::HighlightTest;
 use crate::trace::{ComponentSplit, Event, SliceMade, VectorsFitted};
 
@@ -23,14 +24,14 @@ impl<'a> Regions<'a> {
             Event::HypothesisChosen(chosen) => {
                 self.0.push(Known { line: Some(chosen.line), radius: chosen.radius, slice: None });
             }
-            Event::ComponentSplit(ComponentSplit { region, .. }) => self.0.push(self.of(*region)),
+            Event::ComponentSplit(ComponentSplit { hypothesis, .. }) => self.0.push(self.of(*hypothesis)),
             Event::LineRefitted(refitted) => {
-                if let Some(known) = self.slot(refitted.region) {
+                if let Some(known) = self.slot(refitted.hypothesis) {
                     known.line = Some(refitted.line);
                 }
             }
             Event::SliceMade(made) => {
-                if let Some(known) = self.slot(made.region) {
+                if let Some(known) = self.slot(made.hypothesis) {
                     known.slice = Some(made);
                 }
             }
@@ -39,22 +40,21 @@ impl<'a> Regions<'a> {
     }
 
     /// The cylinder of a region and its radius, counts.
-    pub(super) fn cylinder(&self, region: u16) -> Option<(Cylinder, f64)> {
-        let known = self.of(region);
+    pub(super) fn cylinder(&self, hypothesis: HypothesisId) -> Option<(Cylinder, f64)> {
+        let known = self.of(hypothesis);
         known.line.map(|line| (Cylinder::new(&line, known.radius), known.radius))
     }
 
-    pub(super) fn slice(&self, region: u16) -> Option<&'a SliceMade> {
-        self.of(region).slice
+    pub(super) fn slice(&self, hypothesis: HypothesisId) -> Option<&'a SliceMade> {
+        self.of(hypothesis).slice
     }
 
-    fn of(&self, region: u16) -> Known<'a> {
-        let index = usize::from(region).checked_sub(1);
-        index.and_then(|index| self.0.get(index)).copied().unwrap_or_default()
+    fn of(&self, hypothesis: HypothesisId) -> Known<'a> {
+        self.0.get(hypothesis.index()).copied().unwrap_or_default()
     }
 
-    fn slot(&mut self, region: u16) -> Option<&mut Known<'a>> {
-        self.0.get_mut(usize::from(region).checked_sub(1)?)
+    fn slot(&mut self, hypothesis: HypothesisId) -> Option<&mut Known<'a>> {
+        self.0.get_mut(hypothesis.index())
     }
 }
 
@@ -112,7 +112,7 @@ pub(super) fn highlight_test(fitted: &VectorsFitted) -> Option<HighlightTest> {
 /// A region that grows.
 #[derive(Clone, Copy)]
 pub(super) struct Growth<'a> {
-    pub(super) region: u16,
+    pub(super) hypothesis: HypothesisId,
     pub(super) reaching: Reaching<'a>,
     /// The first step at which it came to the pixel.
     pub(super) visited: Option<usize>,

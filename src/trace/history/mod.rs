@@ -21,6 +21,7 @@ pub use split::{LocalFate, LocalStory, SplitStory, Unfit};
 use super::{Class, Contest, Event, PassedOver, Stage, Trace};
 use crate::color::Trial;
 use crate::photo::{LinearImage, Masks};
+use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::reflection::SliceMiss;
 
 /// Something that was decided about a pixel.
@@ -34,7 +35,7 @@ pub struct HistoryEntry {
     pub what: HistoryKind,
 }
 
-/// What was decided about a pixel. Regions by their numbers of birth unless said otherwise; 0 is no region.
+/// What was decided about a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HistoryKind {
     /// Its color is believed, or why not (section 4).
@@ -45,8 +46,8 @@ pub enum HistoryKind {
     Merging(Box<MergeStory>),
     /// Its area started a hypothesis (5.3.1).
     AreaChosen {
-        /// The region.
-        region: u16,
+        /// The hypothesis.
+        hypothesis: HypothesisId,
         /// Areas looked at before in this pass.
         rank: u32,
         /// Unclaimed pixels of the area.
@@ -65,17 +66,17 @@ pub enum HistoryKind {
     },
     /// A region began to grow here.
     Seeded {
-        /// The region.
-        region: u16,
+        /// The hypothesis.
+        hypothesis: HypothesisId,
         /// How far inside its cylinder it lies.
         reach: Reach,
     },
     /// A region that grew took it.
     Claimed {
-        /// The region.
-        region: u16,
-        /// The region that had it.
-        from: u16,
+        /// The hypothesis.
+        hypothesis: HypothesisId,
+        /// The hypothesis that had it; none: no hypothesis.
+        from: Option<HypothesisId>,
         /// How far inside the region's reach it lies.
         reach: Reach,
         /// The contest with the region that had it.
@@ -83,38 +84,38 @@ pub enum HistoryKind {
     },
     /// A region that grew wanted it, and the one that had it kept it.
     Kept {
-        /// The region that had it.
-        holder: u16,
-        /// The region that wanted it.
-        challenger: u16,
+        /// The hypothesis that had it.
+        holder: HypothesisId,
+        /// The hypothesis that wanted it.
+        challenger: HypothesisId,
         /// By what it was decided.
         contest: Contest,
     },
     /// A region grew beside it and did not want it.
     Refused {
-        /// The region.
-        region: u16,
+        /// The hypothesis.
+        hypothesis: HypothesisId,
         /// What kept it out.
         barrier: Barrier,
     },
     /// Regions grew beside it, which by its mask was not there to be claimed.
     Unclaimable {
-        /// The regions, in the order of their growth.
-        regions: Vec<u16>,
+        /// The hypotheses, in the order of their growth.
+        hypotheses: Vec<HypothesisId>,
     },
     /// Its region gave it up.
     Released {
-        /// The region.
-        region: u16,
+        /// The hypothesis.
+        hypothesis: HypothesisId,
         /// Why.
         why: Release,
     },
     /// Its region became part of another one.
     Merged {
-        /// The region that vanished.
-        from: u16,
-        /// The region that has the pixel now.
-        into: u16,
+        /// The hypothesis that vanished.
+        from: HypothesisId,
+        /// The hypothesis that has the pixel now.
+        into: HypothesisId,
         /// Angle between their lines, degrees.
         angle_deg: f64,
         /// Root mean square distance of the vanished region's pixels from the other's line, counts.
@@ -122,24 +123,24 @@ pub enum HistoryKind {
     },
     /// It followed the majority around it.
     Voted {
-        /// The region that had it.
-        from: u16,
-        /// The region that has it now.
-        region: u16,
+        /// The hypothesis that had it.
+        from: HypothesisId,
+        /// The hypothesis that has it now.
+        hypothesis: HypothesisId,
         /// Pixels of that region around it, and of all regions.
         votes: [u32; 2],
     },
     /// It went back to whose it was before the slices grew, for slices that turn to another light.
     Reset {
-        /// The region that had it.
-        from: u16,
-        /// The region that has it again.
-        to: u16,
+        /// The hypothesis that had it.
+        from: HypothesisId,
+        /// The hypothesis that has it again; none: no hypothesis.
+        to: Option<HypothesisId>,
     },
     /// A hole around it was given to a region.
     Filled {
-        /// The region.
-        region: u16,
+        /// The hypothesis.
+        hypothesis: HypothesisId,
         /// Pixels of the hole.
         pixels: u32,
         /// Share of the hole's assigned border that the region holds.
@@ -147,19 +148,19 @@ pub enum HistoryKind {
     },
     /// The part of its region around it became a region of its own.
     Separated {
-        /// The region.
-        region: u16,
+        /// The hypothesis.
+        hypothesis: HypothesisId,
         /// The new one.
-        part: u16,
+        part: HypothesisId,
         /// Pixels of the part.
         pixels: u32,
     },
     /// Its region got its final number.
     Numbered {
-        /// The region, by its number of birth.
-        region: u16,
-        /// By its final number.
-        number: u16,
+        /// The hypothesis.
+        hypothesis: HypothesisId,
+        /// The region that the hypothesis became; none: the hypothesis is in no region.
+        region: Option<RegionId>,
     },
     /// It was told matte from highlight, and split (section 6).
     Split(Box<SplitStory>),
@@ -313,7 +314,7 @@ pub enum Release {
     /// The region turned out to be the broad highlight of another one.
     Absorbed {
         /// The object that it lies on.
-        by: u16,
+        by: HypothesisId,
         /// Distance of the highlight's line from black, counts.
         highlight_foot: f64,
         /// Distance of the object's line from black, counts.
@@ -332,10 +333,18 @@ pub enum Release {
 /// picture.
 ///
 /// `image` and `masks` are those that the trace was made from.
-pub fn pixel_history(trace: &Trace, image: &LinearImage, masks: &Masks, pixel: usize) -> Vec<HistoryEntry> {
+pub fn pixel_history(
+    trace: &Trace,
+    image: &LinearImage,
+    masks: &Masks,
+    pixel: PixelIndex,
+) -> Vec<HistoryEntry> {
     let shape = (trace.width(), trace.height());
-    if shape != (image.width(), image.height()) || shape != masks.shape() || pixel >= image.pixels.len() {
+    if shape != (image.width(), image.height())
+        || shape != masks.shape()
+        || pixel.index() >= image.pixels.len()
+    {
         return Vec::new();
     }
-    builder::HistoryBuilder::new(trace, image, masks, pixel).tell()
+    builder::HistoryBuilder::new(trace, image, masks, pixel.index()).tell()
 }

@@ -1,13 +1,14 @@
 //! How a pixel was split (section 6), and by what where no region explains it.
 
+use crate::raster::RegionId;
 use crate::reflection::Components;
 use crate::trace::{FitLimits, LocalLimits, PixelKind};
 
 /// How a pixel was split.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitStory {
-    /// The region, by its final number.
-    pub number: u16,
+    /// The region.
+    pub region: RegionId,
     /// What it is to its region.
     pub kind: PixelKind,
     /// Distances from the matte and from the highlight line, counts; the nearer decides. None without a highlight line, and

@@ -2,7 +2,7 @@
 
 use super::legends::{CLASSES, LegendEntry};
 use super::{ACCENT, Look};
-use crate::raster::Raster;
+use crate::raster::{HypothesisId, Raster};
 use crate::trace::{Class, PixelKind};
 use crate::view::Fill;
 use crate::view::{Instant, InstantView, RegionsView, RolesView, WindowsView};
@@ -205,15 +205,14 @@ impl WindowsView {
 impl RegionsView {
     /// The color of the region in focus.
     fn own_color(&self) -> [u8; 3] {
-        let index = self.focus.and_then(|focus| usize::from(focus).checked_sub(1));
-        index.and_then(|index| self.colors.get(index)).copied().unwrap_or(ACCENT)
+        self.focus.and_then(|focus| self.colors.get(focus.index())).copied().unwrap_or(ACCENT)
     }
 
     /// All regions dimmed but the one in focus, what it took last lighter, what it did not take in another color.
     fn paint(&self, painted: &mut Raster<[u8; 4]>, look: &Look) {
-        let selected = |id: u16| self.focus.is_none_or(|focus| focus == id);
+        let selected = |id: HypothesisId| self.focus.is_none_or(|focus| focus == id);
         let styles: Vec<[u8; 4]> = std::iter::once(CLEAR)
-            .chain(self.colors.iter().zip(1..).map(|(&color, id)| {
+            .chain(self.colors.iter().zip(HypothesisId::all(self.colors.len())).map(|(&color, id)| {
                 let [r, g, b, alpha] = look.style(color, true);
                 [r, g, b, if selected(id) { alpha } else { (f32::from(alpha) * HELD) as u8 }]
             }))
@@ -302,7 +301,7 @@ mod tests {
         RegionsView {
             labels: crate::view::testing::labels(rows),
             colors: vec![[200, 0, 0], [0, 0, 200]],
-            focus: Some(1),
+            focus: HypothesisId::from_label(1),
             newest: Vec::new(),
             beside: Vec::new(),
             tested: false,

@@ -1,5 +1,6 @@
 //! How layers are drawn: exposure, fills and outlines, opacity.
 
+use crate::raster::RegionId;
 use serde::{Deserialize, Serialize};
 
 /// Body reflection that differs by this many counts is black or white in [`super::Layer::Difference`].
@@ -30,7 +31,7 @@ pub struct Look {
     /// Opacity of fills, 0…1; outlines are opaque.
     pub opacity: f32,
     /// The region of the result shown that has its full color while all others are dimmed; none: all have theirs.
-    pub selected: Option<u16>,
+    pub selected: Option<RegionId>,
 }
 
 impl Look {

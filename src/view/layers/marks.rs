@@ -69,6 +69,7 @@ impl Canvas<'_> {
         match (item, self.shown) {
             (Item::Region(region), Some(shown)) => {
                 let labels = shown.labels();
+                let region = region.get();
                 self.each(|x, y| {
                     let inside = |label| label == region;
                     (labels.row(y)[x] == region && is_border(labels, x, y, inside)).then_some(color)

@@ -4,7 +4,7 @@ use super::curve::Curve;
 use super::legends::{CLASSES, LegendEntry, MASKS, REASONS};
 use super::look::{DIFFERENCE_COUNTS, Fill, Look};
 use crate::export::colored;
-use crate::raster::{LabelMap, Raster};
+use crate::raster::{LabelMap, Raster, RegionId};
 use crate::trace::Class;
 use crate::view::ResultSnapshot;
 use crate::view::snapshot::best_overlaps;
@@ -193,8 +193,9 @@ pub(super) fn areas(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> R
 
 /// The final regions in their colors.
 pub(super) fn regions(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> Raster<[u8; 4]> {
-    let selected = |id: usize| look.selected.is_none_or(|selected| usize::from(selected) == id);
-    let colors = shown.region_colors.iter().zip(1..).map(|(&color, id)| look.style(color, selected(id)));
+    let selected = |id: RegionId| look.selected.is_none_or(|selected| selected == id);
+    let colors = RegionId::all(shown.region_colors.len()).zip(&shown.region_colors);
+    let colors = colors.map(|(id, &color)| look.style(color, selected(id)));
     let styles: Vec<[u8; 4]> = std::iter::once([0; 4]).chain(colors).collect();
     let labels = shown.labels();
     base.overlaid(look.fill, &styles, |x, y| usize::from(labels[y * labels.width() + x]))
@@ -212,10 +213,9 @@ pub(super) fn planar(input: &PaintInput) -> Raster<[u8; 4]> {
 
 /// Regions of an earlier stage, each in the color of the final region that covers most of it.
 fn stage(&PaintInput { ref base, shown, look, .. }: &PaintInput, labels: &LabelMap) -> Raster<[u8; 4]> {
-    let style = |best_overlap: u16| {
-        let color =
-            shown.region_colors.get(usize::from(best_overlap).wrapping_sub(1)).copied().unwrap_or(GONE);
-        look.style(color, look.selected.is_none_or(|selected| selected == best_overlap))
+    let style = |best_overlap: Option<RegionId>| {
+        let color = best_overlap.and_then(|region| shown.region_colors.get(region.index()).copied());
+        look.style(color.unwrap_or(GONE), look.selected.is_none_or(|selected| Some(selected) == best_overlap))
     };
     let best_overlaps = best_overlaps(labels, shown.labels());
     let styles: Vec<[u8; 4]> = std::iter::once([0; 4])

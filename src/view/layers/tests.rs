@@ -1,6 +1,7 @@
 use super::*;
 use crate::export::colored;
 use crate::intrinsic::{Intrinsic, Reason};
+use crate::raster::{PixelIndex, RegionId};
 use crate::segment::{MatteRegions, Windows};
 use crate::trace::Class;
 use crate::view::testing::{divided, gray, labels, picture, shown};
@@ -60,7 +61,7 @@ fn fills_cover_and_outlines_stay_inside() {
 fn half_opaque_is_half_way_and_what_is_not_selected_is_dimmed() {
     let picture = gray(&ROWS, 255);
     let shown = divided(&picture, &ROWS);
-    let look = Look { opacity: 0.5, selected: Some(2), ..Look::default() };
+    let look = Look { opacity: 0.5, selected: RegionId::from_label(2), ..Look::default() };
     let painted = paint(Layer::Regions, &picture, Some(&shown), None, &look);
     // 255 + (20 − 255)·128/255 and 255 + (10 − 255)·45/255.
     assert_eq!((painted[9][0], painted[0][0], painted[10][0]), (137, 212, 255));
@@ -181,12 +182,17 @@ fn marks_are_a_fill_an_outline_and_what_is_hovered() {
     let picture = gray(&ROWS, 100);
     let shown = divided(&picture, &ROWS);
     let none = Selection::default();
-    assert_eq!(marks(&picture, Some(&shown), &none, Some(Item::Pixel(3))), None);
-    assert_eq!(marks(&picture, None, &none, Some(Item::Region(1))), None, "there is no result");
+    assert_eq!(marks(&picture, Some(&shown), &none, Some(Item::Pixel(PixelIndex::new(3)))), None);
+    assert_eq!(
+        marks(&picture, None, &none, Some(Item::Region(RegionId::from_index(1 - 1)))),
+        None,
+        "there is no result"
+    );
     let mask = labels(&["1111.", "1111.", "1111.", "...1."]).map(|&label| label == 1);
     let marked = Selection { item: None, marked: Some(Arc::new(mask)) };
     let named = [('f', [0xE8, 0xA3, 0x3D, 72]), ('o', [0xE8, 0xA3, 0x3D, 255]), ('h', [255, 255, 255, 220])];
-    let painted = marks(&picture, Some(&shown), &marked, Some(Item::Region(2))).unwrap();
+    let painted =
+        marks(&picture, Some(&shown), &marked, Some(Item::Region(RegionId::from_index(2 - 1)))).unwrap();
     check(&painted, &named, &["oooo.", "offhh", "ooohh", "...oh"]);
     let bin = Item::Bin(picture.histogram.bin_of(0).unwrap());
     check(&marks(&picture, None, &none, Some(bin)).unwrap(), &named, &["hhhhh"; 4]);

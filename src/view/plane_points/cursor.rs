@@ -3,6 +3,7 @@
 use super::{PlaneBranch, PlanePixel, RegionPlane};
 use crate::color::{Vec3, rgb};
 use crate::photo::Masks;
+use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::reflection::{Components, ReflectionTransform};
 use crate::trace::{CandidateTested, PixelKind, Replay};
 use crate::view::{MOST_PLANE_POINTS, Picture};
@@ -22,7 +23,7 @@ impl Sheet<'_> {
         let place = |(pixel, kind): (u32, PixelKind)| {
             let color = self.colors[pixel as usize];
             let Components { body, surface, .. } = self.transform.split(color);
-            PlanePixel { body, surface, color, kind, pixel, count: 1 }
+            PlanePixel { body, surface, color, kind, pixel: PixelIndex::new(pixel), count: 1 }
         };
         all.map(place).collect()
     }
@@ -32,7 +33,7 @@ impl Sheet<'_> {
         self.transform.split(rgb(&color)).body
     }
 
-    fn plane(self, region: u16, half_widths: [f64; 2], points: Vec<PlanePixel>) -> RegionPlane {
+    fn plane(self, region: Option<RegionId>, half_widths: [f64; 2], points: Vec<PlanePixel>) -> RegionPlane {
         let [slice_half_width, radius] = half_widths.map(|v| v as f32);
         RegionPlane {
             region,
@@ -54,19 +55,19 @@ impl Sheet<'_> {
 }
 
 /// A test in the plane that both lines span: m_b along the matte line, m_s along the candidate's. Pixels by which the matte
-/// line is measured are matte, those ignored for it are lost, the candidate's are highlight. `region` is the tested one's
-/// final number. None where both lines have one direction.
+/// line is measured are matte, those ignored for it are lost, the candidate's are highlight. `region` is the region that the
+/// tested hypothesis became part of. None where both lines have one direction.
 pub fn test_plane(
     replay: &Replay,
     test: &CandidateTested,
-    region: u16,
+    region: Option<RegionId>,
     picture: &Picture,
     masks: &Masks,
 ) -> Option<RegionPlane> {
     let transform = ReflectionTransform::new(&test.matte.direction, &test.line.direction)?;
     let colors = &picture.photo.image.pixels;
     let sheet = Sheet { colors: colors.as_slice(), transform };
-    let own = pixels_of_region(replay, test.region);
+    let own = pixels_of_region(replay, test.hypothesis);
     let (measured, ignored) = measured_and_ignored(test, &own, colors);
     let points = sheet.points(&[
         (measured, PixelKind::Matte),
@@ -81,12 +82,12 @@ pub fn test_plane(
 }
 
 /// A region as it stands at the cursor: its pixels are matte, those that it took last highlight, those that it did not take
-/// lost. In its dichromatic plane once it has a slice, before that across its line. `focus` is its number of birth, `region`
-/// the final one. None where it has no line.
+/// lost. In its dichromatic plane once it has a slice, before that across its line. `focus` is the hypothesis,
+/// `region` the region that the hypothesis became part of. None where the hypothesis has no line.
 pub fn growing_plane(
     replay: &Replay,
-    focus: u16,
-    region: u16,
+    focus: HypothesisId,
+    region: Option<RegionId>,
     picture: &Picture,
     masks: &Masks,
 ) -> Option<RegionPlane> {
@@ -102,11 +103,12 @@ pub fn growing_plane(
     let has_plane = in_plane.is_some();
     let colors = &picture.photo.image.pixels;
     let sheet = Sheet { colors: colors.as_slice(), transform: in_plane.or_else(across)? };
-    let tracks = tracks(replay, colors, masks).filter(|tracks| tracks.region == focus).unwrap_or_default();
+    let tracks = tracks(replay, colors, masks).filter(|tracks| tracks.hypothesis == focus);
+    let (outside, newest) = tracks.map_or_else(Default::default, |tracks| (tracks.outside, tracks.newest));
     let points = sheet.points(&[
         (pixels_of_region(replay, focus), PixelKind::Matte),
-        (tracks.outside, PixelKind::Lost),
-        (tracks.newest, PixelKind::Highlight),
+        (outside, PixelKind::Lost),
+        (newest, PixelKind::Highlight),
     ]);
     let brightest = made.map(|made| line.foot() + line.direction * made.matte_length);
     let held = points.iter().filter(|point| point.kind == PixelKind::Matte);
@@ -143,8 +145,8 @@ mod tests {
             .find(|(_, event)| matches!(event, Event::CandidateTested(test) if test.verdict.accepted()));
         let replay = cursor_after(passed.unwrap().0 + 1);
         let test = test_at_cursor(&replay).unwrap();
-        let plane = test_plane(&replay, test, 3, &picture, masks).unwrap();
-        assert_eq!((plane.region, plane.has_plane), (3, true));
+        let plane = test_plane(&replay, test, RegionId::from_label(3), &picture, masks).unwrap();
+        assert_eq!((plane.region, plane.has_plane), (RegionId::from_label(3), true));
         let percent = 100.0 * f64::from(plane.branches[0].meeting_point / plane.matte_length);
         assert!((percent - test.position_percent).abs() < 8.0, "{percent} {}", test.position_percent);
         let near = |kind: PixelKind, of: fn(&PlanePixel) -> f32| {
@@ -161,12 +163,13 @@ mod tests {
         let (shown, picture) = (tiny(), tiny_picture());
         let (trace, masks) = (shown.trace().unwrap(), &shown.analysis.masks);
         let block = trace.blocks().find(|block| matches!(block.topic, Topic::Slice(_))).unwrap();
-        let region = block.topic.region();
+        let (hypothesis, region) = (block.topic.hypothesis(), RegionId::from_label(1));
         for (steps, has_plane) in [(block.steps.start, false), (block.steps.start + 1, true)] {
-            let plane = growing_plane(&cursor_after(steps), region, 1, &picture, masks).unwrap();
+            let plane = growing_plane(&cursor_after(steps), hypothesis, region, &picture, masks).unwrap();
             assert_eq!((plane.has_plane, !plane.branches.is_empty()), (has_plane, has_plane));
             assert!(plane.matte_length > 20.0 && plane.points.len() > 100);
         }
-        assert!(growing_plane(&cursor_after(1), 1, 1, &picture, masks).is_none());
+        let first = HypothesisId::from_index(0);
+        assert!(growing_plane(&cursor_after(1), first, RegionId::from_label(1), &picture, masks).is_none());
     }
 }

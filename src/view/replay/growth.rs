@@ -1,14 +1,14 @@
 //! The growth that the cursor stands in: which pixels a region has taken so far, which around it it did not take, and in
 //! which rings.
 
-use crate::raster::LabelMap;
+use crate::raster::{HypothesisId, LabelMap};
 use crate::trace::{Block, Event, Replay, SeedsPlaced, Step, Topic};
 
 /// Pixels of the region that the cursor is about.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Growth {
-    /// The region, by its number of birth.
-    pub region: u16,
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
     /// Pixels that it has claimed since its block began and still holds, in the order of the claims.
     pub claimed: Vec<u32>,
     /// Neighbors of its pixels that are not its: refused, or not asked yet. Ascending.
@@ -19,11 +19,11 @@ pub struct Growth {
 pub fn growth(replay: &Replay) -> Option<Growth> {
     let last = replay.at().checked_sub(1)?;
     let block = replay.trace().block_at(last)?;
-    let region = match block.topic {
-        Topic::Hypothesis(region)
-        | Topic::Slice(region)
-        | Topic::Brightness(region)
-        | Topic::Hole(region) => region,
+    let hypothesis = match block.topic {
+        Topic::Hypothesis(hypothesis)
+        | Topic::Slice(hypothesis)
+        | Topic::Brightness(hypothesis)
+        | Topic::Hole(hypothesis) => hypothesis,
         Topic::Absorption(_) | Topic::Candidates(_) | Topic::Part(_) => return None,
     };
     let labels = replay.labels();
@@ -31,34 +31,34 @@ pub fn growth(replay: &Replay) -> Option<Growth> {
     let mut claimed = Vec::new();
     for (_, step) in replay.trace().steps_in(block.steps.start..replay.at()) {
         if let Step::Claim { pixel, after, .. } = step
-            && after == region
-            && labels[pixel as usize] == region
-            && !std::mem::replace(&mut seen[pixel as usize], true)
+            && after == Some(hypothesis)
+            && labels[pixel.index()] == hypothesis.get()
+            && !std::mem::replace(&mut seen[pixel.index()], true)
         {
-            claimed.push(pixel);
+            claimed.push(pixel.get());
         }
     }
     let mut around = Vec::new();
     for &pixel in &claimed {
         labels.for_each_neighbor(pixel as usize, |near| {
-            if labels[near] != region && !std::mem::replace(&mut seen[near], true) {
+            if labels[near] != hypothesis.get() && !std::mem::replace(&mut seen[near], true) {
                 around.push(near as u32);
             }
         });
     }
     around.sort_unstable();
-    Some(Growth { region, claimed, around })
+    Some(Growth { hypothesis, claimed, around })
 }
 
 /// Ends of the rings of a block's growth, ascending: after each the pixels that were reached in one step more have joined.
 /// Events and the block's own end are ends too. The cursor comes back to where it was.
 pub fn rings(replay: &mut Replay, block: &Block) -> Vec<usize> {
-    let (at, region) = (replay.at(), block.topic.region());
+    let (at, hypothesis) = (replay.at(), block.topic.hypothesis());
     replay.seek(block.steps.start);
     let labels = replay.labels();
     let mut rings = Rings { ring_of: vec![0; labels.len()], ring: 1, seeds: 0, ends: Vec::new() };
     for (n, step) in replay.trace().steps_in(block.steps.clone()) {
-        rings.take(n, &step, labels, region);
+        rings.take(n, &step, labels, hypothesis);
     }
     let mut ends = rings.ends;
     ends.retain(|&end| end > block.steps.start);
@@ -78,7 +78,7 @@ struct Rings {
 }
 
 impl Rings {
-    fn take(&mut self, n: usize, step: &Step, before: &LabelMap, region: u16) {
+    fn take(&mut self, n: usize, step: &Step, before: &LabelMap, hypothesis: HypothesisId) {
         match *step {
             Step::Event(event) => {
                 if let Event::SeedsPlaced(SeedsPlaced { pixels, .. }) = event {
@@ -86,11 +86,11 @@ impl Rings {
                 }
                 self.begin(n);
             }
-            Step::Claim { pixel, after, .. } if after == region => {
-                let pixel = pixel as usize;
+            Step::Claim { pixel, after, .. } if after == Some(hypothesis) => {
+                let pixel = pixel.index();
                 let mut nearest = u32::MAX;
                 before.for_each_neighbor(pixel, |near| match self.ring_of[near] {
-                    0 if before[near] == region => nearest = 0,
+                    0 if before[near] == hypothesis.get() => nearest = 0,
                     0 => {}
                     ring => nearest = nearest.min(ring),
                 });
@@ -102,7 +102,7 @@ impl Rings {
                 }
                 self.ring_of[pixel] = self.ring;
             }
-            Step::Claim { pixel, .. } => self.ring_of[pixel as usize] = 0,
+            Step::Claim { pixel, .. } => self.ring_of[pixel.index()] = 0,
             Step::Refusal { .. } | Step::Label { .. } => {}
         }
     }

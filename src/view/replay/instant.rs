@@ -4,7 +4,7 @@ use super::RegionNames;
 use super::looked_at::blob_at_cursor;
 use super::tracks::{candidate_pixels, test_at_cursor, tracks};
 use crate::photo::Masks;
-use crate::raster::{LabelMap, Raster};
+use crate::raster::{HypothesisId, LabelMap, PixelIndex, Raster};
 use crate::trace::{
     Class, Event, Grid, MergeTried, Pass, PixelKind, Replay, Stage, Step, Topic, WindowClassified,
 };
@@ -14,7 +14,7 @@ pub struct Instant {
     /// What is drawn.
     pub view: InstantView,
     /// The pixel of the step taken last, where it is about one, and whether it changed.
-    pub pixel: Option<(u32, bool)>,
+    pub pixel: Option<(PixelIndex, bool)>,
     /// The window that was classified last, in pixels: left, top and side.
     pub window: Option<[usize; 3]>,
 }
@@ -47,15 +47,15 @@ pub struct WindowsView {
     pub tried: Vec<u32>,
 }
 
-/// Regions at an instant, by their numbers of birth.
+/// Hypotheses at an instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionsView {
-    /// Region of each pixel.
+    /// Hypothesis of each pixel.
     pub labels: LabelMap,
-    /// Color of region `id` at index `id − 1`.
+    /// Color of each hypothesis, by [`HypothesisId::index`].
     pub colors: Vec<[u8; 3]>,
     /// The region that the step taken last is about.
-    pub focus: Option<u16>,
+    pub focus: Option<HypothesisId>,
     /// Pixels that it took last.
     pub newest: Vec<u32>,
     /// Pixels beside it that it did not take, or of the cluster that it is compared with.
@@ -108,7 +108,7 @@ impl Instant {
     pub fn of(
         replay: &Replay,
         names: &RegionNames,
-        chosen: Option<u16>,
+        chosen: Option<HypothesisId>,
         colors: &Raster<[f32; 3]>,
         masks: &Masks,
     ) -> Self {
@@ -146,7 +146,7 @@ impl Instant {
 fn regions(
     replay: &Replay,
     names: &RegionNames,
-    chosen: Option<u16>,
+    chosen: Option<HypothesisId>,
     colors: &Raster<[f32; 3]>,
     masks: &Masks,
     windows: Option<WindowsView>,
@@ -160,11 +160,10 @@ fn regions(
     let test = test_at_cursor(replay);
     let beside = test.map_or(beside, |test| candidate_pixels(replay, test.candidate, masks));
     let topic = replay.at().checked_sub(1).and_then(|last| replay.trace().block_at(last));
-    let count = replay.hypotheses().len() as u16;
     RegionsView {
         labels: replay.labels().clone(),
-        colors: (1..=count).map(|region| names.color(region)).collect(),
-        focus: topic.map(|block| block.topic.region()).or(chosen),
+        colors: HypothesisId::all(replay.hypotheses().len()).map(|id| names.color(id)).collect(),
+        focus: topic.map(|block| block.topic.hypothesis()).or(chosen),
         newest,
         beside,
         tested: test.is_some(),
@@ -189,13 +188,13 @@ pub fn cursor_place(replay: &Replay) -> String {
     let Some(last) = replay.at().checked_sub(1) else { return "before the first step".to_owned() };
     let Some(stage) = replay.stage() else { return String::new() };
     let topic = replay.trace().block_at(last).map(|block| match block.topic {
-        Topic::Hypothesis(region) => format!("hypothesis {region}"),
-        Topic::Absorption(region) => format!("hypothesis {region} is absorbed"),
-        Topic::Candidates(region) => format!("highlight of {region}?"),
-        Topic::Slice(region) => format!("slice of {region}"),
-        Topic::Brightness(region) => format!("highlight of {region}"),
-        Topic::Hole(region) => format!("hole in {region}"),
-        Topic::Part(region) => format!("part {region}"),
+        Topic::Hypothesis(id) => format!("hypothesis {id}"),
+        Topic::Absorption(id) => format!("hypothesis {id} is absorbed"),
+        Topic::Candidates(id) => format!("highlight of {id}?"),
+        Topic::Slice(id) => format!("slice of {id}"),
+        Topic::Brightness(id) => format!("highlight of {id}"),
+        Topic::Hole(id) => format!("hole in {id}"),
+        Topic::Part(id) => format!("part {id}"),
     });
     let pass = replay.pass().map(|pass| pass.name().to_owned());
     [Some(stage.name().to_owned()), topic.or(pass)].into_iter().flatten().collect::<Vec<_>>().join(" \u{b7} ")

@@ -4,7 +4,7 @@ use super::tracks::{
     candidate_pixels, measured_and_ignored, pixels_of_region, sampled, test_at_cursor, tracks,
 };
 use crate::photo::Masks;
-use crate::raster::Raster;
+use crate::raster::{HypothesisId, Raster};
 use crate::trace::{Class, Event, Grid, MergeTried, RepairVerdict, Replay, Stage, Step, WindowClassified};
 
 /// What pixels are to the step at the cursor.
@@ -29,7 +29,7 @@ pub type LookedAt = (Role, Vec<u32>);
 /// is looked at where the step is about no pixels.
 pub fn looked_at(
     replay: &Replay,
-    focus: Option<u16>,
+    focus: Option<HypothesisId>,
     colors: &Raster<[f32; 3]>,
     masks: &Masks,
     most: usize,
@@ -39,16 +39,21 @@ pub fn looked_at(
     groups.map(few).filter(|(_, pixels)| !pixels.is_empty()).collect()
 }
 
-fn groups(replay: &Replay, focus: Option<u16>, colors: &Raster<[f32; 3]>, masks: &Masks) -> Vec<LookedAt> {
+fn groups(
+    replay: &Replay,
+    focus: Option<HypothesisId>,
+    colors: &Raster<[f32; 3]>,
+    masks: &Masks,
+) -> Vec<LookedAt> {
     if let Some(test) = test_at_cursor(replay) {
-        let own = pixels_of_region(replay, test.region);
+        let own = pixels_of_region(replay, test.hypothesis);
         let (measured, ignored) = measured_and_ignored(test, &own, colors);
         let candidate = candidate_pixels(replay, test.candidate, masks);
         return vec![(Role::Own, measured), (Role::Ignored, ignored), (Role::Beside, candidate)];
     }
     if let Some(tracks) = tracks(replay, colors, masks) {
         return vec![
-            (Role::Own, pixels_of_region(replay, tracks.region)),
+            (Role::Own, pixels_of_region(replay, tracks.hypothesis)),
             (Role::Beside, tracks.outside),
             (Role::Newest, tracks.newest),
         ];
@@ -103,7 +108,7 @@ fn pixels_in(grid: &Grid, width: usize, height: usize, wanted: impl Fn(usize) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::raster::Roi;
+    use crate::raster::{PixelIndex, Roi};
     use crate::trace::{
         BlobJudged, LocalPoint, LocalPoints, LocalRecord, Measured, Recorder, RepairTried, Trace,
         TraceRecorder,
@@ -116,12 +121,20 @@ mod tests {
         let mut of = Raster::filled(4, 2, LocalPoint::default());
         (of[1].blob, of[2].blob, of[7].blob) = (1, 1, 2);
         let mut recorder = TraceRecorder::default();
-        let judged =
-            BlobJudged { blob: 1, pixel: 1, pixels: 2, clipped: 0, strong: 0, calm: 0, core: 0, kept: false };
+        let judged = BlobJudged {
+            blob: 1,
+            pixel: PixelIndex::new(1),
+            pixels: 2,
+            clipped: 0,
+            strong: 0,
+            calm: 0,
+            core: 0,
+            kept: false,
+        };
         recorder.record(judged);
         recorder.record(RepairTried {
             blob: 2,
-            pixel: 7,
+            pixel: PixelIndex::new(7),
             pixels: 1,
             ring: Measured::new(0.5, 0.4),
             inner: 2.0,

@@ -1,61 +1,62 @@
-//! What the regions of a trace are called and colored: by what became of them.
+//! Region and color of each hypothesis of a trace, by what became of the hypothesis.
 
+use crate::raster::{HypothesisId, RegionId};
 use crate::trace::{End, Replay};
 
-/// The final number and color of each region, by its number of birth.
+/// Color of a hypothesis that a trace does not hold, sRGB.
+const UNKNOWN: [u8; 3] = [128; 3];
+
+/// The region that each hypothesis became part of, and a color for each hypothesis; lists by [`HypothesisId::index`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RegionNames {
-    finals: Vec<u16>,
+    regions: Vec<Option<RegionId>>,
     colors: Vec<[u8; 3]>,
 }
 
 impl RegionNames {
-    /// The names, from a cursor at the end of its trace; `colors` are the final regions'.
+    /// The names, from a cursor at the end of its trace; `colors` are the colors of the regions, sRGB.
     pub fn new(end: &Replay, colors: &[[u8; 3]]) -> Self {
-        let count = end.hypotheses().len() as u16;
-        let finals: Vec<u16> = (1..=count).map(|region| final_of(end, region)).collect();
-        let mut orphans = super::super::colors::orphan_colors(colors, usize::from(count)).into_iter();
-        let color = |&region: &u16| {
-            let kept = usize::from(region).checked_sub(1).and_then(|index| colors.get(index)).copied();
-            kept.or_else(|| orphans.next()).unwrap_or([128; 3])
+        let count = end.hypotheses().len();
+        let regions: Vec<Option<RegionId>> =
+            HypothesisId::all(count).map(|id| region_at_end(end, id)).collect();
+        let mut orphans = super::super::colors::orphan_colors(colors, count).into_iter();
+        let color = |&region: &Option<RegionId>| {
+            let kept = region.and_then(|region| colors.get(region.index())).copied();
+            kept.or_else(|| orphans.next()).unwrap_or(UNKNOWN)
         };
-        let colors = finals.iter().map(color).collect();
-        Self { finals, colors }
+        let colors = regions.iter().map(color).collect();
+        Self { regions, colors }
     }
 
-    /// The final region that a region became part of; 0 where nothing is left of it.
-    pub fn final_number(&self, region: u16) -> u16 {
-        usize::from(region).checked_sub(1).and_then(|index| self.finals.get(index)).copied().unwrap_or(0)
+    /// The region that a hypothesis became part of; none where nothing is left of the hypothesis.
+    pub fn region_of(&self, hypothesis: HypothesisId) -> Option<RegionId> {
+        self.regions.get(hypothesis.index()).copied().flatten()
     }
 
-    /// Its color, sRGB: that of the final region, where it became part of one.
-    pub fn color(&self, region: u16) -> [u8; 3] {
-        usize::from(region)
-            .checked_sub(1)
-            .and_then(|index| self.colors.get(index))
-            .copied()
-            .unwrap_or([128; 3])
+    /// The color of a hypothesis, sRGB: the color of the region that the hypothesis became part of, where there is one.
+    pub fn color(&self, hypothesis: HypothesisId) -> [u8; 3] {
+        self.colors.get(hypothesis.index()).copied().unwrap_or(UNKNOWN)
     }
 
-    /// The regions that became part of a final one, by their numbers of birth: the one that gave it its number first.
-    pub fn births_of(&self, final_number: u16) -> impl Iterator<Item = u16> + '_ {
-        (1..).zip(&self.finals).filter(move |&(_, &found)| found == final_number).map(|(region, _)| region)
+    /// The hypotheses that became part of a region, in the order in which hypotheses were made.
+    pub fn hypotheses_of(&self, region: RegionId) -> impl Iterator<Item = HypothesisId> + '_ {
+        let all = HypothesisId::all(self.regions.len()).zip(&self.regions);
+        all.filter(move |&(_, &found)| found == Some(region)).map(|(id, _)| id)
     }
 }
 
-/// The final number of a region, or of the one that it became part of.
-fn final_of(end: &Replay, region: u16) -> u16 {
-    let mut at = region;
-    // Each region ends in one that still stood; more turns than regions would be a circle.
+/// The region of a hypothesis, or of the hypothesis that it became part of.
+fn region_at_end(end: &Replay, hypothesis: HypothesisId) -> Option<RegionId> {
+    let mut at = hypothesis;
+    // Each hypothesis ends in one that still stood; more turns than hypotheses would be a circle.
     for _ in 0..=end.hypotheses().len() {
-        let own = end.final_number(at).unwrap_or(0);
-        if own != 0 {
-            return own;
+        if let Some(region) = end.region_of(at) {
+            return Some(region);
         }
         match end.hypothesis(at).and_then(crate::trace::Hypothesis::end) {
             Some(End::Merged(into) | End::Absorbed(into)) => at = into,
-            _ => return 0,
+            _ => return None,
         }
     }
-    0
+    None
 }

@@ -1,13 +1,14 @@
 //! The regions table at an instant: the hypotheses so far, and before there are any the windows and areas.
 
 use super::RegionNames;
+use crate::raster::{HypothesisId, RegionId};
 use crate::trace::{Class, End, Event, Replay, Step, WindowClassified};
 
 /// A hypothesis, as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HypothesisRow {
-    /// By its number of birth.
-    pub region: u16,
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
     /// Its pixels now.
     pub pixels: u32,
     /// Unit direction of its line, where it has one.
@@ -16,8 +17,8 @@ pub struct HypothesisRow {
     pub radius: f64,
     /// What became of it by now.
     pub status: Status,
-    /// The region that it is, or is part of, in the result; 0: none.
-    pub final_number: u16,
+    /// The region that the hypothesis is, or is part of, in the result; none: no region.
+    pub region: Option<RegionId>,
 }
 
 /// What became of a hypothesis by now.
@@ -28,9 +29,9 @@ pub enum Status {
     /// It stands.
     Stands,
     /// It was the broad highlight of another.
-    Absorbed(u16),
+    Absorbed(HypothesisId),
     /// It became part of another.
-    Merged(u16),
+    Merged(HypothesisId),
     /// It claimed too few pixels.
     Barren,
     /// It was too small to keep.
@@ -54,10 +55,10 @@ impl Status {
 /// The hypotheses so far, in the order of their birth.
 pub fn hypothesis_rows(replay: &Replay, names: &RegionNames) -> Vec<HypothesisRow> {
     let last = replay.at().checked_sub(1);
-    let at_work = last.and_then(|last| replay.trace().block_at(last)).map(|block| block.topic.region());
-    let row = |(region, hypothesis): (u16, &crate::trace::Hypothesis)| HypothesisRow {
-        region,
-        pixels: replay.size(region),
+    let at_work = last.and_then(|last| replay.trace().block_at(last)).map(|block| block.topic.hypothesis());
+    let row = |(id, hypothesis): (HypothesisId, &crate::trace::Hypothesis)| HypothesisRow {
+        hypothesis: id,
+        pixels: replay.size(id),
         direction: hypothesis.line().map(|line| line.direction.into()),
         radius: hypothesis.radius,
         status: match hypothesis.end() {
@@ -65,12 +66,12 @@ pub fn hypothesis_rows(replay: &Replay, names: &RegionNames) -> Vec<HypothesisRo
             Some(End::Absorbed(by)) => Status::Absorbed(by),
             Some(End::Merged(into)) => Status::Merged(into),
             Some(End::Dropped) => Status::Dropped,
-            None if at_work == Some(region) => Status::AtWork,
+            None if at_work == Some(id) => Status::AtWork,
             None => Status::Stands,
         },
-        final_number: names.final_number(region),
+        region: names.region_of(id),
     };
-    (1..).zip(replay.hypotheses()).map(row).collect()
+    replay.numbered_hypotheses().map(row).collect()
 }
 
 /// How many windows have been looked at, and what they were found to be.

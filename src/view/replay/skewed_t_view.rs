@@ -52,8 +52,8 @@ pub fn skewed_t_view(test: &CandidateTested, reach: Option<[f64; 2]>) -> SkewedT
 pub fn candidate_name(source: CandidateSource) -> String {
     match source {
         CandidateSource::Leftover(area) => format!("leftover of area {area}"),
-        CandidateSource::Region(region) => format!("hypothesis {region}"),
-        CandidateSource::Absorbed(region) => format!("absorbed hypothesis {region}"),
+        CandidateSource::Hypothesis(id) => format!("hypothesis {id}"),
+        CandidateSource::Absorbed(id) => format!("absorbed hypothesis {id}"),
     }
 }
 
@@ -108,13 +108,14 @@ pub fn candidate_reach(test: &CandidateTested, colors: impl Iterator<Item = [f32
 mod tests {
     use super::*;
     use crate::color::Line;
+    use crate::raster::HypothesisId;
     use crate::trace::CandidateVerdict;
 
     /// A matte line along red, 200 counts long, and a highlight 4 counts beside it at 150, along blue.
     fn test() -> CandidateTested {
         CandidateTested {
-            region: 1,
-            candidate: CandidateSource::Region(2),
+            hypothesis: HypothesisId::from_index(0),
+            candidate: CandidateSource::Hypothesis(HypothesisId::from_index(1)),
             pixels: 40,
             matte: Line::new(Vec3::new(90.0, 3.0, 0.0), Vec3::x()),
             matte_length: 200.0,

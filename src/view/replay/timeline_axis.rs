@@ -204,6 +204,7 @@ fn shares(weights: Vec<f64>, least: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::{HypothesisId, PixelIndex};
     use crate::trace::{PassBegan, StageBegan};
     use crate::trace::{Recorder, Stage, TraceRecorder};
     use std::sync::Arc;
@@ -218,7 +219,7 @@ mod tests {
         for (pass, claims) in [(Pass::Hypotheses, 50_000), (Pass::Vote, 3), (Pass::Uniting, 0)] {
             recorder.record(PassBegan { pass });
             for pixel in 0..claims {
-                recorder.claim(pixel, 0, 1);
+                recorder.claim(PixelIndex::new(pixel), None, HypothesisId::from_label(1));
             }
         }
         let linear = recorder.finish(Stage::Linear).unwrap();

@@ -3,15 +3,15 @@
 use super::growth;
 use crate::color::Cylinder;
 use crate::photo::Masks;
-use crate::raster::{LabelMap, Raster, UNASSIGNED};
+use crate::raster::{HypothesisId, LabelMap, Raster, UNASSIGNED};
 use crate::reflection::Slice;
 use crate::trace::{CandidateSource, CandidateTested, Event, Replay, Step, Topic};
 
 /// Pixels of the region that grows at the cursor.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tracks {
-    /// The region, by its number of birth.
-    pub region: u16,
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
     /// Pixels that it has claimed since its block began and still holds, in the order of the claims.
     pub claimed: Vec<u32>,
     /// Those of them that were claimed in the ring at work.
@@ -30,13 +30,13 @@ enum Bounds {
 }
 
 impl Bounds {
-    fn of(replay: &Replay, region: u16, topic: Topic) -> Option<Self> {
+    fn of(replay: &Replay, id: HypothesisId, topic: Topic) -> Option<Self> {
         match topic {
             Topic::Hypothesis(_) => {
-                let hypothesis = replay.hypothesis(region)?;
+                let hypothesis = replay.hypothesis(id)?;
                 Some(Self::Cylinder(Cylinder::new(hypothesis.line()?, hypothesis.radius)))
             }
-            Topic::Slice(_) => Some(Self::Slice(replay.slice(region)?.slice)),
+            Topic::Slice(_) => Some(Self::Slice(replay.slice(id)?.slice)),
             _ => None,
         }
     }
@@ -55,8 +55,14 @@ impl Bounds {
 pub fn tracks(replay: &Replay, colors: &Raster<[f32; 3]>, masks: &Masks) -> Option<Tracks> {
     let block = replay.trace().block_at(replay.at().checked_sub(1)?)?;
     let growth = growth(replay)?;
-    let bounds = Bounds::of(replay, growth.region, block.topic);
-    let mut tracks = Tracks { region: growth.region, claimed: growth.claimed, ..Tracks::default() };
+    let bounds = Bounds::of(replay, growth.hypothesis, block.topic);
+    let mut tracks = Tracks {
+        hypothesis: growth.hypothesis,
+        claimed: growth.claimed,
+        newest: Vec::new(),
+        outside: Vec::new(),
+        kept_out: Vec::new(),
+    };
     for pixel in growth.around {
         let at = pixel as usize;
         let Some(bounds) = &bounds else { continue };
@@ -66,18 +72,18 @@ pub fn tracks(replay: &Replay, colors: &Raster<[f32; 3]>, masks: &Masks) -> Opti
             tracks.kept_out.push(pixel);
         }
     }
-    tracks.newest = newest_ring(replay, block.steps.start, growth.region);
+    tracks.newest = newest_ring(replay, block.steps.start, growth.hypothesis);
     Some(tracks)
 }
 
 /// The pixels of the ring of a growth that is at work: those reached from none of the same ring.
-fn newest_ring(replay: &Replay, from: usize, region: u16) -> Vec<u32> {
+fn newest_ring(replay: &Replay, from: usize, hypothesis: HypothesisId) -> Vec<u32> {
     let labels = replay.labels();
     let mut claims = Vec::new();
     for (_, step) in replay.trace().steps_in(from..replay.at()) {
         match step {
             Step::Event(Event::SeedsPlaced(_) | Event::GrowthBegan(_)) => claims.clear(),
-            Step::Claim { pixel, after, .. } if after == region => claims.push(pixel),
+            Step::Claim { pixel, after, .. } if after == Some(hypothesis) => claims.push(pixel.get()),
             _ => {}
         }
     }
@@ -90,7 +96,7 @@ fn newest_ring(replay: &Replay, from: usize, region: u16) -> Vec<u32> {
     );
     let start = if seeds { 0 } else { start_of_ring(&claims, labels) };
     claims.drain(..start);
-    claims.retain(|&pixel| labels[pixel as usize] == region);
+    claims.retain(|&pixel| labels[pixel as usize] == hypothesis.get());
     claims
 }
 
@@ -138,7 +144,7 @@ pub fn test_at_cursor(replay: &Replay) -> Option<&CandidateTested> {
 pub fn candidate_pixels(replay: &Replay, source: CandidateSource, masks: &Masks) -> Vec<u32> {
     let labels = replay.labels();
     match source {
-        CandidateSource::Region(region) => pixels_of_region(replay, region),
+        CandidateSource::Hypothesis(hypothesis) => pixels_of_region(replay, hypothesis),
         CandidateSource::Absorbed(_) => Vec::new(),
         CandidateSource::Leftover(area) => {
             let Some(grid) = replay.first_grid() else { return Vec::new() };
@@ -152,10 +158,10 @@ pub fn candidate_pixels(replay: &Replay, source: CandidateSource, masks: &Masks)
     }
 }
 
-/// The pixels of a region at the cursor, ascending.
-pub fn pixels_of_region(replay: &Replay, region: u16) -> Vec<u32> {
+/// The pixels of a hypothesis at the cursor, ascending.
+pub fn pixels_of_region(replay: &Replay, hypothesis: HypothesisId) -> Vec<u32> {
     let labels = replay.labels().as_slice();
-    (0u32..).zip(labels).filter(|(_, label)| **label == region).map(|(pixel, _)| pixel).collect()
+    (0u32..).zip(labels).filter(|(_, label)| **label == hypothesis.get()).map(|(pixel, _)| pixel).collect()
 }
 
 /// Splits a tested region's pixels: those by which the length of its matte line is measured, and those on the inside of

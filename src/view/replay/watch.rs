@@ -2,7 +2,7 @@
 
 use super::RegionNames;
 use crate::color::{Line, dot, vec3};
-use crate::raster::Raster;
+use crate::raster::{HypothesisId, PixelIndex, Raster, RegionId};
 use crate::trace::{Class, Pass, PixelKind, Replay, Stage};
 
 /// What stands at the cursor.
@@ -29,10 +29,10 @@ pub struct Watch {
 /// The region that the cursor is about.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Current {
-    /// By its number of birth.
-    pub region: u16,
-    /// What it will be in the result; 0 where nothing is left of it.
-    pub final_number: u16,
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
+    /// The region that the hypothesis will be part of in the result; none where nothing is left of the hypothesis.
+    pub region: Option<RegionId>,
     /// Its pixels.
     pub pixels: u32,
     /// The axis of its cylinder.
@@ -46,14 +46,14 @@ pub struct Current {
 /// The selected pixel at the cursor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WatchedPixel {
-    /// Its index, row-major.
-    pub pixel: u32,
+    /// The pixel.
+    pub pixel: PixelIndex,
     /// Its color, counts.
     pub color: [f32; 3],
     /// Class of its window, once that is known; none within where it holds too few pixels.
     pub class: Option<Option<Class>>,
-    /// The region that holds it, by its number of birth; 0: none.
-    pub region: u16,
+    /// The hypothesis that holds the pixel; none: no hypothesis.
+    pub hypothesis: Option<HypothesisId>,
     /// Its role, once it has one.
     pub kind: PixelKind,
     /// How far it is from the axis and plane of each region that stands, nearest axis first.
@@ -63,8 +63,8 @@ pub struct WatchedPixel {
 /// How far a color is from a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisDistance {
-    /// The region, by its number of birth.
-    pub region: u16,
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
     /// Distance from the axis, and the radius, counts.
     pub axis: [f64; 2],
     /// Distance from the plane, and half the slice's thickness, counts; none where it has no plane.
@@ -74,7 +74,12 @@ pub struct AxisDistance {
 }
 
 /// What stands at the cursor, with what is to be told of `pixel`.
-pub fn watch(replay: &Replay, names: &RegionNames, colors: &Raster<[f32; 3]>, pixel: Option<u32>) -> Watch {
+pub fn watch(
+    replay: &Replay,
+    names: &RegionNames,
+    colors: &Raster<[f32; 3]>,
+    pixel: Option<PixelIndex>,
+) -> Watch {
     let standing = replay.hypotheses().iter().filter(|hypothesis| hypothesis.end().is_none()).count();
     let block = replay.at().checked_sub(1).and_then(|last| replay.trace().block_at(last));
     Watch {
@@ -82,45 +87,45 @@ pub fn watch(replay: &Replay, names: &RegionNames, colors: &Raster<[f32; 3]>, pi
         stage: replay.stage(),
         pass: replay.pass(),
         regions: [standing, replay.hypotheses().len()],
-        unassigned: replay.size(0),
-        current: block.and_then(|block| current(replay, names, block.topic.region())),
+        unassigned: replay.unassigned(),
+        current: block.and_then(|block| current(replay, names, block.topic.hypothesis())),
         light: replay.light(),
         pixel: pixel.and_then(|pixel| watched(replay, colors, pixel)),
     }
 }
 
-fn current(replay: &Replay, names: &RegionNames, region: u16) -> Option<Current> {
-    let hypothesis = replay.hypothesis(region)?;
+fn current(replay: &Replay, names: &RegionNames, id: HypothesisId) -> Option<Current> {
+    let hypothesis = replay.hypothesis(id)?;
     Some(Current {
-        region,
-        final_number: names.final_number(region),
-        pixels: replay.size(region),
+        hypothesis: id,
+        region: names.region_of(id),
+        pixels: replay.size(id),
         line: *hypothesis.line()?,
         radius: hypothesis.radius,
-        half_width: replay.slice(region).map(|slice| slice.half_width),
+        half_width: replay.slice(id).map(|slice| slice.half_width),
     })
 }
 
-fn watched(replay: &Replay, colors: &Raster<[f32; 3]>, pixel: u32) -> Option<WatchedPixel> {
-    let color = *colors.as_slice().get(pixel as usize)?;
-    let region = *replay.labels().as_slice().get(pixel as usize)?;
+fn watched(replay: &Replay, colors: &Raster<[f32; 3]>, pixel: PixelIndex) -> Option<WatchedPixel> {
+    let color = *colors.as_slice().get(pixel.index())?;
+    let hypothesis = HypothesisId::from_label(*replay.labels().as_slice().get(pixel.index())?);
     let grid = replay.first_grid();
     let class = grid.and_then(|grid| {
-        let window = grid.window_of(pixel as usize, colors.width());
+        let window = grid.window_of(pixel.index(), colors.width());
         grid.classes.as_slice().get(window).copied().flatten()
     });
-    let mut distances: Vec<AxisDistance> = (1..)
-        .zip(replay.hypotheses())
+    let mut distances: Vec<AxisDistance> = replay
+        .numbered_hypotheses()
         .filter(|(_, hypothesis)| hypothesis.end().is_none())
-        .filter_map(|(region, hypothesis)| {
+        .filter_map(|(id, hypothesis)| {
             let line = hypothesis.line()?;
-            let slice = replay.slice(region);
+            let slice = replay.slice(id);
             let plane = slice.map(|made| [f64::from(made.slice.distance(color)), made.half_width]);
             let axis = [line.distance(&vec3(color)), hypothesis.radius];
             let along = f64::from(dot(color, crate::color::rgb(&line.direction)));
-            Some(AxisDistance { region, axis, plane, along })
+            Some(AxisDistance { hypothesis: id, axis, plane, along })
         })
         .collect();
     distances.sort_by(|a, b| a.axis[0].total_cmp(&b.axis[0]));
-    Some(WatchedPixel { pixel, color, class, region, kind: replay.kind(pixel as usize), distances })
+    Some(WatchedPixel { pixel, color, class, hypothesis, kind: replay.kind(pixel.index()), distances })
 }

@@ -2,6 +2,7 @@
 
 use super::{ellipsoid_of, full, slice_body};
 use crate::color::Moments;
+use crate::raster::HypothesisId;
 use crate::trace::Replay;
 use crate::view::solid::Tube;
 use crate::view::{Point, ResultSnapshot, Solid};
@@ -17,17 +18,17 @@ pub struct CursorShapes {
     pub axis: Option<[Point; 2]>,
     /// Where its highlight line leaves the matte line, once that is known.
     pub start: Option<Point>,
-    /// The axes of the other regions that stand, by their numbers of birth.
-    pub others: Vec<(u16, [Point; 2])>,
+    /// The axes of the other hypotheses that stand.
+    pub others: Vec<(HypothesisId, [Point; 2])>,
     /// From black along the light as it is estimated so far.
     pub light: Option<[Point; 2]>,
 }
 
-/// The shapes at the cursor; `focus` is a region by its number of birth.
-pub fn cursor_shapes(replay: &Replay, focus: Option<u16>, shown: &ResultSnapshot) -> CursorShapes {
+/// The shapes at the cursor; `focus` is the hypothesis whose shapes are shown in full.
+pub fn cursor_shapes(replay: &Replay, focus: Option<HypothesisId>, shown: &ResultSnapshot) -> CursorShapes {
     let full = full(shown);
-    let tube = |region: u16| {
-        let hypothesis = replay.hypothesis(region)?;
+    let tube = |id: HypothesisId| {
+        let hypothesis = replay.hypothesis(id)?;
         let line = hypothesis.line()?;
         Some(Tube {
             mean: line.mean.into(),
@@ -44,8 +45,8 @@ pub fn cursor_shapes(replay: &Replay, focus: Option<u16>, shown: &ResultSnapshot
         let bounds = bounded.then(|| [shown.analysis.used.radius_counts(), made.matte_length]);
         slice_body(&made.plane, made.half_width, bounds, full)
     });
-    let standing = (1u16..).zip(replay.hypotheses()).filter(|(_, hypothesis)| hypothesis.end().is_none());
-    let others = standing.map(|(region, _)| region).filter(|region| Some(*region) != focus);
+    let standing = replay.numbered_hypotheses().filter(|(_, hypothesis)| hypothesis.end().is_none());
+    let others = standing.map(|(id, _)| id).filter(|id| Some(*id) != focus);
     let largest = |direction: [f64; 3]| direction.iter().fold(0.0f64, |most, v| most.max(*v));
     let light = replay.light().filter(|&direction| largest(direction) > 0.0);
     CursorShapes {
@@ -53,7 +54,7 @@ pub fn cursor_shapes(replay: &Replay, focus: Option<u16>, shown: &ResultSnapshot
         slice,
         axis: own.as_ref().and_then(Tube::axis),
         start: made.map(|made| crate::color::rgb(&made.start)),
-        others: others.filter_map(|region| Some((region, tube(region)?.axis()?))).collect(),
+        others: others.filter_map(|id| Some((id, tube(id)?.axis()?))).collect(),
         light: light.map(|direction| {
             let scale = full / largest(direction);
             [[0.0; 3], direction.map(|v| (v * scale) as f32)]

@@ -1,9 +1,9 @@
 //! Every widget that can be acted on has an accessible name.
 
-use crate::window::{Fixture, Window, apply, press, state, tiny_window, window, with_gpu};
+use crate::window::{Fixture, Window, apply, press, region, state, tiny_window, window, with_gpu};
 use dichroscope::app::{Edit, ViewCommand};
 use dichroscope::gui::Pane;
-use dichroscope::view::{Arrangement, ImageSettings, Item, Tool};
+use dichroscope::view::{Arrangement, ImageSettings, Tool};
 use egui::accesskit::{Action, Role};
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -44,7 +44,7 @@ fn everything_has_a_name_in_every_panel() {
     check(&window(), "nothing open");
     let mut window = tiny_window();
     check(&window, "a photograph open");
-    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(region(1))));
     apply(&mut window, ViewCommand::Pin(true));
     press(&mut window, Modifiers::COMMAND, Key::A);
     for pane in Pane::ALL {

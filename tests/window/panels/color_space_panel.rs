@@ -1,9 +1,10 @@
 //! Tests of the color space panel on the sample scene: turning, hovering, and marking with tools.
 
-use crate::window::{Fixture, SIZE, Window, with_device, with_gpu};
+use crate::window::{Fixture, SIZE, Window, region, with_device, with_gpu};
 use dichroscope::app::{Edit, ViewCommand};
 use dichroscope::gpu::Orbit;
 use dichroscope::gui::testing::{ColorSpaceDrawing, color_space_pixels};
+use dichroscope::raster::RegionId;
 use dichroscope::trace::Class;
 use dichroscope::view::{ColorSpace, Item, Picture, Tool};
 use egui::accesskit::Role;
@@ -79,7 +80,8 @@ fn tool(harness: &mut Window, tool: Tool) {
 fn fullest_bin(harness: &Window, region: u16) -> usize {
     let drawing = drawing(harness);
     let bins = &picture(harness).histogram.bins;
-    let of_region = (0..bins.len()).filter(|&bin| drawing.bin_regions[bin] == Some(region));
+    let of_region =
+        (0..bins.len()).filter(|&bin| drawing.bin_regions[bin].map(RegionId::get) == Some(region));
     of_region.max_by_key(|&bin| bins[bin].count).expect("the region has bins")
 }
 
@@ -138,7 +140,7 @@ fn views_have_names() {
     harness.get_by_label_contains("Along blue").click();
     harness.run_steps(3);
     assert!((forward(&harness)[2] + 1.0).abs() < 1e-4, "{:?}", forward(&harness));
-    harness.state_mut().apply(Edit::Select(Some(Item::Region(1))));
+    harness.state_mut().apply(Edit::Select(Some(region(1))));
     harness.run_steps(3);
     harness.get_by_label("Views").click();
     harness.run_steps(3);
@@ -154,12 +156,12 @@ fn views_have_names() {
     };
     assert!(facing(&harness, 1) > 0.9999);
     // The view follows the selection until it is locked.
-    harness.state_mut().apply(Edit::Select(Some(Item::Region(2))));
+    harness.state_mut().apply(Edit::Select(Some(region(2))));
     harness.run_steps(3);
     assert!(facing(&harness, 2) > 0.9999);
     harness.get_by_label("Lock the view").click();
     harness.run_steps(3);
-    harness.state_mut().apply(Edit::Select(Some(Item::Region(1))));
+    harness.state_mut().apply(Edit::Select(Some(region(1))));
     harness.run_steps(3);
     assert!(facing(&harness, 2) > 0.9999);
 }
@@ -245,7 +247,7 @@ fn a_lasso_marks_the_pixels_whose_colors_are_inside() {
 #[test]
 fn other_spaces_are_drawn_with_the_shapes_that_they_become() {
     let Some((mut harness, gpu)) = with_device(SIZE, Fixture::Sample) else { return };
-    harness.state_mut().apply(Edit::Select(Some(Item::Region(1))));
+    harness.state_mut().apply(Edit::Select(Some(region(1))));
     for space in ColorSpace::ALL {
         let mut cube = harness.state().state().view.cube.clone();
         cube.space = space;

@@ -1,8 +1,8 @@
 //! Tests of the color space panel on the small photograph, which need a graphics adapter.
 
 use crate::window::{
-    Fixture, SIZE, Window, apply, click, drag, item, marked, named, press, says, shown, size, state, undo,
-    with_gpu,
+    Fixture, SIZE, Window, apply, click, drag, item, marked, named, press, region, says, shown, size, state,
+    undo, with_gpu,
 };
 use dichroscope::app::Edit;
 use dichroscope::view::{ColorBy, ColorSpace, Item, Tool};
@@ -57,7 +57,7 @@ fn a_lasso_around_all_colors_marks_the_picture_and_around_half_of_them_less() {
 #[test]
 fn a_region_is_claimed_by_its_cylinder_and_colors_are_hovered() {
     let Some(mut window) = opened() else { return };
-    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(region(1))));
     let rect = view(&window);
     // At some point of a fine grid over the view there is a color.
     let places = (0..40).flat_map(|y| (0..40).map(move |x| (x, y)));

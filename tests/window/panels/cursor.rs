@@ -6,6 +6,7 @@ use crate::window::{
 };
 use dichroscope::app::{Command, DebugCommand};
 use dichroscope::gui::Pane;
+use dichroscope::raster::HypothesisId;
 use dichroscope::trace::{Block, Event, Stage, Topic, Trace};
 use dichroscope::view::Item;
 use egui::accesskit::Role;
@@ -39,7 +40,7 @@ fn accepted(window: &Window) -> usize {
 fn the_picture_tells_where_the_cursor_stands_and_can_turn_back_to_the_result() {
     let mut window = tiny_window();
     assert!(!says(&window, "at step") && !says(&window, "Follow"));
-    let block = block(&window, |topic| topic == Topic::Hypothesis(1));
+    let block = block(&window, |topic| topic == Topic::Hypothesis(HypothesisId::from_index(0)));
     seek(&mut window, block.steps.start + 200);
     assert!(says(&window, "linear \u{b7} hypothesis 1"));
     click(&mut window, Role::Button, "Follow");
@@ -86,14 +87,14 @@ fn the_table_lists_windows_then_hypotheses() {
     seek(&mut window, merge.start + 20);
     assert!(says(&window, "areas so far") && says(&window, "not looked at yet"));
     assert!(says(&window, "not estimated yet"));
-    let block = block(&window, |topic| topic == Topic::Hypothesis(2));
+    let block = block(&window, |topic| topic == Topic::Hypothesis(HypothesisId::from_index(1)));
     seek(&mut window, block.steps.end - 1);
     assert!(says(&window, "color of hypothesis 2") && says(&window, "at work"));
     assert!(!says(&window, "color of hypothesis 3") && !says(&window, "color of region 1"));
     click(&mut window, Role::Label, "color of hypothesis 1");
     let names = Arc::clone(&state(&window).debugger.names);
-    assert_eq!(state(&window).debugger.chosen, Some(1));
-    assert_eq!(item(&window), Some(Item::Region(names.final_number(1))));
+    assert_eq!(state(&window).debugger.chosen, HypothesisId::from_label(1));
+    assert_eq!(item(&window), names.region_of(HypothesisId::from_index(0)).map(Item::Region));
     for heading in ["pixels", "direction", "radius", "status", "result", "#"] {
         click(&mut window, Role::Button, heading);
     }
@@ -141,7 +142,7 @@ fn what_an_instant_looks_like() {
     let Some(mut window) = with_software_driver(vec2(420.0, 300.0), Fixture::Tiny) else { return };
     window.state_mut().show_alone(Some(Pane::Image));
     window.run_steps(3);
-    let block = block(&window, |topic| topic == Topic::Hypothesis(2));
+    let block = block(&window, |topic| topic == Topic::Hypothesis(HypothesisId::from_index(1)));
     seek(&mut window, block.steps.start + block.steps.len() * 3 / 5);
     window.run_steps(6);
     let options = SnapshotOptions::new().output_path("panels/snapshots").max_failed_pixels(60);

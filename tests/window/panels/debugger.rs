@@ -7,6 +7,7 @@ use dichroscope::app::{
     Breakpoint, Command, Condition, DebugCommand, DebugSettings, Direction, Edit, Goal, Grain, ViewCommand,
 };
 use dichroscope::gui::Pane;
+use dichroscope::raster::HypothesisId;
 use dichroscope::trace::{Kind, Replay, Step, Topic, Trace};
 use dichroscope::view::{Item, watch};
 use egui::accesskit::Role;
@@ -37,10 +38,10 @@ fn settings(window: &mut Window, change: impl FnOnce(&mut DebugSettings)) {
 }
 
 /// The first hypothesis on the timeline that is a region of the result.
-fn hypothesis(window: &Window) -> (u16, std::ops::Range<usize>) {
+fn hypothesis(window: &Window) -> (HypothesisId, std::ops::Range<usize>) {
     let names = &state(window).debugger.names;
     let found = trace(window).blocks().find_map(|block| match block.topic {
-        Topic::Hypothesis(region) if names.final_number(region) > 0 => Some((region, block.steps)),
+        Topic::Hypothesis(id) => names.region_of(id).map(|_| (id, block.steps)),
         _ => None,
     });
     found.expect("there is a hypothesis")
@@ -179,17 +180,17 @@ fn the_track_is_dragged_clicked_and_zoomed() {
     assert_eq!(cursor(&window), 0, "to the left of the line is the beginning");
 
     // A click on a block selects the block's region and moves the cursor to the block's first decision.
-    let (region, steps) = hypothesis(&window);
-    let number = state(&window).debugger.names.final_number(region);
+    let (id, steps) = hypothesis(&window);
+    let region = state(&window).debugger.names.region_of(id).map(Item::Region);
     let axis = dichroscope::view::TimelineAxis::of(&trace(&window));
     let share = axis.place_of(usize::midpoint(steps.start, steps.end)) as f32;
     let block = spot(share, 0.8);
     window.hover_at(block);
     window.run_steps(6);
-    assert_eq!(state(&window).hover, Some(Item::Region(number)), "to hover a block is to hover its region");
-    assert!(says(&window, &format!("hypothesis {region}")), "and it says what it is");
+    assert_eq!(state(&window).hover, region, "to hover a block is to hover its region");
+    assert!(says(&window, &format!("hypothesis {id}")), "and it says what it is");
     tap(&mut window, block);
-    assert_eq!((item(&window), cursor(&window)), (Some(Item::Region(number)), steps.start + 1));
+    assert_eq!((item(&window), cursor(&window)), (region, steps.start + 1));
 
     // At a large zoom, a click moves the cursor to the exact step.
     let place = spot(share, 0.1);
@@ -259,7 +260,7 @@ fn a_breakpoint_made_with_the_controls_stops_playing() {
     click(&mut window, Role::ComboBox, "Condition of breakpoint 1");
     click(&mut window, Role::Button, "region exceeds");
     let made = state(&window).view.debug.breakpoints.clone();
-    let condition = Condition::RegionExceeds { region: None, pixels: 1000 };
+    let condition = Condition::RegionExceeds { hypothesis: None, pixels: 1000 };
     assert_eq!(made, [Breakpoint { enabled: true, condition }]);
     window.state_mut().show_alone(None);
     settings(&mut window, |debug| (debug.grain, debug.per_second) = (Grain::Hypothesis, 60.0));
@@ -268,7 +269,9 @@ fn a_breakpoint_made_with_the_controls_stops_playing() {
     window.run_steps(4);
     let debugger = &state(&window).debugger;
     assert_eq!((debugger.playing, debugger.stopped_by), (None, Some(0)));
-    let Some(Step::Claim { after, .. }) = replay(&window).last() else { panic!("a claim stops it") };
+    let Some(Step::Claim { after: Some(after), .. }) = replay(&window).last() else {
+        panic!("a claim stops it")
+    };
     assert_eq!(replay(&window).size(after), 1001);
     assert!(says(&window, "breakpoint 1"), "the timeline says which one");
     window.state_mut().show_alone(Some(Pane::Breakpoints));
@@ -303,7 +306,7 @@ fn a_breakpoint_on_the_selected_pixel_is_found_by_its_key() {
 #[test]
 fn the_watch_shows_the_replays_values() {
     let mut window = tiny_window();
-    let (region, steps) = hypothesis(&window);
+    let (id, steps) = hypothesis(&window);
     let pixel = trace(&window).steps_in(steps.clone()).find_map(|(_, step)| step.pixel()).unwrap();
     apply(&mut window, Edit::Select(Some(Item::Pixel(pixel))));
     seek(&mut window, steps.end);
@@ -313,7 +316,7 @@ fn the_watch_shows_the_replays_values() {
     let colors = &state.picture.as_ref().unwrap().photo.image.pixels;
     let watch = watch(replay(&window), &state.debugger.names, colors, Some(pixel));
     let current = watch.current.unwrap();
-    assert_eq!(current.region, region);
+    assert_eq!(current.hypothesis, id);
     let distance = watch.pixel.unwrap().distances.remove(0);
     for shown in [
         format!("{} of {}", watch.regions[0], watch.regions[1]),

@@ -2,14 +2,14 @@
 //! line.
 
 use crate::window::{
-    Window, answer, apply, choose, click, item, marked, named, notice, open_sample, press, shown, sigma,
-    state, tiny, tiny_window,
+    Window, answer, apply, choose, click, item, marked, named, notice, open_sample, press, region, shown,
+    sigma, state, tiny, tiny_window,
 };
 use dichroscope::app::Edit;
 use dichroscope::export::{WholeResult, read_report, write_matte};
 use dichroscope::params::Setting;
 use dichroscope::truth::sample;
-use dichroscope::view::{Item, Layer, regions_text};
+use dichroscope::view::{Layer, regions_text};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use std::fs;
@@ -79,7 +79,7 @@ fn everything_is_what_the_library_writes() {
 fn tables_layers_and_marks_are_written() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = tiny_window();
-    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(region(1))));
     press(&mut window, Modifiers::COMMAND, Key::A);
     let table = folder.path().join("regions.tsv");
     export(&mut window, "Regions table", &table);

@@ -1,8 +1,9 @@
 //! Tests of the image panel on the sample scene: layers, clicks, and marking with tools.
 
-use crate::window::{Fixture, SIZE, Window, with_gpu};
+use crate::window::{Fixture, SIZE, Window, region, with_gpu};
 use dichroscope::app::{Edit, ViewCommand, ViewSettings};
 use dichroscope::gui::testing::Placement;
+use dichroscope::raster::PixelIndex;
 use dichroscope::view::{Arrangement, ImageSettings, Item, Layer, Picture, ProfileLine, Tool, marking};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, pos2, vec2};
@@ -77,12 +78,13 @@ fn marked(harness: &Window) -> usize {
 }
 
 /// The middle of a long run of a region's pixels in one row, away from the border.
-fn inside(harness: &Window, region: u16) -> u32 {
+fn inside(harness: &Window, region: u16) -> PixelIndex {
     let shown = harness.state().state().newest.as_ref().unwrap();
     let labels = shown.labels();
     let width = labels.width();
     let all = |pixel: usize| (pixel - 6..pixel + 7).all(|near| labels[near] == region);
-    (6..labels.len() - 6).find(|&pixel| pixel % width > 6 && all(pixel)).unwrap() as u32
+    let found = (6..labels.len() - 6).find(|&pixel| pixel % width > 6 && all(pixel));
+    PixelIndex::from_index(found.unwrap())
 }
 
 #[test]
@@ -147,7 +149,7 @@ fn a_click_selects_a_region_a_pixel_or_nothing() {
     assert_eq!(harness.state().state().hover, Some(Item::Pixel(pixel)));
     click(&mut harness, at, Modifiers::NONE);
     let item = |harness: &Window| harness.state().state().document.selection.item;
-    assert_eq!(item(&harness), Some(Item::Region(2)));
+    assert_eq!(item(&harness), Some(region(2)));
     click(&mut harness, at, Modifiers::ALT);
     assert_eq!(item(&harness), Some(Item::Pixel(pixel)));
     look(&mut harness, |settings| settings.layer = Layer::Classes);
@@ -253,7 +255,7 @@ fn the_read_out_tells_the_pixel() {
     let pixel = inside(&harness, 1);
     harness.state_mut().apply(ViewCommand::Hover(Some(Item::Pixel(pixel))));
     harness.run_steps(2);
-    let width = picture(&harness).size().0 as u32;
-    let words = format!("x {}, y {}, R ", pixel % width, pixel / width);
+    let [x, y] = pixel.position(picture(&harness).size().0);
+    let words = format!("x {x}, y {y}, R ");
     assert!(harness.query_by_label_contains(&words).is_some(), "{words}");
 }

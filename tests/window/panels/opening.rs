@@ -2,13 +2,13 @@
 //! errors.
 
 use crate::window::{
-    Window, answer, apply, choose, click, notice, open_sample, press, says, shown, sigma, size, state, tiny,
-    tiny_window, window,
+    Window, answer, apply, choose, click, notice, open_sample, press, region, says, shown, sigma, size,
+    state, tiny, tiny_window, window,
 };
 use dichroscope::app::{Edit, JobCommand, Severity};
 use dichroscope::params::Setting;
 use dichroscope::truth::sample;
-use dichroscope::view::{Item, Origin};
+use dichroscope::view::Origin;
 use egui::accesskit::Role;
 use egui::{Color32, ColorImage, Event, Key, Modifiers};
 use std::path::{Path, PathBuf};
@@ -80,7 +80,7 @@ fn a_second_photograph_keeps_the_parameters() {
     let mut window = tiny_window();
     crate::window::named(&window, Role::Slider, "camera noise \u{3c3}0").set_value_accesskit(4.0);
     window.run_steps(3);
-    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(region(1))));
     open_sample(&mut window, sample::NAME);
     assert_eq!(sigma(&window), Setting::Value(4.0));
     assert_eq!(crate::window::item(&window), None);

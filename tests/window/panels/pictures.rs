@@ -3,10 +3,10 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test -p dichroscope-window-tests` writes the stored pictures anew. No picture shows a
 //! time.
 
-use crate::window::{Fixture, Window, apply, named, with_software_driver};
+use crate::window::{Fixture, Window, apply, named, region, with_software_driver};
 use dichroscope::app::{Command, DebugCommand, Edit, ViewCommand};
 use dichroscope::gui::Pane;
-use dichroscope::view::{Arrangement, ColorBy, Fill, ImageSettings, Item, Layer, ProfileLine, Theme};
+use dichroscope::view::{Arrangement, ColorBy, Fill, ImageSettings, Layer, ProfileLine, Theme};
 use egui::accesskit::Role;
 use egui::{Rect, Vec2, pos2, vec2};
 use egui_kittest::{SnapshotOptions, image_snapshot_options};
@@ -47,7 +47,7 @@ fn the_image_view() {
     look(&mut window, |image| image.layer = Layer::Classes);
     compare(&mut window, "image-classes");
     look(&mut window, |image| (image.layer, image.fill) = (Layer::Regions, Fill::Outline));
-    apply(&mut window, Edit::Select(Some(Item::Region(2))));
+    apply(&mut window, Edit::Select(Some(region(2))));
     compare(&mut window, "image-regions");
     look(&mut window, |image| {
         (image.layer, image.other) = (Layer::Body, Layer::Surface);
@@ -61,7 +61,7 @@ fn the_image_view() {
 fn the_color_space_view() {
     let Some(mut window) = opened(PANEL, Some(Pane::Colors)) else { return };
     compare(&mut window, "colors");
-    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(region(1))));
     compare(&mut window, "colors-region");
     let mut cube = window.state().state().view.cube.clone();
     cube.color_by = ColorBy::Density;
@@ -74,7 +74,7 @@ fn the_color_space_view() {
 #[test]
 fn the_plots() {
     let Some(mut window) = opened(PANEL, Some(Pane::Plane)) else { return };
-    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(region(1))));
     compare(&mut window, "plane");
     apply(&mut window, ViewCommand::Profile(ProfileLine::Between([10.5, 75.5], [167.5, 75.5])));
     window.state_mut().show_alone(Some(Pane::Profile));
@@ -86,7 +86,7 @@ fn sliders_and_tables() {
     let Some(mut window) = opened(vec2(330.0, 520.0), Some(Pane::Parameters)) else { return };
     compare(&mut window, "parameters");
     window.set_size(PANEL);
-    apply(&mut window, Edit::Select(Some(Item::Region(2))));
+    apply(&mut window, Edit::Select(Some(region(2))));
     window.state_mut().show_alone(Some(Pane::Regions));
     compare(&mut window, "regions");
     window.state_mut().show_alone(Some(Pane::Selection));
@@ -99,7 +99,7 @@ fn the_timeline() {
     apply(&mut window, Command::Debug(DebugCommand::Seek(1500)));
     compare(&mut window, "timeline");
     window.set_size(vec2(640.0, 150.0));
-    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(region(1))));
     apply(&mut window, ViewCommand::Theme(Theme::Light));
     compare(&mut window, "timeline-light");
 }
@@ -107,7 +107,7 @@ fn the_timeline() {
 #[test]
 fn the_whole_window() {
     let Some(mut window) = opened(vec2(1280.0, 800.0), None) else { return };
-    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(region(1))));
     look(&mut window, |image| image.layer = Layer::Regions);
     window.run_steps(6);
     // The status line shows the time of the analysis, and its layout depends on the number of digits.

@@ -1,6 +1,6 @@
 //! Tests of the plane panel on the sample scene.
 
-use crate::window::{Fixture, SIZE, Window, with_gpu};
+use crate::window::{Fixture, SIZE, Window, region, with_gpu};
 use dichroscope::app::Edit;
 use dichroscope::gui::testing::PlaneDrawing;
 use dichroscope::view::Item;
@@ -17,7 +17,7 @@ fn opened() -> Option<Window> {
 fn a_region_is_asked_for_and_shown() {
     let Some(mut harness) = opened() else { return };
     harness.get_by_label("Select a region to see its dichromatic plane.");
-    harness.state_mut().apply(Edit::Select(Some(Item::Region(1))));
+    harness.state_mut().apply(Edit::Select(Some(region(1))));
     harness.run_steps(3);
     let rect = harness.get_by_role_and_label(Role::Canvas, "Dichromatic plane of region 1").rect();
     let drawing = PlaneDrawing::of(harness.state()).unwrap();
@@ -34,7 +34,7 @@ fn a_region_is_asked_for_and_shown() {
 #[test]
 fn hovering_a_point_hovers_its_pixel_and_a_drag_pans() {
     let Some(mut harness) = opened() else { return };
-    harness.state_mut().apply(Edit::Select(Some(Item::Region(1))));
+    harness.state_mut().apply(Edit::Select(Some(region(1))));
     harness.run_steps(3);
     let rect = harness.get_by_role_and_label(Role::Canvas, "Dichromatic plane of region 1").rect();
     let drawing = PlaneDrawing::of(harness.state()).unwrap();
@@ -44,8 +44,8 @@ fn hovering_a_point_hovers_its_pixel_and_a_drag_pans() {
     harness.run_steps(2);
     let Some(Item::Pixel(pixel)) = harness.state().state().hover else { panic!("a pixel is hovered") };
     let shown = harness.state().state().shown().unwrap().clone();
-    assert_eq!(shown.labels()[pixel as usize], 1);
-    let amounts = plane.amounts(shown.picture.photo.image.pixels[pixel as usize]);
+    assert_eq!(shown.labels()[pixel.index()], 1);
+    let amounts = plane.amounts(shown.picture.photo.image.pixels[pixel.index()]);
     assert!((amounts.body - 0.5 * plane.matte_length).abs() < 8.0, "{amounts:?}");
     for (to, pressed) in [(at, true), (at + vec2(30.0, 12.0), true), (at + vec2(30.0, 12.0), false)] {
         harness.hover_at(to);

@@ -1,11 +1,12 @@
 //! Tests of selecting regions in the table, in the picture and by key: all panels show the same selection.
 
 use crate::window::{
-    Window, apply, at, click, drag, inside, item, named, pointer, press, says, shown, state, tiny_window,
-    undo, words, zoom_in,
+    Window, apply, at, click, drag, inside, item, named, pointer, press, region, says, shown, state,
+    tiny_window, undo, words, zoom_in,
 };
 use dichroscope::app::Edit;
 use dichroscope::gui::Pane;
+use dichroscope::raster::{PixelIndex, RegionId};
 use dichroscope::view::Item;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
@@ -28,7 +29,7 @@ fn a_row_selects_the_region_everywhere() {
     let mut window = tiny_window();
     assert!(says(&window, "Select a region to see its dichromatic plane."));
     click(&mut window, Role::Label, "color of region 2");
-    assert_eq!((item(&window), state(&window).selected_region()), (Some(Item::Region(2)), Some(2)));
+    assert_eq!((item(&window), state(&window).selected_region()), (Some(region(2)), RegionId::from_label(2)));
     assert!(says(&window, "Dichromatic plane of region 2"));
     click(&mut window, Role::Button, "Selection");
     let pixels = shown(&window).analysis.intrinsic.regions[1].pixels;
@@ -37,7 +38,7 @@ fn a_row_selects_the_region_everywhere() {
     assert_eq!(item(&window), None);
     assert!(says(&window, "Select a region to see its dichromatic plane."));
     undo(&mut window);
-    assert_eq!(item(&window), Some(Item::Region(2)), "a selection is taken back like a parameter");
+    assert_eq!(item(&window), Some(region(2)), "a selection is taken back like a parameter");
 }
 
 fn grouped(number: usize) -> String {
@@ -62,10 +63,13 @@ fn a_click_in_the_picture_selects_the_region_and_hovering_tells_the_pixel() {
     let place = at(&window, x as f32 + 0.5, y as f32 + 0.5);
     window.hover_at(place);
     window.run_steps(2);
-    assert_eq!(state(&window).hover, Some(Item::Pixel((y * shown(&window).labels().width() + x) as u32)));
+    assert_eq!(
+        state(&window).hover,
+        Some(Item::Pixel(PixelIndex::from_index(y * shown(&window).labels().width() + x)))
+    );
     pointer(&mut window, place, true, Modifiers::NONE);
     pointer(&mut window, place, false, Modifiers::NONE);
-    assert_eq!(item(&window), Some(Item::Region(2)));
+    assert_eq!(item(&window), Some(region(2)));
     assert!(says(&window, "Dichromatic plane of region 2"));
     window.remove_cursor();
     window.run_steps(2);
@@ -102,11 +106,11 @@ fn brackets_step_through_the_regions() {
     let mut window = tiny_window();
     let count = shown(&window).analysis.intrinsic.regions.len() as u16;
     press(&mut window, Modifiers::NONE, Key::CloseBracket);
-    assert_eq!(item(&window), Some(Item::Region(1)));
+    assert_eq!(item(&window), Some(region(1)));
     press(&mut window, Modifiers::NONE, Key::OpenBracket);
-    assert_eq!(item(&window), Some(Item::Region(count)));
+    assert_eq!(item(&window), Some(region(count)));
     press(&mut window, Modifiers::NONE, Key::CloseBracket);
-    assert_eq!(item(&window), Some(Item::Region(1)));
+    assert_eq!(item(&window), Some(region(1)));
     press(&mut window, Modifiers::NONE, Key::Escape);
     assert_eq!(item(&window), None);
 }
@@ -115,23 +119,23 @@ fn brackets_step_through_the_regions() {
 fn a_selected_region_survives_a_slider() {
     let mut window = tiny_window();
     let (x, y) = inside(&window, 1);
-    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(region(1))));
     let slider = named(&window, Role::Slider, "cylinder width").rect();
     let (a, b) = (slider.left_center().lerp(slider.right_center(), 0.3), slider.center());
     drag(&mut window, &[a, b], Modifiers::NONE);
-    let region = shown(&window).labels().get(x, y).copied().unwrap();
-    assert_eq!(state(&window).selected_region(), Some(region));
+    let label = shown(&window).labels().get(x, y).copied().unwrap();
+    assert_eq!(state(&window).selected_region(), RegionId::from_label(label));
 }
 
 #[test]
 fn the_plane_is_panned_and_two_clicks_fit_it() {
     let mut window = tiny_window();
-    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(region(1))));
     let plane = named(&window, Role::Canvas, "Dichromatic plane of region 1").rect();
     assert!(plane.width() > 300.0 && plane.height() > 150.0, "{plane:?}");
     let middle = plane.center();
     drag(&mut window, &[middle, middle + egui::vec2(30.0, 10.0)], Modifiers::NONE);
-    assert_eq!(item(&window), Some(Item::Region(1)), "a drag selects nothing");
+    assert_eq!(item(&window), Some(region(1)), "a drag selects nothing");
     crate::window::double_click(&mut window, middle);
-    assert_eq!(item(&window), Some(Item::Region(1)));
+    assert_eq!(item(&window), Some(region(1)));
 }

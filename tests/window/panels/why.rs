@@ -1,16 +1,17 @@
 //! Tests of the why panel: the pixel's history as links, and the changes of parameters that change the result.
 
-use crate::window::{Window, apply, click, named, says, state, tiny_window};
+use crate::window::{Window, apply, click, named, region, says, state, tiny_window};
 use dichroscope::app::{Ask, Command, Edit};
 use dichroscope::gui::Pane;
+use dichroscope::raster::PixelIndex;
 use dichroscope::trace::Stage;
 use dichroscope::view::{Item, why};
 use egui::accesskit::Role;
 
 /// A pixel of the largest region.
-fn pixel(window: &Window) -> u32 {
+fn pixel(window: &Window) -> PixelIndex {
     let labels = state(window).newest.as_ref().unwrap().labels();
-    labels.as_slice().iter().position(|&label| label == 1).unwrap() as u32
+    PixelIndex::from_index(labels.as_slice().iter().position(|&label| label == 1).unwrap())
 }
 
 /// Shows the panel alone in the window, so that no test has to scroll.
@@ -24,7 +25,7 @@ fn a_clicked_region_tells_the_pixels_history_and_each_sentence_leads_to_its_step
     let mut window = tiny_window();
     assert!(says(&window, "Click a pixel or a region"));
     let pixel = pixel(&window);
-    apply(&mut window, Edit::Select(Some(Item::Region(1))));
+    apply(&mut window, Edit::Select(Some(region(1))));
     assert!(says(&window, "Region 1 is made of"), "a region has a story too");
     apply(&mut window, Command::Ask(Ask::Why(pixel)));
     alone(&mut window);
@@ -38,7 +39,7 @@ fn a_clicked_region_tells_the_pixels_history_and_each_sentence_leads_to_its_step
         let replay = state(&window).debugger.replay.as_ref().unwrap();
         assert_eq!(replay.at(), account.step + 1, "{}", account.text);
     }
-    apply(&mut window, Edit::Select(Some(Item::Region(2))));
+    apply(&mut window, Edit::Select(Some(region(2))));
     assert_eq!(state(&window).asked_pixel(), None, "another region, another question");
 }
 

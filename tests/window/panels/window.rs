@@ -3,6 +3,7 @@
 use dichroscope::app::{Application, Command, Edit, Executor, JobCommand, State, ViewCommand};
 use dichroscope::gui::App;
 use dichroscope::params::{Parameter, Setting};
+use dichroscope::raster::RegionId;
 use dichroscope::truth::sample;
 use dichroscope::view::{Item, Origin, ResultSnapshot};
 use egui::accesskit::Role;
@@ -301,6 +302,11 @@ pub fn at(window: &Window, x: f32, y: f32) -> Pos2 {
 /// Number of columns and rows of the picture.
 pub fn size(window: &Window) -> (usize, usize) {
     state(window).picture.as_ref().expect("a picture is open").size()
+}
+
+/// The region with a number, as an item.
+pub fn region(number: u16) -> Item {
+    Item::Region(RegionId::from_label(number).expect("regions count from 1"))
 }
 
 /// Column and row of a pixel of a region, away from the region's border.
