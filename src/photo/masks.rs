@@ -29,6 +29,11 @@ impl MaskLimits {
     pub fn is_clipped(&self, color: [f32; 3]) -> bool {
         color[0].max(color[1]).max(color[2]) >= self.clip_threshold as f32
     }
+
+    /// Whether an unclipped pixel with this number of clipped 8-neighbors is bloomed.
+    pub fn is_bloomed(&self, clipped_neighbors: usize) -> bool {
+        clipped_neighbors > 0 && clipped_neighbors >= self.bloom_density
+    }
 }
 
 /// The marks of each pixel: dark, clipped, bloomed, invalid, outside.
@@ -59,8 +64,26 @@ impl Masks {
                     (u8::from(dark) * DARK) | (u8::from(clipped) * CLIPPED) | (u8::from(invalid) * INVALID);
             }
         });
-        mark_bloomed(&mut flags, limits.bloom_density);
-        Self { flags }
+        let mut masks = Self { flags };
+        masks.mark_bloomed(limits);
+        masks
+    }
+
+    /// Marks the bloomed pixels. Only the neighbors of clipped pixels are visited, because clipped pixels are few.
+    fn mark_bloomed(&mut self, limits: &MaskLimits) {
+        if !(1..=8).any(|neighbors| limits.is_bloomed(neighbors)) {
+            return;
+        }
+        for pixel in 0..self.flags.len() {
+            if !self.clipped(pixel) {
+                continue;
+            }
+            for near in self.flags.around(pixel) {
+                if !self.distorted(near) && limits.is_bloomed(self.clipped_neighbors(near)) {
+                    self.flags[near] |= BLOOMED;
+                }
+            }
+        }
     }
 
     /// Marks the pixels outside `area`, a mask of the image's size, as excluded from the analysis. Clipped pixels
@@ -104,6 +127,24 @@ impl Masks {
         self.flags[pixel] & CLIPPED != 0
     }
 
+    /// Number of clipped pixels among the 8 neighbors of the pixel.
+    pub fn clipped_neighbors(&self, pixel: usize) -> usize {
+        self.flags.around(pixel).filter(|&near| near != pixel && self.clipped(near)).count()
+    }
+
+    /// Whether a region may claim the pixel by its color: the pixel is lit and, if `distorted_wait`, neither clipped nor
+    /// bloomed (distorted pixels then wait for the clipping stage).
+    #[inline]
+    pub fn claimable_by_color(&self, pixel: usize, distorted_wait: bool) -> bool {
+        if distorted_wait { self.usable(pixel) } else { !self.dark(pixel) }
+    }
+
+    /// Whether a region may claim the pixel by its brightness (section 5.5): the pixel is lit.
+    #[inline]
+    pub fn claimable_by_brightness(&self, pixel: usize) -> bool {
+        !self.dark(pixel)
+    }
+
     /// Whether the pixel is clipped or bloomed.
     #[inline]
     pub fn distorted(&self, pixel: usize) -> bool {
@@ -120,32 +161,6 @@ impl Masks {
     pub fn mask(&self, test: impl Fn(&Self, usize) -> bool) -> Mask {
         let data = (0..self.flags.len()).map(|pixel| test(self, pixel)).collect();
         Raster::from_vec(self.flags.width(), self.flags.height(), data).unwrap_or_default()
-    }
-}
-
-/// Marks pixels with at least `density` clipped 8-neighbors as bloomed. Only the neighbors of clipped pixels are
-/// visited, because clipped pixels are few.
-fn mark_bloomed(flags: &mut Raster<u8>, density: usize) {
-    if density > 8 {
-        return;
-    }
-    let (width, height) = (flags.width(), flags.height());
-    let around = |x: usize, y: usize| {
-        let xs = x.saturating_sub(1)..(x + 2).min(width);
-        (y.saturating_sub(1)..(y + 2).min(height)).flat_map(move |v| xs.clone().map(move |u| v * width + u))
-    };
-    for pixel in 0..flags.len() {
-        if flags[pixel] & CLIPPED == 0 {
-            continue;
-        }
-        for near in around(pixel % width, pixel / width) {
-            if near != pixel && flags[near] & (CLIPPED | BLOOMED) == 0 {
-                let clipped = around(near % width, near / width).filter(|&i| flags[i] & CLIPPED != 0).count();
-                if clipped >= density {
-                    flags[near] |= BLOOMED;
-                }
-            }
-        }
     }
 }
 

@@ -242,10 +242,10 @@ impl<'a> HistoryBuilder<'a> {
             return;
         };
         let by_brightness = matches!(reaching, Reaching::Brighter(_));
-        let claimable = if self.waits && !by_brightness {
-            self.masks.usable(self.pixel)
+        let claimable = if by_brightness {
+            self.masks.claimable_by_brightness(self.pixel)
         } else {
-            !self.masks.dark(self.pixel)
+            self.masks.claimable_by_color(self.pixel, self.waits)
         };
         if !claimable {
             let stage = self.stage;

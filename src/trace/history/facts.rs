@@ -33,6 +33,7 @@ pub(super) fn verdicts(
     let color = image.pixels[pixel];
     let brightness = [f64::from(brightness(color)), limits.min_intensity];
     let largest = [f64::from(color[0].max(color[1]).max(color[2])), limits.clip_threshold];
+    let clipped_neighbors = masks.clipped_neighbors(pixel);
     let mut found = Vec::new();
     if masks.outside(pixel) {
         found.push(MaskVerdict::Outside);
@@ -42,11 +43,10 @@ pub(super) fn verdicts(
     } else if limits.is_dark(color) {
         found.push(MaskVerdict::Dark { brightness });
     }
-    if masks.clipped(pixel) {
+    if limits.is_clipped(color) {
         found.push(MaskVerdict::Clipped { largest });
-    } else if masks.distorted(pixel) {
-        let clipped = image.pixels.around(pixel).filter(|&near| near != pixel && masks.clipped(near)).count();
-        found.push(MaskVerdict::Bloomed { neighbors: [clipped, limits.bloom_density] });
+    } else if limits.is_bloomed(clipped_neighbors) {
+        found.push(MaskVerdict::Bloomed { neighbors: [clipped_neighbors, limits.bloom_density] });
     }
     if found.is_empty() {
         found.push(MaskVerdict::Believed { brightness, largest });
