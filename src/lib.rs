@@ -64,7 +64,7 @@
 //! | [`intrinsic`] | section 6, from regions to body, surface and noise | who runs one stage alone |
 //! | [`reflection`] | the model: dichromatic planes, the transform T and its inverse, photometry (equations 3–11) | who computes with the model |
 //! | [`color`] | points in the color cube: moments, eigenvectors, the χ² test, robust lines, cylinders | who computes with the model |
-//! | [`raster`] | rectangles of values: pixels, masks, label maps, morphology | who reads pictures of a result |
+//! | [`raster`] | rectangles of values: pixels, masks, label maps | who reads pictures of a result |
 //! | [`view`] | what the window's panels show, as plain data | the window |
 //! | [`app`] | the window's state, commands and workers, without a screen | the window |
 //! | `gpu` | the color space in three dimensions: camera, points, lines and solids, picking | the window |

@@ -1,8 +1,9 @@
 //! One run: masks → classify → merge → linear → planar → clipping → split.
 //!
-//! A [`Session`] keeps the output of each stage beside what it was made from, so that a changed parameter reruns only what
-//! it makes stale. The command line and the window both stand on it. An [`Observer`] hears of progress, keeps the clock and
-//! may cancel; [`Session::run_traced`] keeps the record of every decision beside each output.
+//! A [`Session`] keeps the output of each stage together with the key that the output was made from, so that a changed
+//! parameter reruns only the stages that the parameter makes stale. The command line and the window both use it. An
+//! [`Observer`] receives the progress, can measure times and may cancel; [`Session::run_traced`] also keeps the record of every
+//! decision.
 
 mod output;
 mod resolve;
@@ -24,43 +25,43 @@ use crate::trace::{NoopRecorder, Trace, TraceRecorder};
 use stages::{Stages, Subject};
 use std::sync::Arc;
 
-/// Watches a run, and may stop it.
+/// Receives the progress of a run, and may stop the run.
 pub trait Observer: Sync {
     /// A stage begins.
     fn started(&mut self, _stage: Stage) {}
-    /// A stage has ended; `reused` when its earlier output still stood.
+    /// A stage has ended; `reused`: its earlier output was still valid.
     fn finished(&mut self, _stage: Stage, _reused: bool) {}
-    /// What a stage has found, right after it ended and while later ones are still to come; reused outputs too.
+    /// Receives the output of a stage right after the stage ended, before later stages begin; reused outputs too.
     fn made(&mut self, _output: StageOutput) {}
-    /// Asked before each stage, once a hypothesis, and within long loops about every millisecond, from any thread; a run
-    /// stops soon after it turns true.
+    /// Whether to stop the run. The function is called before each stage, once per hypothesis, and within long loops about
+    /// every millisecond, from any thread. The run stops soon after the function returns true.
     fn cancelled(&self) -> bool {
         false
     }
 }
 
-/// An observer that ignores everything.
+/// An observer that observes nothing and never cancels.
 impl Observer for () {}
 
 /// The whole result of a run. Outputs of stages are shared with the session, not copied.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Analysis {
-    /// The numbers that the run used.
+    /// The parameters that the run used, with values for those that were `auto`.
     pub used: UsedParams,
-    /// Which pixels were believed.
+    /// The masks: dark, clipped, bloomed and invalid pixels, and pixels outside the area.
     pub masks: Arc<Masks>,
     /// The windows with their moments and classes.
     pub windows: Arc<Windows>,
     /// Merged area of each pixel, from 1; 0 where its window has no class.
     pub areas: Arc<Raster<u32>>,
-    /// Regions after the linear stage, numbered in the order of their hypotheses, and these with their lines.
+    /// Regions after the linear stage, numbered in the order of their linear hypotheses, and the hypotheses.
     pub matte: Arc<MatteRegions>,
-    /// Regions after the planar stage, numbered likewise, and their skewed Ts.
+    /// Regions after the planar stage, with the same numbers, and their planar hypotheses (skewed Ts).
     pub planar: Arc<PlanarRegions>,
-    /// The final regions, numbered by decreasing size, and their skewed Ts.
+    /// The final regions, numbered by decreasing size, and their planar hypotheses (skewed Ts).
     pub finals: Arc<FinalRegions>,
-    /// The color of the light, where there was evidence of it.
+    /// The color of the light; `None` without evidence of the light.
     pub illuminant: Option<Illuminant>,
     /// The intrinsic images and the regions' reflection vectors.
     pub intrinsic: Arc<Intrinsic>,
@@ -68,7 +69,7 @@ pub struct Analysis {
     pub warnings: Vec<String>,
 }
 
-/// An area of another shape than the image.
+/// The error of [`Session::restrict`]: the area has another shape than the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the area has {} \u{d7} {} pixels, the photograph {} \u{d7} {}", area.0, area.1, image.0, image.1)]
 pub struct OtherShape {
@@ -78,12 +79,12 @@ pub struct OtherShape {
     pub image: (usize, usize),
 }
 
-/// The run was stopped by its observer.
+/// The error of a run that the observer has stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the analysis was cancelled")]
 pub struct Cancelled;
 
-/// One image and the outputs of earlier runs over it.
+/// One image, and the outputs of earlier runs on this image.
 pub struct Session {
     image: Arc<LinearImage>,
     area: Option<Arc<Mask>>,
@@ -96,11 +97,11 @@ impl Session {
         Self { image, area: None, stages: Stages::default() }
     }
 
-    /// Restricts the runs to come to the pixels that `area` holds, or lifts the restriction. What lies outside is left out
-    /// like pixels without a value: it is in no window and in no region.
+    /// Restricts later runs to the pixels for which `area` is true; `None` lifts the restriction. Pixels outside are left out
+    /// like pixels without a value: they belong to no window and to no region.
     ///
     /// # Errors
-    /// An area of another shape than the image; then nothing changes.
+    /// [`OtherShape`] for an area of another shape than the image; then nothing changes.
     pub fn restrict(&mut self, area: Option<Arc<Mask>>) -> Result<(), OtherShape> {
         let image = (self.image.width(), self.image.height());
         let shape = area.as_ref().map_or(image, |area| (area.width(), area.height()));
@@ -111,19 +112,19 @@ impl Session {
         Ok(())
     }
 
-    /// Runs the stages that `params` makes stale, and hands out the whole result.
+    /// Runs the stages that `params` makes stale, and returns the whole result.
     ///
     /// # Errors
-    /// [`Cancelled`] when the observer asks for it; what had finished by then is kept.
+    /// [`Cancelled`] when the observer cancels; the outputs of finished stages are kept.
     pub fn run(&mut self, params: &Params, observer: &mut impl Observer) -> Result<Analysis, Cancelled> {
         self.stages.run::<NoopRecorder>(&self.subject(), params, observer)
     }
 
-    /// As [`Session::run`], with the record of every decision. Stages that have a record from an earlier run are not run
-    /// again. Stages that have an output without a record are run again, and give the same output.
+    /// Like [`Session::run`], with the record of every decision. A stage with a record from an earlier run does not run again.
+    /// A stage with an output but without a record runs again, and gives the same output.
     ///
     /// # Errors
-    /// [`Cancelled`] when the observer asks for it; what had finished by then is kept.
+    /// [`Cancelled`] when the observer cancels; the outputs of finished stages are kept.
     pub fn run_traced(
         &mut self,
         params: &Params,

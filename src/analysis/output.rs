@@ -1,4 +1,4 @@
-//! What each stage hands out, for observers that show it before the run has ended.
+//! The output of each stage, for observers that show outputs before the run has ended.
 
 use super::Stage;
 use crate::intrinsic::Intrinsic;
@@ -8,14 +8,14 @@ use crate::raster::Raster;
 use crate::segment::{FinalRegions, MatteRegions, PlanarRegions, Windows};
 use std::sync::Arc;
 
-/// The output of one stage, shared with the session; [`super::Analysis`] holds the same ones at the end.
+/// The output of one stage, shared with the session and with the [`super::Analysis`] at the end of the run.
 #[derive(Clone, Debug)]
 pub enum StageOutput {
-    /// The masks, and the numbers estimated from the image.
+    /// The masks, and the parameters estimated from the image.
     Masks {
-        /// Dark, clipped, bloomed and invalid pixels.
+        /// The masks: dark, clipped, bloomed and invalid pixels, and pixels outside the area.
         masks: Arc<Masks>,
-        /// The numbers that the run works with.
+        /// The parameters that the run uses.
         used: UsedParams,
     },
     /// The windows with their moments and classes.
@@ -24,7 +24,7 @@ pub enum StageOutput {
     Areas(Arc<Raster<u32>>),
     /// Regions and hypotheses after the linear stage.
     Matte(Arc<MatteRegions>),
-    /// Regions and skewed Ts after the planar stage, and the light.
+    /// Regions and planar hypotheses after the planar stage, and the light.
     Planar(Arc<PlanarRegions>),
     /// The final regions.
     Finals(Arc<FinalRegions>),

@@ -3,15 +3,15 @@
 use crate::params::{Parameter, Params, Setting, UsedParams};
 use crate::photo::LinearImage;
 
-/// Limits of an estimated σ0, counts.
+/// Least and largest estimate of σ0, counts.
 const NOISE_RANGE: (f64, f64) = (1.0, 16.0);
-/// The paper's threshold as a share of full scale.
+/// The paper's clipping threshold as a share of full scale.
 const CLIP_SHARE: f64 = 240.0 / 255.0;
-/// The paper's image size, to which windows and areas are proportioned, pixels.
+/// Number of pixels of the paper's images; windows and areas are proportional to the image size.
 const PAPER_PIXELS: f64 = 512.0 * 480.0;
 
 /// The limits of the masks, which are needed before the noise is known: clipping threshold, bloom density, minimal
-/// intensity. An automatic minimal intensity is the paper's here; [`used_params`] replaces it.
+/// intensity. An automatic minimal intensity is the paper's value here; [`used_params`] computes the final value.
 pub fn mask_limits(params: &Params, image: &LinearImage) -> crate::photo::MaskLimits {
     let clip_threshold = match params.clip_threshold {
         Setting::Value(value) => value,
@@ -25,11 +25,12 @@ pub fn mask_limits(params: &Params, image: &LinearImage) -> crate::photo::MaskLi
     }
 }
 
-/// All numbers, for the standard deviation `sigma` of the image's noise in counts; none: it could not be measured.
+/// The values of all parameters. `sigma`: standard deviation of the noise of a band, counts; `None`: the noise could not be
+/// measured, and σ0 is the paper's.
 ///
-/// σ0 = 2σ. The radius is 4σ0 as in the paper but at most 8 counts, because wider cylinders take
-/// pixels of other objects, and at least 2σ0.
-/// Windows and areas keep their share of the paper's picture. The dark sphere is 9.2σ0, as in table 6.
+/// σ0 = 2σ. The radius of cylinders is 4σ0 as in the paper but at most 8 counts, because wider cylinders contain pixels of
+/// other objects, and at least 2σ0. Windows and areas have the same share of the image as in the paper. The radius of the dark
+/// sphere is 9.2σ0, as in table 6.
 pub fn used_params(params: &Params, image: &LinearImage, sigma: Option<f64>) -> UsedParams {
     let limits = mask_limits(params, image);
     let camera_noise = params.camera_noise.value().unwrap_or_else(|| {

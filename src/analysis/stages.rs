@@ -1,4 +1,4 @@
-//! The stages in their order, each with its last output and the key that the output was made from.
+//! The stages in their order, each with the last output and the key from which the output was made.
 
 use super::resolve::{mask_limits, used_params};
 use super::stale::seen_up_to;
@@ -14,7 +14,7 @@ use crate::segment::{
 use crate::trace::{MasksMade, Recorder, StageBegan, StageTrace, Trace};
 use std::sync::Arc;
 
-/// The last output of each stage.
+/// One slot per stage.
 #[derive(Default)]
 pub struct Stages {
     masks: Slot<MaskKey, (Arc<Masks>, Option<f64>)>,
@@ -26,37 +26,43 @@ pub struct Stages {
     split: Slot<Key, Arc<Intrinsic>>,
 }
 
-/// Generation of the stage before, and the parameters that the stages up to this one read.
+/// Key of a stage's output: the generation of the output of the stage before, and the parameters that the stages up to this one
+/// read.
 type Key = (u64, (UsedParams, Refine));
 
+/// Key of the masks.
 #[derive(Clone, Debug, PartialEq)]
 struct MaskKey {
     limits: MaskLimits,
-    /// The noise, where the masks depend on it: where it is to be estimated, and where the minimal intensity follows it.
+    /// The setting of the camera noise, if the masks depend on it: the noise is to be estimated, or the minimal intensity is
+    /// computed from the noise.
     camera_noise: Option<Setting>,
-    /// Whether the minimal intensity follows the noise.
+    /// Whether the minimal intensity is computed from the noise.
     automatic_intensity: bool,
     /// The area of the session.
     area: Option<Arc<Mask>>,
 }
 
-/// The image to analyze, and the part of it.
+/// The image to analyze, and the area of the analysis.
 pub struct Subject {
     pub image: Arc<LinearImage>,
-    /// The pixels to analyze; none: all.
+    /// The pixels to analyze; `None`: all pixels.
     pub area: Option<Arc<Mask>>,
 }
 
-/// Merged areas as a list and as a map.
+/// Merged areas as lists and as a number per pixel.
 struct MergedAreas {
     areas: Areas,
     map: Arc<Raster<u32>>,
 }
 
-/// A stage's last output with its key, a generation that rises with every new output, and the record, if one was kept.
+/// The last output of a stage.
 struct Slot<K, V> {
+    /// The key and the output that was made from it; `None` before the first run.
     made: Option<(K, V)>,
+    /// Number of outputs made so far.
     generation: u64,
+    /// The record of the stage, if the last run kept one.
     stage_trace: Option<Arc<StageTrace>>,
 }
 
@@ -67,8 +73,8 @@ impl<K, V> Default for Slot<K, V> {
 }
 
 impl<K: PartialEq, V: Clone> Slot<K, V> {
-    /// The output made from `key`: the last one, or a new one. What a cancelled `make` hands out is thrown away. An output
-    /// without a record, where one is wanted, is made again for it, and stays the same.
+    /// The output for `key`: the last output, or a new one made by `make`. The result of a cancelled `make` is discarded. An
+    /// output without a record, where `R` keeps one, is made again for the record; the earlier output is returned.
     fn get<O: Observer, R: Recorder>(
         &mut self,
         stage: Stage,
@@ -106,7 +112,7 @@ impl<K: PartialEq, V: Clone> Slot<K, V> {
 }
 
 impl Stages {
-    /// Runs the stages that are stale, and, where `R` keeps a record, the stages that have none.
+    /// Runs the stages that are stale, and, where `R` keeps a record, the stages without one.
     pub fn run<R: Recorder>(
         &mut self,
         subject: &Subject,
@@ -169,7 +175,7 @@ impl Stages {
         Ok(Analysis { used, masks, windows, areas, matte, planar, finals, illuminant, intrinsic, warnings })
     }
 
-    /// The record of all stages; none where a stage has no record.
+    /// The record of all stages; `None` where a stage has no record.
     pub fn trace(&self, width: usize, height: usize) -> Option<Trace> {
         let stage_traces = [
             &self.masks.stage_trace,
@@ -235,7 +241,8 @@ fn masks_made(masks: &Masks, limits: MaskLimits, pixels: usize, sigma: Option<f6
     }
 }
 
-/// The paper's windows hold every pixel, refined ones the believable ones, and at least half of them.
+/// The classified windows. In the paper every pixel counts; with `tail_test` only usable pixels count, and a window gets a class
+/// only if at least half of its pixels are usable.
 fn classify_windows<R: Recorder>(input: &AnalysisInput, recorder: &mut R) -> Windows {
     let size_px = input.used.window_size as usize;
     let mut classifier = Classifier::new(input.used.camera_noise, input.refine.tail_test);
@@ -248,7 +255,7 @@ fn classify_windows<R: Recorder>(input: &AnalysisInput, recorder: &mut R) -> Win
     }
 }
 
-/// The merged area of each pixel, from 1; 0: none.
+/// The merged area of each pixel, from 1; 0 where the window has no class.
 fn area_map(areas: &Areas, windows: &Windows, width: usize, height: usize) -> Raster<u32> {
     let size_px = windows.size_px;
     let number = |&area: &u32| if areas.classes[area as usize].is_some() { area + 1 } else { 0 };
@@ -266,6 +273,7 @@ fn area_map(areas: &Areas, windows: &Windows, width: usize, height: usize) -> Ra
     Raster::from_vec(width, height, map).unwrap_or_default()
 }
 
+/// The warnings of a run, a sentence each. `restricted`: the analysis is restricted to an area.
 fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks, restricted: bool) -> Vec<String> {
     let mut warnings = Vec::new();
     let lit = (0..labels.len()).filter(|&pixel| !masks.dark(pixel)).count();

@@ -1,15 +1,15 @@
-//! Which stages a changed parameter makes stale: the first that reads the parameter, and all later ones.
+//! Which stages a changed parameter makes stale: the first stage that reads the parameter, and all later ones.
 //!
-//! A stage's output is kept beside the parameters that the stages up to this one read. Parameters that only later stages
-//! read are blanked there, so that a change of them leaves the output valid.
+//! The key of a stage's output contains the parameters that the stages up to this one read. Parameters that only later stages
+//! read have a fixed value in the key, so that a change of such a parameter leaves the output valid.
 
 use super::Stage;
 use crate::params::{AmbientSetting, Parameter, Refine, Switch, UsedParams};
 
-/// The numbers and refinements that `stage` and the stages before it read; all others are 0 or off.
+/// The parameters and refinements that `stage` and the stages before it read; all other parameters are 0 and refinements off.
 ///
-/// The rows of parameters and switches name the first stage that reads each ([`Parameter::spec`], [`Switch::first_stage`]).
-/// The planar stage is the first that reads a given light, the split the first that reads the ambient light.
+/// The tables of parameters and switches name the first stage that reads each ([`Parameter::spec`], [`Switch::first_stage`]).
+/// The planar stage is the first that reads a given light, the split is the first that reads the ambient light.
 pub fn seen_up_to(stage: Stage, used: &UsedParams, refine: Refine) -> (UsedParams, Refine) {
     let (mut used, mut refine) = (*used, refine);
     for parameter in Parameter::ALL {
@@ -36,7 +36,7 @@ pub fn seen_up_to(stage: Stage, used: &UsedParams, refine: Refine) -> (UsedParam
 mod tests {
     use super::*;
 
-    /// Without this, a changed parameter could leave an output in place that was made with the old value.
+    /// Otherwise a changed parameter could leave an output valid that was made with the old value.
     #[test]
     fn from_its_first_stage_on_every_parameter_and_switch_is_seen() {
         let (used, refine) = (UsedParams::paper(), Refine::all(true));

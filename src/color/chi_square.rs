@@ -1,17 +1,20 @@
-//! Is a variance larger than the camera's noise? (section 5.2.1)
+//! The χ² test whether a variance is larger than the camera's noise (section 5.2.1).
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::collections::BTreeMap;
 
-/// Degrees of freedom above which the Wilson–Hilferty approximation is exact to 2e-4: far below what a 5 % test can see,
-/// and a thousand times faster.
+/// Degrees of freedom above which the Wilson–Hilferty approximation is used. Its relative error is below 2e-4, which does not
+/// matter for a test at 5 %, and it is a thousand times faster.
 const EXACT_BELOW: usize = 30;
 
-/// Upper quantiles of χ², each computed once.
+/// Upper quantiles of χ² at one significance level; each exact quantile is computed once.
 #[derive(Clone, Debug)]
 pub struct ChiSquareTest {
+    /// Significance level.
     level: f64,
+    /// Upper quantile of the standard normal distribution at the level.
     normal_quantile: f64,
+    /// Exact quantiles by degrees of freedom.
     exact: BTreeMap<usize, f64>,
 }
 
@@ -22,7 +25,7 @@ impl ChiSquareTest {
         Self { level, normal_quantile: normal.inverse_cdf(1.0 - level), exact: BTreeMap::new() }
     }
 
-    /// The value that χ² with `freedom` degrees of freedom exceeds with probability `level`.
+    /// The value that χ² with `freedom` degrees of freedom exceeds with the probability of the significance level.
     pub fn threshold(&mut self, freedom: usize) -> f64 {
         let n = freedom.max(1) as f64;
         if freedom > EXACT_BELOW {
@@ -51,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn the_approximation_meets_the_exact_value() {
+    fn the_approximation_is_near_the_exact_value() {
         let mut test = ChiSquareTest::new(0.05);
         for freedom in [EXACT_BELOW + 1, 99, 5000, 200_000] {
             let exact = ChiSquared::new(freedom as f64).unwrap().inverse_cdf(0.95);

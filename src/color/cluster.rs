@@ -1,19 +1,19 @@
-//! In how many directions does a cluster vary beyond the noise? (section 5.2.1)
+//! The number of directions in which a cluster of colors varies beyond the noise (section 5.2.1).
 //!
 //! The paper tests each eigenvalue alone: (N−1)·λ/σ0² against χ²(N−1). The largest eigenvalue of pure noise exceeds σ²
-//! systematically, but as σ0 = 2σ there is a fourfold margin.
+//! systematically, but σ0 = 2σ leaves a fourfold margin.
 //!
-//! Refined (`tail_test`): the statistic (N−1)·Σ_{i>k} λ_i / (0.7σ0)² ~ χ²((3−k)(N−1−k)) of *all* variances beyond the k-th
-//! says whether k directions are enough. With σ 3 and σ0 = 2.5 the paper's test loses half of the coverage.
+//! Refined (`tail_test`): k directions explain the cluster if the statistic (N−1)·Σ_{i>k} λ_i / (0.7σ0)² ~ χ²((3−k)(N−1−k)) of
+//! *all* variances beyond the k-th is not significant. With σ = 3 and σ0 = 2.5 the paper's test loses half of the coverage.
 
 use super::ChiSquareTest;
 
-/// Share of the noise variance against which tails are tested: (0.7σ0)² = (1.4σ)².
+/// Standard deviation that tails are compared with, as a share of σ0: (0.7σ0)² = (1.4σ)².
 const TAIL_SCALE: f64 = 0.7;
 /// Significance level of every χ² test; the results hardly depend on it.
 const LEVEL: f64 = 0.05;
 
-/// How clusters are told apart from noise.
+/// The test of clusters for variation beyond the noise.
 #[derive(Clone, Debug)]
 pub struct ClusterTest {
     chi_square: ChiSquareTest,
@@ -24,36 +24,36 @@ pub struct ClusterTest {
 /// One χ² test of a cluster.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trial {
-    /// What was asked, counted from 0: whether the variance beyond this many directions is noise (tail test), or whether
-    /// the variance along the direction of this index is (the paper's).
+    /// Tail test: the sum of the variances beyond this number of directions is tested. The paper's test: the variance along
+    /// the direction of this index, from 0, is tested.
     pub directions: usize,
-    /// Variance tested times N − 1, counts².
+    /// Tested variance times N − 1, counts².
     pub spread: f64,
-    /// What noise may show at most, counts².
+    /// Largest spread that the noise explains, counts².
     pub limit: f64,
-    /// Variance of the noise that it is held against, counts².
+    /// Variance of the noise that the tested variance is compared with, counts².
     pub noise: f64,
 }
 
 impl Trial {
-    /// Whether the variance is no more than noise.
+    /// Whether the noise explains the tested variance.
     pub fn is_noise(&self) -> bool {
         self.spread <= self.limit
     }
 
-    /// The statistic, to be held against [`Trial::threshold`].
+    /// The χ² statistic, to be compared with [`Trial::threshold`].
     pub fn statistic(&self) -> f64 {
         self.spread / self.noise
     }
 
-    /// The upper quantile of χ² that the statistic is held against.
+    /// The upper quantile of χ² that the statistic is compared with.
     pub fn threshold(&self) -> f64 {
         self.limit / self.noise
     }
 }
 
 impl ClusterTest {
-    /// A test for camera noise σ0 (counts), the paper's or the tail test.
+    /// A test for camera noise σ0 (counts): the tail test, or else the paper's test.
     pub fn new(camera_noise: f64, tail_test: bool) -> Self {
         Self { chi_square: ChiSquareTest::new(LEVEL), camera_noise, tail_test }
     }
@@ -63,7 +63,7 @@ impl ClusterTest {
         self.camera_noise
     }
 
-    /// Whether it is the tail test.
+    /// Whether this is the tail test and not the paper's test.
     pub fn is_tail_test(&self) -> bool {
         self.tail_test
     }
@@ -77,13 +77,13 @@ impl ClusterTest {
         }
     }
 
-    /// The tests that [`ClusterTest::directions`] makes on the way to its answer, in their order.
+    /// The tests by which [`ClusterTest::directions`] finds its result, in their order.
     pub fn trials(&mut self, n: f64, eigenvalues: [f64; 3]) -> Vec<Trial> {
         let mut trials = Vec::new();
         for directions in 0..3 {
             let trial = self.trial(directions, n, eigenvalues);
             trials.push(trial);
-            // Enough directions are enough; of ordered variances none is larger than the first that is noise.
+            // Variances are in descending order: all later ones are noise too.
             if trial.is_noise() {
                 break;
             }
@@ -124,7 +124,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_trials_lead_to_the_answer(
+        fn the_trials_give_the_number_of_directions(
             n in 2u32..4000, noise in 0.5f64..8.0, tail_test: bool,
             mut variances in prop::array::uniform3(0f64..60.0),
         ) {

@@ -5,8 +5,8 @@ use nalgebra::{Matrix3, SymmetricEigen};
 
 /// Eigenvalues of a symmetric matrix, largest first, by the trigonometric solution of its characteristic cubic.
 ///
-/// Merging tests tens of thousands of covariances and needs no eigenvectors; this takes a twentieth of the time
-/// of an iteration. Relative to the largest eigenvalue it is exact to about 1e-8.
+/// Merging tests tens of thousands of covariances and needs no eigenvectors; the closed form takes a twentieth of the time of
+/// an iterative solution. Its error is about 1e-8 of the largest eigenvalue.
 pub fn eigenvalues(matrix: &Matrix3<f64>) -> [f64; 3] {
     let m = matrix;
     let off = m[(0, 1)].powi(2) + m[(0, 2)].powi(2) + m[(1, 2)].powi(2);
@@ -23,7 +23,7 @@ pub fn eigenvalues(matrix: &Matrix3<f64>) -> [f64; 3] {
     [largest, 3.0 * third - largest - smallest, smallest]
 }
 
-/// Eigenvalues, largest first, and the unit eigenvectors that belong to them.
+/// Eigenvalues of a symmetric matrix, largest first, and their unit eigenvectors in the same order.
 pub fn principal_axes(matrix: &Matrix3<f64>) -> ([f64; 3], [Vec3; 3]) {
     let eigen = SymmetricEigen::new(*matrix);
     let mut order = [0, 1, 2];

@@ -5,16 +5,16 @@ use super::{Moments, Vec3, dot, principal_axes, rgb};
 /// A line of the color space: a matte or a highlight line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
-    /// A point on it: the mean of the colors it was fitted to, counts.
+    /// A point on the line: the mean of the colors that the line was fitted to, counts.
     pub mean: Vec3,
     /// Unit direction, away from black.
     pub direction: Vec3,
 }
 
-/// How a robust line is fitted.
+/// Settings of a robust line fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineFit {
-    /// Standard deviation of the noise of a band, counts: residuals below it are never held against a pixel.
+    /// Standard deviation of the noise of a band, counts: least scale of the residuals.
     pub sigma: f64,
     /// Tukey's constant, in units of the residuals' scale.
     pub tuning: f64,
@@ -23,7 +23,7 @@ pub struct LineFit {
 }
 
 impl Line {
-    /// Mean and first eigenvector of a cluster; `None` when it has no extent.
+    /// The line through the mean of a cluster along its first eigenvector; `None` for a cluster without extent.
     pub fn principal(moments: &Moments) -> Option<Self> {
         let ([first, ..], [axis, ..]) = principal_axes(&moments.covariance());
         (moments.n >= 2.0 && first > 0.0).then(|| Self::new(moments.mean(), axis))
@@ -31,7 +31,7 @@ impl Line {
 
     /// The line through `mean` along `direction`, which is turned away from black and made a unit vector.
     pub fn new(mean: Vec3, direction: Vec3) -> Self {
-        // Without a component along the mean, brighter is still away from black.
+        // A direction perpendicular to the mean is turned towards brighter colors.
         let along = direction.dot(&mean) + 1e-9 * direction.sum();
         Self { mean, direction: direction.normalize() * if along < 0.0 { -1.0 } else { 1.0 } }
     }
@@ -46,7 +46,8 @@ impl Line {
         (color - self.mean).cross(&self.direction).norm()
     }
 
-    /// Direction that leads from the line into the cube, towards gray (section 5.4.1): highlights lie that way.
+    /// Direction from the line towards gray, the inside of the cube (section 5.4.1), not a unit vector: highlights lie on this
+    /// side.
     pub fn inward(&self) -> Vec3 {
         let ones = Vec3::repeat(1.0);
         ones - self.direction * self.direction.sum()
@@ -58,9 +59,10 @@ impl Line {
         OuterSide { inward, at_mean: dot(mean, inward) }
     }
 
-    /// Iteratively reweighted least squares with Tukey's weights, from this line on.
+    /// The line fitted to `colors` by iteratively reweighted least squares with Tukey's weights, starting from this line.
     ///
-    /// A residual is the distance from the line; its scale the larger of `fit.sigma` and the residuals' median.
+    /// The residual of a color is its distance from the line; the scale of the residuals is the larger of `fit.sigma` and their
+    /// median. With fewer than three colors the line stays as it is.
     #[must_use]
     pub fn refit(self, colors: &[[f32; 3]], fit: &LineFit) -> Self {
         let mut line = self;
@@ -82,6 +84,7 @@ impl Line {
     }
 }
 
+/// Moments of the colors with Tukey's weights (1 − u²)², u² the squared distance from the axis divided by `cut2` (counts²).
 fn tukey_moments(colors: &[[f32; 3]], cylinder: &Cylinder, cut2: f32) -> Moments {
     let mut moments = Moments::default();
     for &color in colors {
@@ -93,7 +96,7 @@ fn tukey_moments(colors: &[[f32; 3]], cylinder: &Cylinder, cut2: f32) -> Moments
     moments
 }
 
-/// The two points, one on each line, that are nearest to one another; `None` for parallel lines.
+/// The point of each line that is nearest to the other line, counts; `None` for parallel lines.
 pub fn closest_points(a: &Line, b: &Line) -> Option<(Vec3, Vec3)> {
     let cosine = a.direction.dot(&b.direction);
     let sine2 = 1.0 - cosine * cosine;
@@ -107,7 +110,7 @@ pub fn closest_points(a: &Line, b: &Line) -> Option<(Vec3, Vec3)> {
     Some((a.mean + a.direction * s, b.mean + b.direction * t))
 }
 
-/// All colors within a radius of a line, in the precision of pixels.
+/// The colors within a radius of a line, in the precision of pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     mean: [f32; 3],
@@ -187,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_points_away_from_black_and_its_inside_is_gray() {
+    fn a_line_points_away_from_black_and_inward_is_towards_gray() {
         let line = Line::new(Vec3::new(100.0, 10.0, 10.0), -Vec3::x());
         assert_eq!(line.direction, Vec3::x());
         assert!((line.foot() - Vec3::new(0.0, 10.0, 10.0)).norm() < 1e-12);
@@ -199,13 +202,13 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_robust_line_ignores_a_fifth_of_strangers(d in direction(), spread in 120f64..200.0) {
+        fn a_robust_line_ignores_a_fifth_of_outliers(d in direction(), spread in 120f64..200.0) {
             let aside = d.cross(&Vec3::new(0.3, -0.8, 0.5)).normalize() * 40.0;
             let colors: Vec<[f32; 3]> = (0..200)
                 .map(|i| {
                     let along = 30.0 + spread * f64::from(i) / 200.0;
-                    let stranger = if i % 5 == 0 { aside } else { Vec3::zeros() };
-                    super::super::rgb(&(d * along + stranger))
+                    let outlier = if i % 5 == 0 { aside } else { Vec3::zeros() };
+                    super::super::rgb(&(d * along + outlier))
                 })
                 .collect();
             let start = Line::principal(&colors.iter().copied().collect()).unwrap();

@@ -1,6 +1,6 @@
 //! Points in the RGB cube: moments and eigenvectors of clusters, the χ² test, robust lines, cylinders.
 //!
-//! Colors are `[f32; 3]` in linear counts; what is fitted to them is computed and kept in `f64`.
+//! Colors of pixels are `[f32; 3]` in linear counts; lines and moments fitted to colors are `f64`.
 
 mod chi_square;
 mod cluster;
@@ -12,11 +12,12 @@ mod srgb;
 pub use chi_square::ChiSquareTest;
 pub use cluster::{ClusterTest, Trial};
 pub use eigen::{eigenvalues, principal_axes};
-pub use line::{Cylinder, Line, LineFit, OuterSide, closest_points};
+pub(crate) use line::closest_points;
+pub use line::{Cylinder, Line, LineFit, OuterSide};
 pub use moments::Moments;
 pub use srgb::{linear_from_srgb, srgb_from_linear};
 
-/// A vector or point of the color space, for everything that is not one of millions of pixels.
+/// A vector or point of the color space; colors of pixels are `[f32; 3]` instead.
 pub type Vec3 = nalgebra::Vector3<f64>;
 
 /// A pixel's color as a vector.

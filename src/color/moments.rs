@@ -1,4 +1,5 @@
-//! Count, sum and sum of outer products of a cluster: enough for mean and covariance, and they merge in O(1).
+//! Number, sum and sum of outer products of the colors of a cluster. Mean and covariance follow from them, and the moments of
+//! two clusters merge in O(1).
 
 use super::Vec3;
 use nalgebra::Matrix3;
@@ -6,7 +7,7 @@ use nalgebra::Matrix3;
 /// Zeroth to second moments of a color cluster.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
-    /// Number of pixels (or the sum of their weights).
+    /// Number of pixels, or the sum of their weights.
     pub n: f64,
     /// Σ C.
     pub sum: [f64; 3],
@@ -21,7 +22,7 @@ impl Moments {
         self.add_weighted(color, 1.0);
     }
 
-    /// Adds one pixel that counts `weight` times.
+    /// Adds one pixel with a weight.
     #[inline]
     pub fn add_weighted(&mut self, color: [f32; 3], weight: f64) {
         let [r, g, b] = color.map(f64::from);
@@ -53,7 +54,7 @@ impl Moments {
         if self.n > 0.0 { Vec3::from(self.sum) / self.n } else { Vec3::zeros() }
     }
 
-    /// Sample covariance (divided by n − 1); zero below two pixels.
+    /// Sample covariance (divided by n − 1), counts²; zero for n ≤ 1.
     pub fn covariance(&self) -> Matrix3<f64> {
         if self.n <= 1.0 {
             return Matrix3::zeros();

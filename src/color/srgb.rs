@@ -1,11 +1,11 @@
 //! The tone curve of sRGB (IEC 61966-2-1).
 
-/// Linear light of a coded value; 0 to 1 is black to white. Beyond 1 the curve goes on.
+/// Linear light of a coded value; both are 0 for black and 1 for white. The curve is defined above 1 too.
 pub fn linear_from_srgb(coded: f64) -> f64 {
     if coded <= 0.04045 { coded / 12.92 } else { ((coded + 0.055) / 1.055).powf(2.4) }
 }
 
-/// Coded value of linear light; 0 to 1 is black to white.
+/// Coded value of linear light; both are 0 for black and 1 for white.
 pub fn srgb_from_linear(linear: f32) -> f32 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }

@@ -1,19 +1,20 @@
-//! Smoothing by running means: three of them are a Gaussian to a few per cent, at a cost that does not grow with its width.
+//! Smoothing by running means. Three running means approximate a Gaussian to a few percent, at a cost that does not depend on
+//! the width of the Gaussian.
 
 use super::grid::Raster;
 use rayon::prelude::*;
 
-/// Rows that one task smooths along the columns; fixed, so that sums do not depend on the number of threads.
+/// Number of rows that one task smooths along the columns: fixed, so that sums do not depend on the number of threads.
 const BAND_ROWS: usize = 64;
 
-/// Smooths by a Gaussian of `sigma_px`; at the border the mean is over what lies inside.
+/// Smooths by a Gaussian with a standard deviation of `sigma_px`; at the border the mean is over the pixels inside.
 pub fn blur<const N: usize>(image: &Raster<[f32; N]>, sigma_px: f64) -> Raster<[f32; N]> {
     let (width, height) = (image.width(), image.height());
     if image.is_empty() {
         return image.clone();
     }
     let radii_px = radii(sigma_px).into_iter().filter(|&radius| radius > 0);
-    // Means along rows and along columns commute: all of the first while a row is in the cache.
+    // Means along rows and along columns commute: all means along a row are computed while the row is in the cache.
     let mut smooth = Raster::filled(width, height, [0.0; N]);
     let rows = smooth.as_mut_slice().par_chunks_mut(width).enumerate();
     rows.for_each_init(
@@ -34,8 +35,8 @@ pub fn blur<const N: usize>(image: &Raster<[f32; N]>, sigma_px: f64) -> Raster<[
     smooth
 }
 
-/// Three radii of which the running means together have the Gaussian's variance, as nearly as whole pixels can: a mean over
-/// 2r + 1 pixels has r(r + 1)/3.
+/// Radii of three successive running means whose total variance is nearest to that of the Gaussian. A mean over 2r + 1 pixels
+/// has the variance r(r + 1)/3.
 fn radii(sigma_px: f64) -> [usize; 3] {
     let wanted = 3.0 * sigma_px * sigma_px;
     let small = (((1.0 + 4.0 * sigma_px * sigma_px).sqrt() - 1.0) / 2.0).floor().max(0.0) as usize;
@@ -44,6 +45,7 @@ fn radii(sigma_px: f64) -> [usize; 3] {
     (0..=3).map(tried).min_by(|a, b| miss(*a).total_cmp(&miss(*b))).unwrap_or([small; 3])
 }
 
+/// Writes the running means of a row with `2·radius_px + 1` values each.
 fn mean_along_row<const N: usize>(from: &[[f32; N]], to: &mut [[f32; N]], radius_px: usize) {
     let width = from.len();
     let mut sum = [0.0f32; N];
@@ -66,6 +68,7 @@ fn mean_along_row<const N: usize>(from: &[[f32; N]], to: &mut [[f32; N]], radius
     }
 }
 
+/// Writes the running means along the columns with `2·radius_px + 1` values each; bands of rows in parallel.
 fn mean_along_columns<const N: usize>(from: &Raster<[f32; N]>, to: &mut Raster<[f32; N]>, radius_px: usize) {
     let (width, height) = (from.width(), from.height());
     to.as_mut_slice().par_chunks_mut(width * BAND_ROWS).enumerate().for_each(|(band, to)| {
@@ -134,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_and_little_are_no_trouble() {
+    fn empty_and_small_pictures_are_no_error() {
         assert!(blur(&Raster::filled(0, 5, [1.0f32]), 4.0).is_empty());
         assert_eq!(blur(&Raster::filled(1, 1, [4.0f32]), 40.0).as_slice(), [[4.0]]);
         let tall = blur(&Raster::filled(2, 300, [1.0f32]), 90.0);

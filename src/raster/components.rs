@@ -1,4 +1,4 @@
-//! Connected components of pixels, and what borders on a component.
+//! Connected components of pixels, and the border of a component.
 //!
 //! The order is fixed, as sums of floating-point numbers over a component depend on it: a component begins with the pixel that
 //! the search starts from and goes on breadth first; the neighbors of each pixel are visited in row-major order.
@@ -110,7 +110,7 @@ impl Components {
     }
 }
 
-/// What borders on a component: its pixels' sides, counted by the label on their other side.
+/// The border of a component: the sides of its pixels, counted by the label of the pixel on the other side.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Border {
     sides: BTreeMap<u16, usize>,
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_join_with_eight_neighbors_only() {
+    fn pixels_that_share_a_corner_are_connected_with_eight_neighbors_only() {
         let rows = ["##..#", "..#.#", "#...#", "##.#."];
         assert_eq!(lettered(&rows, Connectivity::Four), ["aa..b", "..c.b", "d...b", "dd.e."]);
         assert_eq!(lettered(&rows, Connectivity::Eight), ["aa..b", "..a.b", "c...b", "cc.b."]);

@@ -1,4 +1,4 @@
-//! The row-major rectangle itself and its 4-neighborhoods.
+//! The row-major rectangle of values, and the neighbors of a pixel.
 
 /// One value per pixel, row-major.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -8,10 +8,10 @@ pub struct Raster<T> {
     data: Vec<T>,
 }
 
-/// A yes or no per pixel.
+/// A boolean per pixel.
 pub type Mask = Raster<bool>;
 
-/// A region number per pixel; [`UNASSIGNED`] belongs to none.
+/// A region number per pixel; [`UNASSIGNED`] for a pixel of no region.
 pub type LabelMap = Raster<u16>;
 
 /// The label of a pixel that belongs to no region.
@@ -25,7 +25,7 @@ impl<T: Clone> Raster<T> {
 }
 
 impl<T> Raster<T> {
-    /// Takes `data` as rows of `width` values; `None` unless there are exactly `width × height` of them.
+    /// A raster of the values `data`, row after row; `None` unless there are exactly `width × height` values.
     pub fn from_vec(width: usize, height: usize, data: Vec<T>) -> Option<Self> {
         (width.checked_mul(height) == Some(data.len())).then_some(Self { width, height, data })
     }
@@ -45,7 +45,7 @@ impl<T> Raster<T> {
         self.data.len()
     }
 
-    /// Whether there is no pixel at all.
+    /// Whether the raster has no pixel.
     pub fn is_empty(&self) -> bool {
         self.data.is_empty()
     }
@@ -55,17 +55,17 @@ impl<T> Raster<T> {
         &self.data
     }
 
-    /// All values, row after row, to be changed in place.
+    /// All values, row after row, mutable.
     pub fn as_mut_slice(&mut self) -> &mut [T] {
         &mut self.data
     }
 
-    /// The values themselves.
+    /// The values, row after row, without a copy.
     pub fn into_vec(self) -> Vec<T> {
         self.data
     }
 
-    /// Row `y`.
+    /// The values of row `y`.
     pub fn row(&self, y: usize) -> &[T] {
         &self.data[y * self.width..(y + 1) * self.width]
     }
@@ -75,7 +75,7 @@ impl<T> Raster<T> {
         (x < self.width && y < self.height).then(|| &self.data[y * self.width + x])
     }
 
-    /// A raster of the same shape, each value made from this one's.
+    /// A raster of the same shape whose values are `f` of the values of this one.
     pub fn map<U>(&self, f: impl FnMut(&T) -> U) -> Raster<U> {
         Raster { width: self.width, height: self.height, data: self.data.iter().map(f).collect() }
     }
@@ -151,7 +151,7 @@ mod tests {
         assert_eq!(of(0), [1, 3]);
         assert_eq!(of(1), [0, 2, 4]);
         assert_eq!(of(5), [2, 4]);
-        let lonely = Raster::filled(1, 1, 0);
-        lonely.for_each_neighbor(0, |_| panic!("a single pixel has no neighbor"));
+        let single = Raster::filled(1, 1, 0);
+        single.for_each_neighbor(0, |_| panic!("a single pixel has no neighbor"));
     }
 }

@@ -1,6 +1,6 @@
-//! Rectangles of values: pixels, masks and label maps, and what is done with them whatever they mean.
+//! Rectangles of values (pixels, masks and label maps), and operations on them that do not depend on what the values mean.
 //!
-//! Everything is row-major: the value of column `x`, row `y` is at index `y * width + x`.
+//! Rasters are row-major: the value of column `x`, row `y` is at index `y * width + x`.
 
 mod blur;
 mod components;
@@ -9,9 +9,9 @@ mod ids;
 mod morphology;
 mod roi;
 
-pub use blur::blur;
-pub use components::{Border, ComponentSearch, Components, Connectivity};
+pub(crate) use blur::blur;
+pub(crate) use components::{Border, ComponentSearch, Components, Connectivity};
 pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};
 pub use ids::{HypothesisId, PixelIndex, RegionId};
-pub use morphology::dilate;
-pub use roi::Roi;
+pub(crate) use morphology::dilate;
+pub(crate) use roi::Roi;

@@ -1,25 +1,47 @@
-//! Growing masks by squares.
+//! Dilation of masks by squares.
 
 use super::grid::{Mask, Raster};
 
-/// Every pixel within `radius_px` columns and rows of a set pixel: a square of side `2·radius_px + 1`, as a pass along
-/// the rows and one along the columns.
+/// The mask of every pixel within `radius_px` columns and rows of a set pixel: dilation by a square of side
+/// `2·radius_px + 1`, computed by a pass along the rows and a pass along the columns.
 pub fn dilate(mask: &Mask, radius_px: usize) -> Mask {
     let (width, height) = (mask.width(), mask.height());
     let mut across = Raster::filled(width, height, false);
     let mut result = across.clone();
     for y in 0..height {
-        spread(mask.as_slice(), across.as_mut_slice(), (y * width, 1, width), radius_px);
+        dilate_line(
+            mask.as_slice(),
+            across.as_mut_slice(),
+            Strided { first: y * width, stride: 1, length: width },
+            radius_px,
+        );
     }
     for x in 0..width {
-        spread(across.as_slice(), result.as_mut_slice(), (x, width, height), radius_px);
+        dilate_line(
+            across.as_slice(),
+            result.as_mut_slice(),
+            Strided { first: x, stride: width, length: height },
+            radius_px,
+        );
     }
     result
 }
 
-/// Along one line of values, given as its first index, the stride and the length.
-fn spread(from: &[bool], to: &mut [bool], (first, stride, length): (usize, usize, usize), radius_px: usize) {
-    // All before this place on the line have been set as far as they will be.
+/// A row or a column of a raster.
+#[derive(Clone, Copy)]
+struct Strided {
+    /// Index of the first value.
+    first: usize,
+    /// Difference between the indices of successive values.
+    stride: usize,
+    /// Number of values.
+    length: usize,
+}
+
+/// Dilates a row or a column of `from` by `radius_px` and sets the result in `to`.
+fn dilate_line(from: &[bool], to: &mut [bool], line: Strided, radius_px: usize) {
+    let Strided { first, stride, length } = line;
+    // The values before this place of the line are final.
     let mut reached = 0;
     for place in (0..length).filter(|place| from[first + place * stride]) {
         let end = length.min(place + radius_px + 1);
@@ -48,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn squares_end_at_the_border_and_join_one_another() {
+    fn squares_end_at_the_border_and_overlap() {
         assert_eq!(dilate(&mask(&["#...", "...#"]), 1), mask(&["####", "####"]));
         assert_eq!(dilate(&mask(&["#....#"]), 2), mask(&["######"]));
         assert_eq!(dilate(&Raster::filled(0, 0, true), 3).len(), 0);

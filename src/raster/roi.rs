@@ -1,25 +1,25 @@
-//! A rectangle of a picture, for work that concerns only a part of it.
+//! A rectangle of a picture, for operations on a part of the picture.
 
 use super::grid::Raster;
 
-/// Columns and rows of a picture that are looked at.
+/// A rectangular region of interest of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Roi {
-    /// First column and row.
+    /// First column in the picture.
     pub left: usize,
-    /// First row.
+    /// First row in the picture.
     pub top: usize,
-    /// Columns.
+    /// Number of columns.
     pub width: usize,
-    /// Rows.
+    /// Number of rows.
     pub height: usize,
-    /// Columns of the picture.
+    /// Number of columns of the picture.
     picture_width: usize,
 }
 
 impl Roi {
-    /// The smallest that holds every pixel of a picture `width` wide and `height` high for which `wanted` holds, grown by
-    /// `margin_px`; none where there is no such pixel.
+    /// The smallest rectangle that contains every pixel for which `wanted` is true, extended by `margin_px` on each side and
+    /// cut at the border of the picture of `width × height` pixels; `None` where there is no such pixel.
     pub fn around(
         (width, height): (usize, usize),
         margin_px: usize,
@@ -39,36 +39,36 @@ impl Roi {
         Some(Self { left, top, width: right - left, height: bottom - top, picture_width: width })
     }
 
-    /// Pixels in it.
+    /// Number of pixels.
     pub fn len(&self) -> usize {
         self.width * self.height
     }
 
-    /// Whether it holds no pixel.
+    /// Whether the rectangle has no pixel.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The picture's index of the pixel at `column` and `row` of the window.
+    /// Index in the picture of the pixel at `column` and `row` of the rectangle.
     #[inline]
     pub fn at(&self, column: usize, row: usize) -> usize {
         (self.top + row) * self.picture_width + self.left + column
     }
 
-    /// The picture's index of pixel `index` of the window.
+    /// Index in the picture of pixel `index` of the rectangle.
     #[inline]
     pub fn pixel(&self, index: usize) -> usize {
         self.at(index % self.width.max(1), index / self.width.max(1))
     }
 
-    /// The window's index of one of the picture's pixels; none outside.
+    /// Index in the rectangle of pixel `pixel` of the picture; `None` outside the rectangle.
     pub fn index(&self, pixel: usize) -> Option<usize> {
         let (x, y) = (pixel % self.picture_width.max(1), pixel / self.picture_width.max(1));
         let (column, row) = (x.checked_sub(self.left)?, y.checked_sub(self.top)?);
         (column < self.width && row < self.height).then_some(row * self.width + column)
     }
 
-    /// A raster of its size, from the picture's indices.
+    /// A raster of the rectangle's size whose values are `of` the pixels' indices in the picture.
     pub fn raster<T: Default>(&self, of: impl Fn(usize) -> T) -> Raster<T> {
         let rows = (0..self.height).map(|row| self.at(0, row));
         let data = rows.flat_map(|first| first..first + self.width).map(of).collect();
@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_holds_what_is_wanted_and_ends_at_the_border() {
+    fn a_rectangle_contains_the_wanted_pixels_and_ends_at_the_border() {
         let wanted = |pixel: usize| pixel == 12 || pixel == 27;
         let tight = Roi::around((10, 5), 0, wanted).unwrap();
         assert_eq!((tight.left, tight.top, tight.width, tight.height), (2, 1, 6, 2));

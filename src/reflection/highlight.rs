@@ -1,13 +1,14 @@
-//! Section 6: is a pixel matte or highlight? The nearest of the lines says so.
+//! Section 6: a pixel is matte or highlight by the nearest line, the matte line or a highlight line.
 //!
-//! A convex object may show several highlights, each with a line of its own; all run along the surface vector (7.4, figure 13).
+//! A convex object may show several highlights, each with a line of its own. All highlight lines are parallel to the surface
+//! vector (section 7.4, figure 13).
 
 use crate::color::{Line, Vec3, dot, rgb};
 
-/// Most highlight lines of one region.
+/// Largest number of highlight lines of one region.
 pub const MOST_BRANCHES: usize = 4;
 
-/// Tells highlight from matte pixels: which of the lines is nearest?
+/// The test whether a pixel is a highlight pixel: it is, if a highlight line is nearer than the matte line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HighlightTest {
     mean: [f32; 3],
@@ -18,8 +19,8 @@ pub struct HighlightTest {
 }
 
 impl HighlightTest {
-    /// The test of a matte line and of highlight lines from each of `starts` (counts) on along the unit vector `surface`; of
-    /// more than [`MOST_BRANCHES`] starts the first ones.
+    /// The test for a matte line and highlight lines, which begin at `starts` (counts) and run along the unit vector `surface`.
+    /// Only the first [`MOST_BRANCHES`] starts are used.
     pub fn of_lines(matte: &Line, starts: &[Vec3], surface: &Vec3) -> Self {
         let mut places = [[0.0; 3]; MOST_BRANCHES];
         places.iter_mut().zip(starts).for_each(|(place, start)| *place = rgb(start));
@@ -32,7 +33,7 @@ impl HighlightTest {
         }
     }
 
-    /// Whether a color is nearer to a highlight line.
+    /// Whether a color is nearer to a highlight line than to the matte line.
     #[inline]
     pub fn is_highlight(&self, color: [f32; 3]) -> bool {
         self.highlight2(color).1 < self.matte2(color)
@@ -43,7 +44,7 @@ impl HighlightTest {
         [self.matte2(color), self.highlight2(color).1].map(|squared| squared.max(0.0).sqrt())
     }
 
-    /// Which highlight line is nearest to a color: its place in `starts`.
+    /// Index of the highlight line that is nearest to a color, in the order of the starts.
     pub fn nearest(&self, color: [f32; 3]) -> usize {
         self.highlight2(color).0
     }
@@ -54,7 +55,7 @@ impl HighlightTest {
         dot(v, v) - dot(v, self.direction).powi(2)
     }
 
-    /// The nearest highlight line and its squared distance; infinite without one.
+    /// Index of the nearest highlight line and its squared distance, counts²; infinite without a highlight line.
     #[inline]
     fn highlight2(&self, color: [f32; 3]) -> (usize, f32) {
         let mut nearest = (0, f32::INFINITY);
@@ -80,17 +81,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_highlight_line_begins_where_it_leaves_the_matte_line() {
+    fn the_highlight_line_begins_at_its_start() {
         let matte = Line::new(Vec3::x() * 50.0, Vec3::x());
         let test = HighlightTest::of_lines(&matte, &[Vec3::x() * 100.0], &Vec3::y());
         assert!(test.is_highlight([100.0, 30.0, 4.0]));
         assert_eq!(test.distances([100.0, 3.0, 4.0]), [5.0, 4.0]);
-        // Behind its start there is no highlight line.
+        // The highlight line ends at its start: the distance is that from the start.
         assert_eq!(test.distances([97.0, -4.0, 0.0]), [4.0, 5.0]);
         assert!(!test.is_highlight([50.0, 10.0, 0.0]));
     }
+
     #[test]
-    fn a_second_highlight_line_makes_highlights_of_its_own_pixels_only() {
+    fn a_second_highlight_line_adds_its_own_pixels_only() {
         let matte = Line::new(Vec3::x() * 50.0, Vec3::x());
         let (bright, dim) = (Vec3::x() * 100.0, Vec3::x() * 40.0);
         let one = HighlightTest::of_lines(&matte, &[bright], &Vec3::y());

@@ -1,19 +1,19 @@
-//! Section 3.2, equations (3)–(11): where on the matte line a highlight starts, for a sphere.
+//! Section 3.2, equations (3)–(11): the point of the matte line at which a highlight line starts, for a sphere.
 //!
-//! A sphere of radius r is lit by a point light and seen by a camera, both at distance d from its center and the
-//! phase angle g apart. Its highlight lies where the normal bisects g, its brightest visible matte point as near to
-//! the light as the camera can see. The ratio of body reflection there, q, is the evidence behind the paper's 50 %
-//! heuristic (section 5.4): a highlight line starts in the upper half of the matte line.
+//! A sphere of radius r is lit by a point light and seen by a camera. Both are at distance d from the sphere's center; the
+//! phase angle g is the angle between them. The highlight lies where the normal bisects g; the brightest visible matte point
+//! is the visible point nearest to the light. The ratio q of the body reflections at both points is the evidence for the
+//! paper's 50 % heuristic (section 5.4): a highlight line starts in the upper half of the matte line.
 //!
 //! Angles are in degrees, as in figure 6; lengths are in any one unit, as only r/d matters. An infinite d is legal
 //! and gives parallel light and orthographic view.
 //!
 //! # One formula for equations (5), (6), (8) and (9)
-//! All four ask for the angle of incidence i at the point whose normal is turned φ away from the direction of the
-//! light. With r along that normal and the light at distance d,
-//! sin i ∝ d·sin φ and cos i ∝ d·cos φ − r, both over √(d² + r² − 2dr·cos φ). The paper writes the cosine as
-//! √(1 − sin²i), which is the same number wherever the light reaches, but loses half of its digits near the
-//! terminator, just where q becomes a ratio of two vanishing cosines.
+//! All four contain the angle of incidence i at the point whose normal has the angle φ with the direction of the light. With
+//! the point at distance r from the center along that normal and the light at distance d,
+//! sin i = d·sin φ / √(d² + r² − 2dr·cos φ) and cos i = (d·cos φ − r) / √(d² + r² − 2dr·cos φ). The paper writes the cosine as
+//! √(1 − sin²i). The two are equal at every lit point, but the paper's form loses half of its digits near the terminator,
+//! where q becomes a ratio of two vanishing cosines.
 //!
 //! # Errors of the scan
 //! - (8) and (9) print γ where the angle of (7), α, is meant. γ does not depend on g, yet the brightest visible point
@@ -32,17 +32,17 @@ pub struct SphereGeometry {
 impl SphereGeometry {
     /// Sphere of radius r, light and camera at distance d, phase angle g of either sign.
     ///
-    /// `None` unless 0 < r < d with a finite r, and |g| ≤ g_max: beyond it the camera sees no lit point.
+    /// `None` unless 0 < r < d with a finite r, and |g| ≤ g_max: beyond g_max the camera sees no lit point.
     pub fn new(radius: f64, distance: f64, phase_deg: f64) -> Option<Self> {
         let possible = radius > 0.0 && radius.is_finite() && radius < distance;
         let geometry = Self { radius_over_distance: radius / distance, phase_deg: phase_deg.abs() };
-        // Written so that a NaN is refused as well.
+        // The comparison is false for a NaN too.
         (possible && geometry.phase_deg <= geometry.max_phase_deg()).then_some(geometry)
     }
 
     /// γ, equation (3): half the angle at which light or camera sees the sphere.
     pub fn cone_half_angle_deg(self) -> f64 {
-        // arctan(r / √(d² − r²)), in the form that survives an infinite d.
+        // arctan(r / √(d² − r²)) = arcsin(r / d), which is defined for an infinite d too.
         self.radius_over_distance.asin().to_degrees()
     }
 
@@ -76,7 +76,7 @@ impl SphereGeometry {
         self.body(self.brightest_normal_rad())
     }
 
-    /// q, equation (10): where the highlight line leaves the matte line, as a part of the matte line's length.
+    /// q, equation (10): the point at which the highlight line leaves the matte line, as a share of the matte line's length.
     ///
     /// `None` at g = g_max, where both reflections vanish; q approaches 0.5 there.
     pub fn q(self) -> Option<f64> {
@@ -84,12 +84,13 @@ impl SphereGeometry {
         (whole > 0.0).then(|| self.highlight_body() / whole)
     }
 
-    /// The angle between the light's direction and the normal of the last point that the light reaches, 90° − γ.
+    /// The angle between the light's direction and the normal of a point on the terminator, 90° − γ.
     fn horizon_rad(self) -> f64 {
         self.radius_over_distance.acos()
     }
 
-    /// The normal at the highlight bisects the phase angle, as light and camera are equally far away.
+    /// The angle between the light's direction and the normal at the highlight: half of the phase angle, because light and
+    /// camera are equally far away.
     fn highlight_normal_rad(self) -> f64 {
         self.phase_deg.to_radians() / 2.0
     }
@@ -109,7 +110,7 @@ impl SphereGeometry {
         height / normal_rad.sin().hypot(height)
     }
 
-    /// cos φ − r/d: how far the light stands above the tangent plane of the point, in units of d.
+    /// cos φ − r/d: height of the light above the tangent plane of the point, in units of d.
     fn height_above_horizon(self, normal_rad: f64) -> f64 {
         // cos φ − cos φ₀ as a product, so that the ratio of two such heights keeps its digits where both vanish.
         let horizon_rad = self.horizon_rad();
@@ -136,7 +137,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A sphere of radius 1 at `distance`, seen at `part` of its own g_max.
+    /// A sphere of radius 1 at `distance`, at the phase angle `part`·g_max.
     fn at(distance: f64, part: f64) -> SphereGeometry {
         let head_on = SphereGeometry::new(1.0, distance, 0.0).unwrap();
         SphereGeometry::new(1.0, distance, part * head_on.max_phase_deg()).unwrap()

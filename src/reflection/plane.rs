@@ -1,8 +1,8 @@
-//! The dichromatic plane of one object (sections 3.1 and 5.4.2): matte line and illuminant span it.
+//! The dichromatic plane of one object (sections 3.1 and 5.4.2): the plane that matte line and illuminant span.
 //!
-//! A color has three coordinates there: `along` the matte direction from black, the in-plane `offset` from the matte line
-//! towards the illuminant, and the signed `height` above the plane. Surface reflection is offset / sinθ, body reflection
-//! along − offset·cotθ, with θ the angle between both directions.
+//! A color has three coordinates relative to the plane: `along` the matte direction from black, the in-plane `offset` from the
+//! matte line towards the illuminant, and the signed `height` above the plane. With θ the angle between matte line and
+//! illuminant, the amount of surface reflection is offset / sinθ, and the amount of body reflection is along − offset·cotθ.
 
 use crate::color::{Line, Vec3, dot, rgb};
 
@@ -15,9 +15,9 @@ pub const MIN_ANGLE_DEG: f64 = 3.0;
 pub struct DichromaticPlane {
     /// The matte line.
     pub matte: Line,
-    /// Unit direction of surface reflection, the illuminant's.
+    /// Unit direction of surface reflection, that of the illuminant.
     pub surface: Vec3,
-    /// Unit direction in the plane, across the matte line, on the illuminant's side.
+    /// Unit direction in the plane, perpendicular to the matte line, on the illuminant's side.
     pub inward: Vec3,
     /// Unit normal, matte direction × inward.
     pub normal: Vec3,
@@ -49,7 +49,7 @@ impl DichromaticPlane {
         self.angle_rad.to_degrees()
     }
 
-    /// The plane in the precision of pixels.
+    /// The axes of the plane's coordinates, in the precision of pixels.
     pub fn coordinates(&self) -> PlaneAxes {
         PlaneAxes {
             mean: rgb(&self.matte.mean),
@@ -69,14 +69,14 @@ pub struct PlaneAxes {
     normal: [f32; 3],
 }
 
-/// Where a color lies relative to a dichromatic plane, counts.
+/// Coordinates of a color relative to a dichromatic plane, counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanePoint {
     /// Along the matte direction, from black.
     pub along: f32,
-    /// In the plane, away from the matte line, positive towards the illuminant.
+    /// In the plane, from the matte line, positive towards the illuminant.
     pub offset: f32,
-    /// Above the plane.
+    /// Above the plane, with sign.
     pub height: f32,
 }
 
@@ -93,7 +93,7 @@ impl PlaneAxes {
     }
 }
 
-/// The part of space around a dichromatic plane that a planar hypothesis claims (figure 10).
+/// The part of the color space around a dichromatic plane that a planar hypothesis claims (figure 10).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slice {
     axes: PlaneAxes,
@@ -101,36 +101,40 @@ pub struct Slice {
     bounds: Option<Bounds>,
 }
 
-/// A side of a slice.
+/// A bound of a slice, and the measure that the bound limits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SliceBound {
-    /// Its faces: distance from the plane.
+    /// The two faces. Measure: distance from the plane.
     Height,
-    /// The far side of the matte line, where surface reflection would be negative: signed distance from that line.
+    /// The side of the matte line on which surface reflection is negative. Measure: signed distance from the matte line.
     Surface,
-    /// Black, below which body reflection would be negative: amount of body reflection.
+    /// Black, below which body reflection is negative. Measure: amount of body reflection.
     Black,
-    /// The end of the matte line: amount of body reflection.
+    /// The end of the matte line. Measure: amount of body reflection.
     MatteEnd,
 }
 
-/// What keeps a color out of a slice.
+/// The bound outside which a color lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliceMiss {
-    /// The side on which it lies outside.
+    /// The bound.
     pub bound: SliceBound,
-    /// Where it lies, counts.
+    /// Measure of the color, counts.
     pub value: f32,
-    /// Where the slice ends on that side, counts.
+    /// Limit of the measure, counts.
     pub limit: f32,
 }
 
-/// Where body and surface reflection stay within reason.
+/// Limits of body and surface reflection in a slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Bounds {
+    /// Least offset from the matte line, counts.
     least_offset: f32,
+    /// cotθ, θ the angle between matte line and illuminant.
     cotangent: f32,
+    /// Largest amount of body reflection, counts.
     most_body: f32,
+    /// Tolerance of the amount of body reflection, counts.
     slack: f32,
 }
 
@@ -140,8 +144,9 @@ impl Slice {
         Self { axes: plane.coordinates(), half_width: half_width_counts as f32, bounds: None }
     }
 
-    /// The slice where surface reflection is at least −`radius_counts` across the matte line, and body reflection from
-    /// nothing to 15 % beyond a matte line of `matte_length_counts`.
+    /// The colors within `half_width_counts` of the plane with an offset of at least −`radius_counts` from the matte line, and
+    /// with body reflection between 0 and 115 % of the matte line's length `matte_length_counts`, with a tolerance of
+    /// `radius_counts`.
     pub fn bounded(
         plane: &DichromaticPlane,
         half_width_counts: f64,
@@ -168,7 +173,7 @@ impl Slice {
             })
     }
 
-    /// Which bound keeps a color out, and by what; none where it lies inside.
+    /// The first bound outside which a color lies; `None` for a color inside the slice.
     pub fn miss(&self, color: [f32; 3]) -> Option<SliceMiss> {
         let point = self.axes.of(color);
         let miss = |bound, value, limit| Some(SliceMiss { bound, value, limit });
@@ -228,7 +233,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_not_inside_misses_by_some_bound(c in prop::array::uniform3(0f32..255.0), s in prop::array::uniform3(0.3f64..1.0)) {
+        fn a_color_outside_lies_outside_some_bound(c in prop::array::uniform3(0f32..255.0), s in prop::array::uniform3(0.3f64..1.0)) {
             let (d, s) = (Vec3::new(0.9, 0.3, 0.2).normalize(), Vec3::from(s).normalize());
             let plane = DichromaticPlane::new(&Line::new(d * 90.0, d), &s).unwrap();
             for slice in [Slice::bounded(&plane, 6.0, 8.0, 120.0), Slice::unbounded(&plane, 6.0)] {
@@ -243,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn each_side_of_a_slice_can_keep_a_color_out() {
+    fn a_color_can_lie_outside_each_bound() {
         // Body along red, light along green: coordinates are the bands themselves.
         let plane = DichromaticPlane::new(&Line::new(Vec3::x() * 50.0, Vec3::x()), &Vec3::y()).unwrap();
         let slice = Slice::bounded(&plane, 6.0, 8.0, 100.0);

@@ -1,7 +1,7 @@
 //! Section 6, equation 13 and figure 12: the coordinate system of body vector, surface vector and their normal.
 //!
-//! Every color is m̃_b·C_b + m̃_s·C_s + ε·n with unit C_b and C_s. C_b × C_s is not of unit length; n is, so that ε is in
-//! counts.
+//! Every color is m̃_b·C_b + m̃_s·C_s + ε·n with unit vectors C_b and C_s. n is C_b × C_s divided by its length, so that ε is
+//! in counts.
 
 use crate::color::{Vec3, dot, rgb};
 use nalgebra::Matrix3;
@@ -67,7 +67,7 @@ impl ReflectionTransform {
         })
     }
 
-    /// What a color is multiplied with for its amounts of body and surface reflection.
+    /// The rows of T whose scalar products with a color are the amounts of body and surface reflection.
     pub fn amount_rows(&self) -> [[f32; 3]; 2] {
         [self.rows[0], self.rows[1]]
     }
@@ -87,7 +87,7 @@ impl ReflectionTransform {
         self.normal
     }
 
-    /// Sine of the angle between both vectors: surface reflection m̃_s lies m̃_s·sinθ off the body line.
+    /// Sine of the angle θ between both vectors: surface reflection of amount m̃_s lies m̃_s·sinθ off the body line.
     pub fn sine(&self) -> f32 {
         self.sine
     }

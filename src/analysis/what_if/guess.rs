@@ -1,11 +1,11 @@
-//! Parameter values at which a fate may change, from the numbers of the recorded decisions.
+//! Parameter values at which a pixel's fate may change, computed from the recorded decisions about the pixel.
 
 use super::Direction;
 use crate::params::{Parameter, Params, UsedParams};
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::trace::{Barrier, HistoryEntry, HistoryKind, MaskVerdict, PassedOver, Reach, Release};
 
-/// A value at which one recorded threshold would decide the other way.
+/// A parameter value at which one recorded threshold would decide the other way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Guess {
     pub(super) parameter: Parameter,
@@ -13,22 +13,22 @@ pub(super) struct Guess {
     pub(super) value: f64,
 }
 
-/// Thresholds are compared in the precision of pixels: a guess goes this much farther, relatively.
+/// Relative distance of a guess beyond the threshold: thresholds are compared in the precision of pixels.
 const BEYOND: f64 = 1e-6;
 
-/// The guesses that a pixel's history gives rise to.
+/// The guesses that follow from a pixel's history.
 pub(super) fn guesses(history: &[HistoryEntry], params: &Params, used: &UsedParams) -> Vec<Guess> {
     let mut found =
         Guesses { used, noise_moves_width: params.cylinder_width.value().is_some(), list: Vec::new() };
-    for happening in history {
-        found.hear(&happening.what);
+    for entry in history {
+        found.add_of_entry(&entry.what);
     }
     found.list
 }
 
 struct Guesses<'a> {
     used: &'a UsedParams,
-    /// Whether the radius follows the noise.
+    /// Whether the cylinder's radius is proportional to the camera noise (the width in σ0 is set).
     noise_moves_width: bool,
     list: Vec<Guess>,
 }
@@ -44,7 +44,7 @@ impl Guesses<'_> {
         self.list.push(Guess { parameter, direction: Direction::Down, value });
     }
 
-    /// Guesses at which the cylinder just reaches `distance`, counts.
+    /// Adds guesses at which the cylinder's radius is just above `distance`, counts.
     fn wider(&mut self, distance: f64) {
         self.up(Parameter::CylinderWidth, distance / self.used.camera_noise);
         if self.noise_moves_width {
@@ -52,10 +52,13 @@ impl Guesses<'_> {
         }
     }
 
-    fn hear(&mut self, what: &HistoryKind) {
+    /// Adds the guesses that follow from one entry of the history.
+    fn add_of_entry(&mut self, what: &HistoryKind) {
         match what {
-            HistoryKind::Masked(verdict) => self.hear_mask(verdict),
-            HistoryKind::Seeded { reach, .. } | HistoryKind::Claimed { reach, .. } => self.hear_reach(*reach),
+            HistoryKind::Masked(verdict) => self.add_of_mask(verdict),
+            HistoryKind::Seeded { reach, .. } | HistoryKind::Claimed { reach, .. } => {
+                self.add_of_reach(*reach);
+            }
             HistoryKind::Released { why: Release::Refit { distance, .. }, .. }
             | HistoryKind::Refused { barrier: Barrier::Cylinder { distance, .. }, .. } => {
                 self.wider(f64::from(*distance));
@@ -89,7 +92,7 @@ impl Guesses<'_> {
         }
     }
 
-    fn hear_mask(&mut self, verdict: &MaskVerdict) {
+    fn add_of_mask(&mut self, verdict: &MaskVerdict) {
         match *verdict {
             MaskVerdict::Believed { brightness: [from_black, _], largest: [largest, _] } => {
                 self.up(Parameter::MinIntensity, from_black);
@@ -110,7 +113,7 @@ impl Guesses<'_> {
         }
     }
 
-    fn hear_reach(&mut self, reach: Reach) {
+    fn add_of_reach(&mut self, reach: Reach) {
         let noise = self.used.camera_noise;
         match reach {
             Reach::Axis { distance, .. } => self.down(Parameter::CylinderWidth, f64::from(distance) / noise),

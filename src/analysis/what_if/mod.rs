@@ -1,15 +1,16 @@
-//! What if: how far each parameter would have to move for a pixel to change its fate.
+//! What if: for each parameter, the nearest value at which a pixel's fate (its region and kind) changes.
 //!
-//! Where one threshold decided, the trace holds the number that it decided on: a pixel 12.4 counts from an axis joins at a
-//! cylinder width of 12.4/σ0. Such guesses are tried first. Where they do not hold, because lines are fitted to other
-//! pixels or another region comes first, and where there is none, the parameter is moved in ever larger steps until the
-//! fate changes, and the place is narrowed down. Every value told has been analyzed, and so has the one on its near side.
+//! Where one threshold decided, the trace contains the compared number: a pixel 12.4 counts from an axis is claimed at a
+//! cylinder width of 12.4/σ0. Such guesses are tried first. A guess can be wrong because lines are then fitted to other
+//! pixels or another region grows first. Where no guess is right, the parameter is changed in increasing steps until the fate
+//! changes, and the value is narrowed down by halving. Every value that is returned has been analyzed, and so has the nearest
+//! value at which the fate is unchanged.
 //!
-//! A fate may change back further on, and a change that lies between two steps of the search and changes back there is
-//! missed: "nearest" means nearest of what was tried.
+//! The fate may change back at a farther value. A change between two steps of the search that is undone between the same two
+//! steps is missed: "nearest" means the nearest value that was tried.
 
 mod guess;
-mod ladder;
+mod steps;
 #[cfg(test)]
 mod tests;
 
@@ -18,9 +19,9 @@ use crate::params::{Parameter, Params, Setting};
 use crate::raster::{LabelMap, PixelIndex, RegionId, UNASSIGNED};
 use crate::trace::{PixelKind, pixel_history};
 use guess::{Guess, guesses};
-use ladder::Ladder;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
+use steps::ValueSteps;
 
 /// Region and kind of a pixel in a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -35,15 +36,15 @@ pub struct Fate {
 /// A pixel's region, named by the regions of the unchanged result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Home {
-    /// In no region.
+    /// The pixel belongs to no region.
     Nowhere,
-    /// In what overlaps this region of the unchanged result most.
+    /// Of all regions of the unchanged result, the pixel's region has most pixels in common with this one.
     Region(RegionId),
-    /// In a region where the unchanged result has none.
+    /// The pixel's region has no pixel in common with a region of the unchanged result.
     New,
 }
 
-/// Which way a parameter is moved.
+/// Direction in which a parameter is changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Direction {
     /// To smaller values.
@@ -58,45 +59,45 @@ pub enum Direction {
 pub struct WhatIf {
     /// The parameter.
     pub parameter: Parameter,
-    /// Which way it was moved.
+    /// Direction in which the parameter was changed.
     pub direction: Direction,
-    /// The value that the unchanged result was made with, in the parameter's unit.
+    /// Value of the parameter in the unchanged result, in the parameter's unit.
     pub now: f64,
-    /// The fate changes here.
+    /// Value at which the fate is another.
     pub at: f64,
-    /// The nearest value tried on the near side, at which the fate is unchanged.
+    /// The tried value nearest to [`WhatIf::at`], on the side of [`WhatIf::now`], at which the fate is unchanged.
     pub unchanged_at: f64,
     /// The pixel's fate in the unchanged result.
     pub before: Fate,
-    /// Its fate at [`WhatIf::at`].
+    /// The pixel's fate at [`WhatIf::at`].
     pub after: Fate,
-    /// Whether the recorded numbers told where; else it was searched.
+    /// Whether the value follows from a recorded threshold; else it was found by search.
     pub predicted: bool,
 }
 
-/// Receives the progress of a search, and may stop it.
+/// Receives the progress of a search, and may stop the search.
 pub trait WhatIfObserver: Sync {
-    /// `done` of `of` searches are finished; there is one for each parameter and direction.
+    /// `done` of `of` searches are finished; there is one search for each parameter and direction.
     fn progress(&mut self, _done: usize, _of: usize) {}
-    /// A value at which the fate changes was found.
+    /// A value was found at which the fate changes.
     fn found(&mut self, _what_if: &WhatIf) {}
-    /// Asked often, from any thread; the search stops soon after it turns true.
+    /// Whether to stop the search. The function is called often, from any thread; the search stops soon after it returns true.
     fn cancelled(&self) -> bool {
         false
     }
 }
 
-/// An observer that ignores everything.
+/// An observer that observes nothing and never cancels.
 impl WhatIfObserver for () {}
 
-/// For each parameter and direction the nearest value found at which the pixel's fate is another, in the order of table 6,
-/// down before up. Nothing where no value tried changes it, and for a pixel outside the picture.
+/// For each parameter and direction, the nearest value found at which the pixel's fate is another, in the order of table 6,
+/// down before up. A parameter without such a value is left out. The list is empty for a pixel outside the picture.
 ///
-/// The area that `session` is restricted to holds here too. Afterwards the session keeps the outputs of the last value
-/// tried: use one that nobody else waits for.
+/// The search runs in the area that `session` is restricted to. Afterwards the session contains the outputs of the last value
+/// tried: pass a session that no other code uses.
 ///
 /// # Errors
-/// [`Cancelled`] when the observer asks for it.
+/// [`Cancelled`] when the observer cancels.
 pub fn what_if(
     session: &mut Session,
     params: &Params,
@@ -106,7 +107,7 @@ pub fn what_if(
     if pixel.index() >= session.image.pixels.len() {
         return Ok(Vec::new());
     }
-    let (analysis, trace) = session.run_traced(params, &mut Quiet(observer))?;
+    let (analysis, trace) = session.run_traced(params, &mut CancellationOnly(observer))?;
     let history = pixel_history(&trace, &session.image, &analysis.masks, pixel);
     let pixel = pixel.index();
     let guesses = guesses(&history, params, &analysis.used);
@@ -122,7 +123,7 @@ pub fn what_if(
         for (turn, direction) in [Direction::Down, Direction::Up].into_iter().enumerate() {
             let own =
                 guesses.iter().filter(|guess| (guess.parameter, guess.direction) == (parameter, direction));
-            if let Some(what_if) = search.run((parameter, direction), own, observer)? {
+            if let Some(what_if) = search.run(parameter, direction, own, observer)? {
                 observer.found(&what_if);
                 found.push(what_if);
             }
@@ -134,15 +135,14 @@ pub fn what_if(
     Ok(found)
 }
 
-/// The parameters that can change the pixel's fate at all, those of late stages first: what they leave as it is need not
-/// run again.
+/// The parameters that can change the pixel's fate, those of late stages first: the stages before them need not run again.
 fn movable(params: &Params, analysis: &Analysis, pixel: usize) -> Vec<Parameter> {
     let masks = &analysis.masks;
     if masks.invalid(pixel) || masks.outside(pixel) {
         return Vec::new();
     }
     if masks.dark(pixel) {
-        // No stage reads a dark pixel; an automatic limit of darkness follows the noise.
+        // No stage reads a dark pixel; an automatic minimal intensity is proportional to the noise.
         return match params.min_intensity {
             Setting::Auto => vec![Parameter::CameraNoise, Parameter::MinIntensity],
             Setting::Value(_) => vec![Parameter::MinIntensity],
@@ -153,6 +153,7 @@ fn movable(params: &Params, analysis: &Analysis, pixel: usize) -> Vec<Parameter>
     all
 }
 
+/// The search for one pixel.
 struct Search<'a> {
     session: &'a mut Session,
     params: &'a Params,
@@ -161,22 +162,25 @@ struct Search<'a> {
     before: Fate,
 }
 
-/// The fates seen of one parameter, by the bits of its value.
+/// The pixel's fate at each analyzed value of one parameter, by the bits of the value.
 type Seen = BTreeMap<u64, Fate>;
 
 impl Search<'_> {
+    /// The nearest value of a parameter in one direction at which the fate changes; `None` where no value tried changes it.
     fn run<'g>(
         &mut self,
-        (parameter, direction): (Parameter, Direction),
+        parameter: Parameter,
+        direction: Direction,
         guesses: impl Iterator<Item = &'g Guess>,
         observer: &impl WhatIfObserver,
     ) -> Result<Option<WhatIf>, Cancelled> {
         let now = self.unchanged.used.get(parameter);
-        let ladder = Ladder::new(parameter, direction, now, &self.session.image);
+        let steps = ValueSteps::new(parameter, direction, now, &self.session.image);
         let mut seen = Seen::from([(now.to_bits(), self.before)]);
-        let mut guessed: Vec<f64> = guesses.filter_map(|guess| ladder.beyond(guess.value)).collect();
+        let mut guessed: Vec<f64> = guesses.filter_map(|guess| steps.beyond(guess.value)).collect();
         guessed.sort_by(|a, b| (a - now).abs().total_cmp(&(b - now).abs()));
         guessed.dedup();
+        // Two values between which the fate changes.
         let mut bracket = None;
         for &value in &guessed {
             let after = self.fate(parameter, value, &mut seen, observer)?;
@@ -184,25 +188,25 @@ impl Search<'_> {
                 continue;
             }
             // The guess is right if the fate is unchanged one step before.
-            let near = ladder.step_back(value);
+            let near = steps.step_back(value);
             if self.fate(parameter, near, &mut seen, observer)? == self.before {
-                return Ok(Some(self.told((parameter, direction), [near, value], after, true)));
+                return Ok(Some(self.what_if(parameter, direction, [near, value], after, true)));
             }
             bracket = Some([now, near]);
             break;
         }
         if bracket.is_none() {
             let mut last = now;
-            for &rung in ladder.rungs() {
-                if self.fate(parameter, rung, &mut seen, observer)? != self.before {
-                    bracket = Some([last, rung]);
+            for &value in steps.values() {
+                if self.fate(parameter, value, &mut seen, observer)? != self.before {
+                    bracket = Some([last, value]);
                     break;
                 }
-                last = rung;
+                last = value;
             }
         }
         let Some([mut near, mut far]) = bracket else { return Ok(None) };
-        while let Some(middle) = ladder.between(near, far) {
+        while let Some(middle) = steps.between(near, far) {
             if self.fate(parameter, middle, &mut seen, observer)? == self.before {
                 near = middle;
             } else {
@@ -210,12 +214,13 @@ impl Search<'_> {
             }
         }
         let after = self.fate(parameter, far, &mut seen, observer)?;
-        Ok(Some(self.told((parameter, direction), [near, far], after, false)))
+        Ok(Some(self.what_if(parameter, direction, [near, far], after, false)))
     }
 
-    fn told(
+    fn what_if(
         &self,
-        (parameter, direction): (Parameter, Direction),
+        parameter: Parameter,
+        direction: Direction,
         [unchanged_at, at]: [f64; 2],
         after: Fate,
         predicted: bool,
@@ -237,7 +242,7 @@ impl Search<'_> {
         }
         let mut params = *self.params;
         *params.slot(parameter) = Setting::Value(value);
-        let analysis = self.session.run(&params, &mut Quiet(observer))?;
+        let analysis = self.session.run(&params, &mut CancellationOnly(observer))?;
         let home = home(&self.unchanged.finals.labels, &analysis.finals.labels, self.pixel);
         let fate = Fate { home, kind: analysis.intrinsic.kinds[self.pixel] };
         seen.insert(value.to_bits(), fate);
@@ -245,8 +250,8 @@ impl Search<'_> {
     }
 }
 
-/// Where a pixel of the label map `after` belongs, by the regions of `before`: the one with most of its region's pixels, the
-/// first of equals.
+/// The region of a pixel in the label map `after`, named by the region of `before` that has most pixels in common with it (the
+/// smallest number among equals).
 fn home(before: &LabelMap, after: &LabelMap, pixel: usize) -> Home {
     let own = after[pixel];
     if own == UNASSIGNED {
@@ -264,10 +269,10 @@ fn home(before: &LabelMap, after: &LabelMap, pixel: usize) -> Home {
     most.map_or(Home::New, |(region, _)| Home::Region(region))
 }
 
-/// Passes only the question for cancellation on to the search's observer.
-struct Quiet<'a, W>(&'a W);
+/// The observer of the search as the observer of a run: only cancellation is passed on.
+struct CancellationOnly<'a, W>(&'a W);
 
-impl<W: WhatIfObserver> Observer for Quiet<'_, W> {
+impl<W: WhatIfObserver> Observer for CancellationOnly<'_, W> {
     fn cancelled(&self) -> bool {
         self.0.cancelled()
     }

@@ -1,4 +1,4 @@
-//! What is told has been analyzed: at the value the fate is another, before it the same.
+//! Every value returned is checked by an analysis: the fate is another at the value, and unchanged at the value before.
 
 use super::*;
 use crate::photo::LinearImage;
@@ -9,11 +9,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const WIDTH: usize = 48;
 const HEIGHT: usize = 32;
 
-/// A red ramp, a green one, a strip of dark gray between them, and one pixel of the red that is a little off its line.
+/// A red ramp, a green ramp, a strip of dark gray between both, and one pixel of the red ramp that is off the red line.
 fn image() -> LinearImage {
     let color = |pixel: usize| {
         let (x, y) = (pixel % WIDTH, pixel / WIDTH);
-        // A fixed zigzag for noise, the same along every axis.
+        // A fixed zigzag instead of noise, the same along every axis.
         let zigzag = |k: usize| [0.8f32, -0.8, 0.4, -0.4][(x * 7 + y * 5 + k * 3) % 4];
         let level = 60.0 + 3.0 * y as f32;
         let base = match x {
@@ -21,15 +21,15 @@ fn image() -> LinearImage {
             22..26 => [8.0, 8.0, 8.0],
             _ => [0.2 * level, 0.9 * level, 0.3 * level],
         };
-        let off = if pixel == odd_one() { 9.0 } else { 0.0 };
+        let off = if pixel == off_line() { 9.0 } else { 0.0 };
         [base[0] + zigzag(0), base[1] + zigzag(1) - off, base[2] + zigzag(2) + off]
     };
     let pixels = (0..WIDTH * HEIGHT).map(color).collect();
     LinearImage::new(Raster::from_vec(WIDTH, HEIGHT, pixels).unwrap(), Some(255.0))
 }
 
-/// On the edge of the picture, where nothing is filled in around it.
-fn odd_one() -> usize {
+/// The pixel off the red line: at the edge of the picture, where no hole is filled.
+fn off_line() -> usize {
     15 * WIDTH
 }
 
@@ -61,7 +61,7 @@ fn fate_at(pixel: usize, parameter: Parameter, value: f64) -> Fate {
 }
 
 #[track_caller]
-fn holds(pixel: usize, what_if: &WhatIf) {
+fn assert_confirmed(pixel: usize, what_if: &WhatIf) {
     let WhatIf { parameter, direction, now, at, unchanged_at, before, after, .. } = *what_if;
     assert_eq!(fate_at(pixel, parameter, at), after, "{what_if:?}");
     assert_eq!(fate_at(pixel, parameter, unchanged_at), before, "{what_if:?}");
@@ -72,12 +72,12 @@ fn holds(pixel: usize, what_if: &WhatIf) {
 
 #[test]
 fn a_pixel_off_its_line_joins_when_the_cylinder_is_wide_enough() {
-    let pixel = odd_one();
+    let pixel = off_line();
     let analysis = Session::new(Arc::new(image())).run(&params(), &mut ()).unwrap();
     assert_eq!(analysis.finals.labels[pixel], UNASSIGNED, "9 counts off in two bands, radius 6");
     let found = found(pixel);
     for what_if in &found {
-        holds(pixel, what_if);
+        assert_confirmed(pixel, what_if);
     }
     let wider = found
         .iter()
@@ -96,7 +96,7 @@ fn a_matte_pixel_goes_dark_above_its_own_brightness() {
     let found = found(pixel);
     assert!(!found.is_empty());
     for what_if in &found {
-        holds(pixel, what_if);
+        assert_confirmed(pixel, what_if);
     }
     let image = image();
     let brightness = image.pixels[pixel].iter().map(|v| f64::from(v * v)).sum::<f64>().sqrt();
@@ -108,7 +108,7 @@ fn a_matte_pixel_goes_dark_above_its_own_brightness() {
 }
 
 #[test]
-fn of_a_dark_pixel_only_darkness_is_asked() {
+fn for_a_dark_pixel_only_the_minimal_intensity_is_changed() {
     let found = found(8 * WIDTH + 24);
     assert!(found.iter().all(|what_if| what_if.parameter == Parameter::MinIntensity), "{found:?}");
     assert_eq!(super::tests::found(WIDTH * HEIGHT), [], "outside the picture");
@@ -119,29 +119,29 @@ fn of_a_dark_pixel_only_darkness_is_asked() {
     );
 }
 
-/// Says stop at the `n`-th question.
-struct Impatient {
-    questions: AtomicUsize,
-    patience: usize,
+/// Cancels at the call of `cancelled` after `limit` calls, and collects the progress.
+struct CancelAfter {
+    calls: AtomicUsize,
+    limit: usize,
     progress: Vec<(usize, usize)>,
 }
 
-impl WhatIfObserver for Impatient {
+impl WhatIfObserver for CancelAfter {
     fn progress(&mut self, done: usize, of: usize) {
         self.progress.push((done, of));
     }
 
     fn cancelled(&self) -> bool {
-        self.questions.fetch_add(1, Ordering::Relaxed) >= self.patience
+        self.calls.fetch_add(1, Ordering::Relaxed) >= self.limit
     }
 }
 
 #[test]
-fn a_search_tells_how_far_it_is_and_can_be_cancelled() {
-    let run = |patience| {
-        let mut observer = Impatient { questions: AtomicUsize::new(0), patience, progress: Vec::new() };
+fn a_search_reports_its_progress_and_can_be_cancelled() {
+    let run = |limit| {
+        let mut observer = CancelAfter { calls: AtomicUsize::new(0), limit, progress: Vec::new() };
         let mut session = Session::new(Arc::new(image()));
-        let result = what_if(&mut session, &params(), PixelIndex::from_index(odd_one()), &mut observer);
+        let result = what_if(&mut session, &params(), PixelIndex::from_index(off_line()), &mut observer);
         (result, observer.progress)
     };
     let (result, progress) = run(usize::MAX);

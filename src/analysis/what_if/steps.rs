@@ -1,27 +1,29 @@
-//! The values of a parameter to try, and their spacing.
+//! The values of a parameter that a what-if search tries, and their spacing.
 
 use super::Direction;
 use crate::params::{Parameter, ParameterSpec};
 use crate::photo::LinearImage;
 
-/// How far a parameter is moved, as factors.
+/// Factors by which a parameter is multiplied (or divided) in turn.
 const FACTORS: [f64; 6] = [1.1, 1.25, 1.5, 2.0, 3.0, 5.0];
-/// A place is narrowed down to this share of its value.
+/// Relative precision of the value at which a fate changes.
 const PRECISION: f64 = 0.01;
 
-/// Values of a parameter on one side of the one that it has.
-pub(super) struct Ladder {
+/// Values of a parameter above or below its current value.
+pub(super) struct ValueSteps {
     spec: ParameterSpec,
     direction: Direction,
+    /// The current value.
     now: f64,
-    /// Distance between values that are told apart: a digit behind three, or 1.
+    /// Spacing of all values that are tried: the third significant digit of the current value, or 1.
     grid: f64,
     /// The farthest value that makes sense.
     limit: f64,
-    rungs: Vec<f64>,
+    /// The values to try, nearest to the current one first.
+    values: Vec<f64>,
 }
 
-impl Ladder {
+impl ValueSteps {
     pub(super) fn new(parameter: Parameter, direction: Direction, now: f64, image: &LinearImage) -> Self {
         let spec = parameter.spec();
         let limit = match (parameter, direction) {
@@ -37,24 +39,25 @@ impl Ladder {
         // A factor leaves 0 at 0.
         let start = if direction == Direction::Up { start.max(spec.paper / 8.0) } else { start };
         let grid = if spec.whole { 1.0 } else { 10f64.powf(start.max(1e-3).log10().floor() - 2.0) };
-        let mut ladder = Self { spec, direction, now, grid, limit, rungs: Vec::new() };
+        let mut steps = Self { spec, direction, now, grid, limit, values: Vec::new() };
         for factor in FACTORS {
             let value = if direction == Direction::Up { start * factor } else { start / factor };
-            if let Some(rung) = ladder.beyond(value)
-                && ladder.rungs.last() != Some(&rung)
+            if let Some(value) = steps.beyond(value)
+                && steps.values.last() != Some(&value)
             {
-                ladder.rungs.push(rung);
+                steps.values.push(value);
             }
         }
-        ladder
+        steps
     }
 
-    /// The values to try, nearest first.
-    pub(super) fn rungs(&self) -> &[f64] {
-        &self.rungs
+    /// The values to try, nearest to the current one first.
+    pub(super) fn values(&self) -> &[f64] {
+        &self.values
     }
 
-    /// The nearest value of the grid that lies as far as `value` or farther, up to the limit; none on the wrong side.
+    /// The nearest value of the grid that is at least as far from the current value as `value`, up to the limit; `None` for a
+    /// value on the wrong side.
     pub(super) fn beyond(&self, value: f64) -> Option<f64> {
         let steps = value / self.grid;
         let snapped = match self.direction {
@@ -69,7 +72,7 @@ impl Ladder {
         (outward && inside && (!self.spec.whole || snapped.fract() == 0.0)).then_some(snapped)
     }
 
-    /// The next value of the grid towards the one that the parameter has, or that one.
+    /// The next value of the grid towards the current value, or the current value.
     pub(super) fn step_back(&self, value: f64) -> f64 {
         let steps = (value / self.grid).round();
         match self.direction {
@@ -78,9 +81,9 @@ impl Ladder {
         }
     }
 
-    /// A value of the grid between two; none where they are near enough.
+    /// A value of the grid in the middle between two values; `None` where the two differ by no more than the precision.
     pub(super) fn between(&self, near: f64, far: f64) -> Option<f64> {
-        // A threshold that is off lies above every value.
+        // A threshold that is off (infinite) lies above every value.
         let near = if near.is_finite() { near } else { far + 4.0 * self.grid.max(PRECISION * far) };
         let apart = (near - far).abs();
         if apart <= self.grid * 1.5 && self.spec.whole && apart <= 1.0 {
@@ -94,7 +97,7 @@ impl Ladder {
         (middle > low && middle < high).then_some(middle)
     }
 
-    /// The value `steps` steps of the grid from 0, rounded to the nearest decimal fraction.
+    /// `steps` times the grid spacing, rounded to the nearest decimal fraction.
     fn tidy(&self, steps: f64) -> f64 {
         if self.grid >= 1.0 { steps * self.grid } else { steps / (1.0 / self.grid).round() }
     }
@@ -116,22 +119,22 @@ mod tests {
         LinearImage::new(Raster::filled(2, 2, [200.0, 90.0, 30.0]), None)
     }
 
-    fn ladder(parameter: Parameter, direction: Direction, now: f64) -> Ladder {
-        Ladder::new(parameter, direction, now, &image())
+    fn steps(parameter: Parameter, direction: Direction, now: f64) -> ValueSteps {
+        ValueSteps::new(parameter, direction, now, &image())
     }
 
     #[test]
-    fn rungs_go_outward_in_tidy_steps_and_end_where_the_parameter_does() {
+    fn values_go_outward_in_round_steps_and_end_at_the_limits_of_the_parameter() {
         assert_eq!(
-            ladder(Parameter::CylinderWidth, Direction::Up, 4.0).rungs(),
+            steps(Parameter::CylinderWidth, Direction::Up, 4.0).values(),
             [4.4, 5.0, 6.0, 8.0, 12.0, 20.0]
         );
-        assert_eq!(ladder(Parameter::WindowSize, Direction::Down, 10.0).rungs(), [9.0, 8.0, 6.0, 5.0, 3.0]);
-        assert!(ladder(Parameter::BloomDensity, Direction::Down, 1.0).rungs().is_empty());
-        assert_eq!(ladder(Parameter::MinIntensity, Direction::Up, 0.0).rungs().len(), 6);
+        assert_eq!(steps(Parameter::WindowSize, Direction::Down, 10.0).values(), [9.0, 8.0, 6.0, 5.0, 3.0]);
+        assert!(steps(Parameter::BloomDensity, Direction::Down, 1.0).values().is_empty());
+        assert_eq!(steps(Parameter::MinIntensity, Direction::Up, 0.0).values().len(), 6);
         // The largest value of the picture is 200 counts.
-        assert!(ladder(Parameter::ClipThreshold, Direction::Up, 240.0).rungs().is_empty());
-        assert_eq!(ladder(Parameter::ClipThreshold, Direction::Down, f64::INFINITY).rungs()[0], 181.0);
+        assert!(steps(Parameter::ClipThreshold, Direction::Up, 240.0).values().is_empty());
+        assert_eq!(steps(Parameter::ClipThreshold, Direction::Down, f64::INFINITY).values()[0], 181.0);
     }
 
     proptest! {
@@ -144,20 +147,20 @@ mod tests {
             let now = now.clamp(spec.range[0], spec.range[1]);
             let now = if spec.whole { now.round() } else { now };
             let direction = if up { Direction::Up } else { Direction::Down };
-            let ladder = ladder(parameter, direction, now);
+            let steps = steps(parameter, direction, now);
             let mut last = now;
-            for &rung in ladder.rungs() {
-                prop_assert!(if up { rung > last } else { rung < last }, "{last} {rung}");
-                prop_assert!((spec.range[0]..=spec.range[1]).contains(&rung));
-                let (mut near, mut far) = (last, rung);
-                let place = near + share * (far - near);
-                let mut turns = 0;
-                while let Some(middle) = ladder.between(near, far) {
-                    if (middle < place) == up { near = middle } else { far = middle }
-                    turns += 1;
-                    prop_assert!(turns < 12, "{near} {far}");
+            for &value in steps.values() {
+                prop_assert!(if up { value > last } else { value < last }, "{last} {value}");
+                prop_assert!((spec.range[0]..=spec.range[1]).contains(&value));
+                let (mut near, mut far) = (last, value);
+                let sought = near + share * (far - near);
+                let mut halvings = 0;
+                while let Some(middle) = steps.between(near, far) {
+                    if (middle < sought) == up { near = middle } else { far = middle }
+                    halvings += 1;
+                    prop_assert!(halvings < 12, "{near} {far}");
                 }
-                last = rung;
+                last = value;
             }
         }
     }
