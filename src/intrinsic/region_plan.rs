@@ -6,7 +6,7 @@ use crate::color::{Vec3, rgb};
 use crate::raster::RegionId;
 use crate::reflection::{AmountRule, HighlightTest, ReflectionTransform};
 use crate::segment::{
-    AnalysisInput, BranchSearch, Branches, FinalRegions, Pixels, PlanarHypothesis, RegionFit,
+    AnalysisInput, BranchSearch, Branches, FinalRegions, FittedPlane, Pixels, PlanarHypothesis, RegionFit,
 };
 use crate::trace::VectorsFitted;
 
@@ -51,8 +51,9 @@ impl RegionPlan {
             if input.refine.no_negative_surface { input.used.camera_noise as f32 } else { f32::NEG_INFINITY };
         let vectors = fit_vectors(input, hypothesis, pixels);
         let rule = AmountRule::new(&vectors.body, vectors.surface.as_ref(), least_offset);
-        let through_origin = (&Vec3::zeros(), &vectors.body, vectors.surface.as_ref());
-        let fit = RegionFit::new(input, &regions.labels, (region.get(), pixels), through_origin);
+        let through_black =
+            FittedPlane { origin: &Vec3::zeros(), body: &vectors.body, surface: vectors.surface.as_ref() };
+        let fit = RegionFit::new(input, &regions.labels, region.get(), pixels, &through_black);
         let start_body = rule.transform().map_or(0.0, |t| t.split(rgb(&hypothesis.start)).body.max(0.0));
         let highlight_test = hypothesis.highlight_test().filter(|_| rule.transform().is_some());
         let plan = Self {
@@ -60,13 +61,13 @@ impl RegionPlan {
             vectors,
             splitter: PixelSplitter { rule, highlight_test },
             fit,
-            model_fits: !input.refine.region_holds || fit.holds(input.sigma()),
+            model_fits: !input.refine.region_holds || fit.model_fits(input.sigma()),
             branches: Branches::default(),
             starts: vec![hypothesis.start],
             test_starts: vec![hypothesis.start],
             start_bodies: vec![start_body],
         };
-        let wanted = input.refine.second_branch && fit.holds(input.sigma()) && !input.stopped();
+        let wanted = input.refine.second_branch && fit.model_fits(input.sigma()) && !input.stopped();
         let Some(transform) = rule.transform().filter(|_| wanted) else { return plan };
         let search = BranchSearch {
             input,
@@ -74,7 +75,7 @@ impl RegionPlan {
             region,
             transform,
             matte_length: hypothesis.matte_length,
-            light_doubt_deg: regions.light.interval_deg,
+            light_interval_deg: regions.light.interval_deg,
         };
         plan.with_branches(input, search.run(pixels), pixels)
     }

@@ -15,9 +15,10 @@ pub fn near_pairs(labels: &LabelMap, reach_px: usize) -> BTreeSet<(u16, u16)> {
     let data = labels.as_slice();
     let mut pairs = BTreeSet::new();
     let mut last = (UNASSIGNED, UNASSIGNED);
-    let mut look = |pixel: usize, stride: usize, room: usize| {
+    // Looks along a row (stride 1) or a column (stride `width`) of which `left` pixels follow.
+    let mut look = |pixel: usize, stride: usize, left: usize| {
         let own = data[pixel];
-        for step in 1..=reach_px.min(room) {
+        for step in 1..=reach_px.min(left) {
             let other = data[pixel + step * stride];
             if other == own {
                 return;

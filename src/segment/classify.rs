@@ -1,32 +1,33 @@
-//! Section 5.2.1: local color variation in windows, in four classes.
+//! Section 5.2.1: the color variation in each window of the image, in four classes.
 //!
 //! The test is [`crate::color::ClusterTest`]. In the paper dark and clipped pixels count.
 //!
-//! Refined (`tail_test`): only believable pixels count, and a window needs half of its pixels.
+//! Refined (`tail_test`): only usable pixels count, and a window gets a class only if at least half of its pixels are usable.
 
 use crate::color::{ClusterTest, Moments, eigenvalues};
 use crate::raster::Raster;
 use crate::trace::{Class, Measured, Recorder, WindowClassified, WindowsLaid};
 use rayon::prelude::*;
 
-/// How clusters are told apart from noise.
+/// The classes of color clusters, by the number of directions in which a cluster varies beyond the noise.
 #[derive(Clone, Debug)]
 pub struct Classifier(ClusterTest);
 
 impl Classifier {
-    /// A classifier for camera noise σ0 (counts), by the paper's test or the tail test.
+    /// A classifier for camera noise σ0 (counts); `tail_test`: by the tail test instead of the paper's test.
     pub fn new(camera_noise: f64, tail_test: bool) -> Self {
         Self(ClusterTest::new(camera_noise, tail_test))
     }
 
-    /// Class of a cluster, and its eigenvalues.
+    /// Class of a cluster, and the eigenvalues of its covariance (counts², largest first).
     pub fn classify(&mut self, cluster: &Moments) -> (Class, [f64; 3]) {
         let lambda = eigenvalues(&cluster.covariance());
         let significant = self.0.directions(cluster.n, lambda);
         ([Class::Point, Class::Line, Class::Plane, Class::Volume][significant], lambda)
     }
 
-    /// Statistic and threshold of the test that decided the class of `pixels` colors of these variances, for the record.
+    /// Statistic and threshold of the last test that decided the class of `pixels` colors with these variances (counts²), for
+    /// the record.
     pub fn decided_by(&mut self, pixels: f64, eigenvalues: [f64; 3]) -> Measured<f32> {
         let trials = self.0.trials(pixels, eigenvalues);
         trials.last().map_or_else(Measured::default, |trial| {
@@ -37,6 +38,7 @@ impl Classifier {
 
 /// The windows of an image: a grid of squares, the last column and row cut off by the border.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Windows {
     /// Side of a window, pixels.
     pub size_px: usize,
@@ -47,19 +49,18 @@ pub struct Windows {
 }
 
 impl Windows {
-    /// Index of the window that holds a pixel of an image `width` pixels wide.
+    /// Index of the window that contains a pixel of an image `width` pixels wide.
     #[inline]
     pub fn window_of(&self, pixel: usize, width: usize) -> usize {
-        // Divisions of 32 bits take a fraction of those of 64, and this is asked for every pixel that a region claims.
+        // The function is called for every pixel that a region claims, and divisions of 32 bits are faster than those of 64.
         let (pixel, width, size) = (pixel as u32, width as u32, self.size_px as u32);
         let (column, row) = (pixel % width / size, pixel / width / size);
         row as usize * self.classes.width() + column as usize
     }
 }
 
-/// Divides an image into windows of `size_px` and classifies each by its pixels for which `valid` holds.
-///
-/// `min_valid` pixels are needed for a class.
+/// Divides an image into windows of `size_px` and classifies each window by its pixels for which `valid` is true. A window
+/// with fewer than `min_valid` of them has no class.
 pub fn classify<R: Recorder>(
     image: &Raster<[f32; 3]>,
     valid: impl Fn(usize) -> bool + Sync,
@@ -82,7 +83,7 @@ pub fn classify<R: Recorder>(
     }
     for (window, cluster) in moments.as_slice().iter().enumerate() {
         let pixels = cluster.n as usize;
-        // An empty window is not worth a word.
+        // The record leaves out windows without a valid pixel, but contains windows with too few of them.
         if pixels < if R::KEEPS { 1 } else { min_valid } {
             continue;
         }

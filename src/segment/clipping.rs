@@ -1,21 +1,22 @@
-//! Section 5.5: colors that clipping and blooming have moved out of the slices.
+//! Section 5.5: pixels whose colors clipping and blooming have moved out of the slices.
 //!
-//! Their color cannot be used, so position is: from highlight pixels (nearer to the highlight line than to the matte line)
-//! a region grows into unassigned neighbors that are brighter than the meeting point of both lines. Then holes are
-//! filled: clipped components that a region nearly surrounds, and unassigned ones that lie wholly inside it.
+//! The color of such a pixel is not usable, so the position decides: from its highlight pixels (nearer to the highlight line
+//! than to the matte line) a region grows into unassigned neighbors that are brighter than the meeting point of both lines.
+//! Then holes are filled: components of distorted pixels that one region nearly surrounds, and small components of unassigned
+//! pixels that lie wholly inside one region.
 
 use super::input::AnalysisInput;
-use super::planar::PlanarRegions;
+use super::planar_hypothesis::PlanarRegions;
 use super::recorded_labels::RecordedLabels;
 use crate::color::dot;
 use crate::raster::{Border, ComponentSearch, Connectivity, HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
 use crate::trace::{GrowthBegan, HoleFilled, Pass, Recorder};
 use rayon::prelude::*;
 
-/// A clipped component joins the region that holds this share of its assigned border.
+/// A component of distorted pixels joins a region to which at least this share of its assigned border belongs.
 const SURROUNDED: f64 = 0.7;
 
-/// Grows the planar regions into what clipping and blooming have distorted.
+/// Grows the planar regions into the distorted pixels and fills holes. Returns the region of each pixel.
 pub fn clipping_regions<R: Recorder>(
     input: &AnalysisInput,
     planar: &PlanarRegions,
@@ -49,13 +50,13 @@ pub fn clipping_regions<R: Recorder>(
             || input.stopped(),
             |_, pixel, holder| {
                 let color = input.pixels[pixel];
-                holder.is_none() && !input.masks.dark(pixel) && dot(color, color) > start2
+                holder.is_none() && input.masks.claimable_by_brightness(pixel) && dot(color, color) > start2
             },
         );
     }
     recorded_labels.begin(Pass::ClippedHoles);
-    let clipped = |pixel: usize| input.masks.distorted(pixel) && !input.masks.dark(pixel);
-    fill(&mut recorded_labels, clipped, |hole| hole.border_share >= SURROUNDED);
+    let distorted = |pixel: usize| input.masks.distorted(pixel) && !input.masks.dark(pixel);
+    fill(&mut recorded_labels, distorted, |hole| hole.border_share >= SURROUNDED);
     if input.stopped() {
         return recorded_labels.labels;
     }
@@ -68,22 +69,22 @@ pub fn clipping_regions<R: Recorder>(
     recorded_labels.labels
 }
 
-/// A component of unassigned pixels, and the region that most of its border belongs to.
+/// A component of unassigned pixels, compared with the region that most of its border belongs to.
 struct Hole {
-    /// Number of its pixels.
+    /// Number of pixels of the component.
     pixels: usize,
     /// Share of the region in the assigned part of the border, 0…1.
     border_share: f64,
-    /// Whether regions surround it on all sides.
+    /// Whether regions surround the component on all sides.
     closed: bool,
 }
 
-/// Gives components of unassigned pixels for which `member` is true to the region with most of their border, where `fits`
-/// accepts the hole.
+/// Assigns each component of unassigned pixels for which `member` is true to the region with most of the component's border,
+/// if `accepts` is true for the hole.
 fn fill<R: Recorder>(
     recorded_labels: &mut RecordedLabels<R>,
     member: impl Fn(usize) -> bool,
-    fits: impl Fn(&Hole) -> bool,
+    accepts: impl Fn(&Hole) -> bool,
 ) {
     let (width, height) = (recorded_labels.labels.width(), recorded_labels.labels.height());
     let mut search = ComponentSearch::new(width, height, Connectivity::Four);
@@ -94,7 +95,7 @@ fn fill<R: Recorder>(
         let border = Border::of(labels, component, |pixel| !inside(pixel));
         let Some((label, border_share)) = border.main_region() else { continue };
         let Some(hypothesis) = HypothesisId::from_label(label) else { continue };
-        if !fits(&Hole { pixels: component.len(), border_share, closed: border.is_closed() }) {
+        if !accepts(&Hole { pixels: component.len(), border_share, closed: border.is_closed() }) {
             continue;
         }
         if R::KEEPS {
@@ -159,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_clipped_hole_joins_whoever_holds_most_of_its_border() {
+    fn a_clipped_hole_joins_the_region_with_most_of_its_border() {
         let picture = drawing(&["mmmmmmmm", "mwwmmwwm", "mmmmmmmm"]);
         // The second hole has two equal neighbors.
         let most = ["11111122", "1..11..2", "11111122"];

@@ -1,6 +1,7 @@
-//! Section 5.4.1, refined (`robust_illuminant`): what a region's highlight says of the illuminant.
+//! Section 5.4.1, refined (`robust_illuminant`): the constraints on the illuminant's direction from the pixels of one region.
 //!
-//! Its pixels lie in a plane with the matte line, and the illuminant does too; where in that plane it lies, `in_plane` tells.
+//! The pixels off the matte line lie in a plane with the matte line, and so does the illuminant: one constraint. The
+//! direction within that plane (`in_plane`) is a second constraint.
 
 use super::illuminant::Constraint;
 use super::in_plane::{InPlane, Rise};
@@ -10,7 +11,8 @@ use crate::color::Vec3;
 use crate::raster::{HypothesisId, LabelMap, Mask, Raster, UNASSIGNED};
 use crate::reflection::DichromaticPlane;
 
-/// Unclaimed pixels on the inside of a plane, reached within 8 px of its matte region.
+/// Unclaimed pixels whose colors lie near a dichromatic plane, on the illuminant's side of the matte line, and that are
+/// connected to the matte region by such pixels within 8 px. `matte_length` in counts; `pixels`: those of the matte region.
 pub fn nearby_highlight(
     input: &AnalysisInput,
     labels: &LabelMap,
@@ -50,7 +52,8 @@ pub fn nearby_highlight(
     found
 }
 
-/// What a region's highlights themselves say of its plane; without them, the pixels off the matte line say little.
+/// The constraint by the plane in which a region's highlights rise above their surroundings. Without a highlight (`rise` is
+/// `None`) it is the constraint by all pixels, with a larger variance.
 pub fn plane_of_highlights(by_all: &Constraint, plane: &DichromaticPlane, rise: Option<&Rise>) -> Constraint {
     const FAINT_DEG: f64 = 5.0;
     let Some(rise) = rise else {
@@ -60,15 +63,16 @@ pub fn plane_of_highlights(by_all: &Constraint, plane: &DichromaticPlane, rise: 
     Constraint { normal: normal_of(plane, rise.tangent), variance_deg2, ..*by_all }
 }
 
-/// Least error of a plane's normal, degrees.
+/// Least standard deviation of a plane's normal, degrees.
 const FLOOR_DEG: f64 = 0.4;
 
-/// The normal of the plane through the matte line that rises by a tangent from another one.
+/// The normal of the plane through the matte line that is inclined to `plane` by the angle with this tangent.
 fn normal_of(plane: &DichromaticPlane, tangent: f64) -> Vec3 {
     plane.matte.direction.cross(&(plane.inward + plane.normal * tangent)).normalize()
 }
 
-/// The plane through all of a region's pixels off the matte line.
+/// The constraint by the plane through the matte line and all of a region's pixels off the line; `None` with too few such
+/// pixels. `matte_length` in counts.
 pub fn plane_constraint(
     input: &AnalysisInput,
     hypothesis: HypothesisId,
@@ -96,14 +100,15 @@ pub fn plane_constraint(
         hypothesis,
         normal: normal_of(plane, fit.tangent),
         variance_deg2: per_pixel / fit.squares * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG,
-        doubt_deg: 1.0,
-        // Pixels that scatter about the plane by more than noise are no highlight on one material.
+        residual_scale_deg: 1.0,
+        // Pixels that scatter about the plane by more than the noise are no highlight on one material.
         reliability: (POOR_FIT * sigma / fit.residual).powi(2).min(1.0),
     })
 }
 
-/// A line through the origin of (offset, height) points.
+/// A line through the origin, fitted to points of a dichromatic plane (offset, height).
 struct Slope {
+    /// Height per offset.
     tangent: f64,
     /// Σ w·offset².
     squares: f64,
@@ -113,7 +118,8 @@ struct Slope {
     residual: f64,
 }
 
-/// Fits height = slope · offset with Tukey's weights, from a wide scale to one of the noise.
+/// Fits height = tangent · offset with Tukey's weights, whose scale decreases from 8 σ to the scale of the noise. `None` where
+/// no point has weight.
 fn robust_slope(points: &[(f64, f64)], sigma: f64) -> Option<Slope> {
     let mut fit = Slope { tangent: 0.0, squares: 0.0, weight: 0.0, residual: 0.0 };
     let mut scale = 8.0 * sigma;
@@ -140,7 +146,8 @@ fn robust_slope(points: &[(f64, f64)], sigma: f64) -> Option<Slope> {
     Some(fit)
 }
 
-/// An in-plane estimate as what the illuminant is perpendicular to, within the plane that the region found.
+/// The constraint by an in-plane estimate: the illuminant lies at the estimated angle from the matte line, within the plane
+/// of the constraint `lies_in`.
 pub fn branch_constraint(lies_in: &Constraint, plane: &DichromaticPlane, branch: &InPlane) -> Constraint {
     const FLOOR_DEG: f64 = 2.0;
     let inward = lies_in.normal.cross(&plane.matte.direction);
@@ -150,7 +157,7 @@ pub fn branch_constraint(lies_in: &Constraint, plane: &DichromaticPlane, branch:
         hypothesis: lies_in.hypothesis,
         normal: lies_in.normal.cross(&light),
         variance_deg2,
-        doubt_deg: 4.0,
+        residual_scale_deg: 4.0,
         reliability: lies_in.reliability,
     }
 }

@@ -1,17 +1,18 @@
-//! What every stage of the segmentation looks at.
+//! The input of every stage of the segmentation.
 
 use crate::params::{Refine, UsedParams};
 use crate::photo::{LinearImage, Masks};
 use crate::raster::Raster;
 
-/// The image, its masks and the numbers to work with.
+/// The image, its masks and the parameters.
 #[derive(Clone, Copy)]
+#[non_exhaustive]
 pub struct AnalysisInput<'a> {
     /// Colors, linear counts.
     pub pixels: &'a Raster<[f32; 3]>,
-    /// Which of them to believe.
+    /// The masks: which pixels are dark, clipped, bloomed, invalid or outside the area.
     pub masks: &'a Masks,
-    /// The control parameters.
+    /// The control parameters (table 6), none of them `auto`.
     pub used: &'a UsedParams,
     /// The refinements in force.
     pub refine: Refine,
@@ -19,18 +20,18 @@ pub struct AnalysisInput<'a> {
 }
 
 impl<'a> AnalysisInput<'a> {
-    /// The image and its masks, with what to work with.
+    /// The input of a run that is never stopped.
     pub fn new(image: &'a LinearImage, masks: &'a Masks, used: &'a UsedParams, refine: Refine) -> Self {
         Self { pixels: &image.pixels, masks, used, refine, stop: &|| false }
     }
 
-    /// The same scene, whose stages give up with half a result soon after `stop` turns true.
+    /// The same input with a condition that stops the stages: they return an incomplete result soon after `stop` returns true.
     #[must_use]
     pub fn stopped_by(self, stop: &'a (dyn Fn() -> bool + Sync)) -> Self {
         Self { stop, ..self }
     }
 
-    /// The same scene with other colors, such as those without the ambient light.
+    /// The same input with other colors, for example those without the ambient light. The shape must be the same.
     #[must_use]
     pub fn with_pixels<'b>(&self, pixels: &'b Raster<[f32; 3]>) -> AnalysisInput<'b>
     where
@@ -39,7 +40,7 @@ impl<'a> AnalysisInput<'a> {
         AnalysisInput { pixels, ..*self }
     }
 
-    /// Whether to give up. Asked once a hypothesis, a row, or every 64k pixels that a region grows from.
+    /// Whether the stage is to stop. Stages ask once per hypothesis, per row, or per 64k pixels that a region grows from.
     pub fn stopped(&self) -> bool {
         (self.stop)()
     }
@@ -49,10 +50,10 @@ impl<'a> AnalysisInput<'a> {
         self.used.camera_noise / 2.0
     }
 
-    /// Whether a hypothesis may claim the pixel by its color. The paper excludes only dark pixels; refined, distorted
-    /// ones wait for the clipping stage.
+    /// Whether a hypothesis may claim the pixel by its color. The paper excludes only dark pixels; with `tail_test`, clipped
+    /// and bloomed pixels wait for the clipping stage.
     #[inline]
     pub fn claimable(&self, pixel: usize) -> bool {
-        if self.refine.tail_test { self.masks.usable(pixel) } else { !self.masks.dark(pixel) }
+        self.masks.claimable_by_color(pixel, self.refine.tail_test)
     }
 }

@@ -1,52 +1,54 @@
-//! What is known of the light's color, and from where.
+//! The light's color, and the evidence for it.
 
 pub use crate::trace::LightBasis;
 
 /// The color of the scene's light.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Illuminant {
     /// Unit vector.
     pub direction: [f64; 3],
-    /// Number of regions, or of small highlights that voted, that it rests on; 0 where it was given.
+    /// Number of regions, or of small highlights that voted, that the light rests on; 0 for a light that was given.
     pub objects: usize,
-    /// Whether it was given and not estimated.
+    /// Whether the light was given and not estimated.
     pub given: bool,
 }
 
-/// The light by two ways that know nothing of one another, and which was used.
+/// The two independent estimates of the light, and which of them is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct LightFindings {
-    /// The unit vector that was used.
+    /// Unit direction of the light that is used; `None`: no light is known.
     pub direction: Option<[f64; 3]>,
-    /// What it rests on.
+    /// The evidence that the used light rests on.
     pub basis: LightBasis,
-    /// The light by the dichromatic planes, unit.
+    /// Unit direction of the light by the dichromatic planes.
     pub planes: Option<[f64; 3]>,
-    /// Whether the planes are those of the highlights alone, as faint surface reflection has another color (7.5).
+    /// Whether the planes are those of the highlights alone, because faint surface reflection has another color (section 7.5).
     pub highlights_alone: bool,
-    /// The light by the votes of small highlights, unit.
+    /// Unit direction of the light by the votes of small highlights.
     pub votes: Option<[f64; 3]>,
-    /// Share of the votes that the light used has, 0…1; 0 without votes.
+    /// Share of the votes for the light that is used, 0…1; 0 without votes.
     pub share: f64,
-    /// Share of the lit pixels whose regions hold and show highlights under the planes' light, 0…1.
+    /// Share of the lit pixels in regions that fit the model and show highlights under the planes' light, 0…1.
     pub support: f64,
-    /// Within so many degrees the light lies, as far as the evidence itself can tell.
+    /// Angle within which the light lies, by the evidence alone, degrees.
     pub interval_deg: Option<f64>,
 }
 
 impl LightFindings {
-    /// A light that was given.
+    /// The findings for a light that was given (unit direction).
     pub fn given(direction: [f64; 3]) -> Self {
         Self { direction: Some(direction), basis: LightBasis::Given, ..Self::default() }
     }
 
-    /// Degrees between both ways, where both found a light.
+    /// Angle between both estimates, degrees; `None` unless both found a light.
     pub fn agreement_deg(&self) -> Option<f64> {
         let (planes, votes) = (self.planes?, self.votes?);
         Some(crate::color::axis_angle_deg(&planes.into(), &votes.into()))
     }
 
-    /// Why this light was used and no other, in words.
+    /// Why this light is used, in words that complete a sentence.
     pub fn reason(&self) -> String {
         let support = 100.0 * self.support;
         match self.basis {

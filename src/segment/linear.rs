@@ -1,11 +1,11 @@
 //! Section 5.3: linear hypotheses. Large merged areas of class *line* become color cylinders, and each cylinder segments
 //! the image anew, pixel by pixel.
 //!
-//! Areas are taken by decreasing number of unclaimed pixels until the largest is below the minimal area. A cylinder ends
-//! at the dark sphere. A pixel that two cylinders hold goes to the nearer axis (the proximity heuristic).
+//! Areas become hypotheses by decreasing number of unclaimed pixels until the largest is below the minimal area. A cylinder
+//! ends at the dark sphere. A pixel inside two cylinders belongs to the nearer axis (the proximity heuristic).
 //!
-//! Refined: `robust_lines` fits by Tukey's weights, and fits and grows once more from what was grown; `all_seeds` starts
-//! from every pixel of the area that the cylinder holds, not from the one nearest to the mean.
+//! Refined: `robust_lines` fits lines with Tukey's weights, and fits and grows each region a second time from the pixels of
+//! the first time; `all_seeds` starts from every pixel of the area inside the cylinder, not from the pixel nearest to the mean.
 
 use super::classify::Windows;
 use super::input::AnalysisInput;
@@ -20,12 +20,13 @@ use crate::trace::{
 
 /// A linear hypothesis: an object's matte line.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Hypothesis {
-    /// The axis of its cylinder.
+    /// Matte line: the axis of the cylinder.
     pub line: Line,
-    /// Whether it still stands: it may have been absorbed, merged into another or dropped.
+    /// Whether the hypothesis still exists: false after it was absorbed, merged into another hypothesis or dropped.
     pub alive: bool,
-    /// Clusters that turned out to be broad highlights on it.
+    /// Clusters that were absorbed as broad highlights of the object.
     pub highlights: Vec<(CandidateSource, Moments)>,
 }
 
@@ -37,44 +38,44 @@ impl Hypothesis {
 
 /// Which areas may become hypotheses.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Choice {
+pub struct SeedAreaRules {
     /// Fewest unclaimed pixels of an area.
     pub min_area_px: usize,
-    /// Whether areas of class *point* count too, with the axis from black through their mean.
+    /// Whether areas of class *point* count too; the axis of such a hypothesis is the line from black through the mean.
     pub points: bool,
     /// Whether the axis must pass black within the cylinder's radius, and growing must claim the minimal area.
     pub through_black: bool,
 }
 
-/// Pixels that a fit looks at, evenly chosen from more.
+/// Largest number of pixels that a line is fitted to, evenly chosen.
 const FIT_SAMPLES: usize = 4000;
 
-/// Generates and exploits linear hypotheses from merged areas, appending to `hypotheses`.
+/// Generates linear hypotheses from merged areas and exploits them; new hypotheses are appended to `hypotheses`.
 pub fn linear<R: Recorder>(
     input: &AnalysisInput,
     windows: &Windows,
     areas: &Areas,
-    choice: &Choice,
+    rules: &SeedAreaRules,
     hypotheses: &mut Vec<Hypothesis>,
     recorded_labels: &mut RecordedLabels<R>,
 ) {
     recorded_labels.begin(Pass::Hypotheses);
-    let mut seed_areas = SeedAreas::new(input, windows, areas, choice, recorded_labels);
+    let mut seed_areas = SeedAreas::new(input, windows, areas, rules, recorded_labels);
     let mut rank = 0;
-    while let Some(area) = seed_areas.largest(choice.min_area_px) {
+    while let Some(area) = seed_areas.largest(rules.min_area_px) {
         let (pixels, colors) = seed_areas.unclaimed(input, area, recorded_labels);
-        seed_areas.retire(area);
+        seed_areas.mark_examined(area);
         if input.stopped() {
             return;
         }
         let pass_over = |recorded_labels: &mut RecordedLabels<R>, reason| {
             if R::KEEPS {
-                let (area, pixels, least) = (area as u32, pixels.len() as u32, choice.min_area_px as u32);
+                let (area, pixels, least) = (area as u32, pixels.len() as u32, rules.min_area_px as u32);
                 recorded_labels.recorder.record(HypothesisPassedOver { area, pixels, least, reason });
             }
         };
         rank += 1;
-        if pixels.len() < choice.min_area_px {
+        if pixels.len() < rules.min_area_px {
             pass_over(recorded_labels, PassedOver::Consumed);
             continue;
         }
@@ -86,7 +87,7 @@ pub fn linear<R: Recorder>(
             pass_over(recorded_labels, PassedOver::NoExtent);
             continue;
         };
-        if choice.through_black && line.foot().norm() > input.used.radius_counts() {
+        if rules.through_black && line.foot().norm() > input.used.radius_counts() {
             pass_over(recorded_labels, PassedOver::FarFromBlack);
             continue;
         }
@@ -103,8 +104,8 @@ pub fn linear<R: Recorder>(
         }
         hypotheses.push(Hypothesis::new(line));
         let claimed = exploit(input, hypothesis, &pixels, hypotheses, recorded_labels);
-        seed_areas.take(&claimed, windows, recorded_labels.labels.width());
-        if choice.through_black && claimed.len() < choice.min_area_px {
+        seed_areas.subtract(&claimed, windows, recorded_labels.labels.width());
+        if rules.through_black && claimed.len() < rules.min_area_px {
             hypotheses[hypothesis.index()].alive = false;
             for pixel in claimed {
                 recorded_labels.assign(pixel as usize, None);
@@ -113,14 +114,15 @@ pub fn linear<R: Recorder>(
         }
     }
     if R::KEEPS {
-        let least = choice.min_area_px as u32;
-        for (area, pixels, reason) in seed_areas.remaining(least) {
+        let least = rules.min_area_px as u32;
+        for (area, pixels, reason) in seed_areas.never_examined(least) {
             recorded_labels.recorder.record(HypothesisPassedOver { area, pixels, least, reason });
         }
     }
 }
 
-/// Mean and first eigenvector of an area's unclaimed pixels, robustly when refined.
+/// The matte line of a hypothesis: mean and first eigenvector of the colors of an area's unclaimed pixels, fitted robustly
+/// with `robust_lines`. `None` for colors without extent.
 fn hypothesis_line(input: &AnalysisInput, class: Option<Class>, colors: &[[f32; 3]]) -> Option<Line> {
     let moments: Moments = colors.iter().copied().collect();
     if class == Some(Class::Point) {
@@ -131,12 +133,13 @@ fn hypothesis_line(input: &AnalysisInput, class: Option<Class>, colors: &[[f32; 
     Some(if input.refine.robust_lines { line.refit(colors, &line_fit(input, 10)) } else { line })
 }
 
-/// How this scene's lines are fitted.
+/// The settings of a robust line fit: residuals below the image's noise count fully.
 pub fn line_fit(input: &AnalysisInput, iterations: usize) -> LineFit {
     LineFit { sigma: input.sigma(), tuning: 4.0, iterations }
 }
 
-/// Grows the newest hypothesis from an area's unclaimed pixels; refined: fits and grows once more. Returns its pixels.
+/// Grows the hypothesis `region` from an area's unclaimed pixels; with `robust_lines` fits and grows a second time. Returns
+/// the region's pixels.
 fn exploit<R: Recorder>(
     input: &AnalysisInput,
     hypothesis: HypothesisId,
@@ -170,7 +173,7 @@ fn exploit<R: Recorder>(
     claimed
 }
 
-/// Fits a region's line to its pixels.
+/// Fits a region's line to the region's pixels again.
 fn refit<R: Recorder>(
     input: &AnalysisInput,
     hypothesis: HypothesisId,
@@ -186,7 +189,7 @@ fn refit<R: Recorder>(
     }
 }
 
-/// Pixels that the length of a matte line is read from, evenly chosen from more.
+/// Largest number of pixels from which the length of a matte line is measured, evenly chosen.
 const LENGTH_SAMPLES: usize = 6000;
 
 /// Colors of at most [`FIT_SAMPLES`] of the pixels, evenly chosen.
@@ -200,7 +203,7 @@ pub fn cylinders(input: &AnalysisInput, hypotheses: &[Hypothesis]) -> Vec<Cylind
     hypotheses.iter().map(|h| Cylinder::new(&h.line, input.used.radius_counts())).collect()
 }
 
-/// Where growth starts: every pixel inside the cylinder, or the one of them that is nearest to the mean.
+/// The pixels from which growth starts: with `all_seeds` every pixel inside the cylinder, else the one nearest to the mean.
 fn seeds(input: &AnalysisInput, line: &Line, cylinder: Cylinder, area_pixels: &[u32]) -> Vec<u32> {
     let inside = area_pixels.iter().copied().filter(|&p| cylinder.contains(input.pixels[p as usize]));
     if input.refine.all_seeds {
@@ -210,7 +213,8 @@ fn seeds(input: &AnalysisInput, line: &Line, cylinder: Cylinder, area_pixels: &[
     inside.min_by(|a, b| from_mean(a).total_cmp(&from_mean(b))).into_iter().collect()
 }
 
-/// Grows a region into what its cylinder holds; pixels of others only where its own axis is nearer.
+/// Grows a region from the pixels `claimed` into the pixels inside its cylinder. A pixel of another region is claimed only if
+/// the own axis is nearer. Claimed pixels are appended to `claimed`.
 fn grow_cylinder<R: Recorder>(
     input: &AnalysisInput,
     hypothesis: HypothesisId,
@@ -233,27 +237,32 @@ fn grow_cylinder<R: Recorder>(
                 return false;
             }
             let Some(holder) = holder else { return true };
-            let (mine, theirs) = (own.distance2(color), cylinders[holder.index()].distance2(color));
-            let taken = mine < theirs;
+            let own_distance2 = own.distance2(color);
+            let holder_distance2 = cylinders[holder.index()].distance2(color);
+            let taken = own_distance2 < holder_distance2;
             if R::KEEPS {
-                let contest =
-                    Contest { measure: Measure::Axis, challenger: mine.sqrt(), holder: theirs.sqrt() };
-                let pixel = PixelIndex::from_index(pixel);
-                recorder.contest(pixel, holder, hypothesis, taken, contest);
+                let contest = Contest {
+                    measure: Measure::Axis,
+                    challenger: own_distance2.sqrt(),
+                    holder: holder_distance2.sqrt(),
+                };
+                recorder.contest(PixelIndex::from_index(pixel), holder, hypothesis, taken, contest);
             }
             taken
         },
     );
 }
 
-/// The areas that may still become hypotheses, with the number of pixels that no region has claimed.
+/// The areas that may still become hypotheses; every list has one entry per area.
 struct SeedAreas<'a> {
     areas: &'a Areas,
     windows: &'a Windows,
+    /// Number of pixels that no region has claimed; 0 for an examined area.
     unclaimed: Vec<u32>,
+    /// Windows of the area.
     members: Vec<Vec<u32>>,
-    /// Whether an area has been looked at.
-    retired: Vec<bool>,
+    /// Whether the area has been examined.
+    examined: Vec<bool>,
 }
 
 impl<'a> SeedAreas<'a> {
@@ -261,23 +270,23 @@ impl<'a> SeedAreas<'a> {
         input: &AnalysisInput,
         windows: &'a Windows,
         areas: &'a Areas,
-        choice: &Choice,
+        rules: &SeedAreaRules,
         recorded_labels: &RecordedLabels<R>,
     ) -> Self {
         let mut unclaimed = vec![0u32; areas.classes.len()];
         let mut members = vec![Vec::new(); areas.classes.len()];
         for (window, &area) in areas.of_window.as_slice().iter().enumerate() {
             let class = areas.classes[area as usize];
-            if class == Some(Class::Line) || (choice.points && class == Some(Class::Point)) {
+            if class == Some(Class::Line) || (rules.points && class == Some(Class::Point)) {
                 members[area as usize].push(window as u32);
                 unclaimed[area as usize] += windows.moments[window].n as u32;
             }
         }
-        let retired = vec![false; members.len()];
-        let mut seed_areas = Self { areas, windows, unclaimed, members, retired };
-        // Window moments count valid pixels; what is claimable and free may be less.
+        let examined = vec![false; members.len()];
+        let mut seed_areas = Self { areas, windows, unclaimed, members, examined };
+        // The moments of windows count valid pixels, of which fewer may be claimable and unassigned.
         for area in 0..seed_areas.members.len() {
-            if seed_areas.unclaimed[area] as usize >= choice.min_area_px {
+            if seed_areas.unclaimed[area] as usize >= rules.min_area_px {
                 seed_areas.unclaimed[area] =
                     seed_areas.free_pixels(input, area, recorded_labels).count() as u32;
             }
@@ -285,23 +294,25 @@ impl<'a> SeedAreas<'a> {
         seed_areas
     }
 
-    /// The area with the most unclaimed pixels, the first of equals, unless it is too small.
+    /// The area with the most unclaimed pixels, the first one of equals; `None` where it is smaller than `min_area_px`.
     fn largest(&self, min_area_px: usize) -> Option<usize> {
         let best = (0..self.unclaimed.len()).rev().max_by_key(|&area| self.unclaimed[area])?;
         (self.unclaimed[best] as usize >= min_area_px.max(1)).then_some(best)
     }
 
-    /// Areas that were never looked at, with their unclaimed pixels and why: whether they ever had `least` valid ones.
-    fn remaining(&self, least: u32) -> impl Iterator<Item = (u32, u32, PassedOver)> + '_ {
-        let waiting =
-            (0..self.members.len()).filter(|&area| !self.members[area].is_empty() && !self.retired[area]);
-        waiting.map(move |area| {
-            let had = self.areas.moments[area].n >= f64::from(least);
-            let reason = if had { PassedOver::Consumed } else { PassedOver::TooSmall };
+    /// The areas that were never examined, each with its number of unclaimed pixels and the reason: other regions consumed the
+    /// area, or the area never had `least` valid pixels.
+    fn never_examined(&self, least: u32) -> impl Iterator<Item = (u32, u32, PassedOver)> + '_ {
+        let left =
+            (0..self.members.len()).filter(|&area| !self.members[area].is_empty() && !self.examined[area]);
+        left.map(move |area| {
+            let was_large = self.areas.moments[area].n >= f64::from(least);
+            let reason = if was_large { PassedOver::Consumed } else { PassedOver::TooSmall };
             (area as u32, self.unclaimed[area], reason)
         })
     }
 
+    /// The claimable pixels of an area that belong to no region.
     fn free_pixels<'b, R: Recorder>(
         &'b self,
         input: &'b AnalysisInput,
@@ -319,6 +330,7 @@ impl<'a> SeedAreas<'a> {
         })
     }
 
+    /// All free pixels of an area, and the colors of at most [`FIT_SAMPLES`] of them.
     fn unclaimed<R: Recorder>(
         &self,
         input: &AnalysisInput,
@@ -330,13 +342,13 @@ impl<'a> SeedAreas<'a> {
         (pixels, colors)
     }
 
-    fn retire(&mut self, area: usize) {
-        self.retired[area] = true;
+    fn mark_examined(&mut self, area: usize) {
+        self.examined[area] = true;
         self.unclaimed[area] = 0;
     }
 
-    /// Counts off the pixels that a region has claimed.
-    fn take(&mut self, claimed: &[u32], windows: &Windows, width: usize) {
+    /// Subtracts the pixels that a region has claimed from the areas' numbers of unclaimed pixels.
+    fn subtract(&mut self, claimed: &[u32], windows: &Windows, width: usize) {
         for &pixel in claimed {
             let area = self.areas.of_window[windows.window_of(pixel as usize, width)] as usize;
             self.unclaimed[area] = self.unclaimed[area].saturating_sub(1);
@@ -344,8 +356,9 @@ impl<'a> SeedAreas<'a> {
     }
 }
 
-/// Length of a region's matte line from black, counts: the 99.5 % quantile of C·d over its pixels on the outside of the
-/// line (5.4.1, figure 9: highlights grow inward, so the brightest matte point is sought outside).
+/// Length of a region's matte line from black, counts: the 99.5 % quantile of C·d (d the line's direction) over the pixels on
+/// the outer side of the line. Highlights lie on the inner side (section 5.4.1, figure 9), so that the brightest matte point
+/// is measured on the outer side.
 pub fn matte_length(input: &AnalysisInput, line: &Line, pixels: Pixels) -> f64 {
     let outer_side = line.outer_side();
     let direction = crate::color::rgb(&line.direction);
@@ -371,7 +384,8 @@ mod tests {
     use crate::segment::testing::{Drawing, check, labels};
     use crate::trace::{Stage, StageTrace, Step, TraceRecorder};
 
-    /// Grows region 1 from its pixels in `before`, with a cylinder around each axis, and returns the record.
+    /// Grows region 1 from its pixels in `before`, with a cylinder around each axis, compares the labels with `after`, and
+    /// returns the record.
     fn grow(drawing: &Drawing, before: &LabelMap, axes: &[Vec3], after: &[&str]) -> StageTrace {
         let hypotheses: Vec<Hypothesis> =
             axes.iter().map(|axis| Hypothesis::new(Line::new(axis * 100.0, *axis))).collect();
@@ -391,7 +405,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cylinder_grows_along_edges_into_what_it_holds_and_stops_at_the_dark_sphere() {
+    fn a_region_grows_along_edges_into_the_colors_of_its_cylinder_and_stops_at_the_dark_sphere() {
         let red = Vec3::new(0.9, 0.3, 0.3).normalize();
         let drawing = Drawing::new(&["rrRRg", "r.rgg", "dgrrR", "rggrr"], |c| match c {
             'r' => red * 60.0,
@@ -404,7 +418,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pixel_that_two_cylinders_hold_goes_to_the_nearer_axis() {
+    fn a_pixel_inside_two_cylinders_belongs_to_the_nearer_axis() {
         let one = Vec3::x();
         let other = Vec3::new(1.0, 0.09, 0.0).normalize();
         let drawing = Drawing::new(&["axyb"], |c| match c {

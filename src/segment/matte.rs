@@ -1,28 +1,30 @@
-//! The linear stage as a whole (section 5.3): hypotheses, and the refinements that look at them again.
+//! The linear stage as a whole (section 5.3): the linear hypotheses, and the refinements that change them afterwards.
 
 use super::absorb::absorb;
+use super::candidates::is_leftover;
 use super::classify::{Classifier, Windows, classify};
 use super::input::AnalysisInput;
-use super::linear::{Choice, Hypothesis, linear};
+use super::linear::{Hypothesis, SeedAreaRules, linear};
 use super::merge::{Areas, merge};
 use super::recorded_labels::RecordedLabels;
 use super::unite::{merge_regions, vote};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::trace::{Pass, Recorder};
 
-/// Windows and minimal areas of the second look, pixels.
+/// Sides of the windows and minimal areas of the second looks, pixels.
 const SECOND_LOOKS: [(usize, usize); 2] = [(10, 150), (6, 72)];
 
-/// What the linear stage found.
+/// Output of the linear stage.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MatteRegions {
     /// Region of each pixel; region `id` is hypothesis `id − 1`.
     pub labels: LabelMap,
-    /// The hypotheses in the order of their birth, dead ones included.
+    /// The hypotheses in the order in which they were made, with those that no longer exist.
     pub hypotheses: Vec<Hypothesis>,
 }
 
-/// Finds the matte regions.
+/// Finds the matte regions of an image from its windows and merged areas.
 pub fn matte_regions<R: Recorder>(
     input: &AnalysisInput,
     windows: &Windows,
@@ -33,14 +35,14 @@ pub fn matte_regions<R: Recorder>(
     let mut recorded_labels = RecordedLabels::new(labels, recorder);
     let mut hypotheses = Vec::new();
     let min_area_px = input.used.min_area as usize;
-    let first = Choice { min_area_px, points: false, through_black: false };
+    let first = SeedAreaRules { min_area_px, points: false, through_black: false };
     linear(input, windows, areas, &first, &mut hypotheses, &mut recorded_labels);
     for round in 0..3 {
         if input.refine.absorb_highlights {
             recorded_labels.begin(Pass::Absorbing);
         }
         let released = input.refine.absorb_highlights && absorb(input, &mut hypotheses, &mut recorded_labels);
-        // Without newly released pixels another look would see what the last one saw.
+        // Without newly released pixels a second look would find the same as the one before.
         if round == 2 || (round == 1 && !released) {
             break;
         }
@@ -59,7 +61,8 @@ pub fn matte_regions<R: Recorder>(
     MatteRegions { labels: recorded_labels.labels, hypotheses }
 }
 
-/// Repeats the stages so far on unexplained pixels, for what is smaller than the minimal area or too flat for a line.
+/// Repeats classification, merging and the linear stage on the leftover pixels, with smaller windows and areas, for objects
+/// that are smaller than the minimal area or whose colors vary too little for a line.
 fn second_look<R: Recorder>(
     input: &AnalysisInput,
     hypotheses: &mut Vec<Hypothesis>,
@@ -73,18 +76,12 @@ fn second_look<R: Recorder>(
         let min_area_px = min_area_px.min(input.used.min_area as usize);
         let mut classifier = Classifier::new(input.used.camera_noise, input.refine.tail_test);
         let labels = &recorded_labels.labels;
-        let unexplained = |pixel: usize| labels[pixel] == UNASSIGNED && input.masks.usable(pixel);
+        let leftover = |pixel: usize| is_leftover(labels, input.masks, pixel);
         let min_valid = size_px * size_px / 2;
-        let windows = classify(
-            input.pixels,
-            unexplained,
-            size_px,
-            min_valid,
-            &mut classifier,
-            recorded_labels.recorder,
-        );
+        let windows =
+            classify(input.pixels, leftover, size_px, min_valid, &mut classifier, recorded_labels.recorder);
         let areas = merge(&windows, &mut classifier, recorded_labels.recorder);
-        let choice = Choice { min_area_px, points: true, through_black: true };
-        linear(input, &windows, &areas, &choice, hypotheses, recorded_labels);
+        let rules = SeedAreaRules { min_area_px, points: true, through_black: true };
+        linear(input, &windows, &areas, &rules, hypotheses, recorded_labels);
     }
 }

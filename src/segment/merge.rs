@@ -1,25 +1,26 @@
-//! Section 5.2.2: neighboring areas of one class become one while their union keeps the class.
+//! Section 5.2.2: two neighboring areas of one class are merged if their union has the same class.
 //!
-//! Row-major, pair after pair, until nothing merges. Volumes never merge. Areas carry moments, so that a union is
-//! tested without looking at a pixel again.
+//! Pairs of neighboring windows are tested in row-major order until no pair merges any more. Areas of class *volume* never
+//! merge. Each area has moments, so that a union is tested without another pass over the pixels.
 
 use super::classify::{Classifier, Windows};
 use crate::color::Moments;
 use crate::raster::Raster;
 use crate::trace::{Class, MergeTried, Recorder};
 
-/// Merged areas: sets of windows.
+/// Merged areas: disjoint sets of windows.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Areas {
     /// Area of each window (the index of its first window).
     pub of_window: Raster<u32>,
-    /// Moments of each area, at the index of its first window; stale elsewhere.
+    /// Moments of each area, at the index of its first window; meaningless at other indices.
     pub moments: Vec<Moments>,
-    /// Class of each area, likewise.
+    /// Class of each area, at the index of its first window; meaningless at other indices.
     pub classes: Vec<Option<Class>>,
 }
 
-/// Merges neighboring windows.
+/// Merges neighboring windows into areas.
 pub fn merge<R: Recorder>(windows: &Windows, classifier: &mut Classifier, recorder: &mut R) -> Areas {
     let (columns, count) = (windows.classes.width(), windows.classes.len());
     let mut forest = Forest::new(windows);
@@ -44,13 +45,14 @@ pub fn merge<R: Recorder>(windows: &Windows, classifier: &mut Classifier, record
     }
 }
 
-/// Disjoint sets of windows; a set's root is its first window.
+/// A disjoint-set forest of windows; the root of a set is its first window.
 struct Forest {
     parent: Vec<u32>,
     moments: Vec<Moments>,
     classes: Vec<Option<Class>>,
-    /// How often each root has grown: a pair that was refused is tested again only after one of the two has.
+    /// Number of times that each root has grown. A refused pair is tested again only after one of its sets has grown.
     version: Vec<u32>,
+    /// Pairs of roots that were refused, with the versions of both at that time.
     refused: std::collections::HashMap<(u32, u32), (u32, u32)>,
 }
 
@@ -66,6 +68,7 @@ impl Forest {
         }
     }
 
+    /// The root of a window's set; shortens the path to it.
     fn root(&mut self, window: usize) -> usize {
         let mut at = window;
         while self.parent[at] as usize != at {
@@ -76,6 +79,7 @@ impl Forest {
         at
     }
 
+    /// Merges the sets of two windows if the union keeps their class. Returns whether they were merged.
     fn try_union<R: Recorder>(
         &mut self,
         one: usize,
@@ -125,7 +129,8 @@ mod tests {
     use crate::segment::classify::classify;
     use crate::trace::NoopRecorder;
 
-    /// Windows of 5×5 pixels drawn as letters: each letter a matte line of its own color, `.` dark.
+    /// The areas of a picture of windows of 5×5 pixels, drawn as letters: each letter is a matte line of its own color, `.` is
+    /// dark. Returns the areas as digits, in rows.
     fn areas_of(grid: &[&str]) -> String {
         let (columns, rows) = (grid[0].len(), grid.len());
         let mut image = Raster::filled(columns * 5, rows * 5, [0.0f32; 3]);

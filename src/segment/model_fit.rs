@@ -1,11 +1,12 @@
-//! Does a region hold: is it one object with one skewed T, as section 3 assumes? (refinement `region_holds`)
+//! Does the model fit a region: is the region one object with one skewed T, as section 3 assumes? (refinement `region_holds`)
 //!
-//! Two figures decide. The root mean square of the distance from the dichromatic plane: noise on plastic (1.0 σ), 2–16 σ on
-//! printed or grown surfaces. And texture: a pattern of two colors lies in one plane as neatly as a highlight does (fit 1.0 σ
-//! with the body image 13 dB worse than the input), but within a few pixels its surface reflection rises where its body
-//! reflection falls, while a highlight leaves the body reflection under it as it is. Over 45 scenes the correlation of both,
-//! their means over 9 × 9 pixels and the noise's own share taken off, is below .24 in all regions that the plane splits
-//! well, and above .45 in nearly all that it splits worse than nothing.
+//! Two measures decide. The first is the root mean square distance from the dichromatic plane: the noise on plastic (1.0 σ),
+//! 2–16 σ on printed or grown surfaces. The second is texture: a pattern of two colors lies in one plane as exactly as a
+//! highlight does (distance 1.0 σ, but the body image 13 dB worse than the input). Within a few pixels of such a pattern the
+//! surface reflection rises where the body reflection falls, while a highlight does not change the body reflection under it.
+//! The texture is the anticorrelation of body and surface reflection, of which the means over 9 × 9 pixels and the share of
+//! the noise are subtracted. Over 45 scenes the texture is below .24 in all regions that the plane splits well, and above .45
+//! in nearly all regions in which the split is worse than the input.
 
 use super::input::AnalysisInput;
 use super::recorded_labels::Pixels;
@@ -15,39 +16,54 @@ use crate::reflection::ReflectionTransform;
 use crate::trace::FitLimits;
 use nalgebra::Matrix3;
 
-/// Most rms distance from plane or line that is noise, σ.
+/// Largest root mean square distance from plane or line that the noise explains, σ.
 pub const POOR_FIT: f64 = 1.5;
-/// From this correlation of body and surface reflection on, texture is suspected …
+/// A region is textured if the anticorrelation of body and surface reflection exceeds this value …
 pub const TEXTURE_CORRELATION: f64 = 0.25;
-/// … and believed where surface reflection takes at least this share of its own amount from the body reflection.
+/// … and the body reflection falls by more than this share of the rise of the surface reflection.
 const TEXTURE_SLOPE: f64 = 0.2;
-/// Pixels whose distance from the plane is looked at, evenly chosen, and those whose surroundings are.
+/// Largest number of pixels whose distance from the plane is measured, evenly chosen.
 const SAMPLES: usize = 6000;
+/// Largest number of pixels that are compared with their surroundings, evenly chosen.
 const TEXTURE_SAMPLES: usize = 2000;
-/// Places around a pixel whose mean it is compared with, in steps of 2 px: 5 × 5 of them.
+/// Surroundings of a pixel along each axis, in steps of 2 px: a grid of 5 × 5 pixels.
 const STEPS: std::ops::RangeInclusive<isize> = -2..=2;
-/// Variance that counts as noise anyway, as a share of the noise's own.
+/// Least variance of body and surface reflection, as a share of the noise's variance.
 const NOISE_FLOOR: f64 = 0.15;
 
-/// How well a region's pixels bear out its reflection vectors.
+/// The plane that a region's pixels are compared with; a line where there is no surface vector.
+#[derive(Clone, Copy, Debug)]
+pub struct FittedPlane<'a> {
+    /// A point of the plane, counts.
+    pub origin: &'a Vec3,
+    /// Unit vector of body reflection.
+    pub body: &'a Vec3,
+    /// Unit vector of surface reflection; `None`: the pixels are compared with the line along `body`.
+    pub surface: Option<&'a Vec3>,
+}
+
+/// How well the reflection vectors of a region explain the region's pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct RegionFit {
-    /// Root mean square distance of its undistorted pixels from the plane (from the line without one), counts.
+    /// Root mean square distance of the undistorted pixels from the plane, or from the line where there is no plane, counts.
     pub rms_counts: f64,
     /// Anticorrelation of body and surface reflection from pixel to pixel: 1 for a print, about 0 for highlights.
     pub texture: f64,
-    /// Body reflection lost per surface reflection gained from pixel to pixel.
+    /// Decrease of body reflection per increase of surface reflection from pixel to pixel.
     pub texture_slope: f64,
 }
 
 impl RegionFit {
-    /// Of the pixels of region `id` to the plane of unit vectors `body` and `surface` through `origin`.
+    /// Measures how well a plane fits the pixels of region `id` in `labels`.
     pub fn new(
         input: &AnalysisInput,
         labels: &LabelMap,
-        (id, pixels): (u16, Pixels),
-        (origin, body, surface): (&Vec3, &Vec3, Option<&Vec3>),
+        id: u16,
+        pixels: Pixels,
+        plane: &FittedPlane,
     ) -> Self {
+        let FittedPlane { origin, body, surface } = *plane;
         let transform = surface.and_then(|surface| ReflectionTransform::new(body, surface));
         let (from, along) = (rgb(origin), rgb(body));
         let (mut squares, mut count) = (0.0, 0usize);
@@ -68,17 +84,17 @@ impl RegionFit {
         Self { rms_counts, texture, texture_slope }
     }
 
-    /// Whether pixels lie farther from the plane than noise explains.
+    /// Whether the pixels lie farther from the plane than the noise explains; `sigma`: noise of a band, counts.
     pub fn poor(&self, sigma: f64) -> bool {
         self.rms_counts > POOR_FIT * sigma
     }
 
-    /// Whether body and surface reflection vary against each other.
+    /// Whether surface reflection rises where body reflection falls, from pixel to pixel.
     pub fn textured(&self) -> bool {
         self.texture > TEXTURE_CORRELATION && self.texture_slope > TEXTURE_SLOPE
     }
 
-    /// Up to where the figures of a region that holds may go.
+    /// Largest measures of a region that the model fits.
     pub fn limits(sigma: f64) -> FitLimits {
         FitLimits {
             rms_counts: POOR_FIT * sigma,
@@ -88,20 +104,21 @@ impl RegionFit {
         }
     }
 
-    /// Whether one skewed T explains the region.
-    pub fn holds(&self, sigma: f64) -> bool {
+    /// Whether the model fits the region: one skewed T explains the pixels.
+    pub fn model_fits(&self, sigma: f64) -> bool {
         !self.poor(sigma) && !self.textured()
     }
 }
 
-/// How colors vary from pixel to pixel.
+/// The variation of colors from pixel to pixel.
 struct Variation {
-    /// Mean of v·vᵀ, v the difference of a pixel from the mean around it, counts².
+    /// Mean of v·vᵀ, v the difference of a color from the mean color of the surroundings, counts².
     covariance: Matrix3<f64>,
-    /// The noise's share in each band's variance, in σ².
+    /// Variance of each band by the noise alone, σ².
     noise: f64,
 }
 
+/// The variation within region `id`; surroundings count as far as they belong to the region and are usable.
 fn variation(input: &AnalysisInput, labels: &LabelMap, id: u16, pixels: Pixels) -> Variation {
     let (width, height) = (labels.width() as isize, labels.height() as isize);
     let mut sum = Matrix3::zeros();
@@ -131,15 +148,15 @@ fn variation(input: &AnalysisInput, labels: &LabelMap, id: u16, pixels: Pixels) 
     Variation { covariance: sum / count, noise: noise / count }
 }
 
-/// Anticorrelation of body and surface reflection, and its slope; the noise is taken off.
+/// Anticorrelation of body and surface reflection, and the slope of the decrease; the covariance of the noise is subtracted.
 fn texture(variation: &Variation, transform: &ReflectionTransform, sigma: f64) -> (f64, f64) {
     let [body_row, surface_row] = transform.amount_rows().map(crate::color::vec3);
     let per_band = sigma * sigma * variation.noise;
-    let with = |a: &Vec3, b: &Vec3| (a.transpose() * variation.covariance * b)[0] - per_band * a.dot(b);
+    let covariance = |a: &Vec3, b: &Vec3| (a.transpose() * variation.covariance * b)[0] - per_band * a.dot(b);
     let least = |row: &Vec3| NOISE_FLOOR * per_band * row.norm_squared() + 1e-12;
-    let body = with(&body_row, &body_row).max(least(&body_row));
-    let surface = with(&surface_row, &surface_row).max(least(&surface_row));
-    let both = with(&body_row, &surface_row);
+    let body = covariance(&body_row, &body_row).max(least(&body_row));
+    let surface = covariance(&surface_row, &surface_row).max(least(&surface_row));
+    let both = covariance(&body_row, &surface_row);
     (-both / (body * surface).sqrt(), -both / surface)
 }
 
@@ -149,7 +166,8 @@ mod tests {
     use crate::segment::Members;
     use crate::segment::testing::Drawing;
 
-    /// The fit of a picture in which `amounts` says each pixel's body and surface reflection, to the vectors that made it.
+    /// The fit of the true reflection vectors to a picture in which `amounts` gives the body and surface reflection of each
+    /// pixel.
     fn fit(amounts: impl Fn(f64, f64) -> (f64, f64)) -> RegionFit {
         let (body, surface) = (Vec3::new(0.9, 0.4, 0.2).normalize(), Vec3::repeat(1.0).normalize());
         let drawing = Drawing::by_place(40, |x, y| {
@@ -159,7 +177,8 @@ mod tests {
         let labels = LabelMap::filled(40, 40, 1);
         let members = Members::of(&labels, 1);
         let input = drawing.input();
-        RegionFit::new(&input, &labels, (1, members.region(1u16)), (&Vec3::zeros(), &body, Some(&surface)))
+        let plane = FittedPlane { origin: &Vec3::zeros(), body: &body, surface: Some(&surface) };
+        RegionFit::new(&input, &labels, 1, members.region(1u16), &plane)
     }
 
     #[test]
@@ -168,7 +187,7 @@ mod tests {
             let d2 = (x - 20.0).powi(2) + (y - 20.0).powi(2);
             (60.0 + x, 120.0 * (-d2 / 30.0).exp())
         });
-        assert!(found.holds(1.25) && found.texture < 0.2, "{found:?}");
+        assert!(found.model_fits(1.25) && found.texture < 0.2, "{found:?}");
     }
 
     #[test]
@@ -176,14 +195,14 @@ mod tests {
         let found = fit(|x, y| {
             if (x as usize / 5 + y as usize / 5).is_multiple_of(2) { (100.0, 0.0) } else { (50.0, 60.0) }
         });
-        assert!(found.textured() && !found.poor(1.25) && !found.holds(1.25), "{found:?}");
+        assert!(found.textured() && !found.poor(1.25) && !found.model_fits(1.25), "{found:?}");
         assert!((found.texture - 1.0).abs() < 0.1, "{found:?}");
         assert!((found.texture_slope - 50.0 / 60.0).abs() < 0.1, "{found:?}");
     }
 
     #[test]
-    fn shading_alone_holds() {
+    fn the_model_fits_shading_alone() {
         let found = fit(|x, y| (60.0 + x + (y / 6.0).sin() * y, 0.0));
-        assert!(found.holds(1.25), "{found:?}");
+        assert!(found.model_fits(1.25), "{found:?}");
     }
 }

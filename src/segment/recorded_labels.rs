@@ -1,33 +1,34 @@
-//! Who holds which pixel. Every change of hands goes through here, so that a record of claims is complete.
+//! The label map while regions change. Every change of a pixel's region goes through [`RecordedLabels`], so that the record of
+//! claims is complete.
 
 use crate::raster::{HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
 use crate::trace::{Pass, PassBegan, Recorder};
 
-/// So many pixels are grown from between two questions whether to stop: about a millisecond.
+/// Number of pixels that a region grows from between two checks whether to stop: about a millisecond.
 const PIXELS_PER_POLL: usize = 1 << 16;
 
-/// The label map while it grows, and the recorder that is told of each claim.
+/// A label map that changes, and the recorder of each change.
 pub struct RecordedLabels<'a, R: Recorder> {
     /// Region of each pixel.
     pub labels: LabelMap,
-    /// Listens to every claim.
+    /// Records every claim.
     pub recorder: &'a mut R,
 }
 
 impl<'a, R: Recorder> RecordedLabels<'a, R> {
-    /// A ledger that goes on from `labels`.
+    /// Starts from `labels`.
     pub fn new(labels: LabelMap, recorder: &'a mut R) -> Self {
         Self { labels, recorder }
     }
 
-    /// Says that what follows belongs to this part of the stage.
+    /// Records that a pass of the stage begins.
     pub fn begin(&mut self, pass: Pass) {
         if R::KEEPS {
             self.recorder.record(PassBegan { pass });
         }
     }
 
-    /// Gives a pixel to a hypothesis, or to none.
+    /// Assigns a pixel to a hypothesis, or to none.
     #[inline]
     pub fn assign(&mut self, pixel: usize, owner: Option<HypothesisId>) {
         let before = self.labels[pixel];
@@ -41,9 +42,10 @@ impl<'a, R: Recorder> RecordedLabels<'a, R> {
         }
     }
 
-    /// Grows a hypothesis from the pixels in `front`, 4-connected and ring by ring: each neighbor that is not the hypothesis's
-    /// is claimed when `accept(recorder, pixel, holder)` says so. Seeds must be the hypothesis's already. Claimed pixels are
-    /// appended to `front`, in order. Gives up soon after `stop` turns true.
+    /// Grows a hypothesis from the pixels in `front`, 4-connected and ring by ring: each neighbor that belongs to another
+    /// hypothesis or to none is claimed if `accept(recorder, pixel, holder)` returns true, where `holder` is the hypothesis that
+    /// the pixel belongs to. The pixels in `front` must belong to the hypothesis already. Claimed pixels are appended to `front`,
+    /// in order. Growth ends soon after `stop` returns true.
     pub fn grow(
         &mut self,
         hypothesis: HypothesisId,
@@ -82,14 +84,14 @@ impl<'a, R: Recorder> RecordedLabels<'a, R> {
         }
     }
 
-    /// Those of `pixels` that are `hypothesis`'s and have a neighbor that is not: all that growth has to start from, in the
-    /// order of `pixels`. Of a large region they are few.
+    /// The pixels among `pixels` that belong to `hypothesis` and have a 4-neighbor that does not, in the order of `pixels`.
+    /// Growth from these pixels alone gives the same result as growth from all, and a large region has few of them.
     pub fn border(&self, hypothesis: HypothesisId, pixels: Pixels) -> Vec<u32> {
         let own = hypothesis.get();
         let (width, labels) = (self.labels.width(), self.labels.as_slice());
         let mut border = Vec::new();
         for &(first, length) in pixels.runs() {
-            // A run lies within a row.
+            // A run lies within one row.
             let (first, x) = (first as usize, first as usize % width);
             for pixel in first..first + length as usize {
                 let column = x + pixel - first;
@@ -112,14 +114,14 @@ impl<'a, R: Recorder> RecordedLabels<'a, R> {
     }
 }
 
-/// Pixels by region, as runs of consecutive pixels: one pass over the labels, and little memory.
+/// The pixels of every region, as runs of consecutive pixels: made in one pass over the labels, in little memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Members {
-    /// First run of each region, and the end.
+    /// Index of the first run of each region, and the number of runs at the end.
     starts: Vec<usize>,
-    /// First pixel and length of each run, by region and row-major within it.
+    /// First pixel and length of each run, ordered by region and row-major within a region.
     runs: Vec<(u32, u32)>,
-    /// Pixels of each region.
+    /// Number of pixels of each region.
     sizes: Vec<usize>,
 }
 
@@ -170,12 +172,12 @@ impl Members {
 }
 
 impl<'a> Pixels<'a> {
-    /// How many there are.
+    /// Number of pixels.
     pub fn len(&self) -> usize {
         self.size
     }
 
-    /// Whether there are none.
+    /// Whether the region has no pixel.
     pub fn is_empty(&self) -> bool {
         self.size == 0
     }
@@ -185,21 +187,21 @@ impl<'a> Pixels<'a> {
         self.runs
     }
 
-    /// The rows of an image `width` pixels wide that hold them; `None` without any.
+    /// The rows of the pixels in an image `width` pixels wide, first to last; `None` without a pixel.
     pub fn rows(&self, width: usize) -> Option<std::ops::Range<usize>> {
         let (first, last) = (self.runs.first()?, self.runs.last()?);
         Some(first.0 as usize / width..last.0 as usize / width + 1)
     }
 
-    /// All of them.
+    /// All pixels, row-major.
     pub fn iter(&self) -> impl Iterator<Item = u32> + use<'a> {
         self.runs.iter().flat_map(|&(first, length)| first..first + length)
     }
 
-    /// At most `most` of them, evenly chosen.
+    /// At most `most` of the pixels, evenly chosen.
     pub fn sample(&self, most: usize) -> impl Iterator<Item = u32> + use<'a> {
         let step = self.size.div_ceil(most).max(1) as u32;
-        // Pixels still to be passed over before the next one.
+        // Number of pixels to pass over before the next one that is taken.
         let mut skip = 0;
         self.runs.iter().flat_map(move |&(first, length)| {
             let start = skip;

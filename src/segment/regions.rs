@@ -1,13 +1,15 @@
-//! From labels to final regions: what is too small goes, what lies apart is separated, numbers are given by size.
+//! From labels to final regions: regions that are too small are dropped, separate parts become regions, and regions are
+//! numbered by size.
 //!
-//! `split_components`: two parts of a region that lie apart are two objects of one color when background lies between
-//! them, and one object behind another when the other's pixels do (a cup seen through a handle stays one). Shadow is dark
-//! like background; a part that lies nearer than its own size is taken to lie behind a shadow, one that lies farther than
-//! twice its size to be another object. Regions of one matte line that were found apart are joined by the same rule.
+//! `split_components`: two separate parts of a region are two objects of one color if background lies between them, and one
+//! object if another region lies between them (a cup behind its handle stays one region). A shadow is dark like background:
+//! two parts at a distance below the size of the smaller part are taken for one object with a shadow across it, and two parts
+//! at a distance above twice that size for two objects. Separate regions of one matte line are joined by the same rule
+//! (`merge_regions`).
 
 use super::input::AnalysisInput;
 use super::light::LightFindings;
-use super::planar::{PlanarHypothesis, PlanarRegions};
+use super::planar_hypothesis::{PlanarHypothesis, PlanarRegions};
 use super::recorded_labels::{Members, Pixels, RecordedLabels};
 use super::unite::{MAX_ANGLE_DEG, matte_cluster, one_line};
 use crate::color::{Moments, axis_angle_deg};
@@ -15,29 +17,32 @@ use crate::raster::{HypothesisId, LabelMap, RegionId, UNASSIGNED};
 use crate::trace::{ComponentSplit, Dropped, Pass, Recorder, RegionsMerged, Renumbered};
 use std::collections::BTreeMap;
 
-/// Regions and separated parts below this many pixels are dropped, or stay with their region.
+/// Fewest pixels of a region and of a part that becomes a region. A smaller region is dropped, a smaller part stays in its
+/// region.
 const MIN_REGION_PX: usize = 60;
-/// Parts of a region at most this far apart are one part, pixels.
+/// Largest distance along rows or columns between pixels of one part, pixels.
 const APART_PX: usize = 4;
-/// Widest shadow and widest occluder that may part an object, as shares of the picture's diagonal.
+/// Widest shadow across an object, as a share of the picture's diagonal.
 const MAX_SHADOW: f64 = 0.045;
+/// Widest occluder in front of an object, as a share of the picture's diagonal.
 const MAX_OCCLUDER: f64 = 0.12;
-/// Border pixels looked at when the gap between two parts is judged.
+/// Largest number of border pixels of a part from which the distance between two parts is measured.
 const BORDER_SAMPLES: usize = 300;
 
 /// The final regions.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FinalRegions {
     /// Region of each pixel, numbered from 1 by decreasing size.
     pub labels: LabelMap,
-    /// Region `id` at index `id − 1`. Parts of one linear hypothesis that lie apart have the same
+    /// Hypothesis of region `id` at index `id − 1`. Separate parts of one linear hypothesis have the same
     /// [`origin`](PlanarHypothesis::origin).
     pub hypotheses: Vec<PlanarHypothesis>,
-    /// The light, and what it rests on.
+    /// Both estimates of the light, and the evidence for each.
     pub light: LightFindings,
 }
 
-/// Drops, separates and numbers the regions.
+/// Joins, separates, drops and numbers the regions of `labels`, whose hypotheses are those of `planar`.
 pub fn final_regions<R: Recorder>(
     input: &AnalysisInput,
     labels: LabelMap,
@@ -91,7 +96,7 @@ pub fn final_regions<R: Recorder>(
     FinalRegions { labels, hypotheses: kept, light: planar.light }
 }
 
-/// Joins regions on one matte line that an occluder or a shadow parts.
+/// Joins regions of one matte line that an occluder or a shadow divides, smaller into larger.
 fn join_across<R: Recorder>(
     input: &AnalysisInput,
     hypotheses: &[PlanarHypothesis],
@@ -110,9 +115,9 @@ fn join_across<R: Recorder>(
             break;
         }
         for &from in &order[i + 1..] {
-            let free = into_of[from.index()] == from && into_of[into.index()] == into;
+            let unjoined = into_of[from.index()] == from && into_of[into.index()] == into;
             let angle_deg = axis_angle_deg(&line(from).direction, &line(into).direction);
-            if !free || angle_deg >= MAX_ANGLE_DEG {
+            if !unjoined || angle_deg >= MAX_ANGLE_DEG {
                 continue;
             }
             for id in [from, into] {
@@ -141,7 +146,7 @@ fn join_across<R: Recorder>(
     }
 }
 
-/// Gives the parts of a region that are objects of their own new numbers.
+/// Makes regions of the parts of region `id` that are separate objects, with new numbers at the end of `hypotheses`.
 fn separate<R: Recorder>(
     id: HypothesisId,
     pixels: Pixels,
@@ -151,17 +156,17 @@ fn separate<R: Recorder>(
     let mut parts = parts(recorded_labels.labels.width(), pixels);
     parts.sort_by_key(|part| std::cmp::Reverse(part.len()));
     let outline = |part: &[u32]| Outline::new(&recorded_labels.labels, part.iter().copied());
-    // Parts that belong together, the largest of each group first.
+    // Groups of parts of one object; the largest part of each group is the first.
     let mut groups: Vec<Vec<Vec<u32>>> = Vec::new();
     for part in parts {
-        let home = groups.iter().position(|group| {
+        let group = groups.iter().position(|group| {
             part.len() < MIN_REGION_PX
                 || group
                     .iter()
                     .any(|other| same_object(&recorded_labels.labels, &outline(other), &outline(&part)))
         });
-        match home {
-            Some(home) => groups[home].push(part),
+        match group {
+            Some(group) => groups[group].push(part),
             None => groups.push(vec![part]),
         }
     }
@@ -181,15 +186,15 @@ fn separate<R: Recorder>(
     }
 }
 
-/// Groups of a region's pixels of which each is more than `APART_PX` from the next along rows or columns; none where there
-/// is but one.
+/// The parts of a region in an image `width` pixels wide: groups of pixels with more than [`APART_PX`] between two groups along
+/// rows or columns. An empty list where the region is one part.
 pub fn parts(width: usize, pixels: Pixels) -> Vec<Vec<u32>> {
     let runs = pixels.runs();
     let reach = APART_PX as u32;
     let row = |run: (u32, u32)| run.0 / width as u32;
     let column = |run: (u32, u32)| run.0 % width as u32;
     let mut parent: Vec<usize> = (0..runs.len()).collect();
-    // Runs are row-major, so everything within reach above a run lies from `above` on.
+    // Runs are row-major: all runs within reach above a run have an index of at least `above`.
     let mut above = 0;
     for i in 0..runs.len() {
         while row(runs[above]) + reach < row(runs[i]) {
@@ -214,6 +219,7 @@ pub fn parts(width: usize, pixels: Pixels) -> Vec<Vec<u32>> {
     parts.into_values().collect()
 }
 
+/// The root of a set in a disjoint-set forest; shortens the path to it.
 fn root(parent: &mut [usize], mut at: usize) -> usize {
     while parent[at] != at {
         parent[at] = parent[parent[at]];
@@ -222,18 +228,20 @@ fn root(parent: &mut [usize], mut at: usize) -> usize {
     at
 }
 
-/// Where a part of a region ends.
+/// The outline of a part of a region.
 struct Outline {
-    /// Pixels of the part.
+    /// Number of pixels of the part.
     size: usize,
-    /// Columns and rows that it spans, first to last.
+    /// First and last column of the part.
     columns: [i64; 2],
+    /// First and last row of the part.
     rows: [i64; 2],
-    /// Some of its border pixels, evenly chosen: column, row.
+    /// Column and row of border pixels, evenly chosen.
     border: Vec<(i64, i64)>,
 }
 
 impl Outline {
+    /// The outline of `pixels`, which belong to one region of `labels`.
     fn new(labels: &LabelMap, pixels: impl Iterator<Item = u32>) -> Self {
         let width = labels.width();
         let mut outline =
@@ -255,15 +263,15 @@ impl Outline {
         outline
     }
 
-    /// A distance that two parts certainly have, pixels.
+    /// Distance between the bounding boxes of two parts, pixels: a lower bound of the distance between the parts.
     fn least_gap_px(&self, other: &Self) -> f64 {
-        let apart = |a: [i64; 2], b: [i64; 2]| (a[0] - b[1]).max(b[0] - a[1]).max(0);
-        (apart(self.columns, other.columns) as f64).hypot(apart(self.rows, other.rows) as f64)
+        let gap = |a: [i64; 2], b: [i64; 2]| (a[0] - b[1]).max(b[0] - a[1]).max(0);
+        (gap(self.columns, other.columns) as f64).hypot(gap(self.rows, other.rows) as f64)
     }
 }
 
-/// Whether two parts are one object: near one another for their size, or parted mostly by other regions, by an object in
-/// front.
+/// Whether two parts are one object: their distance is small compared with their sizes, or most pixels between them belong to
+/// other regions, those of an object in front.
 fn same_object(labels: &LabelMap, one: &Outline, other: &Outline) -> bool {
     let width = labels.width();
     let size_px = (one.size.min(other.size) as f64).sqrt();
@@ -295,7 +303,7 @@ fn same_object(labels: &LabelMap, one: &Outline, other: &Outline) -> bool {
     assigned * 2 > total
 }
 
-/// Which regions touch each region: ascending lists, by [`RegionId::index`].
+/// The regions that touch each region, in ascending order; the list of a region is at [`RegionId::index`].
 pub fn neighbors(labels: &LabelMap, regions: usize) -> Vec<Vec<RegionId>> {
     let mut lists = vec![Vec::new(); regions];
     for (a, b) in super::borders::near_pairs(labels, 1) {
@@ -325,8 +333,8 @@ mod tests {
 
     const SIZE_PX: [usize; 2] = [360, 60];
 
-    /// Numbers and drops the regions of a picture of [`SIZE_PX`], given as rectangles: left, top, width, height, region.
-    /// Each region is on a matte line of its own. Returns the final region of each rectangle.
+    /// Makes final regions of a picture of [`SIZE_PX`], whose regions are given as rectangles: left, top, width, height, region.
+    /// Each region has a matte line of its own. Returns the final region of each rectangle.
     fn finals(rectangles: &[[usize; 5]]) -> Vec<u16> {
         let mut labels: LabelMap = Raster::filled(SIZE_PX[0], SIZE_PX[1], UNASSIGNED);
         for &[left, top, width, height, region] in rectangles {

@@ -6,7 +6,7 @@ use crate::params::{Params, Refine, UsedParams};
 use crate::photo::{LinearImage, MaskLimits, Masks};
 use crate::raster::{LabelMap, Raster};
 
-/// A picture of which each character is a pixel.
+/// A picture with its masks and parameters.
 pub struct Drawing {
     image: LinearImage,
     masks: Masks,
@@ -15,15 +15,15 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// Colors the characters by `palette`; `.` is black. Table 6's numbers but for blooming, which is ignored, and the
-    /// minimal area: every refinement is on.
+    /// A picture of one pixel per character, colored by `palette`; `.` is black. The parameters are those of table 6, except
+    /// that no pixel is bloomed and the minimal area is 4 pixels. Every refinement is on.
     pub fn new(rows: &[&str], palette: impl Fn(char) -> Vec3) -> Self {
         let colors = rows.iter().flat_map(|row| row.chars());
         let colors = colors.map(|c| if c == '.' { [0.0; 3] } else { rgb(&palette(c)) }).collect();
         Self::of(Raster::from_vec(rows[0].len(), rows.len(), colors).unwrap())
     }
 
-    /// A square picture, colored by column and row; the numbers are those of [`Drawing::new`].
+    /// A square picture, colored by column and row, with the parameters of [`Drawing::new`].
     pub fn by_place(side_px: usize, color: impl Fn(f64, f64) -> Vec3) -> Self {
         let place = |i: usize| rgb(&color((i % side_px) as f64, (i / side_px) as f64));
         let colors = (0..side_px * side_px).map(place).collect();
@@ -37,20 +37,20 @@ impl Drawing {
         Self { masks: Masks::new(&image, &limits), image, used, refine: Params::default().refine }
     }
 
-    /// What the stages look at.
+    /// The input of the stages.
     pub fn input(&self) -> AnalysisInput<'_> {
         AnalysisInput::new(&self.image, &self.masks, &self.used, self.refine)
     }
 }
 
-/// A label map: digits are regions, all else is unassigned.
+/// A label map of one pixel per character: digits are regions, all other characters are unassigned pixels.
 pub fn labels(rows: &[&str]) -> LabelMap {
     let label = |c: char| c.to_digit(10).unwrap_or(0) as u16;
     let data = rows.iter().flat_map(|row| row.chars()).map(label).collect();
     LabelMap::from_vec(rows[0].len(), rows.len(), data).unwrap()
 }
 
-/// Fails with both drawings unless `found` looks like `rows`, `.` for unassigned.
+/// Fails unless `found` equals the label map drawn as `rows`, with `.` for unassigned pixels; the message shows both.
 #[track_caller]
 pub fn check(found: &LabelMap, rows: &[&str]) {
     let digit =

@@ -1,9 +1,10 @@
-//! Refinements of the proximity heuristic (5.3.2): regions that should be one, and pixels in the wrong one.
+//! Refinements of the proximity heuristic (section 5.3.2): regions of one object are merged, and pixels in the wrong region
+//! are reassigned.
 //!
-//! `merge_regions`: parts of one object that grew apart, across a highlight or a crease, have the same matte line; where
-//! neither the pixels' distances nor the angle tells them apart they become one region.
-//! `proximity_vote`: where two cylinders overlap, the nearer axis is decided by noise; a contested pixel follows a clear
-//! majority of its 5×5 surroundings (no salt and pepper at σ ≥ 2.5).
+//! `merge_regions`: parts of one object on both sides of a highlight or a crease have the same matte line. Where neither the
+//! pixels' distances from the lines nor the angle between the lines differ, the parts become one region.
+//! `proximity_vote`: where two cylinders overlap, the noise decides which axis is nearer. A contested pixel therefore follows a
+//! clear majority of its 5×5 surroundings (no isolated pixels at σ ≥ 2.5).
 
 use super::borders::near_hypotheses;
 use super::input::AnalysisInput;
@@ -14,20 +15,21 @@ use crate::raster::{HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
 use crate::trace::{Contest, Measure, Recorder, RegionsMerged};
 use std::collections::BTreeMap;
 
-/// Farthest that parts of one object may lie apart, pixels.
+/// Largest distance between parts of one object, pixels.
 const REACH_PX: usize = 3;
 /// Largest angle between the matte lines of one object, degrees.
 pub const MAX_ANGLE_DEG: f64 = 4.0;
-/// Distances from the other's axis may be this much larger than from one's own.
+/// Largest ratio of the distances of a region's pixels from the other line and from the region's own line.
 const RMS_RATIO: f64 = 1.25;
-/// Own distances count at least as this share of σ0.
+/// Least distance from the own line that is assumed, σ0.
 const RMS_FLOOR: f64 = 0.6;
-/// Side of the vote, pixels, and the share that wins it.
+/// Largest distance along rows and columns of a pixel that takes part in a vote, pixels.
 const VOTE_RADIUS: usize = 2;
+/// Share of the votes that wins a pixel.
 const MAJORITY_PERCENT: usize = 60;
 
-/// Unites neighboring regions whose matte lines cannot be told apart, smaller into larger. Returns the new owner of each
-/// hypothesis's pixels.
+/// Merges neighboring hypotheses whose matte lines do not differ, smaller into larger. Returns the hypothesis that the pixels of
+/// each hypothesis belong to now, by [`HypothesisId::index`].
 pub fn merge_regions<R: Recorder>(
     input: &AnalysisInput,
     hypotheses: &mut [Hypothesis],
@@ -78,7 +80,8 @@ pub fn merge_regions<R: Recorder>(
     into_of
 }
 
-/// Whether a cluster lies on another's line as well as on its own: its root mean square distance from the other's.
+/// Root mean square distance of a cluster from the line `other`, counts, if the cluster lies on that line as well as on its
+/// `own`; else `None`.
 pub fn one_line(input: &AnalysisInput, cluster: &Moments, own: &Line, other: &Line) -> Option<f64> {
     let angle_deg = axis_angle_deg(&own.direction, &other.direction);
     let rms = rms_from(cluster, other);
@@ -86,14 +89,14 @@ pub fn one_line(input: &AnalysisInput, cluster: &Moments, own: &Line, other: &Li
     (angle_deg < MAX_ANGLE_DEG && rms < limit).then_some(rms)
 }
 
-/// The believable colors of a region inside its cylinder.
+/// Moments of the usable colors of a region inside the cylinder around its line.
 pub fn matte_cluster(input: &AnalysisInput, line: &Line, pixels: Pixels) -> Moments {
     let cylinder = Cylinder::new(line, input.used.radius_counts());
     let usable = pixels.iter().map(|pixel| pixel as usize).filter(|&pixel| input.masks.usable(pixel));
     usable.map(|pixel| input.pixels[pixel]).filter(|&color| cylinder.contains(color)).collect()
 }
 
-/// Root mean square distance of a cluster from a line.
+/// Root mean square distance of a cluster from a line, counts; infinite for an empty cluster.
 fn rms_from(cluster: &Moments, line: &Line) -> f64 {
     if cluster.n <= 0.0 {
         return f64::INFINITY;
@@ -104,6 +107,7 @@ fn rms_from(cluster: &Moments, line: &Line) -> f64 {
     (across + offset).max(0.0).sqrt()
 }
 
+/// Assigns the pixels of each hypothesis to the hypothesis that `into_of` names.
 fn reassign<R: Recorder>(
     members: &Members,
     into_of: &[HypothesisId],
@@ -118,7 +122,8 @@ fn reassign<R: Recorder>(
     }
 }
 
-/// Lets contested pixels follow the majority around them.
+/// Assigns contested pixels to the region with the majority of their surroundings, if the pixel's color lies inside the
+/// region's cylinder.
 pub fn vote<R: Recorder>(
     input: &AnalysisInput,
     hypotheses: &[Hypothesis],
@@ -169,7 +174,8 @@ fn contested(labels: &LabelMap) -> Vec<usize> {
     found
 }
 
-/// The region with most pixels around one, the smaller number of equals; its pixels and those of all regions.
+/// The region with most pixels around a pixel (the smallest number among equals), the number of these pixels, and the number of
+/// surrounding pixels of all regions.
 fn majority(labels: &LabelMap, pixel: usize) -> (u16, usize, usize) {
     let (width, height) = (labels.width(), labels.height());
     let (x, y) = (pixel % width, pixel / width);
@@ -219,19 +225,19 @@ mod tests {
     }
 
     #[test]
-    fn a_contested_pixel_follows_a_clear_majority_that_holds_its_color() {
+    fn a_contested_pixel_follows_a_clear_majority_whose_cylinder_contains_its_color() {
         let silent = &mut NoopRecorder;
-        let lonely = ["11111", "11211", "11111"];
-        let mut recorded_labels = RecordedLabels::new(labels(&lonely), silent);
+        let isolated = ["11111", "11211", "11111"];
+        let mut recorded_labels = RecordedLabels::new(labels(&isolated), silent);
         vote(&drawing(&["rrrrr"; 3]).input(), &hypotheses(&[RED, RED]), &mut recorded_labels);
         check(&recorded_labels.labels, &["11111"; 3]);
-        let mut recorded_labels = RecordedLabels::new(labels(&lonely), silent);
+        let mut recorded_labels = RecordedLabels::new(labels(&isolated), silent);
         vote(
             &drawing(&["rrrrr", "rrgrr", "rrrrr"]).input(),
             &hypotheses(&[RED, GREEN]),
             &mut recorded_labels,
         );
-        check(&recorded_labels.labels, &lonely);
+        check(&recorded_labels.labels, &isolated);
     }
 
     #[test]

@@ -1,88 +1,121 @@
-//! The light by the votes of small highlights, whatever regions there are (beyond the paper; refinement `vote_light`).
+//! The light by the votes of small highlights, without regions (beyond the paper; refinement `vote_light`).
 //!
-//! Where a highlight is small, D = G1(I) − G3(I) is its own color, the light's, and B = G3(I) that of the body under it: the
-//! light lies in the plane of both. Voters are unclipped pixels with D and B positive in every band, ΣD above
-//! max(98 % quantile of the lit ones, 8σ), and more than 2° between D and B; fewer than 30 are no vote. A voter's plane has
-//! the unit normal n = D × B, and the weight min(1, 60 / pixels of its blob). A light s has
+//! Let G1 and G3 be Gaussians with a standard deviation of 1 and 3 pixels. Where a highlight is small, D = G1(I) − G3(I) is the
+//! color of the highlight, and so of the light, and B = G3(I) is the color of the body under the highlight: the light lies in
+//! the plane of D and B. Voters are unclipped pixels with D and B positive in every band, ΣD above max(98 % quantile of the lit
+//! pixels, 8σ), and more than 2° between D and B; fewer than 30 voters give no vote. The plane of a voter has the unit normal
+//! n = D × B, and the voter has the weight min(1, 60 / pixels of its blob). The votes for a light s are
 //!
-//! H(s) = Σ w·exp(−e²/2v)/√v · exp(−δ²/2τ²): e the angle of s from the plane, v = 1 + (σ/2 / (|D| sin∠))² degrees², and δ how
-//! far s lies beyond D as seen from B, in the plane: τ = 8° beyond it, 3° before it, as D still holds some body reflection.
+//! H(s) = Σ w·exp(−e²/2v)/√v · exp(−δ²/2τ²): e is the angle of s from the plane, v = 1 + (σ/2 / (|D| sin∠))² degrees², and δ the
+//! angle within the plane from D to s, positive away from B. τ = 8° for positive δ and 3° for negative δ, because D still
+//! contains some body reflection.
 //!
-//! The prior is white, 14° between blue and yellow and 6° between green and magenta; without it white paper beside blue votes
-//! for yellow lights (13 dB on the picture that is like that). The vote is within 1° on most of 36 scenes with highlights,
-//! where planes of printed objects are 8–18° off; on plain objects the planes are better (0.1°).
+//! The prior is white, with a standard deviation of 14° between blue and yellow and 6° between green and magenta. Without the
+//! prior, white paper beside blue votes for yellow lights (13 dB worse on the picture with such paper). The elected light has an
+//! error within 1° on most of 36 scenes with highlights, where the planes of printed objects are 8–18° off; on plain objects
+//! the planes are better (0.1°).
 
-use super::illuminant::unusualness;
+use super::illuminant::{unusualness, white_offsets_deg};
 use super::input::AnalysisInput;
 use crate::color::{Vec3, vec3};
 use crate::raster::{Components, Connectivity, Mask, Raster, Roi, blur, dilate};
+use crate::trace::VoteResult;
 use rayon::prelude::*;
 
-/// Widths of the two Gaussians, pixels.
+/// Standard deviations of the two Gaussians, pixels.
 const FINE_PX: f64 = 1.0;
 const COARSE_PX: f64 = 3.0;
-/// How far the clipped pixels' mask is grown, pixels.
+/// Radius by which the mask of clipped pixels is dilated, pixels.
 const CLIP_MARGIN_PX: usize = 2;
-/// Share of the lit pixels that cannot vote, and the least ΣD, σ.
+/// Share of the lit pixels that cannot vote because their ΣD is too small.
 const QUANTILE: f64 = 0.98;
+/// Least ΣD of a voter, σ.
 const LEAST_RISE: f32 = 8.0;
 /// Least angle between D and B, degrees.
 const LEAST_ANGLE_DEG: f64 = 2.0;
-/// Fewest voters, and the most that are heard, evenly chosen.
+/// Fewest voters of a vote.
 pub const LEAST_VOTERS: usize = 30;
+/// Largest number of voters that are used, evenly chosen.
 const MOST_VOTERS: usize = 1500;
-/// Pixels of a blob from which on each of them counts less.
+/// Number of pixels of a blob above which the weight of each pixel is below 1.
 const BLOB_PX: f64 = 60.0;
-/// τ beyond D and before it, degrees.
+/// τ for positive δ, degrees.
 const BEYOND_DEG: f64 = 8.0;
+/// τ for negative δ, degrees.
 const BEFORE_DEG: f64 = 3.0;
-/// Half opening of the cone of lights around white that are tried, degrees.
+/// Half opening angle of the cone of lights around white that are tried, degrees.
 const CONE_DEG: f64 = 32.0;
-/// Steps of the search, degrees.
+/// Steps of the successive searches, degrees.
 const STEPS_DEG: [f64; 4] = [2.0, 1.0, 0.5, 0.25];
-/// A light has at least this much of every band.
+/// Least value of a band in the unit direction of a light.
 const LEAST_BAND: f64 = 0.02;
-/// Votes of less than e to minus this are none.
+/// A vote below e to the power of minus this counts as 0.
 const NEGLIGIBLE: f64 = 8.0;
-/// In the first, coarse search one voter of so many is asked.
-const FIRST_ASKED: usize = 3;
-/// By how much votes miss, times their share: .8° at 6 %, 3° at 4 %, 6° at 3 %, degrees.
+/// The first, coarse search uses one of this many voters.
+const FIRST_SEARCH_STEP: usize = 3;
+/// Measured product of the elected light's error (degrees) and its share of the votes: 0.8° at 6 %, 3° at 4 %, 6° at 3 %.
 const MISS_DEG: f64 = 0.1;
-/// Parts of the votes of which each is left out once, to see what they are worth.
+/// Number of parts of the blobs for the jackknife: each part is left out once.
 const PARTS: usize = 8;
 
-/// What one pixel says of the light.
+/// The vote of one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Voter {
     /// Unit normal of the plane of D and B.
     normal: Vec3,
-    /// D, unit, and what in the plane is perpendicular to it, on the side away from B.
+    /// Unit vector along D.
     rise: Vec3,
+    /// Unit vector in the plane, perpendicular to D, away from B.
     beyond: Vec3,
     /// v, degrees².
     variance_deg2: f64,
-    /// Sine of the angle from the plane from which on a light gets no vote.
+    /// Sine of the angle between light and plane above which the light gets no vote.
     reach: f64,
+    /// w: 1, or less in a large blob.
     weight: f64,
+    /// Number of the voter's blob, from 0.
     blob: usize,
 }
 
-/// All that small highlights say.
+/// The votes of all voters of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Votes {
     voters: Vec<Voter>,
-    /// Highlights that they belong to.
+    /// Number of small highlights (blobs) that the voters belong to.
     pub blobs: usize,
+    /// Sum of the voters' weights.
     total: f64,
 }
 
+/// The light that the votes elect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VoteLight {
+    /// Direction, share of the votes, and how unusual the light is.
+    pub result: VoteResult,
+    /// Angle within which the light lies, by the votes alone, degrees.
+    pub interval_deg: f64,
+}
+
 impl Votes {
-    /// Pixels that are heard.
+    /// The elected light.
+    pub fn elect(&self) -> VoteLight {
+        let winner = self.winner();
+        let result = VoteResult {
+            direction: winner.into(),
+            voters: self.voters() as u32,
+            blobs: self.blobs as u32,
+            share: self.share(&winner),
+            offsets_deg: white_offsets_deg(&winner),
+        };
+        VoteLight { result, interval_deg: self.interval_deg(&winner) }
+    }
+
+    /// Number of voters that are used.
     pub fn voters(&self) -> usize {
         self.voters.len()
     }
 
-    /// Asks the picture; none where too few pixels have anything to say.
+    /// The votes of a picture; `None` where there are fewer than [`LEAST_VOTERS`] voters.
     pub fn cast(input: &AnalysisInput) -> Option<Self> {
         let size = (input.pixels.width(), input.pixels.height());
         let margin_px = (4.0 * COARSE_PX) as usize;
@@ -122,7 +155,7 @@ impl Votes {
         Self::counted(&found, window.width, window.height)
     }
 
-    /// Weighs voters by their blobs, and chooses those that are heard.
+    /// Weights the voters (each with its pixel) by the sizes of their blobs, and chooses at most [`MOST_VOTERS`] of them.
     fn counted(found: &[(usize, Voter)], width: usize, height: usize) -> Option<Self> {
         if found.len() < LEAST_VOTERS {
             return None;
@@ -145,30 +178,30 @@ impl Votes {
         Some(Self { voters, blobs: blobs.sizes.len(), total })
     }
 
-    /// H(s) as a share of all votes, 0…1.
+    /// H(s) of the light `light` as a share of the sum of all weights, 0…1.
     pub fn share(&self, light: &Vec3) -> f64 {
         self.voters.iter().map(|voter| voter.votes_for(light)).sum::<f64>() / self.total.max(1e-12)
     }
 
-    /// The light that most votes and the prior are for.
+    /// The light with the largest product of votes and prior.
     pub fn winner(&self) -> Vec3 {
         let mut best = Vec3::repeat(1.0).normalize();
         for (index, step_deg) in STEPS_DEG.into_iter().enumerate() {
             let reach_deg = if index == 0 { CONE_DEG } else { 3.0 * step_deg };
-            // To find the hill, some voters will do.
-            let every = if index == 0 { FIRST_ASKED } else { 1 };
+            // A part of the voters suffices to find the neighborhood of the maximum.
+            let voter_step = if index == 0 { FIRST_SEARCH_STEP } else { 1 };
             let lights = cone(&best, reach_deg, step_deg);
             let votes = lights.par_iter().map(|light| {
-                let asked = self.voters.iter().step_by(every);
-                asked.map(|voter| voter.votes_for(light)).sum()
+                let voters = self.voters.iter().step_by(voter_step);
+                voters.map(|voter| voter.votes_for(light)).sum()
             });
             best = elected(&lights, &votes.collect::<Vec<f64>>()).unwrap_or(best);
         }
         best
     }
 
-    /// Within so many degrees the light lies: two standard deviations of the winner, by leaving each eighth of the blobs out
-    /// once, and not less than votes of such a share have been seen to miss by.
+    /// Angle within which the light lies, degrees: two standard deviations of the winner, by a jackknife over eighths of the
+    /// blobs, and at least the error measured for winners with the same share of the votes.
     pub fn interval_deg(&self, winner: &Vec3) -> f64 {
         let lights = cone(winner, 3.0, 0.5);
         let by_part: Vec<[f64; PARTS]> = lights
@@ -192,7 +225,7 @@ impl Votes {
     }
 }
 
-/// The light that the votes and the prior are for; none where there are no votes.
+/// The light with the largest product of votes and prior; `None` without a vote.
 fn elected(lights: &[Vec3], votes: &[f64]) -> Option<Vec3> {
     let merits: Vec<f64> =
         lights.iter().zip(votes).map(|(light, votes)| votes * (-unusualness(light)).exp()).collect();
@@ -201,6 +234,8 @@ fn elected(lights: &[Vec3], votes: &[f64]) -> Option<Vec3> {
 }
 
 impl Voter {
+    /// The voter with the colors D and B (counts) and noise `sigma` of a band (counts); `None` where the angle between D and B
+    /// is too small.
     fn new(d: [f32; 3], b: [f32; 3], sigma: f64) -> Option<Self> {
         let (d, b) = (vec3(d), vec3(b));
         let normal = d.cross(&b);
@@ -217,6 +252,7 @@ impl Voter {
         Some(Self { normal, rise, beyond, variance_deg2, reach, weight: 1.0, blob: 0 })
     }
 
+    /// The summand of H for a light (unit direction).
     #[inline]
     fn votes_for(&self, light: &Vec3) -> f64 {
         let sine = self.normal.dot(light);
@@ -224,34 +260,34 @@ impl Voter {
             return 0.0;
         }
         let (along, beyond) = (self.rise.dot(light), self.beyond.dot(light));
-        // Four tolerances off, where votes are negligible: 32° beyond D, 12° before it.
+        // The vote is negligible beyond four tolerances: for δ above 32° (tangent 0.625) or below −12° (tangent −0.213).
         if beyond > 0.625 * along || beyond < -0.213 * along {
             return 0.0;
         }
         let off_deg = sine.clamp(-1.0, 1.0).asin().to_degrees();
-        let miss = off_deg * off_deg / (2.0 * self.variance_deg2);
+        let across_term = off_deg * off_deg / (2.0 * self.variance_deg2);
         let beyond_deg = beyond.atan2(along).to_degrees();
         let tolerance_deg = if beyond_deg >= 0.0 { BEYOND_DEG } else { BEFORE_DEG };
-        let far = (beyond_deg / tolerance_deg).powi(2) / 2.0;
-        self.weight * (-miss - far).exp() / self.variance_deg2.sqrt()
+        let within_term = (beyond_deg / tolerance_deg).powi(2) / 2.0;
+        self.weight * (-across_term - within_term).exp() / self.variance_deg2.sqrt()
     }
 }
 
-/// A weighted color, normalized.
+/// A weighted sum of colors divided by the sum of the weights; black where the sum of the weights is nearly 0.
 #[inline]
 fn normalized([r, g, b, weight]: [f32; 4]) -> [f32; 3] {
-    // So little weight means that the window holds clipped pixels only.
+    // So small a weight means that all pixels nearby are clipped.
     if weight > 1e-3 { [r / weight, g / weight, b / weight] } else { [0.0; 3] }
 }
 
-/// The quantile of the finite values.
+/// The quantile [`QUANTILE`] of the finite values; `None` without one.
 fn least_rise(sums: &[f32]) -> Option<f32> {
     let mut lit: Vec<f32> = sums.iter().copied().filter(|sum| sum.is_finite()).collect();
     let rank = (QUANTILE * lit.len() as f64) as usize;
     (rank < lit.len()).then(|| *lit.select_nth_unstable_by(rank, f32::total_cmp).1)
 }
 
-/// Directions around one, on a grid of `step_deg`, that have something of every band.
+/// Unit directions within `reach_deg` of `center`, on a grid of `step_deg`, whose bands all exceed [`LEAST_BAND`].
 fn cone(center: &Vec3, reach_deg: f64, step_deg: f64) -> Vec<Vec3> {
     let side = if center.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() };
     let u = center.cross(&side).normalize();

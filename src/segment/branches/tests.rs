@@ -8,10 +8,10 @@ use proptest::prelude::*;
 const SIDE_PX: usize = 96;
 const LENGTH: f64 = 180.0;
 
-/// A highlight of the lamp: its middle, the square of its width, and its strength, counts.
+/// A highlight of the lamp: its center (pixels), the square of its width (pixels²), and its strength (counts).
 type Lamp = ([f64; 2], f64, f64);
 
-/// What is found in a picture of one region in which `body` says each pixel's body reflection and `lamps` add to its surface
+/// The branches of a picture of one region, in which `body` gives the body reflection of each pixel and `lamps` the surface
 /// reflection. The noise has σ 1.25.
 fn found(body: impl Fn(f64, f64) -> f64, lamps: &[Lamp], seed: u64) -> Branches {
     search(|x, y| (body(x, y), shine(lamps, x, y)), seed, |_| 1)
@@ -24,7 +24,7 @@ fn shine(lamps: &[Lamp], x: f64, y: f64) -> f64 {
     lamps.iter().map(one).sum()
 }
 
-/// The branches of region 1, where `amounts` says each pixel's body and surface reflection and `label` its region.
+/// The branches of region 1, where `amounts` gives the body and surface reflection of each pixel and `label` its region.
 fn search(amounts: impl Fn(f64, f64) -> (f64, f64), seed: u64, label: impl Fn(usize) -> u16) -> Branches {
     let (body, surface) = (Vec3::new(0.8, 0.5, 0.3).normalize(), Vec3::repeat(1.0).normalize());
     let noise = std::cell::Cell::new(seed);
@@ -41,12 +41,12 @@ fn search(amounts: impl Fn(f64, f64) -> (f64, f64), seed: u64, label: impl Fn(us
         region: RegionId::from_index(0),
         transform: &ReflectionTransform::new(&body, &surface).unwrap(),
         matte_length: LENGTH,
-        light_doubt_deg: None,
+        light_interval_deg: None,
     };
     search.run(Members::of(&labels, 2).region(1u16))
 }
 
-/// Nearly normal: the sum of twelve uniform numbers (xorshift).
+/// A nearly normal random number of variance 1: the sum of twelve uniform numbers (xorshift) less 6.
 fn gauss(state: &std::cell::Cell<u64>) -> f64 {
     let uniform = |_| {
         let mut at = state.get() | 1;
@@ -78,7 +78,7 @@ fn two_faces_of_a_convex_object_show_two_branches() {
     assert!((shades[0] - 62.0).abs() < 1.0 && (shades[1] - 122.8).abs() < 1.0, "{shades:?}");
     let Measured { value: gap, limit } = branches.gaps[0];
     assert!((gap - (shades[1] - shades[0])).abs() < 1e-3 && limit < gap);
-    // Each place goes to the highlight beside it.
+    // The nearest branch of a place is the branch of the highlight beside the place.
     let shade_at = |x, y| bodies[branches.nearest(x, y)];
     assert!(shade_at(0, 95) < 70.0 && shade_at(24, 40) < 70.0 && shade_at(95, 0) > 110.0);
 }
@@ -92,31 +92,31 @@ fn faces_of_one_shade_show_one_branch() {
 
 #[test]
 fn one_highlight_that_sweeps_over_the_shades_is_one_branch() {
-    // The shades under its core span 25 counts, more than two branches would have to differ by.
+    // The body reflection under the core spans 25 counts, more than the least difference of two branches.
     let slope = found(|x, _| 30.0 + 1.4 * x, &[([48.0, 48.0], 60.0, 110.0)], 11);
     assert_eq!((slope.cores.len(), slope.bodies().len()), (1, 1), "{slope:?}");
     assert!(slope.cores[0].deviation > 5.0, "{slope:?}");
-    // It cuts across an edge: one highlight, whose halves lie on two shades, has no line of its own.
+    // A highlight across an edge, whose halves lie on two shades, has no line of its own.
     let edge = found(faces(50.0, 130.0), &[([48.0, 48.0], 60.0, 80.0)], 11);
     assert!(edge.bodies().len() <= 1, "{edge:?}");
 }
 
 #[test]
-fn clipped_hearts_count_by_the_ring_around_them() {
+fn clipped_pixels_of_a_core_count_by_the_ring_around_them() {
     let strong = [([24.0, 40.0], 30.0, 400.0), ([72.0, 56.0], 30.0, 400.0)];
     let branches = found(faces(60.0, 130.0), &strong, 5);
     assert_eq!(branches.bodies().len(), 2, "{branches:?}");
     let mut shades = branches.bodies();
     shades.sort_by(f32::total_cmp);
     assert!((shades[0] - 62.0).abs() < 3.0 && (shades[1] - 132.8).abs() < 3.0, "{shades:?}");
-    // A heart that nothing of the region surrounds is a stranger's.
+    // Clipped pixels without undistorted highlight pixels around them are no highlight of the region.
     let hole = |x: f64, y: f64| (x - 72.0).abs() < 8.0 && (y - 56.0).abs() < 8.0;
     let amounts = |x: f64, y: f64| {
         let s = if hole(x, y) { 500.0 } else { shine(&[LEFT], x, y) };
         (faces(60.0, 130.0)(x, y), s)
     };
-    let stranger = search(amounts, 5, |_| 1);
-    assert_eq!((stranger.cores.len(), stranger.bodies().len()), (1, 1), "{stranger:?}");
+    let without_ring = search(amounts, 5, |_| 1);
+    assert_eq!((without_ring.cores.len(), without_ring.bodies().len()), (1, 1), "{without_ring:?}");
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn specks_sheen_and_mixed_borders_are_no_highlights() {
         (faces(60.0, 130.0)(x, y), shine(&[(LEFT.0, LEFT.1, 150.0)], x, y) + ambient)
     };
     assert_eq!(search(sheen, 5, |_| 1).cores.len(), 1);
-    // Beside a clipped highlight the same, though no undistorted pixel of that is much stronger.
+    // The same beside a clipped highlight, of which no undistorted pixel is much stronger than the sheen.
     let veiled = |x: f64, y: f64| {
         let ambient = if x > 80.0 { 40.0 } else { 0.0 };
         (faces(170.0, 110.0)(x, y), shine(&[(LEFT.0, LEFT.1, 300.0)], x, y) + ambient)
@@ -152,8 +152,8 @@ fn without_a_highlight_there_is_no_branch() {
 }
 
 #[test]
-fn at_most_four_branches_are_told_the_strongest_ones() {
-    // Five columns of ascending shades, each with a highlight; the fourth one's is the smallest.
+fn at_most_four_branches_are_found_the_strongest_ones() {
+    // Five columns of ascending shades, each with a highlight; the highlight of the fourth column is the smallest.
     let body = |x: f64, _: f64| 20.0 + 35.0 * (x / 20.0).floor();
     let widths = [9.0, 12.0, 10.0, 6.0, 11.0];
     let lamps: Vec<Lamp> =
@@ -175,7 +175,7 @@ fn at_most_four_branches_are_told_the_strongest_ones() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// A ball under one lamp, wherever that stands and whatever the noise, shows one branch.
+    /// A ball under one lamp shows one branch at any position of the lamp and with any noise.
     #[test]
     fn a_ball_under_one_lamp_shows_one_branch(
         lamp in (-0.5f64..0.5, -0.5f64..0.5), rough in 0.02f64..0.12, strength in 40f64..400.0, seed in 1u64..u64::MAX,
@@ -199,8 +199,8 @@ proptest! {
         prop_assert!(search(amounts, seed, label).bodies().len() <= 1);
     }
 
-    /// Two faces are told apart exactly where their shades differ by more than the limit that is told, which is a tenth of the
-    /// matte line or more.
+    /// Two faces are two branches exactly where their shades differ by more than the recorded limit, which is at least a tenth
+    /// of the matte line.
     #[test]
     fn a_branch_is_a_difference_beyond_its_limit(
         left in 40f64..120.0, apart in 0f64..60.0, strength in 50f64..110.0, seed in 1u64..u64::MAX,

@@ -1,19 +1,20 @@
-//! Where in its dichromatic plane does an object put the illuminant? (refinement `robust_illuminant`)
+//! The direction of the illuminant within the dichromatic plane of one object (refinement `robust_illuminant`).
 //!
-//! Within a plane, color alone cannot tell a highlight from brighter body reflection of another color; position can:
+//! Within a plane, color alone cannot tell a highlight from brighter body reflection of another color, but position can:
 //! body reflection varies smoothly over the surface, a highlight does not. Around each highlight the coordinate along the
-//! matte line is regressed on a polynomial of the position, for the body, plus cotθ times the in-plane offset, for the
-//! highlight. cotθ is where the illuminant lies. The offset is noisy itself, which would pull cotθ towards zero: its share
-//! σ²Σw is subtracted from the offset's sum of squares after partialling out the polynomial.
+//! matte line is regressed on a polynomial of the position (for the body reflection) plus cotθ times the in-plane offset (for
+//! the highlight). θ is the angle between matte line and illuminant. The offset is noisy itself, which would bias cotθ towards
+//! zero: the noise's share σ²Σw is subtracted from the offset's sum of squares after partialling out the polynomial.
 //!
 //! The polynomial is a quartic over the highlight and a ring as wide as its radius. Pixels count fully or not at all: weights
-//! that fall with the residual, like Tukey's, prefer pixels whose two noises happen to agree, which alone is worth up to
-//! 1.6° (median error over 42 highlights .32° → .18°). How far a cubic differs is taken as the error of the model. Where the
-//! quartic leaves of the offset little but noise, a cubic over a ring twice as wide is tried.
+//! that fall with the residual, like Tukey's, prefer pixels whose two noises happen to agree, which causes errors of up to
+//! 1.6° (median error over 42 highlights .32° → .18° without such weights). The difference from the result of a cubic is
+//! taken as the error of the model. Where the quartic leaves little but noise of the offset, a cubic over a ring twice as wide
+//! is fitted instead.
 //!
-//! The height above the plane is regressed in the same way. Ambient light is reflected by the surface too, faintly and
-//! everywhere; the plane through all pixels off the matte line then turns towards its color (7° on a rendered cup), the one
-//! that the highlight itself rises in does not.
+//! The height above the plane is regressed in the same way. The surface also reflects ambient light, faintly and everywhere.
+//! The plane through all pixels off the matte line therefore turns towards the color of the ambient light (7° on a rendered
+//! cup); the plane in which the highlight rises above its surroundings does not turn.
 
 mod regress;
 
@@ -26,52 +27,52 @@ use std::ops::Range;
 
 /// Fewest pixels of a highlight.
 const MIN_BLOB_PX: usize = 12;
-/// Most highlights of one region that are looked at, the largest.
+/// Largest number of highlights of one region that are used; the largest highlights are.
 const MAX_BLOBS: usize = 6;
-/// Pixels that lie farther inside the plane show the light's color by themselves, σ.
+/// Offset from the matte line beyond which a pixel is outshone: most of its color is that of the light. σ.
 const STRONG: f64 = 24.0;
 
-/// Where one object's highlights put the illuminant.
+/// The estimate of the illuminant's direction by one object's highlights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InPlane {
     /// cot θ, θ the angle between body and surface vector.
     pub cotangent: f64,
     /// Variance of θ, radians².
     pub variance_rad2: f64,
-    /// Tangent of the angle between the plane and the highlights, and its variance.
+    /// Angle between the dichromatic plane and the plane in which the highlights rise.
     pub rise: Rise,
-    /// Offset and height of the pixels that the light outshines, counts.
+    /// Offset and height of the outshone pixels in the dichromatic plane, counts.
     pub strong: Vec<[f64; 2]>,
 }
 
-/// Height above a plane per offset in it.
+/// Angle between two planes through the matte line: height above the first plane per offset in the first plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rise {
-    /// The tangent of the angle between both planes.
+    /// Tangent of the angle between both planes.
     pub tangent: f64,
-    /// Its variance.
+    /// Variance of the tangent.
     pub variance: f64,
 }
 
-/// A region and the plane in which its highlights are sought.
+/// A region and the dichromatic plane in which its highlights are regressed.
 #[derive(Clone, Copy)]
 pub struct InPlaneSearch<'a> {
-    /// The picture.
+    /// The image, its masks and the parameters.
     pub input: &'a AnalysisInput<'a>,
     /// Region of each pixel.
     pub labels: &'a LabelMap,
-    /// The hypothesis.
+    /// Hypothesis whose pixels are searched.
     pub hypothesis: HypothesisId,
-    /// Its dichromatic plane.
+    /// Dichromatic plane of the hypothesis.
     pub plane: &'a DichromaticPlane,
-    /// Length of its matte line from black, counts.
+    /// Length of the region's matte line from black, counts.
     pub matte_length: f64,
-    /// Pixels that the region's fits may look at together.
+    /// Largest number of pixels that all fits of the region use together.
     pub budget: usize,
 }
 
 impl InPlaneSearch<'_> {
-    /// Estimates cotθ from the region's highlights; `None` without a highlight that says anything.
+    /// Estimates cotθ from the region's highlights, whose pixels are among `pixels`; `None` where no regression succeeds.
     pub fn estimate(&self, pixels: Pixels) -> Option<InPlane> {
         let (mut along, mut height, mut strong) = (Mean::default(), Mean::default(), Vec::new());
         let blobs = self.highlights(pixels);
@@ -98,8 +99,8 @@ impl InPlaneSearch<'_> {
         Some(InPlane { cotangent, variance_rad2: sine2 * sine2 * variance, rise, strong })
     }
 
-    /// Connected pixels of the region that lie more than a radius inside the plane, distorted pixels joined in; the
-    /// largest first.
+    /// The highlights: components of the region's pixels whose offset from the matte line exceeds the cylinder's radius, and of
+    /// distorted pixels; the largest first.
     fn highlights(&self, pixels: Pixels) -> Vec<Vec<u32>> {
         let Some(bounds) = pixels.rows(self.labels.width()) else { return Vec::new() };
         let mut bright = self.bright_rows(bounds.clone());
@@ -136,7 +137,7 @@ impl InPlaneSearch<'_> {
         blobs
     }
 
-    /// Which pixels of some rows are highlights of the region, or distorted and not another's.
+    /// For the rows `rows`: whether a pixel is a highlight pixel of the region, or is distorted and belongs to no other region.
     fn bright_rows(&self, rows: Range<usize>) -> Mask {
         let Self { input, labels, hypothesis, .. } = *self;
         let own_label = hypothesis.get();
@@ -155,7 +156,7 @@ impl InPlaneSearch<'_> {
         Raster::from_vec(width, rows.len(), data).unwrap_or_default()
     }
 
-    /// The believable pixels of the region within `radius_px` of a highlight.
+    /// The usable pixels of the region within `radius_px` of a highlight.
     fn samples(&self, blob: &Blob, radius_px: usize) -> Vec<Sample> {
         let Self { input, labels, hypothesis, .. } = *self;
         let own_label = hypothesis.get();
@@ -173,7 +174,7 @@ impl InPlaneSearch<'_> {
                 continue;
             }
             let point = axes.of(input.pixels[pixel]);
-            // A plane that is off loses the strongest pixels first: what lies inside it at a small angle is looked at too.
+            // A plane with an error loses the strongest pixels first. Therefore pixels at a small angle to the plane count too.
             let inside = point.height.abs() < (point.offset / 2.0).max(thickness);
             let own = label == own_label || point.offset > thickness;
             if own && inside && point.along > least_along {
@@ -191,7 +192,7 @@ fn thinned(samples: &[Sample], most: usize) -> Vec<Sample> {
     samples.iter().step_by(step).copied().collect()
 }
 
-/// A mean of values with variances.
+/// A mean of values, weighted by the inverses of their variances.
 #[derive(Default)]
 struct Mean {
     sum: f64,
@@ -199,19 +200,21 @@ struct Mean {
 }
 
 impl Mean {
+    /// Adds a value with its variance.
     fn add(&mut self, (value, variance): (f64, f64)) {
         self.sum += value / variance;
         self.weight += 1.0 / variance;
     }
 
-    /// The mean and its variance; none of nothing.
+    /// The mean and its variance; `None` without a value.
     fn value(&self) -> Option<(f64, f64)> {
         (self.weight > 0.0).then(|| (self.sum / self.weight, 1.0 / self.weight))
     }
 }
 
-/// A highlight as a mask over a rectangle around it.
+/// A highlight as a mask over a rectangle of the picture.
 struct Blob {
+    /// First column and first row of the rectangle in the picture.
     left: usize,
     top: usize,
     mask: Mask,

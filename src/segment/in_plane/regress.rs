@@ -1,43 +1,46 @@
-//! The regression around one highlight: what it adds along the matte line and above the plane, beyond what is smooth.
+//! The regression around one highlight: how much the coordinates along the matte line and above the plane change with the
+//! offset from the matte line, beyond a smooth function of the position.
 
 use nalgebra::{SMatrix, SVector};
 
-/// Regressors: the terms of a polynomial of two variables of degree 4, 3 or 2, and the offset.
+/// Numbers of regressors: the terms of a polynomial in two variables of degree 4, 3 or 2, and the offset.
 pub const QUARTIC: usize = 16;
 pub const CUBIC: usize = 11;
 pub const QUADRATIC: usize = 7;
-/// Residuals beyond this many times their scale are left out.
+/// Pixels with a residual of more than this many times the residuals' scale are left out.
 const CUT: f64 = 3.5;
-/// A highlight whose offsets are noise to more than this share says nothing.
+/// Largest share of the noise in the variance of the offsets; beyond it the regression fails.
 const MAX_NOISE_SHARE: f64 = 0.5;
-/// How far off the noise variance that is subtracted may be, as a share of it.
+/// Relative standard error of the noise variance that is subtracted.
 const NOISE_ERROR: f64 = 0.04;
 
-/// A pixel as the regression sees it.
+/// A pixel: its position in the picture, and the coordinates of its color in the dichromatic plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
-    /// Its place, pixels.
+    /// Column, pixels.
     pub x: f64,
-    /// Its row.
+    /// Row, pixels.
     pub y: f64,
-    /// Its coordinates in the dichromatic plane, counts.
+    /// Coordinate along the matte line, from black, counts.
     pub along: f64,
-    /// In the plane, off the matte line.
+    /// Coordinate in the plane, across the matte line, counts.
     pub offset: f64,
-    /// Off the plane.
+    /// Distance from the plane, with sign, counts.
     pub height: f64,
 }
 
-/// What one highlight adds along the matte line and above the plane, per offset, each with its variance.
+/// Change of two coordinates per offset under one highlight, each with its variance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slopes {
-    /// cotθ.
+    /// Along the matte line: cotθ, and its variance.
     pub along: (f64, f64),
-    /// The tangent of the angle between the plane and where the highlight lies.
+    /// Above the plane: the tangent of the angle between the plane and the highlight, and its variance.
     pub height: (f64, f64),
 }
 
-/// Both slopes from one highlight's surroundings, with `N` regressors; how far `M` differ counts as error.
+/// Both slopes by a regression with `N` regressors over a highlight and its surroundings. The difference from a regression with
+/// `M` regressors counts as an error. `sigma`: noise of a band, counts. `None` with too few samples, or where the offsets are
+/// mostly noise.
 pub fn regress<const N: usize, const M: usize>(samples: &[Sample], sigma: f64) -> Option<Slopes> {
     if samples.len() < 4 * N {
         return None;
@@ -72,7 +75,7 @@ pub fn regress<const N: usize, const M: usize>(samples: &[Sample], sigma: f64) -
         if settled {
             break;
         }
-        // Few pixels come or go, so the sums are kept and corrected.
+        // Few pixels are added or removed per iteration, so the sums are corrected and not computed anew.
         for ((sample, residual), taken) in samples.iter().zip(&residuals).zip(&mut taken) {
             let take = (0..2).all(|i| residual[i] < CUT * scales[i]);
             if take != *taken {
@@ -100,11 +103,11 @@ fn centered(samples: &[Sample]) -> Vec<Sample> {
     samples.iter().map(scaled).collect()
 }
 
-/// Terms of a polynomial of degree 4 in x and y, and of degree 8: of the products of two of those.
+/// Number of terms of a polynomial of degree 4 in x and y, and of a polynomial of degree 8 (the products of two such terms).
 const TERMS: usize = QUARTIC - 1;
 const PRODUCTS: usize = 45;
 
-/// Exponent of y and degree of each term, degree after degree.
+/// Exponent of y and degree of each term, by ascending degree.
 const fn exponents() -> [(usize, usize); TERMS] {
     let mut list = [(0, 0); TERMS];
     let (mut at, mut degree) = (0, 0);
@@ -122,7 +125,7 @@ const fn exponents() -> [(usize, usize); TERMS] {
 
 const EXPONENTS: [(usize, usize); TERMS] = exponents();
 
-/// The first `K` terms of a polynomial in x and y, degree after degree: 1, x, y, x², xy, y², …
+/// The first `K` terms of a polynomial in x and y, by ascending degree: 1, x, y, x², xy, y², …
 fn monomials<const K: usize>(x: f64, y: f64) -> [f64; K] {
     let mut terms = [1.0; K];
     let (mut at, mut degree) = (1, 1);
@@ -137,8 +140,8 @@ fn monomials<const K: usize>(x: f64, y: f64) -> [f64; K] {
     terms
 }
 
-/// What the normal equations of the samples taken are made of. Products of two terms of a polynomial are terms themselves, so
-/// that 45 sums do for 120 entries.
+/// The sums over the samples from which the normal equations are built. Products of two terms of a polynomial are themselves
+/// terms of a polynomial, so that 45 sums suffice for 120 entries of the matrix.
 struct Sums {
     /// Σ of the terms up to degree 8.
     terms: [f64; PRODUCTS],
@@ -169,17 +172,20 @@ impl Default for Sums {
     }
 }
 
-/// Coefficients of the first `N` − 1 polynomial terms and of the offset, along the matte line and above the plane; the
-/// offset's sum of squares beyond the polynomial, without its noise, and that of its noise.
+/// Solution of the normal equations: coefficients of the first `N` − 1 polynomial terms and of the offset (the last one).
 struct Solution<const N: usize> {
+    /// Coefficients for the coordinate along the matte line.
     along: SVector<f64, N>,
+    /// Coefficients for the height above the plane.
     height: SVector<f64, N>,
+    /// Sum of squares of the offset beyond the polynomial, without its noise, counts².
     information: f64,
+    /// Sum of squares of the offset's noise, counts².
     noise: f64,
 }
 
 impl<const N: usize> Solution<N> {
-    /// How far a sample lies off the fit, along the matte line and above the plane.
+    /// Absolute residuals of a sample along the matte line and above the plane, counts.
     fn residuals(&self, sample: &Sample) -> [f64; 2] {
         let terms = monomials::<TERMS>(sample.x, sample.y);
         [(&self.along, sample.along), (&self.height, sample.height)].map(|(coefficients, value)| {
@@ -190,7 +196,7 @@ impl<const N: usize> Solution<N> {
 }
 
 impl Sums {
-    /// Adds a sample `count` times.
+    /// Adds a sample `count` times; −1 removes it.
     fn add(&mut self, sample: &Sample, count: f64) {
         let terms = monomials::<PRODUCTS>(sample.x, sample.y);
         let [offset, along, height] = [sample.offset, sample.along, sample.height].map(|value| count * value);
@@ -224,10 +230,11 @@ impl Sums {
         }
     }
 
-    /// Least squares with the first `N` − 1 terms, corrected for the noise of the offset: nσ² is taken from its square.
+    /// Least squares with the first `N` − 1 terms and the offset, corrected for the offset's noise: nσ² is subtracted from the
+    /// offset's sum of squares.
     ///
-    /// What that leaves of the offset beyond the polynomial is the information in it, the Schur complement of the corrected
-    /// normal matrix.
+    /// The information is the Schur complement of the corrected normal matrix: what remains of the offset's sum of squares
+    /// beyond the polynomial. `None` where the matrix is not positive definite or the offset is mostly noise.
     fn solve<const N: usize>(&self, sigma: f64) -> Option<Solution<N>> {
         let mut normal = SMatrix::<f64, N, N>::from_fn(|i, j| self.entry(N, i, j));
         let right = |terms: &[f64; TERMS], offset: f64| {
@@ -259,7 +266,7 @@ mod tests {
                 let (x, y) = (f64::from(i % 30), f64::from(i / 30));
                 let body = 150.0 + 2.0 * x - 0.05 * (x - 10.0).powi(2) - 0.03 * y * y + 0.001 * x * y * y;
                 let offset = 60.0 * (-((x - 15.0).powi(2) + (y - 14.0).powi(2)) / 30.0).exp();
-                // A second light, faint and wide, bends the matte surface off the plane; the highlight lies at a slope of .2.
+                // A second light, faint and wide, moves the matte pixels off the plane; the highlight has a slope of 0.2.
                 let faint = 3.0 + 0.1 * x - 0.002 * x * y;
                 Sample {
                     x,
@@ -276,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn offsets_that_are_noise_say_nothing() {
+    fn offsets_that_are_noise_give_no_slope() {
         let samples: Vec<Sample> = (0..900)
             .map(|i| {
                 let (x, y) = (f64::from(i % 30), f64::from(i / 30));

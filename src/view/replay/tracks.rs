@@ -5,6 +5,7 @@ use crate::color::Cylinder;
 use crate::photo::Masks;
 use crate::raster::{HypothesisId, LabelMap, Raster, UNASSIGNED};
 use crate::reflection::Slice;
+use crate::segment::is_leftover;
 use crate::trace::{CandidateSource, CandidateTested, Event, Replay, Step, Topic};
 
 /// Pixels of the region that grows at the cursor.
@@ -150,10 +151,8 @@ pub fn candidate_pixels(replay: &Replay, source: CandidateSource, masks: &Masks)
             let Some(grid) = replay.first_grid() else { return Vec::new() };
             let (areas, width) = (grid.areas(), labels.width());
             let of_area = |pixel: usize| areas.get(grid.window_of(pixel, width)) == Some(&area);
-            let free = |&pixel: &usize| {
-                labels[pixel] == UNASSIGNED && of_area(pixel) && !masks.dark(pixel) && !masks.distorted(pixel)
-            };
-            (0..labels.len()).filter(free).map(|pixel| pixel as u32).collect()
+            let of_candidate = |&pixel: &usize| is_leftover(labels, masks, pixel) && of_area(pixel);
+            (0..labels.len()).filter(of_candidate).map(|pixel| pixel as u32).collect()
         }
     }
 }

@@ -1,0 +1,220 @@
+//! Section 5.4.2: the regions while the planar stage works on them. Slices grow, parts of one object are united, and the
+//! labels go back to the matte regions for slices under another illuminant.
+//!
+//! Larger regions grow first. Special provision for coplanar colors: a pixel that was recognized as a matte pixel of
+//! another region is taken only if its color lies inside the own matte cylinder and nearer to the own axis. Where two
+//! slices contain a pixel, the nearer plane wins.
+//!
+//! Refined: regions without a highlight candidate get a slice too (`extend_planes`); a slice ends where body or surface
+//! reflection would be negative (`slice_bounds`).
+
+use super::candidates::HighlightLine;
+use super::input::AnalysisInput;
+use super::linear::{Hypothesis, cylinders, matte_length};
+use super::matte::MatteRegions;
+use super::planar_hypothesis::PlanarHypothesis;
+use super::recorded_labels::{Members, RecordedLabels};
+use super::unite::merge_regions;
+use crate::color::{Cylinder, Vec3};
+use crate::raster::{HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
+use crate::reflection::{DichromaticPlane, MIN_ANGLE_DEG, Slice};
+use crate::trace::{Contest, GrowthBegan, Measure, Pass, Recorder, SliceMade};
+
+/// Place on the matte line, as a share of its length, where the highlight line of a region without a candidate begins.
+const DEFAULT_START: f64 = 0.75;
+
+/// The regions of the planar stage: what the stage starts from, and what it has grown so far.
+pub struct PlanarState<'a, 's, R: Recorder> {
+    /// The image, its masks and the parameters.
+    pub input: &'a AnalysisInput<'s>,
+    /// Matte region of each pixel; united regions share a number.
+    pub matte_labels: LabelMap,
+    /// The linear hypotheses.
+    pub matte: Vec<Hypothesis>,
+    /// Length of each matte line from black, counts.
+    pub lengths: Vec<f64>,
+    /// Highlight line of each region; `None` where no candidate was accepted.
+    pub lines: Vec<Option<HighlightLine>>,
+    /// Region of each pixel so far, and the recorder of each change.
+    pub recorded_labels: RecordedLabels<'a, R>,
+}
+
+/// What bounds the growth of all regions, one entry per region.
+struct Bounds {
+    /// Slice of each region; `None` for a region that does not grow.
+    slices: Vec<Option<Slice>>,
+    /// Cylinder around each matte line.
+    cylinders: Vec<Cylinder>,
+}
+
+impl<'a, 's, R: Recorder> PlanarState<'a, 's, R> {
+    /// The state before any slice has grown: the matte regions, with the length of each matte line (counts) and the
+    /// highlight line of each region.
+    pub fn new(
+        input: &'a AnalysisInput<'s>,
+        matte: &MatteRegions,
+        lengths: Vec<f64>,
+        lines: Vec<Option<HighlightLine>>,
+        recorder: &'a mut R,
+    ) -> Self {
+        Self {
+            input,
+            matte_labels: matte.labels.clone(),
+            matte: matte.hypotheses.clone(),
+            lengths,
+            lines,
+            recorded_labels: RecordedLabels::new(matte.labels.clone(), recorder),
+        }
+    }
+
+    /// Unites regions whose grown parts touch and whose matte lines cannot be told apart (refinement `merge_regions`).
+    pub fn unite(&mut self) {
+        if !self.input.refine.merge_regions {
+            return;
+        }
+        self.recorded_labels.begin(Pass::Uniting);
+        let into = merge_regions(self.input, &mut self.matte, &mut self.recorded_labels);
+        if HypothesisId::all(into.len()).eq(into.iter().copied()) {
+            return;
+        }
+        for label in self.matte_labels.as_mut_slice() {
+            let owner = HypothesisId::from_label(*label).map(|id| into[id.index()]);
+            *label = HypothesisId::label(owner);
+        }
+        let members = Members::of(&self.matte_labels, self.matte.len());
+        for (id, hypothesis) in HypothesisId::all(self.matte.len()).zip(&self.matte) {
+            self.lengths[id.index()] = matte_length(self.input, &hypothesis.line, members.region(id));
+        }
+    }
+
+    /// Sets the labels back to the matte regions.
+    pub fn reset(&mut self) {
+        self.recorded_labels.begin(Pass::Reset);
+        for pixel in 0..self.matte_labels.len() {
+            let owner = HypothesisId::from_label(self.matte_labels[pixel]);
+            self.recorded_labels.assign(pixel, owner);
+        }
+    }
+
+    /// The planar hypothesis of each region under an illuminant (unit direction); hypotheses without a plane under `None`.
+    pub fn hypotheses(&self, illuminant: Option<Vec3>) -> Vec<PlanarHypothesis> {
+        (0..self.matte.len()).map(|index| self.hypothesis(index, illuminant)).collect()
+    }
+
+    /// Makes the planar hypothesis of each region under an illuminant and grows the region into its slice, larger regions
+    /// first.
+    pub fn grow_slices(&mut self, illuminant: Option<Vec3>) -> Vec<PlanarHypothesis> {
+        let members = Members::of(&self.matte_labels, self.matte.len());
+        let hypotheses = self.hypotheses(illuminant);
+        let bounds = Bounds {
+            slices: hypotheses.iter().map(|hypothesis| self.slice(hypothesis)).collect(),
+            cylinders: cylinders(self.input, &self.matte),
+        };
+        self.recorded_labels.begin(Pass::Slices);
+        let mut order: Vec<HypothesisId> = HypothesisId::all(hypotheses.len()).collect();
+        order.sort_by_key(|&id| std::cmp::Reverse(members.region(id).len()));
+        for id in order {
+            if self.input.stopped() {
+                break;
+            }
+            if let (Some(slice), Some(plane)) = (&bounds.slices[id.index()], &hypotheses[id.index()].plane) {
+                if R::KEEPS {
+                    self.recorded_labels.recorder.record(SliceMade {
+                        hypothesis: id,
+                        plane: *plane,
+                        matte_length: self.lengths[id.index()],
+                        start: hypotheses[id.index()].start,
+                        half_width: self.input.used.slice_half_width_counts(),
+                        slice: *slice,
+                    });
+                }
+                self.grow_slice(id, slice, &bounds, &members);
+            }
+        }
+        hypotheses
+    }
+
+    fn hypothesis(&self, index: usize, illuminant: Option<Vec3>) -> PlanarHypothesis {
+        let Hypothesis { line, alive, .. } = self.matte[index];
+        let matte_length = self.lengths[index];
+        let highlight_line = self.lines[index];
+        let plane = illuminant
+            .filter(|_| alive && (highlight_line.is_some() || self.input.refine.extend_planes))
+            .and_then(|direction| DichromaticPlane::new(&line, &direction))
+            .filter(|plane| plane.angle_deg() >= MIN_ANGLE_DEG || !self.input.refine.extend_planes);
+        let default_start = line.foot() + line.direction * (DEFAULT_START * matte_length);
+        PlanarHypothesis {
+            origin: HypothesisId::from_index(index),
+            matte: line,
+            matte_length,
+            plane,
+            start: highlight_line.map_or(default_start, |highlight_line| highlight_line.start),
+            highlight: highlight_line.map(|highlight_line| highlight_line.direction),
+            alive,
+        }
+    }
+
+    fn slice(&self, hypothesis: &PlanarHypothesis) -> Option<Slice> {
+        let plane = hypothesis.plane?;
+        let half_width = self.input.used.slice_half_width_counts();
+        Some(if self.input.refine.slice_bounds {
+            Slice::bounded(&plane, half_width, self.input.used.radius_counts(), hypothesis.matte_length)
+        } else {
+            Slice::unbounded(&plane, half_width)
+        })
+    }
+
+    /// Grows hypothesis `id` from its matte pixels into the pixels whose colors lie inside its slice.
+    fn grow_slice(&mut self, id: HypothesisId, slice: &Slice, bounds: &Bounds, members: &Members) {
+        let input = self.input;
+        let own_cylinder = bounds.cylinders[id.index()];
+        let matte_labels = &self.matte_labels;
+        let mut front = self.recorded_labels.border(id, members.region(id));
+        if R::KEEPS {
+            let limit = input.used.slice_half_width_counts() as f32;
+            self.recorded_labels.recorder.record(GrowthBegan { hypothesis: id, limit });
+        }
+        self.recorded_labels.grow(
+            id,
+            &mut front,
+            || input.stopped(),
+            |recorder, pixel, holder| {
+                let color = input.pixels[pixel];
+                if !input.claimable(pixel) || !slice.contains(color) {
+                    return false;
+                }
+                let Some(holder) = holder else { return true };
+                let matte = matte_labels[pixel];
+                let is_foreign_matte = matte != UNASSIGNED && matte != id.get();
+                if is_foreign_matte && !own_cylinder.contains(color) {
+                    if R::KEEPS {
+                        let contest = Contest {
+                            measure: Measure::ForeignMatte,
+                            challenger: own_cylinder.distance2(color).sqrt(),
+                            holder: input.used.radius_counts() as f32,
+                        };
+                        recorder.contest(PixelIndex::from_index(pixel), holder, id, false, contest);
+                    }
+                    return false;
+                }
+                let (measure, own_distance, holder_distance) = match &bounds.slices[holder.index()] {
+                    Some(holder_slice) if !is_foreign_matte => {
+                        (Measure::Plane, slice.distance(color), holder_slice.distance(color))
+                    }
+                    _ => {
+                        let holder_cylinder = &bounds.cylinders[holder.index()];
+                        let distances =
+                            [&own_cylinder, holder_cylinder].map(|cylinder| cylinder.distance2(color).sqrt());
+                        (Measure::Axis, distances[0], distances[1])
+                    }
+                };
+                let taken = own_distance < holder_distance;
+                if R::KEEPS {
+                    let contest = Contest { measure, challenger: own_distance, holder: holder_distance };
+                    recorder.contest(PixelIndex::from_index(pixel), holder, id, taken, contest);
+                }
+                taken
+            },
+        );
+    }
+}
