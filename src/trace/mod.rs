@@ -4,6 +4,7 @@
 //! decision of a stage in a [`StageTrace`]. A [`Trace`] holds the stage traces in order. A [`Replay`] is a cursor in a trace: it
 //! moves forward and back and shows the state of the analysis at each step.
 
+mod blocks;
 mod events;
 mod history;
 mod lineage;
@@ -19,6 +20,7 @@ mod terms;
 mod timeline;
 
 pub use crate::params::Stage;
+pub use blocks::{Block, PassSpan, Topic};
 #[cfg(test)]
 pub(crate) use events::all_events;
 pub(crate) use events::dispatch_event;
@@ -47,4 +49,4 @@ pub use replay_state::{End, Grid, Hypothesis};
 pub use stage_trace::{StageTrace, Steps};
 pub use step::{Contest, Measure, Step};
 pub use terms::{Class, PixelKind};
-pub use timeline::{Block, PassSpan, Topic, Trace};
+pub use timeline::Trace;

@@ -8,7 +8,7 @@ mod steps;
 
 pub use steps::Steps;
 
-use super::timeline::Contents;
+use super::blocks::Contents;
 use super::{Block, Contest, Event, LocalRecord, Measure, PassSpan, PixelKind, Stage, Step};
 use crate::raster::{HypothesisId, LabelMap, PixelIndex, Raster};
 use std::ops::Range;

@@ -1,7 +1,9 @@
 //! How near a result is to the ground truth: as a whole, and region by region.
 
-use super::ResultSnapshot;
+use super::Picture;
+use crate::analysis::Analysis;
 use crate::describe::{ImageFacts, Report, Scores};
+use crate::params::Params;
 use crate::raster::UNASSIGNED;
 use crate::truth::{GroundTruth, Outcome, angle_deg, score};
 
@@ -30,25 +32,27 @@ pub struct RegionAccuracy {
     pub surface_deg: Option<f64>,
 }
 
-/// Measures a result; none without a ground truth of its size.
-pub(super) fn accuracy(shown: &ResultSnapshot) -> Option<Accuracy> {
-    let (truth, photo) = (shown.picture.truth.as_ref()?, &shown.picture.photo);
-    let facts = ImageFacts::of(photo, &shown.picture.sha256);
-    let report = Report::new(facts, &shown.params, &shown.analysis, &[]);
-    let (body, surface) = (&shown.analysis.intrinsic.body, &shown.analysis.intrinsic.surface);
-    let outcome = Outcome { regions: shown.labels(), body, surface, report: &report };
+/// Measures the result of a picture and of the parameters that were asked for; none where the picture has no ground truth of
+/// its size. Takes about as long as the analysis.
+pub(super) fn accuracy(picture: &Picture, params: &Params, analysis: &Analysis) -> Option<Accuracy> {
+    let (truth, photo) = (picture.truth.as_ref()?, &picture.photo);
+    let facts = ImageFacts::of(photo, &picture.sha256);
+    let report = Report::new(facts, params, analysis, &[]);
+    let (body, surface) = (&analysis.intrinsic.body, &analysis.intrinsic.surface);
+    let outcome = Outcome { regions: &analysis.finals.labels, body, surface, report: &report };
     let scores = score(truth, &photo.image.pixels, &outcome).ok()?;
-    Some(Accuracy { scores, regions: regions(shown, truth) })
+    Some(Accuracy { scores, regions: regions(picture, analysis, truth) })
 }
 
-fn regions(shown: &ResultSnapshot, truth: &GroundTruth) -> Vec<RegionAccuracy> {
-    let regions = &shown.analysis.intrinsic.regions;
+fn regions(picture: &Picture, analysis: &Analysis, truth: &GroundTruth) -> Vec<RegionAccuracy> {
+    let regions = &analysis.intrinsic.regions;
+    let labels = &analysis.finals.labels;
     let objects = truth.labels.as_slice().iter().max().map_or(0, |&last| usize::from(last)) + 1;
     // Lit pixels of each region (row; the first: of none) in each object.
     let mut shared = vec![0u64; (regions.len() + 1) * objects];
-    for (pixel, &color) in shown.picture.photo.image.pixels.as_slice().iter().enumerate() {
+    for (pixel, &color) in picture.photo.image.pixels.as_slice().iter().enumerate() {
         if crate::color::dot(color, color) >= DARK_COUNTS * DARK_COUNTS {
-            shared[usize::from(shown.labels()[pixel]) * objects + usize::from(truth.labels[pixel])] += 1;
+            shared[usize::from(labels[pixel]) * objects + usize::from(truth.labels[pixel])] += 1;
         }
     }
     let in_object: Vec<u64> =

@@ -73,7 +73,7 @@ impl ResultSnapshot {
 
     /// Measures that, where there is a truth. Takes about as long as the analysis.
     pub(crate) fn measure(&self) {
-        self.accuracy.get_or_init(|| super::accuracy::accuracy(self));
+        self.accuracy.get_or_init(|| super::accuracy::accuracy(&self.picture, &self.params, &self.analysis));
     }
 
     /// Side of a window, pixels.

@@ -1,0 +1,131 @@
+//! Passes and blocks: the parts into which the trace of a stage divides.
+
+use super::{
+    Absorbed, ComponentSplit, Event, GrowthBegan, HoleFilled, HypothesisPassedOver, Pass, PassBegan,
+    PassedOver,
+};
+use crate::raster::HypothesisId;
+use std::ops::Range;
+
+/// A part of a stage.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PassSpan {
+    /// Its steps.
+    pub steps: Range<usize>,
+    /// Which one.
+    pub pass: Pass,
+}
+
+/// A stretch of steps about one thing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// Its steps.
+    pub steps: Range<usize>,
+    /// What they are about.
+    pub topic: Topic,
+}
+
+/// What a block is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Topic {
+    /// A linear hypothesis is chosen and grows (5.3).
+    Hypothesis(HypothesisId),
+    /// A broad highlight goes back to its object.
+    Absorption(HypothesisId),
+    /// The neighbors of a region are tested as its highlight (5.4.1).
+    Candidates(HypothesisId),
+    /// A region's slice is made and grows (5.4.2).
+    Slice(HypothesisId),
+    /// A region's highlight grows by brightness (5.5).
+    Brightness(HypothesisId),
+    /// A hole is given to a region (5.5).
+    Hole(HypothesisId),
+    /// A part becomes a region of its own.
+    Part(HypothesisId),
+}
+
+impl Topic {
+    /// The hypothesis that the block is about.
+    pub fn hypothesis(self) -> HypothesisId {
+        match self {
+            Self::Hypothesis(hypothesis)
+            | Self::Absorption(hypothesis)
+            | Self::Candidates(hypothesis)
+            | Self::Slice(hypothesis)
+            | Self::Brightness(hypothesis)
+            | Self::Hole(hypothesis)
+            | Self::Part(hypothesis) => hypothesis,
+        }
+    }
+}
+
+/// Where the passes and blocks of one stage begin and end.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Contents {
+    pub(super) passes: Vec<PassSpan>,
+    pub(super) blocks: Vec<Block>,
+    open: bool,
+}
+
+impl Contents {
+    /// The contents of a stage of `len` steps.
+    pub(super) fn of<'a>(events: impl Iterator<Item = (usize, &'a Event)>, len: usize) -> Self {
+        let mut contents = Self::default();
+        for (step, event) in events {
+            contents.hear(step, event);
+        }
+        contents.close(len);
+        if let Some(last) = contents.passes.last_mut() {
+            last.steps.end = len;
+        }
+        contents
+    }
+
+    fn hear(&mut self, step: usize, event: &Event) {
+        let topic = match event {
+            Event::PassBegan(PassBegan { pass }) => {
+                self.close(step);
+                if let Some(last) = self.passes.last_mut() {
+                    last.steps.end = step;
+                }
+                self.passes.push(PassSpan { steps: step..step, pass: *pass });
+                return;
+            }
+            Event::HypothesisPassedOver(HypothesisPassedOver { reason: PassedOver::Barren, .. }) => {
+                return self.close(step + 1);
+            }
+            Event::HypothesisPassedOver(_) => return self.close(step),
+            Event::HypothesisChosen(chosen) => Topic::Hypothesis(chosen.hypothesis),
+            Event::Absorbed(Absorbed { hypothesis, .. }) => Topic::Absorption(*hypothesis),
+            Event::CandidateTested(test) => Topic::Candidates(test.hypothesis),
+            Event::SliceMade(made) => Topic::Slice(made.hypothesis),
+            // The growth of hypotheses and slices lies within their blocks.
+            Event::GrowthBegan(GrowthBegan { hypothesis, .. }) if self.pass() == Some(Pass::Brightness) => {
+                Topic::Brightness(*hypothesis)
+            }
+            Event::HoleFilled(HoleFilled { hypothesis, .. }) => Topic::Hole(*hypothesis),
+            Event::ComponentSplit(ComponentSplit { part, .. }) => Topic::Part(*part),
+            _ => return,
+        };
+        let goes_on = matches!(topic, Topic::Candidates(_))
+            && self.open
+            && self.blocks.last().is_some_and(|last| last.topic == topic);
+        if !goes_on {
+            self.close(step);
+            self.blocks.push(Block { steps: step..step, topic });
+            self.open = true;
+        }
+    }
+
+    fn pass(&self) -> Option<Pass> {
+        self.passes.last().map(|last| last.pass)
+    }
+
+    fn close(&mut self, step: usize) {
+        if std::mem::take(&mut self.open)
+            && let Some(last) = self.blocks.last_mut()
+        {
+            last.steps.end = step;
+        }
+    }
+}
