@@ -10,37 +10,37 @@ use std::ops::Range;
 /// A part of a stage.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PassSpan {
-    /// Its steps.
+    /// The steps of the pass.
     pub steps: Range<usize>,
-    /// Which one.
+    /// The pass.
     pub pass: Pass,
 }
 
-/// A stretch of steps about one thing.
+/// Consecutive steps about one subject.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Block {
-    /// Its steps.
+    /// The steps of the block.
     pub steps: Range<usize>,
-    /// What they are about.
+    /// The subject.
     pub topic: Topic,
 }
 
-/// What a block is about.
+/// The subject of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Topic {
     /// A linear hypothesis is chosen and grows (5.3).
     Hypothesis(HypothesisId),
-    /// A broad highlight goes back to its object.
+    /// A broad highlight is absorbed by its object.
     Absorption(HypothesisId),
-    /// The neighbors of a region are tested as its highlight (5.4.1).
+    /// The neighbors of a hypothesis are tested as its highlight (5.4.1).
     Candidates(HypothesisId),
-    /// A region's slice is made and grows (5.4.2).
+    /// The slice of a hypothesis is made and grows (5.4.2).
     Slice(HypothesisId),
-    /// A region's highlight grows by brightness (5.5).
+    /// The highlight of a hypothesis grows by brightness (5.5).
     Brightness(HypothesisId),
-    /// A hole is given to a region (5.5).
+    /// A hole is given to a hypothesis (5.5).
     Hole(HypothesisId),
-    /// A part becomes a region of its own.
+    /// A separate part becomes a hypothesis of its own.
     Part(HypothesisId),
 }
 
@@ -59,7 +59,7 @@ impl Topic {
     }
 }
 
-/// Where the passes and blocks of one stage begin and end.
+/// The passes and blocks of one stage.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Contents {
     pub(super) passes: Vec<PassSpan>,
@@ -72,7 +72,7 @@ impl Contents {
     pub(super) fn of<'a>(events: impl Iterator<Item = (usize, &'a Event)>, len: usize) -> Self {
         let mut contents = Self::default();
         for (step, event) in events {
-            contents.hear(step, event);
+            contents.take(step, event);
         }
         contents.close(len);
         if let Some(last) = contents.passes.last_mut() {
@@ -81,7 +81,7 @@ impl Contents {
         contents
     }
 
-    fn hear(&mut self, step: usize, event: &Event) {
+    fn take(&mut self, step: usize, event: &Event) {
         let topic = match event {
             Event::PassBegan(PassBegan { pass }) => {
                 self.close(step);

@@ -1,9 +1,10 @@
-//! Where a region came from: the tree of hypotheses, absorptions, merges and separations that made it, and the story of
-//! each hypothesis in it.
+//! The lineage of a region: the tree of hypotheses, absorptions, merges and separations that made the region, and the story of
+//! each hypothesis.
 
+use super::replay_state::ReplayState;
 use super::{
-    Absorbed, CandidateChosen, CandidateTested, ComponentSplit, Dropped, Event, HypothesisChosen,
-    HypothesisPassedOver, LineRefitted, PassedOver, RegionsMerged, Renumbered, SliceMade, Trace,
+    Absorbed, CandidateChosen, CandidateTested, ComponentSplit, Event, Hypothesis, HypothesisChosen,
+    LineRefitted, RegionsMerged, Renumbered, SliceMade, Trace,
 };
 use crate::raster::{HypothesisId, RegionId};
 
@@ -12,44 +13,45 @@ use crate::raster::{HypothesisId, RegionId};
 pub struct Ancestor<'a> {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
-    /// How many joinings lie between it and the final region.
+    /// Number of joinings between the hypothesis and the region.
     pub depth: usize,
-    /// How it began.
+    /// How the hypothesis began.
     pub birth: Birth<'a>,
-    /// How it became part of what it precedes; none for the final region itself.
+    /// How the hypothesis became part of another one; none for the hypothesis that became the region.
     pub joined: Option<Joined>,
 }
 
 impl Ancestor<'_> {
-    /// The step at which it became part of what it precedes; of the final region itself, that of its birth.
+    /// The step at which the hypothesis became part of another one; of the hypothesis that became the region, the step at which it
+    /// began.
     pub fn step(&self) -> usize {
         let (Birth::Area { step: born, .. } | Birth::Part { step: born, .. }) = self.birth;
         self.joined.map_or(born, |joined| joined.step)
     }
 }
 
-/// How a region began.
+/// How a hypothesis began.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Birth<'a> {
     /// As the hypothesis of a merged area (5.3.1).
     Area {
         /// The step.
         step: usize,
-        /// What it was chosen by.
+        /// The event.
         chosen: &'a HypothesisChosen,
     },
-    /// As a part of a region that lay apart.
+    /// As a separate part of a hypothesis.
     Part {
         /// The step.
         step: usize,
         /// The hypothesis that it was separated from.
         of: HypothesisId,
-        /// Pixels of the part.
+        /// Number of pixels of the part.
         pixels: u32,
     },
 }
 
-/// How a region became part of another.
+/// How a hypothesis became part of another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Joined {
     /// The step.
@@ -60,10 +62,10 @@ pub struct Joined {
     pub how: JoinedHow,
 }
 
-/// See [`Joined`].
+/// The way in which a hypothesis became part of another one, see [`Joined`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JoinedHow {
-    /// It was the other's broad highlight.
+    /// The hypothesis was the broad highlight of the other one.
     Absorbed {
         /// Distance of the highlight's line from black, counts.
         highlight_foot: f64,
@@ -72,14 +74,14 @@ pub enum JoinedHow {
         /// Distance between the lines, counts.
         gap: f64,
     },
-    /// Their lines could not be told apart.
+    /// The lines of both do not differ significantly.
     Merged {
         /// Angle between the lines, degrees.
         angle_deg: f64,
-        /// Root mean square distance of its pixels from the other's line, counts.
+        /// Root mean square distance of the pixels from the line of the other hypothesis, counts.
         rms: f64,
     },
-    /// The other one was separated from it.
+    /// The other hypothesis was separated from this one.
     Whole,
 }
 
@@ -87,12 +89,15 @@ pub enum JoinedHow {
 /// the order of their joining. Empty where there is no such region.
 pub fn lineage(trace: &Trace, region: RegionId) -> Vec<Ancestor<'_>> {
     let Some(hypothesis) = hypothesis_of(trace, region) else { return Vec::new() };
-    let (births, joins) = (births(trace), joins(trace));
+    let state = ReplayState::at_end(trace);
+    let joins = joins(trace, &state);
     let mut ancestors = Vec::new();
     // Hypothesis, depth, how the hypothesis joined, and the step from which on nothing concerns the region any more.
     let mut waiting = vec![(hypothesis, 0, None, usize::MAX)];
     while let Some((hypothesis, depth, joined, before)) = waiting.pop() {
-        let Some(&birth) = births.get(hypothesis.index()) else { continue };
+        let Some(birth) = state.hypothesis(hypothesis).and_then(|found| birth(trace, found)) else {
+            continue;
+        };
         ancestors.push(Ancestor { hypothesis, depth, birth, joined });
         let mut found: Vec<_> = joins
             .iter()
@@ -104,7 +109,7 @@ pub fn lineage(trace: &Trace, region: RegionId) -> Vec<Ancestor<'_>> {
             found.push((of, depth + 1, Some(joined), step));
         }
         found.sort_by_key(|&(.., before)| std::cmp::Reverse(before));
-        // A stack: what joined first lies on top.
+        // A stack: the hypothesis that joined first lies on top.
         waiting.extend(found);
     }
     ancestors
@@ -130,102 +135,84 @@ pub fn region_of(trace: &Trace, hypothesis: HypothesisId) -> Option<RegionId> {
     regions_of(trace)?.get(hypothesis.index()).copied().flatten()
 }
 
-fn births(trace: &Trace) -> Vec<Birth<'_>> {
-    let mut births = Vec::new();
-    for (step, event) in trace.events() {
-        match event {
-            Event::HypothesisChosen(chosen) => births.push(Birth::Area { step, chosen }),
-            Event::ComponentSplit(ComponentSplit { hypothesis, pixels, .. }) => {
-                births.push(Birth::Part { step, of: *hypothesis, pixels: *pixels });
-            }
-            _ => {}
-        }
-    }
-    births
-}
-
-fn joins(trace: &Trace) -> Vec<(HypothesisId, Joined)> {
-    let joined = |(step, event): (usize, &Event)| match *event {
-        Event::Absorbed(Absorbed { hypothesis, by, highlight_foot, object_foot, gap }) => Some((
-            hypothesis,
-            Joined { step, to: by, how: JoinedHow::Absorbed { highlight_foot, object_foot, gap } },
-        )),
-        Event::RegionsMerged(RegionsMerged { hypothesis, into, angle_deg, rms }) => {
-            Some((hypothesis, Joined { step, to: into, how: JoinedHow::Merged { angle_deg, rms } }))
+/// How a hypothesis began.
+fn birth<'t>(trace: &'t Trace, hypothesis: &Hypothesis) -> Option<Birth<'t>> {
+    let id = *hypothesis.events.first()?;
+    let step = trace.step_of_event(id);
+    match trace.event_at(id) {
+        Event::HypothesisChosen(chosen) => Some(Birth::Area { step, chosen }),
+        Event::ComponentSplit(ComponentSplit { hypothesis, pixels, .. }) => {
+            Some(Birth::Part { step, of: *hypothesis, pixels: *pixels })
         }
         _ => None,
-    };
-    trace.events().filter_map(joined).collect()
+    }
 }
 
-/// What became of one hypothesis. All steps are the trace's.
+/// Every hypothesis that became part of another, and how, in the order of the steps.
+fn joins(trace: &Trace, state: &ReplayState) -> Vec<(HypothesisId, Joined)> {
+    let events = state.hypotheses.iter().flat_map(|hypothesis| &hypothesis.events);
+    let mut joins: Vec<_> = events
+        .filter_map(|&id| {
+            let step = trace.step_of_event(id);
+            match *trace.event_at(id) {
+                Event::Absorbed(Absorbed { hypothesis, by, highlight_foot, object_foot, gap }) => {
+                    let how = JoinedHow::Absorbed { highlight_foot, object_foot, gap };
+                    Some((hypothesis, Joined { step, to: by, how }))
+                }
+                Event::RegionsMerged(RegionsMerged { hypothesis, into, angle_deg, rms }) => {
+                    let how = JoinedHow::Merged { angle_deg, rms };
+                    Some((hypothesis, Joined { step, to: into, how }))
+                }
+                _ => None,
+            }
+        })
+        .collect();
+    joins.sort_by_key(|(_, joined)| joined.step);
+    joins
+}
+
+/// The story of one hypothesis. Steps are numbered through the whole trace.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HypothesisStory<'a> {
-    /// Why it was chosen; none for a part that was separated.
+    /// The choice of the hypothesis; none for a part that was separated.
     pub chosen: Option<(usize, &'a HypothesisChosen)>,
-    /// Step at which it was separated, the hypothesis that it was part of, and its pixels.
+    /// The step at which the part was separated, the hypothesis that it was part of, and the number of its pixels.
     pub separated: Option<(usize, HypothesisId, u32)>,
-    /// Its line after each fit that followed the first.
+    /// The fits of the line after the first.
     pub refits: Vec<(usize, &'a LineRefitted)>,
-    /// Its neighbors, tested as its highlight (5.4.1).
+    /// The tests of neighbors as its highlight (5.4.1).
     pub tests: Vec<(usize, &'a CandidateTested)>,
     /// The highlight that was chosen.
     pub highlight: Option<(usize, &'a CandidateChosen)>,
-    /// Its slices, one for each estimate of the light.
+    /// The slices, one for each estimate of the light.
     pub slices: Vec<(usize, &'a SliceMade)>,
-    /// Hypotheses that became part of it.
+    /// The hypotheses that became part of this one.
     pub joined: Vec<(HypothesisId, Joined)>,
-    /// The event that ended it; none where it stands.
+    /// The event that ended the hypothesis; none where it stands.
     pub end: Option<(usize, &'a Event)>,
-    /// Its region in the result; none where it is in no region, and before the regions are numbered.
+    /// The region that the hypothesis became; none where it became no region, and before the regions are numbered.
     pub region: Option<RegionId>,
 }
 
 /// The story of a hypothesis; none where there is no such hypothesis.
 pub fn story(trace: &Trace, hypothesis: HypothesisId) -> Option<HypothesisStory<'_>> {
+    let state = ReplayState::at_end(trace);
     let mut story = HypothesisStory::default();
-    let mut newest = None;
-    for (step, event) in trace.events() {
+    for &id in &state.hypothesis(hypothesis)?.events {
+        let (step, event) = (trace.step_of_event(id), trace.event_at(id));
         match event {
-            Event::HypothesisChosen(chosen) => {
-                newest = Some(chosen.hypothesis);
-                if newest == Some(hypothesis) {
-                    story.chosen = Some((step, chosen));
-                }
+            Event::HypothesisChosen(chosen) => story.chosen = Some((step, chosen)),
+            Event::ComponentSplit(ComponentSplit { hypothesis: of, pixels, .. }) => {
+                story.separated = Some((step, *of, *pixels));
             }
-            Event::ComponentSplit(ComponentSplit { hypothesis: of, part, pixels }) => {
-                newest = Some(*part);
-                if newest == Some(hypothesis) {
-                    story.separated = Some((step, *of, *pixels));
-                }
-            }
-            Event::LineRefitted(refitted) if refitted.hypothesis == hypothesis => {
-                story.refits.push((step, refitted))
-            }
-            Event::CandidateTested(test) if test.hypothesis == hypothesis => story.tests.push((step, test)),
-            Event::CandidateChosen(chosen) if chosen.hypothesis == hypothesis => {
-                story.highlight = Some((step, chosen));
-            }
-            Event::SliceMade(made) if made.hypothesis == hypothesis => story.slices.push((step, made)),
-            Event::HypothesisPassedOver(HypothesisPassedOver { reason: PassedOver::Barren, .. })
-                if newest == Some(hypothesis) =>
-            {
-                story.end = Some((step, event));
-            }
-            Event::Absorbed(Absorbed { hypothesis: ended, .. })
-            | Event::RegionsMerged(RegionsMerged { hypothesis: ended, .. })
-            | Event::Dropped(Dropped { hypothesis: ended, .. })
-                if *ended == hypothesis =>
-            {
-                story.end = Some((step, event));
-            }
-            _ => {}
+            Event::LineRefitted(refitted) => story.refits.push((step, refitted)),
+            Event::CandidateTested(test) => story.tests.push((step, test)),
+            Event::CandidateChosen(chosen) => story.highlight = Some((step, chosen)),
+            Event::SliceMade(made) => story.slices.push((step, made)),
+            _ => story.end = Some((step, event)),
         }
     }
-    if story.chosen.is_none() && story.separated.is_none() {
-        return None;
-    }
-    story.joined = joins(trace).into_iter().filter(|(_, joined)| joined.to == hypothesis).collect();
-    story.region = region_of(trace, hypothesis);
+    story.joined = joins(trace, &state).into_iter().filter(|(_, joined)| joined.to == hypothesis).collect();
+    story.region = state.region_of(trace, hypothesis);
     Some(story)
 }

@@ -1,35 +1,35 @@
-//! Where the model does not hold: what the local split decided there (beyond section 6).
+//! The record of the local split, for pixels that no region explains (beyond section 6).
 //!
-//! Blobs are recorded one by one, as far as their numbers go; smaller ones than may count are only counted. What each pixel was
-//! judged by is kept beside the events, 8 bytes for a pixel of the window that was looked at; its limits are computed again.
+//! Blobs are recorded one by one, up to the largest number; blobs with too few pixels are only counted. The figures that decided
+//! about a pixel are kept beside the events, 8 bytes for each pixel of a rectangle; the limits are computed again.
 
 use crate::raster::{Mask, Raster, Roi};
 
-/// What one pixel was judged by, compactly.
+/// The figures that decided about one pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LocalPoint {
-    /// Logarithms of κ and its median, in steps from the lowest; 0: there are none.
+    /// Logarithms of κ and of its median, in steps from the lowest; 0: there is no κ.
     ratios: [u16; 2],
-    /// Texture in steps, and [`Self::OUTSIDE`].
+    /// Texture in steps, with the flag [`Self::OUTSIDE`].
     texture: u16,
-    /// The blob that it is of: a number, 0 for none, [`LocalPoint::SMALL`].
+    /// The blob of the pixel: its number, 0 for none, [`LocalPoint::SMALL`].
     pub blob: u16,
 }
 
 impl LocalPoint {
-    /// In place of a number: one of the blobs that are only counted.
+    /// In place of a number: a blob that is only counted.
     pub const SMALL: u16 = u16::MAX;
-    /// Most blobs that have a number.
+    /// Largest number of a blob.
     pub const MOST_BLOBS: u16 = u16::MAX - 1;
-    /// Between which ratios κ lies.
+    /// Least and largest κ.
     pub const RATIOS: (f32, f32) = (0.4, 12.0);
-    /// Set where a lit pixel lies outside of what holds.
+    /// Set for a lit pixel that no region explains.
     const OUTSIDE: u16 = 1 << 15;
-    /// Steps of the ratios, and of texture.
+    /// Number of steps of the ratios, and of texture.
     const RATIO_STEPS: f32 = 65534.0;
     const TEXTURE_STEPS: f32 = 32767.0;
 
-    /// Of a pixel, by κ and its median where there are any, and texture.
+    /// The figures of a pixel: κ and its median, where there are any, and texture.
     pub fn new(outside: bool, ratios: Option<[f32; 2]>, texture: f32) -> Self {
         let (low, high) = Self::RATIOS;
         let place = |ratio: f32| (ratio / low).ln() / (high / low).ln() * Self::RATIO_STEPS;
@@ -44,45 +44,45 @@ impl LocalPoint {
         }
     }
 
-    /// Whether it is a lit pixel outside of what holds.
+    /// Whether the pixel is lit and no region explains it.
     pub fn outside(&self) -> bool {
         self.texture & Self::OUTSIDE != 0
     }
 
-    /// κ: the ratio of mean to chromatic part that body reflection has around it, and the median there; none where nothing
-    /// around it has its hue.
+    /// κ, the ratio of mean to chromatic part of the body reflection around the pixel, and the median of κ there; none where no
+    /// pixel around has the hue of this one.
     pub fn ratios(&self) -> Option<[f32; 2]> {
         let (low, high) = Self::RATIOS;
         let ratio = |place: u16| low * (f32::from(place - 1) / Self::RATIO_STEPS * (high / low).ln()).exp();
         (self.ratios[0] > 0 && self.ratios[1] > 0).then(|| self.ratios.map(ratio))
     }
 
-    /// How much surface and body reflection vary against each other around it, 0…1.
+    /// Anticorrelation of surface and body reflection around the pixel, 0…1.
     pub fn texture(&self) -> f32 {
         f32::from(self.texture & !Self::OUTSIDE) / Self::TEXTURE_STEPS
     }
 }
 
-/// What the local split kept of its pixels.
+/// The record of the pixels of the local split.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LocalRecord {
-    /// What the pixels of a window were judged by; no other one lies outside of what holds.
+    /// The figures of the pixels of a rectangle; regions explain all other lit pixels.
     Points(LocalPoints),
-    /// Nothing was judged: only which lit pixels of the picture lie outside of what holds.
+    /// No pixel was judged: the mask of the lit pixels that no region explains.
     Outside(Mask),
 }
 
-/// The pixels of a window.
+/// The figures of the pixels of a rectangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalPoints {
-    /// Which.
+    /// The rectangle.
     pub roi: Roi,
-    /// One of each.
+    /// The figures of each pixel.
     pub of: Raster<LocalPoint>,
 }
 
 impl LocalRecord {
-    /// Whether a pixel is lit and lies outside of what holds.
+    /// Whether a pixel is lit and no region explains it.
     pub fn outside(&self, pixel: usize) -> bool {
         match self {
             Self::Points(_) => self.point(pixel).is_some_and(LocalPoint::outside),
@@ -90,20 +90,20 @@ impl LocalRecord {
         }
     }
 
-    /// What a pixel was judged by; none for one that was not looked at.
+    /// The figures of a pixel; none for a pixel that was not judged.
     pub fn point(&self, pixel: usize) -> Option<&LocalPoint> {
         let Self::Points(LocalPoints { roi, of }) = self else { return None };
         of.as_slice().get(roi.index(pixel)?)
     }
 
-    /// The pixels of a blob by its number, ascending.
+    /// The pixels of the blob with a number, ascending.
     pub fn blob(&self, blob: u16) -> Vec<u32> {
         let Self::Points(LocalPoints { roi, of }) = self else { return Vec::new() };
         let own = of.as_slice().iter().enumerate().filter(|(_, point)| blob != 0 && point.blob == blob);
         own.map(|(index, _)| roi.pixel(index) as u32).collect()
     }
 
-    /// Memory that it takes, bytes.
+    /// Memory of the record, bytes.
     pub fn bytes(&self) -> usize {
         match self {
             Self::Points(points) => points.of.len() * size_of::<LocalPoint>(),

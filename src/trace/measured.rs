@@ -1,9 +1,9 @@
-//! A measurement beside the limit that it was held against.
+//! A measurement beside its limit.
 
 /// A measured value and its limit, in one unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measured<T> {
-    /// What was measured.
+    /// The measured value.
     pub value: T,
     /// The limit that decided: the value had to stay below it, or reach it, as the field's documentation says.
     pub limit: T,

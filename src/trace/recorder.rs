@@ -1,20 +1,21 @@
-//! Who listens to the decisions while they are made.
+//! The recipients of decisions while they are made.
 
 use super::{Contest, Event, LocalRecord, PixelKind, Stage, StageTrace};
 use crate::raster::{HypothesisId, PixelIndex, Raster};
 
-/// Takes one stage's decisions in their order. Stages are generic over it, so that [`NoopRecorder`] costs nothing.
+/// Takes the decisions of one stage in their order. Stages are generic over the recorder, so that [`NoopRecorder`] costs
+/// nothing.
 pub trait Recorder: Default {
-    /// Whether anything is kept: what is recorded is put together only then.
+    /// Whether the recorder keeps anything. Stages make events only then.
     const KEEPS: bool;
 
-    /// A decision.
+    /// Takes a decision.
     fn record(&mut self, event: impl Into<Event>);
 
-    /// A pixel changed hands.
+    /// Takes a change of a pixel's owner.
     fn claim(&mut self, pixel: PixelIndex, before: Option<HypothesisId>, after: Option<HypothesisId>);
 
-    /// `challenger` wanted a pixel that `holder` has; a claim of it follows where that was granted.
+    /// Takes a contest: `challenger` wanted a pixel that `holder` has. Where the pixel is granted, a claim follows.
     fn contest(
         &mut self,
         pixel: PixelIndex,
@@ -24,13 +25,13 @@ pub trait Recorder: Default {
         contest: Contest,
     );
 
-    /// Every pixel's final role was decided.
+    /// Takes the kinds of all pixels.
     fn labels(&mut self, kinds: &Raster<PixelKind>);
 
-    /// What pixels were judged by where the model does not hold.
+    /// Takes the record of the local split.
     fn local(&mut self, record: LocalRecord);
 
-    /// The record of what was heard; none where nothing was kept.
+    /// The record of the stage; none where nothing was kept.
     fn finish(self, stage: Stage) -> Option<StageTrace>;
 }
 
@@ -69,7 +70,7 @@ impl Recorder for NoopRecorder {
     }
 }
 
-/// Keeps everything, compactly.
+/// Keeps all decisions, compactly.
 #[derive(Clone, Debug, Default)]
 pub struct TraceRecorder(StageTrace);
 

@@ -1,18 +1,16 @@
-//! A cursor in a trace: forward, back, anywhere, and what stood at that instant.
+//! A cursor in a trace, and the state of the analysis at the cursor.
 //!
-//! Claims are played on the label map one by one, in either direction; everything else is a stack per thing, pushed forward
-//! and popped back. A long way is shortened by starting from a keyframe: labels as they were at one of a few steps.
+//! Claims are played on the label map one by one, in either direction; events change the [`ReplayState`]. For a long way the cursor
+//! starts from a keyframe: the labels as they were at one of a few steps.
 
-use super::replay_state::{EventId, Grid, Hypothesis, ReplayState};
+use super::replay_state::{Grid, Hypothesis, ReplayState};
 use super::stage_trace::Owners;
-use super::{
-    CandidateChosen, Event, IlluminantGiven, Pass, PixelKind, Renumbered, SliceMade, Stage, StageTrace, Step,
-    Trace,
-};
+use super::timeline::EventId;
+use super::{CandidateChosen, Pass, PixelKind, SliceMade, Stage, StageTrace, Step, Trace};
 use crate::raster::{HypothesisId, LabelMap, RegionId, UNASSIGNED};
 use std::sync::Arc;
 
-/// Steps nearer than this are played from where the cursor is.
+/// Number of claims up to which the cursor plays from its place and looks for no keyframe.
 const NEAR: usize = 1 << 16;
 
 /// The state of the analysis after some steps of a trace.
@@ -23,7 +21,7 @@ pub struct Replay {
     labels: LabelMap,
     /// Pixels of each label: of no hypothesis first, then of each hypothesis.
     sizes: Vec<u32>,
-    standing: ReplayState,
+    state: ReplayState,
     keyframes: Vec<Keyframe>,
 }
 
@@ -40,15 +38,15 @@ impl Replay {
     pub fn new(trace: Arc<Trace>) -> Self {
         let labels = LabelMap::filled(trace.width(), trace.height(), UNASSIGNED);
         let sizes = vec![labels.len() as u32];
-        Self { trace, at: 0, labels, sizes, standing: ReplayState::default(), keyframes: Vec::new() }
+        Self { trace, at: 0, labels, sizes, state: ReplayState::default(), keyframes: Vec::new() }
     }
 
-    /// What it is a cursor in.
+    /// The trace.
     pub fn trace(&self) -> &Arc<Trace> {
         &self.trace
     }
 
-    /// Steps taken.
+    /// Number of steps taken.
     pub fn at(&self) -> usize {
         self.at
     }
@@ -85,98 +83,84 @@ impl Replay {
 
     /// The hypotheses so far, ended ones included, by [`HypothesisId::index`].
     pub fn hypotheses(&self) -> &[Hypothesis] {
-        &self.standing.hypotheses
+        &self.state.hypotheses
     }
 
     /// The hypotheses so far, ended ones included, each with its id.
     pub fn numbered_hypotheses(
         &self,
     ) -> impl DoubleEndedIterator<Item = (HypothesisId, &Hypothesis)> + ExactSizeIterator {
-        HypothesisId::all(self.standing.hypotheses.len()).zip(&self.standing.hypotheses)
+        HypothesisId::all(self.state.hypotheses.len()).zip(&self.state.hypotheses)
     }
 
     /// One hypothesis; none where the hypothesis was not made yet.
     pub fn hypothesis(&self, hypothesis: HypothesisId) -> Option<&Hypothesis> {
-        self.standing.hypotheses.get(hypothesis.index())
+        self.state.hypothesis(hypothesis)
     }
 
     /// The slice of a hypothesis, where there is one.
     pub fn slice(&self, hypothesis: HypothesisId) -> Option<&SliceMade> {
-        match self.find(*self.hypothesis(hypothesis)?.slices.last()?) {
-            Event::SliceMade(made) => Some(made),
-            _ => None,
-        }
+        self.state.slice(&self.trace, hypothesis)
     }
 
     /// The highlight line chosen for a hypothesis.
     pub fn highlight(&self, hypothesis: HypothesisId) -> Option<&CandidateChosen> {
-        match self.find(*self.hypothesis(hypothesis)?.highlights.last()?) {
-            Event::CandidateChosen(chosen) => Some(chosen),
-            _ => None,
-        }
+        self.state.highlight(&self.trace, hypothesis)
     }
 
-    /// The windows that the analysis looks at: of the last grid laid.
+    /// The grid of windows that was laid last.
     pub fn grid(&self) -> Option<&Grid> {
-        self.standing.grids.last()
+        self.state.grids.last()
     }
 
-    /// The windows of the whole picture: of the first grid laid.
+    /// The grid of windows of the whole picture, which was laid first.
     pub fn first_grid(&self) -> Option<&Grid> {
-        self.standing.grids.first()
+        self.state.grids.first()
     }
 
-    /// Unit direction of the light as it is estimated so far.
+    /// Unit direction of the light as it is estimated or chosen so far.
     pub fn light(&self) -> Option<[f64; 3]> {
-        match self.find(*self.standing.lights.last()?) {
-            Event::IlluminantEstimated(estimated) => Some(estimated.direction),
-            Event::IlluminantGiven(IlluminantGiven { direction }) => Some(*direction),
-            Event::LightChosen(chosen) => chosen.direction,
-            _ => None,
-        }
+        self.state.light(&self.trace)
     }
 
     /// The region that a hypothesis became, once the regions of the result are numbered; none before that, and for a
     /// hypothesis that became no region.
     pub fn region_of(&self, hypothesis: HypothesisId) -> Option<RegionId> {
-        match self.find(self.standing.finals?) {
-            Event::Renumbered(Renumbered { regions }) => regions.get(hypothesis.index()).copied().flatten(),
-            _ => None,
-        }
+        self.state.region_of(&self.trace, hypothesis)
     }
 
-    /// A pixel's role; none as long as it has none.
+    /// Kind of a pixel; unassigned as long as the kind is not decided.
     pub fn kind(&self, pixel: usize) -> PixelKind {
-        let Some(stage_trace) = self.trace.stage_trace(Stage::Split).filter(|_| self.standing.labeled > 0)
+        let Some(stage_trace) = self.trace.stage_trace(Stage::Split).filter(|_| self.state.labeled > 0)
         else {
             return PixelKind::Unassigned;
         };
         let kind =
             stage_trace.kinds().and_then(|kinds| kinds.as_slice().get(pixel)).copied().unwrap_or_default();
-        if pixel < stage_trace.labeled_pixel(self.standing.labeled) { kind } else { PixelKind::Unassigned }
+        if pixel < stage_trace.labeled_pixel(self.state.labeled) { kind } else { PixelKind::Unassigned }
     }
 
-    /// All pixels before this one have their role.
+    /// Number of leading pixels whose kind is decided.
     pub fn labeled_up_to(&self) -> usize {
-        let stage_trace = self.trace.stage_trace(Stage::Split).filter(|_| self.standing.labeled > 0);
-        stage_trace.map_or(0, |stage_trace| stage_trace.labeled_pixel(self.standing.labeled))
+        let stage_trace = self.trace.stage_trace(Stage::Split).filter(|_| self.state.labeled > 0);
+        stage_trace.map_or(0, |stage_trace| stage_trace.labeled_pixel(self.state.labeled))
     }
 
-    /// Takes a step; false at the end.
+    /// Takes one step; false at the end.
     pub fn forward(&mut self) -> bool {
         let more = self.at < self.trace.len();
         self.play_to(self.at + usize::from(more));
         more
     }
 
-    /// Takes a step back; false at the beginning.
+    /// Takes one step back; false at the beginning.
     pub fn back(&mut self) -> bool {
         let more = self.at > 0;
         self.play_to(self.at - usize::from(more));
         more
     }
 
-    /// Goes to after the first `n` steps, or to the end.
+    /// Moves the cursor behind the first `n` steps, or to the end.
     pub fn seek(&mut self, n: usize) {
         let n = n.min(self.trace.len());
         let moves = |a: usize, b: usize| self.moves_before(a).abs_diff(self.moves_before(b));
@@ -188,17 +172,17 @@ impl Replay {
             let frame = frame.clone();
             self.labels.as_mut_slice().copy_from_slice(frame.labels.as_slice());
             self.sizes = frame.sizes;
-            // Only the labels jump: all else is played, as it is little.
+            // Only the labels are taken from the keyframe: events are few, and are played.
             self.play_events(frame.at);
         }
         self.play_to(n);
     }
 
-    /// Plays the whole trace once and keeps the labels as they are every now and then, so that later seeks are short.
+    /// Plays the whole trace once and makes keyframes, so that later seeks are short.
     pub fn prepare(&mut self) {
         self.keyframes.clear();
         self.seek(0);
-        // With a picture's worth of claims between keyframes, a seek plays about half of that at most.
+        // With as many claims between keyframes as the picture has pixels, a seek plays about half as many at most.
         let every = self.labels.len().max(NEAR);
         let total = self.moves_before(self.trace.len());
         self.keep();
@@ -220,7 +204,7 @@ impl Replay {
         self.keyframes.push(Keyframe { at: self.at, labels, sizes: self.sizes.clone() });
     }
 
-    /// Changes of hands among the first `n` steps.
+    /// Number of moves among the first `n` steps.
     fn moves_before(&self, n: usize) -> usize {
         let stage_traces = self.trace.stage_traces().iter().zip(self.trace.starts());
         stage_traces
@@ -231,7 +215,7 @@ impl Replay {
             .sum()
     }
 
-    /// The step after which so many hands have changed.
+    /// The step of the move with this number.
     fn step_of_move(&self, moves: usize) -> usize {
         let mut left = moves;
         for (stage_trace, &start) in self.trace.stage_traces().iter().zip(self.trace.starts()) {
@@ -263,7 +247,7 @@ impl Replay {
                     &stage_trace.moves()[range(stage_trace, start, from)..range(stage_trace, start, to)]
                 {
                     if let Some(Owners { before, after }) = change.change() {
-                        self.hand_over(change.pixel(), before, after);
+                        self.change_owner(change.pixel(), before, after);
                     }
                 }
             }
@@ -275,7 +259,7 @@ impl Replay {
                     .rev()
                 {
                     if let Some(Owners { before, after }) = change.change() {
-                        self.hand_over(change.pixel(), after, before);
+                        self.change_owner(change.pixel(), after, before);
                     }
                 }
             }
@@ -283,7 +267,7 @@ impl Replay {
     }
 
     #[inline]
-    fn hand_over(&mut self, pixel: usize, from: Option<HypothesisId>, to: Option<HypothesisId>) {
+    fn change_owner(&mut self, pixel: usize, from: Option<HypothesisId>, to: Option<HypothesisId>) {
         let (from, to) = (HypothesisId::label(from), HypothesisId::label(to));
         debug_assert_eq!(self.labels[pixel], from, "pixel {pixel}");
         self.labels[pixel] = to;
@@ -312,29 +296,25 @@ impl Replay {
             let local = n.saturating_sub(start).min(stage_trace.len());
             (local - stage_trace.events_before(local)).saturating_sub(stage_trace.moves().len())
         };
-        self.standing.labeled =
+        self.state.labeled =
             spans.iter().map(|&(_, stage_trace, start)| labels(stage_trace, start, to)).sum();
         if from <= to {
             for (index, stage_trace, start) in spans {
                 for event in before(stage_trace, start, from)..before(stage_trace, start, to) {
-                    self.standing.take(stage_trace.event(event), (index, event));
+                    self.state.take(stage_trace.event(event), EventId { stage: index, index: event });
                 }
             }
         } else {
             for (_, stage_trace, start) in spans.into_iter().rev() {
                 for event in (before(stage_trace, start, to)..before(stage_trace, start, from)).rev() {
-                    self.standing.take_back(stage_trace.event(event));
+                    self.state.take_back(stage_trace.event(event));
                 }
             }
         }
     }
-
-    fn find(&self, (stage_trace, event): EventId) -> &Event {
-        self.trace.stage_traces()[stage_trace].event(event)
-    }
 }
 
-/// Whether the same instant is shown, whatever way led there.
+/// Equal cursors show the same instant, whatever way led there.
 impl PartialEq for Replay {
     fn eq(&self, other: &Self) -> bool {
         let sizes = |replay: &Self| {
@@ -344,6 +324,6 @@ impl PartialEq for Replay {
         self.at == other.at
             && self.labels == other.labels
             && sizes(self) == sizes(other)
-            && self.standing == other.standing
+            && self.state == other.state
     }
 }

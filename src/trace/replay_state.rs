@@ -1,35 +1,42 @@
-//! What stands at an instant of a trace, but for the labels: windows, areas, regions, lights. Every thing is a stack that is
-//! pushed forward and popped back.
+//! The state of the analysis after some events of a trace, but for the labels: windows, areas, hypotheses, lights and the
+//! decisions of the split. One function interprets the record: the cursor of a replay, the history of a pixel and the lineage of
+//! a region read the state that it makes. Every part is a stack that is pushed forward and popped back.
 
+use super::timeline::EventId;
 use super::{
-    Absorbed, Class, ComponentSplit, Dropped, Event, HypothesisPassedOver, MergeTried, PassedOver,
-    RegionsMerged, WindowClassified, WindowsLaid,
+    Absorbed, CandidateChosen, Class, ComponentSplit, Dropped, Event, HypothesisPassedOver, IlluminantGiven,
+    MergeTried, PassedOver, RegionsMerged, Renumbered, SliceMade, Trace, VectorsFitted, WindowClassified,
+    WindowsLaid,
 };
-use crate::color::Line;
-use crate::raster::{HypothesisId, Raster};
+use crate::color::{Cylinder, Line};
+use crate::raster::{HypothesisId, Raster, RegionId};
 
-/// Everything but the labels.
+/// The state after some events.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ReplayState {
     pub(super) grids: Vec<Grid>,
+    /// The hypotheses so far, ended ones included, by [`HypothesisId::index`].
     pub(super) hypotheses: Vec<Hypothesis>,
-    /// Lights so far: index of the stage trace and of the event.
+    /// The estimates and choices of the light so far.
     pub(super) lights: Vec<EventId>,
-    /// What gave the regions their final numbers.
-    pub(super) finals: Option<EventId>,
-    /// Number of labels given.
+    /// The event that numbered the regions of the result.
+    numbered: Option<EventId>,
+    /// The fits of the regions' vectors so far, in the order of the regions.
+    vectors: Vec<EventId>,
+    /// The decisions of the local split so far.
+    pub(super) local: Vec<EventId>,
+    /// Number of pixels that have their kind.
     pub(super) labeled: usize,
 }
 
-pub(super) type EventId = (usize, usize);
-
-/// A grid of windows, as far as it is classified and merged.
+/// A grid of windows, and how far its windows are classified and merged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// How it lies.
+    /// Size and number of the windows.
     pub laid: WindowsLaid,
-    /// Class of each window, row-major: none as long as it is not known; none within where it holds too few pixels.
-    #[allow(clippy::option_option, reason = "not known, known to have none, known")]
+    /// Class of each window, row-major: none as long as the window was not classified; `Some(None)` where the window holds too
+    /// few pixels for a class.
+    #[allow(clippy::option_option, reason = "not classified, classified without a class, classified")]
     pub classes: Raster<Option<Option<Class>>>,
     /// The area that each window has joined: the first window of it, or one that has itself joined another.
     parents: Vec<u32>,
@@ -70,52 +77,125 @@ impl Grid {
     }
 }
 
-/// A region, as far as it is known.
+/// A hypothesis, as far as it is known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hypothesis {
-    /// First window of the area that it started from; none for a part that was separated.
+    /// First window of the area that the hypothesis started from; none for a part that was separated.
     pub area: Option<u32>,
     /// The hypothesis that it was separated from.
     pub parent: Option<HypothesisId>,
     /// Radius of its cylinder, counts.
     pub radius: f64,
     lines: Vec<Line>,
-    pub(super) slices: Vec<EventId>,
-    pub(super) highlights: Vec<EventId>,
+    slices: Vec<EventId>,
+    highlights: Vec<EventId>,
     ends: Vec<End>,
+    /// The events about the hypothesis, oldest first: how it began, fits, tests, choices, slices, how it ended.
+    pub(super) events: Vec<EventId>,
 }
 
-/// How a region ended.
+/// How a hypothesis ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
-    /// It claimed too few pixels.
+    /// The hypothesis claimed too few pixels.
     Barren,
     /// The hypothesis was the broad highlight of this one.
     Absorbed(HypothesisId),
     /// The hypothesis became part of this one.
     Merged(HypothesisId),
-    /// It was too small to keep.
+    /// The hypothesis was too small to keep.
     Dropped,
 }
 
 impl Hypothesis {
-    /// The axis of its cylinder.
+    /// The axis of the hypothesis's cylinder.
     pub fn line(&self) -> Option<&Line> {
         self.lines.last()
     }
 
-    /// How it ended; none as long as it stands.
+    /// The cylinder, radius in counts; none without an axis.
+    pub(super) fn cylinder(&self) -> Option<Cylinder> {
+        self.line().map(|line| Cylinder::new(line, self.radius))
+    }
+
+    /// How the hypothesis ended; none as long as it stands.
     pub fn end(&self) -> Option<End> {
         self.ends.last().copied()
     }
 }
 
 impl ReplayState {
+    /// The state after all events of a trace.
+    pub(super) fn at_end(trace: &Trace) -> Self {
+        let mut state = Self::default();
+        for (id, event) in trace.placed_events() {
+            state.take(event, id);
+        }
+        state
+    }
+
+    /// One hypothesis; none where the hypothesis was not made yet.
+    pub(super) fn hypothesis(&self, hypothesis: HypothesisId) -> Option<&Hypothesis> {
+        self.hypotheses.get(hypothesis.index())
+    }
+
+    /// The slice of a hypothesis, where there is one. `trace` is the trace of the events.
+    pub(super) fn slice<'t>(&self, trace: &'t Trace, hypothesis: HypothesisId) -> Option<&'t SliceMade> {
+        match trace.event_at(*self.hypothesis(hypothesis)?.slices.last()?) {
+            Event::SliceMade(made) => Some(made),
+            _ => None,
+        }
+    }
+
+    /// The highlight line chosen for a hypothesis.
+    pub(super) fn highlight<'t>(
+        &self,
+        trace: &'t Trace,
+        hypothesis: HypothesisId,
+    ) -> Option<&'t CandidateChosen> {
+        match trace.event_at(*self.hypothesis(hypothesis)?.highlights.last()?) {
+            Event::CandidateChosen(chosen) => Some(chosen),
+            _ => None,
+        }
+    }
+
+    /// Unit direction of the light as it is estimated or chosen so far.
+    pub(super) fn light(&self, trace: &Trace) -> Option<[f64; 3]> {
+        match trace.event_at(*self.lights.last()?) {
+            Event::IlluminantEstimated(estimated) => Some(estimated.direction),
+            Event::IlluminantGiven(IlluminantGiven { direction }) => Some(*direction),
+            Event::LightChosen(chosen) => chosen.direction,
+            _ => None,
+        }
+    }
+
+    /// The region that a hypothesis became, once the regions of the result are numbered; none before that, and for a
+    /// hypothesis that became no region.
+    pub(super) fn region_of(&self, trace: &Trace, hypothesis: HypothesisId) -> Option<RegionId> {
+        match trace.event_at(self.numbered?) {
+            Event::Renumbered(Renumbered { regions }) => regions.get(hypothesis.index()).copied().flatten(),
+            _ => None,
+        }
+    }
+
+    /// The vectors by which the region of a hypothesis is split, once they are fitted.
+    pub(super) fn vectors_of<'t>(
+        &self,
+        trace: &'t Trace,
+        hypothesis: HypothesisId,
+    ) -> Option<&'t VectorsFitted> {
+        let region = self.region_of(trace, hypothesis)?;
+        match trace.event_at(*self.vectors.get(region.index())?) {
+            Event::VectorsFitted(fitted) => Some(fitted),
+            _ => None,
+        }
+    }
+
     fn of(&mut self, hypothesis: HypothesisId) -> Option<&mut Hypothesis> {
         self.hypotheses.get_mut(hypothesis.index())
     }
 
-    /// Takes an event in.
+    /// Changes the state by an event; `id` is the place of the event.
     pub(super) fn take(&mut self, event: &Event, id: EventId) {
         match event {
             Event::WindowsLaid(laid) => self.grids.push(Grid::new(laid)),
@@ -133,45 +213,62 @@ impl ReplayState {
                 slices: Vec::new(),
                 highlights: Vec::new(),
                 ends: Vec::new(),
+                events: vec![id],
             }),
             Event::ComponentSplit(ComponentSplit { hypothesis, .. }) => {
                 let mut part = self.of(*hypothesis).cloned();
                 if let Some(part) = &mut part {
                     (part.area, part.parent) = (None, Some(*hypothesis));
                     part.ends.clear();
+                    part.events = vec![id];
                 }
                 self.hypotheses.extend(part);
             }
             Event::LineRefitted(refitted) => {
                 if let Some(hypothesis) = self.of(refitted.hypothesis) {
                     hypothesis.lines.push(refitted.line);
+                    hypothesis.events.push(id);
                 }
             }
             Event::SliceMade(made) => {
                 if let Some(hypothesis) = self.of(made.hypothesis) {
                     hypothesis.slices.push(id);
+                    hypothesis.events.push(id);
+                }
+            }
+            Event::CandidateTested(test) => {
+                if let Some(hypothesis) = self.of(test.hypothesis) {
+                    hypothesis.events.push(id);
                 }
             }
             Event::CandidateChosen(chosen) => {
                 if let Some(hypothesis) = self.of(chosen.hypothesis) {
                     hypothesis.highlights.push(id);
+                    hypothesis.events.push(id);
                 }
             }
             Event::IlluminantEstimated(_) | Event::IlluminantGiven(_) | Event::LightChosen(_) => {
                 self.lights.push(id);
             }
-            Event::Renumbered(_) => self.finals = Some(id),
+            Event::Renumbered(_) => self.numbered = Some(id),
+            Event::VectorsFitted(_) => self.vectors.push(id),
+            Event::LocalBegan(_)
+            | Event::BlobsCounted(_)
+            | Event::BlobJudged(_)
+            | Event::RepairTried(_)
+            | Event::PlausibilityTested(_) => self.local.push(id),
             other => {
                 if let Some((ended, end)) = self.ending(other)
                     && let Some(hypothesis) = self.of(ended)
                 {
                     hypothesis.ends.push(end);
+                    hypothesis.events.push(id);
                 }
             }
         }
     }
 
-    /// Takes it back.
+    /// Undoes the change of the event that was taken last.
     pub(super) fn take_back(&mut self, event: &Event) {
         match event {
             Event::WindowsLaid(_) => {
@@ -185,24 +282,44 @@ impl ReplayState {
                 self.hypotheses.pop();
             }
             Event::LineRefitted(refitted) => {
-                self.of(refitted.hypothesis).and_then(|hypothesis| hypothesis.lines.pop());
+                self.pop_event(refitted.hypothesis).and_then(|hypothesis| hypothesis.lines.pop());
             }
             Event::SliceMade(made) => {
-                self.of(made.hypothesis).and_then(|hypothesis| hypothesis.slices.pop());
+                self.pop_event(made.hypothesis).and_then(|hypothesis| hypothesis.slices.pop());
+            }
+            Event::CandidateTested(test) => {
+                self.pop_event(test.hypothesis);
             }
             Event::CandidateChosen(chosen) => {
-                self.of(chosen.hypothesis).and_then(|hypothesis| hypothesis.highlights.pop());
+                self.pop_event(chosen.hypothesis).and_then(|hypothesis| hypothesis.highlights.pop());
             }
             Event::IlluminantEstimated(_) | Event::IlluminantGiven(_) | Event::LightChosen(_) => {
                 self.lights.pop();
             }
-            Event::Renumbered(_) => self.finals = None,
+            Event::Renumbered(_) => self.numbered = None,
+            Event::VectorsFitted(_) => {
+                self.vectors.pop();
+            }
+            Event::LocalBegan(_)
+            | Event::BlobsCounted(_)
+            | Event::BlobJudged(_)
+            | Event::RepairTried(_)
+            | Event::PlausibilityTested(_) => {
+                self.local.pop();
+            }
             other => {
                 if let Some((ended, _)) = self.ending(other) {
-                    self.of(ended).and_then(|hypothesis| hypothesis.ends.pop());
+                    self.pop_event(ended).and_then(|hypothesis| hypothesis.ends.pop());
                 }
             }
         }
+    }
+
+    /// Removes the newest event of a hypothesis, and returns the hypothesis.
+    fn pop_event(&mut self, hypothesis: HypothesisId) -> Option<&mut Hypothesis> {
+        let hypothesis = self.of(hypothesis)?;
+        hypothesis.events.pop();
+        Some(hypothesis)
     }
 
     /// The hypothesis that an event ends, and how.
@@ -221,7 +338,7 @@ impl ReplayState {
         }
     }
 
-    #[allow(clippy::option_option, reason = "as in the grid")]
+    #[allow(clippy::option_option, reason = "as Grid::classes")]
     fn classify(&mut self, window: u32, class: Option<Option<Class>>) {
         if let Some(grid) = self.grids.last_mut()
             && let Some(place) = grid.classes.as_mut_slice().get_mut(window as usize)

@@ -1,8 +1,8 @@
-//! One stage's decisions, compactly.
+//! The decisions of one stage, in little memory.
 //!
-//! A change of hands takes 8 bytes: the pixel, whose it was, whose it is. It can be undone as easily as done. A contest adds
-//! what it was decided by (13 bytes), an event its numbers; labels are a byte a pixel. What can be computed again exactly,
-//! like the refusal of a color outside a cylinder, is not kept (see `history`).
+//! A change of owner takes 8 bytes: pixel, owner before, owner after. It can be played in both directions. A contest adds the
+//! values that decided (13 bytes), an event its numbers; kinds take one byte per pixel. Decisions that can be computed again
+//! exactly, like the refusal of a color outside a cylinder, are not kept (see `history`).
 
 mod steps;
 
@@ -56,23 +56,25 @@ impl Move {
 pub struct StageTrace {
     stage: Option<Stage>,
     events: Vec<Event>,
-    /// Step at which each event lies, ascending. All other steps are moves, or labels after these.
+    /// Step of each event, ascending. All other steps are moves, and after the moves the labels.
     event_steps: Vec<u32>,
     moves: Vec<Move>,
-    /// Moves that were contested, ascending, and by what they were decided.
+    /// Moves that were contested, ascending.
     contested: Vec<u32>,
-    shown: Vec<[f32; 2]>,
+    /// Values of challenger and holder of each contest.
+    contest_values: Vec<[f32; 2]>,
+    /// Measure of each contest.
     measures: Vec<Measure>,
     labels: Option<Labels>,
     local: Option<Box<LocalRecord>>,
     contents: Contents,
 }
 
-/// Every pixel's role; those that have none are no steps.
+/// The kinds of all pixels; pixels without a kind are no steps.
 #[derive(Clone, Debug, PartialEq)]
 struct Labels {
     kinds: Raster<PixelKind>,
-    /// Labeled pixels before each row, and in all.
+    /// Number of pixels with a kind before each row, and in all.
     before_row: Vec<u32>,
 }
 
@@ -102,7 +104,7 @@ impl StageTrace {
         contest: Contest,
     ) {
         self.contested.push(self.moves.len() as u32);
-        self.shown.push([contest.challenger, contest.holder]);
+        self.contest_values.push([contest.challenger, contest.holder]);
         self.measures.push(contest.measure);
         if !granted {
             let owners = Owners { before: Some(holder), after: Some(challenger) };
@@ -145,7 +147,7 @@ impl StageTrace {
         self.len() == 0
     }
 
-    /// What happened at step `n`; none from [`StageTrace::len`] on.
+    /// Step `n`; none from [`StageTrace::len`] on.
     pub fn step(&self, n: usize) -> Option<Step<'_>> {
         match self.event_steps.binary_search(&(n as u32)) {
             Ok(index) => Some(Step::Event(&self.events[index])),
@@ -169,7 +171,7 @@ impl StageTrace {
         self.event_steps.iter().map(|&step| step as usize).zip(&self.events)
     }
 
-    /// Memory that it takes, bytes.
+    /// Memory of the trace, bytes.
     pub fn bytes(&self) -> usize {
         let boxed: usize = self.events.iter().map(Event::heap_bytes).sum();
         self.events.len() * (size_of::<Event>() + size_of::<u32>())
@@ -183,8 +185,7 @@ impl StageTrace {
     /// Plays all changes of owners on `labels`, which hold hypotheses.
     ///
     /// # Errors
-    /// The number of the first change that contradicts what went before it: of a pixel that was in other hands, or outside
-    /// the picture.
+    /// The number of the first change that contradicts the changes before: of a pixel with another owner, or outside the picture.
     pub fn play(&self, labels: &mut LabelMap) -> Result<(), usize> {
         for (index, change) in self.moves.iter().enumerate() {
             let label = labels.as_mut_slice().get_mut(change.pixel()).ok_or(index)?;
@@ -198,12 +199,12 @@ impl StageTrace {
         Ok(())
     }
 
-    /// Its passes, by its own steps.
+    /// The passes, by the steps of the stage.
     pub(super) fn passes(&self) -> &[PassSpan] {
         &self.contents.passes
     }
 
-    /// Its blocks, likewise.
+    /// The blocks, by the steps of the stage.
     pub(super) fn blocks(&self) -> &[Block] {
         &self.contents.blocks
     }
@@ -228,7 +229,12 @@ impl StageTrace {
         &self.events[index]
     }
 
-    /// Step of the change of hands with this index.
+    /// Step of the event with this index.
+    pub(super) fn step_of_event(&self, index: usize) -> usize {
+        self.event_steps[index] as usize
+    }
+
+    /// Step of the move with this index.
     pub(super) fn step_of_move(&self, index: usize) -> usize {
         // The j-th event has `event_steps[j] − j` moves before it: ascending in j.
         let (mut low, mut high) = (0, self.event_steps.len());
@@ -239,22 +245,22 @@ impl StageTrace {
         index + low
     }
 
-    /// By what a change of hands was decided, where two regions wanted the pixel.
+    /// The contest of a move; none where only one hypothesis wanted the pixel.
     pub(super) fn contest_of_move(&self, index: usize) -> Option<Contest> {
         self.contested.binary_search(&(index as u32)).ok().map(|contest| self.contest(contest))
     }
 
-    /// Every pixel's role, of the last stage.
+    /// The kinds of all pixels, of the last stage.
     pub fn kinds(&self) -> Option<&Raster<PixelKind>> {
         self.labels.as_ref().map(|labels| &labels.kinds)
     }
 
-    /// What pixels were judged by where the model does not hold, of the last stage.
+    /// The record of the local split, of the last stage.
     pub fn local(&self) -> Option<&LocalRecord> {
         self.local.as_deref()
     }
 
-    /// Step at which a pixel got its role; none where it got none.
+    /// The step at which a pixel got its kind; none for a pixel without a kind.
     pub fn step_of_label(&self, pixel: usize) -> Option<usize> {
         let labels = self.labels.as_ref()?;
         let kind = labels.kinds.as_slice().get(pixel)?;
@@ -264,7 +270,7 @@ impl StageTrace {
         (*kind != PixelKind::Unassigned).then_some(before + in_row)
     }
 
-    /// The pixel that gets its role as the `n`-th; the picture's end where all have theirs.
+    /// The pixel that gets its kind as the `n`-th, from 0; the number of all pixels where fewer pixels have a kind.
     pub(super) fn labeled_pixel(&self, n: usize) -> usize {
         let Some(labels) = &self.labels else { return 0 };
         let row = labels.before_row.partition_point(|&before| before as usize <= n).saturating_sub(1);
@@ -293,7 +299,7 @@ impl StageTrace {
     }
 
     fn contest(&self, index: usize) -> Contest {
-        let [challenger, holder] = self.shown[index];
+        let [challenger, holder] = self.contest_values[index];
         Contest { measure: self.measures[index], challenger, holder }
     }
 }

@@ -1,38 +1,39 @@
-//! One entry of a trace: an event, or what happened to one pixel, and by what it was decided.
+//! One step of a trace: an event, or a decision about one pixel and the values that decided.
 
 use super::{Event, PixelKind};
 use crate::raster::{HypothesisId, PixelIndex};
 
-/// Two regions wanted a pixel, or a region did not take one that lay in its reach.
+/// Two hypotheses wanted a pixel, or a hypothesis did not take a pixel whose color it accepts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contest {
-    /// By what it was decided.
+    /// The measure by which the contest was decided.
     pub measure: Measure,
-    /// What the challenger had to show.
+    /// The value of the hypothesis that wanted the pixel.
     pub challenger: f32,
-    /// What it was held against.
+    /// The value of the hypothesis that had the pixel, or the limit.
     pub holder: f32,
 }
 
-/// By what a contest was decided.
+/// The measure by which a contest was decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Measure {
     /// Distances of the color from both axes, counts: the nearer wins (5.3.2).
     Axis,
     /// Distances from both planes, counts: the nearer wins (5.4.2).
     Plane,
-    /// The pixel is another region's matte pixel: its distance from the challenger's axis, against the radius (5.4.2).
+    /// The pixel is a matte pixel of another hypothesis: distance of the color from the axis of the challenger, and the radius,
+    /// counts (5.4.2).
     ForeignMatte,
-    /// Pixels of the winner among its surroundings, against the pixels of all regions there.
+    /// Number of pixels of the winner around the pixel, and number of pixels of all hypotheses there.
     Vote,
 }
 
-/// One entry of a trace.
+/// One step of a trace.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step<'a> {
     /// A decision with its numbers.
     Event(&'a Event),
-    /// A pixel changed hands.
+    /// A pixel changed its owner.
     Claim {
         /// The pixel.
         pixel: PixelIndex,
@@ -40,10 +41,10 @@ pub enum Step<'a> {
         before: Option<HypothesisId>,
         /// The hypothesis that has the pixel from now on; none: no hypothesis.
         after: Option<HypothesisId>,
-        /// Why, where two regions wanted it.
+        /// The contest; none where only one hypothesis wanted the pixel.
         contest: Option<Contest>,
     },
-    /// A pixel did not change hands.
+    /// A change of owner was refused.
     Refusal {
         /// The pixel.
         pixel: PixelIndex,
@@ -51,14 +52,14 @@ pub enum Step<'a> {
         holder: HypothesisId,
         /// The hypothesis that wanted the pixel.
         challenger: HypothesisId,
-        /// Why.
+        /// The contest.
         contest: Contest,
     },
-    /// A pixel's final role (section 6).
+    /// A pixel got its kind (section 6).
     Label {
         /// The pixel.
         pixel: PixelIndex,
-        /// Its role.
+        /// The kind.
         kind: PixelKind,
     },
 }

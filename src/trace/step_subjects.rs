@@ -1,4 +1,4 @@
-//! What a step is about.
+//! The subjects of a step: its kind, pixel and hypotheses.
 
 use super::{Kind, Step, Subject};
 use crate::raster::{HypothesisId, PixelIndex, RegionId};

@@ -1,15 +1,15 @@
 //! Names of cluster classes and of pixel kinds.
 
-/// Class of a color cluster by its number of significant eigenvalues (section 5.2.1, table 1).
+/// Class of a color cluster, by the number of its significant eigenvalues (section 5.2.1, table 1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Class {
-    /// None: no variation beyond the noise.
+    /// No significant eigenvalue: no variation beyond the noise.
     Point,
-    /// One: matte or highlight line.
+    /// One significant eigenvalue: a matte or highlight line.
     Line,
-    /// Two: a dichromatic plane, or two objects.
+    /// Two significant eigenvalues: a dichromatic plane, or two objects.
     Plane,
-    /// Three: clipping, or several objects.
+    /// Three significant eigenvalues: clipping, or several objects.
     Volume,
 }
 
@@ -25,19 +25,19 @@ impl Class {
     }
 }
 
-/// What a pixel is to its region (section 6).
+/// Kind of a pixel: the part of the skewed T to which its color belongs (section 6).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PixelKind {
-    /// In no region.
+    /// The pixel is in no region.
     #[default]
     Unassigned,
-    /// Nearer to the matte line.
+    /// The color is nearer to the matte line.
     Matte,
-    /// Nearer to the highlight line.
+    /// The color is nearer to the highlight line.
     Highlight,
-    /// Clipped or bloomed, its color restored from the bands that can be believed.
+    /// The pixel is clipped or bloomed, and its color was restored from the undistorted bands.
     Restored,
-    /// Clipped in every band: nothing to restore it from but its surroundings.
+    /// The pixel is clipped in every band: its color can be restored from its surroundings only.
     Lost,
 }
 

@@ -4,6 +4,15 @@ use super::{Block, Event, PassSpan, Stage, StageTrace, Step};
 use std::ops::Range;
 use std::sync::Arc;
 
+/// The place of an event in a trace.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct EventId {
+    /// Index of the stage trace.
+    pub(super) stage: usize,
+    /// Index among the events of the stage.
+    pub(super) index: usize,
+}
+
 /// All decisions of a run, stage after stage. Steps are counted through all stages.
 #[derive(Clone, Debug)]
 pub struct Trace {
@@ -46,12 +55,12 @@ impl Trace {
         self.len() == 0
     }
 
-    /// Memory that it takes, bytes.
+    /// Memory of the traces, bytes.
     pub fn bytes(&self) -> usize {
         self.stage_traces.iter().map(|stage_trace| stage_trace.bytes()).sum()
     }
 
-    /// What happened at step `n`; none from [`Trace::len`] on.
+    /// Step `n`; none from [`Trace::len`] on.
     pub fn step(&self, n: usize) -> Option<Step<'_>> {
         let (index, local) = self.locate(n)?;
         self.stage_traces[index].step(local)
@@ -78,7 +87,7 @@ impl Trace {
         })
     }
 
-    /// The event at step `n`; none where it is something else.
+    /// The event at step `n`; none where the step is no event.
     pub fn event(&self, n: usize) -> Option<&Event> {
         match self.step(n)? {
             Step::Event(event) => Some(event),
@@ -100,12 +109,12 @@ impl Trace {
         self.locate(n).and_then(|(index, _)| self.stage_traces[index].stage())
     }
 
-    /// One stage's steps; empty where it is not there.
+    /// The steps of a stage; empty where the trace does not hold the stage.
     pub fn steps_of(&self, stage: Stage) -> Range<usize> {
         self.stages().find(|(found, _)| *found == stage).map_or(0..0, |(_, span)| span)
     }
 
-    /// One stage's decisions.
+    /// The trace of a stage.
     pub fn stage_trace(&self, stage: Stage) -> Option<&Arc<StageTrace>> {
         self.stage_traces.iter().find(|stage_trace| stage_trace.stage() == Some(stage))
     }
@@ -148,7 +157,7 @@ impl Trace {
         steps.contains(&local).then(|| Block { steps: shifted(steps, self.starts[index]), topic: *topic })
     }
 
-    /// Contested claims, refusals and events among these steps: what is more than one pixel joining without a word.
+    /// Number of contested claims, refusals and events among these steps: all steps but uncontested claims.
     pub fn decisions_in(&self, steps: Range<usize>) -> usize {
         let within = |start: usize, stage_trace: &StageTrace| {
             let (from, to) = (
@@ -160,7 +169,7 @@ impl Trace {
         self.numbered().map(|(start, stage_trace)| within(start, stage_trace)).sum()
     }
 
-    /// The first step at which two traces differ; none where they are the same. Reels that both share are not looked at.
+    /// The first step at which two traces differ; none where they are the same. Stage traces that both share are not compared.
     pub fn first_difference(&self, other: &Self) -> Option<usize> {
         for (index, (one, two)) in self.stage_traces.iter().zip(&other.stage_traces).enumerate() {
             if Arc::ptr_eq(one, two) || one == two {
@@ -174,6 +183,23 @@ impl Trace {
             return Some(self.starts[index] + same.count());
         }
         (self.stage_traces.len() != other.stage_traces.len()).then(|| self.len().min(other.len()))
+    }
+
+    /// The events, each with its place in the trace.
+    pub(super) fn placed_events(&self) -> impl Iterator<Item = (EventId, &Event)> {
+        self.stage_traces.iter().enumerate().flat_map(|(stage, stage_trace)| {
+            stage_trace.events().enumerate().map(move |(index, (_, event))| (EventId { stage, index }, event))
+        })
+    }
+
+    /// The event at a place.
+    pub(super) fn event_at(&self, id: EventId) -> &Event {
+        self.stage_traces[id.stage].event(id.index)
+    }
+
+    /// The step of the event at a place.
+    pub(super) fn step_of_event(&self, id: EventId) -> usize {
+        self.starts[id.stage] + self.stage_traces[id.stage].step_of_event(id.index)
     }
 
     pub(super) fn stage_traces(&self) -> &[Arc<StageTrace>] {

@@ -172,7 +172,10 @@ fn the_newest_ring_is_reached_from_the_one_before() {
         .find(|(_, step)| matches!(step, Step::Event(Event::GrowthBegan(_))))
         .map(|(n, _)| n)
         .unwrap();
-    for n in began + 2..(began + 400).min(block.steps.end) {
+    // All of the first growth: the first ring alone may take hundreds of pixels.
+    let mut later = trace.steps_in(began + 1..block.steps.end);
+    let end = later.find(|(_, step)| matches!(step, Step::Event(_))).map_or(block.steps.end, |(n, _)| n);
+    for n in began + 2..end {
         seek(&mut application, n);
         let newest =
             tracks(application.state().followed().unwrap(), colors(&application), masks(&application))

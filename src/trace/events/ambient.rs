@@ -1,57 +1,58 @@
-//! What the matte lines tell of ambient light (section 7.5).
+//! The estimate of the ambient light from the matte lines (section 7.5).
 
 use super::{EventData, Subject};
 
-/// What is known of the ambient light.
+/// The estimate of the ambient light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ambient {
-    /// What was subtracted from every pixel before the split, and added to its body reflection after it, counts; none: nothing.
+    /// The color that was subtracted from every pixel before the split, and added to the body reflection after the split, counts;
+    /// none: nothing was subtracted.
     pub subtracted: Option<[f64; 3]>,
-    /// Where the matte lines meet; none where it was not asked, or there is no line.
+    /// The meeting point of the matte lines; none where ambient light is off, or without a line.
     pub meeting: Option<Meeting>,
-    /// Why it was subtracted, or why not.
+    /// Why ambient light was subtracted, or why not.
     pub verdict: AmbientVerdict,
 }
 
 /// The point nearest to all matte lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Meeting {
-    /// Its color, counts.
+    /// Color of the point, counts.
     pub counts: [f64; 3],
-    /// Its standard deviation in each band, counts.
+    /// Standard deviation of the point in each band, counts.
     pub sd_counts: [f64; 3],
-    /// Lines that it rests on.
+    /// Number of lines that the point is computed from.
     pub lines: usize,
-    /// Root mean square distance of the lines from it, and from black, counts.
+    /// Root mean square distance of the lines from the point, and from black, counts.
     pub miss_counts: [f64; 2],
-    /// Its squared distance from black, in variances: 16.3 is significant.
+    /// Squared distance of the point from black, in variances: 16.3 is significant.
     pub chi_square: f64,
 }
 
 /// Why ambient light was subtracted, or why not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum AmbientVerdict {
-    /// Nothing was asked of it.
+    /// Ambient light is off.
     #[default]
     Off,
-    /// It was given.
+    /// Ambient light was given.
     Given,
-    /// Estimated and subtracted.
+    /// Ambient light was estimated and subtracted.
     Subtracted,
-    /// Too few matte lines are known well enough, or two that do not clearly meet.
+    /// Too few matte lines are known well enough, or the two that are do not clearly meet.
     FewLines,
-    /// The lines meet in black, as far as they can tell.
+    /// The lines meet in black, within their errors.
     Black,
-    /// The lines meet in a color that no light has: it is negative in some band.
+    /// The lines meet in a color that no light has: a band is negative.
     Negative,
-    /// The lines meet nowhere.
+    /// The lines do not meet in one point.
     NoMeeting,
-    /// Pixels are darker than the lines' meeting point.
+    /// Pixels are darker than the meeting point of the lines.
     DarkerPixels,
 }
 
 impl AmbientVerdict {
-    /// Its name in reports.
+    /// The name in reports.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Off => "off",
@@ -65,7 +66,7 @@ impl AmbientVerdict {
         }
     }
 
-    /// It in words.
+    /// The verdict as a sentence.
     pub const fn reason(self) -> &'static str {
         match self {
             Self::Off => "ambient light was not asked for",

@@ -1,23 +1,22 @@
-//! Whether a region has more than one highlight line (section 7.4, figure 13).
+//! The highlight lines of a region, of which there may be more than one (section 7.4, figure 13).
 
 use super::{EventData, Subject};
 use crate::raster::RegionId;
 use crate::trace::Measured;
 
-/// The highlights of a region were held against one another: do they lie on different shades (section 7.4)?
+/// The highlights of a region were compared: whether they lie on different shades of the body (section 7.4).
 #[derive(Clone, Debug, PartialEq)]
 pub struct BranchesSought {
     /// The region.
     pub region: RegionId,
-    /// Its highlights' cores, by ascending body reflection.
+    /// The cores of the highlights, by ascending body reflection.
     pub cores: Vec<HighlightCore>,
-    /// From each core to the next: how much their body reflection differs, and from which difference on they belong to two
-    /// branches, counts.
+    /// From each core to the next: the difference of their body reflection, and the least difference of two branches, counts.
     pub gaps: Vec<Measured<f32>>,
 }
 
 impl BranchesSought {
-    /// How many branches there are.
+    /// Number of branches.
     pub fn branches(&self) -> usize {
         self.cores.iter().map(|core| core.branch + 1).max().unwrap_or(0)
     }
@@ -26,17 +25,17 @@ impl BranchesSought {
 /// The brightest part of one highlight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HighlightCore {
-    /// Amount of body reflection under it, the median of its undistorted pixels, counts.
+    /// Amount of body reflection under the core, median of the undistorted pixels, counts.
     pub body: f32,
-    /// Standard deviation of that from pixel to pixel, counts: noise, shading, and what the plane leaves open.
+    /// Standard deviation of that amount from pixel to pixel, counts: noise, shading, and the error of the plane.
     pub deviation: f32,
-    /// Amount of surface reflection, the mean of its undistorted pixels, counts.
+    /// Amount of surface reflection, mean of the undistorted pixels, counts.
     pub surface: f32,
-    /// Its pixels, clipped and bloomed ones included.
+    /// Number of pixels, clipped and bloomed ones included.
     pub pixels: u32,
-    /// First column and row and last column and row that it spans.
+    /// First column, first row, last column and last row of the core.
     pub span_px: [u32; 4],
-    /// The branch that it belongs to, from 0 for the strongest.
+    /// The branch of the core, from 0 for the strongest.
     pub branch: usize,
 }
 

@@ -5,32 +5,32 @@ use crate::color::{Line, Vec3};
 use crate::raster::HypothesisId;
 use crate::trace::Measured;
 
-/// A neighbor was tested as a hypothesis's highlight (section 5.4.1).
+/// A neighbor was tested as the highlight of a hypothesis (section 5.4.1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct CandidateTested {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
     /// The neighbor.
     pub candidate: CandidateSource,
-    /// Pixels of the neighbor.
+    /// Number of pixels of the neighbor.
     pub pixels: u32,
-    /// The region's matte line.
+    /// The matte line of the hypothesis.
     pub matte: Line,
-    /// Its length from black, counts.
+    /// Length of the matte line from black, counts.
     pub matte_length: f64,
-    /// The neighbor's line.
+    /// The line of the neighbor.
     pub line: Line,
-    /// The points of both lines that are nearest to one another: on the matte line, on the neighbor's.
+    /// The points of both lines that are nearest to one another: on the matte line, on the line of the neighbor.
     pub meeting: [Vec3; 2],
-    /// Distance between the two lines, counts, and the largest allowed.
+    /// Distance between the two lines, and the largest allowed, counts.
     pub gap: Measured<f64>,
-    /// Where they meet on the matte line, in % of its length.
+    /// Place of the meeting point on the matte line, in % of the length of the line.
     pub position_percent: f64,
-    /// The lowest and highest such place allowed, in %.
+    /// Lowest and highest place allowed, in %.
     pub position_limits: [f64; 2],
-    /// Which tests it passed.
+    /// Which tests the neighbor passed.
     pub verdict: CandidateVerdict,
-    /// Pixels of it that all candidates which passed are weighed by; 0 if it did not.
+    /// Weight of the candidate among those that passed, pixels; 0 if the candidate failed.
     pub weight: f64,
 }
 
@@ -39,7 +39,7 @@ pub struct CandidateTested {
 pub struct CandidateChosen {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
-    /// The neighbor whose meeting point lies nearest to the mean of all.
+    /// The candidate whose meeting point lies nearest to the mean of all meeting points.
     pub candidate: CandidateSource,
     /// Weighted mean of the meeting points, counts.
     pub meeting_point: Vec3,
@@ -47,10 +47,10 @@ pub struct CandidateChosen {
     pub direction: Vec3,
 }
 
-/// Where a highlight candidate came from.
+/// The source of a highlight candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CandidateSource {
-    /// What growing left of a merged area (its first window).
+    /// The pixels of a merged area (by its first window) that no hypothesis claimed.
     Leftover(u32),
     /// A neighboring hypothesis.
     Hypothesis(HypothesisId),
@@ -64,11 +64,11 @@ pub enum CandidateSource {
 pub struct CandidateVerdict {
     /// The lines pass near enough to one another to form a skewed T.
     pub lines_meet: bool,
-    /// They meet in the upper 50 % of the matte line.
+    /// The lines meet in the upper 50 % of the matte line.
     pub upper_half: bool,
     /// The candidate's direction is positive in every band.
     pub positive: bool,
-    /// Its mean lies beyond the meeting point.
+    /// The mean of the candidate lies beyond the meeting point.
     pub beyond: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Which light is used, and on what it rests: the planes of regions, or the votes of small highlights (beyond 5.4).
+//! The light that is used, and its evidence: the planes of hypotheses, or the votes of small highlights (beyond 5.4).
 
 use super::{EventData, Subject};
 use crate::raster::HypothesisId;
@@ -6,39 +6,40 @@ use crate::raster::HypothesisId;
 /// The color of the light was estimated (section 5.4.1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct IlluminantEstimated {
-    /// Unit direction.
+    /// Unit direction of the light.
     pub direction: [f64; 3],
-    /// Each region that had a say.
+    /// The contribution of each hypothesis.
     pub contributions: Vec<Contribution>,
-    /// Whether all pixels off the matte lines or the highlights alone had it, where both were held against each other.
+    /// The comparison of the light of all pixels off the matte lines with the light of the highlights alone; none where there was no
+    /// comparison.
     pub outshone: Option<TwoLightTest>,
 }
 
-/// What one region said about the light.
+/// The contribution of one hypothesis to the estimate of the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contribution {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
-    /// How far the light lies from where the region puts it, degrees.
+    /// Angle between the light and the constraint of the hypothesis, degrees.
     pub residual_deg: f64,
-    /// Its weight.
+    /// Weight of the constraint.
     pub weight: f64,
 }
 
-/// The color of the light was given: it was not estimated.
+/// The color of the light was given, and therefore not estimated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IlluminantGiven {
     /// Unit direction of the light.
     pub direction: [f64; 3],
 }
 
-/// What the light rests on.
+/// The evidence of the light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LightBasis {
-    /// Nothing told of it.
+    /// There is no evidence: no light is known.
     #[default]
     Nothing,
-    /// It was given.
+    /// The light was given.
     Given,
     /// The dichromatic planes of regions.
     Planes,
@@ -47,7 +48,7 @@ pub enum LightBasis {
 }
 
 impl LightBasis {
-    /// Its name in reports.
+    /// The name in reports.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Nothing => "none",
@@ -63,66 +64,66 @@ impl LightBasis {
 pub struct VoteResult {
     /// Unit direction.
     pub direction: [f64; 3],
-    /// Pixels that were heard.
+    /// Number of pixels that voted.
     pub voters: u32,
-    /// Small highlights that they belong to.
+    /// Number of small highlights of these pixels.
     pub blobs: u32,
-    /// Share of the votes that the light has, 0…1.
+    /// Share of the votes for the light, 0…1.
     pub share: f64,
-    /// How far it lies from white: between blue (negative) and yellow, and between green (negative) and magenta, degrees.
+    /// Angles from white, degrees: from blue (negative) to yellow, and from green (negative) to magenta.
     pub offsets_deg: [f64; 2],
 }
 
 /// Small highlights voted for a light (refines section 5.4.1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VotesCast {
-    /// The light with most votes; none where too few pixels have anything to say.
+    /// The light with most votes; none where too few pixels voted.
     pub elected: Option<VoteResult>,
-    /// Fewest pixels that make a vote.
+    /// Fewest pixels with which a vote counts.
     pub least_voters: u32,
 }
 
 /// It was decided which light is used (refines section 5.4.1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightChosen {
-    /// What the light that is used rests on.
+    /// The evidence of the light that is used.
     pub basis: LightBasis,
-    /// Its unit direction; none: no light is known.
+    /// Unit direction of the light that is used; none: no light is known.
     pub direction: Option<[f64; 3]>,
-    /// The light by the dichromatic planes, unit, and how many objects it rests on.
+    /// The light by the dichromatic planes, unit, and the number of its objects.
     pub planes: Option<([f64; 3], u32)>,
     /// The light by the votes.
     pub votes: Option<VoteResult>,
-    /// Share of the lit pixels in regions that hold and show highlights under the planes' light, 0…1.
+    /// Share of the lit pixels in regions that are explained and show highlights under the light of the planes, 0…1.
     pub support: f64,
-    /// What decided.
+    /// The limits that decided.
     pub limits: LightLimits,
 }
 
-/// What the ways to a light are held against.
+/// The limits of the choice between the light of the planes and the light of the votes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightLimits {
-    /// Support from which on the planes are believed, whatever the votes say, 0…1.
+    /// Least support with which the light of the planes is used whatever the votes are, 0…1.
     pub support: f64,
-    /// Support below which they are not, if votes were cast and are of no use either, 0…1.
+    /// Support below which no light is used where the votes are of no use either, 0…1.
     pub hardly: f64,
     /// Least share of the votes that elects a light, 0…1.
     pub share: f64,
-    /// Farthest from white that a light by votes may lie: blue to yellow, green to magenta, degrees.
+    /// Largest angles of a light by votes from white, degrees: blue to yellow, green to magenta.
     pub offsets_deg: [f64; 2],
 }
 
-/// How well two lights explain the pixels that the light outshines (7.5): that of all pixels off the matte lines, and that of
-/// the highlights alone.
+/// How well two lights explain the pixels whose surface reflection outshines the body (7.5): the light of all pixels off the matte
+/// lines, and the light of the highlights alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoLightTest {
-    /// Outshone pixels.
+    /// Number of these pixels.
     pub pixels: u32,
-    /// Their mean squared distance from the planes under the one light, σ² …
+    /// Mean squared distance of the pixels from the planes under the light of all pixels, σ².
     pub by_all: f64,
-    /// … and under the other; none where the first one does well enough.
+    /// The same under the light of the highlights alone, σ²; none where the first distance is small enough.
     pub by_highlights: Option<f64>,
-    /// Up to where the other may go, and how many times better it has to be.
+    /// Largest distance under the light of the highlights, σ², and the least factor by which the distance has to be smaller.
     pub limits: [f64; 2],
     /// Whether the highlights' light was taken.
     pub taken: bool,

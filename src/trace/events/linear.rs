@@ -11,13 +11,13 @@ pub struct HypothesisChosen {
     pub hypothesis: HypothesisId,
     /// First window of the area.
     pub area: u32,
-    /// How many areas had been looked at before in this pass: 0 for the largest.
+    /// Number of areas taken before in this pass: 0 for the largest.
     pub rank: u32,
-    /// Pixels of the area that no region had claimed.
+    /// Number of pixels of the area that no hypothesis had claimed.
     pub pixels: u32,
-    /// The axis of its cylinder.
+    /// The axis of the cylinder.
     pub line: Line,
-    /// Radius of its cylinder, counts.
+    /// Radius of the cylinder, counts.
     pub radius: f64,
 }
 
@@ -26,7 +26,7 @@ pub struct HypothesisChosen {
 pub struct HypothesisPassedOver {
     /// First window of the area.
     pub area: u32,
-    /// Pixels of the area that no hypothesis had claimed.
+    /// Number of pixels of the area that no hypothesis had claimed.
     pub pixels: u32,
     /// Fewest unclaimed pixels that the area needs.
     pub least: u32,
@@ -37,17 +37,17 @@ pub struct HypothesisPassedOver {
 /// Why an area did not start a hypothesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PassedOver {
-    /// It never had the minimal area.
+    /// The area never had the fewest pixels.
     TooSmall,
-    /// Regions claimed so many of its pixels that too few were left.
+    /// Hypotheses claimed so many pixels of the area that too few were left.
     Consumed,
-    /// Its line passes farther from black than the cylinder's radius.
+    /// The line of the area passes farther from black than the radius of the cylinder.
     FarFromBlack,
-    /// Its colors have no extent to fit a line to.
+    /// The colors of the area have no extent to fit a line to.
     NoExtent,
-    /// Growing from it claimed too few pixels, which were given back.
+    /// The growth from the area claimed too few pixels, which were given back.
     Barren,
-    /// There are as many regions as a label map can hold.
+    /// There are as many hypotheses as a label map can hold.
     NoNumberLeft,
 }
 
@@ -75,7 +75,7 @@ pub struct GrowthBegan {
 pub struct LineRefitted {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
-    /// The axis of its cylinder from now on.
+    /// The axis of the cylinder from now on.
     pub line: Line,
 }
 
@@ -94,7 +94,7 @@ pub struct Absorbed {
     pub gap: f64,
 }
 
-/// The lines of two hypotheses could not be told apart (refines section 5.3.2).
+/// Two hypotheses became one, as their lines do not differ significantly (refines section 5.3.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegionsMerged {
     /// The hypothesis that vanished.

@@ -5,41 +5,41 @@ use crate::raster::PixelIndex;
 use crate::reflection::{Desaturation, WhitenedColor};
 use crate::trace::Measured;
 
-/// The local split begins, or why it does not (beyond section 6).
+/// The local split begins, or does not (beyond section 6).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalBegan {
-    /// Whether it begins.
+    /// Whether the local split begins, or why not.
     pub start: LocalStart,
-    /// Lit pixels outside of what holds.
+    /// Number of lit pixels that no region explains.
     pub pixels: u32,
-    /// All lit pixels.
+    /// Number of all lit pixels.
     pub lit: u32,
-    /// Fewest outside that are worth it.
+    /// Fewest unexplained pixels with which the local split begins.
     pub least: u32,
     /// The light, unit.
     pub light: Option<[f64; 3]>,
-    /// Where colors are measured from: black, or the ambient light, counts.
+    /// The color from which colors are measured: black, or the ambient light, counts.
     pub origin: [f64; 3],
-    /// What pixels are held against.
+    /// The limits of the local split.
     pub limits: LocalLimits,
-    /// Whether texture is asked for.
+    /// Whether texture is tested (refinement `texture_test`).
     pub texture_test: bool,
-    /// Whether whole blobs count, or single pixels.
+    /// Whether whole blobs are judged, or single pixels (refinement `hysteresis`).
     pub hysteresis: bool,
-    /// Whether clipped pixels are filled.
+    /// Whether clipped blobs are filled (refinement `clip_repair`).
     pub clip_repair: bool,
 }
 
-/// Whether pixels are split by their surroundings.
+/// Whether the local split begins, or why not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LocalStart {
-    /// They are.
+    /// The local split begins.
     Begins,
-    /// It is switched off.
+    /// The local split is switched off.
     Off,
-    /// Too few lie outside of what holds.
+    /// Too few pixels are unexplained.
     Few,
-    /// The light is not known, or has nothing of one band.
+    /// The light is not known, or a band of the light is zero.
     NoLight,
 }
 
@@ -102,63 +102,65 @@ impl LocalLimits {
 /// A candidate highlight was judged (refinement `hysteresis`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BlobJudged {
-    /// Its number, from 1; repaired blobs go on counting.
+    /// Number of the blob, from 1; the numbers of clipped blobs follow.
     pub blob: u16,
-    /// Its first pixel.
+    /// The first pixel of the blob.
     pub pixel: PixelIndex,
-    /// Its pixels, clipped ones apart.
+    /// Number of pixels, without the clipped ones.
     pub pixels: u32,
-    /// Clipped pixels that hang together with it.
+    /// Number of clipped pixels that are connected with the blob.
     pub clipped: u32,
-    /// Pixels above the variation of their hue.
+    /// Number of pixels with surface reflection above the variation of their hue.
     pub strong: u32,
-    /// Those of them that do not look like texture.
+    /// Number of these pixels that do not look like texture.
     pub calm: u32,
-    /// Those of them that a square of 3 × 3 fits into: the core.
+    /// Number of these pixels in squares of 3 × 3 such pixels: the core.
     pub core: u32,
-    /// Whether it is a highlight: it has a core, or clipped pixels.
+    /// Whether the blob is a highlight: whether there is a core, or clipped pixels.
     pub kept: bool,
 }
 
-/// Whether highlights are plausible under this light was tested (refinement `belief`). What was not measured is none: the first doubt ends it.
+/// The plausibility of the highlights under this light was tested (refinement `belief`). The first test that fails ends the
+/// tests: later figures are none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlausibilityTested {
-    /// Share of the votes for the light, 0…1; none where regions that hold vouch for it, or it was given, or no votes are asked for.
+    /// Share of the votes for the light, 0…1; none where explained regions support the light, the light was given, or votes are off.
     pub share: Option<f64>,
-    /// Share of all light there that would be surface reflection, 0…1.
+    /// Share of the light of the unexplained pixels that would be surface reflection, 0…1.
     pub surface: Option<f64>,
-    /// Share of the strong highlight pixels that outshine the body under them, 0…1, and how many strong ones there are.
+    /// Share of the strong highlight pixels whose surface reflection exceeds the body reflection, 0…1, and the number of strong
+    /// pixels.
     pub outshining: Option<(f64, u32)>,
-    /// Up to where each may go; of the share, from where on.
+    /// The limits of these figures.
     pub limits: PlausibilityLimits,
-    /// Why nothing is split; none: highlights are believed.
+    /// Why no pixel is split locally; none: the highlights are plausible.
     pub reject_reason: Option<RejectReason>,
 }
 
-/// See [`PlausibilityTested`].
+/// The limits of a [`PlausibilityTested`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlausibilityLimits {
     /// Least share of the votes, 0…1.
     pub share: f64,
     /// Largest share of surface reflection, 0…1.
     pub surface: f64,
-    /// Largest share of what outshines the body, 0…1.
+    /// Largest share of strong pixels whose surface reflection exceeds the body reflection, 0…1.
     pub outshining: f64,
 }
 
-/// Why no highlight is believed.
+/// Why the highlights are not plausible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RejectReason {
-    /// Small highlights do not speak for the light.
+    /// Too small a share of the votes is for the light.
     NoVote,
     /// Too much would be surface reflection.
     TooMuch,
-    /// Highlights outshine the body: they are white things.
+    /// Surface reflection exceeds body reflection in too many pixels: the highlights are white objects.
     Outshining,
 }
 
 impl RejectReason {
-    /// Its name in trace lines.
+    /// The name in trace lines.
     pub const fn name(self) -> &'static str {
         match self {
             Self::NoVote => "no_vote",
@@ -171,11 +173,11 @@ impl RejectReason {
 /// A blob of clipped pixels was filled from the pixels around it, or not (refinement `clip_repair`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RepairTried {
-    /// Its number, after those of the candidate highlights.
+    /// Number of the blob, after those of the candidate highlights.
     pub blob: u16,
-    /// Its first pixel.
+    /// The first pixel of the blob.
     pub pixel: PixelIndex,
-    /// Its pixels.
+    /// Number of pixels.
     pub pixels: u32,
     /// Share of the ring of 2 px around the blob that is highlight, 0…1, and the least share at which it is filled.
     pub ring: Measured<f32>,
@@ -183,27 +185,27 @@ pub struct RepairTried {
     pub inner: f32,
     /// Mean surface reflection of the ring's outer pixels, counts a band.
     pub outer: f32,
-    /// What came of it.
+    /// Whether the blob was filled, or why not.
     pub verdict: RepairVerdict,
 }
 
 /// Whether a clipped blob is filled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RepairVerdict {
-    /// It is.
+    /// The blob is filled.
     Filled,
-    /// It is as large as windows and skies.
+    /// The blob is as large as windows and skies.
     TooLarge,
-    /// There is no ring of unclipped pixels around it.
+    /// There is no ring of unclipped pixels around the blob.
     NoRing,
     /// Too little of the ring is highlight.
     NoHighlight,
-    /// The highlight does not rise towards it.
+    /// Surface reflection does not rise towards the blob.
     NoRise,
 }
 
 impl RepairVerdict {
-    /// Its name in trace lines.
+    /// The name in trace lines.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Filled => "filled",

@@ -1,4 +1,4 @@
-//! Which pixels are believed (section 4).
+//! The masks of dark, clipped and bloomed pixels (section 4).
 
 use super::{EventData, Subject};
 use crate::photo::MaskLimits;
@@ -6,13 +6,14 @@ use crate::photo::MaskLimits;
 /// The masks of dark, clipped and bloomed pixels were made (section 4).
 #[derive(Clone, Debug, PartialEq)]
 pub struct MasksMade {
-    /// The limits that pixels were held against.
+    /// The limits of the masks.
     pub limits: MaskLimits,
-    /// Pixels too dark to be analyzed, invalid ones and those outside the area included.
+    /// Number of pixels that are too dark to be analyzed, invalid pixels and pixels outside the area included.
     pub dark: u32,
-    /// Other pixels that are clipped or bloomed.
+    /// Number of other pixels that are clipped or bloomed.
     pub distorted: u32,
-    /// Standard deviation of a band's noise that the image told, counts; none where it was not asked or could not be told.
+    /// Standard deviation of the noise of a band, estimated from the image, counts; none where it was not estimated or could not be
+    /// estimated.
     pub sigma: Option<f64>,
 }
 

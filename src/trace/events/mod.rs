@@ -1,8 +1,8 @@
 //! The events of a trace: every decision that is recorded, by section of the paper.
 //!
 //! One table makes [`Event`], [`Kind`], the list of all kinds, their names, and the dispatch to an event's structure. To add an
-//! event: write its structure with [`EventData`] in the file of its section, add a row to the table, record it in the stage, and
-//! say it in `describe/events`. The compiler names each place that is missing.
+//! event: write its structure with [`EventData`] in the file of its section, add a row to the table, record the event in the stage,
+//! and write its sentence in `describe/events`. The compiler names each place that is missing.
 //!
 //! Events are kept by the hundred thousand: large and rare ones are boxed. Claims, conflicts and labels are kept by the million
 //! and are no events, see [`super::StageTrace`].
@@ -55,7 +55,7 @@ pub enum Subject {
     Blob(u16),
 }
 
-/// What every event tells of itself.
+/// Properties of every event.
 pub trait EventData {
     /// The hypotheses, regions and blobs that the event is about.
     fn subjects(&self) -> [Option<Subject>; 2];
@@ -93,8 +93,7 @@ macro_rules! keep {
 /// Makes [`Event`], [`Kind`] and the dispatch over all events from the table. `$d` is a dollar sign for the macro that is made.
 macro_rules! events {
     ($d:tt $($(#[$kind_doc:meta])+ $kind:ident $name:literal { $($place:ident $event:ident($data:ident)),* })*) => {
-        /// A decision with the numbers that it rested on. Hypotheses are named by their hypothesis id, regions of the result by
-        /// their region id; the last [`Renumbered`] says which hypothesis became which region.
+        /// A decision with the numbers that decided. The last [`Renumbered`] says which hypothesis became which region.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Event {
             $($(
@@ -198,7 +197,7 @@ events! { $
     Illuminant "illuminant" { boxed IlluminantEstimated(IlluminantEstimated), inline IlluminantGiven(IlluminantGiven) }
     /// Small highlights voted for a light (refines section 5.4.1).
     Votes "votes" { boxed VotesCast(VotesCast) }
-    /// It was decided which light is used (refines section 5.4.1).
+    /// The light that is used was chosen (refines section 5.4.1).
     LightChoice "light chosen" { boxed LightChosen(LightChosen) }
     /// A slice was made (section 5.4.2).
     Slice "slice" { boxed SliceMade(SliceMade) }
@@ -212,7 +211,7 @@ events! { $
     Numbers "numbers" { inline Renumbered(Renumbered) }
     /// Ambient light was sought (section 7.5).
     Ambient "ambient light" { boxed AmbientSought(Ambient) }
-    /// The highlights of a region were held against one another (section 7.4).
+    /// The highlights of a region were compared (section 7.4).
     Branches "highlight branches" { boxed BranchesSought(BranchesSought) }
     /// Reflection vectors were fitted (section 6).
     Vectors "vectors" { boxed VectorsFitted(VectorsFitted) }
@@ -222,15 +221,15 @@ events! { $
     Blobs "blobs" { inline BlobsCounted(BlobsCounted) }
     /// A candidate highlight was judged.
     Blob "blob" { inline BlobJudged(BlobJudged) }
-    /// Whether highlights are plausible was tested.
+    /// The plausibility of the highlights was tested.
     Plausibility "belief" { boxed PlausibilityTested(PlausibilityTested) }
     /// A clipped blob was filled, or not.
     Repair "clip repair" { inline RepairTried(RepairTried) }
-    /// A pixel changed hands.
+    /// A pixel changed its owner.
     Claim "claim" {}
-    /// A pixel was refused in a conflict.
+    /// A change of owner was refused in a contest.
     Refusal "refusal" {}
-    /// A pixel got its role (section 6).
+    /// A pixel got its kind (section 6).
     Label "label" {}
 }
 

@@ -1,4 +1,4 @@
-//! Where stages and their passes begin.
+//! The beginnings of stages and passes.
 
 use super::{EventData, Subject};
 use crate::trace::Stage;
@@ -20,52 +20,52 @@ pub struct PassBegan {
 /// A part of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Pass {
-    /// Areas become cylinders that grow (5.3).
+    /// Merged areas start hypotheses, whose cylinders grow (5.3).
     Hypotheses,
-    /// Broad highlights go back to their objects (refines 5.3).
+    /// Broad highlights are absorbed by their objects (refines 5.3).
     Absorbing,
     /// Unexplained pixels are classified again in windows of this side, pixels (refines 5.3).
     SecondLook(u16),
-    /// Contested pixels follow the majority around them (refines 5.3.2).
+    /// Contested pixels go to the majority around them (refines 5.3.2).
     Vote,
-    /// Regions on one matte line become one (refines 5.3.2).
+    /// Hypotheses on one matte line become one (refines 5.3.2).
     Uniting,
     /// Neighbors are tested as highlights (5.4.1).
     Candidates,
-    /// The light's color is estimated (5.4.1), for the first time or once more.
+    /// The color of the light is estimated (5.4.1), for the first time or again.
     Illuminant,
-    /// Planes or votes: which light is used (refines 5.4.1).
+    /// The light is chosen between planes and votes (refines 5.4.1).
     LightChoice,
-    /// Labels go back to the matte regions, for slices that turn to another light (refines 5.4).
+    /// The labels are reset to those of the matte hypotheses, for slices under another light (refines 5.4).
     Reset,
     /// Slices grow (5.4.2).
     Slices,
     /// Highlights grow into what is brighter than where they start (5.5).
     Brightness,
-    /// Clipped components join the region around them (5.5).
+    /// Clipped components join the hypothesis around them (5.5).
     ClippedHoles,
-    /// Small components wholly inside a region join it (5.5).
+    /// Small components wholly inside a hypothesis join the hypothesis (5.5).
     SmallHoles,
-    /// Regions on one matte line that an occluder parts are joined.
+    /// Hypotheses on one matte line that an occluder separates are joined.
     Joining,
-    /// Parts of a region that are objects of their own are separated.
+    /// Parts of a hypothesis that are separate objects become hypotheses of their own.
     Separating,
-    /// Regions that are too small go, the others are numbered.
+    /// Hypotheses that are too small are dropped, the others are numbered as regions.
     Numbering,
-    /// What the matte lines tell of ambient light (7.5).
+    /// Ambient light is estimated from the matte lines (7.5).
     Ambient,
     /// Body and surface vectors of each region (section 6).
     Vectors,
-    /// Where no region holds, pixels are split by their surroundings (beyond section 6).
+    /// Pixels that no region explains are split by their surroundings (beyond section 6).
     LocalSplit,
-    /// Clipped blobs there are filled from around them.
+    /// Clipped blobs of such pixels are filled from the pixels around them.
     ClipRepair,
-    /// Each pixel's role (section 6).
+    /// Each pixel gets its kind (section 6).
     Labels,
 }
 
 impl Pass {
-    /// Its name on the timeline and in traces.
+    /// The name on the timeline and in traces.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Hypotheses => "hypotheses",

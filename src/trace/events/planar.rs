@@ -10,15 +10,15 @@ use crate::reflection::{DichromaticPlane, Slice};
 pub struct SliceMade {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
-    /// Its dichromatic plane.
+    /// The dichromatic plane.
     pub plane: DichromaticPlane,
     /// Length of the matte line from black, counts.
     pub matte_length: f64,
-    /// Where the highlight line leaves the matte line, counts.
+    /// The point where the highlight line leaves the matte line, counts.
     pub start: Vec3,
-    /// Half its thickness, counts.
+    /// Half the thickness of the slice, counts.
     pub half_width: f64,
-    /// What it holds.
+    /// The colors that the slice accepts.
     pub slice: Slice,
 }
 

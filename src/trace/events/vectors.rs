@@ -1,10 +1,10 @@
-//! By which vectors a region's pixels are split, and whether they explain them (section 6).
+//! The vectors by which the pixels of a region are split, and whether the skewed T explains the region (section 6).
 
 use super::{EventData, Subject};
 use crate::color::{Line, Vec3};
 use crate::raster::RegionId;
 
-/// The vectors by which a region's pixels are split were fitted (section 6).
+/// The vectors by which the pixels of a region are split were fitted (section 6).
 #[derive(Clone, Debug, PartialEq)]
 pub struct VectorsFitted {
     /// The region.
@@ -13,39 +13,39 @@ pub struct VectorsFitted {
     pub body: Vec3,
     /// Unit surface reflection vector; none: everything is body reflection.
     pub surface: Option<Vec3>,
-    /// The matte line that highlight pixels are told from.
+    /// The matte line; a pixel is matte or highlight by the nearer of this line and the highlight lines.
     pub matte: Line,
-    /// Where the highlight line left it when the region grew, counts.
+    /// The point where the highlight line left the matte line when the region grew, counts.
     pub start: Vec3,
-    /// Where the highlight lines begin that its pixels are told by, counts, the strongest branch first. One line begins at `start`;
-    /// several begin clear of the noise around the matte line.
+    /// The points where the highlight lines begin by which pixels are classed, counts, the strongest branch first. A single line
+    /// begins at `start`; several lines begin outside the noise around the matte line.
     pub starts: Vec<Vec3>,
-    /// Unit direction of the highlight line, by which pixels are told apart: the plane's. None without a plane.
+    /// Unit direction of the highlight lines by which pixels are classed; none without a plane.
     pub highlight: Option<Vec3>,
-    /// Surface reflection that lies less than this off the body line is none, counts; negative infinity: any is some.
+    /// Least distance from the body line of a color with surface reflection, counts; negative infinity: there is no limit.
     pub least_offset: f32,
-    /// Root mean square distance of its pixels from the plane, counts.
+    /// Root mean square distance of the pixels from the plane, counts.
     pub rms_counts: f64,
-    /// How much surface and body reflection vary against each other: 1 for a print.
+    /// Anticorrelation of surface and body reflection from pixel to pixel: 1 for a print.
     pub texture: f64,
     /// Body reflection lost per surface reflection gained from pixel to pixel.
     pub texture_slope: f64,
-    /// Up to where these may go.
+    /// The limits of the last three figures.
     pub limits: FitLimits,
-    /// Whether one skewed T explains it; where not, its plane is not used.
+    /// Whether the skewed T explains the region; where not, the plane is not used.
     pub model_fits: bool,
-    /// Where body and surface reflection are measured from: black, or the ambient light, counts.
+    /// The color from which body and surface reflection are measured: black, or the ambient light, counts.
     pub origin: [f64; 3],
 }
 
-/// Up to where a region's figures may go for it to hold.
+/// The largest figures of a region that its skewed T explains.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FitLimits {
-    /// Root mean square distance from the plane, counts, and in σ.
+    /// Root mean square distance from the plane, counts.
     pub rms_counts: f64,
-    /// See there.
+    /// The same in σ.
     pub rms_sigmas: f64,
-    /// Anticorrelation of body and surface reflection; it tells of texture only together with the next.
+    /// Anticorrelation of body and surface reflection; both this limit and the next have to be exceeded.
     pub texture: f64,
     /// Body reflection lost per surface reflection gained.
     pub texture_slope: f64,

@@ -14,9 +14,9 @@ pub struct WindowsLaid {
     pub rows: u32,
     /// Fewest valid pixels of a window that gets a class.
     pub least_pixels: u32,
-    /// Camera noise σ0 that variances are held against, counts.
+    /// Camera noise σ0 of the χ² tests, counts.
     pub camera_noise: f64,
-    /// Whether by the tail test.
+    /// Whether windows are classified by the tail test (refinement `tail_test`).
     pub tail_test: bool,
 }
 

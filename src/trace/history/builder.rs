@@ -1,21 +1,25 @@
-//! Goes through a trace once and notes what concerns one pixel.
+//! The history of one pixel, made in one pass over a trace: the changes of owner of the pixel and of its 4-neighbors, and the
+//! state of the analysis ([`ReplayState`]) at each of them.
 
-use super::facts::{amounts, final_vectors, verdicts};
-use super::growth::{Growth, Reaching, Regions, growing_test, highlight_test};
+use super::facts::{amounts, verdicts};
+use super::growth::{Growth, Reaching, growing_test, highlight_test};
 use super::local::Outside;
 use super::patch::Patch;
 use super::{HistoryEntry, HistoryKind, Release, SplitStory, Unfit};
+use crate::color::Cylinder;
 use crate::photo::{LinearImage, Masks};
 use crate::raster::HypothesisId;
 use crate::reflection::Amounts;
+use crate::trace::replay_state::ReplayState;
 use crate::trace::stage_trace::{Move, Owners};
+use crate::trace::timeline::EventId;
 use crate::trace::{
     Absorbed, ComponentSplit, Contest, Dropped, Event, GrowthBegan, HoleFilled, HypothesisChosen,
     HypothesisPassedOver, Measure, Pass, PassBegan, PassedOver, PixelKind, RegionsMerged, Renumbered, Stage,
-    StageTrace, Trace, VectorsFitted,
+    StageTrace, Trace,
 };
 
-/// What an event makes of the changes of hands that follow it.
+/// The cause of the changes of owner that follow an event.
 #[derive(Clone, Copy, Default)]
 enum Cause<'a> {
     #[default]
@@ -25,39 +29,43 @@ enum Cause<'a> {
     Event(&'a Event),
 }
 
-/// What is known while the trace is gone through.
+/// The pass over the trace, and the entries so far.
 pub(super) struct HistoryBuilder<'a> {
     trace: &'a Trace,
     image: &'a LinearImage,
     masks: &'a Masks,
     pixel: usize,
+    /// Color of the pixel, counts.
     color: [f32; 3],
     /// The 4-neighbors and the hypothesis that has each.
     near: Vec<(usize, Option<HypothesisId>)>,
     /// The hypothesis that has the pixel.
     holder: Option<HypothesisId>,
-    /// Whether distorted pixels wait for the clipping stage.
-    waits: bool,
-    regions: Regions<'a>,
-    /// How the region of each hypothesis is split, by [`HypothesisId::index`].
-    fitted: Vec<Option<&'a VectorsFitted>>,
+    /// Whether distorted pixels cannot be claimed before the clipping stage.
+    distorted_wait: bool,
+    /// The state after the events so far.
+    state: ReplayState,
+    /// The state after all events.
+    end: ReplayState,
+    /// The pixel's window in the newest grid; none where that grid was not laid for the pixel.
     patch: Option<Patch<'a>>,
-    /// What was decided where its region does not explain it.
+    /// The decisions about the pixel as one that no region explains; none where a region explains the pixel.
     outside: Option<Outside>,
     stage: Stage,
     pass: Option<Pass>,
     cause: Cause<'a>,
     growth: Option<Growth<'a>>,
-    /// Hypotheses merged in this pass: which, angle, distance.
-    merges: Vec<(HypothesisId, f64, f64)>,
-    told: Vec<HistoryEntry>,
+    /// The merges of this pass.
+    merges: Vec<RegionsMerged>,
+    entries: Vec<HistoryEntry>,
 }
 
 impl<'a> HistoryBuilder<'a> {
-    /// Of a pixel inside the picture.
+    /// A pass that has not begun, about a pixel inside the picture.
     pub(super) fn new(trace: &'a Trace, image: &'a LinearImage, masks: &'a Masks, pixel: usize) -> Self {
         let mut near = Vec::with_capacity(4);
         image.pixels.for_each_neighbor(pixel, |index| near.push((index, None)));
+        let end = ReplayState::at_end(trace);
         Self {
             trace,
             image,
@@ -66,36 +74,38 @@ impl<'a> HistoryBuilder<'a> {
             color: image.pixels[pixel],
             near,
             holder: None,
-            waits: false,
-            regions: Regions::default(),
-            fitted: final_vectors(trace),
+            distorted_wait: false,
+            state: ReplayState::default(),
+            outside: Outside::of(trace, &end, image, masks, pixel),
+            end,
             patch: None,
-            outside: Outside::of(trace, image, masks, pixel),
             stage: Stage::Masks,
             pass: None,
             cause: Cause::Nothing,
             growth: None,
             merges: Vec::new(),
-            told: Vec::new(),
+            entries: Vec::new(),
         }
     }
 
-    pub(super) fn tell(mut self) -> Vec<HistoryEntry> {
+    /// All entries, oldest first.
+    pub(super) fn entries(mut self) -> Vec<HistoryEntry> {
         let trace = self.trace;
-        for (stage_trace, &start) in trace.stage_traces().iter().zip(trace.starts()) {
+        for (index, stage_trace) in trace.stage_traces().iter().enumerate() {
             let Some(stage) = stage_trace.stage() else { continue };
             (self.stage, self.pass) = (stage, None);
-            self.go_through(stage_trace, start);
+            self.take_stage(index, stage_trace);
             self.end_growth();
             self.end_merging();
         }
-        self.told.extend(self.outside.into_iter().flat_map(|outside| outside.told));
-        // A refusal that is found out at the end of a growth happened when it came to the pixel.
-        self.told.sort_by_key(|happening| happening.step);
-        self.told
+        self.entries.extend(self.outside.into_iter().flat_map(|outside| outside.entries));
+        // A refusal is known at the end of a growth only, but belongs to the step at which the growth reached the pixel.
+        self.entries.sort_by_key(|entry| entry.step);
+        self.entries
     }
 
-    fn go_through(&mut self, stage_trace: &'a StageTrace, start: usize) {
+    fn take_stage(&mut self, stage: usize, stage_trace: &'a StageTrace) {
+        let start = self.trace.starts()[stage];
         let concerned: Vec<(usize, Move)> = stage_trace
             .moves()
             .iter()
@@ -108,32 +118,32 @@ impl<'a> HistoryBuilder<'a> {
             .collect();
         let mut moves =
             concerned.into_iter().map(|(index, m)| (stage_trace.step_of_move(index), index, m)).peekable();
-        for (step, event) in stage_trace.events() {
+        for (index, (step, event)) in stage_trace.events().enumerate() {
             while let Some((at, index, change)) = moves.next_if(|&(at, ..)| at < step) {
-                self.moved(start + at, change, stage_trace.contest_of_move(index));
+                self.take_move(start + at, change, stage_trace.contest_of_move(index));
             }
-            self.hear(start + step, event);
+            self.take_event(start + step, event, EventId { stage, index });
         }
         for (at, index, change) in moves {
-            self.moved(start + at, change, stage_trace.contest_of_move(index));
+            self.take_move(start + at, change, stage_trace.contest_of_move(index));
         }
         if let Some(step) = stage_trace.step_of_label(self.pixel) {
-            self.split(start + step, stage_trace);
+            self.take_kind(start + step, stage_trace);
         }
     }
 
     fn note(&mut self, step: usize, what: HistoryKind) {
-        self.told.push(HistoryEntry { step, stage: self.stage, what });
+        self.entries.push(HistoryEntry { step, stage: self.stage, what });
     }
 
-    fn hear(&mut self, step: usize, event: &'a Event) {
+    fn take_event(&mut self, step: usize, event: &'a Event, id: EventId) {
         self.end_growth();
-        self.regions.hear(event);
         self.cause = Cause::Event(event);
-        let told = self.patch.as_mut().and_then(|patch| patch.hear(step, event));
-        if let Some(what) = told {
+        let about_window = self.patch.as_mut().zip(self.state.grids.last());
+        if let Some(what) = about_window.and_then(|(patch, grid)| patch.entry(grid, step, event)) {
             self.note(step, what);
         }
+        self.state.take(event, id);
         match event {
             Event::MasksMade(made) => {
                 for verdict in verdicts(self.image, self.masks, &made.limits, self.pixel) {
@@ -146,8 +156,10 @@ impl<'a> HistoryBuilder<'a> {
                 self.end_merging();
             }
             Event::WindowsLaid(laid) => {
-                self.waits = if self.stage == Stage::Classify { laid.tail_test } else { self.waits };
-                // A second look is at what is in no region.
+                if self.stage == Stage::Classify {
+                    self.distorted_wait = laid.tail_test;
+                }
+                // A second look is at pixels in no hypothesis.
                 let looked_at = self.holder.is_none() && self.masks.usable(self.pixel);
                 self.patch = (self.stage == Stage::Classify || looked_at)
                     .then(|| Patch::new(laid, self.pixel, self.image.width()));
@@ -156,10 +168,8 @@ impl<'a> HistoryBuilder<'a> {
             Event::GrowthBegan(GrowthBegan { hypothesis, limit }) => {
                 self.begin_growth(step, *hypothesis, *limit);
             }
-            Event::RegionsMerged(RegionsMerged { hypothesis, angle_deg, rms, .. }) => {
-                self.merges.push((*hypothesis, *angle_deg, *rms));
-            }
-            Event::HypothesisChosen(_) | Event::HypothesisPassedOver(_) => self.hear_of_area(step, event),
+            Event::RegionsMerged(merged) => self.merges.push(*merged),
+            Event::HypothesisChosen(_) | Event::HypothesisPassedOver(_) => self.take_area(step, event),
             Event::Renumbered(Renumbered { regions }) => {
                 if let Some(hypothesis) = self.holder
                     && let Some(&region) = regions.get(hypothesis.index())
@@ -171,8 +181,10 @@ impl<'a> HistoryBuilder<'a> {
         }
     }
 
-    fn hear_of_area(&mut self, step: usize, event: &Event) {
-        let is_own = |area| self.patch.as_ref().is_some_and(|patch| patch.is_area(area));
+    /// Takes an event about an area.
+    fn take_area(&mut self, step: usize, event: &Event) {
+        let window = self.patch.as_ref().zip(self.state.grids.last());
+        let is_own = |area| window.is_some_and(|(patch, grid)| patch.is_area(grid, area));
         match event {
             Event::HypothesisChosen(chosen) if is_own(chosen.area) => {
                 let &HypothesisChosen { hypothesis, rank, pixels, radius, .. } = &**chosen;
@@ -184,8 +196,8 @@ impl<'a> HistoryBuilder<'a> {
                 reason: PassedOver::Barren,
                 ..
             }) => {
-                // Said after the pixels were given back.
-                let given_back = self.told.iter_mut().rev().find_map(|happening| match &mut happening.what {
+                // This event follows the changes of owner that gave the pixels back.
+                let given_back = self.entries.iter_mut().rev().find_map(|entry| match &mut entry.what {
                     HistoryKind::Released { why: Release::Barren { pixels, least }, .. } => {
                         Some((pixels, least))
                     }
@@ -218,15 +230,14 @@ impl<'a> HistoryBuilder<'a> {
         self.cause = Cause::Growth;
         let reaching = match self.stage {
             Stage::Linear => {
-                self.regions.cylinder(hypothesis).map(|(axis, radius)| Reaching::Cylinder(axis, radius))
+                self.cylinder(hypothesis).map(|(cylinder, radius)| Reaching::Cylinder(cylinder, radius))
             }
-            Stage::Planar => self.regions.slice(hypothesis).map(Reaching::Slice),
+            Stage::Planar => self.state.slice(self.trace, hypothesis).map(Reaching::Slice),
             _ => Some(Reaching::Brighter(limit)),
         };
         let Some(reaching) = reaching else { return };
-        let test = self.fitted.get(hypothesis.index()).copied().flatten();
-        let test = test.and_then(growing_test);
-        // By brightness only highlight pixels grow.
+        let test = self.end.vectors_of(self.trace, hypothesis).and_then(growing_test);
+        // Growth by brightness starts from highlight pixels only.
         let grows = |pixel: usize| match reaching {
             Reaching::Brighter(_) => test.is_some_and(|test| test.is_highlight(self.image.pixels[pixel])),
             _ => true,
@@ -245,12 +256,12 @@ impl<'a> HistoryBuilder<'a> {
         let claimable = if by_brightness {
             self.masks.claimable_by_brightness(self.pixel)
         } else {
-            self.masks.claimable_by_color(self.pixel, self.waits)
+            self.masks.claimable_by_color(self.pixel, self.distorted_wait)
         };
         if !claimable {
             let stage = self.stage;
-            let earlier = self.told.iter_mut().rev().take_while(|happening| happening.stage == stage);
-            let mut lists = earlier.filter_map(|happening| match &mut happening.what {
+            let earlier = self.entries.iter_mut().rev().take_while(|entry| entry.stage == stage);
+            let mut lists = earlier.filter_map(|entry| match &mut entry.what {
                 HistoryKind::Unclaimable { hypotheses } => Some(hypotheses),
                 _ => None,
             });
@@ -261,7 +272,7 @@ impl<'a> HistoryBuilder<'a> {
             }
             return;
         }
-        // What has an owner is not asked for its brightness.
+        // Growth by brightness takes pixels without an owner only.
         if by_brightness && self.holder.is_some() {
             return;
         }
@@ -270,14 +281,21 @@ impl<'a> HistoryBuilder<'a> {
         }
     }
 
-    fn moved(&mut self, step: usize, change: Move, contest: Option<Contest>) {
+    /// The cylinder of a hypothesis at this step, and its radius, counts.
+    fn cylinder(&self, hypothesis: HypothesisId) -> Option<(Cylinder, f64)> {
+        let known = self.state.hypothesis(hypothesis)?;
+        Some((known.cylinder()?, known.radius))
+    }
+
+    /// Takes a change of owner of the pixel or of a neighbor.
+    fn take_move(&mut self, step: usize, change: Move, contest: Option<Contest>) {
         if change.pixel() == self.pixel {
             match change.change() {
                 Some(owners) => {
-                    self.handed(step, owners, contest);
+                    self.take_change(step, owners, contest);
                     self.holder = owners.after;
                 }
-                None => self.kept(step, change.owners(), contest),
+                None => self.take_refusal(step, change.owners(), contest),
             }
             return;
         }
@@ -295,17 +313,19 @@ impl<'a> HistoryBuilder<'a> {
         }
     }
 
-    fn kept(&mut self, step: usize, owners: Owners, contest: Option<Contest>) {
+    /// Takes a change of the pixel's owner that was refused.
+    fn take_refusal(&mut self, step: usize, owners: Owners, contest: Option<Contest>) {
         let Owners { before: Some(holder), after: Some(challenger) } = owners else { return };
         let known = self.growth.as_mut().filter(|growth| growth.hypothesis == challenger);
-        // A hypothesis that comes from several sides is refused each time, on the same numbers.
+        // A hypothesis that reaches the pixel from several sides is refused each time, by the same numbers.
         let again = known.is_some_and(|growth| std::mem::replace(&mut growth.settled, true));
         if let Some(contest) = contest.filter(|_| !again) {
             self.note(step, HistoryKind::Kept { holder, challenger, contest });
         }
     }
 
-    fn handed(&mut self, step: usize, owners: Owners, contest: Option<Contest>) {
+    /// Takes a change of the pixel's owner.
+    fn take_change(&mut self, step: usize, owners: Owners, contest: Option<Contest>) {
         let vote = contest.filter(|contest| contest.measure == Measure::Vote);
         let what = match (self.pass, vote, self.cause) {
             (_, Some(vote), _) => voted(owners, &vote),
@@ -323,21 +343,22 @@ impl<'a> HistoryBuilder<'a> {
         }
     }
 
-    /// What a change of owner was for which two hypotheses became one.
+    /// The entry of a change of owner by which two hypotheses became one.
     fn merged(&self, owners: Owners) -> Option<HistoryKind> {
         let (from, into) = (owners.before?, owners.after?);
-        let merge = self.merges.iter().find(|(vanished, ..)| *vanished == from);
-        merge.map(|&(_, angle_deg, rms)| HistoryKind::Merged { from, into, angle_deg, rms })
+        let merge = self.merges.iter().find(|merged| merged.hypothesis == from)?;
+        Some(HistoryKind::Merged { from, into, angle_deg: merge.angle_deg, rms: merge.rms })
     }
 
-    /// What a change of owner before a hypothesis's growth was.
+    /// The entry of a pixel that a growth starts from.
     fn seeded(&self, owners: Owners) -> Option<HistoryKind> {
         let hypothesis = owners.after?;
-        let (axis, radius) = self.regions.cylinder(hypothesis)?;
-        Some(HistoryKind::Seeded { hypothesis, reach: Reaching::Cylinder(axis, radius).reach(self.color) })
+        let (cylinder, radius) = self.cylinder(hypothesis)?;
+        let reach = Reaching::Cylinder(cylinder, radius).reach(self.color);
+        Some(HistoryKind::Seeded { hypothesis, reach })
     }
 
-    /// What a change of hands during a region's growth was.
+    /// The entry of a change of owner during a growth.
     fn grown(&mut self, owners: Owners, contest: Option<Contest>) -> Option<HistoryKind> {
         let growth = self.growth.as_mut()?;
         let (hypothesis, from) = (growth.hypothesis, owners.before);
@@ -346,19 +367,19 @@ impl<'a> HistoryBuilder<'a> {
             let reach = growth.reaching.reach(self.color);
             return Some(HistoryKind::Claimed { hypothesis, from, reach, contest });
         }
-        // Growth gives nothing back: it has ended and was for nothing. The numbers come with the next event.
+        // A growth gives no pixel back: the hypothesis claimed too few pixels. The event with the numbers follows.
         growth.settled = true;
         let why = Release::Barren { pixels: 0, least: 0 };
         from.map(|hypothesis| HistoryKind::Released { hypothesis, why })
     }
 
-    /// What a change of hands that an event announced was.
+    /// The entry of a change of owner that an event announced.
     fn given(&self, owners: Owners, event: &Event) -> Option<HistoryKind> {
         let released = |why| owners.before.map(|hypothesis| HistoryKind::Released { hypothesis, why });
         match *event {
             Event::LineRefitted(_) => {
-                let (axis, radius) = self.regions.cylinder(owners.before?)?;
-                released(Release::Refit { distance: axis.distance2(self.color).sqrt(), radius })
+                let (cylinder, radius) = self.cylinder(owners.before?)?;
+                released(Release::Refit { distance: cylinder.distance2(self.color).sqrt(), radius })
             }
             Event::Absorbed(Absorbed { by, highlight_foot, object_foot, gap, .. }) => {
                 released(Release::Absorbed { by, highlight_foot, object_foot, gap })
@@ -374,9 +395,10 @@ impl<'a> HistoryBuilder<'a> {
         }
     }
 
-    fn split(&mut self, step: usize, stage_trace: &StageTrace) {
+    /// Takes the step at which the pixel gets its kind and is split.
+    fn take_kind(&mut self, step: usize, stage_trace: &StageTrace) {
         let kind = stage_trace.kinds().and_then(|kinds| kinds.as_slice().get(self.pixel)).copied();
-        let fitted = self.holder.and_then(|holder| *self.fitted.get(holder.index())?);
+        let fitted = self.holder.and_then(|holder| self.end.vectors_of(self.trace, holder));
         let (Some(kind), Some(fitted)) = (kind, fitted) else { return };
         let believed = matches!(kind, PixelKind::Matte | PixelKind::Highlight);
         let test = highlight_test(fitted).filter(|_| fitted.surface.is_some() && believed);
@@ -403,7 +425,7 @@ impl<'a> HistoryBuilder<'a> {
     }
 }
 
-/// What a change of owner by the majority around a pixel was.
+/// The entry of a change of owner by the majority around the pixel.
 fn voted(owners: Owners, vote: &Contest) -> Option<HistoryKind> {
     let (from, hypothesis) = (owners.before?, owners.after?);
     let votes = [vote.challenger as u32, vote.holder as u32];

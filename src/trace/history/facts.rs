@@ -1,29 +1,12 @@
-//! What is known of a pixel without looking at the order of events: its mask, its region's vectors, its amounts.
+//! What is known of a pixel whatever the order of events: the verdicts of the masks, and the amounts of its color.
 
 use super::MaskVerdict;
 use super::growth::brightness;
 use crate::photo::{LinearImage, MaskLimits, Masks};
-use crate::raster::RegionId;
 use crate::reflection::{AmountRule, Amounts};
-use crate::trace::{Event, Renumbered, Trace, VectorsFitted};
+use crate::trace::VectorsFitted;
 
-/// The vectors of each hypothesis's region, by [`HypothesisId::index`](crate::raster::HypothesisId::index); none for a
-/// hypothesis that is in no region.
-pub(super) fn final_vectors(trace: &Trace) -> Vec<Option<&VectorsFitted>> {
-    let mut vectors: Vec<&VectorsFitted> = Vec::new();
-    let mut regions: &[Option<RegionId>] = &[];
-    for (_, event) in trace.events() {
-        match event {
-            Event::VectorsFitted(fitted) => vectors.push(fitted),
-            Event::Renumbered(Renumbered { regions: found }) => regions = found,
-            _ => {}
-        }
-    }
-    let of = |region: &Option<RegionId>| region.and_then(|region| vectors.get(region.index()).copied());
-    regions.iter().map(of).collect()
-}
-
-/// Everything that is said of a pixel's mask.
+/// The verdicts of the masks on a pixel.
 pub(super) fn verdicts(
     image: &LinearImage,
     masks: &Masks,
@@ -54,7 +37,7 @@ pub(super) fn verdicts(
     found
 }
 
-/// The amounts of a believed color (equation 13), by the rule of the split.
+/// The amounts of an undistorted color (equation 13), by the rule of the split.
 pub(super) fn amounts(fitted: &VectorsFitted, color: [f32; 3]) -> Amounts {
     let color = std::array::from_fn(|band| color[band] - fitted.origin[band] as f32);
     AmountRule::new(&fitted.body, fitted.surface.as_ref(), fitted.least_offset).amounts(color)

@@ -1,74 +1,24 @@
-//! One region's growth, as far as it concerns one pixel.
+//! The growth of one hypothesis, as far as the growth concerns one pixel.
 
 use super::{Barrier, Reach};
-use crate::color::{Cylinder, Line, dot};
+use crate::color::{Cylinder, dot};
 use crate::raster::HypothesisId;
 use crate::reflection::HighlightTest;
-use crate::trace::{ComponentSplit, Event, SliceMade, VectorsFitted};
+use crate::trace::{SliceMade, VectorsFitted};
 
-/// What is known of a region at some step.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Known<'a> {
-    line: Option<Line>,
-    radius: f64,
-    slice: Option<&'a SliceMade>,
-}
-
-/// The regions so far; region `id` at index `id − 1`.
-#[derive(Default)]
-pub(super) struct Regions<'a>(Vec<Known<'a>>);
-
-impl<'a> Regions<'a> {
-    pub(super) fn hear(&mut self, event: &'a Event) {
-        match event {
-            Event::HypothesisChosen(chosen) => {
-                self.0.push(Known { line: Some(chosen.line), radius: chosen.radius, slice: None });
-            }
-            Event::ComponentSplit(ComponentSplit { hypothesis, .. }) => self.0.push(self.of(*hypothesis)),
-            Event::LineRefitted(refitted) => {
-                if let Some(known) = self.slot(refitted.hypothesis) {
-                    known.line = Some(refitted.line);
-                }
-            }
-            Event::SliceMade(made) => {
-                if let Some(known) = self.slot(made.hypothesis) {
-                    known.slice = Some(made);
-                }
-            }
-            _ => {}
-        }
-    }
-
-    /// The cylinder of a region and its radius, counts.
-    pub(super) fn cylinder(&self, hypothesis: HypothesisId) -> Option<(Cylinder, f64)> {
-        let known = self.of(hypothesis);
-        known.line.map(|line| (Cylinder::new(&line, known.radius), known.radius))
-    }
-
-    pub(super) fn slice(&self, hypothesis: HypothesisId) -> Option<&'a SliceMade> {
-        self.of(hypothesis).slice
-    }
-
-    fn of(&self, hypothesis: HypothesisId) -> Known<'a> {
-        self.0.get(hypothesis.index()).copied().unwrap_or_default()
-    }
-
-    fn slot(&mut self, hypothesis: HypothesisId) -> Option<&mut Known<'a>> {
-        self.0.get_mut(hypothesis.index())
-    }
-}
-
-/// What a growing region accepts.
+/// The colors that a growing hypothesis accepts.
 #[derive(Clone, Copy)]
 pub(super) enum Reaching<'a> {
+    /// Colors inside a cylinder of this radius, counts (5.3.2).
     Cylinder(Cylinder, f64),
+    /// Colors inside a slice (5.4.2).
     Slice(&'a SliceMade),
-    /// Anything brighter than this, counts.
+    /// Colors brighter than this, counts (5.5).
     Brighter(f32),
 }
 
 impl Reaching<'_> {
-    /// How far inside a color lies.
+    /// How far inside the accepted colors a color lies.
     pub(super) fn reach(&self, color: [f32; 3]) -> Reach {
         match *self {
             Self::Cylinder(cylinder, radius) => {
@@ -81,14 +31,14 @@ impl Reaching<'_> {
         }
     }
 
-    /// What keeps a color out; none where it lies inside.
+    /// The bound that a color lies outside of; none for an accepted color.
     pub(super) fn barrier(&self, color: [f32; 3]) -> Option<Barrier> {
         match *self {
             Self::Cylinder(cylinder, radius) => (!cylinder.contains(color))
                 .then(|| Barrier::Cylinder { distance: cylinder.distance2(color).sqrt(), radius }),
             Self::Slice(made) => made.slice.miss(color).map(Barrier::Slice),
-            // The trace keeps the root of what was compared, so that a tie can round either way: the caller knows that the
-            // pixel was not taken.
+            // The trace keeps the square root of the bound that was compared, so that a tie can round either way. The caller
+            // knows that the pixel was not taken.
             Self::Brighter(start) => Some(Barrier::Darker { brightness: brightness(color), start }),
         }
     }
@@ -99,23 +49,25 @@ pub(super) fn brightness(color: [f32; 3]) -> f32 {
     dot(color, color).sqrt()
 }
 
-/// What tells a growing region's highlight pixels, from which growth by brightness starts.
+/// The test of the highlight pixels from which growth by brightness starts.
 pub(super) fn growing_test(fitted: &VectorsFitted) -> Option<HighlightTest> {
     fitted.highlight.map(|surface| HighlightTest::of_lines(&fitted.matte, &[fitted.start], &surface))
 }
 
-/// What tells the final region's highlight pixels.
+/// The test of the highlight pixels of a region of the result.
 pub(super) fn highlight_test(fitted: &VectorsFitted) -> Option<HighlightTest> {
     fitted.highlight.map(|surface| HighlightTest::of_lines(&fitted.matte, &fitted.starts, &surface))
 }
 
-/// A region that grows.
+/// A growth under way.
 #[derive(Clone, Copy)]
 pub(super) struct Growth<'a> {
+    /// The hypothesis that grows.
     pub(super) hypothesis: HypothesisId,
+    /// The colors that the hypothesis accepts.
     pub(super) reaching: Reaching<'a>,
-    /// The first step at which it came to the pixel.
+    /// The first step at which the growth reached a neighbor of the pixel; none: not yet.
     pub(super) visited: Option<usize>,
-    /// Whether what became of that is in the trace.
+    /// Whether the trace holds the outcome: a claim or a contest of the pixel.
     pub(super) settled: bool,
 }

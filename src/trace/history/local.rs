@@ -1,66 +1,83 @@
-//! What was decided about a pixel that lies outside of what holds: under which light, by what around it, in which blob.
+//! The decisions about a pixel that no region explains: the light, the surroundings of the pixel, the blob of the pixel.
 
 use super::{HistoryEntry, HistoryKind, LocalFate, LocalStory};
 use crate::photo::{LinearImage, Masks};
 use crate::reflection::{Desaturation, WhitenedColor, WhiteningGain};
+use crate::trace::replay_state::ReplayState;
+use crate::trace::timeline::EventId;
 use crate::trace::{
     BlobsCounted, Event, LocalBegan, LocalPoint, LocalStart, PlausibilityTested, RepairVerdict, Stage, Trace,
 };
 
-/// What is told, and what came of it.
+/// The decisions about a pixel that no region explains, and their outcome.
 pub(super) struct Outside {
-    /// Oldest first.
-    pub(super) told: Vec<HistoryEntry>,
-    /// Amount of surface reflection m_s that was found, counts; none where it was filled from what is around it.
+    /// The decisions, oldest first.
+    pub(super) entries: Vec<HistoryEntry>,
+    /// Amount of surface reflection m_s that was found, counts; none where the pixel was filled from the pixels around it.
     pub(super) surface: Option<f32>,
 }
 
 impl Outside {
     /// None for a pixel that a region explains, or that is dark.
-    pub(super) fn of(trace: &Trace, image: &LinearImage, masks: &Masks, pixel: usize) -> Option<Self> {
+    /// `end` is the state after all events of `trace`.
+    pub(super) fn of(
+        trace: &Trace,
+        end: &ReplayState,
+        image: &LinearImage,
+        masks: &Masks,
+        pixel: usize,
+    ) -> Option<Self> {
         let record = trace.stage_trace(Stage::Split)?.local()?;
         if !record.outside(pixel) {
             return None;
         }
-        let mut case = Case {
+        let point = record.point(pixel).copied();
+        let mut decisions = Decisions {
             color: image.pixels[pixel],
             clipped: masks.clipped(pixel),
-            point: record.point(pixel).copied(),
-            ..Case::default()
+            point,
+            light: decisive_light(trace, end),
+            ..Decisions::default()
         };
-        for (step, event) in trace.events() {
-            case.hear(step, event);
+        for &id in &end.local {
+            decisions.take(trace.step_of_event(id), trace.event_at(id));
         }
-        Some(case.told())
+        Some(decisions.outside())
     }
 }
 
-/// The decisions that concern the pixel.
+/// The step and event of the light under which pixels are split: where a light was chosen, the choice and not the light of the
+/// slices that follow.
+fn decisive_light<'t>(trace: &'t Trace, end: &ReplayState) -> Option<(usize, &'t Event)> {
+    let chosen = |id: &&EventId| !matches!(trace.event_at(**id), Event::IlluminantEstimated(_));
+    let id = *end.lights.iter().rev().find(chosen).or(end.lights.last())?;
+    Some((trace.step_of_event(id), trace.event_at(id)))
+}
+
+/// The decisions of the local split that concern the pixel.
 #[derive(Default)]
-struct Case<'a> {
+struct Decisions<'a> {
+    /// Color of the pixel, counts.
     color: [f32; 3],
     clipped: bool,
     point: Option<LocalPoint>,
-    light: Option<(usize, Stage, &'a Event)>,
+    light: Option<(usize, &'a Event)>,
     began: Option<(usize, &'a LocalBegan)>,
+    /// Fewest pixels of a blob that may be a highlight.
     least_px: u32,
-    /// Its blob's judgment, whether it is kept, and what else was decided.
+    /// The judgment of the pixel's blob, and other decisions that the pixel depends on.
     decided: Vec<(usize, &'a Event)>,
+    /// Whether the pixel's blob is a highlight.
     kept: bool,
+    /// Whether the pixel was filled from the pixels around it.
     filled: bool,
     plausibility: Option<(usize, &'a Event, &'a PlausibilityTested)>,
 }
 
-impl<'a> Case<'a> {
-    fn hear(&mut self, step: usize, event: &'a Event) {
+impl<'a> Decisions<'a> {
+    fn take(&mut self, step: usize, event: &'a Event) {
         let number = self.point.map_or(0, |point| point.blob);
         match event {
-            // Where lights were held against each other, the choice says more than the light of the slices that follow.
-            Event::IlluminantEstimated(_) if matches!(self.light, Some((.., Event::LightChosen(_)))) => {}
-            Event::IlluminantEstimated(_) | Event::IlluminantGiven(_) => {
-                self.light = Some((step, Stage::Planar, event));
-            }
-            Event::LightChosen(_) => self.light = Some((step, Stage::Planar, event)),
             Event::LocalBegan(began) => {
                 self.began = Some((step, began));
                 if began.start != LocalStart::Begins {
@@ -81,7 +98,7 @@ impl<'a> Case<'a> {
         }
     }
 
-    fn told(mut self) -> Outside {
+    fn outside(mut self) -> Outside {
         let doubted = self.plausibility.is_some_and(|(.., tested)| tested.reject_reason.is_some());
         let story = self.began.filter(|_| self.point.is_some()).map(|(step, began)| {
             let story = self.story(began, doubted);
@@ -92,22 +109,16 @@ impl<'a> Case<'a> {
         {
             self.decided.push((step, event));
         }
-        let light = self
-            .light
-            .map(|(step, stage, event)| (step, stage, HistoryKind::Decided(Box::new(event.clone()))));
-        let story =
-            story.map(|(step, story)| (step, Stage::Split, HistoryKind::Surroundings(Box::new(story))));
-        let decided = self.decided.into_iter();
-        let decided =
-            decided.map(|(step, event)| (step, Stage::Split, HistoryKind::Decided(Box::new(event.clone()))));
-        let mut told: Vec<HistoryEntry> = light
-            .into_iter()
-            .chain(story)
-            .chain(decided)
-            .map(|(step, stage, what)| HistoryEntry { step, stage, what })
-            .collect();
-        told.sort_by_key(|happening| happening.step);
-        Outside { told, surface: (!self.filled).then_some(surface) }
+        let decided = |event: &Event| HistoryKind::Decided(Box::new(event.clone()));
+        let entry = |step, stage, what| HistoryEntry { step, stage, what };
+        let mut entries: Vec<HistoryEntry> = Vec::new();
+        entries.extend(self.light.map(|(step, event)| entry(step, Stage::Planar, decided(event))));
+        entries.extend(
+            story.map(|(step, story)| entry(step, Stage::Split, HistoryKind::Surroundings(Box::new(story)))),
+        );
+        entries.extend(self.decided.iter().map(|&(step, event)| entry(step, Stage::Split, decided(event))));
+        entries.sort_by_key(|entry| entry.step);
+        Outside { entries, surface: (!self.filled).then_some(surface) }
     }
 
     fn story(&self, began: &LocalBegan, doubted: bool) -> LocalStory {

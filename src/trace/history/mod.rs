@@ -1,11 +1,11 @@
-//! The history of one pixel: what was decided about it, by which numbers, and why it was refused where it was.
+//! The history of one pixel: the decisions about the pixel, the numbers that decided, and why hypotheses refused the pixel.
 //!
-//! Claims, contests and events are in the trace. What the trace leaves out is computed again, exactly, from the recorded line
-//! or plane and the pixel's color: how far it lay from the axis that claimed it, and why a region that grew beside it did
-//! not take it. A region's growth visits the 4-neighbors of all it starts from and takes (5.3.2, 5.4.2, 5.5), so that a
-//! neighbor which was neither taken nor contested was refused by its mask or by its color.
+//! Claims, contests and events are in the trace. Other decisions are computed again, exactly, from the recorded line or plane and
+//! the color of the pixel: the distance from the axis of the hypothesis that claimed the pixel, and why a hypothesis that grew next
+//! to the pixel did not take the pixel. A growth visits the 4-neighbors of all pixels that it starts from and takes (5.3.2, 5.4.2,
+//! 5.5), so that a neighbor which was neither taken nor contested was refused by its mask or by its color.
 //!
-//! One pass over the trace suffices: the changes of hands of the pixel and of its four neighbors, and the events.
+//! The history takes one pass over the trace: the changes of owner of the pixel and of its four neighbors, and the events.
 
 mod builder;
 mod facts;
@@ -24,38 +24,38 @@ use crate::photo::{LinearImage, Masks};
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::reflection::SliceMiss;
 
-/// Something that was decided about a pixel.
+/// A decision about a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HistoryEntry {
     /// The step of the trace at which it was decided.
     pub step: usize,
     /// The stage of that step.
     pub stage: Stage,
-    /// What was decided.
+    /// The decision.
     pub what: HistoryKind,
 }
 
-/// What was decided about a pixel.
+/// A decision about a pixel: its kind and numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HistoryKind {
-    /// Its color is believed, or why not (section 4).
+    /// The verdict of the masks (section 4).
     Masked(MaskVerdict),
-    /// Its window was classified (5.2.1).
+    /// The window of the pixel was classified (5.2.1).
     Window(Box<WindowStory>),
-    /// Its window's area was tried with its neighbors (5.2.2).
+    /// Unions of the area of the pixel with its neighbors were tried (5.2.2).
     Merging(Box<MergeStory>),
-    /// Its area started a hypothesis (5.3.1).
+    /// The area of the pixel started a hypothesis (5.3.1).
     AreaChosen {
         /// The hypothesis.
         hypothesis: HypothesisId,
-        /// Areas looked at before in this pass.
+        /// Number of areas taken before in this pass.
         rank: u32,
         /// Unclaimed pixels of the area.
         pixels: u32,
         /// Radius of the cylinder, counts.
         radius: f64,
     },
-    /// Its area did not start a hypothesis while the pixel was in no region.
+    /// The area of the pixel did not start a hypothesis, while the pixel was in no hypothesis.
     AreaPassedOver {
         /// Unclaimed pixels of the area.
         pixels: u32,
@@ -64,53 +64,53 @@ pub enum HistoryKind {
         /// Why.
         reason: PassedOver,
     },
-    /// A region began to grow here.
+    /// A hypothesis began to grow from the pixel.
     Seeded {
         /// The hypothesis.
         hypothesis: HypothesisId,
-        /// How far inside its cylinder it lies.
+        /// Place of the color in the cylinder.
         reach: Reach,
     },
-    /// A region that grew took it.
+    /// A hypothesis that grew took the pixel.
     Claimed {
         /// The hypothesis.
         hypothesis: HypothesisId,
         /// The hypothesis that had it; none: no hypothesis.
         from: Option<HypothesisId>,
-        /// How far inside the region's reach it lies.
+        /// Place of the color among the accepted colors.
         reach: Reach,
-        /// The contest with the region that had it.
+        /// The contest with the hypothesis that had the pixel.
         contest: Option<Contest>,
     },
-    /// A region that grew wanted it, and the one that had it kept it.
+    /// A hypothesis that grew wanted the pixel, and the hypothesis that had the pixel kept it.
     Kept {
         /// The hypothesis that had it.
         holder: HypothesisId,
         /// The hypothesis that wanted it.
         challenger: HypothesisId,
-        /// By what it was decided.
+        /// The contest.
         contest: Contest,
     },
-    /// A region grew beside it and did not want it.
+    /// A hypothesis grew next to the pixel and refused the pixel.
     Refused {
         /// The hypothesis.
         hypothesis: HypothesisId,
-        /// What kept it out.
+        /// The bound that the color lies outside of.
         barrier: Barrier,
     },
-    /// Regions grew beside it, which by its mask was not there to be claimed.
+    /// Hypotheses grew next to the pixel, which could not be claimed because of its mask.
     Unclaimable {
         /// The hypotheses, in the order of their growth.
         hypotheses: Vec<HypothesisId>,
     },
-    /// Its region gave it up.
+    /// The hypothesis that had the pixel gave the pixel up.
     Released {
         /// The hypothesis.
         hypothesis: HypothesisId,
         /// Why.
         why: Release,
     },
-    /// Its region became part of another one.
+    /// The hypothesis that had the pixel became part of another one.
     Merged {
         /// The hypothesis that vanished.
         from: HypothesisId,
@@ -118,26 +118,26 @@ pub enum HistoryKind {
         into: HypothesisId,
         /// Angle between their lines, degrees.
         angle_deg: f64,
-        /// Root mean square distance of the vanished region's pixels from the other's line, counts.
+        /// Root mean square distance of the pixels of the vanished hypothesis from the line of the other, counts.
         rms: f64,
     },
-    /// It followed the majority around it.
+    /// The pixel went to the majority around it.
     Voted {
         /// The hypothesis that had it.
         from: HypothesisId,
         /// The hypothesis that has it now.
         hypothesis: HypothesisId,
-        /// Pixels of that region around it, and of all regions.
+        /// Number of pixels of that hypothesis around the pixel, and of all hypotheses.
         votes: [u32; 2],
     },
-    /// It went back to whose it was before the slices grew, for slices that turn to another light.
+    /// The owner of the pixel was reset to the owner before the slices grew, for slices under another light.
     Reset {
         /// The hypothesis that had it.
         from: HypothesisId,
         /// The hypothesis that has it again; none: no hypothesis.
         to: Option<HypothesisId>,
     },
-    /// A hole around it was given to a region.
+    /// A hole around the pixel was given to a hypothesis.
     Filled {
         /// The hypothesis.
         hypothesis: HypothesisId,
@@ -146,32 +146,32 @@ pub enum HistoryKind {
         /// Share of the hole's assigned border that the region holds.
         border_share: f64,
     },
-    /// The part of its region around it became a region of its own.
+    /// The part of the hypothesis around the pixel became a hypothesis of its own.
     Separated {
         /// The hypothesis.
         hypothesis: HypothesisId,
-        /// The new one.
+        /// The new hypothesis.
         part: HypothesisId,
         /// Pixels of the part.
         pixels: u32,
     },
-    /// Its region got its final number.
+    /// The hypothesis that has the pixel became a region of the result, or none.
     Numbered {
         /// The hypothesis.
         hypothesis: HypothesisId,
         /// The region that the hypothesis became; none: the hypothesis is in no region.
         region: Option<RegionId>,
     },
-    /// It was told matte from highlight, and split (section 6).
+    /// The pixel was classed as matte or highlight, and split (section 6).
     Split(Box<SplitStory>),
-    /// No region explains it: what it was judged by instead.
+    /// The figures by which a pixel that no region explains was judged.
     Surroundings(Box<LocalStory>),
-    /// A decision about more than this pixel that it hangs on, where no region explains it: which light is used, whether there
-    /// are highlights to be believed, whether its blob is one.
+    /// A decision about more than this pixel that a pixel which no region explains depends on: the light, the plausibility of the
+    /// highlights, the judgment of its blob.
     Decided(Box<Event>),
 }
 
-/// Whether a color is believed (section 4).
+/// The verdict of the masks on a color (section 4).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MaskVerdict {
     /// Neither dark nor distorted.
@@ -181,11 +181,11 @@ pub enum MaskVerdict {
         /// The largest band, counts, and that from which a pixel is clipped.
         largest: [f64; 2],
     },
-    /// It lies outside the area that the analysis is restricted to.
+    /// The pixel lies outside the area that the analysis is restricted to.
     Outside,
     /// The file holds no usable value.
     Invalid,
-    /// It is too near to black.
+    /// The color is too near to black.
     Dark {
         /// Distance from black, counts, and that below which a pixel is dark.
         brightness: [f64; 2],
@@ -195,40 +195,40 @@ pub enum MaskVerdict {
         /// The largest band, counts, and that from which a pixel is clipped.
         largest: [f64; 2],
     },
-    /// Too many of its 8 neighbors are clipped.
+    /// Too many of the 8 neighbors are clipped.
     Bloomed {
-        /// Clipped neighbors, and so many make a pixel bloomed.
+        /// Number of clipped neighbors, and the least number of a bloomed pixel.
         neighbors: [usize; 2],
     },
 }
 
-/// How its window was classified.
+/// How the window of the pixel was classified.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WindowStory {
     /// Side of the windows, pixels.
     pub size_px: u32,
-    /// Valid pixels in it, and the fewest that get a class.
+    /// Number of valid pixels in the window, and the least number for a class.
     pub pixels: [u32; 2],
     /// Variances along the principal axes, counts², largest first.
     pub eigenvalues: [f32; 3],
     /// The χ² tests made, in order; none where there is no class.
     pub trials: Vec<Trial>,
-    /// Whether they were tail tests, or the paper's.
+    /// Whether the tests were tail tests, or those of the paper.
     pub tail_test: bool,
-    /// Its class, unless it holds too few valid pixels.
+    /// The class of the window; none where the window holds too few valid pixels.
     pub class: Option<Class>,
 }
 
-/// How its window's area grew.
+/// How the area of the pixel grew.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MergeStory {
-    /// Unions tried with the area, and those that were kept.
+    /// Number of unions that were tried with the area.
     pub tried: u32,
-    /// Those that were kept.
+    /// Number of unions that were kept.
     pub joined: u32,
-    /// Valid pixels of the area after the last union kept.
+    /// Number of valid pixels of the area after the last union that was kept.
     pub pixels: u32,
-    /// The last union refused.
+    /// The last union that was refused.
     pub refusal: Option<MergeRefusal>,
     /// Class of the area.
     pub class: Class,
@@ -237,64 +237,64 @@ pub struct MergeStory {
 /// A union that was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MergeRefusal {
-    /// The step at which it was.
+    /// The step.
     pub step: usize,
     /// Valid pixels of the neighbor.
     pub neighbor_pixels: u32,
-    /// What the union would have been.
+    /// The class of the union.
     pub union: Class,
-    /// The χ² test that showed one direction too many.
+    /// The χ² test that showed a direction too many.
     pub trial: Option<Trial>,
 }
 
-/// How far inside a region's reach a pixel lies.
+/// The place of a color among the colors that a growing hypothesis accepts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
     /// Of a cylinder (5.3.2).
     Axis {
-        /// Distance from its axis, counts.
+        /// Distance from the axis, counts.
         distance: f32,
-        /// Its radius, counts.
+        /// Radius of the cylinder, counts.
         radius: f64,
     },
     /// Of a slice (5.4.2).
     Plane {
         /// Distance from the dichromatic plane, counts.
         distance: f32,
-        /// Half the slice's thickness, counts.
+        /// Half the thickness of the slice, counts.
         half_width: f64,
     },
-    /// Of a highlight that grows by brightness (5.5).
+    /// Of growth by brightness (5.5).
     Brightness {
         /// Distance from black, counts.
         brightness: f32,
-        /// That of the point where the highlight starts, counts.
+        /// Distance from black of the point where the highlight starts, counts.
         start: f32,
     },
 }
 
-/// What kept a pixel out of a region.
+/// The bound that a refused color lies outside of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Barrier {
-    /// It lies outside the cylinder.
+    /// The color lies outside the cylinder.
     Cylinder {
         /// Distance from the axis, counts.
         distance: f32,
         /// The radius, counts.
         radius: f64,
     },
-    /// It lies outside the slice.
+    /// The color lies outside the slice.
     Slice(SliceMiss),
-    /// It is no brighter than where the highlight starts.
+    /// The color is no brighter than the point where the highlight starts.
     Darker {
         /// Distance from black, counts.
         brightness: f32,
-        /// That of the point where the highlight starts, counts.
+        /// Distance from black of the point where the highlight starts, counts.
         start: f32,
     },
 }
 
-/// Why a region gave a pixel up.
+/// Why a hypothesis gave a pixel up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Release {
     /// The line was fitted again, and the pixel lies outside the new cylinder.
@@ -304,16 +304,16 @@ pub enum Release {
         /// The radius, counts.
         radius: f64,
     },
-    /// The region claimed too few pixels.
+    /// The hypothesis claimed too few pixels.
     Barren {
-        /// Pixels of the area that it started from.
+        /// Number of pixels of the area that the hypothesis started from.
         pixels: u32,
-        /// Fewest that it had to claim.
+        /// Fewest pixels that the hypothesis had to claim.
         least: u32,
     },
-    /// The region turned out to be the broad highlight of another one.
+    /// The hypothesis was the broad highlight of another one.
     Absorbed {
-        /// The object that it lies on.
+        /// The object that the highlight lies on.
         by: HypothesisId,
         /// Distance of the highlight's line from black, counts.
         highlight_foot: f64,
@@ -322,15 +322,14 @@ pub enum Release {
         /// Distance between the lines, counts.
         gap: f64,
     },
-    /// The region was too small to keep.
+    /// The hypothesis was too small to keep.
     Dropped {
         /// Its pixels.
         pixels: u32,
     },
 }
 
-/// Everything that was decided about a pixel, oldest first. Nothing for a pixel outside the picture, or a trace of another
-/// picture.
+/// All decisions about a pixel, oldest first. Empty for a pixel outside the picture, and for a trace of another picture.
 ///
 /// `image` and `masks` are those that the trace was made from.
 pub fn pixel_history(
@@ -346,5 +345,5 @@ pub fn pixel_history(
     {
         return Vec::new();
     }
-    builder::HistoryBuilder::new(trace, image, masks, pixel.index()).tell()
+    builder::HistoryBuilder::new(trace, image, masks, pixel.index()).entries()
 }

@@ -1,4 +1,4 @@
-//! How a pixel was split (section 6), and by what where no region explains it.
+//! How a pixel was split (section 6), and the figures that decided about a pixel that no region explains.
 
 use crate::raster::RegionId;
 use crate::reflection::Components;
@@ -9,99 +9,101 @@ use crate::trace::{FitLimits, LocalLimits, PixelKind};
 pub struct SplitStory {
     /// The region.
     pub region: RegionId,
-    /// What it is to its region.
+    /// Kind of the pixel.
     pub kind: PixelKind,
     /// Distances from the matte and from the highlight line, counts; the nearer decides. None without a highlight line, and
-    /// where the color is not believed.
+    /// where the color is distorted.
     pub lines: Option<[f32; 2]>,
-    /// Its amounts m_b, m_s and ε (equation 13), counts. None where the color is not believed: it was restored.
+    /// The amounts m_b, m_s and ε (equation 13), counts. None for a distorted color, which was restored.
     pub amounts: Option<Components>,
-    /// Surface reflection that was taken for none, as it lies less than [`SplitStory::least_offset`] off the body line,
-    /// counts across that line.
+    /// Distance from the body line of surface reflection that was taken for none, as the distance is less than
+    /// [`SplitStory::least_offset`], counts; none where no surface reflection was removed.
     pub cut: Option<f32>,
-    /// See there, counts.
+    /// Least distance from the body line of a color with surface reflection, counts.
     pub least_offset: f32,
-    /// The ambient light that was subtracted from it before (7.5), counts; zeros where there was none.
+    /// The ambient light that was subtracted before (7.5), counts; zeros where nothing was subtracted.
     pub ambient: [f64; 3],
-    /// Why its region's plane is not used for it, where it is not: then the amounts are not the pixel's.
+    /// Why the plane of the region is not used for the pixel; none where it is used. Without the plane the amounts are not those of
+    /// the result.
     pub unfit: Option<Unfit>,
 }
 
-/// Why a region's plane is not used for a pixel, and what it has instead.
+/// Why the plane of a region is not used for a pixel, and the surface reflection of the pixel instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unfit {
-    /// Root mean square distance of the region's pixels from its plane (from its line without one), counts; correlation and slope of
-    /// its texture.
+    /// Root mean square distance of the pixels of the region from the plane (without a plane, from the line), counts; correlation and
+    /// slope of the texture.
     pub fit: [f64; 3],
-    /// Up to where these may go.
+    /// The limits of these figures.
     pub limits: FitLimits,
-    /// Whether it has a plane.
+    /// Whether the region has a plane.
     pub has_plane: bool,
     /// Whether the skewed T explains the region as a whole: then the T is not used for this part of the region only.
     pub model_fits: bool,
-    /// Amount of surface reflection m_s that its surroundings tell of, counts; none where it was filled from around it.
+    /// Amount of surface reflection m_s by the surroundings of the pixel, counts; none where the pixel was filled from the pixels
+    /// around it.
     pub surface: Option<f32>,
 }
 
-/// What a pixel was judged by that no region explains. Counts are those of J = I / (√3 s), s the light.
+/// The figures by which a pixel that no region explains was judged. Counts are those of J = I / (√3 s), s the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalStory {
     /// a: the mean of J, counts.
     pub mean: f32,
-    /// c: the length of its chromatic part, counts.
+    /// c: the length of the chromatic part of J, counts.
     pub chroma: f32,
-    /// κ: what a/c the body has around it, and the median there; none where nothing around it has its hue.
+    /// κ: the ratio a/c of the body around the pixel, and its median there; none where no pixel around has the hue of this one.
     pub ratios: Option<[f32; 2]>,
-    /// κc: what its saturation accounts for, counts.
+    /// κc: the part of a that the saturation accounts for, counts.
     pub body: f32,
-    /// ms = a − κc: what is too bright for its saturation, counts.
+    /// ms = a − κc: the part of a in excess of the saturation, counts.
     pub excess: f32,
-    /// Noise of ms, counts: so much may be nothing.
+    /// Noise of ms, counts: smaller values are not significant.
     pub noise: f32,
-    /// Variation of its hue around it, counts: what exceeds it is strong.
+    /// Variation of the hue around the pixel, counts: larger values of ms are strong.
     pub variation: f32,
-    /// How much surface and body reflection vary against each other around it, 0…1.
+    /// Anticorrelation of surface and body reflection around the pixel, 0…1.
     pub texture: f32,
     /// The share of ms that counts, 0…1, by texture.
     pub weight: f32,
-    /// What it was held against.
+    /// The limits.
     pub limits: LocalLimits,
     /// Fewest pixels of a blob that may be a highlight.
     pub least_px: u32,
-    /// What was made of it.
+    /// The outcome.
     pub fate: LocalFate,
-    /// Whether no highlight of the picture is believed.
+    /// Whether the highlights of the picture are not plausible.
     pub doubted: bool,
 }
 
 impl LocalStory {
-    /// Amount of surface reflection m_s that it has if highlights are believed, counts.
+    /// Amount of surface reflection m_s if the highlights of the picture are plausible, counts.
     pub fn surface(&self) -> f32 {
         if self.fate == LocalFate::Taken { 3f32.sqrt() * self.weight * self.excess } else { 0.0 }
     }
 }
 
-/// What the local split made of a pixel.
+/// The outcome of the local split for a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LocalFate {
-    /// It is clipped: only what surrounds it can tell.
+    /// The pixel is clipped: only the pixels around its blob can decide.
     Clipped,
-    /// It is too dark or too gray to have a hue.
+    /// The pixel is too dark or too gray to have a hue.
     Gray,
-    /// Nothing around it has its hue.
+    /// No pixel around has the hue of this one.
     Alone,
-    /// It is no paler than noise explains.
+    /// The excess is no larger than the noise.
     Faint,
-    /// It looks like texture.
+    /// The pixel looks like texture.
     Texture,
-    /// No square of 3 × 3 pixels like it holds it.
+    /// The pixel is in no square of 3 × 3 pixels with such an excess.
     Thin,
-    /// Its blob has too few pixels.
+    /// The blob of the pixel has too few pixels.
     Small,
-    /// Its blob is no highlight.
+    /// The blob of the pixel is no highlight.
     NoHighlight,
-    /// It is no paler than its hue varies, and blobs are not asked for.
+    /// The excess is no larger than the variation of the hue, and blobs are not judged.
     Weak,
-    /// It is surface reflection.
+    /// The excess is surface reflection.
     Taken,
 }

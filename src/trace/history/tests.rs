@@ -56,11 +56,11 @@ impl Strip {
     fn history(&self, pixel: usize) -> Vec<HistoryKind> {
         let trace = Trace::new(self.image.width(), 1, self.stage_traces.clone());
         let history = pixel_history(&trace, &self.image, &self.masks, PixelIndex::from_index(pixel));
-        assert!(history.is_sorted_by_key(|happening| happening.step));
-        for happening in &history {
-            assert_eq!(trace.stage_at(happening.step), Some(happening.stage), "{happening:?}");
+        assert!(history.is_sorted_by_key(|entry| entry.step));
+        for entry in &history {
+            assert_eq!(trace.stage_at(entry.step), Some(entry.stage), "{entry:?}");
         }
-        let what = history.into_iter().map(|happening| happening.what);
+        let what = history.into_iter().map(|entry| entry.what);
         what.filter(|what| !matches!(what, HistoryKind::Masked(_))).collect()
     }
 }

@@ -1,21 +1,22 @@
-//! The growth that the cursor stands in: which pixels a region has taken so far, which around it it did not take, and in
-//! which rings.
+//! The growth that the cursor stands in: the pixels that a hypothesis has taken so far, the pixels around them, and the rings in
+//! which they were taken.
 
-use crate::raster::{HypothesisId, LabelMap};
-use crate::trace::{Block, Event, Replay, SeedsPlaced, Step, Topic};
+use super::rings::Rings;
+use crate::raster::HypothesisId;
+use crate::trace::{Block, Replay, Step, Topic};
 
-/// Pixels of the region that the cursor is about.
+/// Pixels of the hypothesis that the cursor is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Growth {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
-    /// Pixels that it has claimed since its block began and still holds, in the order of the claims.
+    /// Pixels that the hypothesis has claimed since its block began and still has, in the order of the claims.
     pub claimed: Vec<u32>,
-    /// Neighbors of its pixels that are not its: refused, or not asked yet. Ascending.
+    /// 4-neighbors of these pixels that the hypothesis does not have: refused, or not reached yet. Ascending.
     pub around: Vec<u32>,
 }
 
-/// The growth in which the cursor stands; none where the step taken last belongs to no region's growth.
+/// The growth in which the cursor stands; none where the step taken last belongs to no growth.
 pub fn growth(replay: &Replay) -> Option<Growth> {
     let last = replay.at().checked_sub(1)?;
     let block = replay.trace().block_at(last)?;
@@ -27,13 +28,13 @@ pub fn growth(replay: &Replay) -> Option<Growth> {
         Topic::Absorption(_) | Topic::Candidates(_) | Topic::Part(_) => return None,
     };
     let labels = replay.labels();
-    let mut seen = vec![false; labels.len()];
+    let mut visited = vec![false; labels.len()];
     let mut claimed = Vec::new();
     for (_, step) in replay.trace().steps_in(block.steps.start..replay.at()) {
         if let Step::Claim { pixel, after, .. } = step
             && after == Some(hypothesis)
             && labels[pixel.index()] == hypothesis.get()
-            && !std::mem::replace(&mut seen[pixel.index()], true)
+            && !std::mem::replace(&mut visited[pixel.index()], true)
         {
             claimed.push(pixel.get());
         }
@@ -41,7 +42,7 @@ pub fn growth(replay: &Replay) -> Option<Growth> {
     let mut around = Vec::new();
     for &pixel in &claimed {
         labels.for_each_neighbor(pixel as usize, |near| {
-            if labels[near] != hypothesis.get() && !std::mem::replace(&mut seen[near], true) {
+            if labels[near] != hypothesis.get() && !std::mem::replace(&mut visited[near], true) {
                 around.push(near as u32);
             }
         });
@@ -50,67 +51,25 @@ pub fn growth(replay: &Replay) -> Option<Growth> {
     Some(Growth { hypothesis, claimed, around })
 }
 
-/// Ends of the rings of a block's growth, ascending: after each the pixels that were reached in one step more have joined.
-/// Events and the block's own end are ends too. The cursor comes back to where it was.
+/// Ends of the rings of a block's growth, ascending: after each the pixels that were reached in one more step of growth have
+/// joined. Events and the end of the block are ends too. The cursor returns to its place.
 pub fn rings(replay: &mut Replay, block: &Block) -> Vec<usize> {
-    let (at, hypothesis) = (replay.at(), block.topic.hypothesis());
+    let at = replay.at();
     replay.seek(block.steps.start);
-    let labels = replay.labels();
-    let mut rings = Rings { ring_of: vec![0; labels.len()], ring: 1, seeds: 0, ends: Vec::new() };
-    for (n, step) in replay.trace().steps_in(block.steps.clone()) {
-        rings.take(n, &step, labels, hypothesis);
-    }
-    let mut ends = rings.ends;
+    let rings = Rings::of(replay.trace(), replay.labels(), block.steps.clone(), block.topic.hypothesis());
+    replay.seek(at);
+    let mut ends = rings.starts;
     ends.retain(|&end| end > block.steps.start);
     ends.push(block.steps.end);
     ends.dedup();
-    replay.seek(at);
     ends
 }
 
-struct Rings {
-    /// Ring in which each pixel was claimed, from 1.
-    ring_of: Vec<u32>,
-    ring: u32,
-    /// Claims to come that are seeds, all of one ring.
-    seeds: u32,
-    ends: Vec<usize>,
-}
-
-impl Rings {
-    fn take(&mut self, n: usize, step: &Step, before: &LabelMap, hypothesis: HypothesisId) {
-        match *step {
-            Step::Event(event) => {
-                if let Event::SeedsPlaced(SeedsPlaced { pixels, .. }) = event {
-                    self.seeds = *pixels;
-                }
-                self.begin(n);
-            }
-            Step::Claim { pixel, after, .. } if after == Some(hypothesis) => {
-                let pixel = pixel.index();
-                let mut nearest = u32::MAX;
-                before.for_each_neighbor(pixel, |near| match self.ring_of[near] {
-                    0 if before[near] == hypothesis.get() => nearest = 0,
-                    0 => {}
-                    ring => nearest = nearest.min(ring),
-                });
-                if self.seeds > 0 {
-                    self.seeds -= 1;
-                } else if nearest == self.ring {
-                    // Reached from a pixel of this very ring: a new one begins.
-                    self.begin(n);
-                }
-                self.ring_of[pixel] = self.ring;
-            }
-            Step::Claim { pixel, .. } => self.ring_of[pixel.index()] = 0,
-            Step::Refusal { .. } | Step::Label { .. } => {}
-        }
-    }
-
-    fn begin(&mut self, n: usize) {
-        if self.ends.last() != Some(&n) {
-            self.ends.push(n);
-            self.ring += 1;
-        }
-    }
+/// The pixels that the newest ring of a growth took and that the hypothesis still has, in the order of the claims; `from` is the
+/// first step of the growth's block.
+pub fn newest_ring(replay: &Replay, from: usize, hypothesis: HypothesisId) -> Vec<u32> {
+    let labels = replay.labels();
+    let mut newest = Rings::of(replay.trace(), labels, from..replay.at(), hypothesis).newest;
+    newest.retain(|&pixel| labels[pixel as usize] == hypothesis.get());
+    newest
 }

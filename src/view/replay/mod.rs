@@ -1,9 +1,10 @@
-//! What is to be seen where the debugger's cursor stands in a trace.
+//! What the panels show at the debugger's cursor in a trace.
 
 mod growth;
 mod instant;
 mod looked_at;
 mod names;
+mod rings;
 mod rows;
 mod skewed_t_view;
 mod timeline_axis;

@@ -1,30 +1,30 @@
-//! What the cursor is about, as pixels: what a region has just taken, what it left beside, which clusters are compared.
+//! The pixels that the cursor is about: the pixels that a hypothesis has taken and not taken, and the clusters that are compared.
 
-use super::growth;
+use super::growth::{growth, newest_ring};
 use crate::color::Cylinder;
 use crate::photo::Masks;
-use crate::raster::{HypothesisId, LabelMap, Raster, UNASSIGNED};
+use crate::raster::{HypothesisId, Raster, UNASSIGNED};
 use crate::reflection::Slice;
 use crate::segment::is_leftover;
-use crate::trace::{CandidateSource, CandidateTested, Event, Replay, Step, Topic};
+use crate::trace::{CandidateSource, CandidateTested, Event, Replay, Topic};
 
-/// Pixels of the region that grows at the cursor.
+/// Pixels of the hypothesis that grows at the cursor, and the pixels around them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tracks {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
-    /// Pixels that it has claimed since its block began and still holds, in the order of the claims.
+    /// Pixels that the hypothesis has claimed since its block began and still has, in the order of the claims.
     pub claimed: Vec<u32>,
-    /// Those of them that were claimed in the ring at work.
+    /// The pixels of them that the newest ring claimed.
     pub newest: Vec<u32>,
-    /// Neighbors of it whose colors lie outside of what it may claim. Ascending.
+    /// 4-neighbors of these pixels whose colors lie outside the cylinder or slice. Ascending.
     pub outside: Vec<u32>,
-    /// Neighbors of it that it did not get although their colors lie inside: another region's, or not to be believed.
-    /// Ascending.
+    /// 4-neighbors that the hypothesis did not get although their colors lie inside: pixels of another hypothesis, dark or
+    /// distorted pixels. Ascending.
     pub kept_out: Vec<u32>,
 }
 
-/// What bounds the growth of a region in the color cube.
+/// The colors that a growing hypothesis accepts.
 enum Bounds {
     Cylinder(Cylinder),
     Slice(Slice),
@@ -52,7 +52,7 @@ impl Bounds {
 
 /// The growth in which the cursor stands; none where the step taken last belongs to none.
 ///
-/// Neighbors whose colors lie inside and that nobody has are not asked yet: they are left out.
+/// Neighbors in no hypothesis whose colors lie inside were not reached yet: they are left out.
 pub fn tracks(replay: &Replay, colors: &Raster<[f32; 3]>, masks: &Masks) -> Option<Tracks> {
     let block = replay.trace().block_at(replay.at().checked_sub(1)?)?;
     let growth = growth(replay)?;
@@ -77,54 +77,7 @@ pub fn tracks(replay: &Replay, colors: &Raster<[f32; 3]>, masks: &Masks) -> Opti
     Some(tracks)
 }
 
-/// The pixels of the ring of a growth that is at work: those reached from none of the same ring.
-fn newest_ring(replay: &Replay, from: usize, hypothesis: HypothesisId) -> Vec<u32> {
-    let labels = replay.labels();
-    let mut claims = Vec::new();
-    for (_, step) in replay.trace().steps_in(from..replay.at()) {
-        match step {
-            Step::Event(Event::SeedsPlaced(_) | Event::GrowthBegan(_)) => claims.clear(),
-            Step::Claim { pixel, after, .. } if after == Some(hypothesis) => claims.push(pixel.get()),
-            _ => {}
-        }
-    }
-    let seeds = matches!(
-        replay.trace().steps_in(from..replay.at()).rev().find_map(|(_, step)| match step {
-            Step::Event(event @ (Event::SeedsPlaced(_) | Event::GrowthBegan(_))) => Some(event),
-            _ => None,
-        }),
-        Some(Event::SeedsPlaced(_))
-    );
-    let start = if seeds { 0 } else { start_of_ring(&claims, labels) };
-    claims.drain(..start);
-    claims.retain(|&pixel| labels[pixel as usize] == hypothesis.get());
-    claims
-}
-
-/// Where among the claims of a growth its last ring begins: at a pixel all of whose neighbors so far are of one ring.
-fn start_of_ring(claims: &[u32], labels: &LabelMap) -> usize {
-    const EARLIER: u8 = 1;
-    const CURRENT: u8 = 2;
-    let mut seen = vec![0u8; labels.len()];
-    let mut start = 0;
-    for (index, &pixel) in claims.iter().enumerate() {
-        let (mut earlier, mut current) = (false, false);
-        labels.for_each_neighbor(pixel as usize, |near| {
-            earlier |= seen[near] == EARLIER;
-            current |= seen[near] == CURRENT;
-        });
-        if current && !earlier {
-            for &before in &claims[start..index] {
-                seen[before as usize] = EARLIER;
-            }
-            start = index;
-        }
-        seen[pixel as usize] = CURRENT;
-    }
-    start
-}
-
-/// The highlight test at the cursor: the one made last, or the one that the chosen candidate had passed.
+/// The highlight test at the cursor: the test made last, or the test that the chosen candidate had passed.
 pub fn test_at_cursor(replay: &Replay) -> Option<&CandidateTested> {
     let last = replay.at().checked_sub(1)?;
     let trace = replay.trace();
@@ -141,7 +94,7 @@ pub fn test_at_cursor(replay: &Replay) -> Option<&CandidateTested> {
     }
 }
 
-/// The pixels of a highlight candidate; none of one that was absorbed, as its object has them now.
+/// The pixels of a highlight candidate; none of a candidate that was absorbed, as its object has them now.
 pub fn candidate_pixels(replay: &Replay, source: CandidateSource, masks: &Masks) -> Vec<u32> {
     let labels = replay.labels();
     match source {
@@ -163,8 +116,8 @@ pub fn pixels_of_region(replay: &Replay, hypothesis: HypothesisId) -> Vec<u32> {
     (0u32..).zip(labels).filter(|(_, label)| **label == hypothesis.get()).map(|(pixel, _)| pixel).collect()
 }
 
-/// Splits a tested region's pixels: those by which the length of its matte line is measured, and those on the inside of
-/// the line, where highlights grow, which are ignored for it (5.4.1, figure 9).
+/// Divides the pixels of a tested hypothesis: the pixels by which the length of the matte line is measured, and the pixels on the
+/// inside of the line, where highlights grow, which are ignored (5.4.1, figure 9).
 pub fn measured_and_ignored(
     test: &CandidateTested,
     pixels: &[u32],
@@ -174,7 +127,7 @@ pub fn measured_and_ignored(
     pixels.iter().partition(|&&pixel| outer_side.contains(colors.as_slice()[pixel as usize]))
 }
 
-/// At most `most` of these, evenly chosen.
+/// At most `most` of the pixels, evenly chosen.
 pub fn sampled(pixels: &[u32], most: usize) -> impl Iterator<Item = u32> + '_ {
     let count = pixels.len().min(most);
     (0..count).map(move |i| pixels[i * pixels.len() / count])
