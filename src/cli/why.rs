@@ -100,7 +100,7 @@ fn history(traced: &Traced, pixel: usize) -> String {
             "{:>digits$}  {:<8}  {}{again}",
             last.step,
             last.stage.name(),
-            names.happening(last)
+            names.history_entry(last)
         );
     }
     text.push_str(&origin(traced, &names, pixel));

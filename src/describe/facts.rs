@@ -1,4 +1,4 @@
-//! The schema itself.
+//! The fields of the report.
 
 use super::scores::Scores;
 use crate::analysis::{Analysis, Stage};
@@ -12,39 +12,39 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Version of the schema; it rises when a field changes its name or its meaning.
+/// Version of the schema; the version rises when the name or the meaning of a field changes.
 pub const SCHEMA: u32 = 1;
 
-/// Everything that is said about one analyzed image.
+/// The report of one analyzed image.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Report {
     /// [`SCHEMA`].
     pub schema: u32,
-    /// Version of the program that wrote it.
+    /// Version of the program that wrote the report.
     pub program: String,
     /// The file and how it was read.
     pub image: ImageFacts,
     /// The area that the analysis was restricted to, if it was.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub area: Option<AreaFacts>,
-    /// What was asked for and what was used.
+    /// The settings as asked for and as used.
     pub params: ParamsFacts,
     /// The color of the light.
     pub illuminant: IlluminantFacts,
-    /// The ambient light; absent in reports of versions that did not ask.
+    /// The ambient light; absent in reports of versions that did not estimate ambient light.
     #[serde(default)]
     pub ambient: AmbientFacts,
     /// The regions; region `id` of `regions.png` is at index `id − 1`.
     pub regions: Vec<RegionFacts>,
-    /// Pixels in no region; of an area only those inside.
+    /// Number of pixels in no region; with an area, of pixels inside the area.
     pub unassigned_pixels: usize,
-    /// Pixels by what keeps them from being explained, by name; of an area only those inside.
+    /// Number of pixels by the reason why they are not explained, by name; with an area, of pixels inside the area.
     #[serde(default)]
     pub reasons: BTreeMap<String, usize>,
-    /// What to beware of, in words: of the file first, then of the analysis.
+    /// Warnings, each an English phrase: of the file first, then of the analysis.
     pub warnings: Vec<String>,
-    /// How it compares with a ground truth, when there was one.
+    /// The scores against a ground truth, when there was one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scores: Option<Scores>,
     /// Wall time of each step.
@@ -76,7 +76,7 @@ impl Report {
     }
 }
 
-/// How many pixels have which reason.
+/// Number of pixels with each reason.
 fn reasons(analysis: &Analysis) -> BTreeMap<String, usize> {
     let mut counts = [0usize; Reason::ALL.len()];
     for (pixel, &reason) in analysis.intrinsic.reasons.as_slice().iter().enumerate() {
@@ -139,7 +139,7 @@ impl AreaFacts {
 pub struct ParameterFacts {
     /// A number or `auto`.
     pub asked: Setting,
-    /// The number that the run worked with; null where it was off (infinite).
+    /// The number that was used; null where the parameter was off (infinite).
     pub used: Option<f64>,
 }
 
@@ -148,7 +148,7 @@ pub struct ParameterFacts {
 pub struct LightFacts {
     /// Three numbers of any length, or `auto`.
     pub asked: IlluminantSetting,
-    /// The unit vector that the run worked with; null where nothing in the image told of it.
+    /// The unit vector that was used; null where the image gave no evidence of the light.
     pub used: Option<[f64; 3]>,
 }
 
@@ -157,7 +157,7 @@ pub struct LightFacts {
 pub struct AmbientAsked {
     /// Three numbers in counts, `auto` or `off`.
     pub asked: AmbientSetting,
-    /// What was subtracted before the split, counts; null: nothing.
+    /// The color that was subtracted before the split, counts; null: nothing was subtracted.
     pub used: Option<[f64; 3]>,
 }
 
@@ -167,13 +167,13 @@ macro_rules! define_params_facts {
         #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
         #[non_exhaustive]
         pub struct ParamsFacts {
-            /// Which algorithm.
+            /// The method.
             pub method: Method,
             $(#[doc = concat!($meaning, ".")] pub $field: ParameterFacts,)*
-            /// The color of the light. Absent in reports of versions that could not be told the light.
+            /// The color of the light. Absent in reports of versions without this setting.
             #[serde(default)]
             pub illuminant: LightFacts,
-            /// The ambient light. Absent in reports of versions that did not ask.
+            /// The ambient light. Absent in reports of versions without this setting.
             #[serde(default)]
             pub ambient: AmbientAsked,
             /// The refinements in force: all off under the paper's method.
@@ -214,22 +214,22 @@ impl ParameterFacts {
 pub struct AmbientFacts {
     /// Subtracted before the split and added to the body image after it, counts; null: nothing.
     pub subtracted: Option<[f64; 3]>,
-    /// Why it was subtracted, or why not: `off`, `given`, `subtracted`, `few_lines`, `black`, `negative`, `no_meeting` or
+    /// Why ambient light was subtracted, or why not: `off`, `given`, `subtracted`, `few_lines`, `black`, `negative`, `no_meeting` or
     /// `darker_pixels`.
     pub verdict: String,
     /// The same in words.
     pub reason: String,
-    /// Where the matte lines meet, counts; null where it was not asked, or fewer than two lines are known.
+    /// The meeting point of the matte lines, counts; null where ambient light is off, or fewer than two lines are known.
     pub meeting: Option<[f64; 3]>,
-    /// Its standard deviation in each band, counts.
+    /// Standard deviation of the meeting point in each band, counts.
     pub sd_counts: Option<[f64; 3]>,
-    /// Lines that it rests on.
+    /// Number of lines that the meeting point is computed from.
     pub lines: usize,
-    /// Root mean square distance of the lines from it, counts.
+    /// Root mean square distance of the lines from the meeting point, counts.
     pub miss_counts: Option<f64>,
     /// Root mean square distance of the lines from black, counts.
     pub miss_of_black_counts: Option<f64>,
-    /// Its squared distance from black, in variances: 16.3 is significant.
+    /// Squared distance of the meeting point from black, in variances: 16.3 is significant.
     pub chi_square: Option<f64>,
 }
 
@@ -250,24 +250,24 @@ impl AmbientFacts {
     }
 }
 
-/// The color of the light and what it rests on.
+/// The color of the light and its evidence.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct IlluminantFacts {
-    /// Unit vector; null where nothing in the image told of it.
+    /// Unit vector; null where the image gave no evidence of the light.
     pub direction: Option<[f64; 3]>,
-    /// Number of regions whose highlights it rests on; 0 where it was given.
+    /// Number of regions whose highlights are the evidence; 0 where the light was given.
     pub objects: usize,
-    /// Whether it was given and not estimated.
+    /// Whether the light was given and not estimated.
     #[serde(default)]
     pub given: bool,
-    /// What it rests on: `given`, `planes`, `votes` or `none`.
+    /// The evidence: `given`, `planes`, `votes` or `none`.
     #[serde(default)]
     pub basis: String,
-    /// Why this light was used and no other, or why none was.
+    /// Why this light was used, or why no light was.
     #[serde(default)]
     pub reason: String,
-    /// Within so many degrees the light lies, as far as the evidence itself can tell; null where it was given or is unknown.
+    /// Error of the light by its evidence, degrees; null where the light was given or is unknown.
     #[serde(default)]
     pub interval_deg: Option<f64>,
     /// The light by the dichromatic planes, unit.
@@ -279,10 +279,10 @@ pub struct IlluminantFacts {
     /// The light by the votes of small highlights, unit.
     #[serde(default)]
     pub votes: Option<[f64; 3]>,
-    /// Degrees between both.
+    /// Angle between both lights, degrees.
     #[serde(default)]
     pub agreement_deg: Option<f64>,
-    /// Share of the votes that the light used has, 0…1.
+    /// Share of the votes for the light that was used, 0…1.
     #[serde(default)]
     pub vote_share: f64,
     /// Share of the lit pixels in regions that hold and show highlights, 0…1.
@@ -324,13 +324,13 @@ pub struct RegionFacts {
     pub surface: Option<[f64; 3]>,
     pub matte_mean: [f64; 3],
     pub highlight_start: Option<[f64; 3]>,
-    /// Empty in reports of versions that did not look for it.
+    /// Empty in reports of versions that did not search for branches.
     #[serde(default)]
     pub highlight_branches: Vec<HighlightBranchFacts>,
     pub plane_normal: Option<[f64; 3]>,
     pub angle_deg: Option<f64>,
     pub fit_rms_counts: f64,
-    /// True in reports of versions that did not ask.
+    /// True in reports of versions that did not test the fit.
     #[serde(rename = "holds", default = "yes")]
     pub model_fits: bool,
     #[serde(default)]
@@ -417,13 +417,13 @@ pub struct Timings {
     pub clipping: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub split: Option<f64>,
-    /// All files of the result but the report itself, which cannot hold the time it has yet to take.
+    /// From the result to all files but the report itself.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub write: Option<f64>,
 }
 
 impl Timings {
-    /// The time of one stage, to be set.
+    /// The time of one stage, for changes.
     pub fn slot(&mut self, stage: Stage) -> &mut Option<f64> {
         match stage {
             Stage::Masks => &mut self.mask,
@@ -436,7 +436,7 @@ impl Timings {
         }
     }
 
-    /// All stages together, reading and writing apart.
+    /// Sum of the times of all stages, without reading and writing, milliseconds.
     pub fn analysis_ms(mut self) -> f64 {
         Stage::ALL.iter().filter_map(|&stage| *self.slot(stage)).sum()
     }

@@ -1,7 +1,7 @@
-//! What is told of a run: `report.json`, trace lines, and decisions in words.
+//! Descriptions of a run: `report.json`, trace lines, and decisions in words.
 //!
-//! The types of the report are its schema: their fields, in their order, are what the file holds, and a written report reads
-//! back as the same value. Colors and distances are in counts (255 = full scale), directions are unit vectors.
+//! The types of the report are its schema: the file holds their fields in their order, and a report that is read is equal to the
+//! report that was written. Colors and distances are in counts (255 = full scale), directions are unit vectors.
 
 mod events;
 mod facts;
@@ -22,14 +22,14 @@ pub use words::{Condensed, condense, what_if_sentence};
 /// Name of the report in a result folder.
 pub const FILE_NAME: &str = "report.json";
 
-/// Why a text is not taken for a report.
+/// Why a text is no report.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReportError {
-    /// It lacks something, or is no JSON.
+    /// A field is missing, or the text is no JSON.
     #[error("it is not a report")]
     Json(#[from] serde_json::Error),
-    /// It was written by a program that speaks another schema.
+    /// The report has another schema.
     #[error("it has schema {0}, this program reads {SCHEMA}")]
     Schema(u32),
 }
@@ -38,7 +38,7 @@ impl Report {
     /// Reads a report from the bytes of its file.
     ///
     /// # Errors
-    /// When they are not a report, or one of another schema.
+    /// The bytes are no report, or a report of another schema.
     pub fn from_json(text: &[u8]) -> Result<Self, ReportError> {
         let stamp: Stamp = serde_json::from_slice(text)?;
         if stamp.schema != SCHEMA {
@@ -50,13 +50,13 @@ impl Report {
     /// The report as pretty JSON with a final newline.
     ///
     /// # Errors
-    /// Never for a report that [`Report::new`] made; serialization itself is fallible.
+    /// None for a report that [`Report::new`] made; serialization in general can fail.
     pub fn to_json(&self) -> serde_json::Result<String> {
         serde_json::to_string_pretty(self).map(|text| text + "\n")
     }
 }
 
-/// Whether a file holds a report of ours, of whatever schema.
+/// Whether a text is a report of this program, of whatever schema.
 pub fn is_report(text: &[u8]) -> bool {
     serde_json::from_slice::<Stamp>(text).is_ok()
 }

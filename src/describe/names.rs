@@ -1,10 +1,10 @@
-//! What hypotheses, regions and pixels are called in sentences, and how numbers are written there.
+//! Names of hypotheses, regions and pixels in sentences, and the format of numbers.
 
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::trace::{Trace, regions_of};
 use serde_json::Value;
 
-/// What regions and pixels are called in sentences.
+/// Names of hypotheses and pixels in sentences.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     pub(super) width: usize,
@@ -75,7 +75,7 @@ pub(super) fn tenths(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-/// `the largest`, `the 2nd`, of areas that were looked at before.
+/// `the largest`, `the 2nd`: the place of an area by size; `rank` counts from 0.
 pub(super) fn ordinal(rank: u32) -> String {
     let n = rank.saturating_add(1);
     let ending = match (n % 10, n % 100) {
@@ -88,11 +88,11 @@ pub(super) fn ordinal(rank: u32) -> String {
     if rank == 0 { "the largest".to_owned() } else { format!("the {n}{ending}") }
 }
 
-/// A number as short as it can be read back; `null` where it is none.
+/// A number with as few digits as identify it; `null` where the number is not finite.
 pub(super) fn short(number: f32) -> Value {
     if !number.is_finite() {
         return Value::Null;
     }
-    // By way of its digits: as a double it would carry digits that were never measured.
+    // From the decimal digits of the number: converted to a double, it would have digits without meaning.
     number.to_string().parse::<f64>().map_or(Value::Null, Value::from)
 }

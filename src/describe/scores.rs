@@ -1,18 +1,18 @@
-//! How far a result is from the ground truth, in numbers.
+//! The scores of a result against the ground truth.
 
 use serde::{Deserialize, Serialize};
 
 /// The scores of one result, as `truth::score` computes them.
 ///
-/// A figure that the truth offers no pixels or vectors for is none. Each PSNR (decibels on the 0–255 scale) has a
-/// partner that says what doing nothing scores on the same pixels: body = input, surface = 0.
+/// A score for which the ground truth has no pixels or vectors is none. For each PSNR (decibels on the 0–255 scale) there is the
+/// PSNR of the trivial result on the same pixels: body = input, surface = 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Scores {
     /// Adjusted Rand index of objects and regions over the objects' lit pixels; 1 for a single object.
     pub ari: f64,
     /// Mean over objects of the best region's intersection over union.
     pub iou: Option<f64>,
-    /// The worst of them.
+    /// The least of these.
     pub iou_min: Option<f64>,
     /// Share of the objects' lit pixels that are in a region.
     pub cover: Option<f64>,
@@ -24,22 +24,22 @@ pub struct Scores {
     pub body_deg: Option<f64>,
     /// Angle between the true and the found illuminant, degrees; 90 where none was found.
     pub illum_deg: f64,
-    /// Body image inside objects, unclipped.
+    /// PSNR of the body image on unclipped pixels of objects.
     pub psnr_body: Option<f64>,
-    /// Surface image inside objects, unclipped.
+    /// PSNR of the surface image on unclipped pixels of objects.
     pub psnr_surface: Option<f64>,
-    /// Body image on partly clipped pixels of objects.
+    /// PSNR of the body image on partly clipped pixels of objects.
     pub psnr_restored: Option<f64>,
-    /// What the input itself scores as body image inside objects.
+    /// PSNR of the input as the body image on unclipped pixels of objects.
     pub psnr_nothing: Option<f64>,
-    /// What black scores as surface image inside objects.
+    /// PSNR of black as the surface image on unclipped pixels of objects.
     pub psnr_surface_nothing: Option<f64>,
-    /// What the input itself scores as body image on partly clipped pixels.
+    /// PSNR of the input as the body image on partly clipped pixels of objects.
     pub psnr_restored_nothing: Option<f64>,
 }
 
 impl Scores {
-    /// Every figure with its name, each PSNR followed by what doing nothing scores.
+    /// All scores with their names, each PSNR followed by that of the trivial result.
     pub fn figures(&self) -> [(&'static str, Option<f64>); 14] {
         [
             ("ari", Some(self.ari)),

@@ -1,9 +1,9 @@
 //! Trace lines: a run's decisions for scripts, one JSON object a line.
 //!
-//! `{"seq", "stage", "kind", "ids", "values", "thresholds"}`: the step's number, its stage, what kind of decision it is, what
-//! it is about (regions by their numbers of birth, pixels as `[column, row]`, windows and areas by index), what was measured,
-//! and what it was held against. Colors and distances are in counts, variances in counts², angles in degrees; a number
-//! that is not finite is `null`. A first line says which schema this is.
+//! `{"seq", "stage", "kind", "ids", "values", "thresholds"}`: number of the step, stage, kind of the decision, its subjects
+//! (hypotheses by number under the key `region`, pixels as `[column, row]`, windows and areas by index), the measured values, and
+//! their limits. Colors and distances are in counts, variances in counts², angles in degrees; a number
+//! that is not finite is `null`. The first line names the schema.
 
 use super::Names;
 use super::events::line_objects;
@@ -13,11 +13,11 @@ use crate::trace::{Contest, Measure, Stage, Step, Trace};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Version of the trace lines; it rises when a name changes or its meaning.
+/// Version of the trace lines; the version rises when a name or its meaning changes.
 pub const TRACE_SCHEMA: u32 = 1;
 
-/// What comes before all steps: schema, program, size of the picture, number of steps and each stage's first one, and the
-/// region of each hypothesis, in the order of the hypotheses (0: in no region of the result).
+/// The first line: schema, program, size of the picture, number of steps, steps of each stage, and the region of each
+/// hypothesis, in the order of the hypotheses (0: in no region of the result).
 pub fn schema_line(trace: &Trace, program: &str) -> String {
     let stages: serde_json::Map<String, Value> = trace
         .stages()
@@ -38,9 +38,9 @@ pub fn schema_line(trace: &Trace, program: &str) -> String {
     .to_string()
 }
 
-/// One step as a line, without its end, appended to `out`.
+/// Appends one step as a line to `out`, without a line break.
 pub fn trace_line(names: &Names, seq: usize, stage: Stage, step: &Step, out: &mut String) {
-    // Claims and labels come by the million: they are written in place. Writing to a string cannot fail.
+    // A trace has millions of claims and labels: they are written without an object in between. Writing to a string cannot fail.
     let begin = |out: &mut String, kind: &str| {
         let _ = write!(out, "{{\"seq\":{seq},\"stage\":\"{}\",\"kind\":\"{kind}\",", stage.name());
     };

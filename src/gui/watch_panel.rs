@@ -22,15 +22,16 @@ const LINE_PT: f32 = 18.0;
 /// The watch panel.
 #[derive(Default)]
 pub struct WatchPanel {
-    now: Option<Seen>,
-    rested: Vec<Vec<Line>>,
+    now: Option<CursorValues>,
+    /// The lines at the position where the cursor was at rest before.
+    lines_before: Vec<Vec<Line>>,
 }
 
 /// The values at one position of the cursor.
-struct Seen {
+struct CursorValues {
     /// Generation of the trace, and number of steps taken.
     at: (u64, usize),
-    rests: bool,
+    is_at_rest: bool,
     groups: Vec<Vec<Line>>,
 }
 
@@ -76,15 +77,15 @@ impl WatchPanel {
     /// Stores the values of this frame. When the cursor leaves a position at which it had stopped, the values of that
     /// position
     /// become those that new values are compared with.
-    fn remember(&mut self, at: (u64, usize), rests: bool, groups: Vec<Vec<Line>>) {
-        let before = self.now.replace(Seen { at, rests, groups });
-        if let Some(before) = before.filter(|before| before.at != at && before.rests) {
-            self.rested = before.groups;
+    fn remember(&mut self, at: (u64, usize), is_at_rest: bool, groups: Vec<Vec<Line>>) {
+        let before = self.now.replace(CursorValues { at, is_at_rest, groups });
+        if let Some(before) = before.filter(|before| before.at != at && before.is_at_rest) {
+            self.lines_before = before.groups;
         }
     }
 
     fn has_changed(&self, line: &Line) -> bool {
-        self.rested.iter().flatten().any(|old| old.tip == line.tip && old.values != line.values)
+        self.lines_before.iter().flatten().any(|old| old.tip == line.tip && old.values != line.values)
     }
 }
 

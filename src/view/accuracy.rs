@@ -1,4 +1,4 @@
-//! How near a result is to the ground truth: as a whole, and region by region.
+//! The accuracy of a result against the ground truth: as a whole, and region by region.
 
 use super::Picture;
 use crate::analysis::Analysis;
@@ -13,16 +13,16 @@ const DARK_COUNTS: f32 = 23.0;
 /// A result against the ground truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accuracy {
-    /// All figures; [`Scores::illum_deg`] is the error of the light, and each PSNR stands beside what doing nothing scores.
+    /// All scores; [`Scores::illum_deg`] is the error of the light, and each PSNR has the PSNR of the unchanged input beside it.
     pub scores: Scores,
-    /// The regions; region `id` at index `id − 1`.
+    /// The accuracy of each region, by [`RegionId::index`](crate::raster::RegionId::index).
     pub regions: Vec<RegionAccuracy>,
 }
 
-/// A region against the object that it overlaps best.
+/// The accuracy of a region against the object with the largest overlap.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RegionAccuracy {
-    /// The object; none where the region lies on the background alone.
+    /// Number of the object; none for a region on the background.
     pub object: Option<u16>,
     /// Intersection over union of their lit pixels.
     pub iou: f64,

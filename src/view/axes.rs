@@ -1,4 +1,4 @@
-//! The axes of the color spaces: where they run, and the values to write on them.
+//! The axes of the color spaces: their ends in the world, and the values along them.
 
 use super::ColorSpace;
 use super::space::{LAB_REACH, LOG_FLOOR};
@@ -7,30 +7,30 @@ use super::vector::Point;
 /// An axis of a space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Its short name.
+    /// Short name of the axis.
     pub name: &'static str,
-    /// Unit of its values; empty where they have none.
+    /// Unit of the values; empty for pure numbers.
     pub unit: &'static str,
-    /// What it measures, in one sentence.
+    /// What the axis measures, one sentence.
     pub meaning: &'static str,
-    /// Where it runs, from its least to its largest value, in the world.
+    /// The ends of the axis in the world, at its least and at its largest value.
     pub line: Vec<Point>,
-    /// Marks along it, ascending.
+    /// The marks on the axis, ascending.
     pub ticks: Vec<Tick>,
 }
 
 /// A mark on an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// The value to write there, in the axis' unit.
+    /// The value at the mark, in the unit of the axis.
     pub value: f32,
     /// The value as text.
     pub label: String,
-    /// Where it lies, in the world.
+    /// Place of the mark in the world.
     pub place: Point,
 }
 impl ColorSpace {
-    /// Its axes.
+    /// The axes of the space.
     pub fn axes(self, full_counts: f32) -> Vec<Axis> {
         match self {
             Self::Rgb => self.bands(

@@ -7,17 +7,18 @@ use crate::raster::{LabelMap, RegionId, UNASSIGNED};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// A region is another's former self when they share this much of the smaller of both.
+/// Least share of pixels of the smaller of two regions that both share, where one region continues the other.
 const SHARED: f64 = 0.2;
 
-/// A color for each final region: its former self's where it overlaps one, otherwise one far from its neighbors'.
+/// A color for each region: the color of the earlier region that the region continues, otherwise a color that differs from
+/// those of its neighbors.
 pub(crate) fn region_colors(analysis: &Analysis, before: Option<(&LabelMap, &[[u8; 3]])>) -> Vec<[u8; 3]> {
     let regions = analysis.intrinsic.regions.iter();
     let neighbors: Vec<&[RegionId]> = regions.map(|region| region.neighbors.as_slice()).collect();
     colors(&analysis.finals.labels, &neighbors, before)
 }
 
-/// Colors for so many regions that became none: such as no final region has as long as there are any, in a fixed order.
+/// Colors for `count` hypotheses that became no region, in a fixed order: colors that no region has, as long as there are any.
 pub(crate) fn orphan_colors(taken: &[[u8; 3]], count: usize) -> Vec<[u8; 3]> {
     let palette = Palette::new();
     let all = palette.colors();
@@ -34,15 +35,16 @@ fn colors(
 ) -> Vec<[u8; 3]> {
     let palette = Palette::new();
     let mut kept = vec![None; neighbors.len() + 1];
-    if let Some((former, colors)) = before {
-        for (now, old) in former_selves(former, labels) {
+    if let Some((earlier, colors)) = before {
+        for (now, old) in continued_regions(earlier, labels) {
             let color = colors.get(usize::from(old) - 1).and_then(|&color| palette.index_of(color));
             if let Some(slot) = kept.get_mut(usize::from(now)) {
                 *slot = color;
             }
         }
     }
-    // Regions of one color that have come to touch would look like one: the smaller, which has the higher number, gives way.
+    // Two adjacent regions of one color would look like one region: the smaller, which has the higher number, gets another
+    // color.
     for now in 1..kept.len() {
         let touched =
             neighbors[now - 1].iter().map(|other| usize::from(other.get())).filter(|&other| other < now);
@@ -55,8 +57,9 @@ fn colors(
     palette.assign_keeping(&touching, &kept)[1..].iter().map(|&index| palette.color(index)).collect()
 }
 
-/// Pairs of a region and its former self, the largest overlaps first. A former region lives on in one region at most.
-fn former_selves(before: &LabelMap, after: &LabelMap) -> Vec<(u16, u16)> {
+/// Pairs of a region and the earlier region that the region continues, the largest overlaps first. An earlier region is
+/// continued by one region at most.
+fn continued_regions(before: &LabelMap, after: &LabelMap) -> Vec<(u16, u16)> {
     if (before.width(), before.height()) != (after.width(), after.height()) {
         return Vec::new();
     }
@@ -76,15 +79,15 @@ fn former_selves(before: &LabelMap, after: &LabelMap) -> Vec<(u16, u16)> {
         .map(|(old, new, pixels)| (pixels, old, new))
         .collect();
     pairs.sort_unstable_by_key(|&(pixels, old, new)| (Reverse(pixels), old, new));
-    let mut selves: Vec<(u16, u16)> = Vec::new();
+    let mut continued: Vec<(u16, u16)> = Vec::new();
     for (_, old, new) in pairs {
         if old_sizes.contains_key(&old) && new_sizes.contains_key(&new) {
-            selves.push((new, old));
+            continued.push((new, old));
             old_sizes.remove(&old);
             new_sizes.remove(&new);
         }
     }
-    selves
+    continued
 }
 
 #[cfg(test)]
@@ -133,8 +136,8 @@ mod tests {
     fn a_brush_with_another_is_no_heritage() {
         let first = labels(&["1111111111.........."]);
         let second = labels(&[".........11111111111"]);
-        assert!(former_selves(&first, &second).is_empty());
-        assert!(former_selves(&first, &labels(&["11", "11"])).is_empty(), "another picture");
+        assert!(continued_regions(&first, &second).is_empty());
+        assert!(continued_regions(&first, &labels(&["11", "11"])).is_empty(), "another picture");
     }
 
     /// Rectangles that do not overlap, one in each cell of a 6 × 4 grid, numbered by `order`, with margins.

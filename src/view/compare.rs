@@ -13,24 +13,24 @@ const CHANGED_COUNTS: f32 = 1.0;
 /// What changed from a pinned result to the newest one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// What was asked differently.
+    /// The settings that differ.
     pub settings: Vec<SettingChange>,
-    /// Numbers of both, side by side.
+    /// Figures of both results, side by side.
     pub figures: Vec<Figure>,
-    /// Angle between the two illuminants, degrees; none where one has none.
+    /// Angle between the two illuminants, degrees; none where a result has no illuminant.
     pub illuminant_deg: Option<f64>,
-    /// What became of each region: those of the newest result by number, then those that are lost.
+    /// The fates of the regions: those of the newest result by number, then those that are lost.
     pub regions: Vec<RegionFate>,
-    /// What became of the pixels.
+    /// The fates of the pixels.
     pub pixels: PixelFates,
-    /// How far the body reflection moved.
+    /// The change of the body reflection.
     pub body: BodyChange,
 }
 
 /// A parameter, switch or restriction that differs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SettingChange {
-    /// Its one name.
+    /// Name of the setting.
     pub name: &'static str,
     /// In the pinned result.
     pub pinned: String,
@@ -38,12 +38,12 @@ pub struct SettingChange {
     pub newest: String,
 }
 
-/// A number of both results.
+/// A figure of both results.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figure {
-    /// What it is, as in reports.
+    /// Name of the figure, as in reports.
     pub name: &'static str,
-    /// Its unit; empty for pure numbers.
+    /// Unit of the figure; empty for pure numbers.
     pub unit: &'static str,
     /// In the pinned result.
     pub pinned: Option<f64>,
@@ -51,61 +51,62 @@ pub struct Figure {
     pub newest: Option<f64>,
 }
 
-/// What became of a region.
+/// The fate of a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
-    /// It has the same pixels.
+    /// The region has the same pixels.
     Kept,
-    /// It has others, but is still recognizable.
+    /// The region has other pixels, but is still the same region.
     Changed,
-    /// It is new.
+    /// The region is in the newest result only.
     Gained,
-    /// It is no more.
+    /// The region is in the pinned result only.
     Lost,
 }
 
-/// A region of one result and the one of the other that it is; they are one where each covers most of the other.
+/// A region of the pinned result and the same region of the newest result. Two regions are the same where each covers most of
+/// the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RegionFate {
-    /// What became of it.
+    /// The fate.
     pub fate: Fate,
     /// The region in the pinned result.
     pub pinned: Option<RegionId>,
     /// The region in the newest result.
     pub newest: Option<RegionId>,
-    /// Pixels in the pinned result.
+    /// Number of pixels in the pinned result.
     pub pixels_pinned: usize,
-    /// Pixels in the newest result.
+    /// Number of pixels in the newest result.
     pub pixels_newest: usize,
-    /// Pixels in both.
+    /// Number of pixels in both results.
     pub pixels_shared: usize,
 }
 
-/// How many pixels stayed with their region, and how many did not.
+/// Numbers of pixels that stayed with their region, and that did not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PixelFates {
-    /// In the same region, or in none, in both results.
+    /// Pixels in the same region, or in no region, in both results.
     pub kept: usize,
-    /// In none before, in a region now.
+    /// Pixels in no region of the pinned result and in a region of the newest.
     pub gained: usize,
-    /// In a region before, in none now.
+    /// Pixels in a region of the pinned result and in no region of the newest.
     pub lost: usize,
-    /// In a region that is another one now.
+    /// Pixels in different regions.
     pub changed: usize,
 }
 
-/// How far the body reflection moved: the largest difference of a pixel's bands, counts.
+/// The change of the body reflection: per pixel the largest difference of a band, counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyChange {
-    /// Share of the pixels that moved by more than one count.
+    /// Share of the pixels that changed by more than one count, 0…1.
     pub share: f64,
-    /// Mean over all pixels.
+    /// Mean change over all pixels, counts.
     pub mean_counts: f64,
-    /// Of the pixel that moved farthest.
+    /// Largest change of a pixel, counts.
     pub most_counts: f64,
 }
 
-/// Compares two results; none where they are of pictures of different sizes. A few passes over the picture.
+/// Compares two results; none for pictures of different sizes. Takes a few passes over the picture.
 pub fn compare(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Option<Comparison> {
     if pinned.picture.size() != newest.picture.size() {
         return None;
@@ -174,7 +175,7 @@ fn figures(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<Figure> {
         both("camera noise", "counts", &|shown| Some(shown.analysis.used.camera_noise)),
     ];
     if let (Some(a), Some(b)) = (pinned.accuracy(), newest.accuracy()) {
-        // The number of regions is there already.
+        // The number of regions is among the figures already.
         let scores = a.scores.figures().into_iter().zip(b.scores.figures());
         figures.extend(scores.filter(|((name, _), _)| *name != "regions").map(
             |((name, pinned), (_, newest))| {

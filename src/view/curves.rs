@@ -1,6 +1,6 @@
-//! What straight lines and surfaces of the RGB cube become in the other color spaces.
+//! Straight lines and surfaces of the RGB cube as curves and surfaces of the other color spaces.
 //!
-//! The model's shapes are straight in RGB alone; elsewhere they are subdivided until their pieces look straight.
+//! The shapes of the model are straight in RGB only. For other spaces they are subdivided until the pieces look straight.
 
 use super::ColorSpace;
 use super::solid::Mesh;
@@ -8,15 +8,15 @@ use super::space::LOG_FLOOR;
 use super::vector::{Point, cross, distance, dot, halfway, unit};
 use std::collections::BTreeMap;
 
-/// A piece of a curve may stray this far from its chord, in the unit of the world.
+/// Largest distance of a piece of a curve from its chord, in the unit of the world.
 const STRAIGHT: f32 = 2e-3;
-/// Halvings of a segment, at least and at most: shapes of a thousandth of the cube's size are beyond seeing.
+/// Least and largest number of halvings of a segment: pieces of a thousandth of the cube's size cannot be seen.
 const SEGMENT_HALVINGS: [usize; 2] = [2, 9];
-/// Times that triangles are divided, at most.
+/// Largest number of times that triangles are divided.
 const SURFACE_HALVINGS: usize = 4;
 
 impl ColorSpace {
-    /// What the twelve edges of the RGB cube become: the outline of all colors.
+    /// The twelve edges of the RGB cube in the world: the outline of all colors.
     pub fn frame(self, full_counts: f32) -> Vec<Vec<Point>> {
         let mut edges = Vec::with_capacity(12);
         for corner in 0..8usize {
@@ -28,13 +28,13 @@ impl ColorSpace {
         edges
     }
 
-    /// The curve in the world that the straight segment from `a` to `b`, both in counts, becomes.
+    /// The straight segment from `a` to `b`, both in counts, as a curve in the world.
     pub fn segment(self, a: Point, b: Point, full_counts: f32) -> Vec<Point> {
         let at = |t: f32| std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t);
         if self == Self::Rgb {
             return vec![self.place(a, full_counts), self.place(b, full_counts)];
         }
-        // Chromaticity leaps at black, which lies everywhere on its floor: the curve begins just beside it.
+        // Chromaticity is not continuous at black: the curve begins just beside black.
         let is_black = |v: Point| v.iter().sum::<f32>() < 1e-3 * full_counts;
         let leaps = self == Self::Chromaticity;
         let from = if leaps && is_black(a) { 1e-3 } else { 0.0 };
@@ -61,7 +61,7 @@ impl ColorSpace {
         curve
     }
 
-    /// The surface in the world that a surface in counts becomes, subdivided until it looks smooth and without cracks.
+    /// A surface in counts as a surface in the world, subdivided until the surface looks smooth, without cracks.
     pub fn surface(self, mesh: &Mesh, full_counts: f32) -> Mesh {
         let mut fine = mesh.clone();
         if self != Self::Rgb {
@@ -103,14 +103,14 @@ impl ColorSpace {
         middles.values().any(Option::is_some)
     }
 
-    /// Whether the straight edge between two colors strays from its chord in the world.
+    /// Whether the straight edge between two colors becomes a curve in the world that is not straight.
     fn bends(self, a: Point, b: Point, full_counts: f32) -> bool {
         let (p, q) = (self.place(a, full_counts), self.place(b, full_counts));
         let middle = self.place(halfway(a, b), full_counts);
         distance(middle, halfway(p, q)) > 2.0 * STRAIGHT
     }
 
-    /// What the normal of a surface becomes: the cofactors of the map's derivatives, applied to it.
+    /// The normal of a surface in the world: the cofactors of the map's derivatives, applied to the normal in counts.
     fn normal(self, point: Point, normal: Point, full_counts: f32) -> Point {
         let step = 1e-3 * full_counts;
         // Away from black and the cube's lower sides, where some spaces have no derivative.
@@ -259,7 +259,7 @@ mod tests {
                     let moved = unit(std::array::from_fn(|i| high[i] - low[i])).unwrap();
                     prop_assert!(dot(turned, moved).abs() < 0.05, "{space:?} {}", dot(turned, moved));
                 }
-                // What lay outside still does.
+                // A point that lay outside still lies outside.
                 let out = space.place(std::array::from_fn(|i| p[i] + 0.5 * normal[i]), 255.0);
                 let own = space.place(p, 255.0);
                 prop_assert!(dot(turned, std::array::from_fn(|i| out[i] - own[i])) > 0.0, "{space:?}");

@@ -1,4 +1,4 @@
-//! A photograph's colors in 64³ bins, and the way from a bin to its pixels and back.
+//! The colors of a photograph in 64³ bins, the pixels of each bin, and the bin of each pixel.
 
 use crate::photo::LinearImage;
 use crate::raster::{LabelMap, Mask};
@@ -10,13 +10,13 @@ use rayon::prelude::*;
 pub const BINS_PER_BAND: usize = 64;
 
 const CELLS: usize = BINS_PER_BAND.pow(3);
-/// Levels of a band within a bin: means are exact to half of one, 1/512 of a bin.
+/// Levels of a band within a bin: the error of a mean is at most half a level, 1/512 of a bin.
 const LEVELS: f32 = 256.0;
-/// Levels of a band within a bin that [`Histogram::unique`] tells apart: 1024 in all, more than 8-bit files have.
+/// Levels of a band within a bin that [`Histogram::unique`] distinguishes: 1024 in all, more than 8-bit files have.
 const UNIQUE_LEVELS: usize = 16;
-/// Enough that handing out a task costs nothing.
+/// Fewest items of a parallel task, so that starting a task costs little in comparison.
 const PIXELS_PER_TASK: usize = 1 << 16;
-/// Counters that are worth having at once; with more, pixels are sorted instead.
+/// Largest number of counters that are kept at once; where more would be needed, pixels are sorted instead.
 const MOST_COUNTERS: usize = 1 << 22;
 
 /// The colors of a photograph, binned; only bins that hold pixels are kept.
@@ -28,18 +28,18 @@ pub struct Histogram {
     pub bins: Vec<ColorBin>,
     /// Cell of the cube that each pixel is in.
     of_pixel: Vec<u32>,
-    /// Bin of each cell; none's where the cell holds no pixels.
+    /// Bin of each cell; a number that is no bin where the cell holds no pixel.
     of_cell: Vec<u32>,
 }
 
 /// One bin that holds pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColorBin {
-    /// Mean color of its pixels, linear counts, exact to 1/512 of the bin.
+    /// Mean color of the pixels, linear counts, exact to 1/512 of the bin.
     pub mean: [f32; 3],
-    /// How many they are.
+    /// Number of pixels.
     pub count: u32,
-    /// Where it is in the cube.
+    /// Place of the bin in the cube.
     cell: u32,
 }
 
@@ -48,13 +48,13 @@ pub struct ColorBin {
 pub struct UniqueColor {
     /// The color, linear counts.
     pub color: [f32; 3],
-    /// How many pixels have it.
+    /// Number of pixels of this color.
     pub count: u32,
-    /// The bin that it lies in; its pixels are among that bin's.
+    /// The bin of the color.
     pub bin: u32,
 }
 
-/// A cell's pixels: how many, and the levels of their bands above the cell's corner.
+/// The pixels of a cell: their number, and the sums of their levels above the corner of the cell.
 #[derive(Clone, Copy, Default)]
 struct Cell {
     count: u32,
@@ -109,20 +109,20 @@ impl Histogram {
         self.of_pixel.get(pixel).map(|&cell| self.of_cell[cell as usize])
     }
 
-    /// The bin that holds a color of linear counts; none where no pixel has one like it.
+    /// The bin that holds a color of linear counts; none where the bin would hold no pixel.
     pub fn bin_at(&self, color: [f32; 3]) -> Option<u32> {
         let (cell, _) = Scale::new(self.full_counts).place(color);
         self.of_cell.get(cell as usize).copied().filter(|&bin| bin != u32::MAX)
     }
 
-    /// The pixels of a bin, in row order; none where there is no such bin. Looks at every pixel.
+    /// The pixels of a bin, in row order; none where there is no such bin. Takes one pass over all pixels.
     pub fn pixels_of(&self, bin: u32) -> Vec<u32> {
         let Some(bin) = self.bins.get(bin as usize) else { return Vec::new() };
         let cells = self.of_pixel.par_iter().with_min_len(PIXELS_PER_TASK).enumerate();
         cells.filter(|(_, cell)| **cell == bin.cell).map(|(pixel, _)| pixel as u32).collect()
     }
 
-    /// How many pixels of a mask each bin holds; none in any where the mask is of another size.
+    /// Number of pixels of a mask in each bin; 0 for all bins where the mask is of another size.
     pub fn bins_of(&self, mask: &Mask) -> Vec<u32> {
         let mut counts = vec![0; CELLS];
         if mask.len() == self.of_pixel.len() {
@@ -133,7 +133,7 @@ impl Histogram {
         self.bins.iter().map(|bin| counts[bin.cell as usize]).collect()
     }
 
-    /// The label that most pixels of each bin have, of equals the smallest; 0 in all where the map is of another size.
+    /// The label of most pixels of each bin, of equals the smallest; 0 for all bins where the map is of another size.
     pub fn majority(&self, labels: &LabelMap) -> Vec<u16> {
         if labels.len() != self.of_pixel.len() {
             return vec![0; self.bins.len()];
@@ -143,7 +143,8 @@ impl Histogram {
         self.majority_of(usize::from(largest) + 1, |pixel| labels[pixel])
     }
 
-    /// The class that most pixels of each bin have, by their windows; none where most have none. `width` is the picture's.
+    /// The class of the windows of most pixels of each bin; none where most have no class. `width` is the width of the picture,
+    /// pixels.
     pub fn majority_class(&self, windows: &Windows, width: usize) -> Vec<Option<Class>> {
         const CLASSES: [Class; 4] = [Class::Point, Class::Line, Class::Plane, Class::Volume];
         let number = |class: &Option<Class>| class.map_or(0, |class| class as u16 + 1);
@@ -157,7 +158,7 @@ impl Histogram {
         most.into_iter().map(|number| usize::from(number).checked_sub(1).map(|i| CLASSES[i])).collect()
     }
 
-    /// For each bin, which of the numbers below `numbers` most of its pixels have.
+    /// For each bin the number of most of its pixels; all numbers are below `numbers`.
     fn majority_of(&self, numbers: usize, number: impl Fn(usize) -> u16 + Sync) -> Vec<u16> {
         if self.bins.len() * numbers > MOST_COUNTERS {
             return self.majority_by_sorting(number);
@@ -199,7 +200,7 @@ impl Histogram {
         most.into_iter().map(|(_, number)| number).collect()
     }
 
-    /// The colors of the binned `image` to 10 bits a band, in the order of their bins: full detail, on demand. Sorts all
+    /// The colors of `image`, which is the image of the histogram, to 10 bits a band, in the order of their bins. Sorts all
     /// pixels.
     pub fn unique(&self, image: &LinearImage) -> Vec<UniqueColor> {
         let colors = image.pixels.as_slice();
@@ -230,7 +231,7 @@ impl Histogram {
     }
 }
 
-/// Where colors lie in the grid of cells.
+/// The grid of cells in the color cube.
 #[derive(Clone, Copy)]
 struct Scale {
     /// Cells per count.
@@ -259,7 +260,8 @@ fn corner(cell: usize) -> [usize; 3] {
     [cell / BINS_PER_BAND / BINS_PER_BAND, cell / BINS_PER_BAND % BINS_PER_BAND, cell % BINS_PER_BAND]
 }
 
-/// The largest value of any band, 0 without pixels. Bands are not negative, so that their bits are in their order.
+/// The largest value of any band, counts; 0 without pixels. No band is negative, so that the order of the bits is the order of
+/// the values.
 fn brightest(colors: &[[f32; 3]]) -> f32 {
     let largest = |values: &[f32]| values.iter().fold(0i32, |most, v| most.max(v.to_bits() as i32));
     let parts = colors.as_flattened().par_chunks(3 * PIXELS_PER_TASK).map(largest);

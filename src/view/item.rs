@@ -1,10 +1,10 @@
-//! What can be pointed at. One hover and one selection are shared by every panel.
+//! The items that can be hovered and selected. All panels share one hover and one selection.
 
 use crate::raster::{Mask, PixelIndex, RegionId};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Something that a person can point at, wherever it is shown.
+/// Something that a person can point at in any panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Item {
     /// A pixel.
@@ -17,7 +17,7 @@ pub enum Item {
     Bin(u32),
 }
 
-/// What is selected: at most one item, and pixels marked by lasso, rectangle or brush.
+/// The selection: at most one item, and pixels marked by lasso, rectangle or brush.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
     /// The item that was clicked.

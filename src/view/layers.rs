@@ -1,4 +1,4 @@
-//! Pictures of the photograph and of what was found in it, as the image view shows them.
+//! Pictures of the photograph and of a result, as the image view shows them.
 //!
 //! Values are sRGB with straight alpha. An overlay ([`Layer::is_overlay`]) is drawn over the photograph, as fills or as
 //! outlines one pixel wide inside each area; every other layer replaces the photograph. The table of the layers is in
@@ -27,49 +27,49 @@ pub(crate) use curve::Curve;
 use painters::{Base, PaintInput};
 use table::LayerKind;
 
-/// The colors of `layer` that need explaining; none where it shows light, or regions, whose colors are in their table.
+/// The legend of `layer`; empty where the layer shows light, or regions, whose colors are in the table of the regions.
 pub fn legend(layer: Layer) -> Vec<LegendEntry> {
     layer.row().legend.to_vec()
 }
 
 impl Layer {
-    /// Its name on buttons.
+    /// The name on buttons.
     pub const fn name(self) -> &'static str {
         self.row().name
     }
 
-    /// What it shows, with the paper's section: a tooltip.
+    /// What the layer shows, with the section of the paper: a tooltip.
     pub const fn tip(self) -> &'static str {
         self.row().tip
     }
 
-    /// Whether it is drawn over the photograph, as fills or outlines, rather than in its place.
+    /// Whether the layer is drawn over the photograph, as fills or outlines, and not in place of the photograph.
     pub const fn is_overlay(self) -> bool {
         matches!(self.row().kind, LayerKind::Overlay | LayerKind::RegionOverlay)
     }
 
-    /// Whether its picture depends on a result.
+    /// Whether the picture depends on a result.
     pub const fn needs_result(self) -> bool {
         !matches!(self.row().kind, LayerKind::Photograph)
     }
 
-    /// Whether it compares the result with the pinned one.
+    /// Whether the layer compares the result with the pinned result.
     pub const fn needs_pinned(self) -> bool {
         matches!(self.row().kind, LayerKind::Comparison)
     }
 
-    /// Whether it dims the regions that are not selected.
+    /// Whether the layer dims the regions that are not selected.
     pub const fn dims_regions(self) -> bool {
         matches!(self.row().kind, LayerKind::RegionOverlay)
     }
 
-    /// Its numbers at a pixel, counts or a share; none where it has no numbers of its own.
+    /// The numbers of the layer at a pixel, counts or a share; none where the layer has no numbers of its own.
     pub fn numbers(self, intrinsic: &Intrinsic, pixel: usize) -> Option<Vec<f32>> {
         self.row().numbers.map(|numbers| numbers(intrinsic, pixel))
     }
 }
 
-/// Draws `layer`, a pixel a pixel, opaque.
+/// Draws `layer` at the size of the photograph, opaque.
 ///
 /// A layer that needs a result is the photograph itself while `shown` has none of the photograph's size.
 /// [`Layer::Difference`] is gray where there is no `pinned` result to compare with.

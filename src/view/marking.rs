@@ -1,7 +1,7 @@
-//! Masks: from shapes drawn in the picture, and from the things that can be pointed at.
+//! Masks from shapes drawn in the picture, and from items that can be selected.
 //!
 //! Places are in pixels of the picture: pixel (x, y) covers x…x+1, y…y+1, and its center is at x + ½, y + ½. A shape marks the
-//! pixels whose centers lie in it. What lies outside the picture is cut off.
+//! pixels whose centers lie in the shape. Parts of a shape outside the picture are ignored.
 
 use super::{Histogram, Item, Picture, ResultSnapshot};
 use crate::raster::{LabelMap, Mask, PixelIndex, Raster, RegionId};
@@ -63,7 +63,7 @@ pub fn brush(size: Size, path: &[[f32; 2]], radius_px: f32) -> Mask {
     mask
 }
 
-/// The pixels along a straight line, in order, one per column or row, whichever it crosses more of; indices.
+/// The pixels along a straight line, in order: one per column where the line crosses more columns than rows, else one per row.
 pub fn line(size: Size, from: [f32; 2], to: [f32; 2]) -> Vec<u32> {
     if !from.iter().chain(&to).all(|v| v.is_finite()) {
         return Vec::new();
@@ -125,7 +125,7 @@ pub fn of_bins(picture: &Picture, bins: &[u32]) -> Option<Mask> {
     mask.as_slice().contains(&true).then_some(mask)
 }
 
-/// The pixels of one color around a pixel: those of its bin that are 4-connected to it.
+/// The pixels of one color around a pixel: the pixels of the same bin that are 4-connected to the pixel.
 pub fn flood(size: Size, histogram: &Histogram, pixel: PixelIndex) -> Option<Mask> {
     let pixel = pixel.index();
     let bin = histogram.bin_of(pixel)?;
@@ -149,7 +149,7 @@ pub fn flood(size: Size, histogram: &Histogram, pixel: PixelIndex) -> Option<Mas
 fn centers_within(a: f32, b: f32, end: usize) -> std::ops::Range<usize> {
     let first = |place: f32| ((place - 0.5).ceil().max(0.0) as usize).min(end);
     let (low, high) = (first(a.min(b)), (a.max(b) - 0.5).floor());
-    // A comparison with a place that is no number is false.
+    // A comparison with NaN is false.
     if high >= 0.0 { low..((high as usize).saturating_add(1)).clamp(low, end.max(low)) } else { low..low }
 }
 
@@ -161,7 +161,7 @@ fn off_segment2(p: [f32; 2], a: [f32; 2], b: [f32; 2]) -> f32 {
     (ap[0] - t * ab[0]).powi(2) + (ap[1] - t * ab[1]).powi(2)
 }
 
-/// The part of a segment inside the picture (Liang & Barsky 1984); none where it misses it.
+/// The part of a segment inside the picture (Liang & Barsky 1984); none where the segment lies outside.
 fn clipped(size: Size, a: [f32; 2], b: [f32; 2]) -> Option<[[f32; 2]; 2]> {
     let mut range = [0.0f32, 1.0];
     for (k, end) in [size.0 as f32, size.1 as f32].into_iter().enumerate() {

@@ -1,5 +1,5 @@
-//! What the panels show, as plain data: layers, histogram, solids, plane points, profiles, statistics, and what is to be seen at
-//! an instant of a trace.
+//! The contents of the panels as plain data: layers, histogram, solids, plane points, profiles, statistics, and the state of the
+//! analysis at an instant of a trace.
 //!
 //! Everything here is computed from a photograph, a result or a trace, without application state and without a screen.
 

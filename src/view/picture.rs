@@ -1,4 +1,4 @@
-//! A photograph that is open, where it came from, and what it is compared with.
+//! A photograph that is open, its source, and its ground truth.
 
 use super::Histogram;
 use crate::photo::{Photo, ReadOptions};
@@ -6,7 +6,7 @@ use crate::truth::GroundTruth;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Where a photograph comes from.
+/// The source of a photograph.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Origin {
     /// A file.
@@ -15,9 +15,9 @@ pub enum Origin {
     Sample(String),
     /// The clipboard, or a file dropped without a path; the name is for people.
     Bytes {
-        /// What to call it.
+        /// A name for people.
         name: String,
-        /// An encoded picture.
+        /// The bytes of an encoded picture.
         #[serde(skip)]
         bytes: Arc<[u8]>,
     },
@@ -32,7 +32,7 @@ impl Origin {
         }
     }
 
-    /// The file, if it is one.
+    /// The path of the file; none for a photograph that is no file.
     pub fn path(&self) -> Option<&Path> {
         match self {
             Self::File(path) => Some(path),
@@ -44,19 +44,19 @@ impl Origin {
 /// An open photograph. Shared, never changed.
 #[derive(Debug)]
 pub struct Picture {
-    /// Where it came from.
+    /// The source of the photograph.
     pub origin: Origin,
-    /// How it was read.
+    /// The options with which the file was read.
     pub reading: ReadOptions,
     /// The photograph; its linear image is in `image`.
     pub photo: Photo,
     /// SHA-256 of the file, hexadecimal.
     pub sha256: String,
-    /// What it took to read, milliseconds.
+    /// Time that reading took, milliseconds.
     pub read_ms: f64,
-    /// Its colors, binned.
+    /// The histogram of the colors.
     pub histogram: Histogram,
-    /// Ground truth, where the scene has one.
+    /// The ground truth, where the scene has one.
     pub truth: Option<GroundTruth>,
 }
 

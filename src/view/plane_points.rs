@@ -1,4 +1,4 @@
-//! The plane view: a region's pixels by their amounts of body and surface reflection, the skewed T of figure 2.
+//! The plane view: the pixels of a region by their amounts of body and surface reflection, the skewed T of figure 2.
 
 mod cursor;
 
@@ -12,7 +12,7 @@ use crate::reflection::{Components, ReflectionTransform};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
-/// Points of a region with more pixels, at most: each then stands for the pixels of a cell.
+/// Largest number of points of a region. In a region with more pixels each point stands for the pixels of a cell.
 pub const MOST_PLANE_POINTS: usize = 20_000;
 /// Cells of the finest grid along each side; a power of two.
 const CELLS: usize = 1024;
@@ -32,11 +32,11 @@ pub struct RegionPlane {
     pub has_plane: bool,
     /// Angle between both directions, degrees.
     pub angle_deg: f32,
-    /// Its pixels, or cells of them, in the order of the pixels or the cells.
+    /// The pixels of the region in row order, or their cells in the order of the cells.
     pub points: Vec<PlanePixel>,
     /// m_b of the brightest matte point, counts.
     pub matte_length: f32,
-    /// Its highlight lines, the strongest first; none without a plane.
+    /// The highlight lines, the strongest first; none without a plane.
     pub branches: Vec<PlaneBranch>,
     /// Distance from the plane within which the slice claims colors, counts.
     pub slice_half_width: f32,
@@ -45,16 +45,16 @@ pub struct RegionPlane {
     /// Smallest and largest m_b and m_s of the points, counts.
     pub extent: [[f32; 2]; 2],
     transform: ReflectionTransform,
-    /// Where the amounts are measured from: black, or the ambient light.
+    /// The color from which the amounts are measured, counts: black, or the ambient light.
     origin: Point,
 }
 
 /// A highlight line in a dichromatic plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneBranch {
-    /// m_b where it leaves the matte line, counts.
+    /// m_b of the point where the line leaves the matte line, counts.
     pub meeting_point: f32,
-    /// m_s of its brightest highlight pixel, counts; 0 without one.
+    /// m_s of the brightest highlight pixel of the line, counts; 0 without one.
     pub length: f32,
 }
 
@@ -67,17 +67,17 @@ pub struct PlanePixel {
     pub surface: f32,
     /// The color as measured, counts; the mean of a cell.
     pub color: Point,
-    /// What the pixels are to the region; all pixels of a cell are of one kind.
+    /// Kind of the pixels; all pixels of a cell are of one kind.
     pub kind: PixelKind,
-    /// The pixel, or the first one of the cell.
+    /// The pixel, or the first pixel of the cell.
     pub pixel: PixelIndex,
-    /// How many pixels it stands for.
+    /// Number of pixels that the point stands for.
     pub count: u32,
 }
 
 /// The plane of a region; none where there is no such region.
 ///
-/// Pixels lie where their measured colors do, clipped ones too.
+/// The place of a pixel is that of its measured color, also for clipped pixels.
 pub fn region_plane(shown: &ResultSnapshot, region: RegionId) -> Option<RegionPlane> {
     let hypothesis = hypothesis(shown, region)?;
     let reflection = shown.analysis.intrinsic.regions.get(region.index())?;
@@ -118,7 +118,7 @@ fn from(origin: Point, color: Point) -> Point {
     std::array::from_fn(|band| color[band] - origin[band])
 }
 
-/// Highlight lines from where they start; each highlight pixel belongs to the one whose m_b is nearest.
+/// The highlight lines that start at some m_b, counts; each highlight pixel belongs to the line of the nearest m_b.
 fn branches(meeting_points: &[f32], points: &[PlanePixel]) -> Vec<PlaneBranch> {
     let line = |&meeting_point: &f32| PlaneBranch { meeting_point, length: 0.0 };
     let mut branches: Vec<PlaneBranch> = meeting_points.iter().map(line).collect();
@@ -147,18 +147,18 @@ fn angle_deg(transform: &ReflectionTransform) -> f32 {
 }
 
 impl RegionPlane {
-    /// A color's amounts of body and surface reflection and its distance from the plane, counts.
+    /// The amounts of body and surface reflection of a color and its distance from the plane, counts.
     pub fn amounts(&self, color: Point) -> Components {
         self.transform.split(from(self.origin, color))
     }
 
-    /// Where m_b and m_s lie in the plane as it is, counts: the first axis along C_b, C_s at its true angle to it.
+    /// The place of m_b and m_s in oblique coordinates, counts: the first axis along C_b, C_s at its true angle to C_b.
     pub fn oblique(&self, body: f32, surface: f32) -> [f32; 2] {
         let (sine, cosine) = self.angle_deg.to_radians().sin_cos();
         [body + surface * cosine, surface * sine]
     }
 
-    /// m_b and m_s at a place that [`Self::oblique`] made.
+    /// m_b and m_s of a place in oblique coordinates, counts: the inverse of [`Self::oblique`].
     pub fn from_oblique(&self, [x, y]: [f32; 2]) -> [f32; 2] {
         let (sine, cosine) = self.angle_deg.to_radians().sin_cos();
         let surface = y / sine;
@@ -176,7 +176,7 @@ impl RegionPlane {
         drawn.map(|branch| [[branch.meeting_point, 0.0], [branch.meeting_point, branch.length]])
     }
 
-    /// The point nearest to a place in oblique coordinates, no farther than `within_counts`.
+    /// The point nearest to a place in oblique coordinates; none within `within_counts` counts.
     pub fn nearest(&self, place: [f32; 2], within_counts: f32) -> Option<&PlanePixel> {
         let off2 = |point: &PlanePixel| {
             let [x, y] = self.oblique(point.body, point.surface);
@@ -332,7 +332,7 @@ mod tests {
                 let in_plane: Point =
                     std::array::from_fn(|k| plane.body[k] * point.body + plane.surface[k] * point.surface);
                 assert!((distance(in_plane, point.color) - amounts.noise.abs()).abs() < 1e-2);
-                // What is drawn is as long as what is measured.
+                // Lengths in the drawing are lengths in the cube.
                 let [x, y] = plane.oblique(point.body, point.surface);
                 assert!((x.hypot(y) - distance(in_plane, [0.0; 3])).abs() < 1e-2);
                 let [body, surface] = plane.from_oblique([x, y]);

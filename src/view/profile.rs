@@ -1,4 +1,4 @@
-//! Body, surface and noise along a line through the picture, like the paper's color figure 11.
+//! Body reflection, surface reflection and noise along a line through the picture, as in color figure 11 of the paper.
 
 use super::{Picture, ProfileLine, ResultSnapshot};
 use crate::raster::{PixelIndex, RegionId};
@@ -8,27 +8,27 @@ use std::fmt::Write;
 /// One pixel on the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProfileSample {
-    /// Distance from the line's beginning, pixels.
+    /// Distance from the beginning of the line, pixels.
     pub position_px: f32,
     /// The pixel.
     pub pixel: PixelIndex,
-    /// Its color, linear counts.
+    /// Color of the pixel, linear counts.
     pub input: [f32; 3],
-    /// m_b: its body reflection along C_b, counts; none where it is in no region.
+    /// m_b: body reflection along C_b, counts; none for a pixel in no region.
     pub body: Option<f32>,
-    /// m_s: its surface reflection along C_s, counts; none where its region has no surface vector.
+    /// m_s: surface reflection along C_s, counts; none where the region has no surface vector.
     pub surface: Option<f32>,
-    /// ε: its distance from the dichromatic plane, counts.
+    /// ε: distance from the dichromatic plane, counts; none for a pixel in no region.
     pub noise: Option<f32>,
     /// The region of the pixel; none: no region.
     pub region: Option<RegionId>,
-    /// What it is to its region.
+    /// Kind of the pixel.
     pub kind: PixelKind,
 }
 
 /// The ends of a line: the middles of its first and last pixel, in pixels of the picture (pixel (0, 0) covers 0…1).
 ///
-/// Rows and columns go through pixel `at`, or the picture's middle.
+/// Rows and columns go through pixel `at`, or through the middle of the picture.
 pub fn profile_ends(line: ProfileLine, picture: &Picture, at: Option<PixelIndex>) -> [[f32; 2]; 2] {
     let (width, height) = picture.size();
     let at = at.map(PixelIndex::index).filter(|&pixel| pixel < width * height);
@@ -41,8 +41,8 @@ pub fn profile_ends(line: ProfileLine, picture: &Picture, at: Option<PixelIndex>
     }
 }
 
-/// The pixels from one point to another, in pixels of the picture: one sample for each step along the longer side, nothing
-/// interpolated. What lies outside is left out. Without a result of this picture there is only the input.
+/// The pixels from one point to another, in pixels of the picture: one sample for each step along the longer side, without
+/// interpolation. Pixels outside the picture are left out. Without a result of this picture the samples hold the input only.
 pub fn profile(
     picture: &Picture,
     shown: Option<&ResultSnapshot>,
@@ -93,7 +93,7 @@ fn along(color: [f32; 3], unit: [f64; 3]) -> f32 {
     (0..3).map(|band| f64::from(color[band]) * unit[band]).sum::<f64>() as f32
 }
 
-/// The samples as comma separated values with a line of headings; `width` is the picture's. What is none is empty.
+/// The samples as comma separated values with a line of headings; `width` is the picture's. A field without a value is empty.
 pub fn profile_csv(samples: &[ProfileSample], width: usize) -> String {
     let mut text = String::from(
         "position_px,x,y,r_counts,g_counts,b_counts,body_counts,surface_counts,noise_counts,region,kind\n",

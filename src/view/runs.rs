@@ -1,4 +1,4 @@
-//! Masks as text: lengths of runs, for files that people may look into.
+//! Masks as text: lengths of runs, for files that people may read.
 
 use crate::raster::{Mask, Raster};
 use serde::{Deserialize, Serialize};
@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 pub struct MaskRuns {
     width: usize,
     height: usize,
-    /// Numbers with blanks between them.
+    /// The lengths, pixels, separated by blanks.
     runs: String,
 }
 
 impl MaskRuns {
-    /// The runs of `mask`.
+    /// The run lengths of a mask.
     pub fn of(mask: &Mask) -> Self {
         let mut lengths = Vec::new();
         let (mut value, mut length) = (false, 0usize);
@@ -28,17 +28,17 @@ impl MaskRuns {
         Self { width: mask.width(), height: mask.height(), runs: lengths.join(" ") }
     }
 
-    /// Columns and rows.
+    /// Number of columns and number of rows.
     pub fn size(&self) -> (usize, usize) {
         (self.width, self.height)
     }
 
-    /// The mask; none where the runs are no numbers or do not add up to its pixels.
+    /// The mask; none where the text holds anything but numbers, or the lengths do not add up to the number of pixels.
     pub fn mask(&self) -> Option<Mask> {
         let pixels = self.width.checked_mul(self.height)?;
         let lengths: Vec<usize> =
             self.runs.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
-        // Added up before memory is taken.
+        // The sum is checked before memory is allocated.
         let sum = lengths.iter().try_fold(0usize, |sum, &length| sum.checked_add(length))?;
         if sum != pixels {
             return None;

@@ -6,7 +6,7 @@ use super::{Picture, ResultSnapshot, Selection};
 use crate::raster::Mask;
 use std::fmt::Write;
 
-/// The marked pixels, or else those of the selected item; none where there are none.
+/// The marked pixels; where none are marked, the pixels of the selected item; none where nothing is selected.
 pub(crate) fn selected_pixels(
     selection: &Selection,
     picture: &Picture,
@@ -23,7 +23,7 @@ pub(crate) fn mask_png(mask: &Mask) -> Vec<u8> {
     crate::export::png_of_gray(&mask.map(|&on| if on { 255 } else { 0 }))
 }
 
-/// The pixels of a mask as comma separated values with a line of headings: place, linear counts, region and kind.
+/// The pixels of a mask as comma separated values with a line of headings: column, row, linear counts, region and kind.
 pub(crate) fn csv(mask: &Mask, picture: &Picture, shown: Option<&ResultSnapshot>) -> String {
     let mut text = String::from("x,y,r_counts,g_counts,b_counts,region,kind\n");
     let width = mask.width();

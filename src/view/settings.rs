@@ -42,7 +42,7 @@ pub enum Tool {
     Brush,
     /// Draw the line of the profile (image only).
     Profile,
-    /// Take the light's color from a white patch (image only).
+    /// Measure the color of the light on a white patch (image only).
     WhitePatch,
 }
 
@@ -56,7 +56,7 @@ pub struct ImageSettings {
     pub other: Layer,
     /// One layer or two.
     pub arrangement: Arrangement,
-    /// How areas are drawn.
+    /// Fills or outlines.
     pub fill: Fill,
     /// Opacity of areas over the photograph, 0…1.
     pub opacity: f32,
@@ -200,10 +200,10 @@ impl Default for PlaneSettings {
 /// The line along which the profile is taken, in pixels of the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum ProfileLine {
-    /// Through the hovered or selected pixel's row, or the picture's middle one.
+    /// The row of the hovered or selected pixel, else the middle row of the picture.
     #[default]
     Row,
-    /// Through its column.
+    /// The column of the hovered or selected pixel, else the middle column.
     Column,
     /// From one point to another.
     Between([f32; 2], [f32; 2]),

@@ -1,4 +1,4 @@
-//! The model's shapes in the RGB cube, in counts: what a hypothesis claims, and where its lines run.
+//! The shapes of the model in the RGB cube, in counts: the colors that a hypothesis claims, and its lines.
 
 mod cursor;
 
@@ -23,25 +23,26 @@ const ELLIPSOID_SIGMAS: f64 = 2.0;
 pub struct RegionShapes {
     /// The region.
     pub region: RegionId,
-    /// Its cylinder (5.3.2), from the dark sphere to the cube's end; none where nothing lies between them.
+    /// The cylinder (5.3.2), from the dark sphere to the far sides of the cube; none where nothing lies between them.
     pub cylinder: Option<Solid>,
-    /// The axis of the cylinder, as far as it reaches.
+    /// The ends of the axis of the cylinder.
     pub axis: Option<[Point; 2]>,
-    /// Its slice (5.4.2), cut to the cube: the outlines are the two faces along the plane. None without a plane.
+    /// The slice (5.4.2), cut to the cube; its outlines are the two faces along the plane. None without a plane.
     pub slice: Option<Solid>,
-    /// From the matte line's nearest point to black to the brightest matte point.
+    /// The matte line, from its point nearest to black to the brightest matte point.
     pub matte_line: [Point; 2],
-    /// Where the matte line ends (5.4.1).
+    /// The brightest matte point, at the end of the matte line (5.4.1).
     pub brightest_matte: Point,
-    /// Where the highlight lines leave the matte line, the strongest first; none without a plane.
+    /// The points where the highlight lines leave the matte line, the strongest first; none without a plane.
     pub meeting_points: Vec<Point>,
-    /// From the meeting points along the illuminant to the brightest highlight pixels; only of those that have highlight pixels.
+    /// The highlight lines, from their meeting points along the illuminant to the brightest highlight pixel; only lines with
+    /// highlight pixels.
     pub highlight_lines: Vec<[Point; 2]>,
-    /// Whether the meeting points were found from highlights; otherwise it is where highlights usually start.
+    /// Whether the meeting points were measured on highlights; if not, the meeting point is where highlights usually start.
     pub meeting_point_found: bool,
 }
 
-/// Directions from which a region's plane is looked at; unit vectors at right angles to one another.
+/// Directions along and across the plane of a region: unit vectors at right angles to one another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneDirections {
     /// Along the matte line, away from black.
@@ -87,7 +88,7 @@ pub fn dark_sphere(shown: &ResultSnapshot) -> Option<Solid> {
     (radius > 0.0).then(|| octant(radius))
 }
 
-/// From black along the light's color to where it leaves the cube; none where the light is unknown.
+/// The line from black along the color of the light to the side of the cube; none where the light is unknown.
 pub fn illuminant_line(shown: &ResultSnapshot) -> Option<[Point; 2]> {
     let direction = shown.analysis.illuminant?.direction;
     let largest = direction.iter().fold(0.0f64, |most, v| most.max(*v));
@@ -121,7 +122,7 @@ pub(super) fn hypothesis(shown: &ResultSnapshot, region: RegionId) -> Option<&Pl
     shown.analysis.finals.hypotheses.get(region.index())
 }
 
-/// A direction across the matte line where no light says which: towards gray, or any for a gray object.
+/// A direction across the matte line of a hypothesis without a light: towards gray, or any direction for a gray object.
 pub(super) fn across(hypothesis: &PlanarHypothesis) -> Vec3 {
     let direction = hypothesis.matte.direction;
     let towards_gray = hypothesis.matte.inward().try_normalize(1e-6);
@@ -132,7 +133,8 @@ fn full(shown: &ResultSnapshot) -> f64 {
     f64::from(shown.picture.histogram.full_counts)
 }
 
-/// The slice as the segmentation claims it, [`crate::reflection::Slice`], as a body: bounded where that is refined.
+/// The slice by which the segmentation claims pixels ([`crate::reflection::Slice`]) as a body, bounded where the refinement is
+/// on.
 fn slice(
     shown: &ResultSnapshot,
     hypothesis: &PlanarHypothesis,
@@ -145,7 +147,7 @@ fn slice(
     slice_body(plane, used.slice_half_width_counts(), bounds, full)
 }
 
-/// A slice as a body; `bounds` are the cylinder's radius and the length of the matte line, where it is bounded by them.
+/// A slice as a body; `bounds` are the cylinder's radius and the length of the matte line, of a bounded slice.
 fn slice_body(plane: &DichromaticPlane, half_width: f64, bounds: Option<[f64; 2]>, full: f64) -> Solid {
     let mean: [f64; 3] = plane.matte.mean.into();
     let normal: [f64; 3] = plane.normal.into();
@@ -171,13 +173,14 @@ fn slice_body(plane: &DichromaticPlane, half_width: f64, bounds: Option<[f64; 2]
     convex_body(&sides, 4.0 * full, 2)
 }
 
-/// Where a region's highlight lines leave its matte line, counts, the strongest first.
+/// The points where the highlight lines of a region leave its matte line, counts, the strongest first.
 pub(super) fn starts(reflection: &RegionReflection, hypothesis: &PlanarHypothesis) -> Vec<Vec3> {
     let found: Vec<Vec3> = reflection.highlight_branches.iter().map(|branch| branch.start.into()).collect();
     if found.is_empty() { vec![hypothesis.start] } else { found }
 }
 
-/// From each start along the light to the brightest highlight pixel that is nearer to it than to the others, counts.
+/// The line from each start along the light to the brightest highlight pixel that is nearer to this line than to the others,
+/// counts.
 fn highlight_lines(
     shown: &ResultSnapshot,
     region: RegionId,

@@ -8,20 +8,20 @@ use crate::trace::{Class, Trace};
 use std::cmp::Reverse;
 use std::sync::{Arc, OnceLock};
 
-/// What one request found. Shared, never changed.
+/// The result of one request. Snapshots are shared and do not change.
 #[derive(Debug)]
 pub struct ResultSnapshot {
     /// Number of the request; larger is newer.
     pub generation: u64,
     /// The photograph.
     pub picture: Arc<Picture>,
-    /// What was asked.
+    /// The parameters of the request.
     pub params: Params,
-    /// The pixels that it was restricted to; none: all.
+    /// The pixels that the request was restricted to; none: all pixels.
     pub area: Option<Arc<Mask>>,
-    /// What was found.
+    /// The result.
     pub analysis: Analysis,
-    /// The first stage whose output is still an older request's; none: all is of this one.
+    /// The first stage whose output belongs to an older request; none: all outputs belong to this request.
     pub stale_from: Option<Stage>,
     /// Colors of the regions, sRGB, by [`RegionId::index`]. They stay with the objects while parameters move.
     pub region_colors: Vec<[u8; 3]>,
@@ -29,9 +29,9 @@ pub struct ResultSnapshot {
     pub coverage: f64,
     /// Time of each stage that ran, in the order of [`Stage::ALL`], milliseconds; none: its earlier output still stood.
     pub took_ms: [Option<f64>; Stage::ALL.len()],
-    /// Every decision that led to it, once they have been recorded.
+    /// The decisions that led to the result, once recorded.
     pub(crate) trace: OnceLock<Arc<Trace>>,
-    /// How near it is to the ground truth, once that has been measured.
+    /// The accuracy against the ground truth, once measured.
     pub(crate) accuracy: OnceLock<Option<Accuracy>>,
 }
 
@@ -46,7 +46,7 @@ impl ResultSnapshot {
         &self.analysis.matte.labels
     }
 
-    /// Regions after the planar stage, numbered likewise.
+    /// Regions after the planar stage, numbered in the order of their hypotheses.
     pub fn planar_labels(&self) -> &LabelMap {
         &self.analysis.planar.labels
     }
@@ -61,17 +61,17 @@ impl ResultSnapshot {
         &self.analysis.areas
     }
 
-    /// Every decision that led to it; none until they have been recorded.
+    /// The decisions that led to the result; none until they are recorded.
     pub fn trace(&self) -> Option<&Arc<Trace>> {
         self.trace.get()
     }
 
-    /// How near it is to the ground truth; none where there is no truth, and until the worker has measured it.
+    /// The accuracy against the ground truth; none without a ground truth, and until the worker has measured.
     pub fn accuracy(&self) -> Option<&Accuracy> {
         self.accuracy.get()?.as_ref()
     }
 
-    /// Measures that, where there is a truth. Takes about as long as the analysis.
+    /// Measures the accuracy, where there is a ground truth. Takes about as long as the analysis.
     pub(crate) fn measure(&self) {
         self.accuracy.get_or_init(|| super::accuracy::accuracy(&self.picture, &self.params, &self.analysis));
     }
@@ -119,7 +119,7 @@ pub(crate) fn overlaps(before: &LabelMap, after: &LabelMap) -> Vec<Vec<(u16, usi
             None => shared[old].push((new, pixels)),
         }
     };
-    // Neighbors are mostly alike: only runs are looked up.
+    // Neighboring pixels mostly have the same pair of labels: one look-up per run of pixels.
     let (mut run, mut length) = ((UNASSIGNED, UNASSIGNED), 0);
     for pair in before.as_slice().iter().copied().zip(after.as_slice().iter().copied()) {
         if pair != run {

@@ -1,8 +1,8 @@
-//! Lines and surfaces as plain numbers, and the bodies that the model's shapes are made of.
+//! Lines and surfaces as plain numbers, and the bodies of which the shapes of the model consist.
 
 use super::vector::{Point, cross64, dot64, point, unit};
 
-/// A surface of triangles. Its points are shared between triangles where it is smooth.
+/// A surface of triangles. Triangles share points where the surface is smooth.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Corners of the triangles.
@@ -13,12 +13,12 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// A body: its surface, and the lines that show its form where the surface is translucent.
+/// A body: its surface, and outlines that show its form where the surface is translucent.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Solid {
-    /// Its surface.
+    /// The surface.
     pub surface: Mesh,
-    /// Its edges, as polylines.
+    /// The outlines, as polylines.
     pub outlines: Vec<Vec<Point>>,
 }
 
@@ -50,9 +50,9 @@ impl Mesh {
 /// All points with `normal · p ≤ limit`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {
-    /// Unit vector that points out of it.
+    /// Unit vector that points out of the half space.
     pub normal: [f64; 3],
-    /// Signed distance of its side from the origin.
+    /// Signed distance of the side from the origin.
     pub limit: f64,
 }
 
@@ -91,7 +91,7 @@ pub fn face(sides: &[HalfSpace], side: usize, reach: f64) -> Vec<[f64; 3]> {
         .map(|[s, t]| std::array::from_fn(|i| normal[i] * limit + reach * (s * u[i] + t * v[i])))
         .to_vec();
     for (other, half) in sides.iter().enumerate() {
-        // Of two sides in one plane the earlier is the body's.
+        // Of two sides in one plane the earlier one bounds the body.
         let same = dot64(half.normal, normal) > 1.0 - 1e-12 && (half.limit - limit).abs() < 1e-9 * reach;
         if same && other < side {
             return Vec::new();
@@ -120,7 +120,8 @@ fn clipped(corners: &[[f64; 3]], half: &HalfSpace) -> Vec<[f64; 3]> {
     kept
 }
 
-/// The convex body inside all of `sides`, within `reach` of the origin. The outlines are its faces' on the first `shown` sides.
+/// The convex body inside all of `sides`, within `reach` of the origin. The outlines are the edges of the
+/// faces on the first `shown` sides.
 pub fn convex_body(sides: &[HalfSpace], reach: f64, shown: usize) -> Solid {
     let mut body = Solid::default();
     for side in 0..sides.len() {
@@ -143,23 +144,23 @@ const ROWS: usize = 32;
 /// Rows of the dark sphere's octant.
 const OCTANT_ROWS: usize = 16;
 
-/// The axis of a cylinder and how far it reaches.
+/// A cylinder between the dark sphere and the far sides of the cube.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tube {
     /// A point of the axis, counts.
     pub mean: [f64; 3],
-    /// Unit vector along it.
+    /// Unit vector along the axis.
     pub direction: [f64; 3],
-    /// Distance of the surface from it, counts.
+    /// Distance of the surface from the axis, counts.
     pub radius: f64,
-    /// Radius of the sphere around black at which it begins, counts.
+    /// Radius of the dark sphere, at which the cylinder begins, counts.
     pub dark: f64,
-    /// Where the cube ends, counts.
+    /// The end of the cube in each band, counts.
     pub full: f64,
 }
 
 impl Tube {
-    /// Its surface from the dark sphere to the cube's far sides, with both rims; none where nothing lies between them.
+    /// The surface from the dark sphere to the far sides of the cube, with both rims; none where nothing lies between them.
     pub fn solid(&self) -> Option<Solid> {
         let d = self.direction;
         let axis = if d[0].abs() < 0.6 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
@@ -183,7 +184,7 @@ impl Tube {
         Some(Solid { surface, outlines })
     }
 
-    /// The two ends of its axis.
+    /// The two ends of the axis.
     pub fn axis(&self) -> Option<[Point; 2]> {
         let ends = self.extent(self.mean)?;
         Some(ends.map(|t| point(std::array::from_fn(|k| self.mean[k] + self.direction[k] * t))))
@@ -272,7 +273,7 @@ mod tests {
         })
     }
 
-    /// Triangles turn the way their normals say.
+    /// The order of the corners agrees with the normals.
     fn is_outward(mesh: &Mesh) -> bool {
         mesh.triangles.iter().all(|corners| {
             let [a, b, c] = corners.map(|i| mesh.points[i as usize]);

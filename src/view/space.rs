@@ -1,4 +1,4 @@
-//! The color spaces of the color space view: where a color lies in each.
+//! The color spaces of the color space view: the place of a color in each space.
 //!
 //! Every space is a function from linear counts into a world about the size of the unit cube, whose third coordinate points
 //! up.
@@ -6,9 +6,9 @@
 use super::ColorSpace;
 use super::vector::{Point, dot};
 
-/// Half of what the world spans along a* and b*: all of sRGB lies between −108 and 99.
+/// Half of the range of a* and b* in the world: all of sRGB lies between −108 and 99.
 pub(super) const LAB_REACH: f32 = 110.0;
-/// The darkest band that log RGB tells from black, as a share of full scale: one count of 255.
+/// Smallest value of a band that log RGB distinguishes from black, as a share of full scale: one count of 255.
 pub(super) const LOG_FLOOR: f32 = 1.0 / 255.0;
 
 /// D65 in XYZ, and linear sRGB to XYZ (IEC 61966-2-1).
@@ -25,10 +25,10 @@ const RGB_FROM_XYZ: [[f32; 3]; 3] = [
 ];
 
 impl ColorSpace {
-    /// All of them, in the order of the menu.
+    /// All spaces, in the order of the menu.
     pub const ALL: [Self; 5] = [Self::Rgb, Self::Lab, Self::Hsv, Self::Chromaticity, Self::LogRgb];
 
-    /// Its name in the menu.
+    /// The name in the menu.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Rgb => "RGB",
@@ -39,7 +39,7 @@ impl ColorSpace {
         }
     }
 
-    /// What it is good for, in one sentence.
+    /// The use of the space, one sentence.
     pub const fn meaning(self) -> &'static str {
         match self {
             Self::Rgb => "Linear counts, the only space in which the model's lines and planes are straight.",
@@ -52,9 +52,10 @@ impl ColorSpace {
         }
     }
 
-    /// Where a color of linear counts lies in the world, `full_counts` being the end of each band of the cube.
+    /// The place in the world of a color in linear counts; `full_counts` is the end of each band of the cube.
     ///
-    /// Bands below zero count as zero, except in RGB. Black has no hue and no chromaticity: it lies where gray does.
+    /// Bands below zero count as zero, except in RGB. Black has no hue and no chromaticity: its place is that of
+    /// gray.
     pub fn place(self, counts: Point, full_counts: f32) -> Point {
         let shares = counts.map(|v| v / full_counts);
         if self == Self::Rgb {
@@ -83,7 +84,7 @@ impl ColorSpace {
         }
     }
 
-    /// The color in linear counts that lies at a place of the world; none where no color without negative bands does.
+    /// The color in linear counts at a place in the world; none where the color would have a negative band.
     pub fn inverse(self, place: Point, full_counts: f32) -> Option<Point> {
         let [x, y, z] = place;
         let shares = match self {

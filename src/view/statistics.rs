@@ -1,4 +1,4 @@
-//! What is known of a set of pixels: how many, which colors, where, in which regions.
+//! Figures about a set of pixels: their number, colors, places and regions.
 
 use super::{Item, ResultSnapshot, marking};
 use crate::color::{Moments, principal_axes};
@@ -9,24 +9,25 @@ use rayon::prelude::*;
 
 /// Bins of a band's histogram.
 pub const STATISTICS_BINS: usize = 64;
-/// Pixels are taken in at most this many parts, whatever the number of threads, so that sums are the same bit by bit.
+/// Largest number of parts in which pixels are added up, whatever the number of threads, so that sums are the same bytes.
 const PARTS: usize = 16;
-/// The exponent and the first bits of a float's fraction, without its sign: so many values, each a range of floats.
+/// Number of values of the exponent and the first bits of the fraction of a float without sign: each is a range of floats.
 const COARSE: usize = 1 << 15;
 const FINE: usize = 1 << 16;
 
-/// What is known of a set of pixels.
+/// Figures about a set of pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statistics {
-    /// How many they are.
+    /// Number of pixels.
     pub pixels: usize,
-    /// Pixels with a color; the rest held no usable value. What follows up to `bands` is of these.
+    /// Number of pixels with a usable value. `mean` and `bands` are figures about these pixels.
     pub valid: usize,
-    /// Their mean color, counts.
+    /// Mean color, counts.
     pub mean: [f64; 3],
-    /// Each band.
+    /// The figures of each band.
     pub bands: [Band; 3],
-    /// Pixels that count for the class: as in the classification of windows, the believable ones where that is refined.
+    /// Number of pixels that the class is computed from: as in the classification of windows, only undistorted pixels where the
+    /// refinement is on.
     pub counted: usize,
     /// Variances along the principal axes, largest first, counts².
     pub variances: [f64; 3],
@@ -36,11 +37,11 @@ pub struct Statistics {
     pub class: Option<Class>,
     /// The smallest rectangle that holds the pixels.
     pub bounds: Bounds,
-    /// Regions that hold some of them, with how many; most first; no region after a region with as many.
+    /// The regions of the pixels, each with its number of pixels, the largest number first; of equals no region comes last.
     pub regions: Vec<(Option<RegionId>, usize)>,
-    /// Pixels of which a band is clipped.
+    /// Number of pixels with a clipped band.
     pub clipped: usize,
-    /// Pixels that are too dark.
+    /// Number of pixels that are too dark.
     pub dark: usize,
 }
 
@@ -49,11 +50,11 @@ pub struct Statistics {
 pub struct Band {
     /// Smallest value, counts.
     pub min: f32,
-    /// The middle value, exactly; of an even number of them the smaller of both in the middle.
+    /// Exact median, counts; of an even number of values the smaller of the two in the middle.
     pub median: f32,
     /// Largest value, counts.
     pub max: f32,
-    /// How many values each of [`STATISTICS_BINS`] equal parts of 0 to full scale holds.
+    /// Number of values in each of [`STATISTICS_BINS`] equal parts of 0 to full scale.
     pub histogram: Vec<u32>,
 }
 
@@ -70,12 +71,12 @@ pub struct Bounds {
     pub height: usize,
 }
 
-/// What is known of an item's pixels; none where there are none.
+/// The figures about the pixels of an item; none where the item has no pixels.
 pub fn statistics_of(shown: &ResultSnapshot, item: Item) -> Option<Statistics> {
     statistics(shown, &marking::mask_of(item, shown)?)
 }
 
-/// What is known of the pixels of a mask of the picture's size; none where it holds none, or is of another size.
+/// The figures about the pixels of a mask; none where the mask holds no pixel, or is not of the picture's size.
 pub fn statistics(shown: &ResultSnapshot, mask: &Mask) -> Option<Statistics> {
     let (width, height) = shown.picture.size();
     if (mask.width(), mask.height()) != (width, height) || mask.is_empty() {
@@ -126,7 +127,7 @@ pub fn statistics(shown: &ResultSnapshot, mask: &Mask) -> Option<Statistics> {
     })
 }
 
-/// What is looked at.
+/// The pixels that the figures are about.
 struct Survey<'a> {
     shown: &'a ResultSnapshot,
     mask: &'a Mask,
@@ -134,7 +135,7 @@ struct Survey<'a> {
     per_count: f32,
 }
 
-/// What some rows add up to.
+/// The sums of some rows.
 struct Part {
     pixels: usize,
     valid: usize,
@@ -153,7 +154,7 @@ struct Part {
 
 struct BandCounts {
     histogram: Vec<u32>,
-    /// Values by their first bits, for the median.
+    /// Number of values of each range of floats, for the median.
     coarse: Vec<u32>,
 }
 
@@ -187,7 +188,7 @@ impl Survey<'_> {
         part
     }
 
-    /// The middle value of each band: the coarse counts say between which floats it lies, a second look which it is.
+    /// The median of each band: the coarse counts give the range of floats, a second pass gives the value.
     fn medians(&self, whole: &Part) -> [f32; 3] {
         if whole.valid == 0 {
             return [0.0; 3];

@@ -3,7 +3,7 @@
 use super::ResultSnapshot;
 use std::fmt::Write;
 
-/// The regions table, separated by tabs, with a line of headings.
+/// The table of the regions as text: one region a line, columns separated by tabs, with a line of headings.
 pub fn regions_text(shown: &ResultSnapshot) -> String {
     let mut text = String::from(
         "region\tpixels\tmatte_pixels\thighlight_pixels\tclipped_pixels\tbody_r\tbody_g\tbody_b\tsurface_r\tsurface_g\tsurface_b\tangle_deg\tfit_rms_counts\tseparable\twarnings\n",

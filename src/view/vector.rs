@@ -1,9 +1,9 @@
-//! Three numbers, and the little arithmetic that shapes need.
+//! Vectors of three numbers, and the arithmetic that shapes need.
 
 /// A color in linear counts, a place in the world of a color space, or a direction in either.
 pub type Point = [f32; 3];
 
-/// In the precision of pictures.
+/// A vector in single precision.
 pub(super) fn point(v: [f64; 3]) -> Point {
     v.map(|x| x as f32)
 }

@@ -202,7 +202,7 @@ proptest! {
             let history = traced.history(pixel);
             let condensed = condense(&history);
             prop_assert_eq!(condensed.iter().map(|line| line.times).sum::<usize>(), history.len());
-            prop_assert!(history.iter().all(|happening| !names.happening(happening).is_empty()));
+            prop_assert!(history.iter().all(|happening| !names.history_entry(happening).is_empty()));
         }
     }
 

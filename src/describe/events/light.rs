@@ -1,4 +1,4 @@
-//! Which light is used (section 5.4.1 and its refinements).
+//! The light (section 5.4.1 and its refinements).
 
 use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
@@ -12,9 +12,9 @@ use serde_json::{Value, json};
 impl Describe for IlluminantEstimated {
     fn sentence(&self, _names: &Names) -> String {
         let Self { direction: light, contributions, outshone } = self;
-        let heard = contributions.iter().filter(|contribution| contribution.weight > 0.0);
-        let worst = heard.clone().map(|contribution| contribution.residual_deg).fold(0.0, f64::max);
-        let from = match heard.count() {
+        let weighted = contributions.iter().filter(|contribution| contribution.weight > 0.0);
+        let worst = weighted.clone().map(|contribution| contribution.residual_deg).fold(0.0, f64::max);
+        let from = match weighted.count() {
             0 => String::new(),
             n => format!(" from {}, at most {worst:.1}\u{b0} off", count(n as u64, "constraint")),
         };
@@ -170,7 +170,7 @@ impl Describe for LightChosen {
     }
 }
 
-/// Whether the highlights alone told the light.
+/// Whether the light is that of the highlights alone.
 fn whose_light(outshone: &TwoLightTest) -> String {
     let TwoLightTest { pixels, by_all, by_highlights, limits: [most, better], taken } = *outshone;
     let Some(by_highlights) = by_highlights else { return String::new() };

@@ -29,9 +29,9 @@ use serde_json::{Value, json};
 /// The three objects of an event's trace line.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct LineObjects {
-    /// What the event is about.
+    /// The subjects of the event.
     pub ids: Value,
-    /// What was measured and decided.
+    /// The measured values and the decision.
     pub values: Value,
     /// The limits that decided.
     pub thresholds: Value,
@@ -43,7 +43,7 @@ impl LineObjects {
     }
 }
 
-/// What an event says.
+/// The descriptions of an event.
 pub(super) trait Describe {
     /// The event as one sentence: value against threshold, with units.
     fn sentence(&self, names: &Names) -> String;

@@ -1,4 +1,4 @@
-//! Where stages and passes begin.
+//! The beginnings of stages and passes.
 
 use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;

@@ -63,7 +63,7 @@ impl Describe for VectorsFitted {
     }
 }
 
-/// Whether a region holds, by its figures.
+/// Whether the skewed T explains a region, by the figures of the region.
 fn verdict(fitted: &VectorsFitted) -> String {
     let VectorsFitted { rms_counts, texture, texture_slope, limits, .. } = fitted;
     let has_plane = fitted.surface.is_some();
@@ -85,7 +85,7 @@ fn verdict(fitted: &VectorsFitted) -> String {
     }
 }
 
-/// The limits that a region's figures exceed; empty where they do not.
+/// The limits that the figures of a region exceed, as phrases.
 pub(in crate::describe) fn failed_limits(
     [rms, texture, slope]: [f64; 3],
     limits: &FitLimits,

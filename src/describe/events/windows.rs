@@ -111,7 +111,7 @@ fn held(chi_square: Measured<f32>) -> String {
     format!("\u{3c7}\u{b2} {statistic:.1} {relation} {threshold:.1}")
 }
 
-/// Variances to print: rounding may leave less than zero of them.
+/// Variances for printing: negative values, which come from rounding, are zero.
 pub(in crate::describe) fn variances(eigenvalues: [f32; 3]) -> [f32; 3] {
     eigenvalues.map(|variance| variance.max(0.0))
 }

@@ -1,4 +1,4 @@
-//! What was decided about a pixel, in words.
+//! Decisions about a pixel in words.
 
 use super::super::events::{passed_over, variances};
 use super::local_history::{surroundings, unfit};
@@ -10,45 +10,45 @@ use crate::trace::{
     SplitStory, WindowStory,
 };
 
-/// Happenings that say nearly the same, as one.
+/// History entries that say nearly the same, as one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Condensed {
-    /// Step and stage of the last of them.
+    /// The last of these entries.
     pub last: HistoryEntry,
-    /// How many they are.
+    /// Number of these entries.
     pub times: usize,
 }
 
-/// Takes claims and refusals by one region within one stage together: a pixel is taken, given back and refused once in each
-/// round of slices that turn to a better light. The last one stands for all. Oldest first, as given.
+/// Combines claims and refusals by one hypothesis within one stage: a pixel is taken, given back and refused once in each round of
+/// slices under a better light. The last entry stands for all. Oldest first, as given.
 pub fn condense(history: &[HistoryEntry]) -> Vec<Condensed> {
     let mut condensed: Vec<Condensed> = Vec::new();
-    let key = |happening: &HistoryEntry| match happening.what {
-        HistoryKind::Refused { hypothesis, .. } => Some((happening.stage, 0, Some(hypothesis), None)),
+    let key = |entry: &HistoryEntry| match entry.what {
+        HistoryKind::Refused { hypothesis, .. } => Some((entry.stage, 0, Some(hypothesis), None)),
         HistoryKind::Kept { holder, challenger, .. } => {
-            Some((happening.stage, 1, Some(challenger), Some(holder)))
+            Some((entry.stage, 1, Some(challenger), Some(holder)))
         }
-        HistoryKind::Claimed { hypothesis, from, .. } => Some((happening.stage, 2, Some(hypothesis), from)),
-        HistoryKind::Reset { from, to } => Some((happening.stage, 3, Some(from), to)),
+        HistoryKind::Claimed { hypothesis, from, .. } => Some((entry.stage, 2, Some(hypothesis), from)),
+        HistoryKind::Reset { from, to } => Some((entry.stage, 3, Some(from), to)),
         _ => None,
     };
-    for happening in history {
-        let known = key(happening);
+    for entry in history {
+        let known = key(entry);
         let mut times = 1;
         if known.is_some()
             && let Some(earlier) = condensed.iter().rposition(|earlier| key(&earlier.last) == known)
         {
             times += condensed.remove(earlier).times;
         }
-        condensed.push(Condensed { last: happening.clone(), times });
+        condensed.push(Condensed { last: entry.clone(), times });
     }
     condensed
 }
 
 impl Names {
-    /// What was decided about a pixel.
-    pub fn happening(&self, happening: &HistoryEntry) -> String {
-        match &happening.what {
+    /// The sentence of a decision about a pixel.
+    pub fn history_entry(&self, entry: &HistoryEntry) -> String {
+        match &entry.what {
             HistoryKind::Masked(verdict) => masked(verdict),
             HistoryKind::Window(story) => window(story),
             HistoryKind::Merging(story) => merging(story),
@@ -96,7 +96,7 @@ impl Names {
         }
     }
 
-    /// Changes of hands that are no claims.
+    /// The sentence of a change of owner that is no claim.
     fn moved(&self, what: &HistoryKind) -> String {
         match what {
             HistoryKind::Released { hypothesis, why } => {
@@ -138,7 +138,7 @@ impl Names {
             HistoryKind::Numbered { hypothesis, region: Some(region) } => {
                 format!("hypothesis {hypothesis} becomes region {region}")
             }
-            // All others are said above.
+            // All other kinds have their sentences above.
             _ => String::new(),
         }
     }
@@ -242,7 +242,7 @@ fn inside(reach: Reach) -> String {
     }
 }
 
-/// The limit of a reach, after a contest that has told of the distance.
+/// The limit of a reach, for a sentence that names the distance already.
 fn limit(reach: Reach) -> String {
     match reach {
         Reach::Axis { radius, .. } => format!(", radius {radius:.1}"),

@@ -1,11 +1,11 @@
-//! Where a region came from, in words.
+//! The lineage of a region in words.
 
 use super::super::events::Describe;
 use super::{Names, count};
 use crate::trace::{Ancestor, Birth, HypothesisStory, JoinedHow};
 
 impl Names {
-    /// How a hypothesis began, and how it became part of what it precedes in its [`crate::trace::lineage()`].
+    /// How a hypothesis began, and how the hypothesis became part of another one in a [`crate::trace::lineage()`].
     pub fn ancestor(&self, ancestor: &Ancestor) -> String {
         let born = match ancestor.birth {
             Birth::Area { chosen, .. } => format!("from area {} of {} pixels", chosen.area, chosen.pixels),
@@ -26,21 +26,22 @@ impl Names {
         format!("{} {born}{joined}", self.hypothesis(ancestor.hypothesis))
     }
 
-    /// The story of a hypothesis, each sentence with the step that it tells of; in the order of the steps.
+    /// The story of a hypothesis, each sentence with its step, in the order of the steps.
     pub fn story(&self, story: &HypothesisStory) -> Vec<(usize, String)> {
-        let mut told = Vec::new();
+        let mut sentences = Vec::new();
         if let Some((step, chosen)) = story.chosen {
-            told.push((step, chosen.sentence(self)));
+            sentences.push((step, chosen.sentence(self)));
         }
         if let Some((step, of, pixels)) = story.separated {
-            told.push((step, format!("separated from {}: {}", self.hypothesis(of), count(pixels, "pixel"))));
+            sentences
+                .push((step, format!("separated from {}: {}", self.hypothesis(of), count(pixels, "pixel"))));
         }
-        told.extend(story.tests.iter().map(|&(step, test)| (step, test.sentence(self))));
+        sentences.extend(story.tests.iter().map(|&(step, test)| (step, test.sentence(self))));
         if let Some((step, chosen)) = story.highlight {
-            told.push((step, format!("{} is its highlight", self.candidate(chosen.candidate))));
+            sentences.push((step, format!("{} is its highlight", self.candidate(chosen.candidate))));
         }
-        told.extend(story.slices.iter().map(|&(step, made)| (step, made.sentence(self))));
-        told.extend(story.joined.iter().map(|&(hypothesis, joined)| {
+        sentences.extend(story.slices.iter().map(|&(step, made)| (step, made.sentence(self))));
+        sentences.extend(story.joined.iter().map(|&(hypothesis, joined)| {
             let how = match joined.how {
                 JoinedHow::Absorbed { gap, .. } => {
                     format!("absorbs its broad highlight, gap {gap:.1} counts")
@@ -50,8 +51,8 @@ impl Names {
             };
             (joined.step, format!("{how}: {}", self.hypothesis(hypothesis)))
         }));
-        told.extend(story.end.map(|(step, event)| (step, self.event(event))));
-        told.sort_by_key(|&(step, _)| step);
-        told
+        sentences.extend(story.end.map(|(step, event)| (step, self.event(event))));
+        sentences.sort_by_key(|&(step, _)| step);
+        sentences
     }
 }

@@ -4,7 +4,7 @@ use super::super::events::failed_limits;
 use crate::raster::RegionId;
 use crate::trace::{LocalFate, LocalStory, Unfit};
 
-/// What a pixel was judged by.
+/// The sentence of the figures by which a pixel was judged.
 pub(super) fn surroundings(story: &LocalStory) -> String {
     let LocalStory { mean, chroma, excess, noise, variation, texture, weight, limits, .. } = story;
     let seen = format!("a {mean:.1} and c {chroma:.1} counts (mean and chromatic part under the light)");
@@ -61,7 +61,7 @@ pub(super) fn surroundings(story: &LocalStory) -> String {
     format!("{paler}, {above}; {fate}")
 }
 
-/// Why a region's plane is not used for a pixel, and what it has instead.
+/// The sentence why the plane of a region is not used for a pixel.
 pub(super) fn unfit(region: RegionId, story: &Unfit) -> String {
     let why = if story.model_fits {
         format!(

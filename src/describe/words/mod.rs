@@ -16,7 +16,7 @@ use crate::raster::HypothesisId;
 use crate::trace::{Contest, Measure, Step};
 
 impl Names {
-    /// What happened at a step.
+    /// The sentence of a step.
     pub fn step(&self, step: &Step) -> String {
         match step {
             Step::Event(event) => self.event(event),
@@ -48,7 +48,7 @@ impl Names {
         }
     }
 
-    /// Why a challenger did not get a pixel.
+    /// The reason why a challenger did not get a pixel.
     fn kept(&self, challenger: HypothesisId, contest: &Contest) -> String {
         let Contest { measure, challenger: shown, holder } = *contest;
         let challenger = self.hypothesis(challenger);
@@ -69,7 +69,7 @@ impl Names {
     }
 }
 
-/// How a contest was won.
+/// The reason why a challenger won a contest.
 fn won(contest: &Contest) -> String {
     let Contest { measure, challenger, holder } = *contest;
     match measure {

@@ -19,7 +19,7 @@ fn hypothesis(number: u16) -> HypothesisId {
 const PIXEL: PixelIndex = PixelIndex::new(23);
 
 fn say(what: HistoryKind) -> String {
-    names().happening(&HistoryEntry { step: 0, stage: Stage::Linear, what })
+    names().history_entry(&HistoryEntry { step: 0, stage: Stage::Linear, what })
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What would have to change, in words.
+//! The changes of parameters that would change a pixel, in words.
 
 use crate::analysis::{Direction, Fate, Home, WhatIf};
 
@@ -27,7 +27,7 @@ fn becomes(before: Fate, after: Fate) -> String {
     }
 }
 
-/// A value with as many digits as it has, at most three behind the point.
+/// A value without trailing zeros, with at most three digits after the point.
 fn number(value: f64) -> String {
     let text = format!("{value:.3}");
     let trimmed = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };

@@ -48,7 +48,7 @@ struct Note {
 #[derive(Clone, PartialEq)]
 struct Inputs {
     /// The result, compared by its address. The `Arc` is kept, so that no other result can take the address.
-    shown: Same,
+    shown: SameResult,
     region: Option<RegionId>,
     window: Option<u32>,
     view: (ColorSpace, [bool; 5], Theme),
@@ -57,9 +57,9 @@ struct Inputs {
 }
 
 #[derive(Clone)]
-struct Same(Arc<ResultSnapshot>);
+struct SameResult(Arc<ResultSnapshot>);
 
-impl PartialEq for Same {
+impl PartialEq for SameResult {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
@@ -80,7 +80,7 @@ impl Inputs {
         let window = |item| if let Some(Item::Window(window)) = item { Some(window) } else { None };
         let hovered = || state.hover.and_then(|item| state.region_of(item));
         Some(Self {
-            shown: Same(Arc::clone(state.shown()?)),
+            shown: SameResult(Arc::clone(state.shown()?)),
             region: state.selected_region().or_else(hovered),
             window: window(state.hover).or_else(|| window(selected)),
             view: (
@@ -101,7 +101,8 @@ impl Figure {
             return false;
         }
         *self = Self { of: inputs.clone(), ..Self::default() };
-        let Some(Inputs { shown: Same(shown), region, window, view: (space, show, theme), .. }) = inputs
+        let Some(Inputs { shown: SameResult(shown), region, window, view: (space, show, theme), .. }) =
+            inputs
         else {
             return true;
         };

@@ -1,17 +1,17 @@
-//! From linear counts to 8-bit sRGB by one look into a table.
+//! From linear counts to 8-bit sRGB by one look-up in a table.
 
 use crate::color::srgb_from_linear;
 use crate::photo::FULL_SCALE_COUNTS;
 
-/// Darker than this share of white is black: 1/4 of a code at gamma 1.
+/// Share of white below which a value is black: 1/4 of a code at gamma 1.
 const DARKEST: f32 = 1.0 / 65536.0;
 /// Leading bits of a number that choose its entry: exponent and 10 bits of the mantissa.
 const SHIFT: u32 = 13;
 const FIRST: u32 = DARKEST.to_bits() >> SHIFT;
 const ENTRIES: usize = ((1.0f32.to_bits() >> SHIFT) - FIRST + 1) as usize;
 
-/// Exposure, the curve of sRGB and a gamma for display, tabulated over the leading bits of the number: entries are as
-/// dense as the eye is keen, within a tenth of a code of the exact curve.
+/// Exposure, the curve of sRGB and a gamma for display, tabulated over the leading bits of the number: the values of the
+/// table are within a tenth of a code of the exact curve.
 pub(crate) struct Curve {
     per_count: f32,
     codes: Vec<u8>,
@@ -29,7 +29,7 @@ impl Curve {
         Self { per_count: exposure_ev.exp2() / FULL_SCALE_COUNTS as f32, codes }
     }
 
-    /// The 8-bit value of linear counts; what is brighter than white is white.
+    /// The 8-bit value of linear counts; 255 for values brighter than white.
     #[inline]
     #[allow(clippy::manual_clamp, reason = "what is no number is black")]
     pub(crate) fn code(&self, counts: f32) -> u8 {

@@ -9,15 +9,16 @@ use crate::view::{Instant, InstantView, RegionsView, RolesView, WindowsView};
 use rayon::prelude::*;
 
 const CLEAR: [u8; 4] = [0; 4];
-/// Between areas.
+/// Color of the seams between areas, sRGB with straight alpha.
 const SEAM: [u8; 4] = [0, 0, 0, 200];
-/// What a region did not take has one of these colors: the one that is less like the region's own.
+/// Colors of pixels that a hypothesis did not take, sRGB: the color that differs more from the color of the hypothesis is used.
 const BESIDE: [[u8; 3]; 2] = [[0x2E, 0xC4, 0xF2], [0xF2, 0x55, 0xC2]];
 const BESIDE_ALPHA: u8 = 210;
-/// Opacity of the regions that are not in focus, of that of the one that is: clearly somebody's, unlike what is nobody's.
+/// Opacity of the hypotheses that are not in focus, as a share of the opacity of the one in focus: pixels of a hypothesis
+/// remain distinct from pixels of none.
 const HELD: f32 = 0.6;
 
-/// Names, colors and meanings of the roles (section 6).
+/// Names, colors and meanings of the kinds of pixels (section 6).
 const ROLES: [LegendEntry; 4] = [
     LegendEntry::new("matte", [0x5C, 0x96, 0xC8], "6: nearer to the matte line, body reflection alone"),
     LegendEntry::new("highlight", [0xF0, 0xE2, 0x8A], "6: nearer to the highlight line"),
@@ -29,13 +30,13 @@ const ROLES: [LegendEntry; 4] = [
     LegendEntry::new("lost", [0x8A, 0x8A, 0x8A], "6: clipped in every band"),
 ];
 
-/// The color of what a region of this color did not take.
+/// The color of pixels that a hypothesis of this color did not take, sRGB.
 pub fn beside_color(region: [u8; 3]) -> [u8; 3] {
     let apart = |other: [u8; 3]| (0..3).map(|k| u32::from(other[k].abs_diff(region[k])).pow(2)).sum::<u32>();
     if apart(BESIDE[0]) >= apart(BESIDE[1]) { BESIDE[0] } else { BESIDE[1] }
 }
 
-/// The colors of an instant that need explaining.
+/// The legend of an instant.
 pub fn instant_legend(instant: &Instant) -> Vec<LegendEntry> {
     match &instant.view {
         InstantView::Nothing => Vec::new(),
@@ -90,7 +91,7 @@ pub fn instant_legend(instant: &Instant) -> Vec<LegendEntry> {
     }
 }
 
-/// Draws an instant, a pixel a pixel, as sRGB with straight alpha.
+/// Draws an instant at the size of the picture, as sRGB with straight alpha.
 pub fn paint_instant(instant: &Instant, width: usize, height: usize, look: &Look) -> Raster<[u8; 4]> {
     let mut painted = Raster::filled(width, height, CLEAR);
     match &instant.view {
@@ -102,7 +103,7 @@ pub fn paint_instant(instant: &Instant, width: usize, height: usize, look: &Look
     painted
 }
 
-/// Lighter, of the same hue.
+/// A lighter color of the same hue.
 fn bright(color: [u8; 3]) -> [u8; 3] {
     color.map(|band| 255 - (255 - band) / 2)
 }
@@ -117,7 +118,7 @@ fn rows(painted: &mut Raster<[u8; 4]>, paint: impl Fn(usize, &mut [[u8; 4]]) + S
     rows.with_min_len(16).for_each(|(y, row)| paint(y, row));
 }
 
-/// 0 for no class.
+/// Number of a class for the palette; 0 for no class.
 const fn number(class: Option<Class>) -> usize {
     match class {
         None => 0,
@@ -129,7 +130,7 @@ const fn number(class: Option<Class>) -> usize {
 }
 
 impl WindowsView {
-    /// Classes with seams between the areas, once there are any, and the pair that was just tried.
+    /// Paints the classes, seams between the areas once there are areas, and the pair of areas that was tried last.
     fn paint(&self, painted: &mut Raster<[u8; 4]>, look: &Look) {
         let filled = Look { fill: Fill::Fill, ..*look };
         let mut styles = vec![CLEAR];
@@ -172,12 +173,12 @@ impl WindowsView {
         self.areas[a] != self.areas[b]
     }
 
-    /// Which part of the pair that was just tried a window is in.
+    /// The area of a window among the pair of areas that was tried last.
     fn part(&self, window: usize) -> Option<usize> {
         self.tried.iter().position(|area| *area == self.areas[window])
     }
 
-    /// Frames of the classified windows over regions: the grid of a second look.
+    /// Paints frames of the classified windows over hypotheses: the grid of a second look.
     fn outline(&self, painted: &mut Raster<[u8; 4]>) {
         let (side, columns, width) = (self.size_px, self.columns.max(1), painted.width());
         rows(painted, |y, row| {
@@ -203,12 +204,13 @@ impl WindowsView {
 }
 
 impl RegionsView {
-    /// The color of the region in focus.
+    /// The color of the hypothesis in focus, sRGB.
     fn own_color(&self) -> [u8; 3] {
         self.focus.and_then(|focus| self.colors.get(focus.index())).copied().unwrap_or(ACCENT)
     }
 
-    /// All regions dimmed but the one in focus, what it took last lighter, what it did not take in another color.
+    /// Paints the hypotheses, all dimmed but the one in focus; pixels that it took last are lighter, pixels that it did not take
+    /// have another color.
     fn paint(&self, painted: &mut Raster<[u8; 4]>, look: &Look) {
         let selected = |id: HypothesisId| self.focus.is_none_or(|focus| focus == id);
         let styles: Vec<[u8; 4]> = std::iter::once(CLEAR)

@@ -3,11 +3,11 @@
 /// One color of a layer and its meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LegendEntry {
-    /// Its name, a word or two.
+    /// The name, a word or two.
     pub name: &'static str,
     /// The color, sRGB.
     pub color: [u8; 3],
-    /// What it means, with the paper's section.
+    /// The meaning, with the section of the paper.
     pub tooltip: &'static str,
 }
 
@@ -29,7 +29,8 @@ pub(super) const CLASSES: [LegendEntry; 4] = [
     LegendEntry::new("volume", [0, 0, 255], "5.2.1: three directions, clipping or several objects"),
 ];
 
-/// Names, colors and meanings of the masks (section 4). A pixel has the color of the last one that holds for it.
+/// Names, colors and meanings of the masks (section 4). A pixel has the color of the last mask that holds the
+/// pixel.
 pub(super) const MASKS: [LegendEntry; 5] = [
     LegendEntry::new("dark", [74, 111, 212], "4: too near to black, its color is mostly noise"),
     LegendEntry::new("bloomed", [240, 128, 32], "4: charge spilled over from clipped neighbors"),
@@ -66,7 +67,7 @@ pub(super) const CONFIDENCE: [LegendEntry; 2] = [
     ),
 ];
 
-/// What keeps pixels from being explained, in the order of [`crate::intrinsic::Reason::ALL`] from its second entry on.
+/// The reasons why pixels are not explained, in the order of [`crate::intrinsic::Reason::ALL`] from its second entry on.
 pub(super) const REASONS: [LegendEntry; 8] = [
     LegendEntry::new("shadow", [74, 111, 212], "5.6: too dark to be analyzed, shadow or background"),
     LegendEntry::new("no matte line", [160, 120, 220], "5.3: lit, but on no matte line that was found"),

@@ -3,7 +3,7 @@
 use crate::raster::RegionId;
 use serde::{Deserialize, Serialize};
 
-/// Body reflection that differs by this many counts is black or white in [`super::Layer::Difference`].
+/// Difference of body reflection that is black or white in [`super::Layer::Difference`], counts.
 pub const DIFFERENCE_COUNTS: f32 = 64.0;
 
 /// Share of their opacity that regions keep while another region is selected.
@@ -12,30 +12,31 @@ const DIMMED: f32 = 0.35;
 /// How areas are drawn over the photograph.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Fill {
-    /// As areas.
+    /// Filled areas.
     #[default]
     Fill,
-    /// As their outlines.
+    /// Outlines of the areas.
     Outline,
 }
 
 /// How layers are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
-    /// Stops; light is brighter by this power of two. It is the gain of [`super::Layer::Noise`] and [`super::Layer::Difference`] as well.
+    /// Exposure, stops: light is multiplied by two to this power. Also the gain of [`super::Layer::Noise`] and
+    /// [`super::Layer::Difference`].
     pub exposure_ev: f32,
-    /// sRGB values in 0…1 are raised to its inverse: above 1 the middle tones are brighter.
+    /// Gamma of the display: sRGB values in 0…1 are raised to its inverse, so that middle tones are brighter above 1.
     pub gamma: f32,
     /// Fills or outlines.
     pub fill: Fill,
     /// Opacity of fills, 0…1; outlines are opaque.
     pub opacity: f32,
-    /// The region of the result shown that has its full color while all others are dimmed; none: all have theirs.
+    /// The region of the result shown that has its full color while all others are dimmed; none: no region is dimmed.
     pub selected: Option<RegionId>,
 }
 
 impl Look {
-    /// A color with its weight over the photograph.
+    /// A color, and the weight with which the color is drawn over the photograph.
     pub(super) fn style(&self, color: [u8; 3], selected: bool) -> [u8; 4] {
         let full = if self.fill == Fill::Fill { self.opacity.clamp(0.0, 1.0) } else { 1.0 };
         let weight = if selected { full } else { full * DIMMED };

@@ -1,4 +1,4 @@
-//! What is selected and pointed at, as a picture to lay over any layer.
+//! The selection and the hovered item, as a picture to draw over any layer.
 
 use crate::raster::{Mask, Raster};
 use crate::view::{Item, Picture, ResultSnapshot, Selection};
@@ -12,10 +12,10 @@ const OUTLINE: [u8; 4] = with_alpha(ACCENT, 255);
 const HOVERED: [u8; 4] = [255, 255, 255, 220];
 const CLEAR: [u8; 4] = [0; 4];
 
-/// The marked pixels (a translucent fill and an outline), the selected region, window or color bin and what the pointer is
-/// over, as sRGB with straight alpha, a pixel a pixel. None where there is nothing of this to draw.
+/// The marked pixels (a translucent fill and an outline), the selected region, window or color bin and the hovered item, at the
+/// size of the picture, as sRGB with straight alpha. None where there is nothing to draw.
 ///
-/// Outlines are one pixel wide, inside. A pixel is an item too small to be drawn here: views draw a cross-hair.
+/// Outlines are one pixel wide, inside. A single pixel is too small to be drawn here: views draw a cross-hair.
 pub fn marks(
     picture: &Picture,
     shown: Option<&ResultSnapshot>,
@@ -89,7 +89,7 @@ impl Canvas<'_> {
         }
     }
 
-    /// The outline of a square that may end at the picture's border.
+    /// Paints the outline of a square, cut off at the border of the picture.
     fn frame(&mut self, left: usize, top: usize, side_px: usize, color: [u8; 4]) {
         let right = (left + side_px).min(self.painted.width());
         let bottom = (top + side_px).min(self.painted.height());
@@ -115,7 +115,7 @@ impl Canvas<'_> {
     }
 }
 
-/// Whether a pixel that is inside has a 4-neighbor that is not, or lies at the picture's border.
+/// Whether a pixel inside an area has a 4-neighbor outside the area, or lies at the border of the picture.
 fn is_border<T: Copy>(values: &Raster<T>, x: usize, y: usize, inside: impl Fn(T) -> bool) -> bool {
     let out = |x: usize, y: usize| values.get(x, y).is_none_or(|&value| !inside(value));
     out(x.wrapping_sub(1), y) || out(x + 1, y) || out(x, y.wrapping_sub(1)) || out(x, y + 1)

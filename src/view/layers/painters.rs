@@ -1,4 +1,4 @@
-//! How each layer is painted, a pixel a pixel.
+//! The pictures of the layers, at the size of the photograph.
 
 use super::curve::Curve;
 use super::legends::{CLASSES, LegendEntry, MASKS, REASONS};
@@ -10,18 +10,18 @@ use crate::view::ResultSnapshot;
 use crate::view::snapshot::best_overlaps;
 use rayon::prelude::*;
 
-/// Color of regions of an earlier stage that no final region covers, sRGB.
+/// Color of regions of an earlier stage that no region of the result covers, sRGB.
 const GONE: [u8; 3] = [150, 150, 150];
 
-/// What a layer is painted from.
+/// The input of a painter.
 pub(super) struct PaintInput<'a> {
-    /// The photograph, also the ground of overlays.
+    /// The photograph, over which overlays are drawn.
     pub base: Base<'a>,
     /// The result, of the photograph's size.
     pub shown: &'a ResultSnapshot,
     /// The pinned result, of the photograph's size; none where nothing is pinned.
     pub pinned: Option<&'a ResultSnapshot>,
-    /// How the layer is drawn.
+    /// Exposure, fills and opacity.
     pub look: &'a Look,
 }
 
@@ -29,7 +29,7 @@ pub(super) struct PaintInput<'a> {
 pub(super) struct Base<'a> {
     /// Linear counts.
     pub photo: &'a Raster<[f32; 3]>,
-    /// From counts to codes.
+    /// The curve from counts to codes.
     pub curve: Curve,
 }
 
@@ -93,7 +93,7 @@ fn each_row<T: Sync>(from: &Raster<T>, paint: impl Fn(&[T], &mut [[u8; 4]]) + Sy
     painted
 }
 
-/// 128 for 0, 1 and 255 for ∓1.
+/// The gray of a number: 128 for 0, 1 and 255 for ∓1.
 fn swing(value: f32) -> u8 {
     (128.0 + 127.0 * value).round() as u8
 }
@@ -135,7 +135,7 @@ pub(super) fn confidence(input: &PaintInput) -> Raster<[u8; 4]> {
     })
 }
 
-/// A color for each reason; explained pixels stay the photograph's.
+/// A color for each reason; explained pixels have the color of the photograph.
 pub(super) fn reasons(input: &PaintInput) -> Raster<[u8; 4]> {
     let (base, look, reasons) = (&input.base, input.look, &input.shown.analysis.intrinsic.reasons);
     let width = base.photo.width();
@@ -168,13 +168,13 @@ pub(super) fn classes(&PaintInput { ref base, shown, look, .. }: &PaintInput) ->
     let side_px = shown.window_px();
     let windows = shown.classes().map(number);
     let styles = legend_styles(&CLASSES, look);
-    // A division for each pixel would take longer than all else.
+    // A division for each pixel would take longer than the rest of the function.
     let window = |length: usize| -> Vec<usize> { (0..length).map(|place| place / side_px).collect() };
     let (columns, rows) = (window(base.photo.width()), window(base.photo.height()));
     base.overlaid(look.fill, &styles, |x, y| *windows.get(columns[x], rows[y]).unwrap_or(&0))
 }
 
-/// Merged areas, each in a color that its neighbors do not have. They consist of whole windows.
+/// Merged areas, which consist of whole windows, each in a color that its neighbors do not have.
 pub(super) fn areas(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> Raster<[u8; 4]> {
     let side_px = shown.window_px();
     let areas = shown.areas();
@@ -191,7 +191,7 @@ pub(super) fn areas(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> R
     base.overlaid(look.fill, &styles, |x, y| areas[y * areas.width() + x] as usize)
 }
 
-/// The final regions in their colors.
+/// The regions of the result in their colors.
 pub(super) fn regions(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> Raster<[u8; 4]> {
     let selected = |id: RegionId| look.selected.is_none_or(|selected| selected == id);
     let colors = RegionId::all(shown.region_colors.len()).zip(&shown.region_colors);
@@ -211,7 +211,7 @@ pub(super) fn planar(input: &PaintInput) -> Raster<[u8; 4]> {
     stage(input, input.shown.planar_labels())
 }
 
-/// Regions of an earlier stage, each in the color of the final region that covers most of it.
+/// Regions of an earlier stage, each in the color of the region of the result that covers most of its pixels.
 fn stage(&PaintInput { ref base, shown, look, .. }: &PaintInput, labels: &LabelMap) -> Raster<[u8; 4]> {
     let style = |best_overlap: Option<RegionId>| {
         let color = best_overlap.and_then(|region| shown.region_colors.get(region.index()).copied());

@@ -1,10 +1,10 @@
-//! Smaller and smaller copies of a picture, for showing large ones from afar.
+//! Copies of a picture at half, a quarter and so on of its size, for views of large pictures.
 
 use crate::color::linear_from_srgb;
 use crate::raster::Raster;
 use rayon::prelude::*;
 
-/// A picture is small enough when neither side is longer, pixels.
+/// Longest side of the last copy, pixels.
 const SMALLEST_PX: usize = 64;
 
 /// Copies of `picture` (sRGB and straight alpha), each half as wide and high as the one before, rounded up; the last is at
@@ -23,7 +23,7 @@ pub fn pyramid(picture: &Raster<[u8; 4]>) -> Vec<Raster<[u8; 4]>> {
     }
 }
 
-/// sRGB to linear light and back. 4095 is white.
+/// Tables from sRGB to linear light and back; 4095 is white.
 struct Light {
     linear: [u16; 256],
     code: Vec<u8>,
@@ -33,7 +33,7 @@ impl Light {
     fn new() -> Self {
         let decode = |code: usize| (linear_from_srgb(code as f64 / 255.0) * 65535.0).round() as u16;
         let linear: [u16; 256] = std::array::from_fn(decode);
-        // Between two codes the nearer one, as decoded.
+        // The code whose linear value is nearer.
         let mut code = Vec::with_capacity(1 << 14);
         let mut best = 0usize;
         for step in 0..1u32 << 14 {
@@ -67,7 +67,7 @@ fn mean(four: [[u8; 4]; 4], light: &Light) -> [u8; 4] {
     if weight == 0 {
         return [0; 4];
     }
-    // In overlays most are alike, and codes survive an average of themselves.
+    // Most pixels of an overlay are equal, and the mean of equal codes is the code.
     if four[0] == four[1] && four[0] == four[2] && four[0] == four[3] {
         return four[0];
     }

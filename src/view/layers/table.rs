@@ -1,4 +1,4 @@
-//! The table of the image layers, from which [`Layer`] and everything known of a layer follow.
+//! The table of the image layers, from which [`Layer`] and all properties of a layer are made.
 
 use super::legends::{self, LegendEntry};
 use super::painters::{self, PaintInput};
@@ -29,7 +29,7 @@ pub(super) struct LayerRow {
     pub tip: &'static str,
     /// What the picture depends on.
     pub kind: LayerKind,
-    /// The colors that need explaining.
+    /// The legend.
     pub legend: &'static [LegendEntry],
     /// The numbers at a pixel, where the layer has numbers of its own.
     pub numbers: Option<fn(&Intrinsic, usize) -> Vec<f32>>,
@@ -37,7 +37,7 @@ pub(super) struct LayerRow {
     pub paint: fn(&PaintInput) -> Raster<[u8; 4]>,
 }
 
-/// The columns of a row that many layers leave out.
+/// The columns that many rows of the table leave out.
 const PLAIN: LayerRow = LayerRow {
     name: "",
     tip: "",
@@ -50,7 +50,7 @@ const PLAIN: LayerRow = LayerRow {
 /// Makes [`Layer`], [`Layer::ALL`] and the rows from the table.
 macro_rules! layers {
     ($($(#[$attribute:meta])* $layer:ident: $row:expr;)+) => {
-        /// A picture of the photograph or of what was found in it.
+        /// A picture of the photograph or of a result.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
         pub enum Layer {
             $($(#[$attribute])* $layer,)+

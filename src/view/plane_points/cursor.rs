@@ -1,4 +1,4 @@
-//! The plane at the debugger's cursor: of a skewed-T test (5.4.1), or of a region that grows (5.3.2, 5.4.2).
+//! The plane at the debugger's cursor: of a skewed-T test (5.4.1), or of a hypothesis that grows (5.3.2, 5.4.2).
 
 use super::{PlaneBranch, PlanePixel, RegionPlane};
 use crate::color::{Vec3, rgb};
@@ -9,14 +9,14 @@ use crate::trace::{CandidateTested, PixelKind, Replay};
 use crate::view::{MOST_PLANE_POINTS, Picture};
 use crate::view::{candidate_pixels, measured_and_ignored, pixels_of_region, sampled, tracks};
 
-/// Where pixels lie, and what becomes of them.
-struct Sheet<'a> {
+/// The colors of a picture, and the transform into the coordinates of a plane.
+struct PlaneProjection<'a> {
     colors: &'a [[f32; 3]],
     transform: ReflectionTransform,
 }
 
-impl Sheet<'_> {
-    /// Groups of pixels, each of one kind.
+impl PlaneProjection<'_> {
+    /// The points of some groups of pixels, each group of one kind.
     fn points(&self, groups: &[(Vec<u32>, PixelKind)]) -> Vec<PlanePixel> {
         let most = MOST_PLANE_POINTS / groups.len().max(1);
         let all = groups.iter().flat_map(|(pixels, kind)| sampled(pixels, most).map(move |p| (p, *kind)));
@@ -28,7 +28,7 @@ impl Sheet<'_> {
         all.map(place).collect()
     }
 
-    /// How far a color lies along the body vector.
+    /// The amount of body reflection of a color, counts.
     fn amount(&self, color: Vec3) -> f32 {
         self.transform.split(rgb(&color)).body
     }
@@ -48,13 +48,13 @@ impl Sheet<'_> {
             extent: super::extent(&points),
             points,
             transform: self.transform,
-            // Ambient light is known after all growth only.
+            // Ambient light is estimated after all growth.
             origin: [0.0; 3],
         }
     }
 }
 
-/// A test in the plane that both lines span: m_b along the matte line, m_s along the candidate's. Pixels by which the matte
+/// A test in the plane of both lines: m_b along the matte line, m_s along the candidate's. Pixels by which the matte
 /// line is measured are matte, those ignored for it are lost, the candidate's are highlight. `region` is the region that the
 /// tested hypothesis became part of. None where both lines have one direction.
 pub fn test_plane(
@@ -66,23 +66,23 @@ pub fn test_plane(
 ) -> Option<RegionPlane> {
     let transform = ReflectionTransform::new(&test.matte.direction, &test.line.direction)?;
     let colors = &picture.photo.image.pixels;
-    let sheet = Sheet { colors: colors.as_slice(), transform };
+    let projection = PlaneProjection { colors: colors.as_slice(), transform };
     let own = pixels_of_region(replay, test.hypothesis);
     let (measured, ignored) = measured_and_ignored(test, &own, colors);
-    let points = sheet.points(&[
+    let points = projection.points(&[
         (measured, PixelKind::Matte),
         (ignored, PixelKind::Lost),
         (candidate_pixels(replay, test.candidate, masks), PixelKind::Highlight),
     ]);
     let brightest = test.matte.foot() + test.matte.direction * test.matte_length;
-    let (matte_length, meeting) = (sheet.amount(brightest), sheet.amount(test.meeting[0]));
-    let plane = sheet.plane(region, [test.gap.limit; 2], points);
+    let (matte_length, meeting) = (projection.amount(brightest), projection.amount(test.meeting[0]));
+    let plane = projection.plane(region, [test.gap.limit; 2], points);
     let branches = super::branches(&[meeting], &plane.points);
     Some(RegionPlane { matte_length, branches, ..plane })
 }
 
-/// A region as it stands at the cursor: its pixels are matte, those that it took last highlight, those that it did not take
-/// lost. In its dichromatic plane once it has a slice, before that across its line. `focus` is the hypothesis,
+/// A hypothesis at the cursor: its pixels are shown as matte, the pixels that it took last as highlight, the pixels that it did not
+/// take as lost. The plane is the dichromatic plane once there is a slice, before that a plane across the line. `focus` is the hypothesis,
 /// `region` the region that the hypothesis became part of. None where the hypothesis has no line.
 pub fn growing_plane(
     replay: &Replay,
@@ -102,10 +102,10 @@ pub fn growing_plane(
     let in_plane = made.and_then(|made| ReflectionTransform::new(&line.direction, &made.plane.surface));
     let has_plane = in_plane.is_some();
     let colors = &picture.photo.image.pixels;
-    let sheet = Sheet { colors: colors.as_slice(), transform: in_plane.or_else(across)? };
+    let projection = PlaneProjection { colors: colors.as_slice(), transform: in_plane.or_else(across)? };
     let tracks = tracks(replay, colors, masks).filter(|tracks| tracks.hypothesis == focus);
     let (outside, newest) = tracks.map_or_else(Default::default, |tracks| (tracks.outside, tracks.newest));
-    let points = sheet.points(&[
+    let points = projection.points(&[
         (pixels_of_region(replay, focus), PixelKind::Matte),
         (outside, PixelKind::Lost),
         (newest, PixelKind::Highlight),
@@ -113,10 +113,10 @@ pub fn growing_plane(
     let brightest = made.map(|made| line.foot() + line.direction * made.matte_length);
     let held = points.iter().filter(|point| point.kind == PixelKind::Matte);
     let longest = held.fold(0.0f32, |most, point| most.max(point.body));
-    let matte_length = brightest.map_or(longest, |brightest| sheet.amount(brightest));
-    let meeting_point = made.map(|made| sheet.amount(made.start)).filter(|_| has_plane);
+    let matte_length = brightest.map_or(longest, |brightest| projection.amount(brightest));
+    let meeting_point = made.map(|made| projection.amount(made.start)).filter(|_| has_plane);
     let radius = hypothesis.radius;
-    let plane = sheet.plane(region, [made.map_or(radius, |made| made.half_width), radius], points);
+    let plane = projection.plane(region, [made.map_or(radius, |made| made.half_width), radius], points);
     let length = plane.extent[1][1].max(0.0);
     let branches = meeting_point.map(|meeting_point| PlaneBranch { meeting_point, length });
     Some(RegionPlane { has_plane, matte_length, branches: branches.into_iter().collect(), ..plane })

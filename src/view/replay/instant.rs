@@ -1,4 +1,4 @@
-//! What the picture shows of an instant, taken out of the cursor so that it can be painted on another thread.
+//! What the image view shows of an instant, copied from the cursor so that the picture can be painted on another thread.
 
 use super::RegionNames;
 use super::looked_at::blob_at_cursor;
@@ -8,27 +8,27 @@ use crate::raster::{HypothesisId, LabelMap, PixelIndex, Raster};
 use crate::trace::{
     Class, Event, Grid, MergeTried, Pass, PixelKind, Replay, Stage, Step, Topic, WindowClassified,
 };
-/// An instant as the picture shows it.
+/// An instant as the image view shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
-    /// What is drawn.
+    /// The contents.
     pub view: InstantView,
-    /// The pixel of the step taken last, where it is about one, and whether it changed.
+    /// The pixel of the step taken last, where the step is about a pixel, and whether the pixel changed.
     pub pixel: Option<(PixelIndex, bool)>,
     /// The window that was classified last, in pixels: left, top and side.
     pub window: Option<[usize; 3]>,
 }
 
-/// What is drawn of an instant.
+/// The contents of an instant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InstantView {
     /// Nothing is decided yet.
     Nothing,
     /// Windows and areas, as far as they are known (5.2).
     Windows(WindowsView),
-    /// Regions, as far as they have grown (5.3, 5.4, 5.5).
+    /// Hypotheses, as far as they have grown (5.3, 5.4, 5.5).
     Regions(RegionsView),
-    /// What each pixel is to its region, as far as that is decided (6).
+    /// The kinds of the pixels, as far as they are decided (6).
     Roles(RolesView),
 }
 
@@ -39,11 +39,11 @@ pub struct WindowsView {
     pub size_px: usize,
     /// Windows in a row.
     pub columns: usize,
-    /// Class of each window; none as long as it is not known, and where it has none.
+    /// Class of each window; none as long as the window was not classified, and for a window without a class.
     pub classes: Vec<Option<Class>>,
     /// The first window of each window's area.
     pub areas: Vec<u32>,
-    /// The areas of the merge that was just tried: one where they were joined.
+    /// The areas of the merge that was tried last, by first window: one area where they were joined.
     pub tried: Vec<u32>,
 }
 
@@ -54,24 +54,24 @@ pub struct RegionsView {
     pub labels: LabelMap,
     /// Color of each hypothesis, by [`HypothesisId::index`].
     pub colors: Vec<[u8; 3]>,
-    /// The region that the step taken last is about.
+    /// The hypothesis that the step taken last is about.
     pub focus: Option<HypothesisId>,
-    /// Pixels that it took last.
+    /// Pixels that the hypothesis in focus took last.
     pub newest: Vec<u32>,
-    /// Pixels beside it that it did not take, or of the cluster that it is compared with.
+    /// Adjacent pixels that the hypothesis in focus did not take, or the pixels of the cluster that is tested as its highlight.
     pub beside: Vec<u32>,
-    /// Whether they are that cluster.
+    /// Whether `beside` holds the pixels of such a cluster.
     pub tested: bool,
     /// The windows of a second look.
     pub windows: Option<WindowsView>,
 }
 
-/// Roles at an instant.
+/// Kinds of pixels at an instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RolesView {
-    /// Role of each pixel: unassigned as long as it is not known.
+    /// Kind of each pixel: unassigned as long as the kind is not decided.
     pub kinds: Raster<PixelKind>,
-    /// The blob that the step taken last judged, and whether it is a highlight.
+    /// The pixels of the blob that the step taken last judged, and whether the blob is a highlight.
     pub blob: Option<(Vec<u32>, bool)>,
 }
 
@@ -103,8 +103,7 @@ impl WindowsView {
 }
 
 impl Instant {
-    /// Takes out of the cursor what is to be painted; `chosen` is the region in focus where the step taken last is about
-    /// none.
+    /// The instant at the cursor; `chosen` is the hypothesis in focus where the step taken last is about none.
     pub fn of(
         replay: &Replay,
         names: &RegionNames,
@@ -183,7 +182,7 @@ fn roles(replay: &Replay) -> Raster<PixelKind> {
     kinds
 }
 
-/// Where the cursor stands, in a few words.
+/// The place of the cursor, in a few words.
 pub fn cursor_place(replay: &Replay) -> String {
     let Some(last) = replay.at().checked_sub(1) else { return "before the first step".to_owned() };
     let Some(stage) = replay.stage() else { return String::new() };

@@ -1,4 +1,4 @@
-//! Which pixels the step at the cursor looks at: what the color space view shows in full, the rest being its ghost.
+//! The pixels that the step at the cursor is about: the color space view shows them in full, all others faintly.
 
 use super::tracks::{
     candidate_pixels, measured_and_ignored, pixels_of_region, sampled, test_at_cursor, tracks,
@@ -7,26 +7,27 @@ use crate::photo::Masks;
 use crate::raster::{HypothesisId, Raster};
 use crate::trace::{Class, Event, Grid, MergeTried, RepairVerdict, Replay, Stage, Step, WindowClassified};
 
-/// What pixels are to the step at the cursor.
+/// The part of a group of pixels in the step at the cursor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Of the region, of the area that would remain, or of a blob that is a highlight.
+    /// Pixels of the hypothesis, of the area that would remain, or of a blob that is a highlight.
     Own,
-    /// Of the region, and taken in the ring at work.
+    /// Pixels of the hypothesis that the newest ring took.
     Newest,
-    /// Not taken, the cluster that is tested, the area that would vanish, or a blob that is no highlight.
+    /// Pixels that the hypothesis did not take, of the cluster that is tested, of the area that would vanish, or of a blob that is
+    /// no highlight.
     Beside,
-    /// On the inside of a tested matte line: its length is measured without them (5.4.1).
+    /// Pixels on the inside of a tested matte line, without which the length of the line is measured (5.4.1).
     Ignored,
-    /// Of a window of this class (5.2.1).
+    /// Pixels of a window of this class (5.2.1).
     Window(Option<Class>),
 }
 
-/// Some pixels, and what they are to the step.
+/// A group of pixels, and its part in the step.
 pub type LookedAt = (Role, Vec<u32>);
 
-/// The pixels that the step at the cursor looks at, at most `most` of each kind, evenly chosen; `focus` is the region that
-/// is looked at where the step is about no pixels.
+/// The pixels that the step at the cursor is about, at most `most` of each group, evenly chosen. `focus` is the hypothesis whose
+/// pixels stand in where the step is about no pixels.
 pub fn looked_at(
     replay: &Replay,
     focus: Option<HypothesisId>,
@@ -82,7 +83,8 @@ fn groups(
     }
 }
 
-/// The blob that the step taken last judged, and whether it is a highlight: clipped, whether it is filled.
+/// The pixels of the blob that the step taken last judged, and whether the blob is a highlight; of a clipped blob, whether it is
+/// filled.
 pub fn blob_at_cursor(replay: &Replay) -> Option<(Vec<u32>, bool)> {
     let (blob, kept) = match replay.last()? {
         Step::Event(Event::BlobJudged(judged)) => (judged.blob, judged.kept),

@@ -1,45 +1,45 @@
-//! The regions table at an instant: the hypotheses so far, and before there are any the windows and areas.
+//! The table of the regions at an instant: the hypotheses so far, and before the first hypothesis the windows and areas.
 
 use super::RegionNames;
 use crate::raster::{HypothesisId, RegionId};
 use crate::trace::{Class, End, Event, Replay, Step, WindowClassified};
 
-/// A hypothesis, as far as it is known.
+/// A row of the table: a hypothesis at the instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HypothesisRow {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
-    /// Its pixels now.
+    /// Number of its pixels.
     pub pixels: u32,
-    /// Unit direction of its line, where it has one.
+    /// Unit direction of the line, where there is one.
     pub direction: Option<[f64; 3]>,
-    /// Radius of its cylinder, counts.
+    /// Radius of the cylinder, counts.
     pub radius: f64,
-    /// What became of it by now.
+    /// The status at the instant.
     pub status: Status,
     /// The region that the hypothesis is, or is part of, in the result; none: no region.
     pub region: Option<RegionId>,
 }
 
-/// What became of a hypothesis by now.
+/// The status of a hypothesis at an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Status {
-    /// The step taken last is about it.
+    /// The step taken last is about the hypothesis.
     AtWork,
-    /// It stands.
+    /// The hypothesis stands.
     Stands,
-    /// It was the broad highlight of another.
+    /// The hypothesis was the broad highlight of another.
     Absorbed(HypothesisId),
-    /// It became part of another.
+    /// The hypothesis became part of another.
     Merged(HypothesisId),
-    /// It claimed too few pixels.
+    /// The hypothesis claimed too few pixels.
     Barren,
-    /// It was too small to keep.
+    /// The hypothesis was too small to keep.
     Dropped,
 }
 
 impl Status {
-    /// In a word or two.
+    /// The status in a word or two.
     pub fn text(self) -> String {
         match self {
             Self::AtWork => "at work".to_owned(),
@@ -52,7 +52,7 @@ impl Status {
     }
 }
 
-/// The hypotheses so far, in the order of their birth.
+/// The hypotheses so far, in the order in which they were made.
 pub fn hypothesis_rows(replay: &Replay, names: &RegionNames) -> Vec<HypothesisRow> {
     let last = replay.at().checked_sub(1);
     let at_work = last.and_then(|last| replay.trace().block_at(last)).map(|block| block.topic.hypothesis());
@@ -74,28 +74,28 @@ pub fn hypothesis_rows(replay: &Replay, names: &RegionNames) -> Vec<HypothesisRo
     replay.numbered_hypotheses().map(row).collect()
 }
 
-/// How many windows have been looked at, and what they were found to be.
+/// Numbers of windows by class, at an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WindowCounts {
-    /// Windows of the grid.
+    /// Number of windows of the grid.
     pub windows: usize,
-    /// Classified ones, by class: point, line, plane, volume.
+    /// Numbers of classified windows by class: point, line, plane, volume.
     pub classes: [usize; 4],
-    /// Looked at, but with too few pixels for a class.
+    /// Number of windows with too few valid pixels for a class.
     pub unclassed: usize,
-    /// Looked at, without a pixel to be believed.
+    /// Number of windows without a valid pixel, before the window of the step taken last.
     pub empty: usize,
-    /// Not looked at yet.
+    /// Number of windows that were not classified yet.
     pub waiting: usize,
-    /// Areas that the classified windows form so far.
+    /// Number of areas that the classified windows form so far.
     pub areas: usize,
 }
 
-/// The windows so far; none before a grid is laid.
+/// The numbers of windows so far; none before a grid is laid.
 pub fn window_counts(replay: &Replay) -> Option<WindowCounts> {
     let grid = replay.grid()?;
     let mut counts = WindowCounts { windows: grid.classes.len(), ..WindowCounts::default() };
-    // Nothing is recorded of an empty window: those before the cursor's are such.
+    // No event is recorded of an empty window: unclassified windows before the window at the cursor are empty.
     let looked_at = match replay.last()? {
         Step::Event(Event::WindowClassified(WindowClassified { window, .. })) => *window as usize,
         Step::Event(Event::WindowsLaid(_)) => 0,

@@ -1,4 +1,4 @@
-//! A skewed-T test as it is drawn: two lines, the gap between them, and what each check held against what (5.4.1).
+//! A skewed-T test as it is drawn: two lines, the gap between them, and the four checks with their values and limits (5.4.1).
 
 use crate::color::{Vec3, rgb};
 use crate::trace::{CandidateSource, CandidateTested, Measured};
@@ -7,11 +7,11 @@ use crate::view::Point;
 /// A test in the color cube, counts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SkewedTView {
-    /// The matte line from its nearest point to black to the brightest matte point.
+    /// The matte line, from its point nearest to black to the brightest matte point.
     pub matte: [Point; 2],
-    /// The part of it on which a highlight may begin.
+    /// The part of the matte line on which a highlight may begin.
     pub upper: [Point; 2],
-    /// The candidate's line, from the meeting point through its cluster.
+    /// The line of the candidate, from the meeting point through the cluster.
     pub line: [Point; 2],
     /// The points of both lines that are nearest to one another.
     pub gap: [Point; 2],
@@ -22,16 +22,16 @@ pub struct SkewedTView {
 /// A check of a test.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Check {
-    /// Whether it was passed.
+    /// Whether the check was passed.
     pub passed: bool,
-    /// What was held against what.
+    /// Value and limit, as text.
     pub text: String,
-    /// What it is for.
+    /// The purpose of the check.
     pub tip: &'static str,
 }
 
-/// The test as it is drawn; `reach` are the least and the largest place of the candidate's pixels on its line, counts from
-/// the meeting point, where they are known.
+/// The test as it is drawn. `reach`: the least and the largest place of the pixels of the candidate on its line, counts from the
+/// meeting point; none where they are unknown.
 pub fn skewed_t_view(test: &CandidateTested, reach: Option<[f64; 2]>) -> SkewedTView {
     let foot = test.matte.foot();
     let on_matte = |percent: f64| rgb(&(foot + test.matte.direction * (test.matte_length * percent / 100.0)));
@@ -48,7 +48,7 @@ pub fn skewed_t_view(test: &CandidateTested, reach: Option<[f64; 2]>) -> SkewedT
     }
 }
 
-/// What a candidate is called.
+/// The name of a candidate.
 pub fn candidate_name(source: CandidateSource) -> String {
     match source {
         CandidateSource::Leftover(area) => format!("leftover of area {area}"),

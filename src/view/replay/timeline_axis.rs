@@ -1,31 +1,32 @@
-//! Where the steps of a trace lie along a line: the layout of the timeline, without a screen.
+//! The places of the steps of a trace along a line: the layout of the timeline, without a screen.
 //!
-//! Claims come by the million and windows by the thousand. In proportion to their steps, all but two passes would be thinner
-//! than a hair: so stages, and passes within a stage, get a share that grows slowly with their steps and has a floor; within
-//! a pass, places are proportional to steps.
+//! A trace has a million claims and a thousand windows. With shares in proportion to the number of steps, all but two passes would
+//! be too thin to see. Stages, and passes within a stage, therefore get a share that grows slowly with their number of steps and
+//! has a lower limit; within a pass, places are proportional to steps.
 
 use crate::trace::{Pass, PassSpan, Trace};
 use std::ops::Range;
 
-/// A stretch of `n` steps weighs `n` to this power.
+/// Exponent of the weight: `n` steps weigh `n` to this power.
 const COMPRESSION: f64 = 0.3;
-/// What labels weigh, of what other steps would: there is one a pixel, each decided like the one before (6).
+/// Weight of labels, as a share of the weight of other steps: there is one label per pixel, all decided alike (6).
 const LABELS: f64 = 0.02;
-/// The least share of a stage in the line.
+/// Least share of a stage in the line.
 const LEAST_STAGE: f64 = 0.045;
-/// The least share of a pass in its stage.
+/// Least share of a pass in its stage.
 const LEAST_PASS: f64 = 0.03;
-/// Steps that are seen at the deepest zoom.
+/// Number of steps that are visible at the largest zoom.
 const FEWEST_STEPS: f64 = 12.0;
 
 /// The steps of a trace along a line from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimelineAxis {
-    /// Steps and their places, both ascending; places between two of these are proportional.
+    /// Steps and their places, both ascending; between two entries, places are proportional to
+    /// steps.
     knots: Vec<(usize, f64)>,
 }
 
-/// The part of the line that is seen, as places.
+/// The visible section of the line, as places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimelineSection {
     /// The place at its left end.
@@ -50,14 +51,14 @@ impl TimelineAxis {
                 axis.knots.push((part.end, place));
             }
         }
-        // What was added up ends at 1 but for its rounding.
+        // The sum of the shares is 1 but for rounding.
         if let Some(last) = axis.knots.last_mut().filter(|last| last.0 > 0) {
             last.1 = 1.0;
         }
         axis
     }
 
-    /// Where the line is after `steps` steps.
+    /// The place after `steps` steps.
     pub fn place_of(&self, steps: usize) -> f64 {
         let next = self.knots.partition_point(|knot| knot.0 < steps);
         match (next.checked_sub(1).map(|before| self.knots[before]), self.knots.get(next)) {
@@ -67,22 +68,22 @@ impl TimelineAxis {
         }
     }
 
-    /// The step that happens at a place; none beside the line.
+    /// The step at a place; none outside the line.
     pub fn step_at(&self, place: f64) -> Option<usize> {
         let next = self.knots.partition_point(|knot| knot.1 <= place);
         let (&(a, from), &(b, to)) = (self.knots.get(next.checked_sub(1)?)?, self.knots.get(next)?);
-        // A step's place may come out a hair before where it began.
+        // By rounding, the place of a step may lie slightly before its beginning.
         let steps = (place - from) / (to - from) * (b - a) as f64 + 1e-6;
         Some(a + (steps as usize).min(b - a - 1))
     }
 
-    /// How many steps are taken when the cursor is put at a place: the one that happens there is the last.
+    /// Number of steps that are taken when the cursor is put at a place: the step at the place is the last.
     pub fn taken_at(&self, place: f64) -> usize {
         let end = self.knots.last().map_or(0, |knot| knot.0);
         if place <= 0.0 { 0 } else { self.step_at(place).map_or(end, |step| step + 1) }
     }
 
-    /// Stretches of evenly spaced steps that reach into a section, with the width of a step, as places.
+    /// The ranges of evenly spaced steps that overlap a section, each with the width of a step, as places.
     pub fn stretches(&self, section: TimelineSection) -> impl Iterator<Item = (Range<usize>, f64)> + '_ {
         let pairs = self.knots.windows(2).map(|pair| (pair[0], pair[1]));
         let seen = pairs.filter(move |(a, b)| b.1 > section.from && a.1 < section.to);
@@ -100,7 +101,7 @@ impl TimelineAxis {
 }
 
 impl Default for TimelineSection {
-    /// All of it.
+    /// The whole line.
     fn default() -> Self {
         Self { from: 0.0, to: 1.0 }
     }
@@ -112,12 +113,12 @@ impl TimelineSection {
         self.from + share * (self.to - self.from)
     }
 
-    /// Where a place is in the section: 0 at its left end, 1 at its right one, beyond outside.
+    /// The share of the section at a place: 0 at the left end, 1 at the right end, below 0 or above 1 outside.
     pub fn share(&self, place: f64) -> f64 {
         (place - self.from) / (self.to - self.from)
     }
 
-    /// Seen `factor` times as wide; what is at `share` stays there, as long as the line fills the section.
+    /// The section magnified by `factor`; the place at `share` stays at `share`, as long as the line fills the section.
     #[must_use]
     pub fn zoomed(&self, axis: &TimelineAxis, factor: f64, share: f64) -> Self {
         let anchor = self.place(share);
@@ -126,14 +127,14 @@ impl TimelineSection {
         Self { from: anchor - share * width, to: anchor + (1.0 - share) * width }.within()
     }
 
-    /// Moved by a share of its width, as far as the line goes.
+    /// The section moved by a share of its width, within the line.
     #[must_use]
     pub fn panned(&self, shares: f64) -> Self {
         let by = shares * (self.to - self.from);
         Self { from: self.from + by, to: self.to + by }.within()
     }
 
-    /// Moved so far that it shows a place.
+    /// The section moved just so far that it contains a place.
     #[must_use]
     pub fn showing(&self, place: f64) -> Self {
         match self.share(place) {
@@ -150,7 +151,7 @@ impl TimelineSection {
     }
 }
 
-/// How many decisions happened in each of `columns` columns of a section: contested claims, refusals and events.
+/// Number of decisions (contested claims, refusals and events) in each of `columns` columns of a section.
 pub fn timeline_density(
     trace: &Trace,
     axis: &TimelineAxis,
@@ -169,7 +170,7 @@ pub fn timeline_density(
         .collect()
 }
 
-/// The passes in a stage and what lies between them, with what a step of each weighs.
+/// The passes of a stage and the steps between them, each with the weight of a step.
 fn parted(stage: &Range<usize>, passes: &[PassSpan]) -> Vec<(Range<usize>, f64)> {
     let mut parts = Vec::new();
     let mut at = stage.start;
@@ -193,7 +194,7 @@ fn compressed(measure: f64) -> f64 {
     measure.powf(COMPRESSION)
 }
 
-/// Weights as shares, in all 1.
+/// Weights as shares, whose sum is 1.
 fn shares(weights: Vec<f64>, least: f64) -> Vec<f64> {
     let total: f64 = weights.iter().sum();
     let floored: Vec<f64> = weights.into_iter().map(|weight| (weight / total).max(least)).collect();

@@ -1,24 +1,24 @@
-//! The values that a person watches while the cursor moves.
+//! The values of the watch list, at the cursor.
 
 use super::RegionNames;
 use crate::color::{Line, dot, vec3};
 use crate::raster::{HypothesisId, PixelIndex, Raster, RegionId};
 use crate::trace::{Class, Pass, PixelKind, Replay, Stage};
 
-/// What stands at the cursor.
+/// The values at the cursor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Watch {
-    /// Steps taken, and in all.
+    /// Number of steps taken, and number of all steps.
     pub at: [usize; 2],
     /// The stage, once one has begun.
     pub stage: Option<Stage>,
-    /// The part of it.
+    /// The pass, once one has begun.
     pub pass: Option<Pass>,
-    /// Regions that stand, and that were begun.
+    /// Number of hypotheses that stand, and number of all hypotheses so far.
     pub regions: [usize; 2],
-    /// Pixels in no region.
+    /// Number of pixels in no hypothesis.
     pub unassigned: u32,
-    /// The region that the cursor is about.
+    /// The hypothesis that the cursor is about.
     pub current: Option<Current>,
     /// Unit direction of the light as estimated so far.
     pub light: Option<[f64; 3]>,
@@ -26,20 +26,20 @@ pub struct Watch {
     pub pixel: Option<WatchedPixel>,
 }
 
-/// The region that the cursor is about.
+/// The hypothesis that the cursor is about.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Current {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
     /// The region that the hypothesis will be part of in the result; none where nothing is left of the hypothesis.
     pub region: Option<RegionId>,
-    /// Its pixels.
+    /// Number of its pixels.
     pub pixels: u32,
-    /// The axis of its cylinder.
+    /// The axis of the cylinder.
     pub line: Line,
-    /// Radius of its cylinder, counts.
+    /// Radius of the cylinder, counts.
     pub radius: f64,
-    /// Half the thickness of its slice, counts, once it has one.
+    /// Half the thickness of the slice, counts; none as long as there is no slice.
     pub half_width: Option<f64>,
 }
 
@@ -48,32 +48,33 @@ pub struct Current {
 pub struct WatchedPixel {
     /// The pixel.
     pub pixel: PixelIndex,
-    /// Its color, counts.
+    /// Color of the pixel, counts.
     pub color: [f32; 3],
-    /// Class of its window, once that is known; none within where it holds too few pixels.
+    /// Class of the pixel's window; none as long as the window was not classified, `Some(None)` where the window holds too few
+    /// pixels.
     pub class: Option<Option<Class>>,
     /// The hypothesis that holds the pixel; none: no hypothesis.
     pub hypothesis: Option<HypothesisId>,
-    /// Its role, once it has one.
+    /// Kind of the pixel; unassigned as long as the kind is not decided.
     pub kind: PixelKind,
-    /// How far it is from the axis and plane of each region that stands, nearest axis first.
+    /// Distances of the color from axis and plane of each hypothesis that stands, nearest axis first.
     pub distances: Vec<AxisDistance>,
 }
 
-/// How far a color is from a region.
+/// The distances of a color from the axis and the plane of a hypothesis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisDistance {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
     /// Distance from the axis, and the radius, counts.
     pub axis: [f64; 2],
-    /// Distance from the plane, and half the slice's thickness, counts; none where it has no plane.
+    /// Distance from the plane, and half the thickness of the slice, counts; none without a slice.
     pub plane: Option<[f64; 2]>,
-    /// Where it lies along the axis from black, counts.
+    /// Place along the axis from black, counts.
     pub along: f64,
 }
 
-/// What stands at the cursor, with what is to be told of `pixel`.
+/// The values at the cursor, with those of `pixel`.
 pub fn watch(
     replay: &Replay,
     names: &RegionNames,

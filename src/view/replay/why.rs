@@ -1,4 +1,4 @@
-//! Why a pixel, a hypothesis and a region are what they are: sentences, each with the step that it tells of.
+//! Why a pixel, a hypothesis and a region are what they are: sentences, each with the step that the sentence is about.
 
 use super::RegionNames;
 use crate::describe::{Names, condense};
@@ -12,11 +12,11 @@ use std::sync::Arc;
 pub struct Account {
     /// The step.
     pub step: usize,
-    /// Its stage.
+    /// The stage of the step.
     pub stage: Stage,
-    /// How many joinings lie between it and what the list is about.
+    /// Number of joinings between the hypothesis of the sentence and the subject of the list.
     pub depth: usize,
-    /// What happened.
+    /// The sentence.
     pub text: String,
 }
 
@@ -31,7 +31,7 @@ pub struct Why {
     pub region: Option<(RegionId, Vec<Account>)>,
 }
 
-/// Answers for a pixel, and for a hypothesis or else for what the pixel became part of.
+/// The answers for a pixel, and for a hypothesis; without a hypothesis, for the region of the pixel.
 pub fn why(
     shown: &ResultSnapshot,
     trace: &Arc<Trace>,
@@ -46,7 +46,7 @@ pub fn why(
     let pixel = pixel.filter(|&pixel| pixel.index() < image.pixels.len()).map(|pixel| {
         let history = condense(&pixel_history(trace, image, &shown.analysis.masks, pixel));
         let told = history.iter().rev().map(|condensed| {
-            let text = words.happening(&condensed.last);
+            let text = words.history_entry(&condensed.last);
             let text = if condensed.times > 1 { format!("{text} ({} times)", condensed.times) } else { text };
             account(condensed.last.step, 0, text)
         });

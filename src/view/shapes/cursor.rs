@@ -1,4 +1,4 @@
-//! The shapes at the debugger's cursor: what the region in focus may claim there, and the lines of all that stand.
+//! The shapes at the debugger's cursor: the colors that the hypothesis in focus accepts, and the axes of all that stand.
 
 use super::{ellipsoid_of, full, slice_body};
 use crate::color::Moments;
@@ -10,17 +10,17 @@ use crate::view::{Point, ResultSnapshot, Solid};
 /// Shapes at an instant, in counts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CursorShapes {
-    /// The cylinder of the region in focus (5.3.2), as long as it has no slice.
+    /// The cylinder of the hypothesis in focus (5.3.2), as long as there is no slice.
     pub cylinder: Option<Solid>,
-    /// Its slice (5.4.2), once it has one.
+    /// The slice of the hypothesis in focus (5.4.2), once there is one.
     pub slice: Option<Solid>,
-    /// Its axis, from the dark sphere to the cube's end.
+    /// The axis of the hypothesis in focus, from the dark sphere to the side of the cube.
     pub axis: Option<[Point; 2]>,
-    /// Where its highlight line leaves the matte line, once that is known.
+    /// The point where its highlight line leaves the matte line, once that is known.
     pub start: Option<Point>,
     /// The axes of the other hypotheses that stand.
     pub others: Vec<(HypothesisId, [Point; 2])>,
-    /// From black along the light as it is estimated so far.
+    /// The line from black along the light as it is estimated so far.
     pub light: Option<[Point; 2]>,
 }
 
