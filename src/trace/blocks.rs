@@ -27,6 +27,7 @@ pub struct Block {
 
 /// The subject of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Topic {
     /// A linear hypothesis is chosen and grows (5.3).
     Hypothesis(HypothesisId),

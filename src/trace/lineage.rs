@@ -10,6 +10,7 @@ use crate::raster::{HypothesisId, RegionId};
 
 /// A hypothesis that a region is made of. In the list of [`lineage`] those that joined it follow it, one deeper.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Ancestor<'a> {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
@@ -32,6 +33,7 @@ impl Ancestor<'_> {
 
 /// How a hypothesis began.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Birth<'a> {
     /// As the hypothesis of a merged area (5.3.1).
     Area {
@@ -53,6 +55,7 @@ pub enum Birth<'a> {
 
 /// How a hypothesis became part of another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Joined {
     /// The step.
     pub step: usize,
@@ -64,6 +67,7 @@ pub struct Joined {
 
 /// The way in which a hypothesis became part of another one, see [`Joined`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum JoinedHow {
     /// The hypothesis was the broad highlight of the other one.
     Absorbed {
@@ -173,6 +177,7 @@ fn joins(trace: &Trace, state: &ReplayState) -> Vec<(HypothesisId, Joined)> {
 
 /// The story of one hypothesis. Steps are numbered through the whole trace.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct HypothesisStory<'a> {
     /// The choice of the hypothesis; none for a part that was separated.
     pub chosen: Option<(usize, &'a HypothesisChosen)>,

@@ -31,6 +31,7 @@ pub(super) struct ReplayState {
 
 /// A grid of windows, and how far its windows are classified and merged.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Grid {
     /// Size and number of the windows.
     pub laid: WindowsLaid,
@@ -79,6 +80,7 @@ impl Grid {
 
 /// A hypothesis, as far as it is known.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Hypothesis {
     /// First window of the area that the hypothesis started from; none for a part that was separated.
     pub area: Option<u32>,
@@ -96,6 +98,7 @@ pub struct Hypothesis {
 
 /// How a hypothesis ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum End {
     /// The hypothesis claimed too few pixels.
     Barren,

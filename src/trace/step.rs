@@ -16,6 +16,7 @@ pub struct Contest {
 
 /// The measure by which a contest was decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Measure {
     /// Distances of the color from both axes, counts: the nearer wins (5.3.2).
     Axis,

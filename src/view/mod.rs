@@ -43,21 +43,23 @@ pub use picture::{Origin, Picture};
 pub use plane_points::{
     MOST_PLANE_POINTS, PlaneBranch, PlanePixel, RegionPlane, growing_plane, region_plane, test_plane,
 };
-pub use profile::{ProfileSample, profile, profile_csv, profile_ends};
+pub(crate) use profile::profile_csv;
+pub use profile::{ProfileSample, profile, profile_ends};
 pub use replay::{
     Account, AxisDistance, Check, Current, Growth, HypothesisRow, Instant, InstantView, LookedAt,
     RegionNames, RegionsView, Role, RolesView, SkewedTView, Status, TimelineAxis, TimelineSection, Watch,
-    WatchedPixel, Why, WindowCounts, WindowsView, candidate_name, candidate_pixels, candidate_reach,
-    cursor_place, growth, hypothesis_rows, looked_at, measured_and_ignored, pixels_of_region, rings, sampled,
-    skewed_t_view, test_at_cursor, timeline_density, tracks, watch, why, window_counts,
+    WatchedPixel, Why, WindowCounts, WindowsView, candidate_name, candidate_reach, cursor_place, growth,
+    hypothesis_rows, looked_at, sampled, skewed_t_view, test_at_cursor, timeline_density, watch, why,
+    window_counts,
 };
-pub use runs::MaskRuns;
+pub(crate) use replay::{candidate_pixels, measured_and_ignored, pixels_of_region, rings, tracks};
+pub(crate) use runs::MaskRuns;
 pub use settings::{
     Arrangement, ColorBy, ColorSpace, CubeSettings, ImageSettings, PlaneSettings, ProfileLine, Theme, Tool,
 };
 pub use shapes::{
-    CursorShapes, PlaneDirections, RegionShapes, cluster_ellipsoid, cursor_shapes, dark_sphere,
-    illuminant_line, plane_directions, region_shapes, window_ellipsoid,
+    CursorShapes, RegionShapes, cluster_ellipsoid, cursor_shapes, dark_sphere, illuminant_line,
+    region_shapes, window_ellipsoid,
 };
 pub use snapshot::ResultSnapshot;
 pub(crate) use snapshot::{best_overlap, best_overlaps};

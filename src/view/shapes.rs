@@ -42,17 +42,6 @@ pub struct RegionShapes {
     pub meeting_point_found: bool,
 }
 
-/// Directions along and across the plane of a region: unit vectors at right angles to one another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlaneDirections {
-    /// Along the matte line, away from black.
-    pub body: Point,
-    /// In the plane, from the matte line towards the illuminant; towards gray where there is no plane.
-    pub inward: Point,
-    /// Across the plane.
-    pub normal: Point,
-}
-
 /// The shapes of a region; none where there is no such region.
 pub fn region_shapes(shown: &ResultSnapshot, region: RegionId) -> Option<RegionShapes> {
     let hypothesis = hypothesis(shown, region)?;
@@ -107,14 +96,6 @@ fn ellipsoid_of(moments: &Moments) -> Option<Solid> {
     let (variances, axes) = principal_axes(&moments.covariance());
     let half = variances.map(|variance| ELLIPSOID_SIGMAS * variance.max(0.0).sqrt());
     Some(ellipsoid(moments.mean().into(), axes.map(Into::into), half))
-}
-
-/// Directions along and across a region's plane; none where there is no such region.
-pub fn plane_directions(shown: &ResultSnapshot, region: RegionId) -> Option<PlaneDirections> {
-    let hypothesis = hypothesis(shown, region)?;
-    let body = hypothesis.matte.direction;
-    let inward = hypothesis.plane.map_or_else(|| across(hypothesis), |plane| plane.inward);
-    Some(PlaneDirections { body: rgb(&body), inward: rgb(&inward), normal: rgb(&body.cross(&inward)) })
 }
 
 /// A region's skewed T.
@@ -224,7 +205,6 @@ mod tests {
         let regions = shown.analysis.intrinsic.regions.len();
         let beyond = RegionId::from_index(regions);
         assert!(regions > 0 && region_shapes(&shown, beyond).is_none());
-        assert!(plane_directions(&shown, beyond).is_none());
         let radius = shown.analysis.used.radius_counts();
         for region in RegionId::all(regions) {
             let shapes = region_shapes(&shown, region).unwrap();
@@ -234,8 +214,6 @@ mod tests {
             for p in shapes.matte_line.into_iter().chain([shapes.brightest_matte]) {
                 assert!(line_distance(&shown, region, p) < 1e-2);
             }
-            let directions = plane_directions(&shown, region).unwrap();
-            assert!(distance(cross(directions.body, directions.inward), directions.normal) < 1e-5);
         }
     }
 

@@ -4,6 +4,7 @@ use super::{EventData, Subject};
 
 /// The estimate of the ambient light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Ambient {
     /// The color that was subtracted from every pixel before the split, and added to the body reflection after the split, counts;
     /// none: nothing was subtracted.
@@ -16,6 +17,7 @@ pub struct Ambient {
 
 /// The point nearest to all matte lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Meeting {
     /// Color of the point, counts.
     pub counts: [f64; 3],
@@ -31,6 +33,7 @@ pub struct Meeting {
 
 /// Why ambient light was subtracted, or why not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum AmbientVerdict {
     /// Ambient light is off.
     #[default]

@@ -6,6 +6,7 @@ use crate::trace::Measured;
 
 /// The highlights of a region were compared: whether they lie on different shades of the body (section 7.4).
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BranchesSought {
     /// The region.
     pub region: RegionId,
@@ -24,6 +25,7 @@ impl BranchesSought {
 
 /// The brightest part of one highlight.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct HighlightCore {
     /// Amount of body reflection under the core, median of the undistorted pixels, counts.
     pub body: f32,

@@ -7,6 +7,7 @@ use crate::trace::Measured;
 
 /// A neighbor was tested as the highlight of a hypothesis (section 5.4.1).
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CandidateTested {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
@@ -36,6 +37,7 @@ pub struct CandidateTested {
 
 /// The highlight line of a hypothesis was chosen from the candidates that passed (section 5.4.1).
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CandidateChosen {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
@@ -49,6 +51,7 @@ pub struct CandidateChosen {
 
 /// The source of a highlight candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum CandidateSource {
     /// The pixels of a merged area (by its first window) that no hypothesis claimed.
     Leftover(u32),
@@ -61,6 +64,7 @@ pub enum CandidateSource {
 /// The tests of a highlight candidate, each true when passed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(clippy::struct_excessive_bools, reason = "four independent verdicts")]
+#[non_exhaustive]
 pub struct CandidateVerdict {
     /// The lines pass near enough to one another to form a skewed T.
     pub lines_meet: bool,

@@ -5,6 +5,7 @@ use crate::raster::{HypothesisId, PixelIndex, RegionId};
 
 /// A component of unassigned pixels was given to the hypothesis around it (section 5.5).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct HoleFilled {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
@@ -18,6 +19,7 @@ pub struct HoleFilled {
 
 /// A hypothesis was too small to keep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Dropped {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
@@ -27,6 +29,7 @@ pub struct Dropped {
 
 /// A part of a hypothesis that lies apart became a hypothesis of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ComponentSplit {
     /// The hypothesis that the part was separated from.
     pub hypothesis: HypothesisId,
@@ -38,6 +41,7 @@ pub struct ComponentSplit {
 
 /// The hypotheses that are left became the regions of the result.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Renumbered {
     /// The region of each hypothesis, by [`HypothesisId::index`]; none for a hypothesis that is in no region.
     pub regions: Box<[Option<RegionId>]>,

@@ -5,6 +5,7 @@ use crate::raster::HypothesisId;
 
 /// The color of the light was estimated (section 5.4.1).
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct IlluminantEstimated {
     /// Unit direction of the light.
     pub direction: [f64; 3],
@@ -17,6 +18,7 @@ pub struct IlluminantEstimated {
 
 /// The contribution of one hypothesis to the estimate of the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Contribution {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
@@ -35,6 +37,7 @@ pub struct IlluminantGiven {
 
 /// The evidence of the light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum LightBasis {
     /// There is no evidence: no light is known.
     #[default]
@@ -61,6 +64,7 @@ impl LightBasis {
 
 /// The light that small highlights vote for.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct VoteResult {
     /// Unit direction.
     pub direction: [f64; 3],
@@ -76,6 +80,7 @@ pub struct VoteResult {
 
 /// Small highlights voted for a light (refines section 5.4.1).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct VotesCast {
     /// The light with most votes; none where too few pixels voted.
     pub elected: Option<VoteResult>,
@@ -85,6 +90,7 @@ pub struct VotesCast {
 
 /// It was decided which light is used (refines section 5.4.1).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LightChosen {
     /// The evidence of the light that is used.
     pub basis: LightBasis,
@@ -102,6 +108,7 @@ pub struct LightChosen {
 
 /// The limits of the choice between the light of the planes and the light of the votes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LightLimits {
     /// Least support with which the light of the planes is used whatever the votes are, 0…1.
     pub support: f64,
@@ -116,6 +123,7 @@ pub struct LightLimits {
 /// How well two lights explain the pixels whose surface reflection outshines the body (7.5): the light of all pixels off the matte
 /// lines, and the light of the highlights alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct TwoLightTest {
     /// Number of these pixels.
     pub pixels: u32,

@@ -6,6 +6,7 @@ use crate::raster::HypothesisId;
 
 /// A merged area started a linear hypothesis (section 5.3.1).
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct HypothesisChosen {
     /// The new hypothesis.
     pub hypothesis: HypothesisId,
@@ -23,6 +24,7 @@ pub struct HypothesisChosen {
 
 /// A merged area did not start a hypothesis, or the hypothesis that it started was taken back (section 5.3.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct HypothesisPassedOver {
     /// First window of the area.
     pub area: u32,
@@ -36,6 +38,7 @@ pub struct HypothesisPassedOver {
 
 /// Why an area did not start a hypothesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum PassedOver {
     /// The area never had the fewest pixels.
     TooSmall,
@@ -53,6 +56,7 @@ pub enum PassedOver {
 
 /// The claims that follow, `pixels` of them, are the places where a hypothesis starts to grow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct SeedsPlaced {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
@@ -62,6 +66,7 @@ pub struct SeedsPlaced {
 
 /// A hypothesis starts to grow: the claims that follow were reached from a neighbor.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct GrowthBegan {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
@@ -72,6 +77,7 @@ pub struct GrowthBegan {
 
 /// The line of a hypothesis was fitted again to the pixels that the hypothesis had grown into.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LineRefitted {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
@@ -81,6 +87,7 @@ pub struct LineRefitted {
 
 /// A linear hypothesis turned out to be the broad highlight of its neighbor (refines section 5.3).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Absorbed {
     /// The highlight, a hypothesis no longer.
     pub hypothesis: HypothesisId,
@@ -96,6 +103,7 @@ pub struct Absorbed {
 
 /// Two hypotheses became one, as their lines do not differ significantly (refines section 5.3.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RegionsMerged {
     /// The hypothesis that vanished.
     pub hypothesis: HypothesisId,

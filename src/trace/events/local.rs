@@ -7,6 +7,7 @@ use crate::trace::Measured;
 
 /// The local split begins, or does not (beyond section 6).
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LocalBegan {
     /// Whether the local split begins, or why not.
     pub start: LocalStart,
@@ -32,6 +33,7 @@ pub struct LocalBegan {
 
 /// Whether the local split begins, or why not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum LocalStart {
     /// The local split begins.
     Begins,
@@ -45,6 +47,7 @@ pub enum LocalStart {
 
 /// What pixels of the local split are held against.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct LocalLimits {
     /// Least mean of J = I / (√3 s) that has a hue, counts.
     pub mean: f32,
@@ -101,6 +104,7 @@ impl LocalLimits {
 
 /// A candidate highlight was judged (refinement `hysteresis`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct BlobJudged {
     /// Number of the blob, from 1; the numbers of clipped blobs follow.
     pub blob: u16,
@@ -123,6 +127,7 @@ pub struct BlobJudged {
 /// The plausibility of the highlights under this light was tested (refinement `belief`). The first test that fails ends the
 /// tests: later figures are none.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PlausibilityTested {
     /// Share of the votes for the light, 0…1; none where explained regions support the light, the light was given, or votes are off.
     pub share: Option<f64>,
@@ -139,6 +144,7 @@ pub struct PlausibilityTested {
 
 /// The limits of a [`PlausibilityTested`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PlausibilityLimits {
     /// Least share of the votes, 0…1.
     pub share: f64,
@@ -150,6 +156,7 @@ pub struct PlausibilityLimits {
 
 /// Why the highlights are not plausible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum RejectReason {
     /// Too small a share of the votes is for the light.
     NoVote,
@@ -172,6 +179,7 @@ impl RejectReason {
 
 /// A blob of clipped pixels was filled from the pixels around it, or not (refinement `clip_repair`).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RepairTried {
     /// Number of the blob, after those of the candidate highlights.
     pub blob: u16,
@@ -191,6 +199,7 @@ pub struct RepairTried {
 
 /// Whether a clipped blob is filled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum RepairVerdict {
     /// The blob is filled.
     Filled,
@@ -219,6 +228,7 @@ impl RepairVerdict {
 
 /// Candidate highlights outside of the explained regions were counted; a [`BlobJudged`] follows for each large enough one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct BlobsCounted {
     /// Number of candidate highlights.
     pub found: u32,

@@ -5,6 +5,7 @@ use crate::photo::MaskLimits;
 
 /// The masks of dark, clipped and bloomed pixels were made (section 4).
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MasksMade {
     /// The limits of the masks.
     pub limits: MaskLimits,

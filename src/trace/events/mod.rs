@@ -46,6 +46,7 @@ use crate::raster::{HypothesisId, RegionId};
 
 /// What an event is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Subject {
     /// A hypothesis.
     Hypothesis(HypothesisId),
@@ -95,6 +96,7 @@ macro_rules! events {
     ($d:tt $($(#[$kind_doc:meta])+ $kind:ident $name:literal { $($place:ident $event:ident($data:ident)),* })*) => {
         /// A decision with the numbers that decided. The last [`Renumbered`] says which hypothesis became which region.
         #[derive(Clone, Debug, PartialEq)]
+        #[non_exhaustive]
         pub enum Event {
             $($(
                 #[doc = concat!("See [`", stringify!($data), "`].")]
@@ -104,6 +106,7 @@ macro_rules! events {
 
         /// A kind of step.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
         pub enum Kind {
             $($(#[$kind_doc])+ $kind,)*
         }

@@ -19,6 +19,7 @@ pub struct PassBegan {
 
 /// A part of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Pass {
     /// Merged areas start hypotheses, whose cylinders grow (5.3).
     Hypotheses,

@@ -7,6 +7,7 @@ use crate::reflection::{DichromaticPlane, Slice};
 
 /// The dichromatic plane of a hypothesis became a slice (section 5.4.2).
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SliceMade {
     /// The hypothesis.
     pub hypothesis: HypothesisId,

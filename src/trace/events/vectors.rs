@@ -6,6 +6,7 @@ use crate::raster::RegionId;
 
 /// The vectors by which the pixels of a region are split were fitted (section 6).
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct VectorsFitted {
     /// The region.
     pub region: RegionId,
@@ -40,6 +41,7 @@ pub struct VectorsFitted {
 
 /// The largest figures of a region that its skewed T explains.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct FitLimits {
     /// Root mean square distance from the plane, counts.
     pub rms_counts: f64,

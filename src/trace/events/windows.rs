@@ -5,6 +5,7 @@ use crate::trace::{Class, Measured};
 
 /// A grid of windows was laid over the picture; the windows that follow belong to this grid.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct WindowsLaid {
     /// Side of a window, pixels.
     pub size_px: u32,
@@ -31,6 +32,7 @@ impl WindowsLaid {
 
 /// A window was classified (section 5.2.1).
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct WindowClassified {
     /// Index of the window, row-major.
     pub window: u32,
@@ -47,6 +49,7 @@ pub struct WindowClassified {
 
 /// Two neighboring areas were tested for union (section 5.2.2).
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MergeTried {
     /// First window of the area that would remain.
     pub into: u32,

@@ -26,6 +26,7 @@ use crate::reflection::SliceMiss;
 
 /// A decision about a pixel.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct HistoryEntry {
     /// The step of the trace at which it was decided.
     pub step: usize,
@@ -37,6 +38,7 @@ pub struct HistoryEntry {
 
 /// A decision about a pixel: its kind and numbers.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum HistoryKind {
     /// The verdict of the masks (section 4).
     Masked(MaskVerdict),
@@ -173,6 +175,7 @@ pub enum HistoryKind {
 
 /// The verdict of the masks on a color (section 4).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum MaskVerdict {
     /// Neither dark nor distorted.
     Believed {
@@ -204,6 +207,7 @@ pub enum MaskVerdict {
 
 /// How the window of the pixel was classified.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct WindowStory {
     /// Side of the windows, pixels.
     pub size_px: u32,
@@ -221,6 +225,7 @@ pub struct WindowStory {
 
 /// How the area of the pixel grew.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MergeStory {
     /// Number of unions that were tried with the area.
     pub tried: u32,
@@ -236,6 +241,7 @@ pub struct MergeStory {
 
 /// A union that was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MergeRefusal {
     /// The step.
     pub step: usize,
@@ -296,6 +302,7 @@ pub enum Barrier {
 
 /// Why a hypothesis gave a pixel up.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Release {
     /// The line was fitted again, and the pixel lies outside the new cylinder.
     Refit {

@@ -6,6 +6,7 @@ use crate::trace::{FitLimits, LocalLimits, PixelKind};
 
 /// How a pixel was split.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SplitStory {
     /// The region.
     pub region: RegionId,
@@ -30,6 +31,7 @@ pub struct SplitStory {
 
 /// Why the plane of a region is not used for a pixel, and the surface reflection of the pixel instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Unfit {
     /// Root mean square distance of the pixels of the region from the plane (without a plane, from the line), counts; correlation and
     /// slope of the texture.
@@ -47,6 +49,7 @@ pub struct Unfit {
 
 /// The figures by which a pixel that no region explains was judged. Counts are those of J = I / (√3 s), s the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LocalStory {
     /// a: the mean of J, counts.
     pub mean: f32,
@@ -85,6 +88,7 @@ impl LocalStory {
 
 /// The outcome of the local split for a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum LocalFate {
     /// The pixel is clipped: only the pixels around its blob can decide.
     Clipped,

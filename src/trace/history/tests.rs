@@ -249,7 +249,7 @@ fn the_end_is_a_number_a_role_and_amounts() {
             claim(recorder, 1, 0, 1);
         })
         .stage(Stage::Clipping, |recorder| {
-            recorder.record(Renumbered { regions: [RegionId::from_label(1)].into() })
+            recorder.record(Renumbered { regions: [RegionId::from_label(1)].into() });
         })
         .stage(Stage::Split, |recorder| {
             recorder.record(VectorsFitted {
