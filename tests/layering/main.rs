@@ -87,24 +87,22 @@ fn the_walls_stand() -> io::Result<()> {
 }
 
 /// Circles between files that are left, by room; the aim is none. A circle that is gone has to be taken from the list.
-const CIRCLES_LEFT: &[(&str, &[&str])] = &[
-    (
-        "app",
-        &[
-            "command",
-            "debugger",
-            "document",
-            "export_input",
-            "exports",
-            "reduce",
-            "state",
-            "view_settings",
-            "what_if_job",
-            "workspace",
-            "write",
-        ],
-    ),
-];
+const CIRCLES_LEFT: &[(&str, &[&str])] = &[(
+    "app",
+    &[
+        "command",
+        "debugger",
+        "document",
+        "export_input",
+        "exports",
+        "reduce",
+        "state",
+        "view_settings",
+        "what_if_job",
+        "workspace",
+        "write",
+    ],
+)];
 
 #[test]
 fn files_of_a_room_use_one_another_in_one_direction() -> io::Result<()> {
