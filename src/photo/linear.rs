@@ -1,5 +1,6 @@
 //! The linear image, the input of all stages.
 
+use super::coding::CodingError;
 use crate::raster::{Mask, Raster};
 use rayon::prelude::*;
 
@@ -17,6 +18,8 @@ pub struct LinearImage {
     pub invalid: Mask,
     /// Counts at which the file saturates: the largest value of an integer format; `None` for floats.
     pub saturation: Option<f32>,
+    /// Error of the values that the file's way of storing them causes; `None`: none but what the measured noise contains.
+    pub coding: Option<CodingError>,
 }
 
 impl LinearImage {
@@ -29,7 +32,13 @@ impl LinearImage {
                 (*pixel, *invalid) = ([0.0; 3], true);
             }
         });
-        Self { pixels, invalid, saturation }
+        Self { pixels, invalid, saturation, coding: None }
+    }
+
+    /// The same image, stored in a way that makes `coding` of error.
+    #[must_use]
+    pub fn with_coding(self, coding: Option<CodingError>) -> Self {
+        Self { coding, ..self }
     }
 
     /// Number of columns.

@@ -5,6 +5,7 @@
 //! upright. The resulting [`Photo`] holds linear counts for the analysis, and the [`Source`], which is needed to write
 //! a picture in the way of the original file.
 
+mod coding;
 mod curve;
 mod decode;
 mod digest;
@@ -19,6 +20,7 @@ mod noise;
 mod orient;
 mod source;
 
+pub use coding::{CodingError, Compression, LossyCompression};
 pub use curve::ToneCurve;
 pub(crate) use curve::nearest_code;
 pub use digest::sha256_hex;
@@ -136,7 +138,10 @@ pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Ph
     let pixels = Raster::from_vec(width, height, pixels)
         .ok_or_else(|| error::Fault::damaged("its size does not fit its pixels").of(name_hint, format))?;
     let saturation = source.max.map(|_| full_scale as f32);
-    let image = LinearImage::new(pixels, saturation);
+    let coding = source.max.and_then(|max| {
+        CodingError::of_samples(decoded.compression, max, &encoding.curves[1], full_scale)
+    });
+    let image = LinearImage::new(pixels, saturation).with_coding(coding);
     warnings.extend(pixel_warnings(&source, &image));
     Ok(Photo { name: name_hint.to_owned(), image, source, encoding, full_scale, warnings })
 }

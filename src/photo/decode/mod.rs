@@ -6,6 +6,7 @@ mod png;
 mod simple;
 mod tiff;
 
+use super::coding::Compression;
 use super::error::Fault;
 use super::format::Format;
 use super::source::{AlphaKind, Layout, PngColor, Samples};
@@ -24,6 +25,7 @@ pub(super) struct Decoded {
     pub alpha: AlphaKind,
     pub icc: Option<Vec<u8>>,
     pub png: PngColor,
+    pub compression: Compression,
     /// Transformation that turns the stored picture upright.
     pub orientation: Orientation,
     pub warnings: Vec<String>,
@@ -40,6 +42,7 @@ impl Decoded {
             alpha: AlphaKind::Straight,
             icc: None,
             png: PngColor::default(),
+            compression: Compression::Lossless,
             orientation: Orientation::NoTransforms,
             warnings: Vec::new(),
         }

@@ -1,6 +1,7 @@
 //! Decoders of the formats that the `image` crate reads sufficiently: BMP, PNM, WebP and Radiance HDR.
 
 use super::{Budget, Decoded};
+use crate::photo::coding::{Compression, LossyCompression};
 use crate::photo::error::{CONVERT, Fault};
 use crate::photo::source::{Layout, Samples};
 use image::codecs::bmp::BmpDecoder;
@@ -14,6 +15,9 @@ pub(super) fn bmp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     read(BmpDecoder::new(Cursor::new(bytes))?, budget)
 }
 
+/// Bytes within which the first chunk of picture data begins, behind the extended header and not behind a profile.
+const WEBP_HEADER_BYTES: usize = 64;
+
 /// Decodes WebP; of an animation the first frame.
 pub(super) fn webp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let decoder = WebPDecoder::new(Cursor::new(bytes))?;
@@ -21,6 +25,11 @@ pub(super) fn webp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let mut decoded = read(decoder, budget)?;
     if animated {
         decoded.warnings.push("the WebP is animated: only its first frame is read".into());
+    }
+    // A lossless picture has a chunk `VP8L`; the other kind stores color differences with half the samples each way.
+    if !bytes.windows(4).take(WEBP_HEADER_BYTES).any(|name| name == b"VP8L") {
+        decoded.compression =
+            Compression::Lossy(LossyCompression { quantization_step: 0.0, chroma_subsampled: true });
     }
     Ok(decoded)
 }
