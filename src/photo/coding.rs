@@ -144,7 +144,8 @@ mod tests {
             CodingError::of_samples(compression, max, &ToneCurve::Srgb, 255.0).unwrap().code_values
         };
         assert!(of(Compression::Lossless, 65535) < 0.01 * of(Compression::Lossless, 255));
-        let coarse = Compression::Lossy(LossyCompression { quantization_step: 15.0, chroma_subsampled: true });
+        let coarse =
+            Compression::Lossy(LossyCompression { quantization_step: 15.0, chroma_subsampled: true });
         assert!(of(coarse, 255) > 1.5 * of(JPEG, 255));
     }
 }

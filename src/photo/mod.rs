@@ -17,6 +17,7 @@ mod linear;
 mod linearize;
 mod masks;
 mod noise;
+mod noise_correlation;
 mod orient;
 mod source;
 
@@ -30,6 +31,7 @@ pub use format::Format;
 pub use linear::LinearImage;
 pub use masks::{MaskLimits, Masks};
 pub use noise::estimate_sigma;
+pub use noise_correlation::NoiseCorrelation;
 pub use source::{AlphaKind, Layout, PngColor, Samples, Source};
 
 use crate::raster::{Mask, Raster};
@@ -138,9 +140,9 @@ pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Ph
     let pixels = Raster::from_vec(width, height, pixels)
         .ok_or_else(|| error::Fault::damaged("its size does not fit its pixels").of(name_hint, format))?;
     let saturation = source.max.map(|_| full_scale as f32);
-    let coding = source.max.and_then(|max| {
-        CodingError::of_samples(decoded.compression, max, &encoding.curves[1], full_scale)
-    });
+    let coding = source
+        .max
+        .and_then(|max| CodingError::of_samples(decoded.compression, max, &encoding.curves[1], full_scale));
     let image = LinearImage::new(pixels, saturation).with_coding(coding);
     warnings.extend(pixel_warnings(&source, &image));
     Ok(Photo { name: name_hint.to_owned(), image, source, encoding, full_scale, warnings })
