@@ -14,6 +14,7 @@ mod what_if;
 pub use crate::params::Stage;
 pub use crate::segment::Illuminant;
 pub use output::StageOutput;
+pub use resolve::NoiseFindings;
 pub use what_if::{Direction, Fate, Home, WhatIf, WhatIfObserver, what_if};
 
 use crate::intrinsic::Intrinsic;
@@ -65,6 +66,8 @@ pub struct Analysis {
     pub illuminant: Option<Illuminant>,
     /// The intrinsic images and the regions' reflection vectors.
     pub intrinsic: Arc<Intrinsic>,
+    /// The errors of the image's values: measured noise, and the error of the file's way of storing values.
+    pub noise: Arc<NoiseFindings>,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
 }

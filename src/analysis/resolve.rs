@@ -1,10 +1,13 @@
 //! The values of parameters set to `auto`, estimated from the image (section 7.3).
 
 use crate::params::{Parameter, Params, Setting, UsedParams};
-use crate::photo::LinearImage;
+use crate::photo::{CodingError, LinearImage};
 
-/// Least and largest estimate of σ0, counts.
-const NOISE_RANGE: (f64, f64) = (1.0, 16.0);
+/// Least and largest estimate of σ0, counts. Below 1.5 counts every limit is so narrow that windows take noise for lines.
+const NOISE_RANGE: (f64, f64) = (1.5, 16.0);
+/// The intensity, as a share of full scale, at which σ0 contains the error of lossy compression, which the windows do not see:
+/// that of a typical matte pixel.
+const TYPICAL_INTENSITY: f64 = 0.25;
 /// The paper's clipping threshold as a share of full scale.
 const CLIP_SHARE: f64 = 240.0 / 255.0;
 /// Number of pixels of the paper's images; windows and areas are proportional to the image size.
@@ -25,16 +28,28 @@ pub fn mask_limits(params: &Params, image: &LinearImage) -> crate::photo::MaskLi
     }
 }
 
-/// The values of all parameters. `sigma`: standard deviation of the noise of a band, counts; `None`: the noise could not be
-/// measured, and σ0 is the paper's.
+/// The errors of an image's values.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NoiseFindings {
+    /// Standard deviation of the noise of a band in windows, counts; `None`: it could not be measured, and σ0 is the paper's.
+    pub sigma: Option<f64>,
+    /// The error of the file's way of storing values; `None`: the noise contains it.
+    pub coding: Option<CodingError>,
+}
+
+/// The values of all parameters, for the errors of the image's values.
 ///
-/// σ0 = 2σ. The radius of cylinders is 4σ0 as in the paper but at most 8 counts, because wider cylinders contain pixels of
+/// σ0 = 2σ, and at least twice the error of lossy compression, which windows do not see. The radius of cylinders is 4σ0 as in the paper but at most 8 counts, because wider cylinders contain pixels of
 /// other objects, and at least 2σ0. Windows and areas have the same share of the image as in the paper. The radius of the dark
 /// sphere is 9.2σ0, as in table 6.
-pub fn used_params(params: &Params, image: &LinearImage, sigma: Option<f64>) -> UsedParams {
+pub fn used_params(params: &Params, image: &LinearImage, noise: &NoiseFindings) -> UsedParams {
     let limits = mask_limits(params, image);
     let camera_noise = params.camera_noise.value().unwrap_or_else(|| {
-        sigma.map_or(Parameter::CameraNoise.spec().paper, |s| (2.0 * s).clamp(NOISE_RANGE.0, NOISE_RANGE.1))
+        let Some(sigma) = noise.sigma else { return Parameter::CameraNoise.spec().paper };
+        let coding =
+            noise.coding.as_ref().filter(|coding| coding.is_extended() && params.refinements().coding_error);
+        let unseen = coding.map_or(0.0, |coding| coding.at_share(TYPICAL_INTENSITY));
+        (2.0 * sigma).max(2.0 * unseen).clamp(NOISE_RANGE.0, NOISE_RANGE.1)
     });
     let automatic_radius = (4.0 * camera_noise).min(8.0).max(2.0 * camera_noise);
     let width = |setting: Setting| setting.value().unwrap_or(automatic_radius / camera_noise);
@@ -69,9 +84,32 @@ mod tests {
         LinearImage::new(Raster::filled(512, 480, [9.0; 3]), saturation)
     }
 
+    fn of_sigma(sigma: f64) -> NoiseFindings {
+        NoiseFindings { sigma: Some(sigma), coding: None }
+    }
+
+    #[test]
+    fn lossy_compression_raises_the_noise_that_windows_measure() {
+        use crate::photo::{Compression, LossyCompression, ToneCurve};
+        let of = |compression| NoiseFindings {
+            sigma: Some(0.2),
+            coding: CodingError::of_samples(compression, 255, &ToneCurve::Srgb, 255.0),
+        };
+        let used =
+            |noise: &NoiseFindings, params: &Params| used_params(params, &image(None), noise).camera_noise;
+        let jpeg =
+            of(Compression::Lossy(LossyCompression { quantization_step: 3.0, chroma_subsampled: true }));
+        let raised = used(&jpeg, &Params::default());
+        assert!(raised > 1.8 && raised < 2.1, "{raised}");
+        assert_eq!(used(&of(Compression::Lossless), &Params::default()), 1.5, "rounding is in the windows");
+        let mut without = Params::default();
+        without.refine.coding_error = false;
+        assert_eq!(used(&jpeg, &without), 1.5);
+    }
+
     #[test]
     fn defaults_are_the_papers_numbers_at_the_papers_noise() {
-        let used = used_params(&Params::paper(), &image(Some(255.0)), None);
+        let used = used_params(&Params::paper(), &image(Some(255.0)), &NoiseFindings::default());
         assert_eq!((used.clip_threshold, used.camera_noise, used.min_area), (240.0, 2.5, 500.0));
         assert_eq!((used.radius_counts(), used.slice_half_width_counts()), (10.0, 10.0));
     }
@@ -85,12 +123,12 @@ mod tests {
             min_area: Setting::Auto,
             ..Params::default()
         };
-        let used = used_params(&all, &image(None), Some(3.0));
+        let used = used_params(&all, &image(None), &of_sigma(3.0));
         assert_eq!(used.clip_threshold, f64::INFINITY);
         assert_eq!((used.camera_noise, used.radius_counts()), (6.0, 12.0));
         assert_eq!((used.window_size, used.min_area), (10.0, 500.0));
         assert!((used.min_intensity - 55.2).abs() < 1e-9);
-        assert_eq!(used_params(&all, &image(Some(2040.0)), Some(1.25)).clip_threshold, 1920.0);
-        assert_eq!(used_params(&all, &image(None), Some(1e9)).camera_noise, 16.0);
+        assert_eq!(used_params(&all, &image(Some(2040.0)), &of_sigma(1.25)).clip_threshold, 1920.0);
+        assert_eq!(used_params(&all, &image(None), &of_sigma(1e9)).camera_noise, 16.0);
     }
 }

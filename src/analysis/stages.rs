@@ -1,11 +1,11 @@
 //! The stages in their order, each with the last output and the key from which the output was made.
 
-use super::resolve::{mask_limits, used_params};
+use super::resolve::{NoiseFindings, mask_limits, used_params};
 use super::stale::seen_up_to;
 use super::{Analysis, Cancelled, Observer, Stage, StageOutput};
 use crate::intrinsic::{Intrinsic, split};
 use crate::params::{Params, Refine, Setting, UsedParams};
-use crate::photo::{LinearImage, MaskLimits, Masks, estimate_sigma};
+use crate::photo::{CodingError, LinearImage, MaskLimits, Masks, NoiseCorrelation, estimate_sigma};
 use crate::raster::{LabelMap, Mask, Raster};
 use crate::segment::{
     AnalysisInput, Areas, Classifier, FinalRegions, LightFindings, MatteRegions, PlanarRegions, Windows,
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// One slot per stage.
 #[derive(Default)]
 pub struct Stages {
-    masks: Slot<MaskKey, (Arc<Masks>, Option<f64>)>,
+    masks: Slot<MaskKey, (Arc<Masks>, Arc<NoiseFindings>)>,
     classify: Slot<Key, Arc<Windows>>,
     merge: Slot<Key, Arc<MergedAreas>>,
     linear: Slot<Key, Arc<MatteRegions>>,
@@ -120,9 +120,10 @@ impl Stages {
         observer: &mut impl Observer,
     ) -> Result<Analysis, Cancelled> {
         let refine = params.refinements();
-        let (masks, used) = self.masks::<R>(subject, params, observer)?;
+        let (masks, noise, used) = self.masks::<R>(subject, params, observer)?;
         let image = &subject.image;
-        let input = AnalysisInput::new(image, &masks, &used, refine);
+        let coding = noise.coding.as_ref().filter(|_| refine.coding_error);
+        let input = AnalysisInput::new(image, &masks, &used, refine).with_coding(coding);
 
         let key = |stage, before| (before, seen_up_to(stage, &used, refine));
 
@@ -169,10 +170,24 @@ impl Stages {
                 Arc::new(split(&input.stopped_by(&stop), &finals, recorder))
             })?;
         observer.made(StageOutput::Intrinsic(intrinsic.clone()));
-        let warnings = warnings(&finals.labels, &planar, &masks, subject.area.is_some());
+        let mut warnings = warnings(&finals.labels, &planar, &masks, subject.area.is_some());
+        warnings.extend(noise.coding.as_ref().and_then(compression_warning));
+        warnings.extend(size_warning(&finals.labels));
         let areas = merged.map.clone();
         let illuminant = planar.illuminant;
-        Ok(Analysis { used, masks, windows, areas, matte, planar, finals, illuminant, intrinsic, warnings })
+        Ok(Analysis {
+            used,
+            masks,
+            windows,
+            areas,
+            matte,
+            planar,
+            finals,
+            illuminant,
+            intrinsic,
+            noise,
+            warnings,
+        })
     }
 
     /// The record of all stages; `None` where a stage has no record.
@@ -195,7 +210,7 @@ impl Stages {
         Subject { image, area }: &Subject,
         params: &Params,
         observer: &mut impl Observer,
-    ) -> Result<(Arc<Masks>, UsedParams), Cancelled> {
+    ) -> Result<(Arc<Masks>, Arc<NoiseFindings>, UsedParams), Cancelled> {
         let limits = mask_limits(params, image);
         let automatic_noise = params.camera_noise == Setting::Auto;
         let automatic_intensity = params.min_intensity == Setting::Auto;
@@ -209,26 +224,38 @@ impl Stages {
                 None => masks,
             }
         };
-        let (masks, sigma) = self.masks.get(Stage::Masks, key, observer, |_, recorder: &mut R| {
+        let (masks, noise) = self.masks.get(Stage::Masks, key, observer, |_, recorder: &mut R| {
             let masks = masks_of(&limits);
-            let sigma = if automatic_noise { estimate_sigma(image, &masks) } else { None };
+            let noise = NoiseFindings {
+                sigma: if automatic_noise { estimate_sigma(image, &masks) } else { None },
+                coding: coding_error(image, &masks),
+            };
             let (masks, limits) = if automatic_intensity {
-                let min_intensity = used_params(params, image, sigma).min_intensity;
+                let min_intensity = used_params(params, image, &noise).min_intensity;
                 let limits = MaskLimits { min_intensity, ..limits };
                 (masks_of(&limits), limits)
             } else {
                 (masks, limits)
             };
             if R::KEEPS {
-                let made = masks_made(&masks, limits, image.pixels.len(), sigma);
+                let made = masks_made(&masks, limits, image.pixels.len(), noise.sigma);
                 recorder.record(made);
             }
-            (Arc::new(masks), sigma)
+            (Arc::new(masks), Arc::new(noise))
         })?;
-        let used = used_params(params, image, sigma);
+        let used = used_params(params, image, &noise);
         observer.made(StageOutput::Masks { masks: masks.clone(), used });
-        Ok((masks, used))
+        Ok((masks, noise, used))
     }
+}
+
+/// The error of the file's way of storing values. A lossless file may hold a picture that was compressed before; the
+/// correlation of the noise between neighboring pixels shows it.
+fn coding_error(image: &LinearImage, masks: &Masks) -> Option<CodingError> {
+    let coding = image.coding.as_ref()?;
+    let compressed_before =
+        || NoiseCorrelation::measure(image, masks).is_some_and(|correlation| correlation.is_extended());
+    Some(if !coding.is_extended() && compressed_before() { coding.as_extended() } else { coding.clone() })
 }
 
 fn masks_made(masks: &Masks, limits: MaskLimits, pixels: usize, sigma: Option<f64>) -> MasksMade {
@@ -274,6 +301,31 @@ fn area_map(areas: &Areas, windows: &Windows, width: usize, height: usize) -> Ra
 }
 
 /// The warnings of a run, a sentence each. `restricted`: the analysis is restricted to an area.
+/// Error of the values, in steps of 1/255 of the coded range, above which compression makes results doubtful.
+const DOUBTFUL_CODE_VALUES: f64 = 1.3;
+/// Number of pixels below which results are doubtful.
+const DOUBTFUL_PIXELS: usize = 10_000;
+
+fn compression_warning(coding: &CodingError) -> Option<String> {
+    (coding.is_extended() && coding.code_values > DOUBTFUL_CODE_VALUES).then(|| {
+        format!(
+            "the picture is compressed so strongly that its values are off by {:.1} code values (standard deviation): the \
+             light and faint highlights are not exact",
+            coding.code_values
+        )
+    })
+}
+
+fn size_warning(labels: &LabelMap) -> Option<String> {
+    let pixels = labels.len();
+    (0 < pixels && pixels < DOUBTFUL_PIXELS).then(|| {
+        format!(
+            "the picture has only {pixels} pixels: windows and regions hold too few of them to be exact, {DOUBTFUL_PIXELS} \
+             are enough"
+        )
+    })
+}
+
 fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks, restricted: bool) -> Vec<String> {
     let mut warnings = Vec::new();
     let lit = (0..labels.len()).filter(|&pixel| !masks.dark(pixel)).count();

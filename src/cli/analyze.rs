@@ -161,8 +161,10 @@ pub(super) fn in_short(finished: &Finished) -> String {
         .subtracted
         .map_or_else(String::new, |[r, g, b]| format!(", less ambient ({r:.1}, {g:.1}, {b:.1}) counts"));
     let regions = count(report.regions.len(), "region");
-    let noise = report.params.camera_noise.used.unwrap_or_default() / 2.0;
-    let poor = report.regions.iter().filter(|region| region.fit_rms_counts > POOR_FIT * noise).count();
+    let poor = |region: &&dichroscope::describe::RegionFacts| {
+        region.fit_rms_counts > POOR_FIT * region.fit_sigma_counts
+    };
+    let poor = report.regions.iter().filter(poor).count();
     let poor = if poor == 0 { String::new() } else { format!(" ({poor} of poor fit)") };
     let warnings = match report.warnings.len() {
         0 => String::new(),

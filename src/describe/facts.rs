@@ -30,6 +30,9 @@ pub struct Report {
     pub area: Option<AreaFacts>,
     /// The settings as asked for and as used.
     pub params: ParamsFacts,
+    /// The errors of the image's values; absent in reports of versions that did not ask.
+    #[serde(default)]
+    pub noise: NoiseFacts,
     /// The color of the light.
     pub illuminant: IlluminantFacts,
     /// The ambient light; absent in reports of versions that did not estimate ambient light.
@@ -64,6 +67,7 @@ impl Report {
             image,
             area: None,
             params: ParamsFacts::new(params, analysis),
+            noise: NoiseFacts::new(analysis),
             illuminant: IlluminantFacts::new(analysis),
             ambient: AmbientFacts::new(analysis),
             regions: analysis.intrinsic.regions.iter().map(RegionFacts::from).collect(),
@@ -250,6 +254,45 @@ impl AmbientFacts {
     }
 }
 
+/// The errors of the image's values.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct NoiseFacts {
+    /// Standard deviation of a band in windows, counts; null where it could not be measured, or was not, as σ0 was given.
+    pub window_sigma_counts: Option<f64>,
+    /// The error of the file's way of storing values; null where the noise contains it (linear samples, floats).
+    pub coding: Option<CodingFacts>,
+}
+
+/// The error of the file's way of storing values, as [`crate::photo::CodingError`] describes it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct CodingFacts {
+    /// `rounding`, `compression`, or `earlier_compression`, which the correlation of the noise shows.
+    pub cause: String,
+    /// Whether color differences are stored with fewer samples than brightness.
+    pub chroma_subsampled: bool,
+    /// Standard deviation of a band, steps of 1/255 of the coded range.
+    pub code_values: f64,
+    /// The same in counts at a quarter, a half and the whole of full scale.
+    pub sigma_counts: [f64; 3],
+}
+
+impl NoiseFacts {
+    fn new(analysis: &Analysis) -> Self {
+        let coding = analysis.noise.coding.as_ref();
+        Self {
+            window_sigma_counts: analysis.noise.sigma,
+            coding: coding.map(|coding| CodingFacts {
+                cause: coding.cause.name().to_owned(),
+                chroma_subsampled: coding.chroma_subsampled,
+                code_values: coding.code_values,
+                sigma_counts: [0.25, 0.5, 1.0].map(|share| coding.at_share(share)),
+            }),
+        }
+    }
+}
+
 /// The color of the light and its evidence.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -330,6 +373,8 @@ pub struct RegionFacts {
     pub plane_normal: Option<[f64; 3]>,
     pub angle_deg: Option<f64>,
     pub fit_rms_counts: f64,
+    #[serde(default)]
+    pub fit_sigma_counts: f64,
     /// True in reports of versions that did not test the fit.
     #[serde(rename = "holds", default = "yes")]
     pub model_fits: bool,
@@ -385,6 +430,7 @@ impl From<&RegionReflection> for RegionFacts {
             plane_normal: region.plane_normal,
             angle_deg: region.angle_deg,
             fit_rms_counts: region.fit_rms_counts,
+            fit_sigma_counts: region.fit_sigma_counts,
             model_fits: region.model_fits,
             confidence: region.confidence,
             texture: region.texture,

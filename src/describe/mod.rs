@@ -118,6 +118,7 @@ mod tests {
                 "program",
                 "image",
                 "params",
+                "noise",
                 "illuminant",
                 "ambient",
                 "regions",

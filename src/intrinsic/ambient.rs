@@ -14,7 +14,7 @@
 use crate::color::{Cylinder, Line, LineFit, Moments, Vec3, principal_axes};
 use crate::params::AmbientSetting;
 use crate::raster::RegionId;
-use crate::segment::{AnalysisInput, FinalRegions, Members, POOR_FIT, Pixels, PlanarHypothesis};
+use crate::segment::{AnalysisInput, FinalRegions, Members, Pixels, PlanarHypothesis};
 use crate::trace::{Ambient, AmbientVerdict, Meeting};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -24,6 +24,8 @@ const LEAST_LINES: usize = 3;
 /// Largest distance of two lines from their common point, standard deviations of the noise; the point has to be known to one
 /// standard deviation.
 const CLOSE: f64 = 0.5;
+/// Largest root mean square distance of the pixels of a straight matte line from the line, σ.
+const STRAIGHT: f64 = 1.5;
 /// Fewest pixels of a line.
 const LEAST_PX: usize = 300;
 /// Most pixels to which a line is fitted, evenly chosen.
@@ -132,12 +134,12 @@ impl MatteLine {
         }
         let fit = LineFit { sigma: input.sigma(), tuning: TUNING, iterations: ITERATIONS };
         let line = hypothesis.matte.refit(&colors, &fit);
-        let near = Cylinder::new(&line, POOR_FIT * 2.0 * input.sigma());
+        let near = Cylinder::new(&line, 2.0 * STRAIGHT * input.sigma());
         let moments: Moments = colors.into_iter().filter(|&color| near.contains(color)).collect();
         let ([along, across, height], _) = principal_axes(&moments.covariance());
         let noise = f64::midpoint(across, height);
         let long = along.max(0.0).sqrt() >= LEAST_EXTENT * input.sigma();
-        let straight = noise.max(0.0).sqrt() <= POOR_FIT * input.sigma();
+        let straight = noise.max(0.0).sqrt() <= STRAIGHT * input.sigma();
         let independent = moments.n / PIXELS_PER_INDEPENDENT;
         (moments.n >= LEAST_PX as f64 && long && straight).then(|| Self {
             line,

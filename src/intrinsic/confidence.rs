@@ -11,8 +11,9 @@ use crate::segment::{POOR_FIT, RegionFit};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
-/// Distance from the plane from which on confidence in a pixel or region is 0, standard deviations of the noise.
-const ZERO_CONFIDENCE_SIGMAS: f64 = 2.0 * POOR_FIT;
+/// Distance from the plane from which on confidence in a pixel or region is 0, standard deviations of noise
+/// and coding.
+const ZERO_CONFIDENCE_SIGMAS: f64 = POOR_FIT;
 /// Angle between body and surface vector from which on the angle does not lower confidence, degrees.
 const WIDE_DEG: f64 = 14.0;
 /// Share of the region's confidence that restored pixels have.
@@ -23,12 +24,12 @@ const LOST: f32 = 0.1;
 pub const LOCAL: f32 = 0.5;
 
 /// Confidence in a region: 1 where the pixels differ from the plane by noise only, 0 where `model_fits` is false. `angle_deg`: angle
-/// between body and surface vector; none without a plane. `sigma`: standard deviation of the noise, counts.
-pub fn of_region(fit: &RegionFit, model_fits: bool, angle_deg: Option<f64>, sigma: f64) -> f64 {
+/// between body and surface vector; none without a plane.
+pub fn of_region(fit: &RegionFit, model_fits: bool, angle_deg: Option<f64>) -> f64 {
     if !model_fits {
         return 0.0;
     }
-    let fitting = ((ZERO_CONFIDENCE_SIGMAS - fit.rms_counts / sigma.max(1e-9))
+    let fitting = ((ZERO_CONFIDENCE_SIGMAS - fit.rms_counts / fit.sigma_counts.max(1e-9))
         / (ZERO_CONFIDENCE_SIGMAS - 1.0))
         .clamp(0.0, 1.0);
     let apart = angle_deg
@@ -49,8 +50,6 @@ pub struct ConfidenceInput<'a> {
     pub noise: &'a Raster<f32>,
     /// The regions.
     pub regions: &'a [RegionReflection],
-    /// Standard deviation of a band's noise, counts.
-    pub sigma: f32,
 }
 
 impl ConfidenceInput<'_> {
@@ -80,7 +79,8 @@ impl ConfidenceInput<'_> {
             PixelKind::Restored => RESTORED,
             PixelKind::Lost => LOST,
             _ => {
-                let off = self.noise[pixel].abs() / self.sigma.max(1e-9);
+                let sigma = region.map_or(0.0, |region| region.fit_sigma_counts as f32);
+                let off = self.noise[pixel].abs() / sigma.max(1e-9);
                 (2.0 - off / ZERO_CONFIDENCE_SIGMAS as f32).clamp(0.0, 1.0)
             }
         };
@@ -94,12 +94,12 @@ mod tests {
 
     #[test]
     fn confidence_is_one_for_noise_and_zero_where_the_model_does_not_fit() {
-        let fit = |rms_counts| RegionFit { rms_counts, ..RegionFit::default() };
-        assert!((of_region(&fit(1.25), true, Some(30.0), 1.25) - 1.0).abs() < 1e-9);
-        assert!((of_region(&fit(1.25), true, Some(5.0), 1.25) - 0.36).abs() < 0.01);
-        let worse = of_region(&fit(1.8), true, Some(30.0), 1.25);
+        let fit = |rms_counts| RegionFit { rms_counts, sigma_counts: 1.25, ..RegionFit::default() };
+        assert!((of_region(&fit(1.25), true, Some(30.0)) - 1.0).abs() < 1e-9);
+        assert!((of_region(&fit(1.25), true, Some(5.0)) - 0.36).abs() < 0.01);
+        let worse = of_region(&fit(1.8), true, Some(30.0));
         assert!(worse < 0.8 && worse > 0.5, "{worse}");
-        assert!(of_region(&fit(1.0), false, Some(30.0), 1.25).abs() < 1e-9);
-        assert!(of_region(&fit(f64::NAN), true, None, 0.0).abs() < 1e-9, "NaN gives confidence 0");
+        assert!(of_region(&fit(1.0), false, Some(30.0)).abs() < 1e-9);
+        assert!(of_region(&fit(f64::NAN), true, None).abs() < 1e-9, "NaN gives confidence 0");
     }
 }

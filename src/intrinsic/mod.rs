@@ -86,6 +86,8 @@ pub struct RegionReflection {
     pub angle_deg: Option<f64>,
     /// Root mean square distance of the undistorted pixels from the plane, counts; without a plane from the matte line.
     pub fit_rms_counts: f64,
+    /// The part of that distance which noise and the error of the file's values explain (σ), counts.
+    pub fit_sigma_counts: f64,
     /// Whether one skewed T explains the region; where not, the region's plane is not used.
     pub model_fits: bool,
     /// Confidence in the region's split, 0…1; 0 where the skewed T does not explain the region.

@@ -12,8 +12,8 @@ use crate::segment::{POOR_FIT, TEXTURE_CORRELATION};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
-/// Distance from the plane above which noise does not explain a pixel, standard deviations of the noise.
-const FAR_OFF: f32 = 2.0 * POOR_FIT as f32;
+/// Distance from the plane above which noise does not explain a pixel, standard deviations of noise and coding.
+const FAR_OFF: f32 = POOR_FIT as f32;
 /// Angle to the light's color below which a body vector counts as the light's color, degrees.
 const COLLINEAR_DEG: f64 = 3.0;
 
@@ -88,8 +88,6 @@ pub struct ReasonInput<'a> {
     pub regions: &'a [RegionReflection],
     /// Color of the light, unit; none where the light is not known.
     pub light: Option<[f64; 3]>,
-    /// Standard deviation of a band's noise, counts.
-    pub sigma: f32,
 }
 
 impl ReasonInput<'_> {
@@ -106,11 +104,17 @@ impl ReasonInput<'_> {
         reasons
     }
 
+    /// Standard deviation of the distance of a region's pixels from the model, counts.
+    fn sigma_of(&self, label: u16) -> f32 {
+        let region = self.regions.get(usize::from(label).wrapping_sub(1));
+        region.map_or(f32::INFINITY, |region| region.fit_sigma_counts as f32)
+    }
+
     /// The reason that applies to a region as a whole.
     fn of_region(&self, region: &RegionReflection) -> Reason {
         let collinear =
             |light: [f64; 3]| axis_angle_deg(&Vec3::from(region.body), &Vec3::from(light)) < COLLINEAR_DEG;
-        let only_textured = f64::from(self.sigma) * POOR_FIT >= region.fit_rms_counts;
+        let only_textured = POOR_FIT * region.fit_sigma_counts >= region.fit_rms_counts;
         // A print of several colors lies off its plane as well; texture is the more specific reason.
         if !region.model_fits && (only_textured || region.texture > TEXTURE_CORRELATION) {
             Reason::Texture
@@ -138,7 +142,7 @@ impl ReasonInput<'_> {
         let of_region = of_region.get(usize::from(label) - 1).copied().unwrap_or_default();
         match of_region {
             Reason::Explained | Reason::Collinear if !self.explained_mask[pixel] => Reason::OtherObject,
-            Reason::Explained if self.noise[pixel].abs() > FAR_OFF * self.sigma => {
+            Reason::Explained if self.noise[pixel].abs() > FAR_OFF * self.sigma_of(label) => {
                 if self.at_a_border(pixel) { Reason::MixedBoundary } else { Reason::InterReflection }
             }
             other => other,
@@ -178,7 +182,6 @@ mod tests {
             noise: &Raster::filled(7, 1, 0.0),
             regions: &[],
             light: None,
-            sigma: 1.25,
         }
         .reasons();
         assert_eq!(

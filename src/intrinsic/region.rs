@@ -6,7 +6,7 @@ use super::{HighlightBranch, RegionReflection};
 use crate::color::Vec3;
 use crate::raster::{Raster, RegionId};
 use crate::reflection::MIN_ANGLE_DEG;
-use crate::segment::{AnalysisInput, POOR_FIT, Pixels};
+use crate::segment::{AnalysisInput, Pixels};
 use crate::trace::PixelKind;
 
 /// Below this angle between body and surface vector the split amplifies noise more than four times, degrees.
@@ -53,8 +53,9 @@ impl RegionSummary<'_> {
             plane_normal: plan.transform().map(|t| t.normal().map(f64::from)),
             angle_deg,
             fit_rms_counts: fit.rms_counts,
+            fit_sigma_counts: fit.sigma_counts,
             model_fits: plan.model_fits,
-            confidence: of_region(fit, plan.model_fits, angle_deg.filter(|_| separable), input.sigma()),
+            confidence: of_region(fit, plan.model_fits, angle_deg.filter(|_| separable)),
             texture: fit.texture,
             separable,
             neighbors,
@@ -107,9 +108,9 @@ impl RegionSummary<'_> {
             )),
             Some(_) => {}
         }
-        if fit.poor(input.sigma()) {
+        if fit.poor() {
             let what = if plan.transform().is_some() { "plane" } else { "matte line" };
-            let (rms, limit) = (fit.rms_counts, POOR_FIT * input.sigma());
+            let (rms, limit) = (fit.rms_counts, fit.limits().rms_counts);
             warnings.push(format!(
                 "poor fit: pixels lie {rms:.1} counts from the {what} (rms), {limit:.1} is noise"
             ));

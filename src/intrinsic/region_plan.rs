@@ -61,13 +61,13 @@ impl RegionPlan {
             vectors,
             splitter: PixelSplitter { rule, highlight_test },
             fit,
-            model_fits: !input.refine.region_holds || fit.model_fits(input.sigma()),
+            model_fits: !input.refine.region_holds || fit.model_fits(),
             branches: Branches::default(),
             starts: vec![hypothesis.start],
             test_starts: vec![hypothesis.start],
             start_bodies: vec![start_body],
         };
-        let wanted = input.refine.second_branch && fit.model_fits(input.sigma()) && !input.stopped();
+        let wanted = input.refine.second_branch && fit.model_fits() && !input.stopped();
         let Some(transform) = rule.transform().filter(|_| wanted) else { return plan };
         let search = BranchSearch {
             input,
@@ -113,12 +113,7 @@ impl RegionPlan {
     }
 
     /// The record of this plan. `origin`: the ambient light, from which the plan's colors are measured, counts.
-    pub(super) fn vectors_fitted(
-        &self,
-        input: &AnalysisInput,
-        region: RegionId,
-        origin: &[f64; 3],
-    ) -> VectorsFitted {
+    pub(super) fn vectors_fitted(&self, region: RegionId, origin: &[f64; 3]) -> VectorsFitted {
         let PlanarHypothesis { matte, start, .. } = self.hypothesis.from_origin(&-Vec3::from(*origin));
         VectorsFitted {
             region,
@@ -132,7 +127,7 @@ impl RegionPlan {
             rms_counts: self.fit.rms_counts,
             texture: self.fit.texture,
             texture_slope: self.fit.texture_slope,
-            limits: RegionFit::limits(input.sigma()),
+            limits: self.fit.limits(),
             model_fits: self.model_fits,
             origin: *origin,
         }

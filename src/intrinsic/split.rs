@@ -72,7 +72,7 @@ fn split_from<R: Recorder>(
         return images.unfinished();
     }
     images.restore(origin, input, regions, &plans, members);
-    record_plans(origin, input, &plans, recorder);
+    record_plans(origin, &plans, recorder);
     let model_fits: Vec<bool> = plans.iter().map(|plan| plan.model_fits).collect();
     let explained_mask = explained_mask(input, regions, members, &model_fits, &images.kinds);
     let local = split_locally(input, origin, regions, &explained_mask, &mut images, recorder);
@@ -95,12 +95,7 @@ fn split_from<R: Recorder>(
 }
 
 /// Records how each region is split. `origin`: the ambient light, counts.
-fn record_plans<R: Recorder>(
-    origin: &[f64; 3],
-    input: &AnalysisInput,
-    plans: &[RegionPlan],
-    recorder: &mut R,
-) {
+fn record_plans<R: Recorder>(origin: &[f64; 3], plans: &[RegionPlan], recorder: &mut R) {
     if !R::KEEPS {
         return;
     }
@@ -110,7 +105,7 @@ fn record_plans<R: Recorder>(
         if !cores.is_empty() {
             recorder.record(BranchesSought { region, cores, gaps });
         }
-        recorder.record(plan.vectors_fitted(input, region, origin));
+        recorder.record(plan.vectors_fitted(region, origin));
     }
 }
 
@@ -130,7 +125,6 @@ fn finished(
         kinds: &kinds,
         noise: &noise,
         regions: &reports,
-        sigma: input.sigma() as f32,
     };
     let confidence = confidence_input.confidence(local);
     let reason_input = ReasonInput {
@@ -141,7 +135,6 @@ fn finished(
         noise: &noise,
         regions: &reports,
         light: regions.light.direction,
-        sigma: input.sigma() as f32,
     };
     let reasons = reason_input.reasons();
     let ambient = Ambient::default();

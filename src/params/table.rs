@@ -105,7 +105,7 @@ macro_rules! parameter_rows {
                 paper: 2.5,
                 paper_default: Setting::Value(2.5),
                 refined_default: Setting::Auto,
-                auto: "twice the standard deviation measured in the image, from 1 to 16 counts; the paper's value where it cannot be measured",
+                auto: "twice the standard deviation measured in the image, from 1.5 to 16 counts, and at least twice the error of lossy compression; the paper's value where it cannot be measured",
             }
             min_intensity MinIntensity "radius of the dark sphere: colors nearer to black are not analyzed" {
                 title: "min. intensity",

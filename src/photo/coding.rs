@@ -42,13 +42,35 @@ pub struct LossyCompression {
     pub chroma_subsampled: bool,
 }
 
+/// What makes the error of a file's values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CodingCause {
+    /// Rounding to whole code values: the errors of neighboring pixels are independent.
+    Rounding,
+    /// The file's lossy compression: the errors of neighboring pixels are alike.
+    Compression,
+    /// A lossy compression before the file was written, which the correlation of the noise shows.
+    EarlierCompression,
+}
+
+impl CodingCause {
+    /// Name in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Rounding => "rounding",
+            Self::Compression => "compression",
+            Self::EarlierCompression => "earlier_compression",
+        }
+    }
+}
+
 /// The error of a file's values that its way of storing them causes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CodingError {
     /// Standard deviation of a band, in steps of 1/255 of the coded range.
     pub code_values: f64,
-    /// Whether the errors of neighboring pixels are alike (lossy compression), or independent (rounding).
-    pub extended: bool,
+    /// What makes the error.
+    pub cause: CodingCause,
     /// Whether the color differences were stored with fewer samples than the brightness.
     pub chroma_subsampled: bool,
     /// Counts per step of 1/255 of the coded range at equally spaced intensities from 0 to full scale.
@@ -78,7 +100,7 @@ impl CodingError {
         };
         Some(Self {
             code_values,
-            extended: lossy.is_some(),
+            cause: if lossy.is_some() { CodingCause::Compression } else { CodingCause::Rounding },
             chroma_subsampled: lossy.is_some_and(|lossy| lossy.chroma_subsampled),
             counts_per_step: slopes(curve, full_scale),
             full_scale,
@@ -89,7 +111,23 @@ impl CodingError {
     /// was compressed before it was stored.
     #[must_use]
     pub fn as_extended(&self) -> Self {
-        Self { code_values: self.code_values.hypot(LOSSY), extended: true, ..self.clone() }
+        Self {
+            code_values: self.code_values.hypot(LOSSY),
+            cause: CodingCause::EarlierCompression,
+            // Most compressed pictures are stored so; the file does not say.
+            chroma_subsampled: true,
+            ..self.clone()
+        }
+    }
+
+    /// Whether the errors of neighboring pixels are alike, so that a window contains only a part of the error.
+    pub fn is_extended(&self) -> bool {
+        self.cause != CodingCause::Rounding
+    }
+
+    /// Standard deviation of a band at a share of full scale, counts.
+    pub fn at_share(&self, share: f64) -> f64 {
+        self.at_intensity(share * self.full_scale)
     }
 
     /// Standard deviation of a band at an intensity of `counts`, counts.

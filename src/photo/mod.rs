@@ -21,7 +21,7 @@ mod noise_correlation;
 mod orient;
 mod source;
 
-pub use coding::{CodingError, Compression, LossyCompression};
+pub use coding::{CodingCause, CodingError, Compression, LossyCompression};
 pub use curve::ToneCurve;
 pub(crate) use curve::nearest_code;
 pub use digest::sha256_hex;

@@ -40,8 +40,8 @@ pub fn highlight_support(input: &AnalysisInput, labels: &LabelMap, hypotheses: &
             let share = highlights as f64 / f64::from(seen.max(1));
             let shows_highlight =
                 share >= HIGHLIGHT_SHARE && share * pixels.len() as f64 >= HIGHLIGHT_PX as f64;
-            let supports = shows_highlight
-                && RegionFit::new(input, labels, id.get(), pixels, &fitted).model_fits(input.sigma());
+            let supports =
+                shows_highlight && RegionFit::new(input, labels, id.get(), pixels, &fitted).model_fits();
             if supports { pixels.len() } else { 0 }
         })
         .sum::<usize>();

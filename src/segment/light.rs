@@ -50,7 +50,6 @@ impl LightFindings {
 
     /// Why this light is used, in words that complete a sentence.
     pub fn reason(&self) -> String {
-        let support = 100.0 * self.support;
         match self.basis {
             LightBasis::Given => "it was given".to_owned(),
             LightBasis::Planes => {
@@ -59,18 +58,16 @@ impl LightFindings {
                 } else {
                     ""
                 };
-                format!(
-                    "dichromatic planes{alone}: regions that hold and show highlights cover {support:.0} % of the lit pixels"
-                )
+                format!("dichromatic planes{alone}")
             }
-            LightBasis::Votes => format!(
-                "votes of small highlights: regions that hold and show highlights cover only {support:.0} % of the lit pixels"
-            ),
+            LightBasis::Votes => {
+                "votes of small highlights: the planes' light is less usual or less exactly known".to_owned()
+            }
             LightBasis::Nothing if self.planes.is_none() && self.votes.is_none() => {
                 "no highlight was found, neither on a region nor a small one".to_owned()
             }
             LightBasis::Nothing => {
-                "the regions whose planes tell of a light do not hold, and small highlights do not agree on a usual one"
+                "the planes give no light that a lamp could have, and small highlights do not agree on a usual one"
                     .to_owned()
             }
         }

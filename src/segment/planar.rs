@@ -25,9 +25,7 @@ use super::recorded_labels::Members;
 use super::vote_light::{LEAST_VOTERS, Votes};
 use crate::color::{Vec3, axis_angle_deg};
 use crate::raster::HypothesisId;
-use crate::trace::{
-    IlluminantEstimated, IlluminantGiven, LightBasis, LightChosen, Pass, PassBegan, Recorder, VotesCast,
-};
+use crate::trace::{IlluminantEstimated, IlluminantGiven, LightChosen, Pass, PassBegan, Recorder, VotesCast};
 use rayon::prelude::*;
 
 /// Largest number of rounds in which illuminant and slices are found again from the grown regions.
@@ -130,11 +128,19 @@ fn under_chosen_light<R: Recorder>(
     if state.input.refine.vote_light && !state.input.stopped() {
         let votes = Votes::cast(state.input);
         let support = highlight_support(state.input, &state.recorded_labels.labels, &hypotheses);
-        let evidence = LightEvidence { planes, votes: votes.as_ref().map(Votes::elect), support };
+        let evidence = LightEvidence {
+            planes,
+            votes: votes.as_ref().map(Votes::elect),
+            planes_share: votes
+                .as_ref()
+                .zip(planes.direction)
+                .map_or(0.0, |(votes, light)| votes.share(&light)),
+            support,
+        };
         decision = choose_light(&evidence);
         record_choice(&mut state, &evidence, &decision);
         // The slices have grown under the planes' light.
-        if votes.is_some() && decision.basis != LightBasis::Planes {
+        if decision.direction != planes.direction {
             hypotheses = grow_again(&mut state, decision.direction);
         }
         light.votes = evidence.votes.map(|votes| votes.result.direction);
@@ -143,7 +149,8 @@ fn under_chosen_light<R: Recorder>(
     }
     light.direction = decision.direction.map(Into::into);
     light.basis = decision.basis;
-    light.interval_deg = decision.interval_deg;
+    let widening = state.input.interval_widening();
+    light.interval_deg = decision.interval_deg.map(|interval_deg| (widening * interval_deg).min(90.0));
     let objects = decision.objects;
     let illuminant = light.direction.map(|direction| Illuminant { direction, objects, given: false });
     PlanarRegions { labels: state.recorded_labels.labels, hypotheses, illuminant, light }
@@ -194,6 +201,7 @@ fn record_choice<R: Recorder>(
             planes: planes.known_direction().map(|direction| (direction.into(), planes.regions as u32)),
             votes: elected,
             support: evidence.support,
+            odds: decision.odds,
             limits: LIGHT_LIMITS,
         });
     }

@@ -26,9 +26,9 @@ pub use events::{
     Absorbed, Ambient, AmbientVerdict, BlobJudged, BlobsCounted, BranchesSought, CandidateChosen,
     CandidateSource, CandidateTested, CandidateVerdict, ComponentSplit, Contribution, Dropped, Event,
     FitLimits, GrowthBegan, HighlightCore, HoleFilled, HypothesisChosen, HypothesisPassedOver,
-    IlluminantEstimated, IlluminantGiven, Kind, LightBasis, LightChosen, LightLimits, LineRefitted,
-    LocalBegan, LocalLimits, LocalStart, MasksMade, Meeting, MergeTried, Pass, PassBegan, PassedOver,
-    PlausibilityLimits, PlausibilityTested, RegionsMerged, RejectReason, Renumbered, RepairTried,
+    IlluminantEstimated, IlluminantGiven, Kind, LightBasis, LightChosen, LightLimits, LightOdds,
+    LineRefitted, LocalBegan, LocalLimits, LocalStart, MasksMade, Meeting, MergeTried, Pass, PassBegan,
+    PassedOver, PlausibilityLimits, PlausibilityTested, RegionsMerged, RejectReason, Renumbered, RepairTried,
     RepairVerdict, SeedsPlaced, SliceMade, StageBegan, Subject, TextureFade, TwoLightTest, VectorsFitted,
     VoteResult, VotesCast, WindowClassified, WindowsLaid,
 };

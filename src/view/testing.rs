@@ -132,6 +132,7 @@ pub(crate) fn region(id: RegionId, pixels: usize) -> RegionReflection {
         plane_normal: None,
         angle_deg: None,
         fit_rms_counts: 1.5,
+        fit_sigma_counts: 1.25,
         model_fits: true,
         confidence: 1.0,
         texture: 0.0,

@@ -162,7 +162,7 @@ fn says(text: &str, parts: &[&str]) {
 fn why_tells_of_a_highlight_where_no_region_holds() {
     let text = why_marbled(HIGHLIGHT, 1.0);
     says(&text, &["does not hold: ", "rms from its plane (at most ", "its surroundings give it "]);
-    says(&text, &["regions that hold and show highlights cover ", "highlights are believed: "]);
+    says(&text, &["log odds of ", "highlights are believed: "]);
     says(
         &text,
         &[
@@ -195,13 +195,13 @@ fn why_tells_of_texture_and_of_a_clipped_heart_where_no_region_holds() {
 
 #[test]
 fn why_tells_why_nothing_was_split_locally() {
-    // The share of highlights is larger than the analysis accepts in a scene.
-    let text = why_marbled(HIGHLIGHT, 0.3);
+    // More of the highlights outshine the body than the analysis accepts in a scene.
+    let text = why_marbled(HIGHLIGHT, 0.35);
     says(
         &text,
         &[
             "no highlight is believed, nothing is split locally: ",
-            " of the light there would be surface reflection (at most 18 %)",
+            " strong highlight pixels outshine the body under them (at most 60 %)",
         ],
     );
     says(&text, &["surface would be ", "it keeps its color as body"]);

@@ -4,8 +4,8 @@ use crate::files::{self, Png, curv, rgb_icc};
 use crate::{pixels, read_with};
 use dichroscope::export::write_matte;
 use dichroscope::intrinsic::{Ambient, Intrinsic, PixelKind, Reason};
-use dichroscope::photo::{Layout, Photo, ReadOptions, decode, read};
-use dichroscope::raster::Raster;
+use dichroscope::photo::{Layout, LinearImage, Photo, ReadOptions, decode, read};
+use dichroscope::raster::{Mask, Raster};
 use exr::image::FlatSamples;
 use image::ExtendedColorType::{L8, Rgb8, Rgba8};
 use png::ColorType::{Grayscale, GrayscaleAlpha, Rgba};
@@ -105,6 +105,11 @@ fn lossless() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     ]
 }
 
+/// What an image says of its pixels. Files of another format may store the same values with another rounding.
+fn values(image: &LinearImage) -> (&Raster<[f32; 3]>, &Mask) {
+    (&image.pixels, &image.invalid)
+}
+
 #[test]
 fn an_unchanged_photograph_comes_back_exactly() {
     for full_scale in [None, Some(2040.0)] {
@@ -113,7 +118,7 @@ fn an_unchanged_photograph_comes_back_exactly() {
             let photo = read_with(&bytes, &options);
             let (reread, file) = written(&photo, &photo.image.pixels, &options);
             assert_eq!(file, expected, "{name}");
-            assert_eq!(reread.image, photo.image, "{name}");
+            assert_eq!(values(&reread.image), values(&photo.image), "{name}");
             assert_eq!(reread.source.layout, photo.source.layout, "{name}");
             assert_eq!(
                 (&reread.source.icc, reread.source.png),
@@ -195,8 +200,8 @@ fn the_surface_reflection_that_is_kept_runs_from_the_body_to_the_photograph() {
             let folder = tempfile::tempdir().unwrap();
             read(&write_matte(&photo, &intrinsic, share, folder.path()).unwrap(), &options).unwrap()
         };
-        assert_eq!(kept(0.0).image, written(&photo, &body, &options).0.image, "{name}");
-        assert_eq!(kept(1.0).image, photo.image, "{name}");
+        assert_eq!(values(&kept(0.0).image), values(&written(&photo, &body, &options).0.image), "{name}");
+        assert_eq!(values(&kept(1.0).image), values(&photo.image), "{name}");
         let (half, none) = (kept(0.5), kept(0.0));
         for ((half, none), all) in pixels(&half).iter().zip(pixels(&none)).zip(pixels(&photo)) {
             assert!((0..3).all(|band| none[band] <= half[band] && half[band] <= all[band]), "{name}");

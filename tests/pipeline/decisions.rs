@@ -80,15 +80,18 @@ fn the_light_that_is_chosen_is_the_results_and_its_figures_decide() {
             (light.basis, light.direction, light.support)
         );
         let limits = chosen.limits;
-        let agreed = chosen.votes.is_some_and(|votes| {
-            let usual = (0..2).all(|i| votes.offsets_deg[i].abs() <= limits.offsets_deg[i]);
-            usual && votes.share >= limits.share
+        let least_share = if chosen.planes.is_some() { limits.share } else { limits.share_without_planes };
+        let votes_could_be = chosen.votes.is_some_and(|votes| {
+            (0..2).all(|i| votes.offsets_deg[i].abs() <= limits.offsets_deg[i]) && votes.share >= least_share
         });
-        let expected = match (chosen.support >= limits.support, agreed) {
-            (false, true) => LightBasis::Votes,
-            (false, false) if chosen.support < limits.hardly && chosen.votes.is_some() => LightBasis::Nothing,
-            _ if chosen.planes.is_some() => LightBasis::Planes,
-            _ => LightBasis::Nothing,
+        let expected = match chosen.odds {
+            Some(odds) if odds.sum() > limits.log_odds => LightBasis::Votes,
+            Some(_) => LightBasis::Planes,
+            None if votes_could_be && chosen.planes.is_none() => LightBasis::Votes,
+            None if chosen.planes.is_some() && chosen.direction == chosen.planes.map(|(light, _)| light) => {
+                LightBasis::Planes
+            }
+            None => LightBasis::Nothing,
         };
         assert_eq!(chosen.basis, expected, "{chosen:?}");
         bases.insert(chosen.basis.name());

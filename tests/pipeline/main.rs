@@ -7,6 +7,7 @@
 mod ambient;
 mod area;
 mod cache;
+mod cameras;
 mod common;
 mod decisions;
 mod degenerate;

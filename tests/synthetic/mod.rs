@@ -66,6 +66,9 @@ pub struct Rendered {
     pub surface: Raster<[f32; 3]>,
 }
 
+/// Least angle between the body colors of two balls of [`Scene::grid_of_balls`], degrees.
+const LEAST_COLOR_ANGLE_DEG: f64 = 4.0;
+
 impl Scene {
     /// One plastic ball in the middle, lit from the upper left, 45° from the camera, by white light; no noise.
     pub fn one_ball(size_px: [usize; 2], body: [f64; 3]) -> Self {
@@ -90,11 +93,20 @@ impl Scene {
     }
 
     /// Like [`Scene::one_ball`], but with `columns × rows` balls of random color, size, strength and gloss, and an
-    /// 8-bit camera with
-    /// noise.
+    /// 8-bit camera with noise. Body colors are at least [`LEAST_COLOR_ANGLE_DEG`] apart: the method takes neighboring
+    /// balls of nearly the same color for one object behind a shadow, and says so.
     pub fn grid_of_balls(size_px: [usize; 2], columns: usize, rows: usize, seed: u64) -> Self {
         let mut random = Random::new(seed);
         let cell_px = [size_px[0] as f64 / columns as f64, size_px[1] as f64 / rows as f64];
+        let mut colors: Vec<[f64; 3]> = Vec::new();
+        let mut color_apart = |random: &mut Random| loop {
+            let color = random.saturated_color();
+            let cosine = LEAST_COLOR_ANGLE_DEG.to_radians().cos();
+            if colors.iter().all(|other| dot(*other, color) < cosine) {
+                colors.push(color);
+                return color;
+            }
+        };
         let balls = (0..columns * rows)
             .map(|i| Ball {
                 center_px: [
@@ -102,7 +114,7 @@ impl Scene {
                     ((i / columns) as f64 + 0.5) * cell_px[1],
                 ],
                 radius_px: cell_px[0].min(cell_px[1]) * random.between(0.35, 0.5),
-                body: random.saturated_color(),
+                body: color_apart(&mut random),
                 body_counts: random.between(120.0, 240.0),
                 surface_counts: random.between(120.0, 300.0),
                 roughness: random.between(0.1, 0.25),

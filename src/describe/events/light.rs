@@ -2,10 +2,10 @@
 
 use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
-use crate::describe::names::{count, direction, percent, tenths};
+use crate::describe::names::{count, direction, tenths};
 use crate::trace::{
-    Contribution, IlluminantEstimated, IlluminantGiven, LightBasis, LightChosen, LightLimits, TwoLightTest,
-    VoteResult, VotesCast,
+    Contribution, IlluminantEstimated, IlluminantGiven, LightBasis, LightChosen, LightLimits, LightOdds,
+    TwoLightTest, VoteResult, VotesCast,
 };
 use serde_json::{Value, json};
 
@@ -99,37 +99,32 @@ impl Describe for VotesCast {
 
 impl Describe for LightChosen {
     fn sentence(&self, _names: &Names) -> String {
-        let Self { basis, support, limits, .. } = self;
+        let Self { basis, limits, odds, .. } = self;
         let known = self.direction.map_or_else(String::new, |light| format!(" {}", direction(light)));
-        let covered =
-            format!("regions that hold and show highlights cover {} of the lit pixels", percent(*support));
-        let enough = percent(limits.support);
         match (basis, &self.votes) {
-            (LightBasis::Planes, _) if *support >= limits.support => {
-                format!("the light{known} is that of the planes: {covered}, {enough} suffice")
+            (LightBasis::Planes, votes) => {
+                let reason = odds.map_or_else(
+                    || no_use(votes.as_ref(), limits),
+                    |odds| format!("the votes are not the better evidence, {}", odds_in_words(&odds, limits)),
+                );
+                format!("the light{known} is that of the planes: {reason}")
             }
-            (LightBasis::Planes, votes) => format!(
-                "the light{known} is that of the planes: {covered}, less than {enough}, but {}",
-                no_use(votes.as_ref(), limits)
-            ),
-            (LightBasis::Votes, Some(votes)) => format!(
-                "the light{known} is that of the votes: {covered}, planes need {enough}; {} agree with {} of the votes (at least {}), \
-                 {} (at most {})",
-                voters(votes),
-                tenths(votes.share),
-                tenths(limits.share),
-                white(votes.offsets_deg),
-                farthest(limits)
-            ),
-            (_, votes) if self.planes.is_none() => {
+            (LightBasis::Votes, Some(votes)) => {
+                let reason = odds.map_or_else(
+                    || no_light_by_planes(self.planes.is_some(), limits),
+                    |odds| format!("the votes are the better evidence, {}", odds_in_words(&odds, limits)),
+                );
                 format!(
-                    "no light is known: no region shows a highlight, and {}",
-                    no_use(votes.as_ref(), limits)
+                    "the light{known} is that of the votes: {reason}; {} agree with {} of the votes, {} (at most {})",
+                    voters(votes),
+                    tenths(votes.share),
+                    white(votes.offsets_deg),
+                    farthest(limits.offsets_deg)
                 )
             }
             (_, votes) => format!(
-                "no light is known: {covered}, less than {}, and {}",
-                percent(limits.hardly),
+                "no light is known: {}, and {}",
+                no_light_by_planes(self.planes.is_some(), limits),
                 no_use(votes.as_ref(), limits)
             ),
         }
@@ -147,12 +142,20 @@ impl Describe for LightChosen {
                 "support": self.support,
                 "planes": planes,
                 "votes": self.votes.as_ref().map(elected),
+                "log_odds": self.odds.map(|odds| json!({
+                    "unusualness": odds.unusualness,
+                    "intervals": odds.intervals,
+                    "shares": odds.shares,
+                    "sum": odds.sum(),
+                })),
             }),
             json!({
-                "support": limits.support,
-                "hardly_supported": limits.hardly,
+                "log_odds": limits.log_odds,
                 "share": limits.share,
+                "share_without_planes": limits.share_without_planes,
                 "offsets_deg": limits.offsets_deg,
+                "planes_offsets_deg": limits.planes_offsets_deg,
+                "planes_interval_deg": limits.planes_interval_deg,
             }),
         )
     }
@@ -165,7 +168,8 @@ impl Describe for LightChosen {
             planes: Some(([0.0, 0.6, 0.8], 3)),
             votes: Some(example_votes()),
             support: 0.125,
-            limits: LightLimits { support: 0.3, hardly: 0.05, share: 0.02, offsets_deg: [20.0, 8.0] },
+            odds: Some(LightOdds { unusualness: 0.5, intervals: 0.25, shares: 0.125 }),
+            limits: crate::segment::LIGHT_LIMITS,
         }
     }
 }
@@ -186,19 +190,52 @@ fn whose_light(outshone: &TwoLightTest) -> String {
     )
 }
 
+/// The odds that decided between planes and votes.
+fn odds_in_words(odds: &LightOdds, limits: &LightLimits) -> String {
+    format!(
+        "by the color of both lights {}, by their intervals {}, by their shares of the votes {}: log odds of {} for the votes, \
+         more than {:.2} are needed",
+        signed(odds.unusualness),
+        signed(odds.intervals),
+        signed(odds.shares),
+        signed(odds.sum()),
+        limits.log_odds
+    )
+}
+
+/// A number with its sign; a minus sign, not a hyphen.
+fn signed(number: f64) -> String {
+    format!("{number:+.2}").replace('-', "\u{2212}")
+}
+
+/// Why the planes' light does not decide.
+fn no_light_by_planes(any: bool, limits: &LightLimits) -> String {
+    if any {
+        format!(
+            "the planes give a light that no lamp has (farther from white than {}) or that is not known within {:.0}\u{b0}",
+            farthest(limits.planes_offsets_deg),
+            limits.planes_interval_deg
+        )
+    } else {
+        "no region shows a highlight".to_owned()
+    }
+}
+
 /// Why votes do not decide.
 fn no_use(votes: Option<&VoteResult>, limits: &LightLimits) -> String {
+    let usual =
+        |votes: &VoteResult| (0..2).all(|axis| votes.offsets_deg[axis].abs() <= limits.offsets_deg[axis]);
     match votes {
         None => "too few pixels of small highlights vote".to_owned(),
-        Some(votes) if votes.share < limits.share => format!(
+        Some(votes) if usual(votes) => format!(
             "small highlights do not agree: {} of their votes are for one light, at least {} are needed",
             tenths(votes.share),
-            tenths(limits.share)
+            tenths(limits.share_without_planes)
         ),
         Some(votes) => format!(
             "small highlights vote for an unusual light, {} (at most {})",
             white(votes.offsets_deg),
-            farthest(limits)
+            farthest(limits.offsets_deg)
         ),
     }
 }
@@ -207,8 +244,7 @@ fn voters(elected: &VoteResult) -> String {
     format!("{} of {}", count(elected.voters, "pixel"), count(elected.blobs, "small highlight"))
 }
 
-fn farthest(limits: &LightLimits) -> String {
-    let [yellow, magenta] = limits.offsets_deg;
+fn farthest([yellow, magenta]: [f64; 2]) -> String {
     format!("{yellow:.0}\u{b0} and {magenta:.0}\u{b0}")
 }
 

@@ -253,8 +253,8 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
 
 #[test]
 fn a_light_is_told_with_what_it_rests_on_and_why_the_other_one_is_not_used() {
-    use crate::trace::{LightBasis, LightChosen, LightLimits, VoteResult};
-    let limits = LightLimits { support: 0.3, hardly: 0.05, share: 0.02, offsets_deg: [20.0, 8.0] };
+    use crate::segment::LIGHT_LIMITS;
+    use crate::trace::{LightBasis, LightChosen, LightOdds, VoteResult};
     let votes =
         VoteResult { direction: [0.6; 3], voters: 300, blobs: 9, share: 0.06, offsets_deg: [4.0, -1.0] };
     let by_votes = LightChosen {
@@ -263,37 +263,41 @@ fn a_light_is_told_with_what_it_rests_on_and_why_the_other_one_is_not_used() {
         planes: Some(([0.5; 3], 4)),
         votes: Some(votes),
         support: 0.12,
-        limits,
+        odds: Some(LightOdds { unusualness: 1.5, intervals: -0.25, shares: 0.1 }),
+        limits: LIGHT_LIMITS,
     };
-    let weak = Some(VoteResult { share: 0.01, ..votes });
+    let alone = LightChosen { odds: None, ..by_votes };
+    let weak = Some(VoteResult { share: 0.005, ..votes });
     let odd = Some(VoteResult { offsets_deg: [-25.0, 1.0], ..votes });
     let by_planes = LightChosen { basis: LightBasis::Planes, ..by_votes };
-    let unknown = LightChosen { basis: LightBasis::Nothing, direction: None, ..by_votes };
+    let unknown = LightChosen { basis: LightBasis::Nothing, direction: None, ..alone };
     let told = [
         (
             by_votes,
-            "that of the votes: regions that hold and show highlights cover 12 % of the lit pixels, planes need 30 %; 300",
+            "that of the votes: the votes are the better evidence, by the color of both lights +1.50, by their intervals \u{2212}0.25",
         ),
+        (by_votes, "log odds of +1.35 for the votes, more than 0.65 are needed; 300 pixels"),
         (
             by_votes,
-            "6.0 % of the votes (at least 2.0 %), 4.0\u{b0} to yellow and 1.0\u{b0} to green of white (at most 20\u{b0} and 8\u{b0})",
+            "6.0 % of the votes, 4.0\u{b0} to yellow and 1.0\u{b0} to green of white (at most 20\u{b0} and 8\u{b0})",
         ),
         (
-            LightChosen { support: 0.64, ..by_planes },
-            "that of the planes: regions that hold and show highlights cover 64 %",
+            alone,
+            "that of the votes: the planes give a light that no lamp has (farther from white than 40\u{b0} and 20\u{b0})",
+        ),
+        (by_planes, "that of the planes: the votes are not the better evidence"),
+        (
+            LightChosen { votes: None, odds: None, ..by_planes },
+            "that of the planes: too few pixels of small highlights vote",
         ),
         (
-            LightChosen { votes: None, ..by_planes },
-            "less than 30 %, but too few pixels of small highlights vote",
+            LightChosen { votes: weak, odds: None, ..by_planes },
+            "0.5 % of their votes are for one light, at least 2.0 % are needed",
         ),
+        (LightChosen { votes: odd, odds: None, ..by_planes }, "an unusual light, 25.0\u{b0} to blue"),
         (
-            LightChosen { votes: weak, ..by_planes },
-            "1.0 % of their votes are for one light, at least 2.0 % are needed",
-        ),
-        (LightChosen { votes: odd, ..by_planes }, "an unusual light, 25.0\u{b0} to blue"),
-        (
-            LightChosen { votes: odd, support: 0.01, ..unknown },
-            "no light is known: regions that hold and show highlights cover 1 %",
+            LightChosen { votes: odd, ..unknown },
+            "no light is known: the planes give a light that no lamp has",
         ),
         (
             LightChosen { votes: None, planes: None, ..unknown },

@@ -8,6 +8,8 @@ use crate::raster::{Mask, Raster};
 use crate::segment::{AnalysisInput, LIGHT_LIMITS, LightBasis, LightFindings};
 use crate::trace::{PlausibilityLimits, PlausibilityTested, RejectReason};
 
+/// Support of the planes' light from which on no vote is needed.
+const CERTAIN_SUPPORT: f64 = 0.3;
 /// Most surface reflection of a plausible picture, as a share of all light of the unexplained pixels.
 const MOST_SURFACE: f64 = 0.18;
 /// Most strong highlight pixels with more surface than body reflection, as a share of all strong highlight pixels.
@@ -25,7 +27,7 @@ pub fn test(
 ) -> PlausibilityTested {
     let limits =
         PlausibilityLimits { share: LIGHT_LIMITS.share, surface: MOST_SURFACE, outshining: MOST_OUTSHINING };
-    let is_light_certain = light.basis == LightBasis::Given || light.support >= LIGHT_LIMITS.support;
+    let is_light_certain = light.basis == LightBasis::Given || light.support >= CERTAIN_SUPPORT;
     let needs_votes = input.refine.vote_light && !is_light_certain;
     let tested = PlausibilityTested {
         share: needs_votes.then_some(light.share),

@@ -25,7 +25,7 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let mut data = vec![0; size.0 * size.1 * channels];
     decoder.read_image(&mut data)?;
     let compression = Compression::Lossy(header.compression());
-    Ok(Decoded { icc, orientation, compression, ..Decoded::plain(size, layout, Samples::U8(data)) })
+    Ok(Decoded { icc, compression, orientation, ..Decoded::plain(size, layout, Samples::U8(data)) })
 }
 
 /// What the markers of a complete file say (ITU-T T.81, annex B).

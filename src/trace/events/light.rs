@@ -102,22 +102,46 @@ pub struct LightChosen {
     pub votes: Option<VoteResult>,
     /// Share of the lit pixels in regions that are explained and show highlights under the light of the planes, 0…1.
     pub support: f64,
-    /// The limits that decided.
+    /// The odds for the votes; none where at most one of both estimates is a light that could be.
+    pub odds: Option<LightOdds>,
+    /// The limits of the rule.
     pub limits: LightLimits,
 }
 
-/// The limits of the choice between the light of the planes and the light of the votes.
+/// Logarithm of the odds that the light by the votes is better than the light by the planes, by its parts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightOdds {
+    /// How much less usual the planes' light is.
+    pub unusualness: f64,
+    /// How much wider the interval of the planes' light is.
+    pub intervals: f64,
+    /// How much smaller the share of the votes for the planes' light is.
+    pub shares: f64,
+}
+
+impl LightOdds {
+    /// All parts together.
+    pub fn sum(&self) -> f64 {
+        self.unusualness + self.intervals + self.shares
+    }
+}
+
+/// The limits of the rule that chooses the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LightLimits {
-    /// Least support with which the light of the planes is used whatever the votes are, 0…1.
-    pub support: f64,
-    /// Support below which no light is used where the votes are of no use either, 0…1.
-    pub hardly: f64,
-    /// Least share of the votes that elects a light, 0…1.
+    /// Logarithm of the odds above which the votes win.
+    pub log_odds: f64,
+    /// Least share of the votes for the light that they elect, 0…1 …
     pub share: f64,
-    /// Largest angles of a light by votes from white, degrees: blue to yellow, green to magenta.
+    /// … and the least share where the planes give no light.
+    pub share_without_planes: f64,
+    /// Largest distance from white of a light by votes: blue to yellow, green to magenta, degrees.
     pub offsets_deg: [f64; 2],
+    /// Largest distance from white of a light by planes, likewise, degrees.
+    pub planes_offsets_deg: [f64; 2],
+    /// Widest interval of a light by planes, degrees.
+    pub planes_interval_deg: f64,
 }
 
 /// How well two lights explain the pixels whose surface reflection outshines the body (7.5): the light of all pixels off the matte

@@ -25,8 +25,8 @@ pub use branches::{BranchesSought, HighlightCore};
 pub use candidates::{CandidateChosen, CandidateSource, CandidateTested, CandidateVerdict};
 pub use clipping::{ComponentSplit, Dropped, HoleFilled, Renumbered};
 pub use light::{
-    Contribution, IlluminantEstimated, IlluminantGiven, LightBasis, LightChosen, LightLimits, TwoLightTest,
-    VoteResult, VotesCast,
+    Contribution, IlluminantEstimated, IlluminantGiven, LightBasis, LightChosen, LightLimits, LightOdds,
+    TwoLightTest, VoteResult, VotesCast,
 };
 pub use linear::{
     Absorbed, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted, PassedOver, RegionsMerged,

@@ -1,0 +1,120 @@
+//! What cameras do to a picture: compression, a tone curve, and a wall behind the objects.
+
+use crate::common::analyze;
+use crate::synthetic::{Random, Rendered, Scene};
+use dichroscope::analysis::Analysis;
+use dichroscope::params::Params;
+use dichroscope::photo::{CodingCause, LinearImage, ReadOptions, decode};
+use dichroscope::segment::LightBasis;
+use image::codecs::jpeg::JpegEncoder;
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+
+/// The image in 8-bit sRGB, row by row.
+fn srgb(image: &LinearImage) -> Vec<u8> {
+    let coded = |counts: f32| {
+        let linear = f64::from(counts / 255.0).clamp(0.0, 1.0);
+        let coded =
+            if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
+        (255.0 * coded).round() as u8
+    };
+    image.pixels.as_slice().as_flattened().iter().map(|&counts| coded(counts)).collect()
+}
+
+fn jpeg(image: &LinearImage, quality: u8) -> Vec<u8> {
+    let mut file = Vec::new();
+    let (width, height) = (image.width() as u32, image.height() as u32);
+    JpegEncoder::new_with_quality(&mut file, quality)
+        .write_image(&srgb(image), width, height, ExtendedColorType::Rgb8)
+        .unwrap();
+    file
+}
+
+/// The image of a file, linear.
+fn reread(file: &[u8]) -> LinearImage {
+    decode(file, "photo", &ReadOptions::default()).unwrap().image
+}
+
+/// Angle between the light that was found and white, degrees.
+fn off_white_deg(analysis: &Analysis) -> f64 {
+    let light = analysis.illuminant.unwrap().direction;
+    (light.iter().sum::<f64>() / 3f64.sqrt()).clamp(-1.0, 1.0).acos().to_degrees()
+}
+
+fn balls() -> Scene {
+    Scene::grid_of_balls([480, 320], 3, 2, 8)
+}
+
+/// The scene with a matt wall of the light's color behind the balls, 140 counts a band.
+fn before_a_wall(scene: &Scene) -> Rendered {
+    let mut rendered = scene.render();
+    let mut noise = Random::new(3);
+    let pixels = rendered.image.pixels.as_mut_slice().iter_mut().zip(rendered.labels.as_slice());
+    for (color, _) in pixels.filter(|(_, label)| **label == 0) {
+        *color = [0; 3].map(|_| (140.0 + scene.noise_sigma * noise.normal()).round() as f32);
+    }
+    rendered
+}
+
+#[test]
+fn the_model_fits_plain_objects_in_compressed_files() {
+    let image = reread(&jpeg(&balls().render().image, 90));
+    assert_eq!(image.coding.as_ref().unwrap().cause, CodingCause::Compression);
+    let analysis = analyze(&image, &Params::default());
+    let regions = &analysis.intrinsic.regions;
+    let fits = regions.iter().filter(|region| region.model_fits).count();
+    assert!(regions.len() == 6 && fits == 6, "{fits} of {}", regions.len());
+    let off_deg = off_white_deg(&analysis);
+    assert!(off_deg < 1.0, "the light is {off_deg} degrees off");
+    // The error of the file explains the distance from the plane, which the noise of the windows alone does not.
+    let unexplained = |analysis: &Analysis| {
+        let regions = &analysis.intrinsic.regions;
+        let ratios = regions.iter().map(|region| region.fit_rms_counts / region.fit_sigma_counts);
+        ratios.sum::<f64>() / regions.len() as f64
+    };
+    let mut noise_alone = Params::default();
+    noise_alone.refine.coding_error = false;
+    let (both, noise_alone) = (unexplained(&analysis), unexplained(&analyze(&image, &noise_alone)));
+    assert!(both > 0.7 && both < 1.3 && noise_alone > 1.4, "{both} and {noise_alone} standard deviations");
+}
+
+#[test]
+fn a_picture_that_was_compressed_before_is_recognized_in_a_lossless_file() {
+    let rendered = balls().render().image;
+    let png = |image: &LinearImage| {
+        let mut file = Vec::new();
+        PngEncoder::new(&mut file)
+            .write_image(&srgb(image), image.width() as u32, image.height() as u32, ExtendedColorType::Rgb8)
+            .unwrap();
+        reread(&file)
+    };
+    let cause = |image: &LinearImage| {
+        analyze(image, &Params::default()).noise.coding.as_ref().map(|coding| coding.cause)
+    };
+    assert_eq!(cause(&png(&rendered)), Some(CodingCause::Rounding));
+    assert_eq!(cause(&png(&reread(&jpeg(&rendered, 80)))), Some(CodingCause::EarlierCompression));
+    assert_eq!(cause(&rendered), None, "linear values have no error of their own");
+}
+
+#[test]
+fn a_wall_of_the_lights_color_does_not_vote_the_objects_down() {
+    let rendered = before_a_wall(&balls());
+    for image in [rendered.image.clone(), reread(&jpeg(&rendered.image, 92))] {
+        let analysis = analyze(&image, &Params::default());
+        assert_eq!(analysis.planar.light.basis, LightBasis::Planes);
+        let (off_deg, interval_deg) = (off_white_deg(&analysis), analysis.planar.light.interval_deg.unwrap());
+        assert!(off_deg < 1.0 && off_deg < interval_deg, "{off_deg} degrees off, claimed {interval_deg}");
+    }
+}
+
+#[test]
+fn strong_compression_and_few_pixels_are_warned_of() {
+    let warned = |image: &LinearImage, part: &str| {
+        analyze(image, &Params::default()).warnings.iter().any(|warning| warning.contains(part))
+    };
+    let rendered = balls().render().image;
+    assert!(warned(&reread(&jpeg(&rendered, 40)), "compressed so strongly"));
+    assert!(!warned(&reread(&jpeg(&rendered, 90)), "compressed so strongly"));
+    let small = Scene::grid_of_balls([90, 60], 1, 1, 8).render().image;
+    assert!(warned(&small, "has only 5400 pixels") && !warned(&rendered, "pixels: windows"));
+}
