@@ -35,6 +35,8 @@ pub struct NoiseFindings {
     pub sigma: Option<f64>,
     /// The error of the file's way of storing values; `None`: the noise contains it.
     pub coding: Option<CodingError>,
+    /// Whether the errors of neighboring pixels are alike: after lossy compression or demosaicing.
+    pub extended: bool,
 }
 
 /// The values of all parameters, for the errors of the image's values.
@@ -85,7 +87,7 @@ mod tests {
     }
 
     fn of_sigma(sigma: f64) -> NoiseFindings {
-        NoiseFindings { sigma: Some(sigma), coding: None }
+        NoiseFindings { sigma: Some(sigma), ..NoiseFindings::default() }
     }
 
     #[test]
@@ -94,6 +96,7 @@ mod tests {
         let of = |compression| NoiseFindings {
             sigma: Some(0.2),
             coding: CodingError::of_samples(compression, 255, &ToneCurve::Srgb, 255.0),
+            extended: false,
         };
         let used =
             |noise: &NoiseFindings, params: &Params| used_params(params, &image(None), noise).camera_noise;

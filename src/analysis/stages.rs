@@ -123,7 +123,8 @@ impl Stages {
         let (masks, noise, used) = self.masks::<R>(subject, params, observer)?;
         let image = &subject.image;
         let coding = noise.coding.as_ref().filter(|_| refine.coding_error);
-        let input = AnalysisInput::new(image, &masks, &used, refine).with_coding(coding);
+        let input = AnalysisInput::new(image, &masks, &used, refine)
+            .with_coding(coding, noise.extended && refine.coding_error);
 
         let key = |stage, before| (before, seen_up_to(stage, &used, refine));
 
@@ -226,10 +227,8 @@ impl Stages {
         };
         let (masks, noise) = self.masks.get(Stage::Masks, key, observer, |_, recorder: &mut R| {
             let masks = masks_of(&limits);
-            let noise = NoiseFindings {
-                sigma: if automatic_noise { estimate_sigma(image, &masks) } else { None },
-                coding: coding_error(image, &masks),
-            };
+            let sigma = if automatic_noise { estimate_sigma(image, &masks) } else { None };
+            let noise = noise_findings(image, &masks, sigma);
             let (masks, limits) = if automatic_intensity {
                 let min_intensity = used_params(params, image, &noise).min_intensity;
                 let limits = MaskLimits { min_intensity, ..limits };
@@ -249,13 +248,18 @@ impl Stages {
     }
 }
 
-/// The error of the file's way of storing values. A lossless file may hold a picture that was compressed before; the
-/// correlation of the noise between neighboring pixels shows it.
-fn coding_error(image: &LinearImage, masks: &Masks) -> Option<CodingError> {
-    let coding = image.coding.as_ref()?;
-    let compressed_before =
-        || NoiseCorrelation::measure(image, masks).is_some_and(|correlation| correlation.is_extended());
-    Some(if !coding.is_extended() && compressed_before() { coding.as_extended() } else { coding.clone() })
+/// The errors of an image's values; `sigma`: that of its windows. A lossless file may hold a picture that was compressed or
+/// demosaiced before; the correlation of the noise between neighboring pixels shows it.
+fn noise_findings(image: &LinearImage, masks: &Masks, sigma: Option<f64>) -> NoiseFindings {
+    let coding = image.coding.clone();
+    if coding.as_ref().is_some_and(CodingError::is_extended) {
+        return NoiseFindings { sigma, coding, extended: true };
+    }
+    let Some(correlation) = NoiseCorrelation::measure(image, masks) else {
+        return NoiseFindings { sigma, coding, extended: false };
+    };
+    let coding = coding.map(|coding| if correlation.is_compressed() { coding.as_extended() } else { coding });
+    NoiseFindings { sigma, coding, extended: correlation.is_extended() }
 }
 
 fn masks_made(masks: &Masks, limits: MaskLimits, pixels: usize, sigma: Option<f64>) -> MasksMade {

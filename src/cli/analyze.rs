@@ -8,7 +8,6 @@ use super::{Outcome, note};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use dichroscope::export::check_target;
-use dichroscope::intrinsic::POOR_FIT;
 use dichroscope::params::Params;
 use dichroscope::photo::ReadOptions;
 use dichroscope::truth::find_truth;
@@ -161,9 +160,7 @@ pub(super) fn in_short(finished: &Finished) -> String {
         .subtracted
         .map_or_else(String::new, |[r, g, b]| format!(", less ambient ({r:.1}, {g:.1}, {b:.1}) counts"));
     let regions = count(report.regions.len(), "region");
-    let poor = |region: &&dichroscope::describe::RegionFacts| {
-        region.fit_rms_counts > POOR_FIT * region.fit_sigma_counts
-    };
+    let poor = |region: &&dichroscope::describe::RegionFacts| region.fit_rms_counts > region.fit_limit_counts;
     let poor = report.regions.iter().filter(poor).count();
     let poor = if poor == 0 { String::new() } else { format!(" ({poor} of poor fit)") };
     let warnings = match report.warnings.len() {

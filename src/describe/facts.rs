@@ -262,6 +262,8 @@ pub struct NoiseFacts {
     pub window_sigma_counts: Option<f64>,
     /// The error of the file's way of storing values; null where the noise contains it (linear samples, floats).
     pub coding: Option<CodingFacts>,
+    /// Whether the errors of neighboring pixels are alike: after lossy compression or demosaicing.
+    pub extended: bool,
 }
 
 /// The error of the file's way of storing values, as [`crate::photo::CodingError`] describes it.
@@ -283,6 +285,7 @@ impl NoiseFacts {
         let coding = analysis.noise.coding.as_ref();
         Self {
             window_sigma_counts: analysis.noise.sigma,
+            extended: analysis.noise.extended,
             coding: coding.map(|coding| CodingFacts {
                 cause: coding.cause.name().to_owned(),
                 chroma_subsampled: coding.chroma_subsampled,
@@ -375,6 +378,8 @@ pub struct RegionFacts {
     pub fit_rms_counts: f64,
     #[serde(default)]
     pub fit_sigma_counts: f64,
+    #[serde(default)]
+    pub fit_limit_counts: f64,
     /// True in reports of versions that did not test the fit.
     #[serde(rename = "holds", default = "yes")]
     pub model_fits: bool,
@@ -431,6 +436,7 @@ impl From<&RegionReflection> for RegionFacts {
             angle_deg: region.angle_deg,
             fit_rms_counts: region.fit_rms_counts,
             fit_sigma_counts: region.fit_sigma_counts,
+            fit_limit_counts: region.fit_limit_counts,
             model_fits: region.model_fits,
             confidence: region.confidence,
             texture: region.texture,

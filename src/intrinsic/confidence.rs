@@ -7,13 +7,13 @@
 
 use super::RegionReflection;
 use crate::raster::{LabelMap, Mask, Raster};
-use crate::segment::{POOR_FIT, RegionFit};
+use crate::segment::RegionFit;
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
 /// Distance from the plane from which on confidence in a pixel or region is 0, standard deviations of noise
 /// and coding.
-const ZERO_CONFIDENCE_SIGMAS: f64 = POOR_FIT;
+const ZERO_CONFIDENCE_SIGMAS: f64 = 3.0;
 /// Angle between body and surface vector from which on the angle does not lower confidence, degrees.
 const WIDE_DEG: f64 = 14.0;
 /// Share of the region's confidence that restored pixels have.

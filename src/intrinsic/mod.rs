@@ -17,7 +17,6 @@ pub use reason::Reason;
 pub use split::split;
 
 use crate::raster::{Raster, RegionId};
-pub use crate::segment::POOR_FIT;
 pub use crate::trace::{Ambient, AmbientVerdict, Meeting, PixelKind};
 
 /// The intrinsic images, and the report of each region.
@@ -88,6 +87,8 @@ pub struct RegionReflection {
     pub fit_rms_counts: f64,
     /// The part of that distance which noise and the error of the file's values explain (σ), counts.
     pub fit_sigma_counts: f64,
+    /// Largest such distance of a region that the model fits, counts.
+    pub fit_limit_counts: f64,
     /// Whether one skewed T explains the region; where not, the region's plane is not used.
     pub model_fits: bool,
     /// Confidence in the region's split, 0…1; 0 where the skewed T does not explain the region.

@@ -8,12 +8,12 @@ use crate::color::{Vec3, axis_angle_deg};
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 
-use crate::segment::{POOR_FIT, TEXTURE_CORRELATION};
+use crate::segment::TEXTURE_CORRELATION;
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
 /// Distance from the plane above which noise does not explain a pixel, standard deviations of noise and coding.
-const FAR_OFF: f32 = POOR_FIT as f32;
+const FAR_OFF: f32 = 3.0;
 /// Angle to the light's color below which a body vector counts as the light's color, degrees.
 const COLLINEAR_DEG: f64 = 3.0;
 
@@ -114,7 +114,7 @@ impl ReasonInput<'_> {
     fn of_region(&self, region: &RegionReflection) -> Reason {
         let collinear =
             |light: [f64; 3]| axis_angle_deg(&Vec3::from(region.body), &Vec3::from(light)) < COLLINEAR_DEG;
-        let only_textured = POOR_FIT * region.fit_sigma_counts >= region.fit_rms_counts;
+        let only_textured = region.fit_limit_counts >= region.fit_rms_counts;
         // A print of several colors lies off its plane as well; texture is the more specific reason.
         if !region.model_fits && (only_textured || region.texture > TEXTURE_CORRELATION) {
             Reason::Texture

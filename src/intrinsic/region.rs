@@ -54,6 +54,7 @@ impl RegionSummary<'_> {
             angle_deg,
             fit_rms_counts: fit.rms_counts,
             fit_sigma_counts: fit.sigma_counts,
+            fit_limit_counts: fit.limits().rms_counts,
             model_fits: plan.model_fits,
             confidence: of_region(fit, plan.model_fits, angle_deg.filter(|_| separable)),
             texture: fit.texture,

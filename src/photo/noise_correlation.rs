@@ -19,7 +19,7 @@ const MAX_WINDOWS: usize = 4000;
 /// Least correlation at a distance of one pixel of an error that extends over neighboring pixels …
 const EXTENDED_NEXT: f64 = 0.15;
 /// … and at a distance of two pixels, which tells lossy compression from a mosaic.
-const EXTENDED_SECOND: f64 = -0.03;
+const COMPRESSED_SECOND: f64 = -0.03;
 
 /// Correlation of the noise of neighboring pixels of a row or a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,9 +62,14 @@ impl NoiseCorrelation {
         })
     }
 
-    /// Whether the noise extends over neighboring pixels as that of lossy compression does.
+    /// Whether the noise extends over neighboring pixels: after lossy compression or demosaicing.
     pub fn is_extended(&self) -> bool {
-        self.next >= EXTENDED_NEXT && self.second > EXTENDED_SECOND
+        self.next >= EXTENDED_NEXT
+    }
+
+    /// Whether the noise extends over neighboring pixels as that of lossy compression does.
+    pub fn is_compressed(&self) -> bool {
+        self.is_extended() && self.second > COMPRESSED_SECOND
     }
 }
 
@@ -171,11 +176,11 @@ mod tests {
     #[test]
     fn white_noise_does_not_extend_over_neighbors_and_smoothed_noise_does() {
         let white = correlation(1);
-        assert!(white.next.abs() < 0.1 && !white.is_extended(), "{white:?}");
+        assert!(white.next.abs() < 0.1 && !white.is_extended() && !white.is_compressed(), "{white:?}");
         let pairs = correlation(2);
-        assert!(pairs.next > 0.2 && !pairs.is_extended(), "like a mosaic: {pairs:?}");
+        assert!(pairs.is_extended() && !pairs.is_compressed(), "like a mosaic: {pairs:?}");
         let smoothed = correlation(3);
-        assert!(smoothed.next > 0.2 && smoothed.is_extended(), "{smoothed:?}");
+        assert!(smoothed.is_extended() && smoothed.is_compressed(), "{smoothed:?}");
     }
 
     #[test]

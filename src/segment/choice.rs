@@ -11,7 +11,7 @@
 //! is used and no region is split by a plane: a picture without highlights stays as it is.
 //!
 //! Over 82 rendered scenes, each as it is, with shot noise, compressed (4:4:4, 4:2:0), demosaiced and both (564 pictures, a
-//! quarter of them printed or before a wall of the lamp's color), the chosen light is more than 2° off in 128 (planes alone
+//! quarter of them printed or before a wall of the lamp's color), the chosen light is more than 2° off in 127 (planes alone
 //! 148, votes alone 280, the better of both 97; the earlier rule, by the support alone, 189).
 //!
 //! [`choose_light`] is the whole rule. The function reads its arguments only; `planar` carries the decision out.
@@ -24,7 +24,7 @@ use crate::trace::{LightBasis, LightLimits, LightOdds};
 
 /// The limits of the rule.
 pub const LIGHT_LIMITS: LightLimits = LightLimits {
-    log_odds: 0.65,
+    log_odds: 0.5,
     share: 0.01,
     share_without_planes: 0.02,
     offsets_deg: [20.0, 8.0],
@@ -35,6 +35,8 @@ pub const LIGHT_LIMITS: LightLimits = LightLimits {
 const MOST_UNUSUAL: f64 = 4.0;
 /// Exponent of the ratio of both intervals, and of that of both shares.
 const RATIO_EXPONENT: f64 = 0.5;
+/// Least interval of the votes that counts, degrees: votes that agree exactly are not as exact as that.
+const LEAST_VOTES_INTERVAL_DEG: f64 = 2.5;
 /// Share that is added to both shares before they are compared, so that a share of zero is not infinitely small.
 const NEGLIGIBLE_SHARE: f64 = 0.002;
 /// Factor of the votes' interval where they win: where planes fail, votes are less exact than they agree.
@@ -132,7 +134,8 @@ fn odds(evidence: &LightEvidence, votes: &VoteLight) -> LightOdds {
     let shares = (share(votes.result.share) / share(evidence.planes_share)).ln();
     LightOdds {
         unusualness: unusual.clamp(-MOST_UNUSUAL, MOST_UNUSUAL),
-        intervals: RATIO_EXPONENT * (planes.interval_deg / votes.interval_deg.max(1e-3)).ln(),
+        intervals: RATIO_EXPONENT
+            * (planes.interval_deg / votes.interval_deg.max(LEAST_VOTES_INTERVAL_DEG)).ln(),
         shares: RATIO_EXPONENT * (1.0 - evidence.support.clamp(0.0, 1.0)) * shares,
     }
 }

@@ -19,19 +19,22 @@ pub struct AnalysisInput<'a> {
     pub refine: Refine,
     /// Error of the file's values beyond the noise; `None`: the noise contains it.
     coding: Option<&'a CodingError>,
+    /// Whether the errors of neighboring pixels are alike: after lossy compression or demosaicing.
+    pub(crate) extended: bool,
     stop: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl<'a> AnalysisInput<'a> {
     /// The input of a run that is never stopped.
     pub fn new(image: &'a LinearImage, masks: &'a Masks, used: &'a UsedParams, refine: Refine) -> Self {
-        Self { pixels: &image.pixels, masks, used, refine, coding: None, stop: &|| false }
+        Self { pixels: &image.pixels, masks, used, refine, coding: None, extended: false, stop: &|| false }
     }
 
-    /// The same input, of a file whose way of storing values makes an error of its own.
+    /// The same input, of a file whose way of storing values makes an error of its own. `extended`: the errors of neighboring
+    /// pixels are alike.
     #[must_use]
-    pub fn with_coding(self, coding: Option<&'a CodingError>) -> Self {
-        Self { coding, ..self }
+    pub fn with_coding(self, coding: Option<&'a CodingError>, extended: bool) -> Self {
+        Self { coding, extended, ..self }
     }
 
     /// The same input with a condition that stops the stages: they return an incomplete result soon after `stop` returns true.

@@ -43,7 +43,6 @@ pub use light::{Illuminant, LightBasis, LightFindings};
 pub use linear::Hypothesis;
 pub use matte::{MatteRegions, matte_regions};
 pub use merge::{Areas, merge};
-pub use model_fit::POOR_FIT;
 pub use planar::planar_regions;
 pub use planar_hypothesis::{PlanarHypothesis, PlanarRegions};
 pub use regions::{FinalRegions, final_regions};

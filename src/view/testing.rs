@@ -133,6 +133,7 @@ pub(crate) fn region(id: RegionId, pixels: usize) -> RegionReflection {
         angle_deg: None,
         fit_rms_counts: 1.5,
         fit_sigma_counts: 1.25,
+        fit_limit_counts: 1.9,
         model_fits: true,
         confidence: 1.0,
         texture: 0.0,

@@ -276,7 +276,7 @@ fn a_light_is_told_with_what_it_rests_on_and_why_the_other_one_is_not_used() {
             by_votes,
             "that of the votes: the votes are the better evidence, by the color of both lights +1.50, by their intervals \u{2212}0.25",
         ),
-        (by_votes, "log odds of +1.35 for the votes, more than 0.65 are needed; 300 pixels"),
+        (by_votes, "log odds of +1.35 for the votes, more than 0.50 are needed; 300 pixels"),
         (
             by_votes,
             "6.0 % of the votes, 4.0\u{b0} to yellow and 1.0\u{b0} to green of white (at most 20\u{b0} and 8\u{b0})",
