@@ -19,10 +19,10 @@ pub use what_if::{Direction, Fate, Home, WhatIf, WhatIfObserver, what_if};
 
 use crate::intrinsic::Intrinsic;
 use crate::params::{Params, UsedParams};
-use crate::photo::{LinearImage, Masks};
-use crate::raster::{Mask, Raster};
-use crate::segment::{FinalRegions, MatteRegions, PlanarRegions, Windows};
-use crate::trace::{NoopRecorder, Trace, TraceRecorder};
+use crate::photo::{LinearImage, Masks, WorkingPicture};
+use crate::raster::{Mask, PixelIndex, Raster};
+use crate::segment::{FinalRegions, MatteRegions, PixelPlace, PlanarRegions, Windows};
+use crate::trace::{HistoryEntry, NoopRecorder, Trace, TraceRecorder, pixel_history};
 use stages::{Stages, Subject};
 use std::sync::Arc;
 
@@ -52,7 +52,10 @@ pub struct Analysis {
     pub used: UsedParams,
     /// The masks: dark, clipped, bloomed and invalid pixels, and pixels outside the area.
     pub masks: Arc<Masks>,
-    /// The windows with their moments and classes.
+    /// The picture in which regions and light were found: the photograph, or its means over blocks. Everything else here is in
+    /// pixels of the photograph; what was found in a larger block is repeated in all of its pixels.
+    pub working: Arc<WorkingPicture>,
+    /// The windows with their classes, and with the moments of their working pixels.
     pub windows: Arc<Windows>,
     /// Merged area of each pixel, from 1; 0 where its window has no class.
     pub areas: Arc<Raster<u32>>,
@@ -62,6 +65,8 @@ pub struct Analysis {
     pub planar: Arc<PlanarRegions>,
     /// The final regions, numbered by decreasing size, and their planar hypotheses (skewed Ts).
     pub finals: Arc<FinalRegions>,
+    /// The final regions as labels of the working picture, before each pixel of the photograph took a region.
+    pub working_finals: Arc<FinalRegions>,
     /// The color of the light; `None` without evidence of the light.
     pub illuminant: Option<Illuminant>,
     /// The intrinsic images and the regions' reflection vectors.
@@ -70,6 +75,31 @@ pub struct Analysis {
     pub noise: Arc<NoiseFindings>,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
+}
+
+impl Analysis {
+    /// Everything that was decided about the working pixel that contains a pixel of the photograph, oldest first. `trace` is the record
+    /// of this run.
+    pub fn pixel_history(&self, trace: &Trace, pixel: PixelIndex) -> Vec<HistoryEntry> {
+        if pixel.index() >= self.finals.labels.len() {
+            return Vec::new();
+        }
+        pixel_history(trace, &self.working.image, &self.working.masks, self.working_pixel(pixel))
+    }
+
+    /// The pixel of the working picture that contains a pixel of the photograph.
+    pub fn working_pixel(&self, pixel: PixelIndex) -> PixelIndex {
+        PixelIndex::from_index(self.working.blocks.block_of(pixel.index()))
+    }
+
+    /// By what a pixel of the photograph took its region; none where the working picture is the photograph, and outside of the
+    /// photograph.
+    pub fn pixel_place(&self, pixel: PixelIndex) -> Option<PixelPlace> {
+        let (labels, blocks) = (&self.finals.labels, &self.working.blocks);
+        let has_place = blocks.side() > 1 && pixel.index() < labels.len();
+        let working = &self.working_finals.labels;
+        has_place.then(|| PixelPlace::of(pixel.index(), &self.masks, labels, working, blocks))
+    }
 }
 
 /// The error of [`Session::restrict`]: the area has another shape than the image.
@@ -134,7 +164,7 @@ impl Session {
         observer: &mut impl Observer,
     ) -> Result<(Analysis, Trace), Cancelled> {
         let analysis = self.stages.run::<TraceRecorder>(&self.subject(), params, observer)?;
-        let trace = self.stages.trace(self.image.width(), self.image.height()).ok_or(Cancelled)?;
+        let trace = self.stages.trace().ok_or(Cancelled)?;
         Ok((analysis, trace))
     }
 

@@ -13,6 +13,15 @@ const CLIP_SHARE: f64 = 240.0 / 255.0;
 /// Number of pixels of the paper's images; windows and areas are proportional to the image size.
 const PAPER_PIXELS: f64 = 512.0 * 480.0;
 
+/// Number of pixels of an automatic working picture, which is about as many as the paper's pictures have twice.
+const WORKING_PIXELS: f64 = 0.5e6;
+
+/// Side of a working pixel, pixels of the photograph: the parameter `scale`, or automatically √(pixels / 0.5 million), rounded.
+pub fn scale_factor(params: &Params, image: &LinearImage) -> usize {
+    let automatic = || ((image.width() * image.height()) as f64 / WORKING_PIXELS).sqrt().round().max(1.0);
+    params.scale.value().unwrap_or_else(automatic) as usize
+}
+
 /// The limits of the masks, which are needed before the noise is known: clipping threshold, bloom density, minimal
 /// intensity. An automatic minimal intensity is the paper's value here; [`used_params`] computes the final value.
 pub fn mask_limits(params: &Params, image: &LinearImage) -> crate::photo::MaskLimits {
@@ -39,18 +48,17 @@ pub struct NoiseFindings {
     pub extended: bool,
 }
 
-/// The values of all parameters, for the errors of the image's values.
+/// The values of all parameters, for the working picture `image`, whose pixels are blocks of `factor` × `factor` pixels of the
+/// photograph, and for the errors of its values.
 ///
 /// σ0 = 2σ, and at least twice the error of lossy compression, which windows do not see. The radius of cylinders is 4σ0 as in the paper but at most 8 counts, because wider cylinders contain pixels of
 /// other objects, and at least 2σ0. Windows and areas have the same share of the image as in the paper. The radius of the dark
 /// sphere is 9.2σ0, as in table 6.
-pub fn used_params(params: &Params, image: &LinearImage, noise: &NoiseFindings) -> UsedParams {
+pub fn used_params(params: &Params, image: &LinearImage, factor: usize, noise: &NoiseFindings) -> UsedParams {
     let limits = mask_limits(params, image);
     let camera_noise = params.camera_noise.value().unwrap_or_else(|| {
         let Some(sigma) = noise.sigma else { return Parameter::CameraNoise.spec().paper };
-        let coding =
-            noise.coding.as_ref().filter(|coding| coding.is_extended() && params.refinements().coding_error);
-        let unseen = coding.map_or(0.0, |coding| coding.at_share(TYPICAL_INTENSITY));
+        let unseen = unseen_sigma(params, noise, factor);
         (2.0 * sigma).max(2.0 * unseen).clamp(NOISE_RANGE.0, NOISE_RANGE.1)
     });
     let automatic_radius = (4.0 * camera_noise).min(8.0).max(2.0 * camera_noise);
@@ -67,9 +75,25 @@ pub fn used_params(params: &Params, image: &LinearImage, noise: &NoiseFindings) 
         slice_width: width(params.slice_width),
         window_size: params.window_size.value().unwrap_or(window),
         min_area: params.min_area.value().unwrap_or((500.0 * scale * scale).round().max(72.0)),
+        scale: factor as f64,
         illuminant: params.illuminant.direction(),
         ambient: params.ambient,
     }
+}
+
+/// Standard deviation of the coding error that windows do not show, counts, of a mean of `side` × `side` pixels of ordinary intensity;
+/// 0 where windows show all.
+fn unseen_sigma(params: &Params, noise: &NoiseFindings, side: usize) -> f64 {
+    let coding = noise.coding.as_ref().filter(|_| params.refinements().coding_error);
+    let extended = coding.filter(|coding| coding.is_extended());
+    extended.map_or(0.0, |coding| coding.averaged(side).at_share(TYPICAL_INTENSITY))
+}
+
+/// σ0 of a single pixel of the photograph, counts: twice the standard deviation `sigma` measured there, or twice the coding error that
+/// windows do not show, and never below the `working` σ0, which is that of a mean of pixels.
+pub fn detail_noise(params: &Params, noise: &NoiseFindings, working: f64, sigma: Option<f64>) -> f64 {
+    let unseen = unseen_sigma(params, noise, 1);
+    sigma.map_or(working, |sigma| (2.0 * sigma.max(unseen)).min(NOISE_RANGE.1).max(working))
 }
 
 fn number(params: &Params, parameter: Parameter) -> f64 {
@@ -99,7 +123,7 @@ mod tests {
             extended: false,
         };
         let used =
-            |noise: &NoiseFindings, params: &Params| used_params(params, &image(None), noise).camera_noise;
+            |noise: &NoiseFindings, params: &Params| used_params(params, &image(None), 1, noise).camera_noise;
         let jpeg =
             of(Compression::Lossy(LossyCompression { quantization_step: 3.0, chroma_subsampled: true }));
         let raised = used(&jpeg, &Params::default());
@@ -112,7 +136,7 @@ mod tests {
 
     #[test]
     fn defaults_are_the_papers_numbers_at_the_papers_noise() {
-        let used = used_params(&Params::paper(), &image(Some(255.0)), &NoiseFindings::default());
+        let used = used_params(&Params::paper(), &image(Some(255.0)), 1, &NoiseFindings::default());
         assert_eq!((used.clip_threshold, used.camera_noise, used.min_area), (240.0, 2.5, 500.0));
         assert_eq!((used.radius_counts(), used.slice_half_width_counts()), (10.0, 10.0));
     }
@@ -126,12 +150,40 @@ mod tests {
             min_area: Setting::Auto,
             ..Params::default()
         };
-        let used = used_params(&all, &image(None), &of_sigma(3.0));
+        let used = used_params(&all, &image(None), 1, &of_sigma(3.0));
         assert_eq!(used.clip_threshold, f64::INFINITY);
         assert_eq!((used.camera_noise, used.radius_counts()), (6.0, 12.0));
         assert_eq!((used.window_size, used.min_area), (10.0, 500.0));
         assert!((used.min_intensity - 55.2).abs() < 1e-9);
-        assert_eq!(used_params(&all, &image(Some(2040.0)), &of_sigma(1.25)).clip_threshold, 1920.0);
-        assert_eq!(used_params(&all, &image(None), &of_sigma(1e9)).camera_noise, 16.0);
+        assert_eq!(used_params(&all, &image(Some(2040.0)), 1, &of_sigma(1.25)).clip_threshold, 1920.0);
+        assert_eq!(used_params(&all, &image(None), 1, &of_sigma(1e9)).camera_noise, 16.0);
+    }
+
+    #[test]
+    fn an_automatic_working_picture_has_half_a_megapixel() {
+        let of = |width, height, params: &Params| {
+            scale_factor(params, &LinearImage::new(Raster::filled(width, height, [9.0; 3]), None))
+        };
+        let automatic = Params::default();
+        assert_eq!(of(512, 480, &automatic), 1);
+        assert_eq!(of(1280, 870, &automatic), 1);
+        assert_eq!(of(2048, 1920, &automatic), 3);
+        assert_eq!(of(4000, 3000, &automatic), 5);
+        assert_eq!(of(0, 0, &automatic), 1);
+        assert_eq!(of(2048, 1920, &Params::paper()), 1);
+        assert_eq!(of(64, 48, &Params { scale: Setting::Value(4.0), ..Params::default() }), 4);
+    }
+
+    #[test]
+    fn a_pixel_of_the_photograph_is_at_least_as_noisy_as_a_working_pixel() {
+        assert_eq!(
+            [None, Some(0.2), Some(2.5), Some(99.0)].map(|sigma| detail_noise(
+                &Params::default(),
+                &NoiseFindings::default(),
+                1.0,
+                sigma
+            )),
+            [1.0, 1.0, 5.0, 16.0]
+        );
     }
 }

@@ -1,15 +1,18 @@
 //! The stages in their order, each with the last output and the key from which the output was made.
 
-use super::resolve::{NoiseFindings, mask_limits, used_params};
+use super::resolve::{NoiseFindings, detail_noise, mask_limits, scale_factor, used_params};
 use super::stale::seen_up_to;
 use super::{Analysis, Cancelled, Observer, Stage, StageOutput};
-use crate::intrinsic::{Intrinsic, split};
+use crate::intrinsic::{Detail, Intrinsic, split};
 use crate::params::{Params, Refine, Setting, UsedParams};
-use crate::photo::{CodingError, LinearImage, MaskLimits, Masks, NoiseCorrelation, estimate_sigma};
-use crate::raster::{LabelMap, Mask, Raster};
+use crate::photo::{
+    CodingError, LinearImage, MaskLimits, Masks, NoiseCorrelation, WorkingPicture, estimate_sigma,
+    estimate_sigma_sparsely,
+};
+use crate::raster::{Blocks, LabelMap, Mask, Raster};
 use crate::segment::{
     AnalysisInput, Areas, Classifier, FinalRegions, LightFindings, MatteRegions, PlanarRegions, Windows,
-    classify, clipping_regions, final_regions, matte_regions, merge, planar_regions,
+    classify, clipping_regions, final_regions, full_resolution_labels, matte_regions, merge, planar_regions,
 };
 use crate::trace::{MasksMade, Recorder, StageBegan, StageTrace, Trace};
 use std::sync::Arc;
@@ -17,13 +20,49 @@ use std::sync::Arc;
 /// One slot per stage.
 #[derive(Default)]
 pub struct Stages {
-    masks: Slot<MaskKey, (Arc<Masks>, Arc<NoiseFindings>)>,
-    classify: Slot<Key, Arc<Windows>>,
+    masks: Slot<MaskKey, Arc<Prepared>>,
+    classify: Slot<Key, Scaled<Windows>>,
     merge: Slot<Key, Arc<MergedAreas>>,
-    linear: Slot<Key, Arc<MatteRegions>>,
-    planar: Slot<Key, Arc<PlanarRegions>>,
-    clipping: Slot<Key, Arc<FinalRegions>>,
+    linear: Slot<Key, Scaled<MatteRegions>>,
+    planar: Slot<Key, Scaled<PlanarRegions>>,
+    clipping: Slot<Key, Scaled<FinalRegions>>,
     split: Slot<Key, Arc<Intrinsic>>,
+}
+
+/// What the first stage makes: the masks, the working picture, and the noise of both pictures.
+struct Prepared {
+    /// The masks of the photograph.
+    masks: Arc<Masks>,
+    working: Arc<WorkingPicture>,
+    /// The noise of a working pixel, and the coding error of a pixel of the photograph.
+    noise: Arc<NoiseFindings>,
+    /// The coding error of a working pixel; none: the noise contains it.
+    working_coding: Option<CodingError>,
+    /// Standard deviation of the noise of a pixel of the photograph, counts; none: the working picture is the photograph, or it
+    /// could not be measured.
+    detail_sigma: Option<f64>,
+}
+
+/// A stage's output in pixels of the working picture, and the same in pixels of the photograph.
+struct Scaled<T> {
+    working: Arc<T>,
+    /// Handed out; where the working picture is the photograph, the same value.
+    shown: Arc<T>,
+}
+
+impl<T> Clone for Scaled<T> {
+    fn clone(&self) -> Self {
+        Self { working: Arc::clone(&self.working), shown: Arc::clone(&self.shown) }
+    }
+}
+
+impl<T> Scaled<T> {
+    /// `enlarge` makes the value in pixels of the photograph; it is asked only where blocks have more than one pixel.
+    fn new(working: T, blocks: &Blocks, enlarge: impl FnOnce(&T) -> T) -> Self {
+        let working = Arc::new(working);
+        let shown = if blocks.side() == 1 { Arc::clone(&working) } else { Arc::new(enlarge(&working)) };
+        Self { working, shown }
+    }
 }
 
 /// Key of a stage's output: the generation of the output of the stage before, and the parameters that the stages up to this one
@@ -34,6 +73,8 @@ type Key = (u64, (UsedParams, Refine));
 #[derive(Clone, Debug, PartialEq)]
 struct MaskKey {
     limits: MaskLimits,
+    /// Side of a working pixel, pixels.
+    factor: usize,
     /// The setting of the camera noise, if the masks depend on it: the noise is to be estimated, or the minimal intensity is
     /// computed from the noise.
     camera_noise: Option<Setting>,
@@ -120,79 +161,109 @@ impl Stages {
         observer: &mut impl Observer,
     ) -> Result<Analysis, Cancelled> {
         let refine = params.refinements();
-        let (masks, noise, used) = self.masks::<R>(subject, params, observer)?;
-        let image = &subject.image;
-        let coding = noise.coding.as_ref().filter(|_| refine.coding_error);
-        let input = AnalysisInput::new(image, &masks, &used, refine)
-            .with_coding(coding, noise.extended && refine.coding_error);
+        let (prepared, used) = self.masks::<R>(subject, params, observer)?;
+        let (image, Prepared { masks, working, .. }) = (&subject.image, &*prepared);
+        let blocks = working.blocks;
+        let input = AnalysisInput::new(&working.image, &working.masks, &used, refine)
+            .with_coding(prepared.working_coding.as_ref().filter(|_| refine.coding_error), prepared.noise.extended && refine.coding_error);
+        // The numbers for single pixels of the photograph, which are noisier than working pixels.
+        let detail_used = UsedParams {
+            camera_noise: detail_noise(params, &prepared.noise, used.camera_noise, prepared.detail_sigma),
+            ..used
+        };
+        let detail_input = AnalysisInput::new(image, masks, &detail_used, refine)
+            .with_coding(prepared.noise.coding.as_ref().filter(|_| refine.coding_error), prepared.noise.extended && refine.coding_error);
 
         let key = |stage, before| (before, seen_up_to(stage, &used, refine));
 
         let after_masks = key(Stage::Classify, self.masks.generation);
         let windows = self.classify.get(Stage::Classify, after_masks, observer, |_, recorder: &mut R| {
-            Arc::new(classify_windows(&input, recorder))
+            Scaled::new(classify_windows(&input, recorder), &blocks, |windows| Windows {
+                size_px: windows.size_px * blocks.side(),
+                ..windows.clone()
+            })
         })?;
-        observer.made(StageOutput::Windows(windows.clone()));
+        observer.made(StageOutput::Windows(windows.shown.clone()));
         let after_classify = key(Stage::Merge, self.classify.generation);
         let merged = self.merge.get(Stage::Merge, after_classify, observer, |_, recorder: &mut R| {
             let mut classifier = Classifier::new(used.camera_noise, refine.tail_test);
-            let areas = merge(&windows, &mut classifier, recorder);
-            let map = Arc::new(area_map(&areas, &windows, image.width(), image.height()));
+            let areas = merge(&windows.working, &mut classifier, recorder);
+            let map = Arc::new(area_map(&areas, &windows.shown, image.width(), image.height()));
             Arc::new(MergedAreas { areas, map })
         })?;
         observer.made(StageOutput::Areas(merged.map.clone()));
-        let areas = &merged.areas;
+        let (windows_of_stages, areas) = (&windows.working, &merged.areas);
         let after_merge = key(Stage::Linear, self.merge.generation);
         let matte = self.linear.get(Stage::Linear, after_merge, observer, |observer, recorder: &mut R| {
             let stop = || observer.cancelled();
-            Arc::new(matte_regions(&input.stopped_by(&stop), &windows, areas, recorder))
+            let made = matte_regions(&input.stopped_by(&stop), windows_of_stages, areas, recorder);
+            Scaled::new(made, &blocks, |made| MatteRegions {
+                labels: blocks.enlarged(&made.labels),
+                ..made.clone()
+            })
         })?;
-        observer.made(StageOutput::Matte(matte.clone()));
+        observer.made(StageOutput::Matte(matte.shown.clone()));
         let after_linear = key(Stage::Planar, self.linear.generation);
         let planar =
             self.planar.get(Stage::Planar, after_linear, observer, |observer, recorder: &mut R| {
-                let stop = || observer.cancelled();
-                Arc::new(planar_regions(&input.stopped_by(&stop), &windows, areas, &matte, recorder))
+                let (stop, input) = (|| observer.cancelled(), &input);
+                let input = input.stopped_by(&stop);
+                let made = planar_regions(&input, windows_of_stages, areas, &matte.working, recorder);
+                Scaled::new(made, &blocks, |made| PlanarRegions {
+                    labels: blocks.enlarged(&made.labels),
+                    ..made.clone()
+                })
             })?;
-        observer.made(StageOutput::Planar(planar.clone()));
+        observer.made(StageOutput::Planar(planar.shown.clone()));
         let after_planar = key(Stage::Clipping, self.planar.generation);
         let finals =
             self.clipping.get(Stage::Clipping, after_planar, observer, |observer, recorder: &mut R| {
                 let stop = || observer.cancelled();
                 let input = input.stopped_by(&stop);
-                let labels = clipping_regions(&input, &planar, recorder);
-                Arc::new(final_regions(&input, labels, &planar, recorder))
+                let labels = clipping_regions(&input, &planar.working, recorder);
+                let made = final_regions(&input, labels, &planar.working, recorder);
+                Scaled::new(made, &blocks, |made| FinalRegions {
+                    labels: full_resolution_labels(&detail_input.stopped_by(&stop), made, &blocks),
+                    ..made.clone()
+                })
             })?;
-        observer.made(StageOutput::Finals(finals.clone()));
+        observer.made(StageOutput::Finals(finals.shown.clone()));
         let after_clipping = key(Stage::Split, self.clipping.generation);
         let intrinsic =
             self.split.get(Stage::Split, after_clipping, observer, |observer, recorder: &mut R| {
                 let stop = || observer.cancelled();
-                Arc::new(split(&input.stopped_by(&stop), &finals, recorder))
+                let detail = (blocks.side() > 1).then(|| Detail {
+                    input: detail_input.stopped_by(&stop),
+                    labels: &finals.shown.labels,
+                    blocks,
+                });
+                Arc::new(split(&input.stopped_by(&stop), &finals.working, detail.as_ref(), recorder))
             })?;
         observer.made(StageOutput::Intrinsic(intrinsic.clone()));
-        let mut warnings = warnings(&finals.labels, &planar, &masks, subject.area.is_some());
-        warnings.extend(noise.coding.as_ref().and_then(compression_warning));
+        let (planar, working_finals, finals) = (planar.shown, finals.working, finals.shown);
+        let mut warnings = warnings(&finals.labels, &planar, masks, subject.area.is_some());
+        warnings.extend(prepared.noise.coding.as_ref().and_then(compression_warning));
         warnings.extend(size_warning(&finals.labels));
-        let areas = merged.map.clone();
-        let illuminant = planar.illuminant;
         Ok(Analysis {
             used,
-            masks,
-            windows,
-            areas,
-            matte,
+            masks: masks.clone(),
+            working: working.clone(),
+            windows: windows.shown,
+            areas: merged.map.clone(),
+            matte: matte.shown,
+            illuminant: planar.illuminant,
             planar,
             finals,
-            illuminant,
+            working_finals,
             intrinsic,
-            noise,
+            noise: prepared.noise.clone(),
             warnings,
         })
     }
 
     /// The record of all stages; `None` where a stage has no record.
-    pub fn trace(&self, width: usize, height: usize) -> Option<Trace> {
+    pub fn trace(&self) -> Option<Trace> {
+        let (_, prepared) = self.masks.made.as_ref()?;
         let stage_traces = [
             &self.masks.stage_trace,
             &self.classify.stage_trace,
@@ -203,7 +274,7 @@ impl Stages {
             &self.split.stage_trace,
         ];
         let stage_traces: Option<Vec<Arc<StageTrace>>> = stage_traces.into_iter().cloned().collect();
-        Some(Trace::new(width, height, stage_traces?))
+        Some(Trace::of_working_picture(prepared.working.blocks, stage_traces?))
     }
 
     fn masks<R: Recorder>(
@@ -211,40 +282,47 @@ impl Stages {
         Subject { image, area }: &Subject,
         params: &Params,
         observer: &mut impl Observer,
-    ) -> Result<(Arc<Masks>, Arc<NoiseFindings>, UsedParams), Cancelled> {
+    ) -> Result<(Arc<Prepared>, UsedParams), Cancelled> {
         let limits = mask_limits(params, image);
+        let factor = scale_factor(params, image);
         let automatic_noise = params.camera_noise == Setting::Auto;
         let automatic_intensity = params.min_intensity == Setting::Auto;
         let depends = automatic_noise || automatic_intensity;
         let camera_noise = depends.then_some(params.camera_noise);
-        let key = MaskKey { limits, camera_noise, automatic_intensity, area: area.clone() };
-        let masks_of = |limits: &MaskLimits| {
+        let key = MaskKey { limits, factor, camera_noise, automatic_intensity, area: area.clone() };
+        let pictures = |limits: &MaskLimits| {
             let masks = Masks::new(image, limits);
-            match area {
+            let masks = Arc::new(match area {
                 Some(area) => masks.within(area),
                 None => masks,
-            }
+            });
+            let working = WorkingPicture::new(image, &masks, limits, factor);
+            (masks, working)
         };
-        let (masks, noise) = self.masks.get(Stage::Masks, key, observer, |_, recorder: &mut R| {
-            let masks = masks_of(&limits);
-            let sigma = if automatic_noise { estimate_sigma(image, &masks) } else { None };
+        let prepared = self.masks.get(Stage::Masks, key, observer, |_, recorder: &mut R| {
+            let (masks, working) = pictures(&limits);
+            let sigma = if automatic_noise { estimate_sigma(&working.image, &working.masks) } else { None };
             let noise = noise_findings(image, &masks, sigma);
-            let (masks, limits) = if automatic_intensity {
-                let min_intensity = used_params(params, image, &noise).min_intensity;
+            let (masks, working, limits) = if automatic_intensity {
+                let min_intensity = used_params(params, &working.image, factor, &noise).min_intensity;
                 let limits = MaskLimits { min_intensity, ..limits };
-                (masks_of(&limits), limits)
+                let (masks, working) = pictures(&limits);
+                (masks, working, limits)
             } else {
-                (masks, limits)
+                (masks, working, limits)
             };
+            let detail_sigma = if factor > 1 { estimate_sigma_sparsely(image, &masks, factor) } else { None };
             if R::KEEPS {
-                let made = masks_made(&masks, limits, image.pixels.len(), noise.sigma);
+                let made = masks_made(&working.masks, limits, working.image.pixels.len(), noise.sigma);
                 recorder.record(made);
             }
-            (Arc::new(masks), Arc::new(noise))
+            let working_coding = noise.coding.as_ref().map(|coding| coding.averaged(factor));
+            let (working, noise) = (Arc::new(working), Arc::new(noise));
+            Arc::new(Prepared { masks, working, noise, working_coding, detail_sigma })
         })?;
-        let used = used_params(params, image, &noise);
-        observer.made(StageOutput::Masks { masks: masks.clone(), used });
-        Ok((masks, noise, used))
+        let used = used_params(params, &prepared.working.image, factor, &prepared.noise);
+        observer.made(StageOutput::Masks { masks: prepared.masks.clone(), used });
+        Ok((prepared, used))
     }
 }
 

@@ -104,8 +104,8 @@ impl State {
     /// The debugger's cursor, if image, color space and tables show the instant at the cursor in place of the result.
     pub fn followed(&self) -> Option<&Replay> {
         let replay = self.debugger.stopped().filter(|_| self.view.debug.follow && !self.view.show_pinned)?;
-        let (trace, picture) = (replay.trace(), self.picture.as_ref()?);
-        (self.newest.is_some() && (trace.width(), trace.height()) == picture.size()).then_some(replay)
+        let newest = self.newest.as_ref().filter(|_| self.picture.is_some())?;
+        (newest.analysis.working.blocks == replay.trace().pixel_blocks()).then_some(replay)
     }
 
     /// The region of the selected item, which the panels about one region show.

@@ -7,7 +7,7 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dichroscope::describe::{Names, schema_line, trace_line};
 use dichroscope::raster::{HypothesisId, PixelIndex, RegionId};
-use dichroscope::trace::{Stage, Step, lineage, pixel_history};
+use dichroscope::trace::{Stage, Step, lineage};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -91,7 +91,7 @@ fn write(traced: &Traced, wanted: &Wanted, path: &Path) -> io::Result<()> {
 /// Which steps to write.
 struct Wanted {
     stage: Option<Stage>,
-    /// A pixel, and the steps of its history.
+    /// A working pixel, and the steps of its history.
     pixel: Option<(PixelIndex, BTreeSet<usize>)>,
     /// The hypotheses that made a region, and the region.
     regions: Option<(BTreeSet<HypothesisId>, RegionId)>,
@@ -99,11 +99,11 @@ struct Wanted {
 
 impl Wanted {
     fn new(arguments: &Arguments, traced: &Traced, pixel: Option<usize>) -> Result<Self> {
-        let Traced { image, analysis, trace, .. } = traced;
+        let Traced { analysis, trace, .. } = traced;
         let pixel = pixel.map(|pixel| {
             let pixel = PixelIndex::from_index(pixel);
-            let history = pixel_history(trace, image, &analysis.masks, pixel);
-            (pixel, history.into_iter().map(|happening| happening.step).collect())
+            let history = analysis.pixel_history(trace, pixel);
+            (analysis.working_pixel(pixel), history.into_iter().map(|happening| happening.step).collect())
         });
         let regions = arguments
             .region

@@ -4,11 +4,11 @@ use super::subject::{Subject, Traced, Trouble, parse_pixel, pixel_inside};
 use super::{Outcome, note, print};
 use anyhow::Result;
 use clap::Args;
-use dichroscope::analysis::{WhatIfObserver, what_if};
+use dichroscope::analysis::{Stage, WhatIfObserver, what_if};
 use dichroscope::describe::{Condensed, Names, condense, what_if_sentence};
 use dichroscope::intrinsic::PixelKind;
 use dichroscope::raster::{PixelIndex, RegionId};
-use dichroscope::trace::{lineage, pixel_history};
+use dichroscope::trace::lineage;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt::Write;
 use std::io::IsTerminal;
@@ -86,12 +86,15 @@ impl WhatIfObserver for Bar {
 /// The text for a pixel: its kind and region, and its history, newest decision first.
 fn history(traced: &Traced, pixel: usize) -> String {
     let names = Names::of(&traced.trace);
-    let happened =
-        pixel_history(&traced.trace, &traced.image, &traced.analysis.masks, PixelIndex::from_index(pixel));
+    let happened = traced.analysis.pixel_history(&traced.trace, PixelIndex::from_index(pixel));
     let mut text = headline(traced, &names, pixel);
     text.push('\n');
     let condensed = condense(&happened);
     let digits = traced.trace.len().to_string().len();
+    if let Some(place) = traced.analysis.pixel_place(PixelIndex::from_index(pixel)) {
+        let stage = Stage::Split.name();
+        let _ = writeln!(text, "{:>digits$}  {stage:<8}  {}", "", names.pixel_place(&place));
+    }
     for Condensed { last, times } in condensed.iter().rev() {
         let again = if *times > 1 { format!(" ({times} times, this is the last)") } else { String::new() };
         // Writing to a string cannot fail.

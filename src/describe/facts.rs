@@ -33,6 +33,9 @@ pub struct Report {
     /// The errors of the image's values; absent in reports of versions that did not ask.
     #[serde(default)]
     pub noise: NoiseFacts,
+    /// The working picture; absent in reports of versions that had none.
+    #[serde(default)]
+    pub scale: ScaleFacts,
     /// The color of the light.
     pub illuminant: IlluminantFacts,
     /// The ambient light; absent in reports of versions that did not estimate ambient light.
@@ -68,6 +71,7 @@ impl Report {
             area: None,
             params: ParamsFacts::new(params, analysis),
             noise: NoiseFacts::new(analysis),
+            scale: ScaleFacts::new(params, analysis),
             illuminant: IlluminantFacts::new(analysis),
             ambient: AmbientFacts::new(analysis),
             regions: analysis.intrinsic.regions.iter().map(RegionFacts::from).collect(),
@@ -138,6 +142,45 @@ impl AreaFacts {
     }
 }
 
+/// The working picture, in which regions and light were found. All counts of pixels in the report are of the photograph's pixels.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct ScaleFacts {
+    /// Side of a working pixel, pixels; 1: the working picture is the photograph.
+    pub factor: usize,
+    /// Columns of the working picture.
+    pub width: usize,
+    /// Rows of the working picture.
+    pub height: usize,
+    /// Why the factor was used.
+    pub reason: String,
+}
+
+impl Default for ScaleFacts {
+    fn default() -> Self {
+        Self { factor: 1, width: 0, height: 0, reason: String::new() }
+    }
+}
+
+impl ScaleFacts {
+    fn new(params: &Params, analysis: &Analysis) -> Self {
+        let blocks = &analysis.working.blocks;
+        let factor = blocks.side();
+        let [width, height] = blocks.picture();
+        let megapixels = (width * height) as f64 / 1e6;
+        let reason = match (params.scale, factor) {
+            (Setting::Value(_), _) => "given".to_owned(),
+            (Setting::Auto, 1) => {
+                format!("{megapixels:.1} megapixels are not averaged: only larger photographs gain by it")
+            }
+            (Setting::Auto, _) => format!(
+                "{megapixels:.1} megapixels are averaged over blocks of {factor} \u{d7} {factor}: about 0.5 megapixels are left"
+            ),
+        };
+        Self { factor, width: blocks.columns(), height: blocks.rows(), reason }
+    }
+}
+
 /// A parameter as it was asked for and as it was used.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ParameterFacts {
@@ -173,7 +216,11 @@ macro_rules! define_params_facts {
         pub struct ParamsFacts {
             /// The method.
             pub method: Method,
-            $(#[doc = concat!($meaning, ".")] pub $field: ParameterFacts,)*
+            $(
+                #[doc = concat!($meaning, ".")]
+                #[serde(default = "ParameterFacts::unknown")]
+                pub $field: ParameterFacts,
+            )*
             /// The color of the light. Absent in reports of versions without this setting.
             #[serde(default)]
             pub illuminant: LightFacts,
@@ -206,6 +253,11 @@ macro_rules! define_params_facts {
 parameter_rows!(define_params_facts);
 
 impl ParameterFacts {
+    /// The facts of a parameter that a report of an earlier version does not name.
+    const fn unknown() -> Self {
+        Self { asked: Setting::Auto, used: None }
+    }
+
     fn new(parameter: Parameter, params: &Params, analysis: &Analysis) -> Self {
         let number = analysis.used.get(parameter);
         Self { asked: params.get(parameter), used: number.is_finite().then_some(number) }

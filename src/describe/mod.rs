@@ -12,7 +12,7 @@ mod words;
 
 pub use facts::{
     AmbientAsked, AmbientFacts, AreaFacts, HighlightBranchFacts, IlluminantFacts, ImageFacts, LightFacts,
-    ParameterFacts, ParamsFacts, RegionFacts, Report, SCHEMA, Timings,
+    ParameterFacts, ParamsFacts, RegionFacts, Report, SCHEMA, ScaleFacts, Timings,
 };
 pub use names::Names;
 pub use scores::Scores;
@@ -119,6 +119,7 @@ mod tests {
                 "image",
                 "params",
                 "noise",
+                "scale",
                 "illuminant",
                 "ambient",
                 "regions",

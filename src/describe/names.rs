@@ -1,13 +1,14 @@
 //! Names of hypotheses, regions and pixels in sentences, and the format of numbers.
 
-use crate::raster::{HypothesisId, PixelIndex, RegionId};
+use crate::raster::{Blocks, HypothesisId, PixelIndex, RegionId};
 use crate::trace::{Trace, regions_of};
 use serde_json::Value;
 
 /// Names of hypotheses and pixels in sentences.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
-    pub(super) width: usize,
+    /// The blocks of the photograph that are the pixels of the trace.
+    pub(super) pixel_blocks: Blocks,
     /// Region of each hypothesis, by [`HypothesisId::index`].
     pub(super) regions: Vec<Option<RegionId>>,
 }
@@ -15,7 +16,7 @@ pub struct Names {
 impl Names {
     /// The names in a trace. A hypothesis that became a region is named by both its numbers.
     pub fn of(trace: &Trace) -> Self {
-        Self { width: trace.width(), regions: regions_of(trace).unwrap_or_default().to_vec() }
+        Self { pixel_blocks: trace.pixel_blocks(), regions: regions_of(trace).unwrap_or_default().to_vec() }
     }
 
     /// `hypothesis 7 (region 3)`: the number of a hypothesis, and the number of the region that the hypothesis became.
@@ -47,9 +48,10 @@ impl Names {
         format!("({x}, {y})")
     }
 
-    /// Column and row of a pixel.
+    /// Column and row of a pixel in the photograph; of a working pixel that has several pixels, of the pixel in the middle.
     pub fn position(&self, pixel: PixelIndex) -> [usize; 2] {
-        pixel.position(self.width)
+        let [width, _] = self.pixel_blocks.picture();
+        PixelIndex::from_index(self.pixel_blocks.middle(pixel.index())).position(width)
     }
 }
 

@@ -17,7 +17,9 @@ use std::fmt::Write;
 pub const TRACE_SCHEMA: u32 = 1;
 
 /// The first line: schema, program, size of the picture, number of steps, steps of each stage, and the region of each
-/// hypothesis, in the order of the hypotheses (0: in no region of the result).
+/// hypothesis, in the order of the hypotheses (0: in no region of the result). `scale`, where present, is the side of a working
+/// pixel, pixels: all steps are about working pixels, counts of pixels count these, and the `[column, row]` of a working pixel is that
+/// of the pixel in its middle.
 pub fn schema_line(trace: &Trace, program: &str) -> String {
     let stages: serde_json::Map<String, Value> = trace
         .stages()
@@ -25,17 +27,21 @@ pub fn schema_line(trace: &Trace, program: &str) -> String {
         .collect();
     let regions = crate::trace::regions_of(trace).unwrap_or_default();
     let regions: Vec<u16> = regions.iter().map(|&region| RegionId::label(region)).collect();
-    json!({
+    let [width, height] = trace.pixel_blocks().picture();
+    let mut line = json!({
         "schema": TRACE_SCHEMA,
         "program": program,
         "fields": ["seq", "stage", "kind", "ids", "values", "thresholds"],
-        "width": trace.width(),
-        "height": trace.height(),
+        "width": width,
+        "height": height,
         "steps": trace.len(),
         "stages": stages,
         "regions": regions,
-    })
-    .to_string()
+    });
+    if trace.pixel_blocks().side() > 1 {
+        line["scale"] = json!(trace.pixel_blocks().side());
+    }
+    line.to_string()
 }
 
 /// Appends one step as a line to `out`, without a line break.

@@ -53,8 +53,13 @@ impl WatchPanel {
             let text = "Values at the cursor appear when the decisions of an analysis are recorded (D).";
             return widgets::nothing(ui, cx.tones, text);
         };
-        let pixel = state.asked_pixel();
-        let found = watch(replay, &debugger.names, &picture.photo.image.pixels, pixel);
+        // While another scale is analyzed, the working picture may be another one than that of the trace.
+        let pixel_blocks = replay.trace().pixel_blocks();
+        let working = state.newest.as_ref().map(|shown| &shown.analysis.working);
+        let working = working.filter(|working| working.blocks == pixel_blocks);
+        let pixel = state.asked_pixel().filter(|_| working.is_some());
+        let colors = working.map_or(&picture.photo.image.pixels, |working| &working.image.pixels);
+        let found = watch(replay, &debugger.names, colors, pixel);
         let mut groups = vec![of_run(&found)];
         groups.extend(found.current.as_ref().map(of_current));
         groups.extend(found.pixel.as_ref().map(|pixel| of_pixel(pixel, picture.size().0)));

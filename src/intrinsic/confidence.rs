@@ -50,6 +50,9 @@ pub struct ConfidenceInput<'a> {
     pub noise: &'a Raster<f32>,
     /// The regions.
     pub regions: &'a [RegionReflection],
+    /// What noise and coding explain of the distance of a pixel from the plane of each region (σ), counts, by
+    /// [`RegionId::index`](crate::raster::RegionId::index).
+    pub pixel_sigmas: &'a [f32],
 }
 
 impl ConfidenceInput<'_> {
@@ -79,7 +82,8 @@ impl ConfidenceInput<'_> {
             PixelKind::Restored => RESTORED,
             PixelKind::Lost => LOST,
             _ => {
-                let sigma = region.map_or(0.0, |region| region.fit_sigma_counts as f32);
+                let index = usize::from(self.labels[pixel]).wrapping_sub(1);
+                let sigma = self.pixel_sigmas.get(index).copied().unwrap_or(0.0);
                 let off = self.noise[pixel].abs() / sigma.max(1e-9);
                 (2.0 - off / ZERO_CONFIDENCE_SIGMAS as f32).clamp(0.0, 1.0)
             }

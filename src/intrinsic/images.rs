@@ -4,8 +4,8 @@ use super::Intrinsic;
 use super::reason::Reason;
 use super::region_plan::RegionPlan;
 use super::restore::Distorted;
-use crate::raster::{Raster, RegionId, UNASSIGNED};
-use crate::segment::{AnalysisInput, FinalRegions, Members, Pixels};
+use crate::raster::{LabelMap, Raster, RegionId, UNASSIGNED};
+use crate::segment::{AnalysisInput, Members, Pixels};
 use crate::trace::{Ambient, PixelKind};
 use rayon::prelude::*;
 
@@ -35,11 +35,7 @@ struct RestoredPixel {
 
 impl Images {
     /// Splits the undistorted pixels by the plans of their regions, rows in parallel. `plans`: region `id` is at index `id − 1`.
-    pub(super) fn split_undistorted(
-        input: &AnalysisInput,
-        regions: &FinalRegions,
-        plans: &[RegionPlan],
-    ) -> Self {
+    pub(super) fn split_undistorted(input: &AnalysisInput, labels: &LabelMap, plans: &[RegionPlan]) -> Self {
         let (width, height) = (input.pixels.width(), input.pixels.height());
         let mut images = Self {
             body: Raster::filled(width, height, [0.0; 3]),
@@ -59,7 +55,7 @@ impl Images {
             }
             // The input is copied row by row and not at once, so that the threads share the cost of fresh memory.
             body.copy_from_slice(input.pixels.row(y));
-            for (x, &label) in regions.labels.row(y).iter().enumerate() {
+            for (x, &label) in labels.row(y).iter().enumerate() {
                 if label == UNASSIGNED || input.masks.distorted(y * width + x) {
                     continue;
                 }
@@ -76,14 +72,14 @@ impl Images {
         &mut self,
         origin: &[f64; 3],
         input: &AnalysisInput,
-        regions: &FinalRegions,
+        labels: &LabelMap,
         plans: &[RegionPlan],
         members: &Members,
     ) {
         let distorted = Distorted {
             pixels: input.pixels,
             masks: input.masks,
-            labels: &regions.labels,
+            labels,
             clip_thresholds: origin.map(|band| (input.used.clip_threshold - band) as f32),
             sigma: input.sigma() as f32,
         };

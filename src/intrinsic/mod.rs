@@ -2,7 +2,10 @@
 
 mod ambient;
 mod confidence;
+mod detail;
 mod explained_mask;
+mod finish;
+mod full_resolution;
 mod images;
 mod local;
 mod pixel;
@@ -13,6 +16,7 @@ mod restore;
 mod split;
 mod vectors;
 
+pub use detail::Detail;
 pub use reason::Reason;
 pub use split::split;
 

@@ -88,6 +88,8 @@ pub struct ReasonInput<'a> {
     pub regions: &'a [RegionReflection],
     /// Color of the light, unit; none where the light is not known.
     pub light: Option<[f64; 3]>,
+    /// What noise and coding explain of the distance of a pixel from the plane of each region (σ), counts, by [`RegionId::index`].
+    pub pixel_sigmas: &'a [f32],
 }
 
 impl ReasonInput<'_> {
@@ -106,8 +108,7 @@ impl ReasonInput<'_> {
 
     /// Standard deviation of the distance of a region's pixels from the model, counts.
     fn sigma_of(&self, label: u16) -> f32 {
-        let region = self.regions.get(usize::from(label).wrapping_sub(1));
-        region.map_or(f32::INFINITY, |region| region.fit_sigma_counts as f32)
+        self.pixel_sigmas.get(usize::from(label).wrapping_sub(1)).copied().unwrap_or(f32::INFINITY)
     }
 
     /// The reason that applies to a region as a whole.
@@ -182,6 +183,7 @@ mod tests {
             noise: &Raster::filled(7, 1, 0.0),
             regions: &[],
             light: None,
+            pixel_sigmas: &[],
         }
         .reasons();
         assert_eq!(

@@ -20,6 +20,8 @@ pub struct RegionSummary<'a> {
     pub pixels: Pixels<'a>,
     /// The kind of each pixel of the picture.
     pub kinds: &'a Raster<PixelKind>,
+    /// Standard deviation of the noise of the picture to which the region's vectors were fitted, counts.
+    pub fit_sigma: f64,
 }
 
 impl RegionSummary<'_> {
@@ -60,7 +62,7 @@ impl RegionSummary<'_> {
             texture: fit.texture,
             separable,
             neighbors,
-            warnings: self.warnings(input, plan, angle_deg),
+            warnings: self.warnings(plan, angle_deg),
             highlight_branches,
         }
     }
@@ -95,7 +97,7 @@ impl RegionSummary<'_> {
         pixels.into_iter().zip(plan.starts.iter().zip(&plan.start_bodies)).map(branch).collect()
     }
 
-    fn warnings(&self, input: &AnalysisInput, plan: &RegionPlan, angle_deg: Option<f64>) -> Vec<String> {
+    fn warnings(&self, plan: &RegionPlan, angle_deg: Option<f64>) -> Vec<String> {
         let mut warnings = Vec::new();
         let fit = &plan.fit;
         match angle_deg {
@@ -129,7 +131,7 @@ impl RegionSummary<'_> {
             );
         }
         let foot = plan.hypothesis.matte.foot().norm();
-        if foot > input.sigma() {
+        if foot > self.fit_sigma {
             warnings.push(format!(
                 "the matte line misses black by {foot:.1} counts: ambient light, inter-reflection or no single material"
             ));

@@ -15,6 +15,7 @@ use crate::trace::VectorsFitted;
 const CLEARANCE_SIGMAS: f64 = 2.0;
 
 /// How one region's pixels are split. Colors are counts above the ambient light.
+#[derive(Clone)]
 pub(super) struct RegionPlan {
     /// The region's hypothesis, measured from the ambient light.
     pub(super) hypothesis: PlanarHypothesis,
@@ -36,6 +37,8 @@ pub(super) struct RegionPlan {
     test_starts: Vec<Vec3>,
     /// Amount of body reflection m_b at each of `starts`, counts.
     pub(super) start_bodies: Vec<f32>,
+    /// Side of a pixel of the picture to which the plan was fitted, pixels of the picture that the plan splits.
+    block_side: usize,
 }
 
 impl RegionPlan {
@@ -66,6 +69,7 @@ impl RegionPlan {
             starts: vec![hypothesis.start],
             test_starts: vec![hypothesis.start],
             start_bodies: vec![start_body],
+            block_side: 1,
         };
         let wanted = input.refine.second_branch && fit.model_fits() && !input.stopped();
         let Some(transform) = rule.transform().filter(|_| wanted) else { return plan };
@@ -108,8 +112,23 @@ impl RegionPlan {
 
     /// The place in `starts` of the line of the highlight that contains a pixel or is nearest to the pixel in the picture.
     pub(super) fn branch_near(&self, input: &AnalysisInput, pixel: u32) -> usize {
-        let width = input.pixels.width() as u32;
-        if self.starts.len() > 1 { self.branches.nearest(pixel % width, pixel / width) } else { 0 }
+        let (width, side) = (input.pixels.width() as u32, self.block_side as u32);
+        if self.starts.len() < 2 {
+            return 0;
+        }
+        self.branches.nearest(pixel % width / side, pixel / width / side)
+    }
+
+    /// This plan for the photograph `input`, which was averaged over blocks of `block_side` pixels for the picture to which this plan
+    /// was fitted.
+    pub(super) fn at_full_resolution(&self, input: &AnalysisInput, block_side: usize) -> Self {
+        let mut plan = self.clone();
+        plan.block_side = block_side;
+        if input.refine.no_negative_surface {
+            let Vectors { body, surface, .. } = &self.vectors;
+            plan.splitter.rule = AmountRule::new(body, surface.as_ref(), input.used.camera_noise as f32);
+        }
+        plan
     }
 
     /// The record of this plan. `origin`: the ambient light, from which the plan's colors are measured, counts.

@@ -1,22 +1,30 @@
 //! Section 6: the steps of the split, in order: ambient light, plans of the regions, images, local split, reports.
 
 use super::ambient::ambient;
-use super::confidence::ConfidenceInput;
+use super::detail::{Detail, WorkingSplit};
 use super::explained_mask::explained_mask;
+use super::finish::Finish;
+use super::full_resolution::split_photograph;
 use super::images::Images;
-use super::local::split_locally;
-use super::reason::ReasonInput;
+use super::local::{LocalInput, split_locally};
 use super::region::RegionSummary;
 use super::region_plan::RegionPlan;
 use super::{Intrinsic, RegionReflection};
-use crate::raster::{Mask, Raster, RegionId};
+use crate::raster::RegionId;
 use crate::segment::{AnalysisInput, Branches, FinalRegions, Members, members, neighbors};
-use crate::trace::{Ambient, BranchesSought, Pass, PassBegan, Recorder};
+use crate::trace::{BranchesSought, Pass, PassBegan, Recorder};
 use rayon::prelude::*;
 
 /// Splits every pixel of the picture into body reflection, surface reflection and noise. The ambient light is subtracted before
-/// and added to the body reflection afterwards.
-pub fn split<R: Recorder>(input: &AnalysisInput, regions: &FinalRegions, recorder: &mut R) -> Intrinsic {
+/// and added to the body reflection afterwards. `detail`: the photograph, where `input` is a working picture with larger
+/// pixels; the photograph is split by what was found in the working picture. Only the decisions about the working picture
+/// are recorded.
+pub fn split<R: Recorder>(
+    input: &AnalysisInput,
+    regions: &FinalRegions,
+    detail: Option<&Detail>,
+    recorder: &mut R,
+) -> Intrinsic {
     let members = members(regions);
     let ambient = ambient(input, regions, &members);
     if R::KEEPS {
@@ -24,10 +32,15 @@ pub fn split<R: Recorder>(input: &AnalysisInput, regions: &FinalRegions, recorde
         recorder.record(ambient);
     }
     let Some(counts) = ambient.subtracted else {
-        return Intrinsic { ambient, ..split_from(&[0.0; 3], input, regions, &members, recorder) };
+        return Intrinsic { ambient, ..split_from(&[0.0; 3], input, regions, &members, detail, recorder) };
     };
     let light = counts.map(|band| band as f32);
-    let pixels = input.pixels.map(|&color| std::array::from_fn(|band| color[band] - light[band]));
+    let without_light = |&color: &[f32; 3]| std::array::from_fn(|band| color[band] - light[band]);
+    let pixels = input.pixels.map(without_light);
+    let detail_pixels = detail.map(|detail| detail.input.pixels.map(without_light));
+    let shifted_detail = detail
+        .zip(detail_pixels.as_ref())
+        .map(|(detail, pixels)| Detail { input: detail.input.with_pixels(pixels), ..*detail });
     let shifted = FinalRegions {
         labels: regions.labels.clone(),
         hypotheses: regions
@@ -37,7 +50,9 @@ pub fn split<R: Recorder>(input: &AnalysisInput, regions: &FinalRegions, recorde
             .collect(),
         light: regions.light,
     };
-    let mut result = split_from(&counts, &input.with_pixels(&pixels), &shifted, &members, recorder);
+    let shifted_input = input.with_pixels(&pixels);
+    let mut result =
+        split_from(&counts, &shifted_input, &shifted, &members, shifted_detail.as_ref(), recorder);
     result.ambient = ambient;
     for color in result.body.as_mut_slice() {
         *color = std::array::from_fn(|band| color[band] + light[band]);
@@ -56,6 +71,7 @@ fn split_from<R: Recorder>(
     input: &AnalysisInput,
     regions: &FinalRegions,
     members: &Members,
+    detail: Option<&Detail>,
     recorder: &mut R,
 ) -> Intrinsic {
     let plans: Vec<RegionPlan> = regions
@@ -67,31 +83,56 @@ fn split_from<R: Recorder>(
             RegionPlan::new(input, regions, id, hypothesis, members.region(id))
         })
         .collect();
-    let mut images = Images::split_undistorted(input, regions, &plans);
+    let mut images = Images::split_undistorted(input, &regions.labels, &plans);
     if input.stopped() {
         return images.unfinished();
     }
-    images.restore(origin, input, regions, &plans, members);
+    images.restore(origin, input, &regions.labels, &plans, members);
     record_plans(origin, &plans, recorder);
     let model_fits: Vec<bool> = plans.iter().map(|plan| plan.model_fits).collect();
     let explained_mask = explained_mask(input, regions, members, &model_fits, &images.kinds);
-    let local = split_locally(input, origin, regions, &explained_mask, &mut images, recorder);
+    let local_input = LocalInput { input, light: regions.light, explained_mask: &explained_mask };
+    let local = split_locally(&local_input, origin, &mut images, recorder);
     if R::KEEPS {
         recorder.record(PassBegan { pass: Pass::Labels });
         recorder.labels(&images.kinds);
     }
     let touching = neighbors(&regions.labels, regions.hypotheses.len());
+    if let Some(detail) = detail {
+        let working = WorkingSplit {
+            origin: *origin,
+            input,
+            regions,
+            plans: &plans,
+            explained_mask: &explained_mask,
+            images: &images,
+        };
+        return split_photograph(detail, &working, local.as_ref(), touching);
+    }
     let reports: Vec<RegionReflection> = plans
         .par_iter()
         .zip(touching)
         .enumerate()
         .map(|(index, (plan, neighbors))| {
             let id = RegionId::from_index(index);
-            let summary = RegionSummary { id, pixels: members.region(id), kinds: &images.kinds };
+            let summary = RegionSummary {
+                id,
+                pixels: members.region(id),
+                kinds: &images.kinds,
+                fit_sigma: input.sigma(),
+            };
             summary.report(input, plan, neighbors)
         })
         .collect();
-    finished(input, regions, &explained_mask, images, reports, local.as_ref())
+    let local_confidence = local.map(|local| local.confidence);
+    let finish = Finish {
+        input,
+        labels: &regions.labels,
+        light: regions.light.direction,
+        explained_mask: &explained_mask,
+        pixel_sigmas: plans.iter().map(|plan| plan.fit.sigma_counts as f32).collect(),
+    };
+    finish.intrinsic(images, reports, local_confidence.as_ref())
 }
 
 /// Records how each region is split. `origin`: the ambient light, counts.
@@ -107,36 +148,4 @@ fn record_plans<R: Recorder>(origin: &[f64; 3], plans: &[RegionPlan], recorder: 
         }
         recorder.record(plan.vectors_fitted(region, origin));
     }
-}
-
-/// The result, with the confidence and the reason of each pixel. `local`: the confidence of the local split, where it ran.
-fn finished(
-    input: &AnalysisInput,
-    regions: &FinalRegions,
-    explained_mask: &Mask,
-    images: Images,
-    reports: Vec<RegionReflection>,
-    local: Option<&Raster<f32>>,
-) -> Intrinsic {
-    let Images { body, surface, noise, kinds } = images;
-    let confidence_input = ConfidenceInput {
-        labels: &regions.labels,
-        explained_mask,
-        kinds: &kinds,
-        noise: &noise,
-        regions: &reports,
-    };
-    let confidence = confidence_input.confidence(local);
-    let reason_input = ReasonInput {
-        masks: input.masks,
-        labels: &regions.labels,
-        explained_mask,
-        kinds: &kinds,
-        noise: &noise,
-        regions: &reports,
-        light: regions.light.direction,
-    };
-    let reasons = reason_input.reasons();
-    let ambient = Ambient::default();
-    Intrinsic { body, surface, noise, kinds, confidence, reasons, ambient, regions: reports }
 }

@@ -62,7 +62,8 @@ impl SliderSpec {
     }
 }
 
-/// Calls the macro named `$with` with all rows, in the order of table 6. A row is the field's name, the variant's name,
+/// Calls the macro named `$with` with all rows, in the order of table 6; the working scale, which the paper does not have, is the
+/// last. A row is the field's name, the variant's name,
 /// the meaning, and the other fields of [`ParameterSpec`].
 macro_rules! parameter_rows {
     ($with:ident) => {
@@ -172,6 +173,19 @@ macro_rules! parameter_rows {
                 refined_default: Setting::Value(500.0),
                 auto: "the paper's share of the picture (500 of 512 \u{d7} 480 px), at least 72 px",
             }
+            scale Scale "side of a working pixel: regions and light are found in the photograph averaged over blocks of this many pixels" {
+                title: "working scale",
+                unit: "px",
+                range: [1.0, 32.0],
+                whole: true,
+                slider: SliderSpec::linear(1.0, 8.0, 1.0),
+                section: "none in the paper",
+                first_stage: Stage::Masks,
+                paper: 1.0,
+                paper_default: Setting::Value(1.0),
+                refined_default: Setting::Auto,
+                auto: "\u{221a}(pixels / 0.5 million), rounded: 1 up to 1.1 megapixels, 3 for 2048 \u{d7} 1920 px, 5 for 12 megapixels",
+            }
         }
     };
 }
@@ -186,7 +200,7 @@ macro_rules! define_parameter {
         }
 
         impl Parameter {
-            /// All parameters, in the order of table 6.
+            /// All parameters, in the order of table 6, the working scale last.
             pub const ALL: [Self; [$(stringify!($field)),*].len()] = [$(Self::$variant),*];
 
             /// The parameter's row of the table.

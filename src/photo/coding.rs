@@ -120,6 +120,19 @@ impl CodingError {
         }
     }
 
+    /// The error of the mean of `side` × `side` pixels. Rounding errors are independent and average out as noise does. The error of
+    /// lossy compression is alike in neighboring pixels: over blocks of 4 × 4 pixels it falls from .71 to .55 code values only, as
+    /// the fourth root of the side.
+    #[must_use]
+    pub fn averaged(&self, side: usize) -> Self {
+        if side <= 1 {
+            return self.clone();
+        }
+        let side = side as f64;
+        let remaining = if self.is_extended() { side.powf(-0.25) } else { 1.0 / side };
+        Self { code_values: self.code_values * remaining, ..self.clone() }
+    }
+
     /// Whether the errors of neighboring pixels are alike, so that a window contains only a part of the error.
     pub fn is_extended(&self) -> bool {
         self.cause != CodingCause::Rounding

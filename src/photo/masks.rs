@@ -3,7 +3,7 @@
 
 use super::LinearImage;
 use crate::color::dot;
-use crate::raster::{Mask, Raster};
+use crate::raster::{Blocks, Mask, Raster};
 use rayon::prelude::*;
 
 /// Thresholds of the masks.
@@ -97,6 +97,44 @@ impl Masks {
         self
     }
 
+    /// The masks of a working picture: `means` holds the mean of each of `blocks`, whose pixels have the masks `members`. A working
+    /// pixel is clipped where its own value is, and distorted where any usable pixel of the block is. The pixel is dark where its
+    /// mean is, invalid where no pixel inside of the area has a value, and outside where no pixel is inside of the area.
+    pub(super) fn of_blocks(
+        members: &Self,
+        means: &LinearImage,
+        limits: &MaskLimits,
+        blocks: &Blocks,
+    ) -> Self {
+        let (width, columns) = (members.flags.width(), means.width());
+        let mut flags = Raster::filled(columns, means.height(), 0u8);
+        flags.as_mut_slice().par_chunks_mut(columns.max(1)).enumerate().for_each(|(row, flags)| {
+            // Of each block: the marks of the usable pixels together, and the marks that all pixels have.
+            let mut marks = vec![(0u8, u8::MAX); columns];
+            for y in blocks.pixel_rows(row) {
+                for (column, (any, all)) in marks.iter_mut().enumerate() {
+                    for x in blocks.pixel_columns(column) {
+                        let flag = members.flags[y * width + x];
+                        *any |= if flag & (INVALID | OUTSIDE) == 0 { flag } else { 0 };
+                        *all &= flag;
+                    }
+                }
+            }
+            let working = means.pixels.row(row).iter().zip(means.invalid.row(row));
+            for ((flag, (any, all)), (&color, &empty)) in flags.iter_mut().zip(marks).zip(working) {
+                let (clipped, dark) = (limits.is_clipped(color), limits.is_dark(color));
+                let bloomed = !clipped && any & (CLIPPED | BLOOMED) != 0;
+                let outside = all & OUTSIDE;
+                *flag = (u8::from(dark) * DARK)
+                    | (u8::from(clipped) * CLIPPED)
+                    | (u8::from(bloomed) * BLOOMED)
+                    | (u8::from(empty && outside == 0) * INVALID)
+                    | outside;
+            }
+        });
+        Self { flags }
+    }
+
     /// Number of columns and rows.
     pub fn shape(&self) -> (usize, usize) {
         (self.flags.width(), self.flags.height())
@@ -119,6 +157,12 @@ impl Masks {
     #[inline]
     pub fn outside(&self, pixel: usize) -> bool {
         self.flags[pixel] & OUTSIDE != 0
+    }
+
+    /// Whether the pixel has a value and lies inside of the area.
+    #[inline]
+    pub fn has_value(&self, pixel: usize) -> bool {
+        self.flags[pixel] & (INVALID | OUTSIDE) == 0
     }
 
     /// Whether a band of the pixel is clipped.

@@ -20,6 +20,7 @@ mod noise;
 mod noise_correlation;
 mod orient;
 mod source;
+mod working;
 
 pub use coding::{CodingCause, CodingError, Compression, LossyCompression};
 pub use curve::ToneCurve;
@@ -30,9 +31,10 @@ pub use error::ReadError;
 pub use format::Format;
 pub use linear::LinearImage;
 pub use masks::{MaskLimits, Masks};
-pub use noise::estimate_sigma;
+pub use noise::{estimate_sigma, estimate_sigma_sparsely};
 pub use noise_correlation::NoiseCorrelation;
 pub use source::{AlphaKind, Layout, PngColor, Samples, Source};
+pub use working::WorkingPicture;
 
 use crate::raster::{Mask, Raster};
 use std::fs::File;

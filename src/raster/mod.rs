@@ -2,6 +2,7 @@
 //!
 //! Rasters are row-major: the value of column `x`, row `y` is at index `y * width + x`.
 
+mod blocks;
 mod blur;
 mod components;
 mod grid;
@@ -9,6 +10,7 @@ mod ids;
 mod morphology;
 mod roi;
 
+pub use blocks::Blocks;
 pub(crate) use blur::blur;
 pub(crate) use components::{Border, ComponentSearch, Components, Connectivity};
 pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};

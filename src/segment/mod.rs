@@ -8,6 +8,7 @@ mod choice;
 mod classify;
 mod clipping;
 mod evidence;
+mod full_resolution;
 mod highlight_support;
 mod illuminant;
 mod in_plane;
@@ -38,6 +39,7 @@ pub(crate) use regions::{members, neighbors, parts};
 
 pub use classify::{Classifier, Windows, classify};
 pub use clipping::clipping_regions;
+pub use full_resolution::{PixelPlace, PlaceRule, full_resolution_labels};
 pub use input::AnalysisInput;
 pub use light::{Illuminant, LightBasis, LightFindings};
 pub use linear::Hypothesis;

@@ -1,6 +1,7 @@
 //! The trace of a run: the traces of all stages, with steps that are numbered through all of them.
 
 use super::{Block, Event, PassSpan, Stage, StageTrace, Step};
+use crate::raster::{Blocks, PixelIndex};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -16,8 +17,8 @@ pub(super) struct EventId {
 /// All decisions of a run, stage after stage. Steps are counted through all stages.
 #[derive(Clone, Debug)]
 pub struct Trace {
-    width: usize,
-    height: usize,
+    /// The blocks of the photograph that are the pixels of the working picture.
+    pixel_blocks: Blocks,
     stage_traces: Vec<Arc<StageTrace>>,
     /// First step of each stage, and the end.
     starts: Vec<usize>,
@@ -26,23 +27,38 @@ pub struct Trace {
 impl Trace {
     /// The traces of the stages of a picture of `width × height` pixels, in the order of the stages.
     pub fn new(width: usize, height: usize, stage_traces: Vec<Arc<StageTrace>>) -> Self {
+        Self::of_working_picture(Blocks::new(1, width, height), stage_traces)
+    }
+
+    /// The traces of the stages of a working picture, whose pixels are the blocks `pixel_blocks` of a photograph.
+    pub fn of_working_picture(pixel_blocks: Blocks, stage_traces: Vec<Arc<StageTrace>>) -> Self {
         let mut starts = vec![0];
         let mut end = 0;
         for stage_trace in &stage_traces {
             end += stage_trace.len();
             starts.push(end);
         }
-        Self { width, height, stage_traces, starts }
+        Self { pixel_blocks, stage_traces, starts }
     }
 
-    /// Columns of the picture.
+    /// Columns of the working picture.
     pub fn width(&self) -> usize {
-        self.width
+        self.pixel_blocks.columns()
     }
 
-    /// Rows of the picture.
+    /// Rows of the working picture.
     pub fn height(&self) -> usize {
-        self.height
+        self.pixel_blocks.rows()
+    }
+
+    /// The blocks of the photograph; each is a pixel of the working picture, whose decisions the trace holds.
+    pub fn pixel_blocks(&self) -> Blocks {
+        self.pixel_blocks
+    }
+
+    /// The working pixel that contains a pixel of the photograph.
+    pub fn working_pixel(&self, pixel: PixelIndex) -> PixelIndex {
+        PixelIndex::from_index(self.pixel_blocks.block_of(pixel.index()))
     }
 
     /// Number of steps.

@@ -18,6 +18,7 @@ mod light;
 mod methods;
 mod prints;
 mod replay;
+mod scale;
 mod scenes;
 mod synthetic_scenes;
 mod threads;

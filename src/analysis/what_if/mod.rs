@@ -17,7 +17,7 @@ mod tests;
 use super::{Analysis, Cancelled, Observer, Session};
 use crate::params::{Parameter, Params, Setting};
 use crate::raster::{LabelMap, PixelIndex, RegionId, UNASSIGNED};
-use crate::trace::{PixelKind, pixel_history};
+use crate::trace::PixelKind;
 use guess::{Guess, guesses};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -108,7 +108,7 @@ pub fn what_if(
         return Ok(Vec::new());
     }
     let (analysis, trace) = session.run_traced(params, &mut CancellationOnly(observer))?;
-    let history = pixel_history(&trace, &session.image, &analysis.masks, pixel);
+    let history = analysis.pixel_history(&trace, pixel);
     let pixel = pixel.index();
     let guesses = guesses(&history, params, &analysis.used);
     let movable = movable(params, &analysis, pixel);
@@ -148,7 +148,9 @@ fn movable(params: &Params, analysis: &Analysis, pixel: usize) -> Vec<Parameter>
             Setting::Value(_) => vec![Parameter::MinIntensity],
         };
     }
-    let mut all = Parameter::ALL.to_vec();
+    // The scale is no threshold that the pixel's color lies above or below: at another scale there is another picture.
+    let mut all: Vec<Parameter> =
+        Parameter::ALL.into_iter().filter(|&parameter| parameter != Parameter::Scale).collect();
     all.sort_by_key(|parameter| Reverse(parameter.spec().first_stage));
     all
 }

@@ -3,7 +3,7 @@
 use super::Direction;
 use crate::raster::{HypothesisId, PixelIndex};
 use crate::trace::{
-    CandidateVerdict, Class, Event, HypothesisPassedOver, PassedOver, Replay, Step, WindowClassified,
+    CandidateVerdict, Class, Event, HypothesisPassedOver, PassedOver, Replay, Step, Trace, WindowClassified,
 };
 use serde::{Deserialize, Serialize};
 
@@ -120,10 +120,11 @@ pub fn hit(replay: &Replay, goal: usize, breakpoints: &[Breakpoint]) -> Option<(
     }
     let (trace, at) = (replay.trace(), replay.at());
     let mut sizes = Sizes { replay, gained: Vec::new() };
+    let conditions: Vec<Condition> =
+        breakpoints.iter().map(|breakpoint| breakpoint.condition.of_working_pixels(trace)).collect();
     let stops = |step: &Step, sizes: &Sizes| {
-        breakpoints
-            .iter()
-            .position(|breakpoint| breakpoint.enabled && breakpoint.condition.holds(step, |r| sizes.of(r)))
+        let mut both = breakpoints.iter().zip(&conditions);
+        both.position(|(breakpoint, condition)| breakpoint.enabled && condition.holds(step, |r| sizes.of(r)))
     };
     if goal >= at {
         trace.steps_in(at..goal).find_map(|(n, step)| {
@@ -141,6 +142,14 @@ pub fn hit(replay: &Replay, goal: usize, breakpoints: &[Breakpoint]) -> Option<(
 }
 
 impl Condition {
+    /// The condition on the pixels of a trace, which are working pixels, in place of the pixels of the photograph.
+    fn of_working_pixels(self, trace: &Trace) -> Self {
+        match self {
+            Self::PixelChangesOwner(pixel) => Self::PixelChangesOwner(trace.working_pixel(pixel)),
+            other => other,
+        }
+    }
+
     /// Whether the condition holds right after a step, at which hypotheses have `size` pixels.
     fn holds(self, step: &Step, size: impl Fn(HypothesisId) -> i64) -> bool {
         match (self, step) {

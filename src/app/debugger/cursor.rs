@@ -54,7 +54,7 @@ impl Grain {
 pub enum Goal {
     /// A step of this kind.
     Kind(Kind),
-    /// A step about this pixel.
+    /// A step about this pixel of the photograph.
     Pixel(PixelIndex),
     /// A step about this hypothesis, or the region that the hypothesis became.
     Hypothesis(HypothesisId),
@@ -124,6 +124,10 @@ fn first<'a>(
 /// The place after the next step that fits a goal, or the last one before; none where no step fits. Breakpoints are resolved by
 /// the caller.
 pub fn found(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Option<usize> {
+    let goal = match goal {
+        Goal::Pixel(pixel) => Goal::Pixel(trace.working_pixel(pixel)),
+        other => other,
+    };
     let windows = match goal {
         Goal::Pixel(pixel) => concerning(trace, pixel),
         _ => Vec::new(),
@@ -144,7 +148,7 @@ pub fn found(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Opti
     }
 }
 
-/// The steps at which windows and blobs that hold a pixel were judged, ascending.
+/// The steps at which windows and blobs that hold a working pixel were judged, ascending.
 fn concerning(trace: &Trace, pixel: PixelIndex) -> Vec<usize> {
     let [x, y] = pixel.position(trace.width());
     let mut holding = None;

@@ -38,7 +38,8 @@ fn masks(application: &Application) -> &Masks {
 
 fn instant(application: &Application) -> Instant {
     let (state, replay) = (application.state(), application.state().followed().unwrap());
-    Instant::of(replay, &state.debugger.names, state.debugger.chosen, colors(application), masks(application))
+    let working = &state.newest.as_ref().unwrap().analysis.working;
+    Instant::of(replay, &state.debugger.names, state.debugger.chosen, working)
 }
 
 fn regions(instant: Instant) -> RegionsView {

@@ -1,6 +1,7 @@
 //! Decisions in words: one short sentence each, in the paper's terms, value against threshold with their units. The
 //! command line and the window say the same.
 
+mod full_resolution;
 mod history;
 mod lineage;
 mod local_history;

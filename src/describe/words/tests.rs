@@ -1,15 +1,16 @@
 //! Sentences say value against threshold.
 
 use super::*;
-use crate::raster::{PixelIndex, RegionId};
+use crate::raster::{Blocks, PixelIndex, RegionId};
 use crate::reflection::{SliceBound, SliceMiss};
+use crate::segment::{PixelPlace, PlaceRule};
 use crate::trace::{
     Barrier, CandidateSource, Dropped, Event, HistoryEntry, HistoryKind, MaskVerdict, Measured, PassedOver,
     PixelKind, Reach, Release, Stage,
 };
 
 fn names() -> Names {
-    Names { width: 10, regions: [2, 0, 1].map(RegionId::from_label).to_vec() }
+    Names { pixel_blocks: Blocks::new(1, 10, 10), regions: [2, 0, 1].map(RegionId::from_label).to_vec() }
 }
 
 fn hypothesis(number: u16) -> HypothesisId {
@@ -308,4 +309,31 @@ fn a_light_is_told_with_what_it_rests_on_and_why_the_other_one_is_not_used() {
         let said = names().event(&Event::LightChosen(Box::new(chosen)));
         assert!(said.contains(part), "{said}");
     }
+}
+
+#[test]
+fn the_pass_at_full_resolution_says_what_became_of_the_pixel_and_of_its_working_pixel() {
+    let place = |working: u16, region: u16, rule| {
+        let [working_region, region] = [working, region].map(RegionId::from_label);
+        names().pixel_place(&PixelPlace { side: 3, working_region, region, rule })
+    };
+    let inside = place(2, 2, PlaceRule::Inside);
+    assert!(inside.starts_with("at full resolution the pixel takes region 2: "), "{inside}");
+    assert!(inside.ends_with("the mean of 3 \u{d7} 3 pixels"), "{inside}");
+    let border = place(2, 1, PlaceRule::Border);
+    assert!(
+        border.contains("takes region 1: its own color fits") && border.contains("is in region 2"),
+        "{border}"
+    );
+    let none = place(2, 0, PlaceRule::Border);
+    assert!(none.contains("is in no region: its own color fits no region around"), "{none}");
+    assert!(place(0, 0, PlaceRule::Dark).contains("it is not lit"));
+    assert!(place(1, 1, PlaceRule::Distorted).contains("clipped or bloomed"));
+}
+
+#[test]
+fn a_working_pixel_lies_where_the_middle_of_its_block_is() {
+    let names = Names { pixel_blocks: Blocks::new(3, 10, 7), regions: Vec::new() };
+    assert_eq!(names.pixel(PixelIndex::from_index(5)), "(4, 4)");
+    assert_eq!(names.pixel(PixelIndex::from_index(3)), "(9, 1)", "the last block of a row has one column");
 }

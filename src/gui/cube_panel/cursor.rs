@@ -52,8 +52,8 @@ impl Track {
         self.made = Some(Instant::now());
         self.drawn.clear();
         let (Some(replay), Some(shown)) = (state.followed(), &state.newest) else { return };
-        let colors = &picture.photo.image.pixels;
-        let masks = &shown.analysis.masks;
+        let working = &shown.analysis.working;
+        let (colors, masks) = (&working.image.pixels, &working.masks);
         let focus = state.debugger.focus();
         let (space, full) = (state.view.cube.space, picture.histogram.full_counts);
         for (role, pixels) in looked_at(replay, focus, colors, masks, MOST) {
@@ -135,8 +135,9 @@ impl ShapeBuilder<'_> {
 
     /// Adds the ellipsoid of the window that was classified last.
     fn window(&mut self, replay: &Replay, shown: &ResultSnapshot, tones: &Tones) {
-        let colors = &shown.picture.photo.image.pixels;
-        let groups = looked_at(replay, None, colors, &shown.analysis.masks, usize::MAX);
+        let working = &shown.analysis.working;
+        let colors = &working.image.pixels;
+        let groups = looked_at(replay, None, colors, &working.masks, usize::MAX);
         let Some((Role::Window(_), pixels)) = groups.first() else { return };
         let colors = pixels.iter().map(|&pixel| colors.as_slice()[pixel as usize]);
         if let Some(solid) = view::cluster_ellipsoid(colors) {
@@ -155,8 +156,9 @@ impl ShapeBuilder<'_> {
         color: Color32,
         tones: &Tones,
     ) {
-        let colors = shown.picture.photo.image.pixels.as_slice();
-        let pixels = view::candidate_pixels(replay, test.candidate, &shown.analysis.masks);
+        let working = &shown.analysis.working;
+        let colors = working.image.pixels.as_slice();
+        let pixels = view::candidate_pixels(replay, test.candidate, &working.masks);
         let reach = candidate_reach(test, pixels.iter().map(|&pixel| colors[pixel as usize]));
         let skewed_t_view = view::skewed_t_view(test, reach);
         self.line(&skewed_t_view.upper, color, MARK_PT, 0.0);

@@ -29,9 +29,7 @@ impl InstantCache {
     /// The instant at the cursor, where it is followed; an older one while `busy`, so that a large picture is not copied
     /// more often than it is painted.
     pub fn instant(&mut self, state: &State, busy: bool) -> Option<Arc<Instant>> {
-        let (Some(replay), Some(picture), Some(shown)) =
-            (state.followed(), &state.picture, state.newest.as_ref())
-        else {
+        let (Some(replay), Some(shown)) = (state.followed(), state.newest.as_ref()) else {
             self.shown = None;
             return None;
         };
@@ -42,9 +40,8 @@ impl InstantCache {
         {
             return Some(Arc::clone(instant));
         }
-        let colors = &picture.photo.image.pixels;
-        let masks = &shown.analysis.masks;
-        let instant = Arc::new(Instant::of(replay, &debugger.names, debugger.chosen, colors, masks));
+        let (names, chosen) = (&debugger.names, debugger.chosen);
+        let instant = Arc::new(Instant::of(replay, names, chosen, &shown.analysis.working));
         self.shown = Some((frame, Arc::clone(&instant)));
         Some(instant)
     }

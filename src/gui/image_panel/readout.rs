@@ -3,7 +3,7 @@
 use crate::app::State;
 use crate::gui::theme::{SMALL_PT, Tones};
 use crate::intrinsic::PixelKind;
-use crate::raster::HypothesisId;
+use crate::raster::{HypothesisId, PixelIndex};
 use crate::trace::{Class, Replay};
 use crate::view::{Item, Picture, RegionNames, ResultSnapshot};
 use egui::accesskit::Role;
@@ -165,13 +165,14 @@ impl Facts {
     fn at_cursor(picture: &Picture, replay: &Replay, names: &RegionNames, pixel: usize) -> Option<Self> {
         let image = &picture.photo.image;
         let color = *image.pixels.as_slice().get(pixel)?;
+        let working_pixel = replay.trace().working_pixel(PixelIndex::from_index(pixel)).index();
         let class = replay.first_grid().and_then(|grid| {
-            let window = grid.window_of(pixel, image.width());
+            let window = grid.window_of(working_pixel, replay.trace().width());
             grid.classes.as_slice().get(window).copied().flatten().flatten()
         });
-        let hypothesis = HypothesisId::from_label(*replay.labels().as_slice().get(pixel)?);
+        let hypothesis = HypothesisId::from_label(*replay.labels().as_slice().get(working_pixel)?);
         let region = hypothesis.map(HypothesisId::get);
-        let found = Found { class, kind: replay.kind(pixel), region, split: None };
+        let found = Found { class, kind: replay.kind(working_pixel), region, split: None };
         let chip = hypothesis.map(|hypothesis| crate::gui::widgets::color(names.color(hypothesis)));
         let at = [pixel % image.width(), pixel / image.width()];
         Some(Self { at, color, found: Some(found), chip })

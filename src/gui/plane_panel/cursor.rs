@@ -102,15 +102,15 @@ impl PlanePanel {
     }
 
     fn update_instant(&mut self, state: &State, replay: &Replay, frame: Frame) {
-        let (Some(picture), Some(shown)) = (&state.picture, &state.newest) else { return };
+        let Some(shown) = &state.newest else { return };
         if self.frame == Some(frame) {
             return;
         }
-        let (region, masks) = (state.debugger.names.region_of(frame.2), &shown.analysis.masks);
+        let (region, working) = (state.debugger.names.region_of(frame.2), &shown.analysis.working);
         let test = test_at_cursor(replay);
         self.plane = match test {
-            Some(test) => test_plane(replay, test, region, picture, masks),
-            None => growing_plane(replay, frame.2, region, picture, masks),
+            Some(test) => test_plane(replay, test, region, working),
+            None => growing_plane(replay, frame.2, region, working),
         };
         // Scale and center are kept while the same region grows.
         if test.is_some() || self.frame.is_none_or(|(_, _, before)| before != frame.2) {

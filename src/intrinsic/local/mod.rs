@@ -11,6 +11,7 @@
 
 mod blobs;
 mod desaturation_map;
+mod full_resolution;
 mod hue_ratios;
 mod limits;
 mod plausibility;
@@ -18,11 +19,13 @@ mod repair;
 mod texture;
 mod trace_writer;
 
+pub use full_resolution::split_locally_at_full_resolution;
+
 use super::confidence::LOCAL;
 use super::images::Images;
 use crate::color::Vec3;
 use crate::raster::{Mask, Raster, Roi};
-use crate::segment::{AnalysisInput, FinalRegions};
+use crate::segment::{AnalysisInput, LightFindings};
 use crate::trace::{LocalStart, PixelKind, Recorder};
 use blobs::Highlights;
 use desaturation_map::DesaturationMap;
@@ -36,37 +39,51 @@ const LEAST_SHARE: f64 = 0.01;
 /// How far around the unexplained pixels the window reaches, pixels.
 const MARGIN_PX: usize = 24;
 
-/// Undoes the split of pixels that their region does not explain, and splits these pixels locally. Returns the confidence of the
-/// pixels that were split locally, 0 for others; none where no pixel was. `origin`: the ambient light that was subtracted, counts.
-/// `explained_mask`: the pixels that the skewed T of their region explains.
+/// The picture whose unexplained pixels are split locally.
+pub struct LocalInput<'a> {
+    /// The picture, colors in counts above the ambient light.
+    pub input: &'a AnalysisInput<'a>,
+    /// The light, and the evidence of it.
+    pub light: LightFindings,
+    /// The pixels that the skewed T of their region explains.
+    pub explained_mask: &'a Mask,
+}
+
+/// What the local split found.
+pub struct LocalSplit {
+    /// Confidence of the pixels that were split locally, 0 for others.
+    pub confidence: Raster<f32>,
+    /// The pixels of clipped blobs that were filled from around.
+    filled: Mask,
+}
+
+/// Undoes the split of pixels that their region does not explain, and splits these pixels locally. Returns what was found; none where
+/// no pixel was split. `origin`: the ambient light that was subtracted, counts.
 pub fn split_locally<R: Recorder>(
-    input: &AnalysisInput,
+    local: &LocalInput,
     origin: &[f64; 3],
-    regions: &FinalRegions,
-    explained_mask: &Mask,
     images: &mut Images,
     recorder: &mut R,
-) -> Option<Raster<f32>> {
-    let unexplained = undo_unexplained(input, explained_mask, images);
+) -> Option<LocalSplit> {
+    let unexplained = undo_unexplained(local.input, local.explained_mask, images);
     let mut trace_writer = LocalTraceWriter::new(recorder, *origin);
-    let confidence = split_unexplained(input, regions, &unexplained, images, &mut trace_writer);
+    let found = split_unexplained(local, &unexplained, images, &mut trace_writer);
     trace_writer.finish(unexplained);
-    confidence
+    found
 }
 
 /// Splits the lit pixels that no region explains. Returns what [`split_locally`] returns.
 fn split_unexplained<R: Recorder>(
-    input: &AnalysisInput,
-    regions: &FinalRegions,
+    LocalInput { input, light: findings, .. }: &LocalInput,
     unexplained: &Mask,
     images: &mut Images,
     trace_writer: &mut LocalTraceWriter<R>,
-) -> Option<Raster<f32>> {
+) -> Option<LocalSplit> {
     let pixels = unexplained.as_slice().iter().filter(|&&unexplained| unexplained).count();
     let lit = (0..unexplained.len()).filter(|&pixel| !input.masks.dark(pixel)).count();
     let few = pixels < LEAST_PIXELS || (pixels as f64) < LEAST_SHARE * lit as f64;
     let limits = limits::limits(input);
-    let light = regions.light.direction.map(Vec3::from);
+    let light = findings.direction.map(Vec3::from);
     let map = light.filter(|_| input.refine.local_split && !few && !input.stopped()).and_then(|light| {
         let size = (unexplained.width(), unexplained.height());
         let roi = Roi::around(size, MARGIN_PX, |pixel| unexplained[pixel])?;
@@ -78,14 +95,14 @@ fn split_unexplained<R: Recorder>(
         None if few => LocalStart::Few,
         None => LocalStart::NoLight,
     };
-    trace_writer.began(input, &limits, start, pixels, lit, regions.light.direction);
+    trace_writer.began(input, &limits, start, pixels, lit, findings.direction);
     let (light, map) = map?;
     let texture = input.refine.texture_test.then(|| texture::texture(&map, input.sigma()));
     let Highlights { weights, blobs } =
         blobs::highlights::<R>(input, &limits, &map, texture.as_ref(), unexplained);
     trace_writer.judged(input, &map, texture.as_ref(), unexplained, &blobs);
     if input.refine.belief {
-        let tested = plausibility::test(input, &regions.light, &map, &weights, unexplained);
+        let tested = plausibility::test(input, findings, &map, &weights, unexplained);
         let is_rejected = tested.reject_reason.is_some();
         trace_writer.plausibility(tested);
         if is_rejected {
@@ -93,13 +110,14 @@ fn split_unexplained<R: Recorder>(
         }
     }
     let mut confidence = move_surface(&light, &map, &weights, images);
+    let mut filled = Mask::default();
     if input.refine.clip_repair {
         trace_writer.repairs_began();
-        repair::repair(input, unexplained, images, &mut confidence, |tried, blob| {
+        filled = repair::repair(input, unexplained, images, &mut confidence, |tried, blob| {
             trace_writer.repair(tried, blob);
         });
     }
-    Some(confidence)
+    Some(LocalSplit { confidence, filled })
 }
 
 /// Resets pixels that no region explains to body = input, surface = 0, noise = 0. Returns the lit pixels among them, with the
@@ -175,7 +193,7 @@ mod tests {
     use crate::params::{Params, UsedParams};
     use crate::photo::{LinearImage, MaskLimits, Masks};
     use crate::raster::LabelMap;
-    use crate::segment::{LightBasis, LightFindings};
+    use crate::segment::{FinalRegions, LightBasis};
     use crate::trace::NoopRecorder;
     use proptest::prelude::*;
 
@@ -213,7 +231,7 @@ mod tests {
         };
         let labels = LabelMap::filled(SIDE_PX, SIDE_PX, 0);
         let regions = FinalRegions { labels, hypotheses: Vec::new(), light };
-        let result = split(&input, &regions, &mut NoopRecorder);
+        let result = split(&input, &regions, None, &mut NoopRecorder);
         (image, result)
     }
 

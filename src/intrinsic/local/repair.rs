@@ -14,24 +14,25 @@ const LEAST_HIGHLIGHT: f64 = 0.4;
 /// Most pixels of a blob that is filled: larger blobs are windows and skies.
 const MOST_PX: usize = 40_000;
 /// Confidence of a repaired pixel.
-const CONFIDENCE: f32 = 0.3;
+pub(super) const CONFIDENCE: f32 = 0.3;
 
-/// Fills the clipped blobs among the `unexplained` pixels that are highlights, and sets the `confidence` of their pixels.
-/// `record` receives each blob's verdict and pixels.
+/// Fills the clipped blobs among the `unexplained` pixels that are highlights, sets the `confidence` of their pixels, and returns
+/// these pixels. `record` receives each blob's verdict and pixels.
 pub fn repair(
     input: &AnalysisInput,
     unexplained: &Mask,
     images: &mut Images,
     confidence: &mut Raster<f32>,
     mut record: impl FnMut(RepairTried, &[usize]),
-) {
+) -> Mask {
+    let mut all_filled = Mask::filled(unexplained.width(), unexplained.height(), false);
     let mut search = ComponentSearch::new(unexplained.width(), unexplained.height(), Connectivity::Eight);
     let mut surroundings = Surroundings { input, in_ring: unexplained.map(|_| false) };
     let clipped = |pixel: usize| unexplained[pixel] && input.masks.clipped(pixel);
     for start in 0..unexplained.len() {
         let Some(blob) = search.component_at(start, clipped) else { continue };
         if input.stopped() {
-            return;
+            break;
         }
         let rings = surroundings.rings(blob);
         let tried = tried(blob, &rings, &images.surface);
@@ -48,8 +49,10 @@ pub fn repair(
                 images.kinds[pixel] = PixelKind::Restored;
             }
             confidence[pixel] = CONFIDENCE;
+            all_filled[pixel] = true;
         }
     }
+    all_filled
 }
 
 /// The verdict on a blob by the rings around the blob: whether enough of their pixels are highlight, and whether the inner ring

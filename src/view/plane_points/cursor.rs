@@ -2,16 +2,16 @@
 
 use super::{PlaneBranch, PlanePixel, RegionPlane};
 use crate::color::{Vec3, rgb};
-use crate::photo::Masks;
+use crate::photo::WorkingPicture;
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::reflection::{Components, ReflectionTransform};
 use crate::trace::{CandidateTested, PixelKind, Replay};
-use crate::view::{MOST_PLANE_POINTS, Picture};
+use crate::view::MOST_PLANE_POINTS;
 use crate::view::{candidate_pixels, measured_and_ignored, pixels_of_region, sampled, tracks};
 
-/// The colors of a picture, and the transform into the coordinates of a plane.
+/// The working picture, and the transform into the coordinates of a plane.
 struct PlaneProjection<'a> {
-    colors: &'a [[f32; 3]],
+    working: &'a WorkingPicture,
     transform: ReflectionTransform,
 }
 
@@ -21,9 +21,10 @@ impl PlaneProjection<'_> {
         let most = MOST_PLANE_POINTS / groups.len().max(1);
         let all = groups.iter().flat_map(|(pixels, kind)| sampled(pixels, most).map(move |p| (p, *kind)));
         let place = |(pixel, kind): (u32, PixelKind)| {
-            let color = self.colors[pixel as usize];
+            let color = self.working.image.pixels[pixel as usize];
+            let middle = self.working.blocks.middle(pixel as usize);
             let Components { body, surface, .. } = self.transform.split(color);
-            PlanePixel { body, surface, color, kind, pixel: PixelIndex::new(pixel), count: 1 }
+            PlanePixel { body, surface, color, kind, pixel: PixelIndex::from_index(middle), count: 1 }
         };
         all.map(place).collect()
     }
@@ -61,12 +62,11 @@ pub fn test_plane(
     replay: &Replay,
     test: &CandidateTested,
     region: Option<RegionId>,
-    picture: &Picture,
-    masks: &Masks,
+    working: &WorkingPicture,
 ) -> Option<RegionPlane> {
     let transform = ReflectionTransform::new(&test.matte.direction, &test.line.direction)?;
-    let colors = &picture.photo.image.pixels;
-    let projection = PlaneProjection { colors: colors.as_slice(), transform };
+    let (colors, masks) = (&working.image.pixels, &working.masks);
+    let projection = PlaneProjection { working, transform };
     let own = pixels_of_region(replay, test.hypothesis);
     let (measured, ignored) = measured_and_ignored(test, &own, colors);
     let points = projection.points(&[
@@ -88,8 +88,7 @@ pub fn growing_plane(
     replay: &Replay,
     focus: HypothesisId,
     region: Option<RegionId>,
-    picture: &Picture,
-    masks: &Masks,
+    working: &WorkingPicture,
 ) -> Option<RegionPlane> {
     let hypothesis = replay.hypothesis(focus)?;
     let made = replay.slice(focus);
@@ -101,8 +100,8 @@ pub fn growing_plane(
     };
     let in_plane = made.and_then(|made| ReflectionTransform::new(&line.direction, &made.plane.surface));
     let has_plane = in_plane.is_some();
-    let colors = &picture.photo.image.pixels;
-    let projection = PlaneProjection { colors: colors.as_slice(), transform: in_plane.or_else(across)? };
+    let (colors, masks) = (&working.image.pixels, &working.masks);
+    let projection = PlaneProjection { working, transform: in_plane.or_else(across)? };
     let tracks = tracks(replay, colors, masks).filter(|tracks| tracks.hypothesis == focus);
     let (outside, newest) = tracks.map_or_else(Default::default, |tracks| (tracks.outside, tracks.newest));
     let points = projection.points(&[
@@ -127,7 +126,7 @@ mod tests {
     use super::*;
     use crate::trace::{Event, Topic};
     use crate::view::test_at_cursor;
-    use crate::view::testing::{tiny, tiny_picture};
+    use crate::view::testing::tiny;
     use std::sync::Arc;
 
     fn cursor_after(steps: usize) -> Replay {
@@ -138,14 +137,14 @@ mod tests {
 
     #[test]
     fn a_test_meets_where_it_says_and_its_clusters_lie_along_both_lines() {
-        let (shown, picture) = (tiny(), tiny_picture());
-        let (trace, masks) = (shown.trace().unwrap(), &shown.analysis.masks);
+        let shown = tiny();
+        let trace = shown.trace().unwrap();
         let passed = trace
             .events()
             .find(|(_, event)| matches!(event, Event::CandidateTested(test) if test.verdict.accepted()));
         let replay = cursor_after(passed.unwrap().0 + 1);
         let test = test_at_cursor(&replay).unwrap();
-        let plane = test_plane(&replay, test, RegionId::from_label(3), &picture, masks).unwrap();
+        let plane = test_plane(&replay, test, RegionId::from_label(3), &shown.analysis.working).unwrap();
         assert_eq!((plane.region, plane.has_plane), (RegionId::from_label(3), true));
         let percent = 100.0 * f64::from(plane.branches[0].meeting_point / plane.matte_length);
         assert!((percent - test.position_percent).abs() < 8.0, "{percent} {}", test.position_percent);
@@ -160,16 +159,20 @@ mod tests {
 
     #[test]
     fn a_region_lies_across_its_line_until_it_has_a_slice() {
-        let (shown, picture) = (tiny(), tiny_picture());
-        let (trace, masks) = (shown.trace().unwrap(), &shown.analysis.masks);
+        let shown = tiny();
+        let trace = shown.trace().unwrap();
         let block = trace.blocks().find(|block| matches!(block.topic, Topic::Slice(_))).unwrap();
         let (hypothesis, region) = (block.topic.hypothesis(), RegionId::from_label(1));
         for (steps, has_plane) in [(block.steps.start, false), (block.steps.start + 1, true)] {
-            let plane = growing_plane(&cursor_after(steps), hypothesis, region, &picture, masks).unwrap();
+            let plane =
+                growing_plane(&cursor_after(steps), hypothesis, region, &shown.analysis.working).unwrap();
             assert_eq!((plane.has_plane, !plane.branches.is_empty()), (has_plane, has_plane));
             assert!(plane.matte_length > 20.0 && plane.points.len() > 100);
         }
         let first = HypothesisId::from_index(0);
-        assert!(growing_plane(&cursor_after(1), first, RegionId::from_label(1), &picture, masks).is_none());
+        assert!(
+            growing_plane(&cursor_after(1), first, RegionId::from_label(1), &shown.analysis.working)
+                .is_none()
+        );
     }
 }

@@ -3,8 +3,8 @@
 use super::RegionNames;
 use super::looked_at::blob_at_cursor;
 use super::tracks::{candidate_pixels, test_at_cursor, tracks};
-use crate::photo::Masks;
-use crate::raster::{HypothesisId, LabelMap, PixelIndex, Raster};
+use crate::photo::{Masks, WorkingPicture};
+use crate::raster::{Blocks, HypothesisId, LabelMap, PixelIndex, Raster};
 use crate::trace::{
     Class, Event, Grid, MergeTried, Pass, PixelKind, Replay, Stage, Step, Topic, WindowClassified,
 };
@@ -108,9 +108,9 @@ impl Instant {
         replay: &Replay,
         names: &RegionNames,
         chosen: Option<HypothesisId>,
-        colors: &Raster<[f32; 3]>,
-        masks: &Masks,
+        working: &WorkingPicture,
     ) -> Self {
+        let (colors, masks) = (&working.image.pixels, &working.masks);
         let last = replay.last();
         let stage = replay.stage().filter(|_| last.is_some());
         let windows = replay.grid().map(|grid| WindowsView::of(grid, last.as_ref()));
@@ -138,7 +138,41 @@ impl Instant {
                 InstantView::Roles(RolesView { kinds: roles(replay), blob: blob_at_cursor(replay) })
             }
         };
-        Self { view, pixel, window }
+        Self { view, pixel, window }.of_photograph(&replay.trace().pixel_blocks())
+    }
+
+    /// The instant in pixels of the photograph, of one in working pixels, which are these blocks of the photograph.
+    fn of_photograph(self, blocks: &Blocks) -> Self {
+        if blocks.side() == 1 {
+            return self;
+        }
+        let expanded = |pixels: Vec<u32>| {
+            let members = pixels.into_iter().flat_map(|pixel| blocks.members(pixel as usize));
+            members.map(|pixel| pixel as u32).collect::<Vec<u32>>()
+        };
+        let larger =
+            |windows: WindowsView| WindowsView { size_px: windows.size_px * blocks.side(), ..windows };
+        let view = match self.view {
+            InstantView::Nothing => InstantView::Nothing,
+            InstantView::Windows(windows) => InstantView::Windows(larger(windows)),
+            InstantView::Regions(regions) => InstantView::Regions(RegionsView {
+                labels: blocks.enlarged(&regions.labels),
+                newest: expanded(regions.newest),
+                beside: expanded(regions.beside),
+                windows: regions.windows.map(larger),
+                ..regions
+            }),
+            InstantView::Roles(roles) => InstantView::Roles(RolesView {
+                kinds: blocks.enlarged(&roles.kinds),
+                blob: roles.blob.map(|(pixels, kept)| (expanded(pixels), kept)),
+            }),
+        };
+        let middle = |pixel: PixelIndex| PixelIndex::from_index(blocks.middle(pixel.index()));
+        Self {
+            view,
+            pixel: self.pixel.map(|(pixel, taken)| (middle(pixel), taken)),
+            window: self.window.map(|window| window.map(|px| px * blocks.side())),
+        }
     }
 }
 

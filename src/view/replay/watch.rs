@@ -74,7 +74,7 @@ pub struct AxisDistance {
     pub along: f64,
 }
 
-/// The values at the cursor, with those of `pixel`.
+/// The values at the cursor, with those of `pixel` of the photograph. `colors`: those of the working picture, counts.
 pub fn watch(
     replay: &Replay,
     names: &RegionNames,
@@ -108,11 +108,13 @@ fn current(replay: &Replay, names: &RegionNames, id: HypothesisId) -> Option<Cur
 }
 
 fn watched(replay: &Replay, colors: &Raster<[f32; 3]>, pixel: PixelIndex) -> Option<WatchedPixel> {
-    let color = *colors.as_slice().get(pixel.index())?;
-    let hypothesis = HypothesisId::from_label(*replay.labels().as_slice().get(pixel.index())?);
+    let [width, height] = replay.trace().pixel_blocks().picture();
+    let working_pixel = replay.trace().working_pixel(pixel);
+    let color = *colors.as_slice().get(working_pixel.index()).filter(|_| pixel.index() < width * height)?;
+    let hypothesis = HypothesisId::from_label(*replay.labels().as_slice().get(working_pixel.index())?);
     let grid = replay.first_grid();
     let class = grid.and_then(|grid| {
-        let window = grid.window_of(pixel.index(), colors.width());
+        let window = grid.window_of(working_pixel.index(), colors.width());
         grid.classes.as_slice().get(window).copied().flatten()
     });
     let mut distances: Vec<AxisDistance> = replay

@@ -3,7 +3,7 @@
 use super::RegionNames;
 use crate::describe::{Names, condense};
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
-use crate::trace::{Stage, Trace, lineage, pixel_history, story};
+use crate::trace::{Stage, Trace, lineage, story};
 use crate::view::ResultSnapshot;
 use std::sync::Arc;
 
@@ -44,13 +44,16 @@ pub fn why(
     let account = |step: usize, depth: usize, text: String| Account { step, stage: stage(step), depth, text };
     let image = &shown.picture.photo.image;
     let pixel = pixel.filter(|&pixel| pixel.index() < image.pixels.len()).map(|pixel| {
-        let history = condense(&pixel_history(trace, image, &shown.analysis.masks, pixel));
+        let history = condense(&shown.analysis.pixel_history(trace, pixel));
+        let place = shown.analysis.pixel_place(pixel);
+        let at_full_resolution =
+            place.map(|place| account(trace.len().saturating_sub(1), 0, words.pixel_place(&place)));
         let told = history.iter().rev().map(|condensed| {
             let text = words.history_entry(&condensed.last);
             let text = if condensed.times > 1 { format!("{text} ({} times)", condensed.times) } else { text };
             account(condensed.last.step, 0, text)
         });
-        (pixel, told.collect())
+        (pixel, at_full_resolution.into_iter().chain(told).collect())
     });
     let of_pixel = || {
         let (pixel, _) = pixel.as_ref()?;

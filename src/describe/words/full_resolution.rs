@@ -1,0 +1,33 @@
+//! What the pass at full resolution made of a pixel, in words.
+
+use super::Names;
+use crate::segment::{PixelPlace, PlaceRule};
+
+impl Names {
+    /// How a pixel of the photograph took its region, where regions were found in a working picture with larger pixels.
+    pub fn pixel_place(&self, place: &PixelPlace) -> String {
+        let side = place.side;
+        let of_working =
+            place.working_region.map_or("in no region".to_owned(), |region| format!("in region {region}"));
+        let took =
+            place.region.map_or("is in no region".to_owned(), |region| format!("takes region {region}"));
+        let why = match (place.rule, place.region) {
+            (PlaceRule::Dark, _) => format!("it is not lit; its working pixel is {of_working}"),
+            (PlaceRule::Distorted, _) => {
+                format!("it is clipped or bloomed, and its working pixel is {of_working}")
+            }
+            (PlaceRule::Inside, _) => {
+                format!("its working pixel and the working pixels around are {of_working}")
+            }
+            (PlaceRule::Border, Some(_)) => format!(
+                "its own color fits that region best of those around; its working pixel is {of_working}"
+            ),
+            (PlaceRule::Border, None) => {
+                format!("its own color fits no region around; its working pixel is {of_working}")
+            }
+        };
+        format!(
+            "at full resolution the pixel {took}: {why}; all else is told of the working pixel, the mean of {side} \u{d7} {side} pixels"
+        )
+    }
+}
