@@ -128,6 +128,24 @@ fn why_tells_newest_first_with_value_and_threshold() {
     assert!(dark.contains("in no region") && dark.contains("counts from black, below 441.0"), "{dark}");
 }
 
+#[test]
+fn of_an_averaged_picture_why_begins_with_the_pass_at_full_resolution_and_trace_says_the_scale() {
+    let (schema, all) = lines(&succeeds("trace TINY --out - --scale 2"));
+    assert_eq!((schema["width"].as_u64(), schema["scale"].as_u64()), (Some(WIDTH), Some(2)));
+    let [x, y] = pixel_with(&all, "matte");
+    let text = succeeds(&format!("why TINY {x},{y} --scale 2"));
+    assert!(text.starts_with(&format!("pixel ({x}, {y}), color (")), "{text}");
+    let history = text.split("\n\n").nth(1).unwrap();
+    let first = history.lines().next().unwrap();
+    assert!(first.contains("split     at full resolution the pixel takes region"), "{text}");
+    assert!(first.ends_with("the mean of 2 \u{d7} 2 pixels"), "{text}");
+    let (_, own) = lines(&succeeds(&format!("trace TINY --out - --scale 2 --pixel {x},{y}")));
+    assert!(!own.is_empty() && own.iter().filter_map(pixel_of).all(|pixel| pixel == [x, y]));
+    let (plain, _) = lines(&succeeds("trace TINY --out -"));
+    assert!(plain["scale"].is_null());
+    fails(2, "why TINY 1,1 --scale 1.5", "whole number");
+}
+
 /// Column and row on the marbled sheet of a highlight with a clipped core (`CLIPPED`), of one without (`HIGHLIGHT`),
 /// and of a
 /// printed speck (`SPECK`).
