@@ -87,7 +87,7 @@ impl WhatIfObserver for Bar {
 fn history(traced: &Traced, pixel: usize) -> String {
     let names = Names::of(&traced.trace);
     let happened = traced.analysis.pixel_history(&traced.trace, PixelIndex::from_index(pixel));
-    let mut text = headline(traced, &names, pixel);
+    let mut text = headline(traced, pixel);
     text.push('\n');
     let condensed = condense(&happened);
     let digits = traced.trace.len().to_string().len();
@@ -111,7 +111,7 @@ fn history(traced: &Traced, pixel: usize) -> String {
 }
 
 /// `pixel (12, 7), color (120.3, 40.1, 38.8) counts: matte, in region 3`
-fn headline(traced: &Traced, names: &Names, pixel: usize) -> String {
+fn headline(traced: &Traced, pixel: usize) -> String {
     let [r, g, b] = traced.image.pixels[pixel];
     let what = match region_of(traced, pixel) {
         None => "in no region".to_owned(),
@@ -120,10 +120,8 @@ fn headline(traced: &Traced, names: &Names, pixel: usize) -> String {
             format!("{}, in region {region}", kind.name())
         }
     };
-    format!(
-        "pixel {}, color ({r:.1}, {g:.1}, {b:.1}) counts: {what}\n",
-        names.pixel(PixelIndex::from_index(pixel))
-    )
+    let [x, y] = PixelIndex::from_index(pixel).position(traced.image.width());
+    format!("pixel ({x}, {y}), color ({r:.1}, {g:.1}, {b:.1}) counts: {what}\n")
 }
 
 fn region_of(traced: &Traced, pixel: usize) -> Option<RegionId> {
