@@ -63,6 +63,9 @@ fn a_rectangle_is_marked_inverted_analyzed_alone_and_all_of_it_taken_back() {
     let (width, height) = size(&window);
     press(&mut window, Modifiers::COMMAND, Key::I);
     assert_eq!(marked(&window), width * height - 60 * 60);
+    // The button lies below the sliders, at the lower end of the panel.
+    named(&window, Role::Button, "To marked").scroll_to_me();
+    window.run_steps(20);
     click(&mut window, Role::Button, "To marked");
     let area = state(&window).document.area.clone().unwrap();
     assert!(state(&window).is_current());
@@ -70,6 +73,8 @@ fn a_rectangle_is_marked_inverted_analyzed_alone_and_all_of_it_taken_back() {
     let labels = restricted.labels();
     assert!((0..labels.len()).all(|pixel| area[pixel] || labels[pixel] == 0));
     assert!(!area.get(70, 60).unwrap() && *area.get(10, 10).unwrap());
+    named(&window, Role::Button, "Lift").scroll_to_me();
+    window.run_steps(20);
     click(&mut window, Role::Button, "Lift");
     assert!(state(&window).document.area.is_none());
     undo(&mut window);
