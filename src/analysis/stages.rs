@@ -43,6 +43,14 @@ struct Prepared {
     detail_sigma: Option<f64>,
 }
 
+impl Prepared {
+    /// The parameters for single pixels of the photograph, which are noisier than working pixels.
+    fn detail_params(&self, params: &Params, used: UsedParams) -> UsedParams {
+        let camera_noise = detail_noise(params, &self.noise, used.camera_noise, self.detail_sigma);
+        UsedParams { camera_noise, ..used }
+    }
+}
+
 /// A stage's output in pixels of the working picture, and the same in pixels of the photograph.
 struct Scaled<T> {
     working: Arc<T>,
@@ -62,6 +70,40 @@ impl<T> Scaled<T> {
         let working = Arc::new(working);
         let shown = if blocks.side() == 1 { Arc::clone(&working) } else { Arc::new(enlarge(&working)) };
         Self { working, shown }
+    }
+}
+
+impl Scaled<Windows> {
+    fn windows(working: Windows, blocks: &Blocks) -> Self {
+        let enlarge = |made: &Windows| Windows { size_px: made.size_px * blocks.side(), ..made.clone() };
+        Self::new(working, blocks, enlarge)
+    }
+}
+
+impl Scaled<MatteRegions> {
+    fn matte(working: MatteRegions, blocks: &Blocks) -> Self {
+        let enlarge =
+            |made: &MatteRegions| MatteRegions { labels: blocks.enlarged(&made.labels), ..made.clone() };
+        Self::new(working, blocks, enlarge)
+    }
+}
+
+impl Scaled<PlanarRegions> {
+    fn planar(working: PlanarRegions, blocks: &Blocks) -> Self {
+        let enlarge =
+            |made: &PlanarRegions| PlanarRegions { labels: blocks.enlarged(&made.labels), ..made.clone() };
+        Self::new(working, blocks, enlarge)
+    }
+}
+
+impl Scaled<FinalRegions> {
+    /// `detail`: the photograph, whose pixels take their regions at full resolution.
+    fn finals(working: FinalRegions, blocks: &Blocks, detail: &AnalysisInput) -> Self {
+        let at_full_resolution = |made: &FinalRegions| FinalRegions {
+            labels: full_resolution_labels(detail, made, blocks),
+            ..made.clone()
+        };
+        Self::new(working, blocks, at_full_resolution)
     }
 }
 
@@ -164,24 +206,21 @@ impl Stages {
         let (prepared, used) = self.masks::<R>(subject, params, observer)?;
         let (image, Prepared { masks, working, .. }) = (&subject.image, &*prepared);
         let blocks = working.blocks;
-        let input = AnalysisInput::new(&working.image, &working.masks, &used, refine)
-            .with_coding(prepared.working_coding.as_ref().filter(|_| refine.coding_error), prepared.noise.extended && refine.coding_error);
-        // The numbers for single pixels of the photograph, which are noisier than working pixels.
-        let detail_used = UsedParams {
-            camera_noise: detail_noise(params, &prepared.noise, used.camera_noise, prepared.detail_sigma),
-            ..used
-        };
-        let detail_input = AnalysisInput::new(image, masks, &detail_used, refine)
-            .with_coding(prepared.noise.coding.as_ref().filter(|_| refine.coding_error), prepared.noise.extended && refine.coding_error);
+        let input = AnalysisInput::new(&working.image, &working.masks, &used, refine).with_coding(
+            prepared.working_coding.as_ref().filter(|_| refine.coding_error),
+            prepared.noise.extended && refine.coding_error,
+        );
+        let detail_used = prepared.detail_params(params, used);
+        let detail_input = AnalysisInput::new(image, masks, &detail_used, refine).with_coding(
+            prepared.noise.coding.as_ref().filter(|_| refine.coding_error),
+            prepared.noise.extended && refine.coding_error,
+        );
 
         let key = |stage, before| (before, seen_up_to(stage, &used, refine));
 
         let after_masks = key(Stage::Classify, self.masks.generation);
         let windows = self.classify.get(Stage::Classify, after_masks, observer, |_, recorder: &mut R| {
-            Scaled::new(classify_windows(&input, recorder), &blocks, |windows| Windows {
-                size_px: windows.size_px * blocks.side(),
-                ..windows.clone()
-            })
+            Scaled::windows(classify_windows(&input, recorder), &blocks)
         })?;
         observer.made(StageOutput::Windows(windows.shown.clone()));
         let after_classify = key(Stage::Merge, self.classify.generation);
@@ -197,10 +236,7 @@ impl Stages {
         let matte = self.linear.get(Stage::Linear, after_merge, observer, |observer, recorder: &mut R| {
             let stop = || observer.cancelled();
             let made = matte_regions(&input.stopped_by(&stop), windows_of_stages, areas, recorder);
-            Scaled::new(made, &blocks, |made| MatteRegions {
-                labels: blocks.enlarged(&made.labels),
-                ..made.clone()
-            })
+            Scaled::matte(made, &blocks)
         })?;
         observer.made(StageOutput::Matte(matte.shown.clone()));
         let after_linear = key(Stage::Planar, self.linear.generation);
@@ -209,10 +245,7 @@ impl Stages {
                 let (stop, input) = (|| observer.cancelled(), &input);
                 let input = input.stopped_by(&stop);
                 let made = planar_regions(&input, windows_of_stages, areas, &matte.working, recorder);
-                Scaled::new(made, &blocks, |made| PlanarRegions {
-                    labels: blocks.enlarged(&made.labels),
-                    ..made.clone()
-                })
+                Scaled::planar(made, &blocks)
             })?;
         observer.made(StageOutput::Planar(planar.shown.clone()));
         let after_planar = key(Stage::Clipping, self.planar.generation);
@@ -222,10 +255,7 @@ impl Stages {
                 let input = input.stopped_by(&stop);
                 let labels = clipping_regions(&input, &planar.working, recorder);
                 let made = final_regions(&input, labels, &planar.working, recorder);
-                Scaled::new(made, &blocks, |made| FinalRegions {
-                    labels: full_resolution_labels(&detail_input.stopped_by(&stop), made, &blocks),
-                    ..made.clone()
-                })
+                Scaled::finals(made, &blocks, &detail_input.stopped_by(&stop))
             })?;
         observer.made(StageOutput::Finals(finals.shown.clone()));
         let after_clipping = key(Stage::Split, self.clipping.generation);
@@ -241,9 +271,7 @@ impl Stages {
             })?;
         observer.made(StageOutput::Intrinsic(intrinsic.clone()));
         let (planar, working_finals, finals) = (planar.shown, finals.working, finals.shown);
-        let mut warnings = warnings(&finals.labels, &planar, masks, subject.area.is_some());
-        warnings.extend(prepared.noise.coding.as_ref().and_then(compression_warning));
-        warnings.extend(size_warning(&finals.labels));
+        let warnings = all_warnings(&finals.labels, &planar, &prepared, subject.area.is_some());
         Ok(Analysis {
             used,
             masks: masks.clone(),
@@ -406,6 +434,19 @@ fn size_warning(labels: &LabelMap) -> Option<String> {
              are enough"
         )
     })
+}
+
+/// The warnings about the regions, then about the file's values, then about the size of the regions.
+fn all_warnings(
+    labels: &LabelMap,
+    planar: &PlanarRegions,
+    prepared: &Prepared,
+    restricted: bool,
+) -> Vec<String> {
+    let mut all = warnings(labels, planar, &prepared.masks, restricted);
+    all.extend(prepared.noise.coding.as_ref().and_then(compression_warning));
+    all.extend(size_warning(labels));
+    all
 }
 
 fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks, restricted: bool) -> Vec<String> {
