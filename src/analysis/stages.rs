@@ -44,6 +44,27 @@ struct Prepared {
 }
 
 impl Prepared {
+    /// The input of the stages: the working picture.
+    fn working_input<'a>(&'a self, used: &'a UsedParams, refine: Refine) -> AnalysisInput<'a> {
+        AnalysisInput::new(&self.working.image, &self.working.masks, used, refine).with_coding(
+            self.working_coding.as_ref().filter(|_| refine.coding_error),
+            self.noise.extended && refine.coding_error,
+        )
+    }
+
+    /// The input of the pass at full resolution: the photograph.
+    fn detail_input<'a>(
+        &'a self,
+        image: &'a LinearImage,
+        used: &'a UsedParams,
+        refine: Refine,
+    ) -> AnalysisInput<'a> {
+        AnalysisInput::new(image, &self.masks, used, refine).with_coding(
+            self.noise.coding.as_ref().filter(|_| refine.coding_error),
+            self.noise.extended && refine.coding_error,
+        )
+    }
+
     /// The parameters for single pixels of the photograph, which are noisier than working pixels.
     fn detail_params(&self, params: &Params, used: UsedParams) -> UsedParams {
         let camera_noise = detail_noise(params, &self.noise, used.camera_noise, self.detail_sigma);
@@ -206,15 +227,9 @@ impl Stages {
         let (prepared, used) = self.masks::<R>(subject, params, observer)?;
         let (image, Prepared { masks, working, .. }) = (&subject.image, &*prepared);
         let blocks = working.blocks;
-        let input = AnalysisInput::new(&working.image, &working.masks, &used, refine).with_coding(
-            prepared.working_coding.as_ref().filter(|_| refine.coding_error),
-            prepared.noise.extended && refine.coding_error,
-        );
+        let input = prepared.working_input(&used, refine);
         let detail_used = prepared.detail_params(params, used);
-        let detail_input = AnalysisInput::new(image, masks, &detail_used, refine).with_coding(
-            prepared.noise.coding.as_ref().filter(|_| refine.coding_error),
-            prepared.noise.extended && refine.coding_error,
-        );
+        let detail_input = prepared.detail_input(image, &detail_used, refine);
 
         let key = |stage, before| (before, seen_up_to(stage, &used, refine));
 
