@@ -12,8 +12,7 @@ const TYPICAL_INTENSITY: f64 = 0.25;
 const CLIP_SHARE: f64 = 240.0 / 255.0;
 /// Number of pixels of the paper's images; windows and areas are proportional to the image size.
 const PAPER_PIXELS: f64 = 512.0 * 480.0;
-
-/// Number of pixels of an automatic working picture, which is about as many as the paper's pictures have twice.
+/// Number of pixels of an automatic working picture: twice those of the paper's images.
 const WORKING_PIXELS: f64 = 0.5e6;
 
 /// Side of a working pixel, pixels of the photograph: the parameter `scale`, or automatically √(pixels / 0.5 million), rounded.
@@ -51,8 +50,8 @@ pub struct NoiseFindings {
 /// The values of all parameters, for the working picture `image`, whose pixels are blocks of `factor` × `factor` pixels of the
 /// photograph, and for the errors of its values.
 ///
-/// σ0 = 2σ, and at least twice the error of lossy compression, which windows do not see. The radius of cylinders is 4σ0 as in the paper but at most 8 counts, because wider cylinders contain pixels of
-/// other objects, and at least 2σ0. Windows and areas have the same share of the image as in the paper. The radius of the dark
+/// σ0 = 2σ, and at least twice the error of lossy compression, which windows do not see. The radius of cylinders is 4σ0 as in
+/// the paper but at most 8 counts, because wider cylinders contain pixels of other objects, and at least 2σ0. Windows and areas have the same share of the image as in the paper. The radius of the dark
 /// sphere is 9.2σ0, as in table 6.
 pub fn used_params(params: &Params, image: &LinearImage, factor: usize, noise: &NoiseFindings) -> UsedParams {
     let limits = mask_limits(params, image);

@@ -46,10 +46,8 @@ struct Prepared {
 impl Prepared {
     /// The input of the stages: the working picture.
     fn working_input<'a>(&'a self, used: &'a UsedParams, refine: Refine) -> AnalysisInput<'a> {
-        AnalysisInput::new(&self.working.image, &self.working.masks, used, refine).with_coding(
-            self.working_coding.as_ref().filter(|_| refine.coding_error),
-            self.noise.extended && refine.coding_error,
-        )
+        let input = AnalysisInput::new(&self.working.image, &self.working.masks, used, refine);
+        self.with_coding(input, self.working_coding.as_ref())
     }
 
     /// The input of the pass at full resolution: the photograph.
@@ -59,10 +57,17 @@ impl Prepared {
         used: &'a UsedParams,
         refine: Refine,
     ) -> AnalysisInput<'a> {
-        AnalysisInput::new(image, &self.masks, used, refine).with_coding(
-            self.noise.coding.as_ref().filter(|_| refine.coding_error),
-            self.noise.extended && refine.coding_error,
-        )
+        let input = AnalysisInput::new(image, &self.masks, used, refine);
+        self.with_coding(input, self.noise.coding.as_ref())
+    }
+
+    /// An input with a coding error, as far as refinement `coding_error` is on.
+    fn with_coding<'a>(
+        &'a self,
+        input: AnalysisInput<'a>,
+        coding: Option<&'a CodingError>,
+    ) -> AnalysisInput<'a> {
+        if input.refine.coding_error { input.with_coding(coding, self.noise.extended) } else { input }
     }
 
     /// The parameters for single pixels of the photograph, which are noisier than working pixels.

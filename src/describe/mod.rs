@@ -5,16 +5,20 @@
 
 mod events;
 mod facts;
+mod light_facts;
 mod names;
+mod region_facts;
 mod scores;
 mod trace_line;
 mod words;
 
 pub use facts::{
-    AmbientAsked, AmbientFacts, AreaFacts, HighlightBranchFacts, IlluminantFacts, ImageFacts, LightFacts,
-    ParameterFacts, ParamsFacts, RegionFacts, Report, SCHEMA, ScaleFacts, Timings,
+    AmbientAsked, AreaFacts, ImageFacts, LightFacts, ParameterFacts, ParamsFacts, Report, SCHEMA, ScaleFacts,
+    Timings,
 };
+pub use light_facts::{AmbientFacts, CodingFacts, IlluminantFacts, NoiseFacts};
 pub use names::Names;
+pub use region_facts::{HighlightBranchFacts, RegionFacts};
 pub use scores::Scores;
 pub use trace_line::{TRACE_SCHEMA, schema_line, trace_line};
 pub use words::{Condensed, condense, what_if_sentence};

@@ -8,13 +8,13 @@
 //! What is noise in a single pixel is more than what is noise in a mean: the picture's own noise decides which surface reflection
 //! is taken for none, how far the prior of a restored pixel is trusted, and which ε lowers the confidence.
 
+use super::Intrinsic;
 use super::detail::{Detail, WorkingSplit};
 use super::finish::Finish;
 use super::images::Images;
 use super::local::{LocalSplit, split_locally_at_full_resolution};
-use super::region::RegionSummary;
+use super::region::RegionReports;
 use super::region_plan::RegionPlan;
-use super::{Intrinsic, RegionReflection};
 use crate::raster::{Mask, RegionId};
 use crate::segment::Members;
 use rayon::prelude::*;
@@ -39,21 +39,9 @@ pub(super) fn split_photograph(
     let explained_mask = explained_mask(detail, working);
     let local_confidence =
         split_locally_at_full_resolution(detail, working, local, &explained_mask, &mut images);
-    let reports: Vec<RegionReflection> = plans
-        .par_iter()
-        .zip(touching)
-        .enumerate()
-        .map(|(index, (plan, neighbors))| {
-            let id = RegionId::from_index(index);
-            let summary = RegionSummary {
-                id,
-                pixels: members.region(id),
-                kinds: &images.kinds,
-                fit_sigma: working.input.sigma(),
-            };
-            summary.report(input, plan, neighbors)
-        })
-        .collect();
+    let reports =
+        RegionReports { input, members: &members, kinds: &images.kinds, fit_sigma: working.input.sigma() }
+            .of(&plans, touching);
     let finish = Finish {
         input,
         labels: detail.labels,

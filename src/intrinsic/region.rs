@@ -6,32 +6,53 @@ use super::{HighlightBranch, RegionReflection};
 use crate::color::Vec3;
 use crate::raster::{Raster, RegionId};
 use crate::reflection::MIN_ANGLE_DEG;
-use crate::segment::{AnalysisInput, Pixels};
+use crate::segment::{AnalysisInput, Members, Pixels};
 use crate::trace::PixelKind;
+use rayon::prelude::*;
 
 /// Below this angle between body and surface vector the split amplifies noise more than four times, degrees.
 const SMALL_ANGLE_DEG: f64 = 14.0;
 
-/// A region and the result of its split.
-pub struct RegionSummary<'a> {
-    /// The region.
-    pub id: RegionId,
-    /// The region's pixels.
-    pub pixels: Pixels<'a>,
-    /// The kind of each pixel of the picture.
+/// A picture whose regions were split.
+pub struct RegionReports<'a> {
+    /// The picture.
+    pub input: &'a AnalysisInput<'a>,
+    /// The pixels of the regions.
+    pub members: &'a Members,
+    /// The kind of each pixel.
     pub kinds: &'a Raster<PixelKind>,
-    /// Standard deviation of the noise of the picture to which the region's vectors were fitted, counts.
+    /// Standard deviation of the noise of the picture to which the regions' vectors were fitted, counts.
     pub fit_sigma: f64,
+}
+
+impl RegionReports<'_> {
+    /// The report of each region, by its plan and the regions that it touches, both by [`RegionId::index`].
+    pub fn of(&self, plans: &[RegionPlan], touching: Vec<Vec<RegionId>>) -> Vec<RegionReflection> {
+        let report = |(index, (plan, neighbors)): (usize, (&RegionPlan, Vec<RegionId>))| {
+            let id = RegionId::from_index(index);
+            let Self { kinds, fit_sigma, .. } = *self;
+            RegionSummary { id, pixels: self.members.region(id), kinds, fit_sigma }
+                .report(self.input, plan, neighbors)
+        };
+        plans.par_iter().zip(touching).enumerate().map(report).collect()
+    }
+}
+
+/// A region and the result of its split.
+struct RegionSummary<'a> {
+    /// The region.
+    id: RegionId,
+    /// The region's pixels.
+    pixels: Pixels<'a>,
+    /// The kind of each pixel of the picture.
+    kinds: &'a Raster<PixelKind>,
+    /// Standard deviation of the noise of the picture to which the region's vectors were fitted, counts.
+    fit_sigma: f64,
 }
 
 impl RegionSummary<'_> {
     /// The report of the region, which was split by `plan` and touches the regions `neighbors`.
-    pub fn report(
-        &self,
-        input: &AnalysisInput,
-        plan: &RegionPlan,
-        neighbors: Vec<RegionId>,
-    ) -> RegionReflection {
+    fn report(&self, input: &AnalysisInput, plan: &RegionPlan, neighbors: Vec<RegionId>) -> RegionReflection {
         let pixels = self.pixels;
         let count = |test: &dyn Fn(usize) -> bool| pixels.iter().filter(|&p| test(p as usize)).count();
         let matte_pixels = count(&|pixel| self.kinds[pixel] == PixelKind::Matte);

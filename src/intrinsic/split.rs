@@ -1,5 +1,6 @@
 //! Section 6: the steps of the split, in order: ambient light, plans of the regions, images, local split, reports.
 
+use super::Intrinsic;
 use super::ambient::ambient;
 use super::detail::{Detail, WorkingSplit};
 use super::explained_mask::explained_mask;
@@ -7,9 +8,8 @@ use super::finish::Finish;
 use super::full_resolution::split_photograph;
 use super::images::Images;
 use super::local::{LocalInput, split_locally};
-use super::region::RegionSummary;
+use super::region::RegionReports;
 use super::region_plan::RegionPlan;
-use super::{Intrinsic, RegionReflection};
 use crate::raster::RegionId;
 use crate::segment::{AnalysisInput, Branches, FinalRegions, Members, members, neighbors};
 use crate::trace::{BranchesSought, Pass, PassBegan, Recorder};
@@ -109,21 +109,8 @@ fn split_from<R: Recorder>(
         };
         return split_photograph(detail, &working, local.as_ref(), touching);
     }
-    let reports: Vec<RegionReflection> = plans
-        .par_iter()
-        .zip(touching)
-        .enumerate()
-        .map(|(index, (plan, neighbors))| {
-            let id = RegionId::from_index(index);
-            let summary = RegionSummary {
-                id,
-                pixels: members.region(id),
-                kinds: &images.kinds,
-                fit_sigma: input.sigma(),
-            };
-            summary.report(input, plan, neighbors)
-        })
-        .collect();
+    let reports =
+        RegionReports { input, members, kinds: &images.kinds, fit_sigma: input.sigma() }.of(&plans, touching);
     let local_confidence = local.map(|local| local.confidence);
     let finish = Finish {
         input,

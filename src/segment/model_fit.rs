@@ -11,9 +11,9 @@
 //! are mixtures, and a mixture with a wall of the lamp's color has the anticorrelation of a print.
 //!
 //! Regions of plain objects that the model fits, before and after σ contained the error of the file's values, on 25 rendered
-//! scenes: 87 → 92 of 96 as they are, 13 → 84 of 94 at JPEG 92, 37 → 83 of 91 demosaiced; body 44.2 → 44.4, 36.8 → 38.1 and
+//! scenes: 87 → 92 of 96 as they are, 13 → 82 of 92 at JPEG 92, 37 → 83 of 91 demosaiced; body 44.2 → 44.4, 36.8 → 38.1 and
 //! 38.5 → 38.6 dB (doing nothing: 22.7). Of printed scenes (body 29.1 → 29.7, 26.4 → 26.9, 25.4 → 27.2 dB; doing nothing:
-//! 22.5–22.9) more regions fit as well, 79 → 87 of 161 as they are.
+//! 22.5–22.9) more regions fit as well, 79 → 84 of 157 as they are.
 
 use super::input::AnalysisInput;
 use super::recorded_labels::Pixels;

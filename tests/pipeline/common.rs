@@ -150,3 +150,22 @@ pub fn assert_valid(image: &LinearImage, analysis: &Analysis, about: &str) {
 fn is_unit(vector: [f64; 3]) -> bool {
     (vector.iter().map(|v| v * v).sum::<f64>() - 1.0).abs() < 1e-5
 }
+
+/// Largest difference between input and body + surface + ε·n, counts, over the pixels for which `counts` is true, and the number
+/// of these pixels. A pixel in no region, and one whose region has no plane, has no ε·n.
+pub fn largest_gap(image: &LinearImage, analysis: &Analysis, counts: impl Fn(usize) -> bool) -> (f32, usize) {
+    let intrinsic = &analysis.intrinsic;
+    let (mut gap, mut looked_at) = (0f32, 0);
+    for pixel in (0..image.pixels.len()).filter(|&pixel| counts(pixel)) {
+        let region = RegionId::from_label(analysis.finals.labels[pixel]);
+        let region = region.and_then(|region| intrinsic.regions.get(region.index()));
+        let normal = region.and_then(|region| region.plane_normal).unwrap_or_default();
+        looked_at += 1;
+        for (band, along) in normal.into_iter().enumerate() {
+            let noise = intrinsic.noise[pixel] * along as f32;
+            let sum = intrinsic.body[pixel][band] + intrinsic.surface[pixel][band] + noise;
+            gap = gap.max((sum - image.pixels[pixel][band]).abs());
+        }
+    }
+    (gap, looked_at)
+}

@@ -80,20 +80,30 @@ fn the_light_that_is_chosen_is_the_results_and_its_figures_decide() {
             (light.basis, light.direction, light.support)
         );
         let limits = chosen.limits;
-        let least_share = if chosen.planes.is_some() { limits.share } else { limits.share_without_planes };
-        let votes_could_be = chosen.votes.is_some_and(|votes| {
-            (0..2).all(|i| votes.offsets_deg[i].abs() <= limits.offsets_deg[i]) && votes.share >= least_share
-        });
-        let expected = match chosen.odds {
-            Some(odds) if odds.sum() > limits.log_odds => LightBasis::Votes,
-            Some(_) => LightBasis::Planes,
-            None if votes_could_be && chosen.planes.is_none() => LightBasis::Votes,
-            None if chosen.planes.is_some() && chosen.direction == chosen.planes.map(|(light, _)| light) => {
-                LightBasis::Planes
-            }
-            None => LightBasis::Nothing,
+        let within = |offsets: [f64; 2], most: [f64; 2]| (0..2).all(|axis| offsets[axis].abs() <= most[axis]);
+        let votes_could_be = |least_share: f64| {
+            chosen.votes.is_some_and(|votes| {
+                within(votes.offsets_deg, limits.offsets_deg) && votes.share >= least_share
+            })
         };
-        assert_eq!(chosen.basis, expected, "{chosen:?}");
+        match (chosen.odds, chosen.basis) {
+            (Some(odds), basis) => {
+                assert!(chosen.planes.is_some() && votes_could_be(limits.share), "{chosen:?}");
+                let expected =
+                    if odds.sum() > limits.log_odds { LightBasis::Votes } else { LightBasis::Planes };
+                assert_eq!(basis, expected, "{chosen:?}");
+            }
+            (None, LightBasis::Votes) => assert!(votes_could_be(limits.share_without_planes), "{chosen:?}"),
+            (None, LightBasis::Planes) => {
+                assert!(chosen.planes.is_some() && !votes_could_be(limits.share), "{chosen:?}");
+            }
+            (None, _) => {
+                assert!(
+                    chosen.direction.is_none() && !votes_could_be(limits.share_without_planes),
+                    "{chosen:?}"
+                );
+            }
+        }
         bases.insert(chosen.basis.name());
     }
     assert!(bases.len() > 1, "{bases:?}");

@@ -1,34 +1,19 @@
 //! Body, surface and noise add up to the input.
 
-use crate::common::{METHODS, analyze};
+use crate::common::{METHODS, analyze, largest_gap};
 use crate::synthetic::Scene;
 use dichroscope::analysis::Analysis;
 use dichroscope::params::{Params, Refine};
-use dichroscope::photo::LinearImage;
-use dichroscope::raster::UNASSIGNED;
+use dichroscope::raster::RegionId;
 use dichroscope::trace::PixelKind;
 
-/// Largest difference between input and body + surface + ε·n, counts, over the undistorted pixels of regions with a
-/// plane,
-/// and the number of these pixels. With `unclamped`, only pixels with surface reflection count.
-fn largest_gap(image: &LinearImage, analysis: &Analysis, unclamped: bool) -> (f32, usize) {
+/// Whether an undistorted pixel lies in a region with a plane; with `unclamped`, and has surface reflection.
+fn is_whole(analysis: &Analysis, pixel: usize, unclamped: bool) -> bool {
     let intrinsic = &analysis.intrinsic;
-    let (mut gap, mut looked_at) = (0f32, 0);
-    for (pixel, &label) in analysis.finals.labels.as_slice().iter().enumerate() {
-        let undistorted = matches!(intrinsic.kinds[pixel], PixelKind::Matte | PixelKind::Highlight);
-        if label == UNASSIGNED || !undistorted || (unclamped && intrinsic.surface[pixel] == [0.0; 3]) {
-            continue;
-        }
-        let region = &intrinsic.regions[usize::from(label) - 1];
-        let Some(normal) = region.plane_normal else { continue };
-        looked_at += 1;
-        for (band, along) in normal.into_iter().enumerate() {
-            let noise = intrinsic.noise[pixel] * along as f32;
-            let sum = intrinsic.body[pixel][band] + intrinsic.surface[pixel][band] + noise;
-            gap = gap.max((sum - image.pixels[pixel][band]).abs());
-        }
-    }
-    (gap, looked_at)
+    let region = RegionId::from_label(analysis.finals.labels[pixel]);
+    let has_plane = region.is_some_and(|region| intrinsic.regions[region.index()].plane_normal.is_some());
+    let undistorted = matches!(intrinsic.kinds[pixel], PixelKind::Matte | PixelKind::Highlight);
+    has_plane && undistorted && !(unclamped && intrinsic.surface[pixel] == [0.0; 3])
 }
 
 #[test]
@@ -38,13 +23,15 @@ fn body_and_surface_and_noise_are_the_input() {
         for method in METHODS {
             let params = Params::of(method);
             let unclamped = params.refinements().no_negative_surface;
-            let (gap, looked_at) = largest_gap(&image, &analyze(&image, &params), unclamped);
+            let analysis = analyze(&image, &params);
+            let (gap, looked_at) =
+                largest_gap(&image, &analysis, |pixel| is_whole(&analysis, pixel, unclamped));
             assert!(gap < 1e-2, "seed {seed}, {method:?}: {gap} counts");
             assert!(looked_at > 500, "seed {seed}, {method:?}: only {looked_at} pixels");
         }
         let refine = Refine { no_negative_surface: false, ..Refine::default() };
         let all = analyze(&image, &Params { refine, ..Params::default() });
-        let (gap, looked_at) = largest_gap(&image, &all, false);
+        let (gap, looked_at) = largest_gap(&image, &all, |pixel| is_whole(&all, pixel, false));
         assert!(gap < 1e-2 && looked_at > 4000, "seed {seed}: {gap} counts in {looked_at} pixels");
     }
 }

@@ -1,10 +1,9 @@
 //! The working picture: a large photograph is averaged, and split at full resolution by what its mean tells.
 
-use crate::common::{analyze, faults, fingerprint, report, scores_of, truth_of};
+use crate::common::{analyze, faults, fingerprint, largest_gap, report, scores_of, truth_of};
 use crate::synthetic::{Scene, dot};
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::params::{Method, Params, Setting};
-use dichroscope::photo::LinearImage;
 use dichroscope::raster::{PixelIndex, UNASSIGNED};
 use dichroscope::trace::PixelKind;
 use std::sync::Arc;
@@ -29,27 +28,11 @@ fn enlarged(scene: &Scene, times: usize) -> Scene {
     larger
 }
 
-/// Largest |input − body − surface − ε·n|, counts, over the undistorted pixels that have surface reflection or are in no region,
-/// and how many these are.
-fn largest_gap(image: &LinearImage, analysis: &Analysis) -> (f32, usize) {
+/// Whether a pixel was not restored, and has surface reflection or is in no region: then nothing of its color was cut off.
+fn is_whole(analysis: &Analysis, pixel: usize) -> bool {
     let intrinsic = &analysis.intrinsic;
-    let (mut gap, mut looked_at) = (0f32, 0);
-    for (pixel, &label) in analysis.finals.labels.as_slice().iter().enumerate() {
-        let kind = intrinsic.kinds[pixel];
-        let cut = label != UNASSIGNED && intrinsic.surface[pixel] == [0.0; 3];
-        if cut || matches!(kind, PixelKind::Restored | PixelKind::Lost) {
-            continue;
-        }
-        let region = usize::from(label).checked_sub(1).map(|index| &intrinsic.regions[index]);
-        let normal = region.and_then(|region| region.plane_normal).unwrap_or_default();
-        looked_at += 1;
-        for (band, along) in normal.into_iter().enumerate() {
-            let noise = intrinsic.noise[pixel] * along as f32;
-            let sum = intrinsic.body[pixel][band] + intrinsic.surface[pixel][band] + noise;
-            gap = gap.max((sum - image.pixels[pixel][band]).abs());
-        }
-    }
-    (gap, looked_at)
+    let is_cut = analysis.finals.labels[pixel] != UNASSIGNED && intrinsic.surface[pixel] == [0.0; 3];
+    !is_cut && !matches!(intrinsic.kinds[pixel], PixelKind::Restored | PixelKind::Lost)
 }
 
 #[test]
@@ -58,7 +41,7 @@ fn body_surface_and_noise_are_the_input_at_full_resolution() {
         let image = scene(seed).render().image;
         let analysis = analyze(&image, &scaled(factor));
         assert_eq!(analysis.working.blocks.side(), factor);
-        let (gap, looked_at) = largest_gap(&image, &analysis);
+        let (gap, looked_at) = largest_gap(&image, &analysis, |pixel| is_whole(&analysis, pixel));
         assert!(gap < 1e-2, "seed {seed}, scale {factor}: {gap} counts");
         assert!(looked_at > 100_000, "seed {seed}, scale {factor}: {looked_at} pixels");
         // Numbers go by the size in the working picture, which may differ at full resolution by a few pixels.

@@ -35,7 +35,7 @@ const COLUMNS: [(Key, &str, f32, &str); 6] = [
         40.0,
         "The hypothesis' number, in the order of birth; its color is that of what becomes of it.",
     ),
-    (Key::Pixels, "pixels", 52.0, "Pixels that it has at the cursor."),
+    (Key::Pixels, "pixels", 52.0, "Pixels of the working picture that it has at the cursor."),
     (
         Key::Direction,
         "direction",
@@ -60,7 +60,9 @@ impl Sorting {
         light(ui, cx.tones, replay);
         let rows = hypothesis_rows(replay, &cx.state.debugger.names);
         if !rows.is_empty() {
-            egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| self.table(ui, cx, &rows));
+            egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+                self.table(ui, cx, &rows, replay.trace().pixel_blocks().side());
+            });
         } else if let Some(counts) = window_counts(replay) {
             windows(ui, cx.tones, &counts);
         } else {
@@ -68,7 +70,9 @@ impl Sorting {
         }
     }
 
-    fn table(&mut self, ui: &mut Ui, cx: &mut PanelContext, rows: &[HypothesisRow]) {
+    /// `side`: side of a working pixel, pixels of the photograph. The record is of working pixels.
+    fn table(&mut self, ui: &mut Ui, cx: &mut PanelContext, rows: &[HypothesisRow], side: usize) {
+        let working_pixels = format!("{side} \u{d7} {side} px");
         ui.spacing_mut().item_spacing = egui::vec2(6.0, 1.0);
         let focus = cx.state.debugger.focus();
         let order = self.order(rows);
@@ -85,6 +89,8 @@ impl Sorting {
         table
             .header(ROW_PT, |mut header| {
                 for (key, title, _, tip) in COLUMNS {
+                    let is_count = key == Key::Pixels && side > 1;
+                    let title = if is_count { working_pixels.as_str() } else { title };
                     header.col(|ui| self.heading(ui, cx.tones, key, title, tip));
                 }
             })

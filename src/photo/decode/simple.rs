@@ -15,9 +15,6 @@ pub(super) fn bmp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     read(BmpDecoder::new(Cursor::new(bytes))?, budget)
 }
 
-/// Bytes within which the first chunk of picture data begins, behind the extended header and not behind a profile.
-const WEBP_HEADER_BYTES: usize = 64;
-
 /// Decodes WebP; of an animation the first frame.
 pub(super) fn webp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let decoder = WebPDecoder::new(Cursor::new(bytes))?;
@@ -26,12 +23,33 @@ pub(super) fn webp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     if animated {
         decoded.warnings.push("the WebP is animated: only its first frame is read".into());
     }
-    // A lossless picture has a chunk `VP8L`; the other kind stores color differences with half the samples each way.
-    if !bytes.windows(4).take(WEBP_HEADER_BYTES).any(|name| name == b"VP8L") {
-        decoded.compression =
-            Compression::Lossy(LossyCompression { quantization_step: 0.0, chroma_subsampled: true });
-    }
+    decoded.compression = webp_compression(bytes);
     Ok(decoded)
+}
+
+/// Compression of the first picture in a WebP (RFC 9649): a chunk `VP8L` is lossless; `VP8 ` is lossy, and stores color
+/// differences with half the samples each way. An animation holds its pictures in chunks `ANMF`.
+fn webp_compression(bytes: &[u8]) -> Compression {
+    const FILE_HEADER_BYTES: usize = 12;
+    const CHUNK_HEADER_BYTES: usize = 8;
+    const FRAME_HEADER_BYTES: usize = 16;
+    let lossy = Compression::Lossy(LossyCompression { quantization_step: 0.0, chroma_subsampled: true });
+    let mut at = FILE_HEADER_BYTES;
+    while let Some(header) = bytes.get(at..at + CHUNK_HEADER_BYTES) {
+        let length = u32::from_le_bytes([header[4], header[5], header[6], header[7]]) as usize;
+        let skipped = match &header[..4] {
+            b"VP8L" => return Compression::Lossless,
+            b"VP8 " => return lossy,
+            b"ANMF" => FRAME_HEADER_BYTES,
+            // Chunks begin at even places.
+            _ => length.saturating_add(length % 2),
+        };
+        at = at.saturating_add(CHUNK_HEADER_BYTES).saturating_add(skipped);
+        if at > bytes.len() {
+            break;
+        }
+    }
+    lossy
 }
 
 pub(super) fn hdr(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
@@ -111,4 +129,32 @@ fn read(mut decoder: impl ImageDecoder, budget: Budget) -> Result<Decoded, Fault
         other => return Err(Fault::unsupported(format!("{other:?} pixels"), CONVERT)),
     };
     Ok(Decoded { icc, orientation, ..Decoded::plain(size, layout, samples) })
+}
+
+#[cfg(test)]
+mod compression_tests {
+    use super::*;
+
+    /// A WebP file of chunks, each a name and a number of bytes of content.
+    fn webp(chunks: &[(&[u8; 4], usize)]) -> Vec<u8> {
+        let mut file = b"RIFF\0\0\0\0WEBP".to_vec();
+        for (name, length) in chunks {
+            file.extend_from_slice(*name);
+            file.extend_from_slice(&(*length as u32).to_le_bytes());
+            file.resize(file.len() + length + length % 2, 0);
+        }
+        file
+    }
+
+    #[test]
+    fn a_webp_is_lossless_by_the_chunk_of_its_picture_wherever_the_chunk_is() {
+        let is_lossless = |file: &[u8]| webp_compression(file) == Compression::Lossless;
+        assert!(is_lossless(&webp(&[(b"VP8L", 9)])));
+        assert!(is_lossless(&webp(&[(b"VP8X", 10), (b"ICCP", 3001), (b"VP8L", 9)])), "behind a profile");
+        assert!(!is_lossless(&webp(&[(b"VP8X", 10), (b"ALPH", 7), (b"VP8 ", 9)])));
+        let mut animation = webp(&[(b"VP8X", 10), (b"ANMF", 16)]);
+        animation.extend_from_slice(b"VP8L\x01\0\0\0\0");
+        assert!(is_lossless(&animation), "the picture of a frame lies behind 16 bytes of the frame");
+        assert!(!is_lossless(b"RIFF") && !is_lossless(&[]), "a file that ends early says nothing");
+    }
 }
