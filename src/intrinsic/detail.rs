@@ -24,7 +24,7 @@ pub(super) struct WorkingSplit<'a> {
     pub(super) input: &'a AnalysisInput<'a>,
     /// The regions, and the labels of the working pixels.
     pub(super) regions: &'a FinalRegions,
-    /// How each region is split, by [`RegionId::index`].
+    /// How each region is split, by `RegionId::index`.
     pub(super) plans: &'a [RegionPlan],
     /// The working pixels that the skewed T of their region explains.
     pub(super) explained_mask: &'a Mask,

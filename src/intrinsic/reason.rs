@@ -88,7 +88,7 @@ pub struct ReasonInput<'a> {
     pub regions: &'a [RegionReflection],
     /// Color of the light, unit; none where the light is not known.
     pub light: Option<[f64; 3]>,
-    /// What noise and coding explain of the distance of a pixel from the plane of each region (σ), counts, by [`RegionId::index`].
+    /// What noise and coding explain of the distance of a pixel from the plane of each region (σ), counts, by `RegionId::index`.
     pub pixel_sigmas: &'a [f32],
 }
 
