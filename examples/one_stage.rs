@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example one_stage [IMAGE]`
 
-use dichroscope::photo::{self, MaskLimits, Masks, ReadOptions, estimate_sigma};
+use dichroscope::photo::{self, MaskLimits, Masks, NoiseEstimate, ReadOptions};
 use dichroscope::segment::{Classifier, classify};
 use dichroscope::trace::{Class, NoopRecorder};
 use std::path::Path;
@@ -19,7 +19,7 @@ fn main() -> anyhow::Result<()> {
         image.saturation.map_or(f64::INFINITY, |saturation| f64::from(saturation) * 240.0 / 255.0);
     let masks = Masks::new(&image, &MaskLimits { min_intensity: 23.0, clip_threshold, bloom_density: 1 });
     // σ0 is twice the standard deviation of the camera's noise.
-    let camera_noise = estimate_sigma(&image, &masks).map_or(2.5, |sigma| 2.0 * sigma);
+    let camera_noise = NoiseEstimate::measure(&image, &masks).map_or(2.5, |noise| 2.0 * noise.sigma);
 
     let mut classifier = Classifier::new(camera_noise, true);
     let believable = |pixel| masks.usable(pixel);

@@ -1,7 +1,7 @@
 //! The values of parameters set to `auto`, estimated from the image (section 7.3).
 
 use crate::params::{Parameter, Params, Setting, UsedParams};
-use crate::photo::{CodingError, LinearImage};
+use crate::photo::{CodingError, LinearImage, ShotNoise};
 
 /// Least and largest estimate of σ0, counts. Below 1.5 counts every limit is so narrow that windows take noise for lines.
 const NOISE_RANGE: (f64, f64) = (1.5, 16.0);
@@ -41,6 +41,8 @@ pub fn mask_limits(params: &Params, image: &LinearImage) -> crate::photo::MaskLi
 pub struct NoiseFindings {
     /// Standard deviation of the noise of a band in windows, counts; `None`: it could not be measured, and σ0 is the paper's.
     pub sigma: Option<f64>,
+    /// The noise of a pixel as a function of the intensity; `None`: it was not found to grow with the light, or σ0 was given.
+    pub shot: Option<ShotNoise>,
     /// The error of the file's way of storing values; `None`: the noise contains it.
     pub coding: Option<CodingError>,
     /// Whether the errors of neighboring pixels are alike: after lossy compression or demosaicing.
@@ -119,7 +121,7 @@ mod tests {
         let of = |compression| NoiseFindings {
             sigma: Some(0.2),
             coding: CodingError::of_samples(compression, 255, &ToneCurve::Srgb, 255.0),
-            extended: false,
+            ..NoiseFindings::default()
         };
         let used =
             |noise: &NoiseFindings, params: &Params| used_params(params, &image(None), 1, noise).camera_noise;

@@ -6,8 +6,7 @@ use super::{Analysis, Cancelled, Observer, Stage, StageOutput};
 use crate::intrinsic::{Detail, Intrinsic, split};
 use crate::params::{Params, Refine, Setting, UsedParams};
 use crate::photo::{
-    CodingError, LinearImage, MaskLimits, Masks, NoiseCorrelation, WorkingPicture, estimate_sigma,
-    estimate_sigma_sparsely,
+    CodingError, LinearImage, MaskLimits, Masks, NoiseCorrelation, NoiseEstimate, ShotNoise, WorkingPicture,
 };
 use crate::raster::{Blocks, LabelMap, Mask, Raster};
 use crate::segment::{
@@ -38,16 +37,15 @@ struct Prepared {
     noise: Arc<NoiseFindings>,
     /// The coding error of a working pixel; none: the noise contains it.
     working_coding: Option<CodingError>,
-    /// Standard deviation of the noise of a pixel of the photograph, counts; none: the working picture is the photograph, or it
-    /// could not be measured.
-    detail_sigma: Option<f64>,
+    /// The noise of a pixel of the photograph; none: the working picture is the photograph, or the noise could not be measured.
+    detail: Option<NoiseEstimate>,
 }
 
 impl Prepared {
     /// The input of the stages: the working picture.
     fn working_input<'a>(&'a self, used: &'a UsedParams, refine: Refine) -> AnalysisInput<'a> {
         let input = AnalysisInput::new(&self.working.image, &self.working.masks, used, refine);
-        self.with_coding(input, self.working_coding.as_ref())
+        self.with_errors(input, self.working_coding.as_ref(), self.noise.shot)
     }
 
     /// The input of the pass at full resolution: the photograph.
@@ -58,21 +56,25 @@ impl Prepared {
         refine: Refine,
     ) -> AnalysisInput<'a> {
         let input = AnalysisInput::new(image, &self.masks, used, refine);
-        self.with_coding(input, self.noise.coding.as_ref())
+        let shot = self.detail.map_or(self.noise.shot, |detail| detail.shot);
+        self.with_errors(input, self.noise.coding.as_ref(), shot)
     }
 
-    /// An input with a coding error, as far as refinement `coding_error` is on.
-    fn with_coding<'a>(
+    /// An input with a coding error and shot noise, as far as the refinements `coding_error` and `shot_noise` are on.
+    fn with_errors<'a>(
         &'a self,
         input: AnalysisInput<'a>,
         coding: Option<&'a CodingError>,
+        shot: Option<ShotNoise>,
     ) -> AnalysisInput<'a> {
+        let input = if input.refine.shot_noise { input.with_shot_noise(shot) } else { input };
         if input.refine.coding_error { input.with_coding(coding, self.noise.extended) } else { input }
     }
 
     /// The parameters for single pixels of the photograph, which are noisier than working pixels.
     fn detail_params(&self, params: &Params, used: UsedParams) -> UsedParams {
-        let camera_noise = detail_noise(params, &self.noise, used.camera_noise, self.detail_sigma);
+        let camera_noise =
+            detail_noise(params, &self.noise, used.camera_noise, self.detail.map(|detail| detail.sigma));
         UsedParams { camera_noise, ..used }
     }
 }
@@ -349,8 +351,8 @@ impl Stages {
         };
         let prepared = self.masks.get(Stage::Masks, key, observer, |_, recorder: &mut R| {
             let (masks, working) = pictures(&limits);
-            let sigma = if automatic_noise { estimate_sigma(&working.image, &working.masks) } else { None };
-            let noise = noise_findings(image, &masks, sigma);
+            let measured = || NoiseEstimate::measure(&working.image, &working.masks);
+            let noise = noise_findings(image, &masks, if automatic_noise { measured() } else { None });
             let (masks, working, limits) = if automatic_intensity {
                 let min_intensity = used_params(params, &working.image, factor, &noise).min_intensity;
                 let limits = MaskLimits { min_intensity, ..limits };
@@ -359,14 +361,15 @@ impl Stages {
             } else {
                 (masks, working, limits)
             };
-            let detail_sigma = if factor > 1 { estimate_sigma_sparsely(image, &masks, factor) } else { None };
+            let sparse = || NoiseEstimate::measure_sparsely(image, &masks, factor);
+            let detail = if factor > 1 && automatic_noise { sparse() } else { None };
             if R::KEEPS {
                 let made = masks_made(&working.masks, limits, working.image.pixels.len(), noise.sigma);
                 recorder.record(made);
             }
             let working_coding = noise.coding.as_ref().map(|coding| coding.averaged(factor));
             let (working, noise) = (Arc::new(working), Arc::new(noise));
-            Arc::new(Prepared { masks, working, noise, working_coding, detail_sigma })
+            Arc::new(Prepared { masks, working, noise, working_coding, detail })
         })?;
         let used = used_params(params, &prepared.working.image, factor, &prepared.noise);
         observer.made(StageOutput::Masks { masks: prepared.masks.clone(), used });
@@ -374,18 +377,20 @@ impl Stages {
     }
 }
 
-/// The errors of an image's values; `sigma`: that of its windows. A lossless file may hold a picture that was compressed or
-/// demosaiced before; the correlation of the noise between neighboring pixels shows it.
-fn noise_findings(image: &LinearImage, masks: &Masks, sigma: Option<f64>) -> NoiseFindings {
+/// The errors of an image's values; `windows`: the noise that its windows show. A lossless file may hold a picture that was
+/// compressed or demosaiced before; the correlation of the noise between neighboring pixels shows it.
+fn noise_findings(image: &LinearImage, masks: &Masks, windows: Option<NoiseEstimate>) -> NoiseFindings {
     let coding = image.coding.clone();
+    let sigma = windows.map(|windows| windows.sigma);
+    let shot = windows.and_then(|windows| windows.shot);
     if coding.as_ref().is_some_and(CodingError::is_extended) {
-        return NoiseFindings { sigma, coding, extended: true };
+        return NoiseFindings { sigma, shot, coding, extended: true };
     }
     let Some(correlation) = NoiseCorrelation::measure(image, masks) else {
-        return NoiseFindings { sigma, coding, extended: false };
+        return NoiseFindings { sigma, shot, coding, extended: false };
     };
     let coding = coding.map(|coding| if correlation.is_compressed() { coding.as_extended() } else { coding });
-    NoiseFindings { sigma, coding, extended: correlation.is_extended() }
+    NoiseFindings { sigma, shot, coding, extended: correlation.is_extended() }
 }
 
 fn masks_made(masks: &Masks, limits: MaskLimits, pixels: usize, sigma: Option<f64>) -> MasksMade {
@@ -430,7 +435,6 @@ fn area_map(areas: &Areas, windows: &Windows, width: usize, height: usize) -> Ra
     Raster::from_vec(width, height, map).unwrap_or_default()
 }
 
-/// The warnings of a run, a sentence each. `restricted`: the analysis is restricted to an area.
 /// Error of the values, in steps of 1/255 of the coded range, above which compression makes results doubtful.
 const DOUBTFUL_CODE_VALUES: f64 = 1.3;
 /// Number of pixels below which results are doubtful.
@@ -469,6 +473,7 @@ fn all_warnings(
     all
 }
 
+/// The warnings about the regions, a sentence each. `restricted`: the analysis is restricted to an area.
 fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks, restricted: bool) -> Vec<String> {
     let mut warnings = Vec::new();
     let lit = (0..labels.len()).filter(|&pixel| !masks.dark(pixel)).count();

@@ -52,10 +52,23 @@ impl AmbientFacts {
 pub struct NoiseFacts {
     /// Standard deviation of a band in windows, counts; null where it could not be measured, or was not, as σ0 was given.
     pub window_sigma_counts: Option<f64>,
+    /// The noise as a function of the intensity; null where the windows do not show that it grows with the light.
+    #[serde(default)]
+    pub shot: Option<ShotFacts>,
     /// The error of the file's way of storing values; null where the noise contains it (linear samples, floats).
     pub coding: Option<CodingFacts>,
     /// Whether the errors of neighboring pixels are alike: after lossy compression or demosaicing.
     pub extended: bool,
+}
+
+/// Noise whose variance grows with the light: `dark_variance` + `variance_per_count` × intensity.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct ShotFacts {
+    /// Variance of a band without light, counts².
+    pub dark_variance: f64,
+    /// Variance per count of intensity, counts.
+    pub variance_per_count: f64,
 }
 
 /// The error of the file's way of storing values, as [`crate::photo::CodingError`] describes it.
@@ -77,6 +90,10 @@ impl NoiseFacts {
         let coding = analysis.noise.coding.as_ref();
         Self {
             window_sigma_counts: analysis.noise.sigma,
+            shot: analysis.noise.shot.map(|shot| ShotFacts {
+                dark_variance: shot.dark_variance,
+                variance_per_count: shot.variance_per_count,
+            }),
             extended: analysis.noise.extended,
             coding: coding.map(|coding| CodingFacts {
                 cause: coding.cause.name().to_owned(),

@@ -31,7 +31,7 @@ pub use error::ReadError;
 pub use format::Format;
 pub use linear::LinearImage;
 pub use masks::{MaskLimits, Masks};
-pub use noise::{estimate_sigma, estimate_sigma_sparsely};
+pub use noise::{NoiseEstimate, ShotNoise};
 pub use noise_correlation::NoiseCorrelation;
 pub use source::{AlphaKind, Layout, PngColor, Samples, Source};
 pub use working::WorkingPicture;

@@ -2,7 +2,7 @@
 
 use crate::color::Vec3;
 use crate::params::{Refine, UsedParams};
-use crate::photo::{CodingError, LinearImage, Masks};
+use crate::photo::{CodingError, LinearImage, Masks, ShotNoise};
 use crate::raster::Raster;
 
 /// The image, its masks and the parameters.
@@ -19,6 +19,8 @@ pub struct AnalysisInput<'a> {
     pub refine: Refine,
     /// Error of the file's values beyond the noise; `None`: the noise contains it.
     coding: Option<&'a CodingError>,
+    /// The noise as a function of the intensity; `None`: the noise is the same at every intensity.
+    shot: Option<ShotNoise>,
     /// Whether the errors of neighboring pixels are alike: after lossy compression or demosaicing.
     pub(crate) extended: bool,
     stop: &'a (dyn Fn() -> bool + Sync),
@@ -27,7 +29,16 @@ pub struct AnalysisInput<'a> {
 impl<'a> AnalysisInput<'a> {
     /// The input of a run that is never stopped.
     pub fn new(image: &'a LinearImage, masks: &'a Masks, used: &'a UsedParams, refine: Refine) -> Self {
-        Self { pixels: &image.pixels, masks, used, refine, coding: None, extended: false, stop: &|| false }
+        Self {
+            pixels: &image.pixels,
+            masks,
+            used,
+            refine,
+            coding: None,
+            shot: None,
+            extended: false,
+            stop: &|| false,
+        }
     }
 
     /// The same input, of a file whose way of storing values makes an error of its own. `extended`: the errors of neighboring
@@ -35,6 +46,12 @@ impl<'a> AnalysisInput<'a> {
     #[must_use]
     pub fn with_coding(self, coding: Option<&'a CodingError>, extended: bool) -> Self {
         Self { coding, extended, ..self }
+    }
+
+    /// The same input, of a picture whose noise grows with the intensity.
+    #[must_use]
+    pub fn with_shot_noise(self, shot: Option<ShotNoise>) -> Self {
+        Self { shot, ..self }
     }
 
     /// The same input with a condition that stops the stages: they return an incomplete result soon after `stop` returns true.
@@ -62,11 +79,12 @@ impl<'a> AnalysisInput<'a> {
         self.used.camera_noise / 2.0
     }
 
-    /// Standard deviation of a band's distance from the model around a mean color, counts: the noise, and the error of the
-    /// file's values where the tone curve has the slope of that intensity.
+    /// Standard deviation of a band's distance from the model around a mean color, counts: the noise at that intensity, and
+    /// the error of the file's values where the tone curve has the slope of that intensity.
     pub fn fit_sigma(&self, mean: &Vec3) -> f64 {
         let intensity = mean.norm() / 3f64.sqrt();
-        self.sigma().hypot(self.coding.map_or(0.0, |coding| coding.at_intensity(intensity)))
+        let noise = self.shot.map_or(self.sigma(), |shot| shot.sigma_at(mean.mean()));
+        noise.hypot(self.coding.map_or(0.0, |coding| coding.at_intensity(intensity)))
     }
 
     /// Factor of the light's interval: pixels whose errors are alike say less than as many independent ones. Measured on 72

@@ -79,6 +79,34 @@ fn the_model_fits_plain_objects_in_compressed_files() {
 }
 
 #[test]
+fn fits_are_judged_by_the_noise_at_their_intensity_where_photons_are_counted() {
+    let scene = Scene { noise_sigma: 0.0, ..balls() };
+    let mut image = scene.render().image;
+    let mut noise = Random::new(5);
+    for color in image.pixels.as_mut_slice() {
+        *color = color.map(|counts| {
+            let sigma = (0.6 + 0.05 * f64::from(counts)).sqrt();
+            (f64::from(counts) + sigma * noise.normal()).round().clamp(0.0, 255.0) as f32
+        });
+    }
+    let analysis = analyze(&image, &Params::default());
+    let shot = analysis.noise.shot.unwrap();
+    // Rounding adds 1/12 counts².
+    assert!((shot.sigma_at(0.0).powi(2) - 0.68).abs() < 0.3, "{shot:?}");
+    assert!((shot.variance_per_count - 0.05).abs() < 0.01, "{shot:?}");
+    // The distance from the plane in standard deviations, largest of all regions.
+    let worst = |analysis: &Analysis| {
+        let regions = analysis.intrinsic.regions.iter();
+        regions.map(|region| region.fit_rms_counts / region.fit_sigma_counts).fold(0.0, f64::max)
+    };
+    let mut constant = Params::default();
+    constant.refine.shot_noise = false;
+    let (by_intensity, constant) = (worst(&analysis), worst(&analyze(&image, &constant)));
+    assert!(by_intensity < 1.3 && by_intensity < constant, "{by_intensity} and {constant} standard deviations");
+    assert_eq!(analyze(&balls().render().image, &Params::default()).noise.shot, None);
+}
+
+#[test]
 fn a_picture_that_was_compressed_before_is_recognized_in_a_lossless_file() {
     let rendered = balls().render().image;
     let png = |image: &LinearImage| {
