@@ -9,6 +9,7 @@
 //! is taken for none, how far the prior of a restored pixel is trusted, and which ε lowers the confidence.
 
 use super::Intrinsic;
+use super::border_mixtures::limit_surface_at_borders;
 use super::detail::{Detail, WorkingSplit};
 use super::finish::Finish;
 use super::images::Images;
@@ -36,6 +37,7 @@ pub(super) fn split_photograph(
         return images.unfinished();
     }
     images.restore(&working.origin, input, detail.labels, &plans, &members);
+    limit_surface_at_borders(input, detail.labels, &plans, &mut images);
     let explained_mask = explained_mask(detail, working);
     let local_confidence =
         split_locally_at_full_resolution(detail, working, local, &explained_mask, &mut images);

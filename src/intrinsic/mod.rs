@@ -1,6 +1,7 @@
 //! Section 6: every pixel split into body reflection, surface reflection and noise.
 
 mod ambient;
+mod border_mixtures;
 mod confidence;
 mod detail;
 mod explained_mask;

@@ -2,6 +2,7 @@
 
 use super::Intrinsic;
 use super::ambient::ambient;
+use super::border_mixtures::limit_surface_at_borders;
 use super::detail::{Detail, WorkingSplit};
 use super::explained_mask::explained_mask;
 use super::finish::Finish;
@@ -89,6 +90,10 @@ fn split_from<R: Recorder>(
     }
     images.restore(origin, input, &regions.labels, &plans, members);
     record_plans(origin, &plans, recorder);
+    let limited = limit_surface_at_borders(input, &regions.labels, &plans, &mut images);
+    if R::KEEPS && input.refine.border_mixtures {
+        recorder.record(limited);
+    }
     let model_fits: Vec<bool> = plans.iter().map(|plan| plan.model_fits).collect();
     let explained_mask = explained_mask(input, regions, members, &model_fits, &images.kinds);
     let local_input = LocalInput { input, light: regions.light, explained_mask: &explained_mask };

@@ -98,6 +98,15 @@ impl<'a> AnalysisInput<'a> {
         }
     }
 
+    /// How far the colors on both sides of a border are mixed, pixels.
+    pub fn mixing_reach_px(&self) -> usize {
+        match self.coding {
+            Some(coding) if coding.is_extended() && coding.chroma_subsampled => 3,
+            _ if self.extended => 2,
+            _ => 1,
+        }
+    }
+
     /// Whether a hypothesis may claim the pixel by its color. The paper excludes only dark pixels; with `tail_test`, clipped
     /// and bloomed pixels wait for the clipping stage.
     #[inline]

@@ -23,20 +23,20 @@ pub use crate::params::Stage;
 pub use blocks::{Block, PassSpan, Topic};
 pub(crate) use events::dispatch_event;
 pub use events::{
-    Absorbed, Ambient, AmbientVerdict, BlobJudged, BlobsCounted, BranchesSought, CandidateChosen,
-    CandidateSource, CandidateTested, CandidateVerdict, ComponentSplit, Contribution, Dropped, Event,
-    FitLimits, GrowthBegan, HighlightCore, HoleFilled, HypothesisChosen, HypothesisPassedOver,
-    IlluminantEstimated, IlluminantGiven, Kind, LightBasis, LightChosen, LightLimits, LightOdds,
-    LineRefitted, LocalBegan, LocalLimits, LocalStart, MasksMade, Meeting, MergeTried, Pass, PassBegan,
-    PassedOver, PlausibilityLimits, PlausibilityTested, RegionsMerged, RejectReason, Renumbered, RepairTried,
-    RepairVerdict, SeedsPlaced, SliceMade, StageBegan, Subject, TextureFade, TwoLightTest, VectorsFitted,
-    VoteResult, VotesCast, WindowClassified, WindowsLaid,
+    Absorbed, Ambient, AmbientVerdict, BlobJudged, BlobsCounted, BordersLimited, BranchesSought,
+    CandidateChosen, CandidateSource, CandidateTested, CandidateVerdict, ComponentSplit, Contribution,
+    Dropped, Event, FitLimits, GrowthBegan, HighlightCore, HoleFilled, HypothesisChosen,
+    HypothesisPassedOver, IlluminantEstimated, IlluminantGiven, Kind, LightBasis, LightChosen, LightLimits,
+    LightOdds, LimitedPixel, LineRefitted, LocalBegan, LocalLimits, LocalStart, MasksMade, Meeting,
+    MergeTried, Pass, PassBegan, PassedOver, PlausibilityLimits, PlausibilityTested, RegionsMerged,
+    RejectReason, Renumbered, RepairTried, RepairVerdict, SeedsPlaced, SliceMade, StageBegan, Subject,
+    TextureFade, TwoLightTest, VectorsFitted, VoteResult, VotesCast, WindowClassified, WindowsLaid,
 };
 #[cfg(test)]
 pub(crate) use events::{EventData, all_events};
 pub use history::{
-    Barrier, HistoryEntry, HistoryKind, LocalFate, LocalStory, MaskVerdict, MergeRefusal, MergeStory, Reach,
-    Release, SplitStory, Unfit, WindowStory, pixel_history,
+    Barrier, BorderLimit, HistoryEntry, HistoryKind, LocalFate, LocalStory, MaskVerdict, MergeRefusal,
+    MergeStory, Reach, Release, SplitStory, Unfit, WindowStory, pixel_history,
 };
 pub use lineage::{
     Ancestor, Birth, HypothesisStory, Joined, JoinedHow, lineage, region_of, regions_of, story,

@@ -2,13 +2,15 @@
 
 use crate::common::analyze;
 use crate::synthetic::{Random, Rendered, Scene};
-use dichroscope::analysis::Analysis;
+use dichroscope::analysis::{Analysis, Session};
 use dichroscope::params::Params;
 use dichroscope::photo::{CodingCause, LinearImage, ReadOptions, decode};
 use dichroscope::segment::LightBasis;
+use dichroscope::trace::{Event, HistoryKind};
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
+use std::sync::Arc;
 
 /// The image in 8-bit sRGB, row by row.
 fn srgb(image: &LinearImage) -> Vec<u8> {
@@ -102,7 +104,10 @@ fn fits_are_judged_by_the_noise_at_their_intensity_where_photons_are_counted() {
     let mut constant = Params::default();
     constant.refine.shot_noise = false;
     let (by_intensity, constant) = (worst(&analysis), worst(&analyze(&image, &constant)));
-    assert!(by_intensity < 1.3 && by_intensity < constant, "{by_intensity} and {constant} standard deviations");
+    assert!(
+        by_intensity < 1.3 && by_intensity < constant,
+        "{by_intensity} and {constant} standard deviations"
+    );
     assert_eq!(analyze(&balls().render().image, &Params::default()).noise.shot, None);
 }
 
@@ -133,6 +138,39 @@ fn a_wall_of_the_lights_color_does_not_vote_the_objects_down() {
         let (off_deg, interval_deg) = (off_white_deg(&analysis), analysis.planar.light.interval_deg.unwrap());
         assert!(off_deg < 1.0 && off_deg < interval_deg, "{off_deg} degrees off, claimed {interval_deg}");
     }
+}
+
+#[test]
+fn the_rims_of_objects_before_a_wall_are_no_highlights() {
+    let rendered = before_a_wall(&balls());
+    let image = reread(&jpeg(&rendered.image, 92));
+    // Surface reflection of the wall and of the rims that are mixed with the wall, which has none, sum of the bands over all pixels.
+    let on_the_wall = |params: &Params| {
+        let analysis = analyze(&image, params);
+        let surface = analysis.intrinsic.surface.as_slice().iter().zip(rendered.labels.as_slice());
+        surface.filter(|(_, label)| **label == 0).map(|(color, _)| color.iter().sum::<f32>()).sum::<f32>()
+    };
+    let mut without = Params::default();
+    without.refine.border_mixtures = false;
+    let (limited, unlimited) = (on_the_wall(&Params::default()), on_the_wall(&without));
+    assert!(unlimited > 100_000.0 && limited < 0.5 * unlimited, "{limited} of {unlimited} counts");
+}
+
+#[test]
+fn the_history_of_a_mixed_pixel_tells_why_its_surface_reflection_is_limited() {
+    let image = reread(&jpeg(&before_a_wall(&balls()).image, 92));
+    let (analysis, trace) = Session::new(Arc::new(image)).run_traced(&Params::default(), &mut ()).unwrap();
+    let limited = trace.events().find_map(|(_, event)| match event {
+        Event::BordersLimited(limited) => limited.pixels.first(),
+        _ => None,
+    });
+    let first = limited.unwrap();
+    let history = analysis.pixel_history(&trace, first.pixel);
+    let told = history.iter().find_map(|entry| match &entry.what {
+        HistoryKind::Split(split) => split.border,
+        _ => None,
+    });
+    assert_eq!(told.map(|border| border.kept), Some(first.kept));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Every event as a sentence and as the objects of a trace line, side by side, by section of the paper.
 
 mod ambient;
+mod borders;
 mod branches;
 mod candidates;
 mod clipping;

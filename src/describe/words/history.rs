@@ -6,8 +6,8 @@ use super::{Names, count, ordinal, percent, won};
 use crate::color::Trial;
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::trace::{
-    Barrier, Class, HistoryEntry, HistoryKind, MaskVerdict, MergeStory, PixelKind, Reach, Release,
-    SplitStory, WindowStory,
+    Barrier, BorderLimit, Class, HistoryEntry, HistoryKind, MaskVerdict, MergeStory, PixelKind, Reach,
+    Release, SplitStory, WindowStory,
 };
 
 /// History entries that say nearly the same, as one.
@@ -279,7 +279,7 @@ fn split(story: &SplitStory) -> String {
     if let Some(why) = &story.unfit {
         return unfit(story.region, why);
     }
-    let SplitStory { region, kind, lines, amounts, cut, least_offset, ambient, .. } = story;
+    let SplitStory { region, kind, lines, amounts, cut, border, least_offset, ambient, .. } = story;
     let what = match (kind, lines) {
         (PixelKind::Restored, _) => "is restored from the bands that can be believed".to_owned(),
         (PixelKind::Lost, _) => "is clipped in every band: its split is a guess".to_owned(),
@@ -304,5 +304,11 @@ fn split(story: &SplitStory) -> String {
         let [r, g, b] = ambient;
         format!(", without ambient light of {r:.1}, {g:.1}, {b:.1} counts")
     };
-    format!("in region {region} it {what}{amounts}{without}")
+    let limited = border.map_or_else(String::new, |BorderLimit { kept, reach_px, .. }| {
+        format!(
+            "; {:.0} % of the surface stays, as much as further inside, because another region within {reach_px} px mixes its color",
+            100.0 * kept
+        )
+    });
+    format!("in region {region} it {what}{amounts}{without}{limited}")
 }

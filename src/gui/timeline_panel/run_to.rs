@@ -9,33 +9,25 @@ use crate::gui::theme::SMALL_PT;
 use crate::trace::Kind;
 use egui::{Button, RichText, Ui};
 
-/// Kinds of steps, grouped by section of the paper.
-const GROUPS: [(&str, &[Kind]); 7] = [
-    ("Stages and passes", &[Kind::Stage, Kind::Pass, Kind::Masks]),
-    ("Windows and areas (5.2)", &[Kind::Windows, Kind::Window, Kind::Merge]),
-    (
-        "Linear hypotheses (5.3)",
-        &[
-            Kind::Hypothesis,
-            Kind::PassedOver,
-            Kind::Seeds,
-            Kind::Growth,
-            Kind::Refit,
-            Kind::Absorbed,
-            Kind::Merged,
-        ],
-    ),
-    (
-        "Highlights and planes (5.4)",
-        &[Kind::Candidate, Kind::Highlight, Kind::Illuminant, Kind::Votes, Kind::LightChoice, Kind::Slice],
-    ),
-    (
-        "Clipping, numbers, vectors (5.5, 6)",
-        &[Kind::Hole, Kind::Dropped, Kind::Part, Kind::Numbers, Kind::Ambient, Kind::Branches, Kind::Vectors],
-    ),
-    ("Where no region holds", &[Kind::LocalSplit, Kind::Blobs, Kind::Blob, Kind::Plausibility, Kind::Repair]),
-    ("Pixels", &[Kind::Claim, Kind::Refusal, Kind::Label]),
+/// The submenus, each with its first kind: a submenu has all kinds up to the next submenu, in the order of the table of events.
+const GROUPS: [(&str, Kind); 7] = [
+    ("Stages and passes", Kind::Stage),
+    ("Windows and areas (5.2)", Kind::Windows),
+    ("Linear hypotheses (5.3)", Kind::Hypothesis),
+    ("Highlights and planes (5.4)", Kind::Candidate),
+    ("Clipping, numbers, vectors (5.5, 6)", Kind::Hole),
+    ("Where no region holds", Kind::LocalSplit),
+    ("Pixels", Kind::Claim),
 ];
+
+/// The kinds of a submenu of [`GROUPS`].
+fn kinds_of(group: usize) -> impl Iterator<Item = Kind> {
+    let first = GROUPS.get(group).map(|&(_, first)| first);
+    let next = GROUPS.get(group + 1).map(|&(_, first)| first);
+    Kind::ALL
+        .into_iter()
+        .filter(move |&kind| first.is_some_and(|first| kind >= first) && next.is_none_or(|next| kind < next))
+}
 
 /// Shows the menu's button.
 pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
@@ -61,9 +53,9 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
             chosen = Some(Goal::Breakpoint);
         }
         ui.separator();
-        for (title, kinds) in GROUPS {
+        for (group, (title, _)) in GROUPS.into_iter().enumerate() {
             ui.menu_button(title, |ui| {
-                for &kind in kinds {
+                for kind in kinds_of(group) {
                     if ui.button(kind.name()).clicked() {
                         chosen = Some(Goal::Kind(kind));
                     }
@@ -85,8 +77,8 @@ mod tests {
 
     #[test]
     fn every_kind_is_in_the_menu_once() {
-        let mut listed: Vec<Kind> = GROUPS.iter().flat_map(|(_, kinds)| kinds.iter().copied()).collect();
-        listed.sort_unstable();
+        let listed: Vec<Kind> = (0..GROUPS.len()).flat_map(kinds_of).collect();
         assert_eq!(listed, Kind::ALL);
+        assert!((0..GROUPS.len()).all(|group| kinds_of(group).count() > 1));
     }
 }

@@ -8,6 +8,7 @@
 //! and are no events, see [`super::StageTrace`].
 
 mod ambient;
+mod borders;
 mod branches;
 mod candidates;
 mod clipping;
@@ -21,6 +22,7 @@ mod vectors;
 mod windows;
 
 pub use ambient::{Ambient, AmbientVerdict, Meeting};
+pub use borders::{BordersLimited, LimitedPixel};
 pub use branches::{BranchesSought, HighlightCore};
 pub use candidates::{CandidateChosen, CandidateSource, CandidateTested, CandidateVerdict};
 pub use clipping::{ComponentSplit, Dropped, HoleFilled, Renumbered};
@@ -218,6 +220,8 @@ events! { $
     Branches "highlight branches" { boxed BranchesSought(BranchesSought) }
     /// Reflection vectors were fitted (section 6).
     Vectors "vectors" { boxed VectorsFitted(VectorsFitted) }
+    /// The surface reflection at borders was limited (refines section 5.6).
+    Borders "borders" { boxed BordersLimited(BordersLimited) }
     /// The local split begins, or does not.
     LocalSplit "local split" { boxed LocalBegan(LocalBegan) }
     /// Candidate highlights were counted.

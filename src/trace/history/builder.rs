@@ -5,10 +5,10 @@ use super::facts::{amounts, verdicts};
 use super::growth::{Growth, Reaching, growing_test, highlight_test};
 use super::local::Outside;
 use super::patch::Patch;
-use super::{HistoryEntry, HistoryKind, Release, SplitStory, Unfit};
+use super::{BorderLimit, HistoryEntry, HistoryKind, Release, SplitStory, Unfit};
 use crate::color::Cylinder;
 use crate::photo::{LinearImage, Masks};
-use crate::raster::HypothesisId;
+use crate::raster::{HypothesisId, PixelIndex};
 use crate::reflection::Amounts;
 use crate::trace::replay_state::ReplayState;
 use crate::trace::stage_trace::{Move, Owners};
@@ -49,6 +49,8 @@ pub(super) struct HistoryBuilder<'a> {
     end: ReplayState,
     /// The pixel's window in the newest grid; none where that grid was not laid for the pixel.
     patch: Option<Patch<'a>>,
+    /// The limit of the pixel's surface reflection by a border; none where there is none.
+    border: Option<BorderLimit>,
     /// The decisions about the pixel as one that no region explains; none where a region explains the pixel.
     outside: Option<Outside>,
     stage: Stage,
@@ -79,6 +81,7 @@ impl<'a> HistoryBuilder<'a> {
             outside: Outside::of(trace, &end, image, masks, pixel),
             end,
             patch: None,
+            border: None,
             stage: Stage::Masks,
             pass: None,
             cause: Cause::Nothing,
@@ -167,6 +170,10 @@ impl<'a> HistoryBuilder<'a> {
             Event::SeedsPlaced(_) => self.cause = Cause::Seeds,
             Event::GrowthBegan(GrowthBegan { hypothesis, limit }) => {
                 self.begin_growth(step, *hypothesis, *limit);
+            }
+            Event::BordersLimited(limited) => {
+                let kept = limited.kept(PixelIndex::from_index(self.pixel));
+                self.border = kept.map(|kept| BorderLimit { kept, reach_px: limited.reach_px });
             }
             Event::RegionsMerged(merged) => self.merges.push(*merged),
             Event::HypothesisChosen(_) | Event::HypothesisPassedOver(_) => self.take_area(step, event),
@@ -411,6 +418,7 @@ impl<'a> HistoryBuilder<'a> {
                 lines: test.map(|test| test.distances(self.color)),
                 amounts: believed.then_some(components),
                 cut: removed_offset.filter(|_| believed),
+                border: self.border,
                 least_offset: fitted.least_offset,
                 ambient: fitted.origin,
                 unfit: self.outside.as_ref().map(|outside| Unfit {

@@ -16,7 +16,7 @@ mod split;
 #[cfg(test)]
 mod tests;
 
-pub use split::{LocalFate, LocalStory, SplitStory, Unfit};
+pub use split::{BorderLimit, LocalFate, LocalStory, SplitStory, Unfit};
 
 use super::{Class, Contest, Event, PassedOver, Stage, Trace};
 use crate::color::Trial;

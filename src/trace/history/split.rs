@@ -20,6 +20,8 @@ pub struct SplitStory {
     /// Distance from the body line of surface reflection that was taken for none, as the distance is less than
     /// [`SplitStory::least_offset`], counts; none where no surface reflection was removed.
     pub cut: Option<f32>,
+    /// Why only a part of the surface reflection stays; none where all of it stays.
+    pub border: Option<BorderLimit>,
     /// Least distance from the body line of a color with surface reflection, counts.
     pub least_offset: f32,
     /// The ambient light that was subtracted before (7.5), counts; zeros where nothing was subtracted.
@@ -27,6 +29,16 @@ pub struct SplitStory {
     /// Why the plane of the region is not used for the pixel; none where it is used. Without the plane the amounts are not those of
     /// the result.
     pub unfit: Option<Unfit>,
+}
+
+/// The part of the surface reflection that a pixel near another region keeps (refinement `border_mixtures`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct BorderLimit {
+    /// Share of the surface reflection that stays, 0…1; the rest is body reflection.
+    pub kept: f32,
+    /// How far a border mixes colors, pixels.
+    pub reach_px: u32,
 }
 
 /// Why the plane of a region is not used for a pixel, and the surface reflection of the pixel instead.
