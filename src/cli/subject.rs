@@ -41,28 +41,31 @@ pub(super) struct Traced {
 }
 
 /// Why a photograph is not analyzed: the call is wrong, or the file is.
-pub(super) enum Trouble {
+pub(super) enum AnalyzeError {
     Usage(anyhow::Error),
     File(anyhow::Error),
 }
 
 impl Subject {
     /// Reads the photograph, passes it to `check`, and analyzes it with a record. Errors name the file.
-    pub(super) fn analyze(&self, check: impl FnOnce(&LinearImage) -> Result<()>) -> Result<Traced, Trouble> {
-        let params = self.settings.params().map_err(Trouble::Usage)?;
+    pub(super) fn analyze(
+        &self,
+        check: impl FnOnce(&LinearImage) -> Result<()>,
+    ) -> Result<Traced, AnalyzeError> {
+        let params = self.settings.params().map_err(AnalyzeError::Usage)?;
         let reading = self.reading.options();
         let area = self.area.as_deref().map(|path| Area::read(path, &reading)).transpose();
-        let area = area.map_err(Trouble::Usage)?;
+        let area = area.map_err(AnalyzeError::Usage)?;
         // The error of `read` names the file already.
-        let photo = photo::read(&self.image, &reading).map_err(|error| Trouble::File(error.into()))?;
+        let photo = photo::read(&self.image, &reading).map_err(|error| AnalyzeError::File(error.into()))?;
         let image = Arc::new(photo.image);
-        check(&image).with_context(|| self.image.display().to_string()).map_err(Trouble::Usage)?;
+        check(&image).with_context(|| self.image.display().to_string()).map_err(AnalyzeError::Usage)?;
         let mut session = Session::new(Arc::clone(&image));
         if let Some(area) = area {
-            session.restrict(Some(area.mask())).context("--area").map_err(Trouble::Usage)?;
+            session.restrict(Some(area.mask())).context("--area").map_err(AnalyzeError::Usage)?;
         }
         let (analysis, trace) =
-            session.run_traced(&params, &mut ()).map_err(|error| Trouble::File(error.into()))?;
+            session.run_traced(&params, &mut ()).map_err(|error| AnalyzeError::File(error.into()))?;
         Ok(Traced { image, params, session, analysis, trace })
     }
 

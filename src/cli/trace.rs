@@ -1,19 +1,21 @@
-//! `dichroscope trace`: every decision of an analysis, a JSON object a line.
+//! `dichroscope trace`: every decision of an analysis, one JSON object per line.
 
-use super::subject::{Subject, Traced, Trouble, parse_pixel, pixel_inside};
+use super::subject::{AnalyzeError, Subject, Traced, parse_pixel, pixel_inside};
 use super::{Outcome, note};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dichroscope::describe::{Names, schema_line, trace_line};
 use dichroscope::raster::{HypothesisId, PixelIndex, RegionId};
+use dichroscope::segment::FinalRegions;
 use dichroscope::trace::{Stage, Step, lineage};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-/// Write every decision of an analysis as JSON lines: windows, merges, hypotheses, claims, skewed-T tests, labels
+/// Write every decision of an analysis as JSON lines: windows, merges, hypotheses, pixels that change their region, skewed-T tests, kinds of pixels
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// File to write; - for standard output
@@ -25,10 +27,10 @@ pub struct Arguments {
     /// Only steps about one pixel: column and row, counted from 0
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
     pixel: Option<[usize; 2]>,
-    /// Only steps about one region of the result, and the hypotheses that it was made of
+    /// Only steps about region N of the result, about the hypotheses that merged into that region, and the kinds of its pixels
     #[arg(long, value_name = "N")]
     region: Option<u16>,
-    // Last, because clap extends a heading to all flags that follow it.
+    // This field is the last, because clap extends a heading to all flags that follow it.
     #[command(flatten)]
     subject: Subject,
 }
@@ -46,15 +48,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
 
 fn trace(arguments: &Arguments) -> Result<Outcome> {
     let pixel_of = |image: &_| arguments.pixel.map(|pixel| pixel_inside(image, pixel)).transpose();
+    // The pixel is checked before the analysis, which takes long.
     let traced = match arguments.subject.analyze(|image| pixel_of(image).map(drop)) {
         Ok(traced) => traced,
-        Err(Trouble::Usage(error)) => return Err(error),
-        Err(Trouble::File(error)) => {
+        Err(AnalyzeError::Usage(error)) => return Err(error),
+        Err(AnalyzeError::File(error)) => {
             note(&format!("{error:#}"));
             return Ok(Outcome::SomeFailed);
         }
     };
-    let wanted = Wanted::new(arguments, &traced, pixel_of(&traced.image)?)?;
+    let wanted = StepFilter::new(arguments, &traced, pixel_of(&traced.image)?)?;
     match write(&traced, &wanted, &arguments.out) {
         Ok(()) => Ok(Outcome::Done),
         // A closed pipe (`| head`) is no failure.
@@ -66,7 +69,7 @@ fn trace(arguments: &Arguments) -> Result<Outcome> {
     }
 }
 
-fn write(traced: &Traced, wanted: &Wanted, path: &Path) -> io::Result<()> {
+fn write(traced: &Traced, wanted: &StepFilter, path: &Path) -> io::Result<()> {
     let target: Box<dyn Write> =
         if path == Path::new("-") { Box::new(io::stdout().lock()) } else { Box::new(File::create(path)?) };
     let mut target = BufWriter::with_capacity(1 << 16, target);
@@ -75,12 +78,12 @@ fn write(traced: &Traced, wanted: &Wanted, path: &Path) -> io::Result<()> {
     writeln!(target, "{}", schema_line(trace, env!("CARGO_PKG_VERSION")))?;
     let mut line = String::new();
     let mut stages = trace.stages().peekable();
-    for (seq, step) in trace.steps() {
-        while stages.next_if(|(_, steps)| steps.end <= seq).is_some() {}
+    for (step_number, step) in trace.steps() {
+        while stages.next_if(|(_, steps)| steps.end <= step_number).is_some() {}
         let Some((stage, _)) = stages.peek() else { break };
-        if wanted.holds(seq, *stage, &step) {
+        if wanted.includes(step_number, *stage, &step) {
             line.clear();
-            trace_line(&names, seq, *stage, &step, &mut line);
+            trace_line(&names, step_number, *stage, &step, &mut line);
             line.push('\n');
             target.write_all(line.as_bytes())?;
         }
@@ -89,23 +92,39 @@ fn write(traced: &Traced, wanted: &Wanted, path: &Path) -> io::Result<()> {
 }
 
 /// Which steps to write.
-struct Wanted {
+struct StepFilter {
     stage: Option<Stage>,
-    /// A working pixel, and the steps of its history.
-    pixel: Option<(PixelIndex, BTreeSet<usize>)>,
-    /// The hypotheses that made a region, and the region.
-    regions: Option<(BTreeSet<HypothesisId>, RegionId)>,
+    pixel: Option<PixelFilter>,
+    region: Option<RegionFilter>,
 }
 
-impl Wanted {
+/// The steps about one pixel.
+struct PixelFilter {
+    /// The working pixel that contains the pixel of the photograph.
+    pixel: PixelIndex,
+    /// The steps of its history.
+    steps: BTreeSet<usize>,
+}
+
+/// The steps about one region.
+struct RegionFilter {
+    region: RegionId,
+    /// The hypotheses that merged into the region.
+    hypotheses: BTreeSet<HypothesisId>,
+    /// The regions of the working pixels.
+    labels: Arc<FinalRegions>,
+}
+
+impl StepFilter {
     fn new(arguments: &Arguments, traced: &Traced, pixel: Option<usize>) -> Result<Self> {
         let Traced { analysis, trace, .. } = traced;
         let pixel = pixel.map(|pixel| {
             let pixel = PixelIndex::from_index(pixel);
             let history = analysis.pixel_history(trace, pixel);
-            (analysis.working_pixel(pixel), history.into_iter().map(|happening| happening.step).collect())
+            let steps = history.into_iter().map(|entry| entry.step).collect();
+            PixelFilter { pixel: analysis.working_pixel(pixel), steps }
         });
-        let regions = arguments
+        let region = arguments
             .region
             .map(|number| {
                 let count = analysis.intrinsic.regions.len();
@@ -114,24 +133,32 @@ impl Wanted {
                     bail!("--region {number}: the result has {count} regions, numbered from 1");
                 };
                 let ancestors = lineage(trace, region).into_iter();
-                Ok((ancestors.map(|ancestor| ancestor.hypothesis).collect(), region))
+                let hypotheses = ancestors.map(|ancestor| ancestor.hypothesis).collect();
+                Ok(RegionFilter { region, hypotheses, labels: Arc::clone(&analysis.working_finals) })
             })
             .transpose()
             .with_context(|| arguments.subject.image.display().to_string())?;
-        Ok(Self { stage: arguments.stage, pixel, regions })
+        Ok(Self { stage: arguments.stage, pixel, region })
     }
 
-    fn holds(&self, seq: usize, stage: Stage, step: &Step) -> bool {
+    fn includes(&self, step_number: usize, stage: Stage, step: &Step) -> bool {
         if self.stage.is_some_and(|wanted| wanted != stage) {
             return false;
         }
         let about_pixel = self
             .pixel
             .as_ref()
-            .is_none_or(|(wanted, history)| step.pixel() == Some(*wanted) || history.contains(&seq));
-        about_pixel
-            && self.regions.as_ref().is_none_or(|(hypotheses, region)| {
-                hypotheses.iter().any(|&hypothesis| step.concerns(hypothesis, Some(*region)))
-            })
+            .is_none_or(|wanted| step.pixel() == Some(wanted.pixel) || wanted.steps.contains(&step_number));
+        about_pixel && self.region.as_ref().is_none_or(|wanted| wanted.includes(step))
+    }
+}
+
+impl RegionFilter {
+    fn includes(&self, step: &Step) -> bool {
+        if let Step::Label { pixel, .. } = step {
+            let label = self.labels.labels.as_slice().get(pixel.index()).copied();
+            return label.and_then(RegionId::from_label) == Some(self.region);
+        }
+        self.hypotheses.iter().any(|&hypothesis| step.concerns(hypothesis, Some(self.region)))
     }
 }

@@ -1,6 +1,6 @@
 //! `dichroscope why`: a pixel's history as text, newest first.
 
-use super::subject::{Subject, Traced, Trouble, parse_pixel, pixel_inside};
+use super::subject::{AnalyzeError, Subject, Traced, parse_pixel, pixel_inside};
 use super::{Outcome, note, print};
 use anyhow::Result;
 use clap::Args;
@@ -34,8 +34,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
 fn why(arguments: &Arguments) -> Result<Outcome> {
     let mut traced = match arguments.subject.analyze(|image| pixel_inside(image, arguments.pixel).map(drop)) {
         Ok(traced) => traced,
-        Err(Trouble::Usage(error)) => return Err(error),
-        Err(Trouble::File(error)) => {
+        Err(AnalyzeError::Usage(error)) => return Err(error),
+        Err(AnalyzeError::File(error)) => {
             note(&format!("{error:#}"));
             return Ok(Outcome::SomeFailed);
         }

@@ -6,7 +6,7 @@
 //! Refined (`tail_test`): k directions explain the cluster if the statistic (N−1)·Σ_{i>k} λ_i / (0.7σ0)² ~ χ²((3−k)(N−1−k)) of
 //! *all* variances beyond the k-th is not significant. With σ = 3 and σ0 = 2.5 the paper's test loses half of the coverage.
 
-use super::ChiSquareTest;
+use super::ChiSquareThresholds;
 
 /// Standard deviation that tails are compared with, as a share of σ0: (0.7σ0)² = (1.4σ)².
 const TAIL_SCALE: f64 = 0.7;
@@ -16,7 +16,7 @@ const LEVEL: f64 = 0.05;
 /// The test of clusters for variation beyond the noise.
 #[derive(Clone, Debug)]
 pub struct ClusterTest {
-    chi_square: ChiSquareTest,
+    chi_square: ChiSquareThresholds,
     camera_noise: f64,
     tail_test: bool,
 }
@@ -55,7 +55,7 @@ impl Trial {
 impl ClusterTest {
     /// A test for camera noise σ0 (counts): the tail test, or else the paper's test.
     pub fn new(camera_noise: f64, tail_test: bool) -> Self {
-        Self { chi_square: ChiSquareTest::new(LEVEL), camera_noise, tail_test }
+        Self { chi_square: ChiSquareThresholds::new(LEVEL), camera_noise, tail_test }
     }
 
     /// Camera noise σ0, counts.

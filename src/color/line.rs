@@ -13,8 +13,8 @@ pub struct Line {
 
 /// Settings of a robust line fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LineFit {
-    /// Standard deviation of the noise of a band, counts: least scale of the residuals.
+pub struct RobustFitSettings {
+    /// Standard deviation of the noise of a band, counts; the scale of the residuals is never taken smaller.
     pub sigma: f64,
     /// Tukey's constant, in units of the residuals' scale.
     pub tuning: f64,
@@ -23,7 +23,8 @@ pub struct LineFit {
 }
 
 impl Line {
-    /// The line through the mean of a cluster along its first eigenvector; `None` for a cluster without extent.
+    /// The line through the mean of a cluster along its first eigenvector; `None` for a cluster without extent, or of a total
+    /// weight below 2.
     pub fn principal(moments: &Moments) -> Option<Self> {
         let ([first, ..], [axis, ..]) = principal_axes(&moments.covariance());
         (moments.n >= 2.0 && first > 0.0).then(|| Self::new(moments.mean(), axis))
@@ -46,8 +47,8 @@ impl Line {
         (color - self.mean).cross(&self.direction).norm()
     }
 
-    /// Direction from the line towards gray, the inside of the cube (section 5.4.1), not a unit vector: highlights lie on this
-    /// side.
+    /// The part of the gray direction that is perpendicular to the line (section 5.4.1), not a unit vector; zero for a gray line. The
+    /// highlights of an object lie in this direction from its matte line.
     pub fn inward(&self) -> Vec3 {
         let ones = Vec3::repeat(1.0);
         ones - self.direction * self.direction.sum()
@@ -64,12 +65,13 @@ impl Line {
     /// The residual of a color is its distance from the line; the scale of the residuals is the larger of `fit.sigma` and their
     /// median. With fewer than three colors the line stays as it is.
     #[must_use]
-    pub fn refit(self, colors: &[[f32; 3]], fit: &LineFit) -> Self {
+    pub fn refit(self, colors: &[[f32; 3]], fit: &RobustFitSettings) -> Self {
         let mut line = self;
         if colors.len() < 3 {
             return line;
         }
         for _ in 0..fit.iterations {
+            // Only the axis of the cylinder matters here.
             let cylinder = Cylinder::new(&line, 0.0);
             let cut = fit.tuning * fit.sigma.max(cylinder.median_distance(colors));
             let cut2 = (cut * cut) as f32;
@@ -110,7 +112,7 @@ pub fn closest_points(a: &Line, b: &Line) -> Option<(Vec3, Vec3)> {
     Some((a.mean + a.direction * s, b.mean + b.direction * t))
 }
 
-/// The colors within a radius of a line, in the precision of pixels.
+/// The colors within a radius of a line, in single precision as the colors of pixels are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     mean: [f32; 3],
@@ -127,7 +129,7 @@ pub struct OuterSide {
 }
 
 impl OuterSide {
-    /// Whether a color lies on this side, or level with the line.
+    /// Whether a color lies on this side, or at the line itself. For a gray line no side faces away from gray, and rounding decides.
     #[inline]
     pub fn contains(&self, color: [f32; 3]) -> bool {
         dot(color, self.inward) <= self.at_mean
@@ -138,8 +140,8 @@ impl Cylinder {
     /// The cylinder of `radius_counts` around `line`.
     pub fn new(line: &Line, radius_counts: f64) -> Self {
         Self {
-            mean: super::rgb(&line.mean),
-            direction: super::rgb(&line.direction),
+            mean: rgb(&line.mean),
+            direction: rgb(&line.direction),
             radius2: (radius_counts * radius_counts) as f32,
         }
     }
@@ -174,6 +176,7 @@ impl Cylinder {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::{axis_angle_deg, vec3};
     use proptest::prelude::*;
 
     fn direction() -> impl Strategy<Value = Vec3> {
@@ -202,19 +205,19 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_robust_line_ignores_a_fifth_of_outliers(d in direction(), spread in 120f64..200.0) {
+        fn a_robust_line_is_exact_when_a_fifth_of_the_colors_are_outliers(d in direction(), spread in 120f64..200.0) {
             let aside = d.cross(&Vec3::new(0.3, -0.8, 0.5)).normalize() * 40.0;
             let colors: Vec<[f32; 3]> = (0..200)
                 .map(|i| {
                     let along = 30.0 + spread * f64::from(i) / 200.0;
                     let outlier = if i % 5 == 0 { aside } else { Vec3::zeros() };
-                    super::super::rgb(&(d * along + outlier))
+                    rgb(&(d * along + outlier))
                 })
                 .collect();
             let start = Line::principal(&colors.iter().copied().collect()).unwrap();
-            let fit = LineFit { sigma: 1.25, tuning: 4.0, iterations: 30 };
+            let fit = RobustFitSettings { sigma: 1.25, tuning: 4.0, iterations: 30 };
             let line = start.refit(&colors, &fit);
-            prop_assert!(super::super::axis_angle_deg(&line.direction, &d) < 0.01);
+            prop_assert!(axis_angle_deg(&line.direction, &d) < 0.01);
             prop_assert!(line.foot().norm() < 0.05);
         }
 
@@ -224,7 +227,7 @@ mod tests {
         ) {
             let line = Line::new(Vec3::from(m), d);
             let fast = f64::from(Cylinder::new(&line, 1.0).distance2(c)).sqrt();
-            prop_assert!((fast - line.distance(&super::super::vec3(c))).abs() < 1e-2);
+            prop_assert!((fast - line.distance(&vec3(c))).abs() < 1e-2);
         }
     }
 }

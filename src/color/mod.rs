@@ -9,11 +9,11 @@ mod line;
 mod moments;
 mod srgb;
 
-pub use chi_square::ChiSquareTest;
+pub use chi_square::ChiSquareThresholds;
 pub use cluster::{ClusterTest, Trial};
 pub use eigen::{eigenvalues, principal_axes};
 pub(crate) use line::closest_points;
-pub use line::{Cylinder, Line, LineFit, OuterSide};
+pub use line::{Cylinder, Line, OuterSide, RobustFitSettings};
 pub use moments::Moments;
 pub use srgb::{linear_from_srgb, srgb_from_linear};
 

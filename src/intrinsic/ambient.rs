@@ -11,7 +11,7 @@
 //! On lab scenes p is at most .3 counts a band. Ambient light of 3 to 12 counts is found to .4 counts (1.3 on one scene of three
 //! blue objects, within the estimate's standard deviation), and the body image is as good as without ambient light.
 
-use crate::color::{Cylinder, Line, LineFit, Moments, Vec3, principal_axes};
+use crate::color::{Cylinder, Line, Moments, RobustFitSettings, Vec3, principal_axes};
 use crate::params::AmbientSetting;
 use crate::raster::RegionId;
 use crate::segment::{AnalysisInput, FinalRegions, Members, Pixels, PlanarHypothesis};
@@ -132,7 +132,7 @@ impl MatteLine {
         if colors.len() < LEAST_PX {
             return None;
         }
-        let fit = LineFit { sigma: input.sigma(), tuning: TUNING, iterations: ITERATIONS };
+        let fit = RobustFitSettings { sigma: input.sigma(), tuning: TUNING, iterations: ITERATIONS };
         let line = hypothesis.matte.refit(&colors, &fit);
         let near = Cylinder::new(&line, 2.0 * STRAIGHT * input.sigma());
         let moments: Moments = colors.into_iter().filter(|&color| near.contains(color)).collect();

@@ -208,7 +208,8 @@ mod tests {
         assert!((found.sigma_at(100.0).powi(2) * UNBIASED - 3.6).abs() < 0.4, "{found:?}");
         assert_eq!(shot_noise(&mut windows(|_| 2.0)), None);
         // A bright pattern is no shot noise: its group lies off the line of the others.
-        let pattern = |intensity: f64| if (intensity / 40.0) as usize % 2 == 0 { 1.0 } else { 20.0 };
+        let pattern =
+            |intensity: f64| if ((intensity / 40.0) as usize).is_multiple_of(2) { 1.0 } else { 20.0 };
         assert_eq!(shot_noise(&mut windows(pattern)), None);
         assert_eq!(shot_noise(&mut windows(|intensity| intensity)[..30]), None, "too few windows");
     }

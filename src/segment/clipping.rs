@@ -2,7 +2,7 @@
 //!
 //! The color of such a pixel is not usable, so the position decides: from its highlight pixels (nearer to the highlight line
 //! than to the matte line) a region grows into unassigned neighbors that are brighter than the meeting point of both lines.
-//! Then holes are filled: components of distorted pixels that one region nearly surrounds, and small components of unassigned
+//! Then holes are filled: components of distorted pixels on whose assigned border one region has the largest part, and small components of unassigned
 //! pixels that lie wholly inside one region.
 
 use super::input::AnalysisInput;
@@ -13,10 +13,11 @@ use crate::raster::{Border, ComponentSearch, Connectivity, HypothesisId, LabelMa
 use crate::trace::{GrowthBegan, HoleFilled, Pass, Recorder};
 use rayon::prelude::*;
 
-/// A component of distorted pixels joins a region to which at least this share of its assigned border belongs.
-const SURROUNDED: f64 = 0.7;
+/// A component of distorted pixels joins a region to which at least this share of the component's assigned border belongs; unassigned
+/// and dark pixels of the border do not count.
+const MIN_BORDER_SHARE: f64 = 0.7;
 
-/// Grows the planar regions into the distorted pixels and fills holes. Returns the region of each pixel.
+/// Grows the planar regions into unassigned lit pixels that are brighter than the meeting point, and fills holes. Returns the region of each pixel.
 pub fn clipping_regions<R: Recorder>(
     input: &AnalysisInput,
     planar: &PlanarRegions,
@@ -40,9 +41,11 @@ pub fn clipping_regions<R: Recorder>(
         if input.stopped() {
             return recorded_labels.labels;
         }
-        let start2 = hypothesis.start.norm_squared() as f32;
+        let meeting_point_norm2 = hypothesis.start.norm_squared() as f32;
         if R::KEEPS && !front.is_empty() {
-            recorded_labels.recorder.record(GrowthBegan { hypothesis: id, limit: start2.sqrt() });
+            recorded_labels
+                .recorder
+                .record(GrowthBegan { hypothesis: id, limit: meeting_point_norm2.sqrt() });
         }
         recorded_labels.grow(
             id,
@@ -50,13 +53,15 @@ pub fn clipping_regions<R: Recorder>(
             || input.stopped(),
             |_, pixel, holder| {
                 let color = input.pixels[pixel];
-                holder.is_none() && input.masks.claimable_by_brightness(pixel) && dot(color, color) > start2
+                holder.is_none()
+                    && input.masks.claimable_by_brightness(pixel)
+                    && dot(color, color) > meeting_point_norm2
             },
         );
     }
     recorded_labels.begin(Pass::ClippedHoles);
     let distorted = |pixel: usize| input.masks.distorted(pixel) && !input.masks.dark(pixel);
-    fill(&mut recorded_labels, distorted, |hole| hole.border_share >= SURROUNDED);
+    fill(&mut recorded_labels, distorted, |hole| hole.border_share >= MIN_BORDER_SHARE);
     if input.stopped() {
         return recorded_labels.labels;
     }
@@ -121,7 +126,7 @@ mod tests {
         Vec3::new(0.9, 0.3, 0.2).normalize()
     }
 
-    /// `m`atte, `h`ighlight, `w`hite and clipped, `d`im and of another color.
+    /// A picture drawn with letters: m for matte, h for highlight, w for white and clipped, d for dim and of another color, a point for black.
     fn drawing(rows: &[&str]) -> Drawing {
         Drawing::new(rows, |c| match c {
             'm' => body() * 120.0,
@@ -131,7 +136,8 @@ mod tests {
         })
     }
 
-    /// Regions whose highlight line leaves the matte line at 120 counts, or that have no plane.
+    /// Checks that the clipping stage makes the labels `after` of the labels `before`. The highlight line of every region leaves the matte line at
+    /// 120 counts; without a plane there is no highlight line.
     fn fill_in(drawing: &Drawing, before: &[&str], with_plane: bool, after: &[&str]) {
         let matte = Line::new(body() * 80.0, body());
         let hypothesis = PlanarHypothesis {
@@ -171,7 +177,7 @@ mod tests {
     fn an_unexplained_hole_is_filled_when_it_is_small_and_wholly_inside() {
         let picture = drawing(&["mmmmmmmm", "mddmm.dm", "mmmmmmmm", "mmddddmm", "mmdddmmm", "mmmmmmmd"]);
         let before = ["11111111", "1..11..1", "11111111", "11....11", "11...111", "1111111."];
-        // The second touches darkness, the third exceeds the minimal area of 4, the fourth the picture's border.
+        // The second hole touches a dark pixel, the third has more pixels than the minimal area of 4, the fourth touches the picture's border.
         let after = ["11111111", "11111..1", "11111111", "11....11", "11...111", "1111111."];
         fill_in(&picture, &before, false, &after);
     }

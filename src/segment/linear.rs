@@ -11,7 +11,7 @@ use super::classify::Windows;
 use super::input::AnalysisInput;
 use super::merge::Areas;
 use super::recorded_labels::{Pixels, RecordedLabels};
-use crate::color::{Cylinder, Line, LineFit, Moments};
+use crate::color::{Cylinder, Line, Moments, RobustFitSettings};
 use crate::raster::{HypothesisId, PixelIndex, UNASSIGNED};
 use crate::trace::{
     CandidateSource, Class, Contest, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted,
@@ -134,8 +134,8 @@ fn hypothesis_line(input: &AnalysisInput, class: Option<Class>, colors: &[[f32; 
 }
 
 /// The settings of a robust line fit: residuals below the image's noise count fully.
-pub fn line_fit(input: &AnalysisInput, iterations: usize) -> LineFit {
-    LineFit { sigma: input.sigma(), tuning: 4.0, iterations }
+pub fn line_fit(input: &AnalysisInput, iterations: usize) -> RobustFitSettings {
+    RobustFitSettings { sigma: input.sigma(), tuning: 4.0, iterations }
 }
 
 /// Grows the hypothesis `region` from an area's unclaimed pixels; with `robust_lines` fits and grows a second time. Returns

@@ -9,25 +9,25 @@ use rayon::prelude::*;
 
 /// Bins of a band's histogram.
 pub const STATISTICS_BINS: usize = 64;
-/// Largest number of parts in which pixels are added up, whatever the number of threads, so that sums are the same bytes.
+/// Largest number of parts in which pixels are added up, whatever the number of threads, so that sums are identical bit for bit.
 const PARTS: usize = 16;
-/// Number of values of the exponent and the first bits of the fraction of a float without sign: each is a range of floats.
-const COARSE: usize = 1 << 15;
-const FINE: usize = 1 << 16;
+/// Number of bins by the upper 15 bits of a float that is not negative, for the first step of a median.
+const COARSE_BINS: usize = 1 << 15;
+/// Number of bins by the lower 16 bits, for the second step: each bin is one float.
+const FINE_BINS: usize = 1 << 16;
 
 /// Figures about a set of pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statistics {
     /// Number of pixels.
     pub pixels: usize,
-    /// Number of pixels with a usable value. `mean` and `bands` are figures about these pixels.
+    /// Number of pixels with finite values. `mean` and `bands` are figures about these pixels.
     pub valid: usize,
     /// Mean color, counts.
     pub mean: [f64; 3],
     /// The figures of each band.
     pub bands: [Band; 3],
-    /// Number of pixels that the class is computed from: as in the classification of windows, only undistorted pixels where the
-    /// refinement is on.
+    /// Number of pixels that the class is computed from: as in the classification of windows, with refinement `tail_test` only pixels without any mark.
     pub counted: usize,
     /// Variances along the principal axes, largest first, counts².
     pub variances: [f64; 3],
@@ -37,11 +37,11 @@ pub struct Statistics {
     pub class: Option<Class>,
     /// The smallest rectangle that holds the pixels.
     pub bounds: Bounds,
-    /// The regions of the pixels, each with its number of pixels, the largest number first; of equals no region comes last.
+    /// The regions of the pixels, each with its number of pixels, the largest number first; of equal numbers, pixels of no region come last.
     pub regions: Vec<(Option<RegionId>, usize)>,
     /// Number of pixels with a clipped band.
     pub clipped: usize,
-    /// Number of pixels that are too dark.
+    /// Number of pixels that take no part: too dark, invalid, or outside of the area of the analysis.
     pub dark: usize,
 }
 
@@ -144,8 +144,9 @@ struct Part {
     max: [f32; 3],
     bands: [BandCounts; 3],
     counted: Moments,
-    /// First and last column and row.
+    /// First and last column.
     columns: [usize; 2],
+    /// First and last row.
     rows: [usize; 2],
     regions: Vec<usize>,
     clipped: usize,
@@ -200,7 +201,7 @@ impl Survey<'_> {
         let pixels = self.shown.picture.photo.image.pixels.as_slice();
         let length = pixels.len().div_ceil(PARTS);
         let fine = |(part, colors): (usize, &[[f32; 3]])| {
-            let mut fine: [Vec<u32>; 3] = std::array::from_fn(|_| vec![0; FINE]);
+            let mut fine: [Vec<u32>; 3] = std::array::from_fn(|_| vec![0; FINE_BINS]);
             for (pixel, color) in (part * length..).zip(colors) {
                 if !self.mask[pixel] || masks.invalid(pixel) {
                     continue;
@@ -208,7 +209,7 @@ impl Survey<'_> {
                 for (k, fine) in fine.iter_mut().enumerate() {
                     let bits = bits(color[k]);
                     if bits >> 16 == found[k].0 {
-                        fine[bits & (FINE - 1)] += 1;
+                        fine[bits & (FINE_BINS - 1)] += 1;
                     }
                 }
             }
@@ -231,7 +232,7 @@ impl Survey<'_> {
 
 impl Part {
     fn new(regions: usize) -> Self {
-        let counts = || BandCounts { histogram: vec![0; STATISTICS_BINS], coarse: vec![0; COARSE] };
+        let counts = || BandCounts { histogram: vec![0; STATISTICS_BINS], coarse: vec![0; COARSE_BINS] };
         Self {
             pixels: 0,
             valid: 0,
@@ -289,7 +290,7 @@ fn bits(value: f32) -> usize {
     (value.to_bits() & (u32::MAX >> 1)) as usize
 }
 
-/// The bin that holds the value of a rank from 0, and its rank there.
+/// The bin that holds the value of a rank (from 0), and the rank of the value within the bin.
 fn ranked(counts: impl Iterator<Item = u64>, rank: u64) -> (usize, u64) {
     let mut rest = rank;
     for (bin, count) in counts.enumerate() {
@@ -317,7 +318,7 @@ mod tests {
     use crate::view::testing::tiny;
 
     #[test]
-    fn a_region_knows_itself() {
+    fn the_figures_of_a_region_are_those_of_its_report() {
         let shown = tiny();
         let reflection = &shown.analysis.intrinsic.regions[0];
         let found = statistics_of(&shown, Item::Region(RegionId::from_index(0))).unwrap();
@@ -332,7 +333,7 @@ mod tests {
     }
 
     #[test]
-    fn every_number_is_what_sorting_and_counting_say() {
+    fn counts_means_medians_and_extremes_are_those_of_the_sorted_values() {
         let shown = tiny();
         let (width, height) = shown.picture.size();
         for step in [1, 2, 7, width * height - 1] {
@@ -376,7 +377,7 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_of_few_values_is_found() {
+    fn a_rank_is_found_in_counted_bins_and_bits_keep_the_order() {
         assert_eq!(ranked([0u64, 2, 0, 3].into_iter(), 0), (1, 0));
         assert_eq!(ranked([0u64, 2, 0, 3].into_iter(), 2), (3, 0));
         assert_eq!(ranked([0u64, 2, 0, 3].into_iter(), 4), (3, 2));
