@@ -3,8 +3,9 @@
 use super::analysis_worker::{self, AnalysisWorker, LatestRequest, Tracing};
 use super::export_input::ExportInput;
 use super::exports::write_export;
-use super::report::{self, Report};
-use super::{Asked, Command, Effect, Job, Request, State, WhatIfProgress, jobs, read, reduce};
+use super::reduce::reduce_report;
+use super::report::Report;
+use super::{Command, Effect, Job, Request, State, WhatIfProgress, WhatIfRequest, jobs, read, reduce};
 use crate::analysis::{Session, WhatIfObserver, what_if};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -26,8 +27,8 @@ pub struct Application {
     inbox: Receiver<Report>,
     wake: Arc<dyn Fn() + Send + Sync>,
     workers: Workers,
-    writing: Arc<jobs::Stop>,
-    inquiring: Arc<jobs::Stop>,
+    stop_writing: Arc<jobs::Stop>,
+    stop_what_if: Arc<jobs::Stop>,
 }
 
 /// The analysis worker.
@@ -68,7 +69,15 @@ impl Application {
                 Workers::Threads { latest_request, worker: Some(worker) }
             }
         };
-        Ok(Self { state, outbox, inbox, wake, workers, writing: Arc::default(), inquiring: Arc::default() })
+        Ok(Self {
+            state,
+            outbox,
+            inbox,
+            wake,
+            workers,
+            stop_writing: Arc::default(),
+            stop_what_if: Arc::default(),
+        })
     }
 
     /// All there is to show.
@@ -95,7 +104,7 @@ impl Application {
 
     /// Takes in what a worker reports and sets the effects going.
     pub(super) fn take_report(&mut self, report: Report) {
-        for effect in report::reduce(&mut self.state, report) {
+        for effect in reduce_report(&mut self.state, report) {
             self.carry_out(effect);
         }
     }
@@ -121,8 +130,8 @@ impl Application {
             Effect::Write(export) => {
                 self.state.jobs.export = Some(Job::now());
                 let input = ExportInput::of(&self.state);
-                self.writing = Arc::default();
-                let stop = Arc::clone(&self.writing);
+                self.stop_writing = Arc::default();
+                let stop = Arc::clone(&self.stop_writing);
                 let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
                 let tell = move |done, total| {
                     let _ = outbox.send(Report::Exporting { done, total });
@@ -130,9 +139,9 @@ impl Application {
                 };
                 self.run("writer", move || Report::Exported(write_export(&export, &input, &stop, &tell)));
             }
-            Effect::StopWriting => self.writing.stop(),
-            Effect::Inquire(asked) => self.inquire(asked),
-            Effect::StopInquiring => self.inquiring.stop(),
+            Effect::StopWriting => self.stop_writing.stop(),
+            Effect::FindWhatIf(request) => self.find_what_if(request),
+            Effect::StopWhatIf => self.stop_what_if.stop(),
         }
     }
 
@@ -174,18 +183,18 @@ impl Application {
     }
 
     /// Runs a what-if job in a session of its own: the analysis worker's session keeps the stages of the result shown.
-    fn inquire(&mut self, asked: Asked) {
+    fn find_what_if(&mut self, request: WhatIfRequest) {
         let Some(picture) = self.state.picture.clone() else { return };
         let (params, area) = (self.state.document.params, self.state.document.area.clone());
-        self.inquiring = Arc::default();
+        self.stop_what_if = Arc::default();
         let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
-        let mut observer = ProgressReporter { asked, stop: Arc::clone(&self.inquiring), outbox, wake };
+        let mut observer = ProgressReporter { request, stop: Arc::clone(&self.stop_what_if), outbox, wake };
         self.run("what if", move || {
             let mut session = Session::new(Arc::new(picture.photo.image.clone()));
             // An area of another picture restricts nothing.
             let _ = session.restrict(area);
-            let found = what_if(&mut session, &params, asked.pixel, &mut observer);
-            Report::WhatIf(asked, found.map_or(WhatIfProgress::Stopped, WhatIfProgress::Found))
+            let found = what_if(&mut session, &params, request.pixel, &mut observer);
+            Report::WhatIf(request, found.map_or(WhatIfProgress::Stopped, WhatIfProgress::Found))
         });
     }
 
@@ -207,7 +216,7 @@ impl Application {
 
 /// Reports how far a what-if job is, and stops it.
 struct ProgressReporter {
-    asked: Asked,
+    request: WhatIfRequest,
     stop: Arc<jobs::Stop>,
     outbox: Sender<Report>,
     wake: Arc<dyn Fn() + Send + Sync>,
@@ -215,7 +224,7 @@ struct ProgressReporter {
 
 impl WhatIfObserver for ProgressReporter {
     fn progress(&mut self, done: usize, of: usize) {
-        let _ = self.outbox.send(Report::WhatIf(self.asked, WhatIfProgress::Progress(done, of)));
+        let _ = self.outbox.send(Report::WhatIf(self.request, WhatIfProgress::Progress(done, of)));
         (self.wake)();
     }
 
@@ -226,8 +235,8 @@ impl WhatIfObserver for ProgressReporter {
 
 impl Drop for Application {
     fn drop(&mut self) {
-        self.writing.stop();
-        self.inquiring.stop();
+        self.stop_writing.stop();
+        self.stop_what_if.stop();
         if let Workers::Threads { latest_request, worker } = &mut self.workers {
             latest_request.close();
             if let Some(worker) = worker.take() {

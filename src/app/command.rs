@@ -1,7 +1,7 @@
 //! What a person can ask for. A [`Command`] is the only way in which panels change a [`super::State`]; what workers report is
 //! a type of its own, which no panel can make.
 
-use super::{Ask, DebugCommand, Export, Severity};
+use super::{DebugCommand, Export, Gesture, Question, Severity};
 use crate::params::{AmbientSetting, Method, Parameter, Params, Setting, Switch};
 use crate::photo::ReadOptions;
 use crate::raster::Mask;
@@ -18,8 +18,8 @@ pub enum Command {
     View(ViewCommand),
     /// Start or stop work in the background.
     Job(JobCommand),
-    /// Ask why, or what if.
-    Ask(Ask),
+    /// Ask a question about a pixel.
+    Ask(Question),
     /// Change the debugger.
     Debug(DebugCommand),
 }
@@ -125,9 +125,9 @@ impl From<JobCommand> for Command {
     }
 }
 
-impl From<Ask> for Command {
-    fn from(ask: Ask) -> Self {
-        Self::Ask(ask)
+impl From<Question> for Command {
+    fn from(question: Question) -> Self {
+        Self::Ask(question)
     }
 }
 
@@ -135,19 +135,6 @@ impl From<DebugCommand> for Command {
     fn from(command: DebugCommand) -> Self {
         Self::Debug(command)
     }
-}
-
-/// Changes with the same gesture are one step of the history, until [`Edit::EndGesture`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Gesture {
-    /// Dragging a parameter's slider.
-    Parameter(Parameter),
-    /// Painting with the brush.
-    Brush,
-    /// Turning the pinned illuminant.
-    Illuminant,
-    /// Dragging a band of the ambient light.
-    Ambient,
 }
 
 /// How newly marked pixels combine with the pixels marked before.

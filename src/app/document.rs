@@ -1,7 +1,6 @@
 //! The part of the state that undo restores: parameters, area and selection.
 
-use super::Gesture;
-use crate::params::Params;
+use crate::params::{Parameter, Params};
 use crate::raster::Mask;
 use crate::view::Selection;
 use std::sync::Arc;
@@ -15,6 +14,19 @@ pub struct Document {
     pub area: Option<Arc<Mask>>,
     /// The selected item and the marked pixels.
     pub selection: Selection,
+}
+
+/// A continuous movement of a person. Changes of one gesture are one step of the history, until [`History::end_gesture`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gesture {
+    /// Dragging a parameter's slider.
+    Parameter(Parameter),
+    /// Painting with the brush.
+    Brush,
+    /// Turning the pinned illuminant.
+    Illuminant,
+    /// Dragging a band of the ambient light.
+    Ambient,
 }
 
 /// Earlier and undone documents.

@@ -25,7 +25,7 @@ pub struct DrawnPicture {
     pub rgba: Arc<[u8]>,
 }
 
-/// The parts of the state that exports are made from, as they were when the export was asked for.
+/// The parts of the state that exports are made from, as they were when the export was requested.
 #[derive(Clone, Debug)]
 pub(super) struct ExportInput {
     pub(super) picture: Option<Arc<Picture>>,
@@ -51,7 +51,7 @@ impl ExportInput {
             image: state.view.image.clone(),
             selected_region: state.selected_region(),
             profile: state.profile_ends(),
-            workspace: Workspace::of(state),
+            workspace: state.workspace(),
         }
     }
 }

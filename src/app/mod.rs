@@ -11,6 +11,7 @@ mod command;
 mod command_line;
 mod debugger;
 mod document;
+mod effect;
 mod export_input;
 mod exports;
 mod jobs;
@@ -26,19 +27,20 @@ mod write;
 
 pub use analysis_worker::Request;
 pub use application::{Application, Executor};
-pub use command::{Combine, Command, Edit, Gesture, JobCommand, ViewCommand};
+pub use command::{Combine, Command, Edit, JobCommand, ViewCommand};
 pub use command_line::analyze_call;
 pub use debugger::{
     Breakpoint, CandidateCheck, Condition, DebugCommand, DebugSettings, Debugger, Difference, Direction,
     Goal, Grain, SavedClass,
 };
-pub use document::{Document, History};
+pub use document::{Document, Gesture, History};
+pub use effect::Effect;
 pub use export_input::{DrawnPicture, ExportOptions};
 pub use exports::{Export, ExportKind};
 pub use jobs::{Job, JobState};
-pub use reduce::{Effect, reduce};
+pub use reduce::reduce;
 pub use settings::Settings;
 pub use state::{Notice, Severity, State};
 pub use view_settings::ViewSettings;
-pub use what_if_job::{Ask, Asked, WhatIfJob, WhatIfProgress};
+pub use what_if_job::{Question, WhatIfJob, WhatIfProgress, WhatIfRequest};
 pub use workspace::Workspace;

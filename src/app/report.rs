@@ -1,8 +1,6 @@
 //! What workers report. Only [`super::Application`] hands reports to the state.
 
-use super::reduce::{analyzed, edit_params, notify, opened};
-use super::what_if_job::{self, Asked, WhatIfProgress};
-use super::{Effect, Severity, State, Workspace, debugger};
+use super::{WhatIfProgress, WhatIfRequest, Workspace};
 use crate::analysis::Stage;
 use crate::params::Params;
 use crate::trace::Replay;
@@ -47,56 +45,6 @@ pub(super) enum Report {
     },
     /// An export ended: the sentence to show.
     Exported(Result<String, String>),
-    /// A what-if job went on or ended.
-    WhatIf(Asked, WhatIfProgress),
-}
-
-/// Takes a report into the state.
-pub(super) fn reduce(state: &mut State, report: Report) -> Vec<Effect> {
-    match report {
-        Report::Opened(picture) => return opened(state, picture),
-        Report::OpenFailed(reason) => {
-            (state.jobs.reading, state.restoring) = (None, None);
-            notify(state, Severity::Error, reason);
-        }
-        Report::ParamsRead(params) => return edit_params(state, None, |old| *old = *params),
-        Report::WorkspaceRead(workspace) => return restore(state, workspace),
-        Report::Failed(reason) => notify(state, Severity::Error, reason),
-        Report::Progress { generation, stage } => {
-            if let Some(job) = state.jobs.analysis.as_mut().filter(|_| generation == state.generation) {
-                job.stage = Some(stage);
-            }
-        }
-        Report::Analyzed(shown) => return analyzed(state, shown),
-        Report::Traced { generation, replay } => debugger::trace_arrived(state, generation, *replay),
-        Report::Exporting { done, total } => {
-            if let Some(job) = &mut state.jobs.export {
-                job.files = Some((done, total));
-            }
-        }
-        Report::Exported(outcome) => {
-            state.jobs.export = None;
-            match outcome {
-                Ok(said) => notify(state, Severity::Done, said),
-                Err(reason) => notify(state, Severity::Error, reason),
-            }
-        }
-        Report::WhatIf(asked, progress) => what_if_job::report(state, asked, progress),
-    }
-    Vec::new()
-}
-
-/// Begins to restore a workspace: its photograph is read first.
-pub(super) fn restore(state: &mut State, workspace: Box<Workspace>) -> Vec<Effect> {
-    match workspace.reading() {
-        Ok(options) => {
-            let origin = workspace.origin.clone();
-            state.restoring = Some(workspace);
-            vec![Effect::Read(origin, options)]
-        }
-        Err(reason) => {
-            notify(state, Severity::Error, reason);
-            Vec::new()
-        }
-    }
+    /// A what-if job made progress or ended.
+    WhatIf(WhatIfRequest, WhatIfProgress),
 }

@@ -27,8 +27,8 @@ pub struct State {
     pub view: ViewSettings,
     /// The step debugger.
     pub debugger: Debugger,
-    /// The pixel that was clicked last, if nothing else has been selected since. The panel "Why" explains it.
-    pub(super) asked_pixel: Option<PixelIndex>,
+    /// The pixel that was clicked last, if nothing else has been selected since: the panel "Why" explains that pixel.
+    pub(super) explained_pixel: Option<PixelIndex>,
     /// The what-if job, if one was started for the newest result.
     pub what_if_job: Option<WhatIfJob>,
     /// Work in the background.
@@ -39,6 +39,7 @@ pub struct State {
     pub recent: Vec<PathBuf>,
     /// Number of the newest analysis request.
     pub generation: u64,
+    /// Number of notices so far, those dismissed included.
     pub(super) notices_so_far: u64,
     /// The workspace whose photograph is being read.
     pub(super) restoring: Option<Box<Workspace>>,
@@ -49,8 +50,11 @@ pub struct State {
 /// The part of a restored workspace that is applied after its pinned result has been computed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AfterPin {
+    /// The parameters of the newest result.
     pub(super) params: Params,
+    /// The selected item.
     pub(super) item: Option<Item>,
+    /// Whether the pinned result is shown in place of the newest.
     pub(super) show_pinned: bool,
 }
 
@@ -94,10 +98,10 @@ impl State {
     }
 
     /// The pixel that the panel "Why" explains: the selected one, or the one at which the selected region was clicked.
-    pub fn asked_pixel(&self) -> Option<PixelIndex> {
+    pub fn explained_pixel(&self) -> Option<PixelIndex> {
         match self.document.selection.item {
             Some(Item::Pixel(pixel)) => Some(pixel),
-            _ => self.asked_pixel,
+            _ => self.explained_pixel,
         }
     }
 
@@ -106,6 +110,25 @@ impl State {
         let replay = self.debugger.stopped().filter(|_| self.view.debug.follow && !self.view.show_pinned)?;
         let newest = self.newest.as_ref().filter(|_| self.picture.is_some())?;
         (newest.analysis.working.blocks == replay.trace().pixel_blocks()).then_some(replay)
+    }
+
+    /// Adds a notice, unless a notice with the same text is shown already.
+    pub(super) fn notify(&mut self, severity: Severity, text: String) {
+        if self.notices.iter().any(|notice| notice.text == text) {
+            return;
+        }
+        self.notices_so_far += 1;
+        self.notices.push(Notice { id: self.notices_so_far, severity, text });
+    }
+
+    /// The workspace that would be saved now.
+    ///
+    /// # Errors
+    /// A sentence, where no photograph is open or the open one is in no file that could be opened again.
+    pub(super) fn workspace(&self) -> Result<Workspace, String> {
+        let picture =
+            self.picture.as_ref().ok_or("there is no workspace to save: open a photograph first")?;
+        Workspace::new(picture, &self.document, self.pinned.as_ref().map(|pinned| pinned.params), &self.view)
     }
 
     /// The region of the selected item, which the panels about one region show.
@@ -130,7 +153,7 @@ pub enum Severity {
 pub struct Notice {
     /// Identifies the notice when it is dismissed.
     pub id: u64,
-    /// Its kind.
+    /// The kind of the notice.
     pub severity: Severity,
     /// What happened, to what, and what to do.
     pub text: String,

@@ -1,11 +1,13 @@
 //! Workspace files: the place of a photograph, the parameters of its analysis, the selection and the views, as JSON.
 
-use super::{State, ViewSettings};
+use super::{Document, ViewSettings};
 use crate::params::Params;
 use crate::photo::{EncodingChoice, ReadOptions};
-use crate::view::{Item, MaskRuns, Origin};
+use crate::raster::Mask;
+use crate::view::{Item, MaskRuns, Origin, Picture};
 use serde::{Deserialize, Serialize};
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 /// Version of the format; it rises when a field changes its name or its meaning.
 const SCHEMA: u32 = 1;
@@ -44,39 +46,42 @@ pub struct Workspace {
 
 /// The fields that identify a workspace, in every version of the format.
 #[derive(Deserialize)]
-struct Stamp {
+struct WorkspaceHeader {
     schema: u32,
     #[serde(rename = "origin")]
     _origin: serde::de::IgnoredAny,
 }
 
 impl Workspace {
-    /// The workspace of a state.
+    /// A workspace of the open photograph, the document, the parameters of the pinned result and the settings of the views.
     ///
     /// # Errors
-    /// A sentence, where no photograph is open or the open one is in no file that could be opened again.
-    pub fn of(state: &State) -> Result<Self, String> {
-        let picture =
-            state.picture.as_ref().ok_or("there is no workspace to save: open a photograph first")?;
+    /// A sentence, where the photograph is in no file that could be opened again.
+    pub(super) fn new(
+        picture: &Picture,
+        document: &Document,
+        pinned: Option<Params>,
+        view: &ViewSettings,
+    ) -> Result<Self, String> {
         if let Origin::Bytes { name, .. } = &picture.origin {
             return Err(format!(
                 "{name}: came without a file, and a workspace names one: save the picture and open it from there"
             ));
         }
-        let selection = &state.document.selection;
-        let runs = |mask: &std::sync::Arc<crate::raster::Mask>| MaskRuns::of(mask);
+        let selection = &document.selection;
+        let runs = |mask: &Arc<Mask>| MaskRuns::of(mask);
         Ok(Self {
             schema: SCHEMA,
             program: env!("CARGO_PKG_VERSION").to_owned(),
             origin: picture.origin.clone(),
             encoding: picture.reading.encoding.to_string(),
             full_scale: picture.reading.full_scale,
-            params: state.document.params,
-            pinned: state.pinned.as_ref().map(|pinned| pinned.params),
-            area: state.document.area.as_ref().map(runs),
+            params: document.params,
+            pinned,
+            area: document.area.as_ref().map(runs),
             item: selection.item,
             marked: selection.marked.as_ref().map(runs),
-            view: state.view.clone(),
+            view: view.clone(),
         })
     }
 
@@ -111,16 +116,16 @@ impl Workspace {
         let file = path.display();
         let text = std::fs::read(path)
             .map_err(|error| format!("{file}: the workspace cannot be read: {error}; choose another file"))?;
-        let foreign =
+        let no_workspace =
             |error| format!("{file}: is no workspace of Dichroscope ({error}); choose another file");
-        let stamp: Stamp = serde_json::from_slice(&text).map_err(foreign)?;
-        if stamp.schema != SCHEMA {
+        let header: WorkspaceHeader = serde_json::from_slice(&text).map_err(no_workspace)?;
+        if header.schema != SCHEMA {
             return Err(format!(
                 "{file}: has schema {}, this program reads {SCHEMA}; open it with the version that wrote it",
-                stamp.schema
+                header.schema
             ));
         }
-        let mut workspace: Self = serde_json::from_slice(&text).map_err(foreign)?;
+        let mut workspace: Self = serde_json::from_slice(&text).map_err(no_workspace)?;
         workspace.params.validate().map_err(|error| format!("{file}: {error}; correct it there"))?;
         workspace.reading().map_err(|error| format!("{file}: {error}; correct it there"))?;
         if let Some(pinned) = &workspace.pinned {
@@ -135,49 +140,49 @@ impl Workspace {
                 ));
             }
             // Without `..` components, so that `scenes/../photo.png` becomes `photo.png`.
-            workspace.origin = Origin::File(without_detours(&photo));
+            workspace.origin = Origin::File(without_dot_components(&photo));
         }
         Ok(workspace)
     }
 }
 
 /// A path without `.` and `..` components; a relative path stays relative.
-fn without_detours(path: &Path) -> PathBuf {
-    let mut plain = PathBuf::new();
+fn without_dot_components(path: &Path) -> PathBuf {
+    let mut result = PathBuf::new();
     for component in path.components() {
         match component {
             Component::CurDir => {}
-            Component::ParentDir if matches!(plain.components().next_back(), Some(Component::Normal(_))) => {
-                plain.pop();
+            Component::ParentDir if matches!(result.components().next_back(), Some(Component::Normal(_))) => {
+                result.pop();
             }
-            other => plain.push(other),
+            other => result.push(other),
         }
     }
-    plain
+    result
 }
 
 /// The path of `photo` relative to the folder of `file`; unchanged where there is none (another drive).
 fn relative_to_file(photo: &Path, file: &Path) -> PathBuf {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let (Ok(whole), Ok(folder)) = (std::path::absolute(photo), std::path::absolute(folder)) else {
+    let (Ok(photo), Ok(folder)) = (std::path::absolute(photo), std::path::absolute(folder)) else {
         return photo.to_owned();
     };
-    let (whole, folder) = (without_detours(&whole), without_detours(&folder));
-    let shared = whole.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    let (photo, folder) = (without_dot_components(&photo), without_dot_components(&folder));
+    let shared = photo.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
     // Paths that share no root have no relative path.
-    if shared == 0 || !whole.components().take(shared).any(|part| part == Component::RootDir) {
-        return whole;
+    if shared == 0 || !photo.components().take(shared).any(|part| part == Component::RootDir) {
+        return photo;
     }
     let up = folder.components().skip(shared).map(|_| Component::ParentDir);
-    up.chain(whole.components().skip(shared)).collect()
+    up.chain(photo.components().skip(shared)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::State;
     use crate::params::{Parameter, Setting};
     use crate::view::testing::gray;
-    use std::sync::Arc;
 
     const PHOTO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
 
@@ -192,7 +197,7 @@ mod tests {
         state.document.selection.item = Some(Item::Region(crate::raster::RegionId::from_index(1)));
         state.view.image.exposure_ev = 0.3;
         state.view.layout = "opaque".into();
-        Workspace::of(&state).unwrap()
+        state.workspace().unwrap()
     }
 
     #[test]
@@ -221,39 +226,39 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_workspace_is_said() {
+    fn a_file_that_is_no_workspace_is_an_error_that_says_why() {
         let root = tempfile::tempdir().unwrap();
         let file = root.path().join("x.dichroscope");
-        let says = |text: Option<&str>, expected: &str| {
+        let assert_error = |text: Option<&str>, expected: &str| {
             if let Some(text) = text {
                 std::fs::write(&file, text).unwrap();
             }
             let error = Workspace::load(&file).unwrap_err();
             assert!(error.starts_with(&file.display().to_string()) && error.contains(expected), "{error}");
         };
-        says(None, "cannot be read");
-        says(Some("{}"), "is no workspace");
-        says(Some(r#"{"schema": 7, "origin": {}}"#), "has schema 7, this program reads 1");
+        assert_error(None, "cannot be read");
+        assert_error(Some("{}"), "is no workspace");
+        assert_error(Some(r#"{"schema": 7, "origin": {}}"#), "has schema 7, this program reads 1");
         let good = workspace(Path::new(PHOTO)).to_json(&file).unwrap();
-        says(Some(&good.replace("3.25", "-3.25")), "camera_noise");
-        says(Some(&good.replace("\"auto\"", "\"rec709\"")), "");
-        says(Some(&good[..good.len() / 2]), "is no workspace");
+        assert_error(Some(&good.replace("3.25", "-3.25")), "camera_noise");
+        assert_error(Some(&good.replace("\"auto\"", "\"rec709\"")), "");
+        assert_error(Some(&good[..good.len() / 2]), "is no workspace");
     }
 
     #[test]
-    fn what_cannot_be_opened_again_cannot_be_saved() {
-        let message = Workspace::of(&State::default()).unwrap_err();
+    fn a_photograph_without_a_file_makes_no_workspace() {
+        let message = State::default().workspace().unwrap_err();
         assert!(message.contains("open a photograph"), "{message}");
         let state = State { picture: Some(gray(&["."], 1)), ..State::default() };
-        assert!(Workspace::of(&state).unwrap_err().contains("came without a file"));
+        assert!(state.workspace().unwrap_err().contains("came without a file"));
     }
 
     #[test]
-    fn ways_between_files_are_short() {
-        let way = |photo: &str, file: &str| relative_to_file(Path::new(photo), Path::new(file));
-        assert_eq!(way("/a/b/c.png", "/a/b/w.d"), Path::new("c.png"));
-        assert_eq!(way("/a/b/c.png", "/a/x/y/w.d"), Path::new("../../b/c.png"));
-        assert_eq!(way("c.png", "w.d"), Path::new("c.png"));
-        assert_eq!(without_detours(Path::new("/a/./b/../c/d/../e.png")), Path::new("/a/c/e.png"));
+    fn photographs_are_named_relative_to_the_workspace() {
+        let relative = |photo: &str, file: &str| relative_to_file(Path::new(photo), Path::new(file));
+        assert_eq!(relative("/a/b/c.png", "/a/b/w.d"), Path::new("c.png"));
+        assert_eq!(relative("/a/b/c.png", "/a/x/y/w.d"), Path::new("../../b/c.png"));
+        assert_eq!(relative("c.png", "w.d"), Path::new("c.png"));
+        assert_eq!(without_dot_components(Path::new("/a/./b/../c/d/../e.png")), Path::new("/a/c/e.png"));
     }
 }

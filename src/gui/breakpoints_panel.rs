@@ -54,7 +54,7 @@ impl About {
     fn usual(self, state: &State) -> Condition {
         let hypothesis = chosen_hypothesis(state);
         match self {
-            Self::Pixel => Condition::PixelChangesOwner(state.asked_pixel().unwrap_or_default()),
+            Self::Pixel => Condition::PixelChangesOwner(state.explained_pixel().unwrap_or_default()),
             Self::Size => Condition::RegionExceeds { hypothesis, pixels: USUAL_PIXELS },
             Self::Rejected => Condition::HypothesisRejected,
             Self::Candidate => Condition::CandidateFails(CandidateCheck::Any),
@@ -210,7 +210,7 @@ fn pixel_controls(ui: &mut Ui, state: &State, number: usize, pixel: &mut PixelIn
         named(&field, Role::SpinButton, format!("{name} of breakpoint {number}"));
     }
     *pixel = PixelIndex::from_index(y * width + x);
-    let selected = state.asked_pixel();
+    let selected = state.explained_pixel();
     let button = ui.add_enabled(selected.is_some(), egui::Button::new("selected pixel").small());
     named(&button, Role::Button, format!("Selected pixel for breakpoint {number}"));
     let button = button.on_hover_text("Take the pixel that is selected.");

@@ -37,7 +37,7 @@ pub fn move_cursor(action: DebugAction, cx: &mut PanelContext) {
 /// The selected item, as a goal to run to.
 pub fn selected(state: &State) -> Option<Goal> {
     let names = &state.debugger.names;
-    if let Some(pixel) = state.asked_pixel() {
+    if let Some(pixel) = state.explained_pixel() {
         return Some(Goal::Pixel(pixel));
     }
     match state.document.selection.item {

@@ -3,7 +3,7 @@
 use super::dock::Pane;
 use super::offscreen::OffscreenError;
 use super::offscreen_app::Offscreen;
-use crate::app::{Ask, Command, DebugCommand, Edit, JobCommand, Severity, State, ViewCommand};
+use crate::app::{Command, DebugCommand, Edit, JobCommand, Question, Severity, State, ViewCommand};
 use crate::export::png_of_rgba;
 use crate::raster::{PixelIndex, RegionId};
 use crate::trace::{Event, Step, Topic};
@@ -180,8 +180,8 @@ fn prepare(stage: &mut Offscreen, shot: &Shot, size_px: [u32; 2]) {
     app.apply(Command::Debug(DebugCommand::Seek(steps)));
     if let Some(pixel) = contested(app.state()).filter(|_| shot.asks) {
         app.apply(Edit::Select(app.state().region_of(Item::Pixel(pixel)).map(Item::Region)));
-        app.apply(Command::Ask(Ask::Why(pixel)));
-        app.apply(Command::Ask(Ask::WhatIf(Some(pixel))));
+        app.apply(Command::Ask(Question::Why(pixel)));
+        app.apply(Command::Ask(Question::WhatIf(Some(pixel))));
     }
     app.show_alone(shot.pane);
     stage.resize(size_px);

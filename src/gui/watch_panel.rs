@@ -57,7 +57,7 @@ impl WatchPanel {
         let pixel_blocks = replay.trace().pixel_blocks();
         let working = state.newest.as_ref().map(|shown| &shown.analysis.working);
         let working = working.filter(|working| working.blocks == pixel_blocks);
-        let pixel = state.asked_pixel().filter(|_| working.is_some());
+        let pixel = state.explained_pixel().filter(|_| working.is_some());
         let colors = working.map_or(&picture.photo.image.pixels, |working| &working.image.pixels);
         let found = watch(replay, &debugger.names, colors, pixel);
         let mut groups = vec![of_run(&found)];

@@ -6,7 +6,7 @@ use super::later::{AT_ONCE_PX, Later};
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::analysis::WhatIf;
-use crate::app::{Ask, Command, DebugCommand, Edit, WhatIfJob};
+use crate::app::{Command, DebugCommand, Edit, Question, WhatIfJob};
 use crate::describe::what_if_sentence;
 use crate::params::Setting;
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
@@ -30,7 +30,7 @@ impl WhyPanel {
         let (Some(trace), Some(shown)) = (debugger.trace().cloned(), cx.state.newest.clone()) else {
             return unrecorded(ui, cx);
         };
-        let pixel = cx.state.asked_pixel();
+        let pixel = cx.state.explained_pixel();
         let selected = cx.state.selected_region().filter(|_| pixel.is_none());
         let of_region = selected.and_then(|region| debugger.names.hypotheses_of(region).next());
         let birth = debugger.chosen.filter(|_| pixel.is_none()).or(of_region);
@@ -167,14 +167,14 @@ fn what_if(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
     heading.on_hover_text(
         "How far each parameter would have to move for this pixel to end otherwise, tried by analyzing again.",
     );
-    let what_if_job = cx.state.what_if_job.as_ref().filter(|what_if_job| what_if_job.asked.pixel == pixel);
+    let what_if_job = cx.state.what_if_job.as_ref().filter(|what_if_job| what_if_job.request.pixel == pixel);
     match what_if_job {
         None => {
             let ask = ui.button("Find what would change it");
             let ask =
                 ask.on_hover_text("Analyses the picture again and again, each parameter moved up and down.");
             if ask.clicked() {
-                cx.send(Command::Ask(Ask::WhatIf(Some(pixel))));
+                cx.send(Command::Ask(Question::WhatIf(Some(pixel))));
             }
         }
         Some(WhatIfJob { found: None, done, total, .. }) => {
@@ -182,7 +182,7 @@ fn what_if(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
             ui.horizontal(|ui| {
                 ui.add(egui::ProgressBar::new(share).desired_width(160.0));
                 if ui.button("Stop").clicked() {
-                    cx.send(Command::Ask(Ask::WhatIf(None)));
+                    cx.send(Command::Ask(Question::WhatIf(None)));
                 }
             });
         }

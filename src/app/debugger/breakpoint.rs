@@ -113,8 +113,9 @@ impl From<SavedClass> for Class {
     }
 }
 
-/// Where the cursor stops next on its way from where it is to `goal`, and which breakpoint stops it; none where it arrives.
-pub fn hit(replay: &Replay, goal: usize, breakpoints: &[Breakpoint]) -> Option<(usize, usize)> {
+/// The place of the first stop between the cursor and `goal`, and the index of the breakpoint that stops the cursor; none where
+/// no breakpoint does.
+pub fn next_stop(replay: &Replay, goal: usize, breakpoints: &[Breakpoint]) -> Option<(usize, usize)> {
     if !breakpoints.iter().any(|breakpoint| breakpoint.enabled) {
         return None;
     }

@@ -61,11 +61,11 @@ pub enum Goal {
     /// The next breakpoint.
     Breakpoint,
     /// After this many steps, or a breakpoint on the way.
-    Place(usize),
+    Step(usize),
 }
 
 /// The place after one unit from `at`. Rings are resolved by the caller.
-pub fn stepped(trace: &Trace, at: usize, grain: Grain, direction: Direction) -> usize {
+pub fn place_after_unit(trace: &Trace, at: usize, grain: Grain, direction: Direction) -> usize {
     let len = trace.len();
     match (grain, direction) {
         (Grain::Claim | Grain::Ring, Direction::Forward) => (at + 1).min(len),
@@ -73,7 +73,7 @@ pub fn stepped(trace: &Trace, at: usize, grain: Grain, direction: Direction) -> 
         (Grain::Event, direction) => next_event(trace, at, direction),
         (Grain::Hypothesis, direction) => {
             let spans = trace.blocks().map(|block| block.steps);
-            edge(spans, at, direction).unwrap_or_else(|| stepped(trace, at, Grain::Stage, direction))
+            edge(spans, at, direction).unwrap_or_else(|| place_after_unit(trace, at, Grain::Stage, direction))
         }
         (Grain::Pass, direction) => {
             let passes = trace.passes().map(|span| span.steps);
@@ -123,7 +123,7 @@ fn first<'a>(
 
 /// The place after the next step that fits a goal, or the last one before; none where no step fits. Breakpoints are resolved by
 /// the caller.
-pub fn found(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Option<usize> {
+pub fn next_place(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Option<usize> {
     let goal = match goal {
         Goal::Pixel(pixel) => Goal::Pixel(trace.working_pixel(pixel)),
         other => other,
@@ -140,7 +140,7 @@ pub fn found(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Opti
         Goal::Kind(kind) => step.kind() == kind,
         Goal::Pixel(pixel) => step.pixel() == Some(pixel) || windows.binary_search(&n).is_ok(),
         Goal::Hypothesis(hypothesis) => step.concerns(hypothesis, region),
-        Goal::Breakpoint | Goal::Place(_) => false,
+        Goal::Breakpoint | Goal::Step(_) => false,
     };
     match direction {
         Direction::Forward => first(trace.steps_in(at..trace.len()), meant),

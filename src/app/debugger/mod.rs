@@ -5,13 +5,14 @@ mod breakpoint;
 mod cursor;
 #[cfg(test)]
 mod instant_tests;
-mod reduce;
+mod moves;
 #[cfg(test)]
 mod tests;
 
 pub use breakpoint::{Breakpoint, CandidateCheck, Condition, SavedClass};
 pub use cursor::{Direction, Goal, Grain};
-pub(super) use reduce::{reduce, trace_arrived};
+
+use anchor::{Anchor, best_overlaps};
 
 use crate::raster::HypothesisId;
 use crate::segment::FinalRegions;
@@ -40,10 +41,10 @@ pub struct Debugger {
     pub difference: Option<Difference>,
     /// The regions of the result whose trace it is.
     pub(super) finals: Option<Arc<FinalRegions>>,
-    /// The step at which playing ends.
-    pub(super) until: Option<usize>,
-    /// Fraction of a unit that playing has accumulated.
-    pub(super) due: f64,
+    /// The step at which playing ends; none: the end of the trace.
+    pub(super) play_until: Option<usize>,
+    /// The fraction of a unit that playing has accumulated, 0…1.
+    pub(super) unit_fraction: f64,
     /// The steps of one block, and the ends of its rings: a cache.
     pub(super) rings: Option<(Range<usize>, Arc<[usize]>)>,
 }
@@ -68,6 +69,20 @@ impl Debugger {
     /// The cursor, if it stands before the end of the trace; panels then show that instant in place of the result.
     pub fn stopped(&self) -> Option<&Replay> {
         self.replay.as_ref().filter(|replay| replay.at() < replay.trace().len())
+    }
+
+    /// The place in another trace that corresponds to the cursor's; none where the cursor stands at the end of its trace.
+    /// `names` and `finals` belong to the other trace.
+    pub(super) fn corresponding_place(
+        &self,
+        trace: &Trace,
+        names: &RegionNames,
+        finals: &FinalRegions,
+    ) -> Option<usize> {
+        let anchor = Anchor::of(self.stopped()?, &self.names)?;
+        let before = self.finals.as_ref();
+        let overlaps = before.map_or_else(Vec::new, |old| best_overlaps(&old.labels, &finals.labels));
+        Some(anchor.find(trace, names, &overlaps))
     }
 
     /// The hypothesis of the step taken last; the chosen one where that step concerns none.

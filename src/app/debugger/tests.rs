@@ -1,4 +1,4 @@
-use super::cursor::stepped;
+use super::cursor::place_after_unit;
 use super::*;
 use crate::app::{Application, Command, Edit, Executor, JobCommand, State, ViewCommand};
 use crate::params::{Parameter, Setting};
@@ -270,7 +270,7 @@ fn breakpoints_stop_playing_and_running_in_both_directions() {
     let stopped = at(&application);
     for (place, arrives) in [(stopped - 5, stopped - 5), (first.steps.end, stopped)] {
         debug(&mut application, DebugCommand::Seek(0));
-        debug(&mut application, DebugCommand::RunTo(Goal::Place(place), Direction::Forward));
+        debug(&mut application, DebugCommand::RunTo(Goal::Step(place), Direction::Forward));
         assert_eq!(at(&application), arrives, "a breakpoint on the way stops it, one beyond does not");
     }
     debug(&mut application, DebugCommand::Seek(first.steps.end));
@@ -467,7 +467,7 @@ proptest! {
         let trace = trace(&application);
         let from = (place * trace.len() as f64) as usize;
         let direction = if forward { Direction::Forward } else { Direction::Back };
-        let to = stepped(&trace, from, Grain::ALL[grain], direction);
+        let to = place_after_unit(&trace, from, Grain::ALL[grain], direction);
         prop_assert!(to <= trace.len());
         let moved = if forward { to > from } else { to < from || from == 0 };
         prop_assert!(moved, "{} leads to {}", from, to);

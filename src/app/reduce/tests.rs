@@ -1,10 +1,15 @@
 use super::*;
-use crate::app::report::{self, Report};
-use crate::app::{Application, Ask, Executor, ExportKind};
-use crate::params::Setting;
-use crate::raster::{PixelIndex, RegionId};
+use crate::app::report::Report;
+use crate::app::{
+    Application, Combine, Edit, Executor, ExportKind, Gesture, JobCommand, Question, Severity, ViewCommand,
+};
+use crate::params::{IlluminantSetting, Method, Parameter, Params, Setting};
+use crate::photo::ReadOptions;
+use crate::raster::{Mask, PixelIndex, Raster, RegionId};
 use crate::truth::sample;
-use crate::view::Item;
+use crate::view::{Item, MaskRuns, Origin};
+use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
 use std::time::Duration;
 
@@ -243,7 +248,7 @@ fn a_workspace_brings_everything_back() {
 #[test]
 fn a_mask_of_another_size_is_left_out_of_a_workspace() {
     let mut application = opened_tiny();
-    let mut workspace = Workspace::of(application.state()).unwrap();
+    let mut workspace = application.state().workspace().unwrap();
     workspace.marked = Some(MaskRuns::of(&Raster::filled(3, 3, true)));
     application.take_report(Report::WorkspaceRead(Box::new(workspace)));
     application.poll();
@@ -257,9 +262,9 @@ fn one_export_at_a_time() {
     state.jobs.export = Some(crate::app::Job::now());
     let effects = reduce(&mut state, JobCommand::Export(ExportKind::Regions.to("a")));
     assert!(effects.is_empty() && state.notices[0].text.contains("under way"));
-    report::reduce(&mut state, Report::Exporting { done: 2, total: 5 });
+    reduce_report(&mut state, Report::Exporting { done: 2, total: 5 });
     assert_eq!(state.jobs.export.unwrap().files, Some((2, 5)));
-    report::reduce(&mut state, Report::Exported(Ok("wrote it".into())));
+    reduce_report(&mut state, Report::Exported(Ok("wrote it".into())));
     assert!(state.jobs.export.is_none());
 }
 
@@ -307,7 +312,7 @@ fn what_would_change_a_pixel_is_asked_in_the_background_and_forgotten_with_the_r
         application.state().shown().unwrap().analysis.intrinsic.kinds[pixel.index()]
     };
     let before = kind_of(&application);
-    application.apply(Ask::WhatIf(Some(pixel)));
+    application.apply(Question::WhatIf(Some(pixel)));
     let what_if_job = application.state().what_if_job.clone().unwrap();
     let found = what_if_job.found.expect("inline it has ended");
     assert!(what_if_job.done == what_if_job.total && !found.is_empty());
@@ -318,6 +323,6 @@ fn what_would_change_a_pixel_is_asked_in_the_background_and_forgotten_with_the_r
     let stayed = crate::view::best_overlaps(&labels, now)[1] == RegionId::from_label(now[pixel.index()]);
     assert_eq!(kind_of(&application), first.after.kind, "what was foretold has come");
     assert!(!stayed || kind_of(&application) != before, "and it is another fate");
-    application.apply(Ask::WhatIf(Some(PixelIndex::new(u32::MAX))));
+    application.apply(Question::WhatIf(Some(PixelIndex::new(u32::MAX))));
     assert!(application.state().what_if_job.is_none(), "no such pixel");
 }

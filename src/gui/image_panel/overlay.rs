@@ -174,7 +174,7 @@ pub fn pixels(painter: &Painter, place: &Placement, state: &State, pointer_here:
             cross(painter, square.center(), color);
         }
     };
-    show(state.asked_pixel().map(Item::Pixel), MARK, true);
+    show(state.explained_pixel().map(Item::Pixel), MARK, true);
     show(state.hover, Color32::WHITE, !pointer_here);
 }
 

@@ -3,7 +3,7 @@
 use super::geometry::Placement;
 use super::icons::{corners, dashed};
 use super::overlay::MARK;
-use crate::app::{Ask, Combine, Command, Edit, Gesture, Severity, State, ViewCommand};
+use crate::app::{Combine, Command, Edit, Gesture, Question, Severity, State, ViewCommand};
 use crate::gui::PanelContext;
 use crate::raster::{Mask, PixelIndex};
 use crate::view::marking::{brush, outline, rectangle};
@@ -269,7 +269,7 @@ fn point(spot: &PointerContext, cx: &mut PanelContext, settings: &mut ImageSetti
         if item != cx.state.document.selection.item {
             cx.send(Edit::Select(item));
         }
-        cx.out.extend(pixel.map(|pixel| Command::Ask(Ask::Why(pixel))));
+        cx.out.extend(pixel.map(|pixel| Command::Ask(Question::Why(pixel))));
     }
 }
 

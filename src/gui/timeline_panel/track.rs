@@ -137,7 +137,7 @@ impl Track {
             let n = scale.axis.taken_at(scale.place(pointer.x));
             let direction = if n < replay.at() { Direction::Back } else { Direction::Forward };
             if runs {
-                cx.send(Command::Debug(DebugCommand::RunTo(Goal::Place(n), direction)));
+                cx.send(Command::Debug(DebugCommand::RunTo(Goal::Step(n), direction)));
             } else if n != replay.at() {
                 cx.send(Command::Debug(DebugCommand::Seek(n)));
             }

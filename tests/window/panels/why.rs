@@ -1,7 +1,7 @@
 //! Tests of the why panel: the pixel's history as links, and the changes of parameters that change the result.
 
 use crate::window::{Window, apply, click, named, region, says, state, tiny_window};
-use dichroscope::app::{Ask, Command, Edit};
+use dichroscope::app::{Command, Edit, Question};
 use dichroscope::gui::Pane;
 use dichroscope::raster::PixelIndex;
 use dichroscope::trace::Stage;
@@ -27,7 +27,7 @@ fn a_clicked_region_tells_the_pixels_history_and_each_sentence_leads_to_its_step
     let pixel = pixel(&window);
     apply(&mut window, Edit::Select(Some(region(1))));
     assert!(says(&window, "Region 1 is made of"), "a region has a story too");
-    apply(&mut window, Command::Ask(Ask::Why(pixel)));
+    apply(&mut window, Command::Ask(Question::Why(pixel)));
     alone(&mut window);
     let debugger = &state(&window).debugger;
     let (trace, shown) = (debugger.trace().unwrap(), state(&window).newest.as_ref().unwrap());
@@ -40,7 +40,7 @@ fn a_clicked_region_tells_the_pixels_history_and_each_sentence_leads_to_its_step
         assert_eq!(replay.at(), account.step + 1, "{}", account.text);
     }
     apply(&mut window, Edit::Select(Some(region(2))));
-    assert_eq!(state(&window).asked_pixel(), None, "another region, another question");
+    assert_eq!(state(&window).explained_pixel(), None, "another region, another question");
 }
 
 #[test]

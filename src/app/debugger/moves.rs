@@ -1,0 +1,171 @@
+//! Moves of the debugger's cursor, and playing.
+
+use super::breakpoint::next_stop;
+use super::cursor::{next_place, place_after_unit};
+use super::{Breakpoint, DebugSettings, Debugger, Direction, Goal, Grain};
+use crate::trace::Replay;
+use crate::view::rings;
+use std::sync::Arc;
+
+/// Upper limit of the time of one tick, seconds: after a window was hidden, the cursor does not leap.
+const LONGEST_TICK: f64 = 0.25;
+
+impl Debugger {
+    /// Number of steps before the cursor; 0 without a trace.
+    fn at(&self) -> usize {
+        self.replay.as_ref().map_or(0, Replay::at)
+    }
+
+    /// Number of steps of the trace; 0 without a trace.
+    fn len(&self) -> usize {
+        self.replay.as_ref().map_or(0, |replay| replay.trace().len())
+    }
+
+    /// Ends playing, and forgets the breakpoint that stopped the cursor.
+    fn stop_playing(&mut self) {
+        (self.playing, self.play_until, self.unit_fraction, self.stopped_by) = (None, None, 0.0, None);
+    }
+
+    /// Moves to `n` and ends playing.
+    pub(in crate::app) fn stop_and_seek(&mut self, n: usize) {
+        self.stop_playing();
+        self.seek(n);
+    }
+
+    /// Moves the cursor to `n`.
+    fn seek(&mut self, n: usize) {
+        if let Some(replay) = &mut self.replay {
+            replay.seek(n);
+        }
+    }
+
+    /// The place one unit from `at`.
+    fn place_after_unit(&mut self, at: usize, grain: Grain, direction: Direction) -> usize {
+        if grain == Grain::Ring {
+            return self.end_of_ring(at, direction);
+        }
+        self.replay.as_ref().map_or(at, |replay| place_after_unit(replay.trace(), at, grain, direction))
+    }
+
+    /// The nearest end of a ring; outside of growths, of an event.
+    fn end_of_ring(&mut self, at: usize, direction: Direction) -> usize {
+        let Some(replay) = &mut self.replay else { return at };
+        let inside = match direction {
+            Direction::Forward => Some(at),
+            Direction::Back => at.checked_sub(1),
+        };
+        let Some(block) = inside.and_then(|n| replay.trace().block_at(n)) else {
+            return place_after_unit(replay.trace(), at, Grain::Event, direction);
+        };
+        let ends = match &self.rings {
+            Some((steps, ends)) if *steps == block.steps => Arc::clone(ends),
+            _ => {
+                let ends: Arc<[usize]> = rings(replay, &block).into();
+                self.rings = Some((block.steps.clone(), Arc::clone(&ends)));
+                ends
+            }
+        };
+        match direction {
+            Direction::Forward => ends.iter().copied().find(|&end| end > at).unwrap_or(block.steps.end),
+            Direction::Back => ends.iter().rev().copied().find(|&end| end < at).unwrap_or(block.steps.start),
+        }
+    }
+
+    /// Enters the next block, and plays it ring by ring to its end.
+    pub(in crate::app) fn enter_block(&mut self) {
+        self.stop_playing();
+        let at = self.at();
+        let next = self.trace().and_then(|trace| trace.blocks().find(|block| block.steps.start >= at));
+        let Some(block) = next else { return };
+        self.seek(block.steps.start + 1);
+        (self.playing, self.play_until) = (Some(Direction::Forward), Some(block.steps.end));
+    }
+
+    /// Moves to the next step that fits `goal`; to the end of the trace in that direction where none does.
+    pub(in crate::app) fn run_to(&mut self, goal: Goal, direction: Direction, breakpoints: &[Breakpoint]) {
+        self.stop_playing();
+        let Some(replay) = &self.replay else { return };
+        let end = match direction {
+            Direction::Forward => self.len(),
+            Direction::Back => 0,
+        };
+        let last = match goal {
+            Goal::Breakpoint => Some(end),
+            Goal::Step(n) => Some(n.min(self.len())),
+            _ => None,
+        };
+        if let Some(end) = last {
+            let stop = next_stop(replay, end, breakpoints);
+            self.seek(stop.map_or(end, |stop| stop.0));
+            self.stopped_by = stop.map(|stop| stop.1);
+        } else {
+            let n = next_place(replay.trace(), replay.at(), goal, direction);
+            self.seek(n.unwrap_or(end));
+        }
+    }
+
+    /// Starts to play in a direction; none: stops playing.
+    pub(in crate::app) fn play(&mut self, direction: Option<Direction>) {
+        self.stop_playing();
+        if let Some(direction) = direction {
+            self.playing = Some(direction);
+            self.rewind_if_over(direction);
+        }
+    }
+
+    /// Moves the cursor by one unit and ends playing.
+    pub(in crate::app) fn step(&mut self, grain: Grain, direction: Direction) {
+        let n = self.place_after_unit(self.at(), grain, direction);
+        self.stop_and_seek(n);
+    }
+
+    /// Moves to the opposite end of the trace, if the cursor has reached the end that it plays towards.
+    fn rewind_if_over(&mut self, direction: Direction) {
+        match direction {
+            Direction::Forward if self.at() >= self.len() => self.seek(0),
+            Direction::Back if self.at() == 0 => self.seek(self.len()),
+            _ => {}
+        }
+    }
+
+    /// Advances playing by `seconds`.
+    pub(in crate::app) fn tick(&mut self, seconds: f64, settings: &DebugSettings) {
+        let Some(direction) = self.playing else { return };
+        self.unit_fraction += seconds.clamp(0.0, LONGEST_TICK) * settings.per_second.max(0.0);
+        let units = self.unit_fraction.floor();
+        self.unit_fraction -= units;
+        let (at, units) = (self.at(), units as usize);
+        let mut n = at;
+        match (settings.grain, direction) {
+            (Grain::Claim, Direction::Forward) => n = (n + units).min(self.len()),
+            (Grain::Claim, Direction::Back) => n = n.saturating_sub(units),
+            (grain, direction) => {
+                for _ in 0..units {
+                    n = self.place_after_unit(n, grain, direction);
+                }
+            }
+        }
+        if n != at {
+            self.play_to(n, direction, settings);
+        }
+    }
+
+    /// Plays to `n`, or to a breakpoint before.
+    fn play_to(&mut self, n: usize, direction: Direction, settings: &DebugSettings) {
+        let n = self.play_until.map_or(n, |until| n.min(until));
+        let stop = self.replay.as_ref().and_then(|replay| next_stop(replay, n, &settings.breakpoints));
+        self.seek(stop.map_or(n, |stop| stop.0));
+        if stop.is_some() {
+            self.stop_playing();
+            self.stopped_by = stop.map(|stop| stop.1);
+        } else if self.play_until == Some(n) {
+            self.stop_playing();
+        } else if n == 0 || n == self.len() {
+            if settings.looped {
+                self.rewind_if_over(direction);
+            } else {
+                self.stop_playing();
+            }
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! The work that a change of the state asks for. Reducers return effects; only [`super::Application`] carries effects out.
+
+use super::{Export, WhatIfRequest};
+use crate::photo::ReadOptions;
+use crate::view::Origin;
+use std::path::PathBuf;
+
+/// Work that a command or a report asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Effect {
+    /// Analyze the picture with the document as it is now.
+    Analyze,
+    /// Record the decisions of that analysis.
+    Trace,
+    /// Search the parameters that would give a pixel another region.
+    FindWhatIf(WhatIfRequest),
+    /// Stop that search.
+    StopWhatIf,
+    /// Read a photograph with these options.
+    Read(Origin, ReadOptions),
+    /// Read a parameter file.
+    ReadParams(PathBuf),
+    /// Read a workspace file.
+    ReadWorkspace(PathBuf),
+    /// Write a file or a folder.
+    Write(Export),
+    /// Stop writing.
+    StopWriting,
+}

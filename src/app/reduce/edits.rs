@@ -1,0 +1,150 @@
+//! The reducer of the document's edits: each change is a step of the undo history, and is analyzed where needed.
+
+use crate::app::{Combine, Document, Edit, Effect, Gesture, Severity, State};
+use crate::params::{IlluminantSetting, Method, Parameter, Params};
+use crate::raster::{Mask, Raster};
+use crate::view::Selection;
+use std::sync::Arc;
+
+/// Changes the document.
+pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
+    match command {
+        Edit::Undo => {
+            let earlier = state.history.undo(&state.document);
+            restore_document(state, earlier)
+        }
+        Edit::Redo => {
+            let later = state.history.redo(&state.document);
+            restore_document(state, later)
+        }
+        Edit::EndGesture => {
+            state.history.end_gesture();
+            Vec::new()
+        }
+        Edit::SetParameter(parameter, setting, gesture) => {
+            edit_params(state, gesture, |params| *params.slot(parameter) = setting)
+        }
+        Edit::SetMethod(method) => edit_params(state, None, |params| *params = with_method(params, method)),
+        Edit::SetSwitch(switch, on) => edit_params(state, None, |params| params.refine.set(switch, on)),
+        Edit::SetParams(params) => edit_params(state, None, |old| *old = *params),
+        Edit::PinIlluminant(direction, gesture) => pin_illuminant(state, direction, gesture),
+        Edit::SetAmbient(setting, gesture) => edit_params(state, gesture, |params| params.ambient = setting),
+        Edit::RestrictTo(area) => edit(state, None, |document| document.area = area),
+        Edit::Select(item) => {
+            state.explained_pixel = None;
+            edit(state, None, |document| document.selection.item = item)
+        }
+        Edit::Mark(mask, combine, gesture) => edit(state, gesture, |document| {
+            document.selection.marked = combined_marks(document.selection.marked.take(), mask, combine);
+        }),
+        Edit::InvertMarked => {
+            let Some(size) = state.picture.as_ref().map(|picture| picture.size()) else { return Vec::new() };
+            edit(state, None, |document| {
+                let marked = &mut document.selection.marked;
+                *marked = match marked.take() {
+                    Some(mask) => some_if_any(mask.map(|&on| !on)),
+                    None => Some(Arc::new(Mask::filled(size.0, size.1, true))),
+                };
+            })
+        }
+        Edit::ClearSelection => {
+            state.explained_pixel = None;
+            edit(state, None, |document| document.selection = Selection::default())
+        }
+    }
+}
+
+/// Changes the parameters as a step of the history; parameters that are not valid change nothing.
+pub(super) fn edit_params(
+    state: &mut State,
+    gesture: Option<Gesture>,
+    change: impl FnOnce(&mut Params),
+) -> Vec<Effect> {
+    if let Some(after) = state.after_pin.take() {
+        state.document.params = after.params;
+    }
+    let mut params = state.document.params;
+    change(&mut params);
+    if let Err(invalid) = params.validate() {
+        state.notify(Severity::Error, invalid.to_string());
+        return Vec::new();
+    }
+    edit(state, gesture, |document| document.params = params)
+}
+
+/// Changes the document as a step of the history, and analyzes anew where the change needs it.
+fn edit(state: &mut State, gesture: Option<Gesture>, change: impl FnOnce(&mut Document)) -> Vec<Effect> {
+    let before = state.document.clone();
+    change(&mut state.document);
+    if state.document == before {
+        return Vec::new();
+    }
+    state.history.step(&before, gesture);
+    analyze_if_needed(state, &before)
+}
+
+/// Replaces the document by an earlier or undone one, and analyzes where parameters or area differ.
+fn restore_document(state: &mut State, document: Option<Document>) -> Vec<Effect> {
+    let Some(document) = document else { return Vec::new() };
+    let before = std::mem::replace(&mut state.document, document);
+    analyze_if_needed(state, &before)
+}
+
+/// Analyzes if parameters or area differ from those of `before`.
+fn analyze_if_needed(state: &mut State, before: &Document) -> Vec<Effect> {
+    let same_area = match (&before.area, &state.document.area) {
+        (None, None) => true,
+        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        _ => false,
+    };
+    if before.params == state.document.params && same_area { Vec::new() } else { analyze(state) }
+}
+
+/// Asks for an analysis of the open photograph, and stops a what-if job.
+pub(super) fn analyze(state: &mut State) -> Vec<Effect> {
+    if state.picture.is_none() {
+        return Vec::new();
+    }
+    state.generation += 1;
+    // A what-if job is about the earlier result.
+    let is_searching = state.what_if_job.take().is_some_and(|what_if_job| what_if_job.found.is_none());
+    let stop = is_searching.then_some(Effect::StopWhatIf);
+    stop.into_iter().chain([Effect::Analyze]).collect()
+}
+
+fn pin_illuminant(state: &mut State, direction: Option<[f64; 3]>, gesture: Option<Gesture>) -> Vec<Effect> {
+    let setting = direction.map_or(IlluminantSetting::Auto, IlluminantSetting::Given);
+    edit_params(state, gesture, |params| params.illuminant = setting)
+}
+
+/// `params` with the other method: each parameter at the old method's default gets the new method's default.
+fn with_method(params: &Params, method: Method) -> Params {
+    let (from, to) = (Params::of(params.method), Params::of(method));
+    let mut changed = Params { method, ..*params };
+    for parameter in Parameter::ALL {
+        if params.get(parameter) == from.get(parameter) {
+            *changed.slot(parameter) = to.get(parameter);
+        }
+    }
+    changed
+}
+
+/// The marked pixels after `new` were marked; none where no pixel is marked.
+fn combined_marks(before: Option<Arc<Mask>>, new: Arc<Mask>, combine: Combine) -> Option<Arc<Mask>> {
+    match (before, combine) {
+        (None, Combine::Subtract) => None,
+        (None, _) | (Some(_), Combine::Replace) => new.as_slice().contains(&true).then_some(new),
+        (Some(before), combine) => {
+            let join = |(&old, &new): (&bool, &bool)| {
+                if combine == Combine::Union { old || new } else { old && !new }
+            };
+            let data = before.as_slice().iter().zip(new.as_slice()).map(join).collect();
+            Raster::from_vec(before.width(), before.height(), data).and_then(some_if_any)
+        }
+    }
+}
+
+/// A mask with at least one pixel; none for an empty mask.
+fn some_if_any(mask: Mask) -> Option<Arc<Mask>> {
+    mask.as_slice().contains(&true).then(|| Arc::new(mask))
+}

@@ -1,0 +1,153 @@
+//! The reducer of what workers report.
+
+use super::debugger::take_trace;
+use super::edits::{analyze, edit_params};
+use super::questions::take_progress;
+use crate::app::report::Report;
+use crate::app::state::AfterPin;
+use crate::app::{Debugger, Document, Effect, Severity, State, ViewSettings, Workspace};
+use crate::view::{Item, MaskRuns, Picture, ProfileLine, ResultSnapshot};
+use std::sync::Arc;
+
+/// Number of photographs remembered.
+const MOST_RECENT: usize = 12;
+
+/// Applies a report to the state and returns the effects.
+pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
+    match report {
+        Report::Opened(picture) => return open_picture(state, picture),
+        Report::OpenFailed(reason) => {
+            (state.jobs.reading, state.restoring) = (None, None);
+            state.notify(Severity::Error, reason);
+        }
+        Report::ParamsRead(params) => return edit_params(state, None, |old| *old = *params),
+        Report::WorkspaceRead(workspace) => return read_photograph_of(state, workspace),
+        Report::Failed(reason) => state.notify(Severity::Error, reason),
+        Report::Progress { generation, stage } => {
+            if let Some(job) = state.jobs.analysis.as_mut().filter(|_| generation == state.generation) {
+                job.stage = Some(stage);
+            }
+        }
+        Report::Analyzed(shown) => return show_result(state, shown),
+        Report::Traced { generation, replay } => take_trace(state, generation, *replay),
+        Report::Exporting { done, total } => {
+            if let Some(job) = &mut state.jobs.export {
+                job.files = Some((done, total));
+            }
+        }
+        Report::Exported(outcome) => {
+            state.jobs.export = None;
+            match outcome {
+                Ok(text) => state.notify(Severity::Done, text),
+                Err(reason) => state.notify(Severity::Error, reason),
+            }
+        }
+        Report::WhatIf(request, progress) => take_progress(state, request, progress),
+    }
+    Vec::new()
+}
+
+/// Asks for the photograph of a workspace; the rest of the workspace is restored when the photograph is open.
+fn read_photograph_of(state: &mut State, workspace: Box<Workspace>) -> Vec<Effect> {
+    match workspace.reading() {
+        Ok(options) => {
+            let origin = workspace.origin.clone();
+            state.restoring = Some(workspace);
+            vec![Effect::Read(origin, options)]
+        }
+        Err(reason) => {
+            state.notify(Severity::Error, reason);
+            Vec::new()
+        }
+    }
+}
+
+/// Shows a photograph that was read, and analyzes it.
+fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
+    state.jobs.reading = None;
+    if let Some(path) = picture.origin.path() {
+        state.recent.retain(|known| known != path);
+        state.recent.insert(0, path.to_path_buf());
+        state.recent.truncate(MOST_RECENT);
+    }
+    let warnings =
+        picture.photo.warnings.iter().map(|warning| format!("{}: {warning}", picture.origin.name()));
+    let warnings: Vec<String> = warnings.collect();
+    let restored = state.restoring.take().filter(|workspace| workspace.origin == picture.origin);
+    state.picture = Some(picture);
+    state.debugger = Debugger::default();
+    // Masks belong to one picture; parameters stay.
+    state.document = Document { params: state.document.params, ..Document::default() };
+    state.history.forget();
+    (state.newest, state.pinned, state.hover, state.explained_pixel) = (None, None, None, None);
+    state.view.show_pinned = false;
+    (state.view.image.center_px, state.view.image.zoom) = (None, None);
+    (state.view.profile, state.after_pin) = (ProfileLine::Row, None);
+    for warning in warnings {
+        state.notify(Severity::Warning, warning);
+    }
+    if let Some(workspace) = restored {
+        restore_workspace(state, *workspace);
+    }
+    analyze(state)
+}
+
+/// Restores the parts of a workspace other than its photograph, which is open by now.
+fn restore_workspace(state: &mut State, workspace: Workspace) {
+    let Some(size) = state.picture.as_ref().map(|picture| picture.size()) else { return };
+    let Workspace { params, pinned, area, item, marked, view, .. } = workspace;
+    let show_pinned = view.show_pinned;
+    // The theme suits the light at a person's desk, not a workspace: the present theme stays.
+    state.view = ViewSettings { show_pinned: false, theme: state.view.theme, ..view };
+    let mut mask = |what: &str, runs: Option<MaskRuns>| {
+        let runs = runs?;
+        let mask = runs.mask().filter(|mask| (mask.width(), mask.height()) == size);
+        if mask.is_none() {
+            let text = format!("the workspace's {what} belongs to a picture of another size: it is left out");
+            state.notify(Severity::Warning, text);
+        }
+        mask.map(Arc::new)
+    };
+    let (area, marked) = (mask("area", area), mask("selection", marked));
+    state.document.area = area;
+    state.document.selection.marked = marked;
+    if let Some(pinned) = pinned {
+        state.document.params = pinned;
+        state.after_pin = Some(AfterPin { params, item, show_pinned });
+    } else {
+        (state.document.params, state.document.selection.item) = (params, item);
+    }
+}
+
+/// Shows a result, unless it is another photograph's or older than the one shown.
+fn show_result(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
+    let same_picture = state.picture.as_ref().is_some_and(|picture| Arc::ptr_eq(picture, &shown.picture));
+    let newer = state.newest.as_ref().is_none_or(|newest| {
+        (shown.generation, shown.stale_from.is_none()) >= (newest.generation, newest.stale_from.is_none())
+    });
+    if !same_picture || !newer {
+        return Vec::new();
+    }
+    let is_last = shown.generation == state.generation && shown.stale_from.is_none();
+    if is_last {
+        state.jobs.analysis = None;
+    }
+    follow_region(state, &shown);
+    state.newest = Some(shown);
+    let Some(after) = state.after_pin.take_if(|_| is_last) else { return Vec::new() };
+    state.pinned = state.newest.clone();
+    state.view.show_pinned = after.show_pinned;
+    (state.document.params, state.document.selection.item) = (after.params, after.item);
+    analyze(state)
+}
+
+/// Selects the region of the new result that overlaps the selected region most.
+fn follow_region(state: &mut State, shown: &ResultSnapshot) {
+    let Some(Item::Region(region)) = state.document.selection.item else { return };
+    let Some(before) = &state.newest else { return };
+    let followed = crate::view::best_overlap(before.labels(), shown.labels(), region);
+    state.document.selection.item = followed.map(Item::Region);
+    if let Some(Item::Region(_)) = state.hover {
+        state.hover = None;
+    }
+}

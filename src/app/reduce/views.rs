@@ -1,0 +1,25 @@
+//! The reducer of the commands that change how things are shown.
+
+use crate::app::{State, ViewCommand};
+
+/// Changes how things are shown.
+pub(super) fn reduce(state: &mut State, command: ViewCommand) {
+    match command {
+        ViewCommand::Hover(item) => state.hover = item,
+        ViewCommand::Pin(keep) => {
+            state.pinned = if keep { state.newest.clone() } else { None };
+            state.view.show_pinned = false;
+        }
+        ViewCommand::ShowPinned(pinned) => state.view.show_pinned = pinned && state.pinned.is_some(),
+        ViewCommand::Image(settings) => state.view.image = settings,
+        ViewCommand::Cube(settings) => state.view.cube = settings,
+        ViewCommand::Plane(settings) => state.view.plane = settings,
+        ViewCommand::Profile(line) => state.view.profile = line,
+        ViewCommand::Theme(theme) => state.view.theme = theme,
+        ViewCommand::Layout(layout) => state.view.layout = layout,
+        ViewCommand::Camera(camera) => state.view.camera = camera,
+        ViewCommand::Notify(severity, text) => state.notify(severity, text),
+        ViewCommand::Dismiss(id) => state.notices.retain(|notice| notice.id != id),
+        ViewCommand::ForgetRecent => state.recent.clear(),
+    }
+}
