@@ -2,7 +2,7 @@
 
 use super::dock::{Dock, Pane, Panels};
 use super::files::{Dialogs, is_workspace};
-use super::theme::{self, Tones};
+use super::theme::{self, Palette};
 use super::view_export::ViewExporter;
 use super::{PanelContext, menu, notices, perform, shortcuts, timeline_panel};
 use crate::app::{Application, Command, DebugCommand, Executor, JobCommand, Settings, State, ViewCommand};
@@ -18,7 +18,7 @@ pub struct App {
     gpu: Option<egui_wgpu::RenderState>,
     applied_theme: Option<Theme>,
     /// The context that workers ask for a repaint when they report.
-    repaint: Arc<Mutex<egui::Context>>,
+    repaint_context: Arc<Mutex<egui::Context>>,
 }
 
 /// The panels, and the dialogs that open over them.
@@ -33,11 +33,11 @@ struct WindowContent {
     dialogs: Dialogs,
     view_exporter: ViewExporter,
     help: bool,
-    tap: shortcuts::SpaceTap,
+    space_tap: shortcuts::SpaceTap,
     /// Whether a text field had the focus in the last frame.
-    typing: bool,
+    is_text_edited: bool,
     /// The panel that is shown alone; none: all panels.
-    alone: Option<Pane>,
+    single_pane: Option<Pane>,
 }
 
 impl App {
@@ -64,18 +64,18 @@ impl App {
         state: State,
     ) -> std::io::Result<Self> {
         theme::load_fonts(ctx);
-        let repaint = Arc::new(Mutex::new(ctx.clone()));
-        let shared = Arc::clone(&repaint);
+        let repaint_context = Arc::new(Mutex::new(ctx.clone()));
+        let shared = Arc::clone(&repaint_context);
         let wake = move || shared.lock().unwrap_or_else(PoisonError::into_inner).request_repaint();
         let application = Application::with_state(executor, state, wake)?;
-        Ok(Self { application, content: WindowContent::default(), gpu, applied_theme: None, repaint })
+        Ok(Self { application, content: WindowContent::default(), gpu, applied_theme: None, repaint_context })
     }
 
     /// Moves to another window after the graphics device was lost: everything stays but what was uploaded to the device.
     pub fn move_to(&mut self, ctx: &egui::Context, gpu: Option<egui_wgpu::RenderState>) {
         theme::load_fonts(ctx);
-        *self.repaint.lock().unwrap_or_else(PoisonError::into_inner) = ctx.clone();
-        let cube = self.content.panels.cube.clone_view();
+        *self.repaint_context.lock().unwrap_or_else(PoisonError::into_inner) = ctx.clone();
+        let cube = self.content.panels.cube.clone_with_camera();
         self.content.panels = Panels { cube, ..Panels::default() };
         (self.gpu, self.applied_theme) = (gpu, None);
     }
@@ -92,7 +92,7 @@ impl App {
 
     /// Shows one panel alone, without menu and docking, or all of them again.
     pub fn show_alone(&mut self, pane: Option<Pane>) {
-        self.content.alone = pane;
+        self.content.single_pane = pane;
     }
 
     /// The state.
@@ -114,26 +114,26 @@ impl App {
             theme::apply(ui.ctx(), theme);
             self.applied_theme = Some(theme);
         }
-        let tones = Tones::of(theme);
-        let mut out = Vec::new();
+        let palette = Palette::of(theme);
+        let mut commands = Vec::new();
         let mut cx = PanelContext {
             state: self.application.state(),
-            tones: &tones,
+            palette: &palette,
             gpu: self.gpu.as_ref(),
-            bare: false,
-            out: &mut out,
+            is_export: false,
+            commands: &mut commands,
         };
         self.content.show(ui, &mut cx);
-        self.content.keep_layout(&mut cx);
-        self.content.keep_camera(&mut cx);
-        if !out.is_empty() {
+        self.content.sync_layout(&mut cx);
+        self.content.sync_camera(&mut cx);
+        if !commands.is_empty() {
             // Otherwise the change would appear only when the pointer next moves.
             ui.ctx().request_repaint();
         }
-        for command in out {
+        for command in commands {
             self.application.apply(command);
         }
-        title(ui, self.application.state());
+        update_title(ui, self.application.state());
     }
 
     /// Advances playing by the time since the last frame.
@@ -149,74 +149,78 @@ impl App {
 impl WindowContent {
     /// Takes the arrangement of the state where that has changed (a workspace was opened); otherwise sends the panels'
     /// arrangement to the state.
-    fn keep_layout(&mut self, cx: &mut PanelContext) {
-        let wanted = &cx.state.view.layout;
-        if *wanted != self.layout {
-            if let Some(dock) = Dock::from_text(wanted) {
+    fn sync_layout(&mut self, cx: &mut PanelContext) {
+        let saved = &cx.state.view.layout;
+        if *saved != self.layout {
+            if let Some(dock) = Dock::from_text(saved) {
                 self.dock = dock;
             }
-            self.layout.clone_from(wanted);
+            self.layout.clone_from(saved);
             return;
         }
-        let now = self.dock.to_text();
-        if now != self.layout {
-            self.layout.clone_from(&now);
-            cx.send(ViewCommand::Layout(now));
+        let current = self.dock.to_text();
+        if current != self.layout {
+            self.layout.clone_from(&current);
+            cx.send(ViewCommand::Layout(current));
         }
     }
 
     /// Does the same for the camera of the color space view.
-    fn keep_camera(&mut self, cx: &mut PanelContext) {
-        let wanted = &cx.state.view.camera;
-        if *wanted != self.camera {
-            if let Ok(camera) = serde_json::from_str(wanted) {
+    fn sync_camera(&mut self, cx: &mut PanelContext) {
+        let saved = &cx.state.view.camera;
+        if *saved != self.camera {
+            if let Ok(camera) = serde_json::from_str(saved) {
                 self.panels.cube.set_camera(camera);
             }
-            self.camera.clone_from(wanted);
+            self.camera.clone_from(saved);
             return;
         }
-        let now = serde_json::to_string(&self.panels.cube.camera()).unwrap_or_default();
-        if now != self.camera {
-            self.camera.clone_from(&now);
-            cx.send(ViewCommand::Camera(now));
+        let current = serde_json::to_string(&self.panels.cube.camera()).unwrap_or_default();
+        if current != self.camera {
+            self.camera.clone_from(&current);
+            cx.send(ViewCommand::Camera(current));
         }
     }
 
     fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         open_dropped_and_pasted(ui, cx);
         self.dialogs.close_on_escape(ui.ctx());
-        self.panels.image.take_escape(ui.ctx());
-        self.panels.cube.take_escape(ui.ctx());
+        self.panels.image.cancel_on_escape(ui.ctx());
+        self.panels.cube.cancel_on_escape(ui.ctx());
         // egui removes the focus from a text field on Escape, so the focus of the last frame decides.
-        let typed = std::mem::replace(&mut self.typing, false);
-        let escape_is_meant = !typed && !egui::Popup::is_any_open(ui.ctx());
-        let listeners =
-            shortcuts::Listeners::of(cx.state, self.panels.colors.take(), timeline_panel::track_id());
-        for action in shortcuts::pressed(ui.ctx(), escape_is_meant, listeners, &mut self.tap) {
+        let was_text_edited = std::mem::replace(&mut self.is_text_edited, false);
+        let escape_is_action = !was_text_edited && !egui::Popup::is_any_open(ui.ctx());
+        let listeners = shortcuts::KeyListeners::of(
+            cx.state,
+            self.panels.color_space_rect.take(),
+            timeline_panel::track_id(),
+        );
+        for action in shortcuts::pressed(ui.ctx(), escape_is_action, listeners, &mut self.space_tap) {
             // A dialog that opens is laid out invisibly in its first frame.
             ui.ctx().request_repaint();
             perform::carry_out(action, cx, &mut self.dialogs, &mut self.help);
         }
-        if let Some(pane) = self.alone {
-            let frame = egui::Frame::new().fill(cx.tones.panel);
+        if let Some(pane) = self.single_pane {
+            let frame = egui::Frame::new().fill(cx.palette.panel);
             egui::CentralPanel::default().frame(frame).show(ui, |ui| self.panels.show(pane, ui, cx));
             return;
         }
-        let bar = egui::Frame::new().fill(cx.tones.panel).inner_margin(egui::Margin::symmetric(8, 3));
-        egui::Panel::top("menu").frame(bar).show(ui, |ui| {
+        let menu_frame =
+            egui::Frame::new().fill(cx.palette.panel).inner_margin(egui::Margin::symmetric(8, 3));
+        egui::Panel::top("menu").frame(menu_frame).show(ui, |ui| {
             menu::show(ui, cx, &mut self.dock, &mut self.dialogs, &mut self.help);
         });
-        let frame = egui::Frame::new().fill(cx.tones.line);
+        let frame = egui::Frame::new().fill(cx.palette.line);
         egui::CentralPanel::default().frame(frame).show(ui, |ui| self.dock.show(ui, &mut self.panels, cx));
         if let Some(view_export) = self.dialogs.show(ui, cx) {
             self.view_exporter.begin(ui.ctx(), view_export, cx, &self.panels.cube);
         }
-        if let Some(command) = self.view_exporter.done() {
+        if let Some(command) = self.view_exporter.take_command() {
             cx.send(command);
         }
         notices::show(ui, cx);
         shortcuts::show_help(ui, cx, &mut self.help);
-        self.typing = ui.ctx().text_edit_focused();
+        self.is_text_edited = ui.ctx().text_edit_focused();
     }
 }
 
@@ -228,11 +232,11 @@ impl eframe::App for App {
 
 /// Opens files that were dropped on the window, and pasted paths and pictures.
 fn open_dropped_and_pasted(ui: &Ui, cx: &mut PanelContext) {
-    let typing = ui.ctx().text_edit_focused();
+    let is_text_edited = ui.ctx().text_edit_focused();
     let (dropped, pasted) = ui.input(|input| {
-        let pastes = |event: &&Event| matches!(event, Event::Paste(_) | Event::PasteImage(_));
+        let is_paste = |event: &&Event| matches!(event, Event::Paste(_) | Event::PasteImage(_));
         let pasted: Vec<Event> =
-            if typing { Vec::new() } else { input.events.iter().filter(pastes).cloned().collect() };
+            if is_text_edited { Vec::new() } else { input.events.iter().filter(is_paste).cloned().collect() };
         (input.raw.dropped_files.clone(), pasted)
     });
     // Of several files the last one is opened: one photograph is open at a time.
@@ -281,7 +285,7 @@ fn open_path(cx: &mut PanelContext, path: PathBuf) {
     });
 }
 
-fn title(ui: &Ui, state: &State) {
+fn update_title(ui: &Ui, state: &State) {
     let title = state.picture.as_ref().map_or_else(
         || "Dichroscope".to_owned(),
         |picture| format!("{} \u{2013} Dichroscope", picture.origin.name()),

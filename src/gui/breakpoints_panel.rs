@@ -11,11 +11,11 @@ use egui::accesskit::Role;
 use egui::{ComboBox, DragValue, Response, RichText, ScrollArea, Ui, WidgetInfo};
 
 /// Number of pixels in a new condition on a region's size.
-const USUAL_PIXELS: u32 = 1000;
+const DEFAULT_PIXELS: u32 = 1000;
 
 /// The kinds of conditions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum About {
+enum ConditionKind {
     Pixel,
     Size,
     Rejected,
@@ -24,7 +24,7 @@ enum About {
     Conflict,
 }
 
-impl About {
+impl ConditionKind {
     /// All kinds with names and tooltips.
     const ALL: [(Self, &'static str, &'static str); 6] = [
         (Self::Pixel, "pixel changes owner", "A region claims this pixel or gives it up (5.3.2, 5.4.2)."),
@@ -51,11 +51,11 @@ impl About {
     }
 
     /// A new condition of this kind, for the selected pixel or region.
-    fn usual(self, state: &State) -> Condition {
+    fn default_condition(self, state: &State) -> Condition {
         let hypothesis = chosen_hypothesis(state);
         match self {
             Self::Pixel => Condition::PixelChangesOwner(state.explained_pixel().unwrap_or_default()),
-            Self::Size => Condition::RegionExceeds { hypothesis, pixels: USUAL_PIXELS },
+            Self::Size => Condition::RegionExceeds { hypothesis, pixels: DEFAULT_PIXELS },
             Self::Rejected => Condition::HypothesisRejected,
             Self::Candidate => Condition::CandidateFails(CandidateCheck::Any),
             Self::Class => Condition::ClassIs(SavedClass::Volume),
@@ -79,18 +79,19 @@ impl BreakpointsPanel {
                 ui.horizontal(|ui| {
                     let tip = "Playing, running and stepping into stop where its condition holds.";
                     if ui.button("Add breakpoint").on_hover_text(tip).clicked() {
-                        let condition = about_selection(cx.state).usual(cx.state);
+                        let condition = kind_for_selection(cx.state).default_condition(cx.state);
                         breakpoints.push(Breakpoint { enabled: true, condition });
                     }
                     if breakpoints.is_empty() {
                         let text = "Playing stops where a condition holds.";
-                        ui.label(RichText::new(text).color(cx.tones.quiet));
+                        ui.label(RichText::new(text).color(cx.palette.secondary));
                     }
                 });
                 let mut removed = None;
                 for (index, breakpoint) in breakpoints.iter_mut().enumerate() {
-                    let gone = ui.push_id(index, |ui| ui.horizontal(|ui| row(ui, cx, index, breakpoint)));
-                    if gone.inner.inner {
+                    let removed_row =
+                        ui.push_id(index, |ui| ui.horizontal(|ui| row(ui, cx, index, breakpoint)));
+                    if removed_row.inner.inner {
                         removed = Some(index);
                     }
                 }
@@ -116,13 +117,13 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, index: usize, breakpoint: &mut Breakp
     enabled.widget_info(|| {
         WidgetInfo::selected(Role::CheckBox, true, on, format!("Breakpoint {number} enabled"))
     });
-    let ink = if stopped { cx.tones.accent } else { cx.tones.quiet };
+    let text_color = if stopped { cx.palette.accent } else { cx.palette.secondary };
     let tip = if stopped {
         "It stopped the cursor. Click to select what it is about."
     } else {
         "Click to select what it is about."
     };
-    let name = egui::Button::new(RichText::new(number.to_string()).color(ink)).frame(false);
+    let name = egui::Button::new(RichText::new(number.to_string()).color(text_color)).frame(false);
     let label = ui.add(name).on_hover_text(tip);
     let words = format!("Breakpoint {number}{}", if stopped { ", stopped here" } else { "" });
     label.widget_info(|| WidgetInfo::labeled(Role::Button, true, &words));
@@ -131,65 +132,71 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, index: usize, breakpoint: &mut Breakp
     {
         cx.send(Edit::Select(Some(item)));
     }
-    kind(ui, cx.state, number, &mut breakpoint.condition);
-    details(ui, cx, number, &mut breakpoint.condition);
+    kind_control(ui, cx.state, number, &mut breakpoint.condition);
+    argument_controls(ui, cx, number, &mut breakpoint.condition);
     let remove = ui.small_button("Remove").on_hover_text("Take this breakpoint away.");
     remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Remove breakpoint {number}")));
     if stopped {
-        ui.label(RichText::new("stopped here").size(SMALL_PT).color(cx.tones.accent));
+        ui.label(RichText::new("stopped here").size(SMALL_PT).color(cx.palette.accent));
     }
     remove.clicked()
 }
 
-fn kind(ui: &mut Ui, state: &State, number: usize, condition: &mut Condition) {
-    let about = About::of(*condition);
-    let (_, name, tip) = About::ALL.into_iter().find(|(known, ..)| *known == about).unwrap_or(About::ALL[0]);
+fn kind_control(ui: &mut Ui, state: &State, number: usize, condition: &mut Condition) {
+    let kind = ConditionKind::of(*condition);
+    let (_, name, tip) =
+        ConditionKind::ALL.into_iter().find(|(known, ..)| *known == kind).unwrap_or(ConditionKind::ALL[0]);
     let combo = ComboBox::from_id_salt("kind").width(138.0).selected_text(name);
     let combo = combo.show_ui(ui, |ui| {
-        for (choice, name, tip) in About::ALL {
-            let chosen = ui.selectable_label(choice == about, name).on_hover_text(tip).clicked();
-            if chosen && choice != about {
-                *condition = choice.usual(state);
+        for (choice, name, tip) in ConditionKind::ALL {
+            let chosen = ui.selectable_label(choice == kind, name).on_hover_text(tip).clicked();
+            if chosen && choice != kind {
+                *condition = choice.default_condition(state);
             }
         }
     });
-    named(&combo.response, Role::ComboBox, format!("Condition of breakpoint {number}"));
+    set_accessible_name(&combo.response, Role::ComboBox, format!("Condition of breakpoint {number}"));
     combo.response.on_hover_text(tip);
 }
 
-fn named(response: &Response, role: Role, name: String) {
+fn set_accessible_name(response: &Response, role: Role, name: String) {
     response.widget_info(move || WidgetInfo::labeled(role, true, &name));
 }
 
 /// Shows the controls of the condition's arguments.
-fn details(ui: &mut Ui, cx: &mut PanelContext, number: usize, condition: &mut Condition) {
+fn argument_controls(ui: &mut Ui, cx: &mut PanelContext, number: usize, condition: &mut Condition) {
     match condition {
         Condition::PixelChangesOwner(pixel) => pixel_controls(ui, cx.state, number, pixel),
         Condition::RegionExceeds { hypothesis, pixels } => {
             hypothesis_control(ui, cx, &format!("Region of breakpoint {number}"), hypothesis);
             let field = ui.add(DragValue::new(pixels).range(1..=u32::MAX).speed(10.0).suffix(" px"));
-            named(&field, Role::SpinButton, format!("Pixels of breakpoint {number}"));
+            set_accessible_name(&field, Role::SpinButton, format!("Pixels of breakpoint {number}"));
         }
         Condition::HypothesisRejected => {}
         Condition::CandidateFails(check) => {
             let choices = CandidateCheck::ALL.map(|check| (check, check.name()));
-            choose(ui, format!("Test of breakpoint {number}"), check, &choices);
+            choice_control(ui, format!("Test of breakpoint {number}"), check, &choices);
         }
         Condition::ClassIs(class) => {
             use SavedClass::{Line, Plane, Point, Volume};
             let choices =
                 [Point, Line, Plane, Volume].map(|class| (class, crate::trace::Class::from(class).name()));
-            choose(ui, format!("Class of breakpoint {number}"), class, &choices);
+            choice_control(ui, format!("Class of breakpoint {number}"), class, &choices);
         }
         Condition::Conflict(one, other) => {
             hypothesis_control(ui, cx, &format!("First region of breakpoint {number}"), one);
-            ui.label(RichText::new("and").color(cx.tones.quiet));
+            ui.label(RichText::new("and").color(cx.palette.secondary));
             hypothesis_control(ui, cx, &format!("Second region of breakpoint {number}"), other);
         }
     }
 }
 
-fn choose<T: Copy + PartialEq>(ui: &mut Ui, name: String, value: &mut T, choices: &[(T, &'static str)]) {
+fn choice_control<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: String,
+    value: &mut T,
+    choices: &[(T, &'static str)],
+) {
     let shown = choices.iter().find(|(choice, _)| choice == value).map_or("", |(_, name)| name);
     let combo = ComboBox::from_id_salt(&name).width(110.0).selected_text(shown);
     let combo = combo.show_ui(ui, |ui| {
@@ -197,7 +204,7 @@ fn choose<T: Copy + PartialEq>(ui: &mut Ui, name: String, value: &mut T, choices
             ui.selectable_value(value, choice, name);
         }
     });
-    named(&combo.response, Role::ComboBox, name);
+    set_accessible_name(&combo.response, Role::ComboBox, name);
 }
 
 /// Shows fields for column and row of a pixel, and a button that takes the selected pixel.
@@ -207,12 +214,12 @@ fn pixel_controls(ui: &mut Ui, state: &State, number: usize, pixel: &mut PixelIn
     for (name, value, size) in [("Column", &mut x, width), ("Row", &mut y, height)] {
         let prefix = if name == "Column" { "x " } else { "y " };
         let field = ui.add(DragValue::new(value).range(0..=size.saturating_sub(1)).prefix(prefix));
-        named(&field, Role::SpinButton, format!("{name} of breakpoint {number}"));
+        set_accessible_name(&field, Role::SpinButton, format!("{name} of breakpoint {number}"));
     }
     *pixel = PixelIndex::from_index(y * width + x);
     let selected = state.explained_pixel();
     let button = ui.add_enabled(selected.is_some(), egui::Button::new("selected pixel").small());
-    named(&button, Role::Button, format!("Selected pixel for breakpoint {number}"));
+    set_accessible_name(&button, Role::Button, format!("Selected pixel for breakpoint {number}"));
     let button = button.on_hover_text("Take the pixel that is selected.");
     if button.on_disabled_hover_text("Select a pixel first: Alt + click in the image.").clicked() {
         *pixel = selected.unwrap_or(*pixel);
@@ -248,11 +255,11 @@ fn hypothesis_control(ui: &mut Ui, cx: &PanelContext, name: &str, hypothesis: &m
 }
 
 /// The kind of condition of a new breakpoint: by the kind of the selected item.
-fn about_selection(state: &State) -> About {
+fn kind_for_selection(state: &State) -> ConditionKind {
     match state.document.selection.item {
-        Some(Item::Pixel(_)) => About::Pixel,
-        Some(Item::Region(_)) => About::Size,
-        _ => About::Rejected,
+        Some(Item::Pixel(_)) => ConditionKind::Pixel,
+        Some(Item::Region(_)) => ConditionKind::Size,
+        _ => ConditionKind::Rejected,
     }
 }
 

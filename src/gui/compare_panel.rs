@@ -1,6 +1,6 @@
 //! The comparison panel: parameters, scores and regions of the pinned result (A) and of the newest (B).
 
-use super::later::{AT_ONCE_PX, Later};
+use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::app::{Command, DebugCommand, Difference, Edit, ViewCommand};
@@ -12,7 +12,7 @@ use egui::{Grid, RichText, ScrollArea, Ui};
 /// The comparison panel.
 #[derive(Default)]
 pub struct ComparePanel {
-    comparison: Later<(u64, u64), Option<Comparison>>,
+    comparison: BackgroundValue<(u64, u64), Option<Comparison>>,
 }
 
 impl ComparePanel {
@@ -20,15 +20,15 @@ impl ComparePanel {
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let (pinned, newest) = (cx.state.pinned.clone(), cx.state.newest.clone());
         egui::Frame::new().inner_margin(8).show(ui, |ui| {
-            let (Some(pinned), Some(newest)) = (pinned, newest) else { return begin(ui, cx) };
+            let (Some(pinned), Some(newest)) = (pinned, newest) else { return pin_hint(ui, cx) };
             let key = (pinned.generation, newest.generation);
-            let at_once = newest.labels().len() <= AT_ONCE_PX;
+            let synchronous = newest.labels().len() <= SYNCHRONOUS_PX;
             // A result is compared once all of its stages are of the same run.
             if newest.stale_from.is_some() {
-                return verbs(ui, cx);
+                return buttons(ui, cx);
             }
-            let found = self.comparison.get(ui.ctx(), key, at_once, move || compare(&pinned, &newest));
-            verbs(ui, cx);
+            let found = self.comparison.get(ui.ctx(), key, synchronous, move || compare(&pinned, &newest));
+            buttons(ui, cx);
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 if let Some(Some(found)) = found {
                     ui.horizontal_top(|ui| {
@@ -43,15 +43,17 @@ impl ComparePanel {
 }
 
 /// Shows, while no result is pinned, what the panel does and the button that pins a result.
-fn begin(ui: &mut Ui, cx: &mut PanelContext) {
-    ui.label(RichText::new("Pin this result, change a slider, and see what changed.").color(cx.tones.quiet));
+fn pin_hint(ui: &mut Ui, cx: &mut PanelContext) {
+    ui.label(
+        RichText::new("Pin this result, change a slider, and see what changed.").color(cx.palette.secondary),
+    );
     let ready = cx.state.newest.is_some();
     if ui.add_enabled(ready, egui::Button::new("Pin this result (K)")).clicked() {
         cx.send(ViewCommand::Pin(true));
     }
 }
 
-fn verbs(ui: &mut Ui, cx: &mut PanelContext) {
+fn buttons(ui: &mut Ui, cx: &mut PanelContext) {
     ui.horizontal(|ui| {
         let pinned = cx.state.view.show_pinned;
         for (choice, name) in [(true, "A pinned"), (false, "B newest")] {
@@ -96,44 +98,45 @@ fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
         match cx.state.debugger.difference {
             None => {}
             Some(Difference::None) => {
-                ui.label(quiet(cx, "both took the same decisions"));
+                ui.label(secondary_text(cx, "both took the same decisions"));
             }
             Some(Difference::NotRecorded) => {
-                ui.label(quiet(cx, "the pinned result's decisions were not recorded: pin it anew"));
+                ui.label(secondary_text(cx, "the pinned result's decisions were not recorded: pin it anew"));
             }
-            Some(Difference::At(step)) => parting(ui, cx, step),
+            Some(Difference::At(step)) => decisions_at(ui, cx, step),
         }
     });
 }
 
 /// Shows what each analysis decided at a step.
-fn parting(ui: &mut Ui, cx: &PanelContext, step: usize) {
+fn decisions_at(ui: &mut Ui, cx: &PanelContext, step: usize) {
     let pinned = cx.state.pinned.as_ref().and_then(|pinned| pinned.trace());
     ui.vertical(|ui| {
         for (name, trace) in [("A", pinned), ("B", cx.state.debugger.trace())] {
             let Some(trace) = trace else { continue };
-            let told = trace.step(step).map_or_else(|| "has ended".to_owned(), |n| Names::of(trace).step(&n));
+            let decision =
+                trace.step(step).map_or_else(|| "has ended".to_owned(), |n| Names::of(trace).step(&n));
             let stage = trace.stage_at(step).map_or("", crate::trace::Stage::name);
             ui.label(
-                RichText::new(format!("{name}  step {}, {stage}: {told}", widgets::grouped(step + 1)))
+                RichText::new(format!("{name}  step {}, {stage}: {decision}", widgets::grouped(step + 1)))
                     .size(SMALL_PT),
             );
         }
     });
 }
 
-fn quiet(cx: &PanelContext, text: impl Into<String>) -> RichText {
-    RichText::new(text).size(SMALL_PT).color(cx.tones.quiet)
+fn secondary_text(cx: &PanelContext, text: impl Into<String>) -> RichText {
+    RichText::new(text).size(SMALL_PT).color(cx.palette.secondary)
 }
 
 fn figures(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
     Grid::new("figures").num_columns(4).spacing([14.0, 2.0]).show(ui, |ui| {
         for title in ["", "A", "B", "B \u{2212} A"] {
-            ui.label(quiet(cx, title));
+            ui.label(secondary_text(cx, title));
         }
         ui.end_row();
         for change in &found.settings {
-            ui.label(RichText::new(change.name.replace('_', " ")).color(cx.tones.accent));
+            ui.label(RichText::new(change.name.replace('_', " ")).color(cx.palette.accent));
             ui.label(&change.pinned);
             ui.label(&change.newest);
             ui.end_row();
@@ -145,7 +148,7 @@ fn figures(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
             ui.label(text(figure.pinned));
             ui.label(text(figure.newest));
             let difference = figure.pinned.zip(figure.newest).map(|(a, b)| b - a).filter(|d| d.abs() > 1e-9);
-            let tone = if difference.is_some() { cx.tones.accent } else { cx.tones.quiet };
+            let tone = if difference.is_some() { cx.palette.accent } else { cx.palette.secondary };
             ui.label(
                 RichText::new(difference.map_or("=".to_owned(), |d| {
                     format!("{}{}", if d > 0.0 { "+" } else { "" }, shortened(d))
@@ -181,25 +184,26 @@ fn regions(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
             ("body changed by > 1 count", format!("{:.2} %", 100.0 * body.share)),
             ("largest change", format!("{:.1} counts", body.most_counts)),
         ] {
-            ui.label(quiet(cx, name));
+            ui.label(secondary_text(cx, name));
             ui.label(value);
             ui.end_row();
         }
     });
-    widgets::heading(ui, cx.tones, "Regions that are not the same");
-    let others: Vec<_> = found.regions.iter().filter(|fate| fate.fate != Fate::Kept).collect();
-    if others.is_empty() {
-        ui.label(quiet(cx, "none"));
+    widgets::heading(ui, cx.palette, "Regions that are not the same");
+    let changed: Vec<_> = found.regions.iter().filter(|fate| fate.fate != Fate::Kept).collect();
+    if changed.is_empty() {
+        ui.label(secondary_text(cx, "none"));
     }
-    for fate in others {
+    for fate in changed {
         let id = |id: Option<RegionId>| id.map_or("\u{2013}".to_owned(), |id| id.to_string());
-        let word = match fate.fate {
+        let change_text = match fate.fate {
             Fate::Gained => "gained",
             Fate::Lost => "lost",
             Fate::Changed | Fate::Kept => "changed",
         };
         let change = fate.pixels_newest as i64 - fate.pixels_pinned as i64;
-        let text = format!("{word}  A {} \u{2192} B {}  {change:+} px", id(fate.pinned), id(fate.newest));
+        let text =
+            format!("{change_text}  A {} \u{2192} B {}  {change:+} px", id(fate.pinned), id(fate.newest));
         let row = ui.selectable_label(false, text);
         let target = if cx.state.view.show_pinned { fate.pinned } else { fate.newest };
         if row.clicked()

@@ -7,14 +7,13 @@ mod camera_controller;
 mod canvas;
 mod cloud;
 mod cursor;
-mod detail;
 mod figure;
 mod frame;
-mod instant;
 mod labels;
 mod legend;
 mod outline;
 pub mod testing;
+mod unique_colors;
 
 use super::{PanelContext, widgets};
 use crate::app::{Combine, Edit, ViewCommand};
@@ -24,16 +23,16 @@ use crate::view::{Item, Picture, Tool};
 use camera_controller::{CameraController, Plane};
 use canvas::Canvas;
 use cloud::Cloud;
-use cursor::Track;
-use detail::Detail;
+use cursor::CursorPoints;
 use egui::{Color32, EventFilter, Rect, Response, Sense, Stroke, Ui, vec2};
 use figure::Figure;
-use frame::Frame;
+use frame::AxesFrame;
 use outline::Outline;
 use std::sync::Arc;
+use unique_colors::UniqueColors;
 
 /// Largest distance from the pointer at which a point counts as hovered, screen points.
-const REACH_PT: f32 = 6.0;
+const HOVER_RADIUS_PT: f32 = 6.0;
 /// Radius of the ring around the hovered color, screen points.
 const RING_PT: f32 = 7.0;
 
@@ -42,24 +41,26 @@ const RING_PT: f32 = 7.0;
 pub struct CubePanel {
     camera_controller: CameraController,
     cloud: Cloud,
-    track: Track,
-    detail: Detail,
+    cursor_points: CursorPoints,
+    unique_colors: UniqueColors,
     figure: Figure,
-    frame: Frame,
+    frame: AxesFrame,
     canvas: Canvas,
     outline: Outline,
     scene: Scene,
     /// The camera for which the lines of the scene were made: silhouettes depend on the camera.
-    seen_from: Option<Orbit>,
-    hovers: bool,
+    lines_camera: Option<Orbit>,
+    is_hovering: bool,
     size: [f32; 2],
 }
 
 impl CubePanel {
     /// Drops an unfinished outline when Escape is pressed, and consumes the key, so that the selection stays.
-    pub fn take_escape(&mut self, ctx: &egui::Context) {
+    pub fn cancel_on_escape(&mut self, ctx: &egui::Context) {
         let key = egui::Key::Escape;
-        if self.outline.is_begun() && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, key)) {
+        if self.outline.is_unfinished()
+            && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, key))
+        {
             self.outline = Outline::default();
         }
     }
@@ -72,27 +73,27 @@ impl CubePanel {
     /// Restores a stored camera. The camera then counts as moved by the user: a resized panel does not frame the cube
     /// anew.
     pub fn set_camera(&mut self, camera: Orbit) {
-        self.camera_controller.place(camera);
+        self.camera_controller.set_orbit(camera);
     }
 
     /// A new panel with the same camera, for exporting the view.
-    pub fn clone_view(&self) -> Self {
+    pub fn clone_with_camera(&self) -> Self {
         Self { camera_controller: self.camera_controller.clone(), ..Self::default() }
     }
 
     /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let Some(picture) = cx.state.picture.clone() else {
-            widgets::nothing(ui, cx.tones, "Open a photograph to see its colors.");
+            widgets::placeholder(ui, cx.palette, "Open a photograph to see its colors.");
             return;
         };
         let Some(gpu) = cx.gpu else {
             let text = "There is no graphics adapter, so the color space cannot be drawn; all else works.";
-            widgets::nothing(ui, cx.tones, text);
+            widgets::placeholder(ui, cx.palette, text);
             return;
         };
-        if !cx.bare {
-            egui::Frame::new().fill(cx.tones.panel).inner_margin(egui::Margin::symmetric(6, 3)).show(
+        if !cx.is_export {
+            egui::Frame::new().fill(cx.palette.panel).inner_margin(egui::Margin::symmetric(6, 3)).show(
                 ui,
                 |ui| {
                     bar::show(ui, cx, &mut self.camera_controller, self.size);
@@ -108,72 +109,73 @@ impl CubePanel {
         self.size = [rect.width(), rect.height()];
         let settings = &cx.state.view.cube;
         let full_counts = picture.histogram.full_counts;
-        let other_space = self.frame.update(settings.space, full_counts, cx.state.view.theme);
-        if other_space {
-            self.camera_controller.enter(self.frame.lines.iter().flat_map(|line| [line.a, line.b]).collect());
+        let space_changed = self.frame.update(settings.space, full_counts, cx.state.view.theme);
+        if space_changed {
+            self.camera_controller
+                .set_content(self.frame.lines.iter().flat_map(|line| [line.a, line.b]).collect());
         }
-        self.turn(ui, cx, &response, rect);
-        self.update(ui, cx, gpu, &picture, other_space);
+        self.move_camera(ui, cx, &response, rect);
+        self.update_scene(ui, cx, gpu, &picture, space_changed);
         self.canvas.show(ui, gpu, rect, &self.scene, &self.camera_controller.orbit);
         let projector = self.camera_controller.orbit.projector(self.size);
-        self.write(ui, cx, &projector, &response, &picture);
-        self.point(cx, &response, &projector, rect);
-        self.mark(ui, cx, &response, &projector, rect, &picture);
-        describe(&response);
+        self.paint_overlay(ui, cx, &projector, &response, &picture);
+        self.handle_pointer(cx, &response, &projector, rect);
+        self.mark_outlined(ui, cx, &response, &projector, rect, &picture);
+        set_accessible_name(&response);
     }
 
     /// Moves the camera by pointer and keys, and to the dichromatic plane of the selected region.
-    fn turn(&mut self, ui: &Ui, cx: &PanelContext, response: &Response, rect: Rect) {
+    fn move_camera(&mut self, ui: &Ui, cx: &PanelContext, response: &Response, rect: Rect) {
         let (plane, settings) = (Plane::of(cx.state), &cx.state.view.cube);
         if response.clicked() || response.drag_started() {
             response.request_focus();
         }
         let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
-        self.camera_controller.arrive(self.size);
+        self.camera_controller.frame_if_resized(self.size);
         self.camera_controller.follow(plane, settings.locked);
-        self.camera_controller.obey(ui, response, rect, settings.tool == Tool::Pointer, plane);
+        self.camera_controller.handle_input(ui, response, rect, settings.tool == Tool::Pointer, plane);
     }
 
     /// Rebuilds the parts of the scene that have changed.
-    fn update(
+    fn update_scene(
         &mut self,
         ui: &Ui,
         cx: &PanelContext,
         gpu: &egui_wgpu::RenderState,
         picture: &Arc<Picture>,
-        other_space: bool,
+        space_changed: bool,
     ) {
         let settings = &cx.state.view.cube;
-        let moved = self.seen_from != Some(self.camera_controller.orbit);
-        if moved {
-            self.detail.stir();
+        let camera_moved = self.lines_camera != Some(self.camera_controller.orbit);
+        if camera_moved {
+            self.unique_colors.note_camera_moved();
         }
-        let detail = settings.full_detail.then(|| {
-            let swift = gpu.adapter.get_info().device_type != wgpu::DeviceType::Cpu;
-            self.detail.get(ui.ctx(), picture, swift)
+        let unique_colors = settings.full_detail.then(|| {
+            let fast_device = gpu.adapter.get_info().device_type != wgpu::DeviceType::Cpu;
+            self.unique_colors.get(ui.ctx(), picture, fast_device)
         });
-        self.track.update(cx.state, cx.tones, picture);
-        let ghostly = self.track.is_shown();
-        self.cloud.update(cx.state, cx.tones, picture, detail.flatten().as_ref(), ghostly);
+        self.cursor_points.update(cx.state, cx.palette, picture);
+        let ghosts_only = self.cursor_points.is_shown();
+        self.cloud.update(cx.state, cx.palette, picture, unique_colors.flatten().as_ref(), ghosts_only);
         self.scene.points = self.cloud.drawn.to_vec();
-        self.scene.points.extend_from_slice(&self.track.drawn);
-        self.scene.background = cx.tones.background.to_array();
-        let other_figure = self.figure.update(cx.state, picture);
-        if other_figure {
+        self.scene.points.extend_from_slice(&self.cursor_points.drawn);
+        self.scene.background = cx.palette.background.to_array();
+        let figure_changed = self.figure.update(cx.state, picture);
+        if figure_changed {
             self.scene.meshes.clone_from(&self.figure.meshes);
         }
-        if moved || other_space || other_figure {
+        if camera_moved || space_changed || figure_changed {
             let mut lines: Vec<Line> = self.frame.lines.clone();
             lines.extend(&self.figure.lines);
             lines.extend(self.figure.silhouettes(&self.camera_controller.orbit));
             self.scene.lines = Batch::new(lines);
-            self.seen_from = Some(self.camera_controller.orbit);
+            self.lines_camera = Some(self.camera_controller.orbit);
         }
     }
 
     /// Paints labels, gizmo, legend and the ring around the hovered color over the rendered scene.
-    fn write(
+    fn paint_overlay(
         &self,
         ui: &Ui,
         cx: &PanelContext,
@@ -186,18 +188,24 @@ impl CubePanel {
         let mut occupied = vec![legend::show(ui, cx, rect, self.cloud.fullest)];
         if matches!(settings.space, crate::view::ColorSpace::Rgb | crate::view::ColorSpace::LogRgb) {
             let axes = self.camera_controller.orbit.right_up_forward();
-            occupied.push(frame::gizmo(ui, axes, rect, ["R", "G", "B"], cx.tones));
+            occupied.push(frame::gizmo(ui, axes, rect, ["R", "G", "B"], cx.palette));
         }
         occupied.push(self.readout(ui, cx, rect, picture));
         if let Some(test) = cx.state.followed().and_then(crate::view::test_at_cursor) {
             let below = occupied[0].left_bottom() + vec2(0.0, 4.0);
-            occupied.push(crate::gui::verdict::show(ui, cx.tones, cx.tones.background, below, test));
+            occupied.push(crate::gui::skewed_t_test::show(
+                ui,
+                cx.palette,
+                cx.palette.background,
+                below,
+                test,
+            ));
         }
-        let mut labels = self.figure.labels(ui, projector, rect, cx.tones);
-        labels.extend(self.frame.labels(ui, projector, rect, cx.tones));
-        let halo = cx.tones.background.gamma_multiply(0.72);
+        let mut labels = self.figure.labels(ui, projector, rect, cx.palette);
+        labels.extend(self.frame.labels(ui, projector, rect, cx.palette));
+        let halo = cx.palette.background.gamma_multiply(0.72);
         labels::show(ui, response.id.with("labels"), &labels, rect, &occupied, halo);
-        self.ring(ui, cx, projector, rect, picture);
+        self.paint_hover_ring(ui, cx, projector, rect, picture);
     }
 
     /// Writes the hovered color in counts into the lower right corner; returns the rectangle of the text.
@@ -210,7 +218,7 @@ impl CubePanel {
         let region = region.map_or(String::new(), |region| format!("  region {region}"));
         let text = format!("R {r}  G {g}  B {b}  {count} px{region}");
         let font = egui::FontId::proportional(crate::gui::theme::SMALL_PT);
-        ui.painter_at(rect).text(corner, egui::Align2::RIGHT_BOTTOM, text, font, cx.tones.text)
+        ui.painter_at(rect).text(corner, egui::Align2::RIGHT_BOTTOM, text, font, cx.palette.text)
     }
 
     /// Color, number of pixels and region of the pixel or bin that is hovered.
@@ -231,13 +239,20 @@ impl CubePanel {
         }
     }
 
-    fn ring(&self, ui: &Ui, cx: &PanelContext, projector: &Projector, rect: Rect, picture: &Picture) {
+    fn paint_hover_ring(
+        &self,
+        ui: &Ui,
+        cx: &PanelContext,
+        projector: &Projector,
+        rect: Rect,
+        picture: &Picture,
+    ) {
         let Some((color, ..)) = self.hovered(cx, picture) else { return };
         let world = cx.state.view.cube.space.place(color, picture.histogram.full_counts);
-        let Some(at) = frame::screen(projector, rect, world) else { return };
+        let Some(at) = frame::screen_from_world(projector, rect, world) else { return };
         let painter = ui.painter_at(rect);
         let (dark, accent) =
-            (Stroke::new(3.5, Color32::from_black_alpha(140)), Stroke::new(1.6, cx.tones.accent));
+            (Stroke::new(3.5, Color32::from_black_alpha(140)), Stroke::new(1.6, cx.palette.accent));
         for stroke in [dark, accent] {
             painter.circle_stroke(at, RING_PT, stroke);
             for side in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)] {
@@ -248,16 +263,22 @@ impl CubePanel {
 
     /// Sends what the pointer does: hovering a bin highlights its pixels; a click selects the bin's region, Alt +
     /// click the bin.
-    fn point(&mut self, cx: &mut PanelContext, response: &Response, projector: &Projector, rect: Rect) {
+    fn handle_pointer(
+        &mut self,
+        cx: &mut PanelContext,
+        response: &Response,
+        projector: &Projector,
+        rect: Rect,
+    ) {
         let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
         let pointer = clicked.or(response.hover_pos().filter(|_| !response.dragged()));
         let bin = pointer.and_then(|at| {
             let at = (at - rect.min).into();
-            pick::nearest(&self.cloud.bins, projector, at, REACH_PT).map(|hit| hit.index as u32)
+            pick::nearest(&self.cloud.bins, projector, at, HOVER_RADIUS_PT).map(|hit| hit.index as u32)
         });
         let hover = bin.map(Item::Bin);
-        let was_ours = std::mem::replace(&mut self.hovers, pointer.is_some());
-        if (self.hovers || was_ours) && cx.state.hover != hover {
+        let was_hovering = std::mem::replace(&mut self.is_hovering, pointer.is_some());
+        if (self.is_hovering || was_hovering) && cx.state.hover != hover {
             cx.send(ViewCommand::Hover(hover));
         }
         if response.clicked() && !response.double_clicked() && cx.state.view.cube.tool == Tool::Pointer {
@@ -268,7 +289,7 @@ impl CubePanel {
     }
 
     /// Marks the pixels whose colors lie inside a finished rectangle, lasso or polygon.
-    fn mark(
+    fn mark_outlined(
         &mut self,
         ui: &Ui,
         cx: &mut PanelContext,
@@ -277,7 +298,7 @@ impl CubePanel {
         rect: Rect,
         picture: &Picture,
     ) {
-        if let Some(outline) = self.outline.follow(ui, response, cx.state.view.cube.tool) {
+        if let Some(outline) = self.outline.handle_pointer(ui, response, cx.state.view.cube.tool) {
             let mask = outline::mask_of(picture, &self.cloud.bins, projector, rect, &outline);
             let combine = ui.input(|input| match input.modifiers {
                 egui::Modifiers { alt: true, .. } => Combine::Subtract,
@@ -286,11 +307,11 @@ impl CubePanel {
             });
             cx.send(Edit::Mark(Arc::new(mask), combine, None));
         }
-        self.outline.paint(&ui.painter_at(rect), response, cx.tones.accent);
+        self.outline.paint(&ui.painter_at(rect), response, cx.palette.accent);
     }
 }
 
-fn describe(response: &Response) {
+fn set_accessible_name(response: &Response) {
     response
         .widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, "Color space view"));
 }

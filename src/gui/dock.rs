@@ -10,7 +10,7 @@ use super::plane_panel::PlanePanel;
 use super::profile_panel::ProfilePanel;
 use super::regions_panel::RegionsPanel;
 use super::selection_panel::SelectionPanel;
-use super::theme::Tones;
+use super::theme::Palette;
 use super::timeline_panel::TimelinePanel;
 use super::watch_panel::WatchPanel;
 use super::why_panel::WhyPanel;
@@ -26,7 +26,7 @@ struct PaneRow {
     /// The name on its tab.
     title: &'static str,
     /// The color behind it.
-    ground: fn(&Tones) -> Color32,
+    background: fn(&Palette) -> Color32,
     /// The tabs that it belongs to in the first arrangement, in the order of the table.
     tabs: TabGroup,
     /// Shows it in all of the given area.
@@ -71,7 +71,7 @@ macro_rules! panes {
         pub struct Panels {
             $($(#[doc = concat!("The panel ", stringify!($pane), ".")] pub $field: $panel,)?)+
             /// Where the color space was in the last frame; none if it was not shown.
-            pub colors: Option<Rect>,
+            pub color_space_rect: Option<Rect>,
         }
     };
 }
@@ -80,7 +80,7 @@ panes! {
     /// The photograph and its layers.
     Image { image: ImagePanel } PaneRow {
         title: "Image",
-        ground: |tones| tones.background,
+        background: |palette| palette.background,
         tabs: TabGroup::Image,
         show: |panels, ui, cx| panels.image.show(ui, cx),
     };
@@ -88,80 +88,80 @@ panes! {
     #[serde(alias = "Colours")]
     Colors { cube: CubePanel } PaneRow {
         title: "Color space",
-        ground: |tones| tones.background,
+        background: |palette| palette.background,
         tabs: TabGroup::Colors,
         show: |panels, ui, cx| {
-            panels.colors = Some(ui.max_rect());
+            panels.color_space_rect = Some(ui.max_rect());
             panels.cube.show(ui, cx);
         },
     };
     /// The dichromatic plane of one region.
     Plane { plane: PlanePanel } PaneRow {
         title: "Plane",
-        ground: |tones| tones.panel,
+        background: |palette| palette.panel,
         tabs: TabGroup::Plots,
         show: |panels, ui, cx| panels.plane.show(ui, cx),
     };
     /// Body, surface and ε along a line.
     Profile { profile: ProfilePanel } PaneRow {
         title: "Profile",
-        ground: |tones| tones.panel,
+        background: |palette| palette.panel,
         tabs: TabGroup::Plots,
         show: |panels, ui, cx| panels.profile.show(ui, cx),
     };
     /// Sliders and switches.
     Parameters {} PaneRow {
         title: "Parameters",
-        ground: |tones| tones.panel,
+        background: |palette| palette.panel,
         tabs: TabGroup::Parameters,
         show: |_, ui, cx| parameters::show(ui, cx),
     };
     /// The regions as a table.
     Regions { regions: RegionsPanel } PaneRow {
         title: "Regions",
-        ground: |tones| tones.panel,
+        background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.regions.show(ui, cx),
     };
     /// Statistics of the selection.
     Selection { selection: SelectionPanel } PaneRow {
         title: "Selection",
-        ground: |tones| tones.panel,
+        background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.selection.show(ui, cx),
     };
     /// Pinned and newest result.
     Compare { compare: ComparePanel } PaneRow {
         title: "Compare",
-        ground: |tones| tones.panel,
+        background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.compare.show(ui, cx),
     };
     /// The decisions in their order, and the cursor among them.
     Timeline { timeline: TimelinePanel } PaneRow {
         title: "Timeline",
-        ground: |tones| tones.panel,
+        background: |palette| palette.panel,
         tabs: TabGroup::Timeline,
         show: |panels, ui, cx| panels.timeline.show(ui, cx),
     };
     /// Why a pixel or a region is what it is.
     Why { why: WhyPanel } PaneRow {
         title: "Why",
-        ground: |tones| tones.panel,
+        background: |palette| palette.panel,
         tabs: TabGroup::Questions,
         show: |panels, ui, cx| panels.why.show(ui, cx),
     };
     /// Values at the cursor.
     Watch { watch: WatchPanel } PaneRow {
         title: "Watch",
-        ground: |tones| tones.panel,
+        background: |palette| palette.panel,
         tabs: TabGroup::Questions,
         show: |panels, ui, cx| panels.watch.show(ui, cx),
     };
     /// Conditions that stop the cursor.
     Breakpoints { breakpoints: BreakpointsPanel } PaneRow {
         title: "Breakpoints",
-        ground: |tones| tones.panel,
+        background: |palette| palette.panel,
         tabs: TabGroup::Questions,
         show: |panels, ui, cx| panels.breakpoints.show(ui, cx),
     };
@@ -178,7 +178,7 @@ impl Panels {
     /// Shows one panel in all of `ui`.
     pub fn show(&mut self, pane: Pane, ui: &mut Ui, cx: &mut PanelContext) {
         let row = pane.row();
-        ui.painter().rect_filled(ui.max_rect(), 0.0, (row.ground)(cx.tones));
+        ui.painter().rect_filled(ui.max_rect(), 0.0, (row.background)(cx.palette));
         (row.show)(self, ui, cx);
     }
 }
@@ -190,7 +190,7 @@ pub struct Dock {
 
 impl Default for Dock {
     fn default() -> Self {
-        Self { tree: arranged() }
+        Self { tree: initial_arrangement() }
     }
 }
 
@@ -201,22 +201,22 @@ impl Dock {
     }
 
     /// Whether a panel is in the window at all.
-    pub fn has(&self, pane: Pane) -> bool {
+    pub fn is_visible(&self, pane: Pane) -> bool {
         self.find(pane).is_some_and(|id| self.tree.is_visible(id))
     }
 
     /// Shows or hides a panel.
-    pub fn set(&mut self, pane: Pane, visible: bool) {
+    pub fn set_visible(&mut self, pane: Pane, visible: bool) {
         if let Some(id) = self.find(pane) {
             self.tree.set_visible(id, visible);
             if visible {
-                self.bring_up(pane);
+                self.activate(pane);
             }
         }
     }
 
     /// Brings the panel's tab to the front.
-    pub fn bring_up(&mut self, pane: Pane) {
+    pub fn activate(&mut self, pane: Pane) {
         self.tree.make_active(|_, tile| matches!(tile, Tile::Pane(found) if *found == pane));
     }
 
@@ -272,7 +272,7 @@ impl Dock {
 
 /// The first arrangement: image over tables; color space over plane and profile; parameters over questions; the timeline
 /// below.
-fn arranged() -> Tree<Pane> {
+fn initial_arrangement() -> Tree<Pane> {
     let mut tiles = Tiles::default();
     let mut tabs = |group: TabGroup| {
         let panes = Pane::ALL.into_iter().filter(|pane| pane.row().tabs == group);
@@ -282,12 +282,12 @@ fn arranged() -> Tree<Pane> {
     let image = tabs(TabGroup::Image);
     let tables = tabs(TabGroup::Tables);
     let questions = tabs(TabGroup::Questions);
-    let colors = tabs(TabGroup::Colors);
+    let color_space_rect = tabs(TabGroup::Colors);
     let plots = tabs(TabGroup::Plots);
     let parameters = tabs(TabGroup::Parameters);
     let timeline = tabs(TabGroup::Timeline);
     let left = split(&mut tiles, LinearDir::Vertical, &[(image, 0.68), (tables, 0.32)]);
-    let middle = split(&mut tiles, LinearDir::Vertical, &[(colors, 0.60), (plots, 0.40)]);
+    let middle = split(&mut tiles, LinearDir::Vertical, &[(color_space_rect, 0.60), (plots, 0.40)]);
     let right = split(&mut tiles, LinearDir::Vertical, &[(parameters, 0.52), (questions, 0.48)]);
     let views = split(&mut tiles, LinearDir::Horizontal, &[(left, 0.39), (middle, 0.38), (right, 0.23)]);
     let root = split(&mut tiles, LinearDir::Vertical, &[(views, 0.86), (timeline, 0.14)]);
@@ -323,11 +323,11 @@ impl Behavior<Pane> for DockBehavior<'_, '_> {
     }
 
     fn tab_bar_color(&self, _visuals: &Visuals) -> Color32 {
-        self.cx.tones.panel
+        self.cx.palette.panel
     }
 
     fn tab_bg_color(&self, _: &Visuals, _: &Tiles<Pane>, _: TileId, _: &TabState) -> Color32 {
-        self.cx.tones.panel
+        self.cx.palette.panel
     }
 
     fn tab_outline_stroke(&self, _: &Visuals, _: &Tiles<Pane>, _: TileId, _: &TabState) -> Stroke {
@@ -335,11 +335,11 @@ impl Behavior<Pane> for DockBehavior<'_, '_> {
     }
 
     fn tab_text_color(&self, _: &Visuals, _: &Tiles<Pane>, _: TileId, state: &TabState) -> Color32 {
-        if state.active { self.cx.tones.text } else { self.cx.tones.quiet }
+        if state.active { self.cx.palette.text } else { self.cx.palette.secondary }
     }
 
     fn tab_bar_hline_stroke(&self, _: &Visuals) -> Stroke {
-        Stroke::new(1.0, self.cx.tones.line)
+        Stroke::new(1.0, self.cx.palette.line)
     }
 
     fn gap_width(&self, _style: &egui::Style) -> f32 {
@@ -362,14 +362,14 @@ mod tests {
     /// A saved arrangement without `pane`, with one panel hidden.
     fn saved_without(pane: Pane) -> String {
         let mut dock = Dock::default();
-        dock.set(Pane::Profile, false);
+        dock.set_visible(Pane::Profile, false);
         dock.tree.remove_recursively(dock.find(pane).unwrap());
         let text = dock.to_text();
         assert!(!text.contains(&format!("\"{pane:?}\"")), "{text}");
         text
     }
 
-    fn tabs_of(dock: &Dock, pane: Pane) -> Vec<TileId> {
+    fn tabs_with(dock: &Dock, pane: Pane) -> Vec<TileId> {
         let tabs = dock.tree.tiles.parent_of(dock.find(pane).unwrap()).unwrap();
         dock.tree.tiles.get_container(tabs).unwrap().children_vec()
     }
@@ -382,14 +382,14 @@ mod tests {
                 continue;
             }
             let dock = Dock::from_text(&saved_without(pane)).expect("it can be read");
-            assert!(dock.has(pane), "{pane:?} is back");
-            assert!(!dock.has(Pane::Profile), "a hidden panel stays hidden");
+            assert!(dock.is_visible(pane), "{pane:?} is back");
+            assert!(!dock.is_visible(Pane::Profile), "a hidden panel stays hidden");
             for other in Pane::ALL.into_iter().filter(|&other| other != pane) {
                 assert_eq!(dock.find(other), whole.find(other), "{other:?} is the same tile");
-                let together = |dock: &Dock| tabs_of(dock, other).contains(&dock.find(pane).unwrap());
+                let share_tabs = |dock: &Dock| tabs_with(dock, other).contains(&dock.find(pane).unwrap());
                 assert_eq!(
-                    together(&dock),
-                    together(&whole),
+                    share_tabs(&dock),
+                    share_tabs(&whole),
                     "{pane:?} shares its tabs with {other:?} or not"
                 );
             }
@@ -400,7 +400,7 @@ mod tests {
     fn an_arrangement_without_any_panel_gains_all_and_no_arrangement_is_none() {
         let empty = Dock { tree: Tree::empty(egui::Id::unique("dock")) };
         let dock = Dock::from_text(&empty.to_text()).unwrap();
-        assert!(Pane::ALL.into_iter().all(|pane| dock.has(pane)));
+        assert!(Pane::ALL.into_iter().all(|pane| dock.is_visible(pane)));
         assert!(Dock::from_text("{").is_none());
     }
 

@@ -34,28 +34,28 @@ const VIEWS: [Pane; 3] = [Pane::Colors, Pane::Plane, Pane::Profile];
 
 /// The open dialog, and the system's file dialog that may be open beside it.
 pub struct Dialogs {
-    question: Option<Dialog>,
+    dialog: Option<Dialog>,
     path: String,
     kind: ExportKind,
     options: ExportOptions,
     view: Pane,
     size_px: [u32; 2],
     view_export: Option<ViewExport>,
-    browsing: Option<Task<Option<PathBuf>>>,
+    system_dialog: Option<Task<Option<PathBuf>>>,
     focus: bool,
 }
 
 impl Default for Dialogs {
     fn default() -> Self {
         Self {
-            question: None,
+            dialog: None,
             path: String::new(),
             kind: ExportKind::Matte,
             options: ExportOptions::default(),
             view: Pane::Colors,
             size_px: [1800, 1200],
             view_export: None,
-            browsing: None,
+            system_dialog: None,
             focus: false,
         }
     }
@@ -63,9 +63,9 @@ impl Default for Dialogs {
 
 impl Dialogs {
     /// Opens the dialog of a question.
-    pub fn ask(&mut self, question: Dialog) {
-        (self.question, self.focus, self.options.force) = (Some(question), true, false);
-        match question {
+    pub fn open(&mut self, dialog: Dialog) {
+        (self.dialog, self.focus, self.options.force) = (Some(dialog), true, false);
+        match dialog {
             Dialog::Export | Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace => {
                 self.path.clear();
             }
@@ -76,16 +76,16 @@ impl Dialogs {
 
     /// Closes the open dialog on Escape, before Escape clears the selection.
     pub fn close_on_escape(&mut self, ctx: &egui::Context) {
-        if self.question.is_some() && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
-            self.question = None;
+        if self.dialog.is_some() && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+            self.dialog = None;
         }
     }
 
     /// Shows the open dialog. Returns the view that is to be drawn, when that was chosen.
     pub fn show(&mut self, ui: &Ui, cx: &mut PanelContext) -> Option<ViewExport> {
-        self.take_answer(ui);
-        let question = self.question?;
-        let title = match question {
+        self.take_chosen_path(ui);
+        let dialog = self.dialog?;
+        let title = match dialog {
             Dialog::Open => "Open",
             Dialog::LoadParameters => "Load parameters",
             Dialog::SaveParameters => "Save parameters",
@@ -95,20 +95,20 @@ impl Dialogs {
         };
         let mut open = true;
         let window = egui::Window::new(title).open(&mut open).collapsible(false).resizable(false);
-        let answered = window
+        let is_done = window
             .default_width(480.0)
             .anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 64.0))
             .show(ui.ctx(), |ui| {
-                if question == Dialog::Export {
+                if dialog == Dialog::Export {
                     self.export_kinds(ui, cx);
                 }
-                let answered = self.path_row(ui, question, cx);
-                if question == Dialog::Open { Self::samples_and_recent(ui, cx) || answered } else { answered }
+                let is_done = self.path_row(ui, dialog, cx);
+                if dialog == Dialog::Open { Self::samples_and_recent(ui, cx) || is_done } else { is_done }
             })
             .and_then(|shown| shown.inner)
             .unwrap_or(false);
-        if answered || !open {
-            self.question = None;
+        if is_done || !open {
+            self.dialog = None;
         }
         self.view_export.take()
     }
@@ -116,14 +116,14 @@ impl Dialogs {
     /// The kinds of export, and the options of the chosen kind.
     fn export_kinds(&mut self, ui: &mut Ui, cx: &PanelContext) {
         if self.path.is_empty() {
-            self.path = proposed(self.kind, cx).display().to_string();
+            self.path = proposed_path(self.kind, cx).display().to_string();
         }
         for kind in ExportKind::ALL.into_iter().filter(|kind| kind.is_offered()) {
             let available = kind.is_available(cx.state) && (kind != ExportKind::View || cx.gpu.is_some());
             let radio = ui.add_enabled(available, egui::RadioButton::new(self.kind == kind, kind.title()));
             if radio.on_hover_text(kind.tip()).on_disabled_hover_text(kind.tip()).clicked() {
                 self.kind = kind;
-                self.path = proposed(kind, cx).display().to_string();
+                self.path = proposed_path(kind, cx).display().to_string();
             }
         }
         ui.add_space(4.0);
@@ -163,14 +163,14 @@ impl Dialogs {
     }
 
     /// Shows the path's field and the buttons. Returns whether the question was answered.
-    fn path_row(&mut self, ui: &mut Ui, question: Dialog, cx: &mut PanelContext) -> bool {
-        let verb = match question {
+    fn path_row(&mut self, ui: &mut Ui, dialog: Dialog, cx: &mut PanelContext) -> bool {
+        let button_text = match dialog {
             Dialog::Open | Dialog::OpenWorkspace => "Open",
             Dialog::LoadParameters => "Load",
             Dialog::SaveParameters | Dialog::SaveWorkspace => "Save",
             Dialog::Export => "Export",
         };
-        let mut go = false;
+        let mut confirmed = false;
         ui.horizontal(|ui| {
             let label = ui.label("Path");
             let field = egui::TextEdit::singleline(&mut self.path).desired_width(300.0);
@@ -178,24 +178,24 @@ impl Dialogs {
             if std::mem::take(&mut self.focus) {
                 response.request_focus();
             }
-            go |= response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            let browse = ui.add_enabled(self.browsing.is_none(), egui::Button::new("Browse\u{2026}"));
+            confirmed |= response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            let browse = ui.add_enabled(self.system_dialog.is_none(), egui::Button::new("Browse\u{2026}"));
             if browse.on_hover_text("The system's own dialog, where it has one.").clicked() {
-                self.browse(ui.ctx(), question);
+                self.browse(ui.ctx(), dialog);
             }
             let ready = !self.path.trim().is_empty();
-            go |= ui
-                .add_enabled(ready, egui::Button::new(RichText::new(verb).color(cx.tones.accent)))
+            confirmed |= ui
+                .add_enabled(ready, egui::Button::new(RichText::new(button_text).color(cx.palette.accent)))
                 .clicked();
-            go &= ready;
+            confirmed &= ready;
         });
-        if go {
+        if confirmed {
             let path = expanded(self.path.trim());
-            if question == Dialog::Export && self.kind == ExportKind::View {
+            if dialog == Dialog::Export && self.kind == ExportKind::View {
                 self.view_export = Some(ViewExport { pane: self.view, size_px: self.size_px, path });
-                return go;
+                return confirmed;
             }
-            cx.send(match question {
+            cx.send(match dialog {
                 Dialog::Open if is_workspace(&path) => JobCommand::OpenWorkspace(path),
                 Dialog::Open => JobCommand::Open(Origin::File(path)),
                 Dialog::LoadParameters => JobCommand::LoadParams(path),
@@ -207,14 +207,14 @@ impl Dialogs {
                 }
             });
         }
-        go
+        confirmed
     }
 
     /// Shows the sample scenes and the photographs opened before. Returns whether one was chosen.
     fn samples_and_recent(ui: &mut Ui, cx: &mut PanelContext) -> bool {
         let mut chosen = None;
         ui.add_space(4.0);
-        super::widgets::heading(ui, cx.tones, "Sample scenes");
+        super::widgets::heading(ui, cx.palette, "Sample scenes");
         for sample in &SAMPLES {
             let tip = format!("{} Rendered, with its ground truth.", sample.about);
             if ui.link(sample.name).on_hover_text(tip).clicked() {
@@ -222,7 +222,7 @@ impl Dialogs {
             }
         }
         if !cx.state.recent.is_empty() {
-            super::widgets::heading(ui, cx.tones, "Recent");
+            super::widgets::heading(ui, cx.palette, "Recent");
             for path in &cx.state.recent {
                 let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
                 if ui.link(name).on_hover_text(path.display().to_string()).clicked() {
@@ -230,16 +230,16 @@ impl Dialogs {
                 }
             }
         }
-        let any = chosen.is_some();
+        let is_chosen = chosen.is_some();
         if let Some(origin) = chosen {
             cx.send(JobCommand::Open(origin));
         }
-        any
+        is_chosen
     }
 
-    fn browse(&mut self, ctx: &egui::Context, question: Dialog) {
-        let folder = question == Dialog::Export && self.kind.is_folder();
-        let writes = matches!(question, Dialog::SaveParameters | Dialog::SaveWorkspace | Dialog::Export);
+    fn browse(&mut self, ctx: &egui::Context, dialog: Dialog) {
+        let folder = dialog == Dialog::Export && self.kind.is_folder();
+        let writes = matches!(dialog, Dialog::SaveParameters | Dialog::SaveWorkspace | Dialog::Export);
         let start = expanded(&self.path);
         let ask = move || {
             let mut dialog = rfd::AsyncFileDialog::new();
@@ -260,12 +260,12 @@ impl Dialogs {
             });
             answer.map(|file| file.path().to_path_buf())
         };
-        self.browsing = Task::start(ctx, "file dialog", ask);
+        self.system_dialog = Task::start(ctx, "file dialog", ask);
     }
 
     /// Takes the path that was chosen in the system's dialog.
-    fn take_answer(&mut self, ui: &Ui) {
-        if let Some(answer) = Task::take(&mut self.browsing) {
+    fn take_chosen_path(&mut self, ui: &Ui) {
+        if let Some(answer) = Task::take(&mut self.system_dialog) {
             if let Some(path) = answer {
                 self.path = path.display().to_string();
                 self.focus = true;
@@ -276,7 +276,7 @@ impl Dialogs {
 }
 
 /// The proposed path of an export: beside the photograph, or in the working directory.
-fn proposed(kind: ExportKind, cx: &PanelContext) -> PathBuf {
+fn proposed_path(kind: ExportKind, cx: &PanelContext) -> PathBuf {
     let picture = cx.state.picture.as_ref();
     let photo = picture.and_then(|picture| picture.origin.path());
     let folder = photo.and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();

@@ -1,6 +1,6 @@
 //! Icons on buttons, drawn as lines.
 
-use super::theme::Tones;
+use super::theme::Palette;
 use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
 /// An icon on a button.
@@ -22,9 +22,9 @@ pub enum Icon {
 pub const SIDE_PT: f32 = 22.0;
 
 /// A button that is on or off. `name` is its accessible name; `draw` paints the icon into a square, in a color.
-pub fn sign_button(
+pub fn icon_button(
     ui: &mut Ui,
-    tones: &Tones,
+    palette: &Palette,
     on: bool,
     name: &str,
     tip: &str,
@@ -34,22 +34,22 @@ pub fn sign_button(
     response
         .widget_info(|| egui::WidgetInfo::selected(egui::accesskit::Role::Button, ui.is_enabled(), on, name));
     let ground = match (on, response.hovered() || response.has_focus()) {
-        (true, _) => tones.accent.gamma_multiply(0.3),
-        (false, true) => tones.line,
+        (true, _) => palette.accent.gamma_multiply(0.3),
+        (false, true) => palette.line,
         (false, false) => Color32::TRANSPARENT,
     };
     ui.painter().rect_filled(rect, 3.0, ground);
     let color = match (ui.is_enabled(), on) {
-        (false, _) => tones.quiet.gamma_multiply(0.5),
-        (true, true) => tones.text,
-        (true, false) => tones.text.gamma_multiply(0.75),
+        (false, _) => palette.secondary.gamma_multiply(0.5),
+        (true, true) => palette.text,
+        (true, false) => palette.text.gamma_multiply(0.75),
     };
     draw(ui.painter(), rect.shrink(4.0), color);
     response.on_hover_text(tip)
 }
 
 /// A button with an icon; `name` is its accessible name.
-pub fn button(ui: &mut Ui, tones: &Tones, icon: Icon, selected: bool, name: &str) -> Response {
+pub fn button(ui: &mut Ui, palette: &Palette, icon: Icon, selected: bool, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ui.spacing().interact_size.y), Sense::click());
     response.widget_info(|| {
         egui::WidgetInfo::selected(egui::accesskit::Role::Button, ui.is_enabled(), selected, name)
@@ -64,7 +64,7 @@ pub fn button(ui: &mut Ui, tones: &Tones, icon: Icon, selected: bool, name: &str
             egui::StrokeKind::Inside,
         );
     }
-    let color = if selected { tones.accent } else { tones.text };
+    let color = if selected { palette.accent } else { palette.text };
     paint(ui.painter(), icon, rect.shrink(4.0), color);
     response
 }

@@ -3,7 +3,7 @@
 use super::action::{Action, DebugAction};
 use super::dock::{Dock, Pane};
 use super::files::{Dialog, Dialogs};
-use super::move_cursor::{move_cursor, selected};
+use super::move_cursor::{move_cursor, selected_goal};
 use super::shortcuts::keys_of;
 use super::{PanelContext, status};
 use crate::app::{Edit, Grain, JobCommand, ViewCommand, analyze_call};
@@ -41,7 +41,7 @@ fn item(ui: &mut Ui, text: &str, action: Action, enabled: bool) -> bool {
 
 fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
     if item(ui, "Open\u{2026}", Action::Open, true) {
-        dialogs.ask(Dialog::Open);
+        dialogs.open(Dialog::Open);
     }
     ui.menu_button("Open recent", |ui| {
         for path in &cx.state.recent {
@@ -65,14 +65,14 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
     ui.menu_button("Read as", |ui| read_as(ui, cx));
     ui.separator();
     if ui.button("Open workspace\u{2026}").clicked() {
-        dialogs.ask(Dialog::OpenWorkspace);
+        dialogs.open(Dialog::OpenWorkspace);
     }
     let open = cx.state.picture.is_some();
     if item(ui, "Save workspace\u{2026}", Action::Save, open) {
-        dialogs.ask(Dialog::SaveWorkspace);
+        dialogs.open(Dialog::SaveWorkspace);
     }
     if item(ui, "Export\u{2026}", Action::Export, cx.state.shown().is_some()) {
-        dialogs.ask(Dialog::Export);
+        dialogs.open(Dialog::Export);
     }
     ui.separator();
     if ui.button("Quit").clicked() {
@@ -144,9 +144,9 @@ fn edit(ui: &mut Ui, cx: &mut PanelContext) {
 
 fn view(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock) {
     for pane in Pane::ALL {
-        let mut visible = dock.has(pane);
+        let mut visible = dock.is_visible(pane);
         if ui.checkbox(&mut visible, pane.title()).changed() {
-            dock.set(pane, visible);
+            dock.set_visible(pane, visible);
         }
     }
     if ui.button("Arrange as at first").clicked() {
@@ -164,13 +164,13 @@ fn view(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock) {
 fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
     use crate::app::Direction::{Back, Forward};
     let (traced, playing) = (cx.state.debugger.replay.is_some(), cx.state.debugger.playing);
-    let any = cx.state.view.debug.breakpoints.iter().any(|breakpoint| breakpoint.enabled);
-    let goal = traced && selected(cx.state).is_some();
+    let any_breakpoint = cx.state.view.debug.breakpoints.iter().any(|breakpoint| breakpoint.enabled);
+    let goal = traced && selected_goal(cx.state).is_some();
     let record = if cx.state.view.debug.open { "Stop recording" } else { "Record" };
     let play = if playing.is_some() { "Pause" } else { "Play" };
     let back = if playing == Some(Back) { "Pause" } else { "Play backwards" };
-    let mut row = |ui: &mut Ui, words: &str, action: DebugAction, enabled: bool| {
-        if item(ui, words, Action::Debug(action), enabled) {
+    let mut row = |ui: &mut Ui, text: &str, action: DebugAction, enabled: bool| {
+        if item(ui, text, Action::Debug(action), enabled) {
             move_cursor(action, cx);
         }
     };
@@ -181,22 +181,22 @@ fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
     row(ui, "Into the next hypothesis", DebugAction::Into, traced);
     ui.separator();
     for grain in [Grain::Stage, Grain::Hypothesis, Grain::Event, Grain::Claim] {
-        for (way, words) in [(Forward, "forward"), (Back, "back")] {
-            let words = format!("{} {words}", in_capitals(grain.name()));
-            row(ui, &words, DebugAction::Step(grain, way), traced);
+        for (direction, text) in [(Forward, "forward"), (Back, "back")] {
+            let text = format!("{} {text}", capitalized(grain.name()));
+            row(ui, &text, DebugAction::Step(grain, direction), traced);
         }
     }
     row(ui, "To the beginning", DebugAction::Start, traced);
     row(ui, "To the result", DebugAction::End, traced);
     ui.separator();
-    row(ui, "Next breakpoint", DebugAction::Breakpoint(Forward), traced && any);
-    row(ui, "Breakpoint before", DebugAction::Breakpoint(Back), traced && any);
+    row(ui, "Next breakpoint", DebugAction::Breakpoint(Forward), traced && any_breakpoint);
+    row(ui, "Breakpoint before", DebugAction::Breakpoint(Back), traced && any_breakpoint);
     row(ui, "Next change of what is selected", DebugAction::Change(Forward), goal);
     row(ui, "Change before, of what is selected", DebugAction::Change(Back), goal);
 }
 
 /// A word with a capital first letter.
-fn in_capitals(word: &str) -> String {
+fn capitalized(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
@@ -224,15 +224,15 @@ fn analyze(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
         }
     });
     if ui.button("Load parameters\u{2026}").clicked() {
-        dialogs.ask(Dialog::LoadParameters);
+        dialogs.open(Dialog::LoadParameters);
     }
     if ui.button("Save parameters\u{2026}").clicked() {
-        dialogs.ask(Dialog::SaveParameters);
+        dialogs.open(Dialog::SaveParameters);
     }
     ui.separator();
     let pinned = cx.state.pinned.is_some();
-    let words = if pinned { "Let the pinned result go" } else { "Pin this result to compare with" };
-    if item(ui, words, Action::Pin, cx.state.newest.is_some()) {
+    let text = if pinned { "Let the pinned result go" } else { "Pin this result to compare with" };
+    if item(ui, text, Action::Pin, cx.state.newest.is_some()) {
         cx.send(ViewCommand::Pin(!pinned));
     }
     if item(ui, "Show the other of the two", Action::Swap, pinned) {

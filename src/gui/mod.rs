@@ -5,6 +5,7 @@
 
 mod action;
 mod app;
+mod background_value;
 mod breakpoints_panel;
 mod compare_panel;
 mod cube_panel;
@@ -12,7 +13,7 @@ mod dock;
 mod files;
 mod icons;
 mod image_panel;
-mod later;
+mod instant_key;
 mod menu;
 mod move_cursor;
 mod notices;
@@ -27,13 +28,13 @@ mod regions_panel;
 mod screenshot;
 mod selection_panel;
 mod shortcuts;
+mod skewed_t_test;
 mod status;
 mod task;
 #[doc(hidden)]
 pub mod testing;
 mod theme;
 mod timeline_panel;
-mod verdict;
 mod view_export;
 mod watch_panel;
 mod why_panel;

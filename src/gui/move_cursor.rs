@@ -11,8 +11,9 @@ pub fn move_cursor(action: DebugAction, cx: &mut PanelContext) {
     let state = cx.state;
     let command = match action {
         DebugAction::Play(direction) => {
-            let rests = state.debugger.playing.is_some_and(|way| way == direction || direction == Forward);
-            DebugCommand::Play((!rests).then_some(direction))
+            let stops =
+                state.debugger.playing.is_some_and(|playing| playing == direction || direction == Forward);
+            DebugCommand::Play((!stops).then_some(direction))
         }
         DebugAction::Step(grain, direction) => DebugCommand::Step(grain, direction),
         DebugAction::Start => DebugCommand::Seek(0),
@@ -20,7 +21,7 @@ pub fn move_cursor(action: DebugAction, cx: &mut PanelContext) {
         DebugAction::Into => DebugCommand::Into,
         DebugAction::Breakpoint(direction) => DebugCommand::RunTo(Goal::Breakpoint, direction),
         DebugAction::Change(direction) => {
-            let Some(goal) = selected(state) else {
+            let Some(goal) = selected_goal(state) else {
                 let text = "changes of what: select a region, or with Alt + click a pixel".to_owned();
                 return cx.send(ViewCommand::Notify(Severity::Warning, text));
             };
@@ -35,7 +36,7 @@ pub fn move_cursor(action: DebugAction, cx: &mut PanelContext) {
 }
 
 /// The selected item, as a goal to run to.
-pub fn selected(state: &State) -> Option<Goal> {
+pub fn selected_goal(state: &State) -> Option<Goal> {
     let names = &state.debugger.names;
     if let Some(pixel) = state.explained_pixel() {
         return Some(Goal::Pixel(pixel));

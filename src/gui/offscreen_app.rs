@@ -7,13 +7,13 @@ use crate::gpu::Headless;
 use egui_wgpu::WgpuSetupExisting;
 
 /// An application that is drawn without a window.
-pub struct Offscreen {
+pub struct OffscreenApp {
     /// The application.
     pub app: App,
     offscreen_context: OffscreenContext,
 }
 
-impl Offscreen {
+impl OffscreenApp {
     /// An application without a photograph, in an image of `size_px` columns and rows.
     ///
     /// # Errors

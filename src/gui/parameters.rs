@@ -31,14 +31,14 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
             for parameter in Parameter::ALL {
                 row(ui, cx, parameter);
             }
-            by_hand(ui, cx);
+            given_by_hand(ui, cx);
             switches(ui, cx);
         });
     });
 }
 
 fn method(ui: &mut Ui, cx: &mut PanelContext) {
-    let now = cx.state.document.params.method;
+    let current = cx.state.document.params.method;
     ui.horizontal(|ui| {
         let tip =
             "Refined: the paper's algorithm with switches below. Paper: as written in 1990 (section 5).";
@@ -46,12 +46,12 @@ fn method(ui: &mut Ui, cx: &mut PanelContext) {
             label(ui, "method", tip);
         }
         for (choice, name) in [(Method::Refined, "refined"), (Method::Paper, "paper")] {
-            if ui.selectable_label(now == choice, name).on_hover_text(tip).clicked() {
+            if ui.selectable_label(current == choice, name).on_hover_text(tip).clicked() {
                 cx.send(Edit::SetMethod(choice));
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let defaults = Params::of(now);
+            let defaults = Params::of(current);
             let changed = cx.state.document.params != defaults;
             if ui
                 .add_enabled(changed, Button::new("Reset").small())
@@ -79,7 +79,7 @@ fn label(ui: &mut Ui, text: &str, tip: &str) -> egui::Response {
 /// The cells of a row, the same in every row.
 struct Columns {
     label: Cell,
-    rail: Cell,
+    slider: Cell,
     value: Cell,
     unit: Cell,
     auto: Cell,
@@ -102,7 +102,7 @@ impl Columns {
         // In a narrow panel the tooltips tell the units.
         let (label, unit) =
             if row.width() < NARROW_PT { (NARROW_LABEL_PT, 0.0) } else { (LABEL_PT, UNIT_PT) };
-        let rail = (row.width() - label - VALUE_PT - unit - AUTO_PT - 4.0 * GAP_PT).max(20.0);
+        let slider = (row.width() - label - VALUE_PT - unit - AUTO_PT - 4.0 * GAP_PT).max(20.0);
         let mut cell = |width: f32| {
             let rect = egui::Rect::from_min_size(egui::pos2(left, row.top()), vec2(width, row.height()));
             left += width + GAP_PT;
@@ -110,7 +110,7 @@ impl Columns {
         };
         Self {
             label: cell(label),
-            rail: cell(rail),
+            slider: cell(slider),
             value: cell(VALUE_PT),
             unit: cell(unit),
             auto: cell(AUTO_PT),
@@ -133,23 +133,23 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
     ui.scope(|ui| {
         let name = egui::Label::new(spec.title).truncate().selectable(false).sense(Sense::click());
         let name = columns.label.show(ui, name).on_hover_text(&tip);
-        ui.spacing_mut().slider_width = columns.rail.0.width();
+        ui.spacing_mut().slider_width = columns.slider.0.width();
         let slider = Slider::new(&mut value, spec.slider.range[0]..=spec.slider.range[1])
             .show_value(false)
             .step_by(spec.slider.step)
             .logarithmic(spec.slider.logarithmic)
             .clamping(egui::SliderClamping::Never);
         // No tooltip here: it would hide the rows below from the hand that drags.
-        let slider = widgets::clickable(&columns.rail.show(ui, slider));
+        let slider = widgets::clickable(&columns.slider.show(ui, slider));
         slider.widget_info(|| egui::WidgetInfo::slider(true, value, spec.title));
         let decimals = usize::from(spec.slider.step < 1.0) * 2;
-        let typed = DragValue::new(&mut value)
+        let field = DragValue::new(&mut value)
             .speed(spec.slider.step)
             .range(spec.range[0]..=spec.range[1])
             .fixed_decimals(decimals);
-        let typed = ui.put(columns.value.0, typed).on_hover_text(&tip);
-        typed.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, spec.name));
-        let unit = RichText::new(spec.unit).size(SMALL_PT).color(cx.tones.quiet);
+        let field = ui.put(columns.value.0, field).on_hover_text(&tip);
+        field.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, spec.name));
+        let unit = RichText::new(spec.unit).size(SMALL_PT).color(cx.palette.secondary);
         if columns.unit.0.width() > 0.0 {
             columns.unit.show(ui, egui::Label::new(unit).truncate());
         }
@@ -168,7 +168,7 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
         if name.double_clicked() || slider.double_clicked() {
             let default = Params::of(cx.state.document.params.method).get(parameter);
             cx.send(Edit::SetParameter(parameter, default, None));
-        } else if slider.changed() || typed.changed() {
+        } else if slider.changed() || field.changed() {
             let value = if spec.whole { value.round() } else { value };
             let value = value.clamp(spec.range[0], spec.range[1]);
             cx.send(Edit::SetParameter(parameter, Setting::Value(value), Some(gesture)));
@@ -176,16 +176,16 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
             let setting = if automatic { Setting::Value(value) } else { Setting::Auto };
             cx.send(Edit::SetParameter(parameter, setting, None));
         }
-        let let_go = slider.drag_stopped() || slider.clicked() || slider.lost_focus();
-        if let_go || typed.drag_stopped() || typed.lost_focus() {
+        let is_released = slider.drag_stopped() || slider.clicked() || slider.lost_focus();
+        if is_released || field.drag_stopped() || field.lost_focus() {
             cx.send(Edit::EndGesture);
         }
     });
 }
 
 /// The pinned illuminant, the ambient light and the outlined area.
-fn by_hand(ui: &mut Ui, cx: &mut PanelContext) {
-    widgets::heading(ui, cx.tones, "By hand");
+fn given_by_hand(ui: &mut Ui, cx: &mut PanelContext) {
+    widgets::heading(ui, cx.palette, "By hand");
     illuminant(ui, cx);
     ambient(ui, cx);
     let (area, marked) = (&cx.state.document.area, &cx.state.document.selection.marked);
@@ -200,7 +200,7 @@ fn by_hand(ui: &mut Ui, cx: &mut PanelContext) {
             // In a narrow panel the button alone has room.
             None if narrow => {}
             None => {
-                ui.label(RichText::new("whole picture").color(cx.tones.quiet));
+                ui.label(RichText::new("whole picture").color(cx.palette.secondary));
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -224,7 +224,7 @@ fn illuminant(ui: &mut Ui, cx: &mut PanelContext) {
     let setting = cx.state.document.params.illuminant;
     let given = setting.direction();
     // As it was typed: a unit vector would turn with each digit.
-    let typed = match setting {
+    let field = match setting {
         IlluminantSetting::Given(bands) if bands.iter().all(|&band| band <= 1.0) => Some(bands),
         _ => given,
     };
@@ -232,9 +232,9 @@ fn illuminant(ui: &mut Ui, cx: &mut PanelContext) {
         cx.state.newest.as_ref().and_then(|shown| shown.analysis.illuminant).map(|light| light.direction);
     let tip =
         "The color of the light. Found, or given: then every dichromatic plane turns to it (section 5.4).";
-    let mut direction = typed.or(found).unwrap_or([1.0, 1.0, 1.0].map(|v: f64| v / 3f64.sqrt()));
+    let mut direction = field.or(found).unwrap_or([1.0, 1.0, 1.0].map(|v: f64| v / 3f64.sqrt()));
     let field = Bands { name: "illuminant", tip, most: 1.0, speed: 0.002, decimals: 3 };
-    let [changed, rested] = field.show(ui, &mut direction, |ui| {
+    let [changed, released] = field.show(ui, &mut direction, |ui| {
         let pin = Button::selectable(given.is_some(), RichText::new("pin").size(SMALL_PT));
         let pin = ui.add_enabled(given.is_some() || found.is_some(), pin);
         pin.widget_info(|| {
@@ -248,7 +248,7 @@ fn illuminant(ui: &mut Ui, cx: &mut PanelContext) {
     if changed {
         cx.send(Edit::PinIlluminant(Some(direction), Some(Gesture::Illuminant)));
     }
-    if rested {
+    if released {
         cx.send(Edit::EndGesture);
     }
 }
@@ -265,7 +265,7 @@ fn ambient(ui: &mut Ui, cx: &mut PanelContext) {
         AmbientSetting::Auto => found.and_then(|ambient| ambient.subtracted).unwrap_or_default(),
     };
     let field = Bands { name: "ambient", tip, most: 200.0, speed: 0.1, decimals: 1 };
-    let [changed, rested] = field.show(ui, &mut counts, |ui| {
+    let [changed, released] = field.show(ui, &mut counts, |ui| {
         let auto = setting == AmbientSetting::Auto;
         let button = ui.add(Button::selectable(auto, RichText::new("auto").size(SMALL_PT)));
         button.widget_info(|| {
@@ -280,7 +280,7 @@ fn ambient(ui: &mut Ui, cx: &mut PanelContext) {
     if changed {
         cx.send(Edit::SetAmbient(AmbientSetting::Given(counts), Some(Gesture::Ambient)));
     }
-    if rested {
+    if released {
         cx.send(Edit::EndGesture);
     }
 }
@@ -301,7 +301,7 @@ impl Bands {
         if narrow {
             label(ui, self.name, self.tip);
         }
-        let (mut changed, mut rested) = (false, false);
+        let (mut changed, mut released) = (false, false);
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = GAP_PT;
             if !narrow {
@@ -319,18 +319,19 @@ impl Bands {
                 });
                 let field = field.on_hover_text(self.tip);
                 changed |= field.changed();
-                rested |= field.drag_stopped() || field.lost_focus();
+                released |= field.drag_stopped() || field.lost_focus();
             }
             ui.with_layout(Layout::right_to_left(Align::Center), end);
         });
-        [changed, rested]
+        [changed, released]
     }
 }
 
 fn switches(ui: &mut Ui, cx: &mut PanelContext) {
     let params = cx.state.document.params;
     let refined = params.method == Method::Refined;
-    let open = egui::CollapsingHeader::new(RichText::new("Refinements").size(SMALL_PT).color(cx.tones.quiet));
+    let open =
+        egui::CollapsingHeader::new(RichText::new("Refinements").size(SMALL_PT).color(cx.palette.secondary));
     open.default_open(true).show(ui, |ui| {
         ui.add_enabled_ui(refined, |ui| {
             for switch in Switch::ALL {

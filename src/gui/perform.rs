@@ -10,9 +10,9 @@ use crate::view::{Item, Tool};
 /// Carries out an action: sends its command, or opens a dialog or the list of keys (`help`).
 pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dialogs, help: &mut bool) {
     match action {
-        Action::Open => dialogs.ask(files::Dialog::Open),
-        Action::Export => dialogs.ask(files::Dialog::Export),
-        Action::Save => dialogs.ask(files::Dialog::SaveWorkspace),
+        Action::Open => dialogs.open(files::Dialog::Open),
+        Action::Export => dialogs.open(files::Dialog::Export),
+        Action::Save => dialogs.open(files::Dialog::SaveWorkspace),
         Action::Help => *help = !*help,
         Action::Undo => cx.send(Edit::Undo),
         Action::Redo => cx.send(Edit::Redo),
@@ -25,7 +25,7 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
                 cx.send(Edit::ClearSelection);
             }
         }
-        Action::Region(next) => step_region(cx, next),
+        Action::Region(next) => select_adjacent_region(cx, next),
         Action::Pin => cx.send(ViewCommand::Pin(cx.state.pinned.is_none())),
         Action::Swap => cx.send(ViewCommand::ShowPinned(!cx.state.view.show_pinned)),
         Action::Theme => {
@@ -34,12 +34,12 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
         }
         Action::Debug(action) => move_cursor(action, cx),
         Action::Layer(_) | Action::Tool(_) | Action::Fit | Action::OneToOne | Action::Outline => {
-            look(action, cx);
+            change_image_view(action, cx);
         }
     }
 }
 
-fn look(action: Action, cx: &mut PanelContext) {
+fn change_image_view(action: Action, cx: &mut PanelContext) {
     use crate::view::Fill;
     let mut image = cx.state.view.image.clone();
     match action {
@@ -66,7 +66,7 @@ fn mark_region(cx: &mut PanelContext) {
     cx.send(Edit::Mark(std::sync::Arc::new(mask), Combine::Replace, None));
 }
 
-fn step_region(cx: &mut PanelContext, next: bool) {
+fn select_adjacent_region(cx: &mut PanelContext, next: bool) {
     let Some(count) = cx.state.shown().map(|shown| shown.analysis.intrinsic.regions.len()) else {
         return;
     };

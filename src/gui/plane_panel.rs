@@ -15,7 +15,7 @@ use egui::{Align2, Color32, FontId, Rect, Response, RichText, Sense, Shape, Stro
 use std::sync::Arc;
 
 /// Largest distance from the pointer at which a point counts as hovered, screen points.
-const REACH_PT: f32 = 8.0;
+const HOVER_RADIUS_PT: f32 = 8.0;
 const RING_PT: f32 = 6.0;
 /// Scroll distance that zooms by the factor e, points.
 const SCROLL_PT: f32 = 260.0;
@@ -25,16 +25,16 @@ const SCROLL_PT: f32 = 260.0;
 pub struct PlanePanel {
     of: Option<(Arc<ResultSnapshot>, RegionId)>,
     /// The instant at the debugger's cursor that is shown; `None` when the result is shown.
-    frame: Option<cursor::Frame>,
+    plane_instant: Option<cursor::PlaneInstant>,
     plane: Option<RegionPlane>,
     chart: Option<Chart>,
-    cloud: Option<Cloud>,
-    hovers: bool,
+    point_mesh: Option<PointMesh>,
+    is_hovering: bool,
 }
 
 /// The points as a mesh, with the inputs that the mesh was made for.
-struct Cloud {
-    look: (Chart, Rect, bool, Theme),
+struct PointMesh {
+    inputs: (Chart, Rect, bool, Theme),
     mesh: Arc<egui::Mesh>,
 }
 
@@ -43,23 +43,27 @@ impl PlanePanel {
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let state = cx.state;
         if let Some(replay) = state.followed() {
-            return match cursor::frame(state) {
+            return match cursor::plane_instant(state) {
                 Some(frame) => self.show_instant(ui, cx, replay, frame),
-                None => widgets::nothing(ui, cx.tones, "At the cursor no region is at work."),
+                None => widgets::placeholder(ui, cx.palette, "At the cursor no region is at work."),
             };
         }
         let Some((shown, region)) = cx.state.shown().cloned().zip(cx.state.selected_region()) else {
-            widgets::nothing(ui, cx.tones, "Select a region to see its dichromatic plane.");
+            widgets::placeholder(ui, cx.palette, "Select a region to see its dichromatic plane.");
             return;
         };
         self.update(&shown, region);
         let Some(plane) = &self.plane else {
-            widgets::nothing(ui, cx.tones, "This region has no matte line, and so no dichromatic plane.");
+            widgets::placeholder(
+                ui,
+                cx.palette,
+                "This region has no matte line, and so no dichromatic plane.",
+            );
             return;
         };
-        if !cx.bare {
+        if !cx.is_export {
             let frame = egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 3));
-            frame.show(ui, |ui| kinds::bar(ui, cx, plane));
+            frame.show(ui, |ui| kinds::toolbar(ui, cx, plane));
         }
         ui.spacing_mut().item_spacing.y = 0.0;
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
@@ -73,17 +77,17 @@ impl PlanePanel {
         let chart = navigate(ui, &response, plane, self.chart, rect);
         self.chart = Some(chart);
         let painter = ui.painter_at(rect);
-        chart.axes(&painter, plane, rect, cx.tones);
-        let mesh = cloud(&mut self.cloud, cx, plane, chart, rect);
+        chart.axes(&painter, plane, rect, cx.palette);
+        let mesh = point_mesh(&mut self.point_mesh, cx, plane, chart, rect);
         painter.add(Shape::Mesh(mesh));
-        chart.skewed_t(ui, &response, plane, rect, cx.tones);
-        edge_notes(&painter, cx, plane, &shown, rect);
-        hovered(&painter, cx, plane, chart, &shown.picture, rect);
-        self.point(cx, &response, chart, rect);
+        chart.skewed_t(ui, &response, plane, rect, cx.palette);
+        paint_facts(&painter, cx, plane, &shown, rect);
+        paint_hovered(&painter, cx, plane, chart, &shown.picture, rect);
+        self.handle_pointer(cx, &response, chart, rect);
     }
 
     fn update(&mut self, shown: &Arc<ResultSnapshot>, region: RegionId) {
-        if self.frame.take().is_some() {
+        if self.plane_instant.take().is_some() {
             (self.of, self.chart) = (None, None);
         }
         let known = self.of.as_ref().map(|(shown, region)| (Arc::as_ptr(shown), *region));
@@ -95,20 +99,20 @@ impl PlanePanel {
             self.chart = None;
         }
         self.plane = region_plane(shown, region);
-        self.cloud = None;
+        self.point_mesh = None;
         self.of = Some((Arc::clone(shown), region));
     }
 
     /// Sends what the pointer does: hovering a point hovers its pixel, a click selects the pixel.
-    fn point(&mut self, cx: &mut PanelContext, response: &Response, chart: Chart, rect: Rect) {
+    fn handle_pointer(&mut self, cx: &mut PanelContext, response: &Response, chart: Chart, rect: Rect) {
         let Some(plane) = &self.plane else { return };
         let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
         let pointer = clicked.or(response.hover_pos().filter(|_| !response.dragged()));
-        let found =
-            pointer.and_then(|at| plane.nearest(chart.oblique(at, rect), REACH_PT * chart.counts_per_pt));
+        let found = pointer
+            .and_then(|at| plane.nearest(chart.oblique(at, rect), HOVER_RADIUS_PT * chart.counts_per_pt));
         let hover = found.map(|point| Item::Pixel(point.pixel));
-        let was_ours = std::mem::replace(&mut self.hovers, pointer.is_some());
-        if (self.hovers || was_ours) && cx.state.hover != hover {
+        let was_hovering = std::mem::replace(&mut self.is_hovering, pointer.is_some());
+        if (self.is_hovering || was_hovering) && cx.state.hover != hover {
             cx.send(ViewCommand::Hover(hover));
         }
         if let Some(item) = hover.filter(|_| response.clicked() && !response.double_clicked()) {
@@ -129,17 +133,17 @@ fn navigate(ui: &Ui, response: &Response, plane: &RegionPlane, chart: Option<Cha
 }
 
 /// The points as a mesh of two triangles each, rebuilt when chart, coloring or theme change.
-fn cloud(
-    kept: &mut Option<Cloud>,
+fn point_mesh(
+    kept: &mut Option<PointMesh>,
     cx: &PanelContext,
     plane: &RegionPlane,
     chart: Chart,
     rect: Rect,
 ) -> Arc<egui::Mesh> {
     let by_label = cx.state.view.plane.color_by_label;
-    let look = (chart, rect, by_label, cx.state.view.theme);
-    if let Some(cloud) = kept.as_ref().filter(|cloud| cloud.look == look) {
-        return Arc::clone(&cloud.mesh);
+    let inputs = (chart, rect, by_label, cx.state.view.theme);
+    if let Some(point_mesh) = kept.as_ref().filter(|point_mesh| point_mesh.inputs == inputs) {
+        return Arc::clone(&point_mesh.mesh);
     }
     let mut mesh = egui::Mesh::default();
     mesh.reserve_vertices(4 * plane.points.len());
@@ -157,12 +161,12 @@ fn cloud(
         }
     }
     let mesh = Arc::new(mesh);
-    *kept = Some(Cloud { look, mesh: Arc::clone(&mesh) });
+    *kept = Some(PointMesh { inputs, mesh: Arc::clone(&mesh) });
     mesh
 }
 
 /// Writes angle, slice width and noise into the upper left corner, or why the region has no plane.
-fn edge_notes(
+fn paint_facts(
     painter: &egui::Painter,
     cx: &PanelContext,
     plane: &RegionPlane,
@@ -189,7 +193,7 @@ fn edge_notes(
         )
     };
     let corner = rect.left_top() + vec2(8.0, 4.0);
-    painter.text(corner, Align2::LEFT_TOP, text, FontId::proportional(SMALL_PT), cx.tones.quiet);
+    painter.text(corner, Align2::LEFT_TOP, text, FontId::proportional(SMALL_PT), cx.palette.secondary);
 }
 
 /// A line of text that lists the highlights on different shades (section 7.4); empty for fewer than two.
@@ -202,7 +206,7 @@ fn several_highlights(branches: &[PlaneBranch]) -> String {
 }
 
 /// Paints a ring around the color that is hovered in any panel, and writes its amounts of body, surface and noise.
-fn hovered(
+fn paint_hovered(
     painter: &egui::Painter,
     cx: &PanelContext,
     plane: &RegionPlane,
@@ -219,7 +223,7 @@ fn hovered(
     let at = chart.screen(plane.oblique(amounts.body, amounts.surface), rect);
     let elsewhere = |item| matches!(item, Item::Pixel(_)) && cx.state.region_of(item) != plane.region;
     let inside = !cx.state.hover.is_some_and(elsewhere);
-    let color = if inside { cx.tones.accent } else { cx.tones.quiet };
+    let color = if inside { cx.palette.accent } else { cx.palette.secondary };
     painter.circle_stroke(at, RING_PT, Stroke::new(3.5, Color32::from_black_alpha(140)));
     painter.circle_stroke(at, RING_PT, Stroke::new(1.6, color));
     let other = if inside { "" } else { "   not in this region" };
@@ -227,10 +231,10 @@ fn hovered(
         [amounts.body, amounts.surface, amounts.noise].map(|v| format!("{v:.1}").replace('-', "\u{2212}"));
     let text = format!("m_b {body}   m_s {surface}   \u{3b5} {noise}{other}");
     let corner = rect.right_top() + vec2(-8.0, 4.0);
-    painter.text(corner, Align2::RIGHT_TOP, text, FontId::proportional(SMALL_PT), cx.tones.text);
+    painter.text(corner, Align2::RIGHT_TOP, text, FontId::proportional(SMALL_PT), cx.palette.text);
 }
 
 /// Small text in the secondary color.
-fn quiet(cx: &PanelContext, text: &str) -> RichText {
-    RichText::new(text).size(SMALL_PT).color(cx.tones.quiet)
+fn secondary_text(cx: &PanelContext, text: &str) -> RichText {
+    RichText::new(text).size(SMALL_PT).color(cx.palette.secondary)
 }

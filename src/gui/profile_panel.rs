@@ -8,12 +8,12 @@ use egui::{Color32, Ui};
 use egui_plot::{Corner, HoverPosition, Legend, Line, Plot, PlotPoints, VLine};
 
 /// Identity of the samples: generation of the result, and the line's ends, hundredths of a pixel.
-type Key = (u64, [[i64; 2]; 2]);
+type SamplesKey = (u64, [[i64; 2]; 2]);
 
 /// The profile panel.
 #[derive(Default)]
 pub struct ProfilePanel {
-    samples: Option<(Key, Vec<ProfileSample>)>,
+    samples: Option<(SamplesKey, Vec<ProfileSample>)>,
 }
 
 /// A curve: name, color, and the value of a sample in counts (`None` in no region).
@@ -32,9 +32,9 @@ impl ProfilePanel {
     /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let Some(picture) = cx.state.picture.clone() else {
-            return widgets::nothing(ui, cx.tones, "The profile appears when a photograph is open.");
+            return widgets::placeholder(ui, cx.palette, "The profile appears when a photograph is open.");
         };
-        let at = match cx.state.document.selection.item {
+        let selected = match cx.state.document.selection.item {
             Some(Item::Pixel(pixel)) => Some(pixel),
             _ => None,
         };
@@ -42,24 +42,24 @@ impl ProfilePanel {
             Some(Item::Pixel(pixel)) => Some(pixel),
             _ => None,
         };
-        let ends = profile_ends(cx.state.view.profile, &picture, at.or(hovered));
+        let ends = profile_ends(cx.state.view.profile, &picture, selected.or(hovered));
         let shown = cx.state.shown();
         let generation = shown.map_or(0, |shown| shown.generation);
         let key = (generation, ends.map(|end| end.map(|v| (v * 100.0) as i64)));
-        if self.samples.as_ref().is_none_or(|(made, _)| *made != key) {
+        if self.samples.as_ref().is_none_or(|(known, _)| *known != key) {
             self.samples = Some((key, profile(&picture, shown.map(AsRef::as_ref), ends)));
         }
         let Some((_, samples)) = &self.samples else { return };
         egui::Frame::new().inner_margin(egui::Margin::symmetric(8, 4)).show(ui, |ui| {
-            if !cx.bare {
-                bar(ui, cx, ends, samples, picture.size().0);
+            if !cx.is_export {
+                toolbar(ui, cx, ends, samples, picture.size().0);
             }
             plot(ui, cx, samples, hovered);
         });
     }
 }
 
-fn bar(ui: &mut Ui, cx: &mut PanelContext, ends: [[f32; 2]; 2], samples: &[ProfileSample], width: usize) {
+fn toolbar(ui: &mut Ui, cx: &mut PanelContext, ends: [[f32; 2]; 2], samples: &[ProfileSample], width: usize) {
     let now = cx.state.view.profile;
     ui.horizontal(|ui| {
         for (line, name, tip) in [
@@ -78,7 +78,8 @@ fn bar(ui: &mut Ui, cx: &mut PanelContext, ends: [[f32; 2]; 2], samples: &[Profi
         }
         let [[x0, y0], [x1, y1]] = ends.map(|end| end.map(f32::floor));
         ui.label(
-            egui::RichText::new(format!("{x0:.0}, {y0:.0} \u{2192} {x1:.0}, {y1:.0}")).color(cx.tones.quiet),
+            egui::RichText::new(format!("{x0:.0}, {y0:.0} \u{2192} {x1:.0}, {y1:.0}"))
+                .color(cx.palette.secondary),
         );
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if ui.small_button("Copy").on_hover_text("The numbers as CSV.").clicked() {
@@ -89,12 +90,12 @@ fn bar(ui: &mut Ui, cx: &mut PanelContext, ends: [[f32; 2]; 2], samples: &[Profi
 }
 
 fn plot(ui: &mut Ui, cx: &mut PanelContext, samples: &[ProfileSample], hovered: Option<PixelIndex>) {
-    let accent = cx.tones.accent;
+    let accent = cx.palette.accent;
     let plot = Plot::new("profile")
         .legend(Legend::default().position(Corner::RightTop).background_alpha(0.6))
         .x_axis_label("px along the line")
         .y_axis_label("counts")
-        .label_formatter(|at| match at {
+        .label_formatter(|selected| match selected {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 Some(format!("{plot_name}\n{:.1} counts at {:.0} px", position.y, position.x))
             }
@@ -112,7 +113,7 @@ fn plot(ui: &mut Ui, cx: &mut PanelContext, samples: &[ProfileSample], hovered: 
         if let Some(sample) = hovered.and_then(position) {
             plot.vline(VLine::new("pointer", f64::from(sample.position_px)).color(accent).width(1.0));
         }
-        plot.pointer_coordinate().map(|at| at.x)
+        plot.pointer_coordinate().map(|selected| selected.x)
     });
     let pointed = response.inner.filter(|_| response.response.hovered()).and_then(|x| {
         let distance = |sample: &&ProfileSample| (f64::from(sample.position_px) - x).abs();

@@ -1,8 +1,8 @@
 //! The regions panel: a table of the regions, and a row about the light.
 
-mod cursor;
+mod hypothesis_table;
 
-use super::theme::{SMALL_PT, Tones};
+use super::theme::{Palette, SMALL_PT};
 use super::{PanelContext, widgets};
 use crate::app::{Edit, ViewCommand};
 use crate::intrinsic::{HighlightBranch, RegionReflection};
@@ -18,7 +18,7 @@ const ROW_PT: f32 = 18.0;
 
 /// The column that the rows are sorted by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Key {
+enum SortKey {
     #[default]
     Id,
     Pixels,
@@ -31,66 +31,70 @@ enum Key {
 }
 
 /// A column: key, title, width in points, tooltip.
-const COLUMNS: [(Key, &str, f32, &str); 8] = [
-    (Key::Id, "#", 40.0, "The region's number; its color is that of the Regions layer."),
-    (Key::Pixels, "pixels", 52.0, "All its pixels, restored ones included."),
+const COLUMNS: [(SortKey, &str, f32, &str); 8] = [
+    (SortKey::Id, "#", 40.0, "The region's number; its color is that of the Regions layer."),
+    (SortKey::Pixels, "pixels", 52.0, "All its pixels, restored ones included."),
     (
-        Key::Body,
+        SortKey::Body,
         "body C_b",
         96.0,
         "Body reflection vector: unit direction of the matte line through black, red green blue (section 2.2, 6).",
     ),
     (
-        Key::Surface,
+        SortKey::Surface,
         "surface C_s",
         96.0,
         "Surface reflection vector: unit direction of the highlight line, the color of the light (section 2.2, 6).",
     ),
     (
-        Key::Angle,
+        SortKey::Angle,
         "angle",
         48.0,
         "Between body and surface vector: the smaller it is, the harder they are to tell apart (section 5.6).",
     ),
     (
-        Key::Highlight,
+        SortKey::Highlight,
         "highlight",
         58.0,
         "Pixels nearer to the highlight line than to the matte line, restored ones included (section 6).",
     ),
     (
-        Key::Rms,
+        SortKey::Rms,
         "rms",
         44.0,
         "Root mean square distance of its undistorted pixels from its dichromatic plane, counts (section 6).",
     ),
-    (Key::Warnings, "notes", 60.0, "What to beware of in this region."),
+    (SortKey::Warnings, "notes", 60.0, "What to beware of in this region."),
 ];
 
 /// The regions panel.
 #[derive(Default)]
 pub struct RegionsPanel {
-    key: Key,
+    key: SortKey,
     descending: bool,
     /// Sorting of the table of hypotheses at the debugger's cursor.
-    so_far: cursor::Sorting,
+    hypothesis_table: hypothesis_table::HypothesisTable,
 }
 
 impl RegionsPanel {
     /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let Some(shown) = cx.state.shown().cloned() else {
-            return widgets::nothing(ui, cx.tones, "Regions appear when a photograph has been analyzed.");
+            return widgets::placeholder(
+                ui,
+                cx.palette,
+                "Regions appear when a photograph has been analyzed.",
+            );
         };
         let state = cx.state;
         egui::Frame::new().inner_margin(egui::Margin::symmetric(8, 4)).show(ui, |ui| {
             if let Some(replay) = state.followed() {
-                return self.so_far.show(ui, cx, replay);
+                return self.hypothesis_table.show(ui, cx, replay);
             }
             light(ui, cx, &shown);
             if shown.analysis.intrinsic.regions.is_empty() {
                 let reason = shown.analysis.warnings.first().map_or("No region was found.", String::as_str);
-                return widgets::nothing(ui, cx.tones, reason);
+                return widgets::placeholder(ui, cx.palette, reason);
             }
             egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| self.table(ui, cx, &shown));
         });
@@ -103,7 +107,7 @@ impl RegionsPanel {
         let mut hovered = None;
         let mut table = TableBuilder::new(ui).striped(false).sense(Sense::click()).resizable(false);
         for (key, _, width, _) in COLUMNS {
-            let last = key == Key::Warnings;
+            let last = key == SortKey::Warnings;
             table =
                 table.column(if last { Column::remainder().at_least(width) } else { Column::exact(width) });
         }
@@ -113,14 +117,14 @@ impl RegionsPanel {
         table
             .header(ROW_PT, |mut header| {
                 for (key, title, _, tip) in COLUMNS {
-                    header.col(|ui| self.heading(ui, cx.tones, key, title, tip));
+                    header.col(|ui| self.heading(ui, cx.palette, key, title, tip));
                 }
             })
             .body(|body| {
                 body.rows(ROW_PT, order.len(), |mut row| {
                     let region = &shown.analysis.intrinsic.regions[order[row.index()]];
                     row.set_selected(selected == Some(region.id));
-                    cells(&mut row, cx.tones, region, shown);
+                    cells(&mut row, cx.palette, region, shown);
                     let response = row.response();
                     if response.hovered() {
                         hovered = Some(Item::Region(region.id));
@@ -131,18 +135,18 @@ impl RegionsPanel {
                     }
                 });
             });
-        let ours = ui.rect_contains_pointer(ui.max_rect());
-        if ours && hovered != cx.state.hover {
+        let is_over_panel = ui.rect_contains_pointer(ui.max_rect());
+        if is_over_panel && hovered != cx.state.hover {
             cx.send(ViewCommand::Hover(hovered));
         }
     }
 
-    fn heading(&mut self, ui: &mut Ui, tones: &Tones, key: Key, title: &str, tip: &str) {
+    fn heading(&mut self, ui: &mut Ui, palette: &Palette, key: SortKey, title: &str, tip: &str) {
         let chosen = self.key == key;
         ui.with_layout(layout_of(key), |ui| {
-            if sorted_by(ui, tones, chosen.then_some(self.descending), title, tip) {
+            if sorted_by(ui, palette, chosen.then_some(self.descending), title, tip) {
                 // The first click sorts numbers in descending order and ids in ascending order.
-                self.descending = if chosen { !self.descending } else { !matches!(key, Key::Id) };
+                self.descending = if chosen { !self.descending } else { !matches!(key, SortKey::Id) };
                 self.key = key;
             }
         });
@@ -152,14 +156,14 @@ impl RegionsPanel {
     fn order(&self, regions: &[RegionReflection]) -> Vec<usize> {
         let mut order: Vec<usize> = (0..regions.len()).collect();
         let value = |region: &RegionReflection| match self.key {
-            Key::Id => f64::from(region.id.get()),
-            Key::Pixels => region.pixels as f64,
-            Key::Body => hue_rad(region.body),
-            Key::Surface => region.surface.map_or(-10.0, hue_rad),
-            Key::Angle => region.angle_deg.unwrap_or(-1.0),
-            Key::Highlight => region.highlight_pixels as f64,
-            Key::Rms => region.fit_rms_counts,
-            Key::Warnings => region.warnings.len() as f64,
+            SortKey::Id => f64::from(region.id.get()),
+            SortKey::Pixels => region.pixels as f64,
+            SortKey::Body => hue_rad(region.body),
+            SortKey::Surface => region.surface.map_or(-10.0, hue_rad),
+            SortKey::Angle => region.angle_deg.unwrap_or(-1.0),
+            SortKey::Highlight => region.highlight_pixels as f64,
+            SortKey::Rms => region.fit_rms_counts,
+            SortKey::Warnings => region.warnings.len() as f64,
         };
         order.sort_by(|&a, &b| {
             let by_value = value(&regions[a]).total_cmp(&value(&regions[b]));
@@ -174,15 +178,17 @@ fn hue_rad([r, g, b]: [f64; 3]) -> f64 {
     (3f64.sqrt() * (g - b)).atan2(2.0 * r - g - b)
 }
 
-fn layout_of(key: Key) -> Layout {
+fn layout_of(key: SortKey) -> Layout {
     match key {
-        Key::Id | Key::Body | Key::Surface | Key::Warnings => Layout::left_to_right(Align::Center),
+        SortKey::Id | SortKey::Body | SortKey::Surface | SortKey::Warnings => {
+            Layout::left_to_right(Align::Center)
+        }
         _ => Layout::right_to_left(Align::Center),
     }
 }
 
-fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &ResultSnapshot) {
-    let none = || RichText::new("\u{2013}").color(tones.quiet);
+fn cells(row: &mut TableRow, palette: &Palette, region: &RegionReflection, shown: &ResultSnapshot) {
+    let dash = || RichText::new("\u{2013}").color(palette.secondary);
     let plain = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).selectable(false));
     cell(row, |ui| {
         let color = shown.region_colors.get(region.id.index()).copied().unwrap_or([128; 3]);
@@ -195,13 +201,13 @@ fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &R
         });
     };
     number(row, RichText::new(widgets::grouped(region.pixels)));
-    cell(row, |ui| vector(ui, tones, Some(region.body)));
-    cell(row, |ui| vector(ui, tones, region.surface));
-    number(row, region.angle_deg.map_or_else(none, |angle| RichText::new(format!("{angle:.1}\u{b0}"))));
+    cell(row, |ui| vector(ui, palette, Some(region.body)));
+    cell(row, |ui| vector(ui, palette, region.surface));
+    number(row, region.angle_deg.map_or_else(dash, |angle| RichText::new(format!("{angle:.1}\u{b0}"))));
     let highlight = (region.highlight_pixels > 0).then(|| widgets::grouped(region.highlight_pixels));
     row.col(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let label = plain(ui, highlight.map_or_else(none, RichText::new));
+            let label = plain(ui, highlight.map_or_else(dash, RichText::new));
             if !region.highlight_branches.is_empty() {
                 label.on_hover_text(highlight_lines(&region.highlight_branches));
             }
@@ -210,7 +216,7 @@ fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &R
     let rms = RichText::new(format!("{:.2}", region.fit_rms_counts));
     row.col(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let rms = if region.model_fits { rms } else { rms.color(tones.accent) };
+            let rms = if region.model_fits { rms } else { rms.color(palette.accent) };
             let label = ui.add(Label::new(rms).selectable(false));
             if !region.model_fits {
                 label.on_hover_text(format!(
@@ -225,7 +231,7 @@ fn cells(row: &mut TableRow, tones: &Tones, region: &RegionReflection, shown: &R
         if let Some(first) = region.warnings.first() {
             let more = region.warnings.len() - 1;
             let text = if more > 0 { format!("{first} (+{more})") } else { first.clone() };
-            let label = Label::new(RichText::new(text).size(SMALL_PT).color(tones.quiet)).truncate();
+            let label = Label::new(RichText::new(text).size(SMALL_PT).color(palette.secondary)).truncate();
             ui.add(label.selectable(false)).on_hover_text(region.warnings.join(
                 "
 ",
@@ -252,20 +258,20 @@ fn cell(row: &mut TableRow, contents: impl FnOnce(&mut Ui)) {
 }
 
 /// Shows a square of a unit vector's color, then its three components in aligned columns.
-fn vector(ui: &mut Ui, tones: &Tones, vector: Option<[f64; 3]>) {
+fn vector(ui: &mut Ui, palette: &Palette, vector: Option<[f64; 3]>) {
     ui.spacing_mut().item_spacing.x = 4.0;
     let Some(vector) = vector else {
-        ui.label(RichText::new("\u{2013}").color(tones.quiet));
+        ui.label(RichText::new("\u{2013}").color(palette.secondary));
         return;
     };
-    widgets::chip(ui, shade(vector), "its color");
+    widgets::chip(ui, brightest_color(vector), "its color");
     for value in vector {
         ui.add(Label::new(RichText::new(format!("{value:.2}").replace("0.", "."))).selectable(false));
     }
 }
 
 /// The brightest color in a direction: the largest component is full scale.
-fn shade(direction: [f64; 3]) -> Color32 {
+fn brightest_color(direction: [f64; 3]) -> Color32 {
     let most = direction.iter().fold(1e-9f64, |most, &v| most.max(v));
     let [r, g, b] = direction.map(|v| (v / most).max(0.0) as f32);
     egui::Rgba::from_rgb(r, g, b).into()
@@ -278,10 +284,10 @@ fn light(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
         ui.spacing_mut().item_spacing.x = 6.0;
         let tip =
             "The color of the light: where the dichromatic planes of all objects intersect (section 5.4).";
-        ui.label(RichText::new("light").color(cx.tones.quiet)).on_hover_text(tip);
+        ui.label(RichText::new("light").color(cx.palette.secondary)).on_hover_text(tip);
         if let Some(light) = &shown.analysis.illuminant {
-            vector(ui, cx.tones, Some(light.direction));
-            let from = RichText::new(rests_on(light, findings)).size(SMALL_PT).color(cx.tones.quiet);
+            vector(ui, cx.palette, Some(light.direction));
+            let from = RichText::new(basis_text(light, findings)).size(SMALL_PT).color(cx.palette.secondary);
             ui.label(from).on_hover_text(findings.reason());
         } else {
             let text = format!("unknown: {}", findings.reason());
@@ -310,7 +316,7 @@ fn ambient(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
         format!(" Standard deviations {r:.1}, {g:.1}, {b:.1} counts, from {} matte lines.", meeting.lines)
     });
     let tip = format!("Light from everywhere (section 7.5): {}.{spread}", ambient.verdict.reason());
-    ui.label(RichText::new("ambient").color(cx.tones.quiet)).on_hover_text(&tip);
+    ui.label(RichText::new("ambient").color(cx.palette.secondary)).on_hover_text(&tip);
     let text = counts.map(|band| format!("{band:.1}")).join(" ");
     ui.label(format!("{text} counts")).on_hover_text(tip);
 }
@@ -318,19 +324,19 @@ fn ambient(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
 /// Shows the title of a sortable column; returns whether the title was clicked. `descending` is the order of the rows
 /// if they
 /// are sorted by this column, otherwise `None`.
-fn sorted_by(ui: &mut Ui, tones: &Tones, descending: Option<bool>, title: &str, tip: &str) -> bool {
+fn sorted_by(ui: &mut Ui, palette: &Palette, descending: Option<bool>, title: &str, tip: &str) -> bool {
     let arrow = match descending {
         None => "",
         Some(false) => " \u{2191}",
         Some(true) => " \u{2193}",
     };
-    let tone = if descending.is_some() { tones.text } else { tones.quiet };
+    let tone = if descending.is_some() { palette.text } else { palette.secondary };
     let text = RichText::new(format!("{title}{arrow}")).size(SMALL_PT).color(tone);
     ui.add(Button::new(text).frame(false)).on_hover_text(tip).clicked()
 }
 
 /// What the light was estimated from, and its interval, degrees.
-fn rests_on(light: &Illuminant, findings: &LightFindings) -> String {
+fn basis_text(light: &Illuminant, findings: &LightFindings) -> String {
     let s = if light.objects == 1 { "" } else { "s" };
     let from = match findings.basis {
         LightBasis::Given => return "given".to_owned(),
@@ -344,7 +350,7 @@ fn rests_on(light: &Illuminant, findings: &LightFindings) -> String {
 fn accuracy(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
     let Some(scores) = shown.accuracy().map(|accuracy| &accuracy.scores) else { return };
     let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {
-        ui.label(RichText::new(name).size(SMALL_PT).color(cx.tones.quiet)).on_hover_text(tip);
+        ui.label(RichText::new(name).size(SMALL_PT).color(cx.palette.secondary)).on_hover_text(tip);
         ui.label(value).on_hover_text(tip);
     };
     ui.separator();

@@ -2,7 +2,7 @@
 
 use super::dock::Pane;
 use super::offscreen::OffscreenError;
-use super::offscreen_app::Offscreen;
+use super::offscreen_app::OffscreenApp;
 use crate::app::{Command, DebugCommand, Edit, JobCommand, Question, Severity, State, ViewCommand};
 use crate::export::png_of_rgba;
 use crate::raster::{PixelIndex, RegionId};
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 pub enum ScreenshotError {
     /// The window cannot be drawn on this computer.
     #[error(transparent)]
-    Offscreen(#[from] OffscreenError),
+    OffscreenApp(#[from] OffscreenError),
     /// A picture could not be written.
     #[error("{}: cannot be written: {cause}", path.display())]
     Write {
@@ -32,7 +32,7 @@ pub enum ScreenshotError {
 }
 
 /// One picture of the gallery.
-struct Shot {
+struct GalleryPicture {
     name: &'static str,
     /// The panel shown alone; `None` for the whole window.
     pane: Option<Pane>,
@@ -43,7 +43,7 @@ struct Shot {
     /// Position of the debugger's cursor; `None` for the end of the trace.
     moment: Option<Moment>,
     /// Whether the why panel shows a pixel's history and what would change the pixel's result.
-    asks: bool,
+    shows_why: bool,
 }
 
 /// A position in the trace.
@@ -76,8 +76,8 @@ impl Moment {
     }
 }
 
-fn whole(name: &'static str) -> Shot {
-    Shot {
+fn whole(name: &'static str) -> GalleryPicture {
+    GalleryPicture {
         name,
         pane: None,
         theme: Theme::Dark,
@@ -85,25 +85,25 @@ fn whole(name: &'static str) -> Shot {
         image: ImageSettings { layer: Layer::Regions, fill: Fill::Outline, ..ImageSettings::default() },
         cube: CubeSettings::default(),
         moment: None,
-        asks: false,
+        shows_why: false,
     }
 }
 
-fn stopped(name: &'static str, moment: Moment) -> Shot {
-    Shot { moment: Some(moment), image: ImageSettings::default(), ..whole(name) }
+fn stopped(name: &'static str, moment: Moment) -> GalleryPicture {
+    GalleryPicture { moment: Some(moment), image: ImageSettings::default(), ..whole(name) }
 }
 
-fn image(name: &'static str, layer: Layer) -> Shot {
+fn image(name: &'static str, layer: Layer) -> GalleryPicture {
     let image = ImageSettings { layer, ..ImageSettings::default() };
-    Shot { pane: Some(Pane::Image), region: None, image, ..whole(name) }
+    GalleryPicture { pane: Some(Pane::Image), region: None, image, ..whole(name) }
 }
 
-fn colors(name: &'static str, region: Option<RegionId>, color_by: ColorBy) -> Shot {
+fn colors(name: &'static str, region: Option<RegionId>, color_by: ColorBy) -> GalleryPicture {
     let cube = CubeSettings { color_by, ..CubeSettings::default() };
-    Shot { pane: Some(Pane::Colors), region, cube, ..whole(name) }
+    GalleryPicture { pane: Some(Pane::Colors), region, cube, ..whole(name) }
 }
 
-fn gallery() -> Vec<Shot> {
+fn gallery() -> Vec<GalleryPicture> {
     let wipe = ImageSettings {
         layer: Layer::Input,
         other: Layer::Body,
@@ -112,18 +112,18 @@ fn gallery() -> Vec<Shot> {
     };
     vec![
         whole("window"),
-        Shot { theme: Theme::Light, ..whole("window-light") },
-        Shot { image: wipe, ..image("image-wipe", Layer::Input) },
+        GalleryPicture { theme: Theme::Light, ..whole("window-light") },
+        GalleryPicture { image: wipe, ..image("image-wipe", Layer::Input) },
         image("image-classification", Layer::Classes),
         image("image-regions", Layer::Regions),
         image("image-surface", Layer::Surface),
         colors("colors", None, ColorBy::Own),
         colors("colors-region", RegionId::from_label(1), ColorBy::Region),
-        Shot { pane: Some(Pane::Plane), ..whole("plane") },
-        Shot { pane: Some(Pane::Profile), ..whole("profile") },
+        GalleryPicture { pane: Some(Pane::Plane), ..whole("plane") },
+        GalleryPicture { pane: Some(Pane::Profile), ..whole("profile") },
         stopped("debugger-slice", Moment::Slice),
         stopped("debugger-skewed-t", Moment::Test),
-        Shot { asks: true, region: None, ..whole("debugger-why") },
+        GalleryPicture { shows_why: true, region: None, ..whole("debugger-why") },
     ]
 }
 
@@ -136,19 +136,24 @@ fn gallery() -> Vec<Shot> {
 pub fn screenshot(folder: &Path, size_px: [u32; 2], origin: Origin) -> Result<Vec<PathBuf>, ScreenshotError> {
     let write = |path: &Path, cause| ScreenshotError::Write { path: path.to_path_buf(), cause };
     std::fs::create_dir_all(folder).map_err(|cause| write(folder, cause))?;
-    let mut stage = Offscreen::new(size_px, 1.0)?;
-    stage.app.apply(JobCommand::Open(origin));
-    if stage.app.state().picture.is_none() {
-        let mut errors = stage.app.state().notices.iter().filter(|notice| notice.severity == Severity::Error);
+    let mut offscreen = OffscreenApp::new(size_px, 1.0)?;
+    offscreen.app.apply(JobCommand::Open(origin));
+    if offscreen.app.state().picture.is_none() {
+        let mut errors =
+            offscreen.app.state().notices.iter().filter(|notice| notice.severity == Severity::Error);
         let reason = errors.next().map_or_else(String::new, |notice| notice.text.clone());
         return Err(ScreenshotError::Photograph(reason));
     }
     let mut written = Vec::new();
-    for shot in gallery() {
-        let size = if shot.pane.is_some() { size_px.map(|length| (length * 3 / 5).max(1)) } else { size_px };
-        prepare(&mut stage, &shot, size);
-        let rgba = stage.picture()?;
-        let path = folder.join(format!("{}.png", shot.name));
+    for gallery_picture in gallery() {
+        let size = if gallery_picture.pane.is_some() {
+            size_px.map(|length| (length * 3 / 5).max(1))
+        } else {
+            size_px
+        };
+        prepare(&mut offscreen, &gallery_picture, size);
+        let rgba = offscreen.picture()?;
+        let path = folder.join(format!("{}.png", gallery_picture.name));
         std::fs::write(&path, png_of_rgba(size, &rgba)).map_err(|cause| write(&path, cause))?;
         written.push(path);
     }
@@ -156,7 +161,7 @@ pub fn screenshot(folder: &Path, size_px: [u32; 2], origin: Origin) -> Result<Ve
 }
 
 /// The pixel of the last claim that two regions contested; `None` without such a claim.
-fn contested(state: &State) -> Option<PixelIndex> {
+fn contested_pixel(state: &State) -> Option<PixelIndex> {
     let mut steps = state.debugger.trace()?.steps().rev();
     steps.find_map(|(_, step)| match step {
         Step::Claim { pixel, contest: Some(_), .. } => Some(pixel),
@@ -164,25 +169,25 @@ fn contested(state: &State) -> Option<PixelIndex> {
     })
 }
 
-fn prepare(stage: &mut Offscreen, shot: &Shot, size_px: [u32; 2]) {
-    let app = &mut stage.app;
+fn prepare(offscreen: &mut OffscreenApp, gallery_picture: &GalleryPicture, size_px: [u32; 2]) {
+    let app = &mut offscreen.app;
     let notices: Vec<u64> = app.state().notices.iter().map(|notice| notice.id).collect();
     for id in notices {
         app.apply(ViewCommand::Dismiss(id));
     }
-    app.apply(ViewCommand::Theme(shot.theme));
-    app.apply(Edit::Select(shot.region.map(Item::Region)));
-    app.apply(ViewCommand::Image(shot.image.clone()));
-    app.apply(ViewCommand::Cube(shot.cube.clone()));
+    app.apply(ViewCommand::Theme(gallery_picture.theme));
+    app.apply(Edit::Select(gallery_picture.region.map(Item::Region)));
+    app.apply(ViewCommand::Image(gallery_picture.image.clone()));
+    app.apply(ViewCommand::Cube(gallery_picture.cube.clone()));
     app.apply(ViewCommand::Profile(ProfileLine::Row));
     let end = app.state().debugger.trace().map_or(0, |trace| trace.len());
-    let steps = shot.moment.and_then(|moment| moment.steps(app.state())).unwrap_or(end);
+    let steps = gallery_picture.moment.and_then(|moment| moment.steps(app.state())).unwrap_or(end);
     app.apply(Command::Debug(DebugCommand::Seek(steps)));
-    if let Some(pixel) = contested(app.state()).filter(|_| shot.asks) {
+    if let Some(pixel) = contested_pixel(app.state()).filter(|_| gallery_picture.shows_why) {
         app.apply(Edit::Select(app.state().region_of(Item::Pixel(pixel)).map(Item::Region)));
         app.apply(Command::Ask(Question::Why(pixel)));
         app.apply(Command::Ask(Question::WhatIf(Some(pixel))));
     }
-    app.show_alone(shot.pane);
-    stage.resize(size_px);
+    app.show_alone(gallery_picture.pane);
+    offscreen.resize(size_px);
 }

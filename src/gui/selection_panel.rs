@@ -1,6 +1,6 @@
 //! The selection panel: statistics of the marked or selected pixels (number, colors, place).
 
-use super::later::{AT_ONCE_PX, Later};
+use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::app::Edit;
@@ -15,12 +15,12 @@ const HISTOGRAM_PT: f32 = 36.0;
 
 /// Identity of the statistics: generation of the result, and address of the mask of marked pixels, otherwise the
 /// item.
-type Key = (u64, Option<usize>, Option<Item>);
+type StatisticsKey = (u64, Option<usize>, Option<Item>);
 
 /// The selection panel.
 #[derive(Default)]
 pub struct SelectionPanel {
-    statistics: Later<Key, Option<Statistics>>,
+    statistics: BackgroundValue<StatisticsKey, Option<Statistics>>,
 }
 
 impl SelectionPanel {
@@ -28,7 +28,11 @@ impl SelectionPanel {
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let state = cx.state;
         let Some(shown) = state.shown().cloned() else {
-            return widgets::nothing(ui, cx.tones, "Statistics appear when a photograph has been analyzed.");
+            return widgets::placeholder(
+                ui,
+                cx.palette,
+                "Statistics appear when a photograph has been analyzed.",
+            );
         };
         let (marked, item) = (state.document.selection.marked.clone(), state.document.selection.item);
         let subject = match (&marked, item) {
@@ -36,30 +40,30 @@ impl SelectionPanel {
             (None, Some(item)) => name_of(item, shown.picture.size().0),
             (None, None) => {
                 let hint = "Click a region, or mark pixels with a tool of the image or the color space.";
-                return widgets::nothing(ui, cx.tones, hint);
+                return widgets::placeholder(ui, cx.palette, hint);
             }
         };
-        let address = marked.as_ref().map(|mask: &Arc<Mask>| Arc::as_ptr(mask) as usize);
-        let key = (shown.generation, address, item.filter(|_| marked.is_none()));
-        let at_once = shown.labels().len() <= AT_ONCE_PX;
+        let mask_address = marked.as_ref().map(|mask: &Arc<Mask>| Arc::as_ptr(mask) as usize);
+        let key = (shown.generation, mask_address, item.filter(|_| marked.is_none()));
+        let synchronous = shown.labels().len() <= SYNCHRONOUS_PX;
         let make = move || match (marked, item) {
             (Some(mask), _) => statistics(&shown, &mask),
             (None, item) => item.and_then(|item| statistics_of(&shown, item)),
         };
-        let found = self.statistics.get(ui.ctx(), key, at_once, make);
+        let found = self.statistics.get(ui.ctx(), key, synchronous, make);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             egui::Frame::new().inner_margin(8).show(ui, |ui| match found {
                 Some(Some(found)) => {
-                    verbs(ui, cx, &subject);
+                    buttons(ui, cx, &subject);
                     ui.horizontal_wrapped(|ui| facts(ui, cx, found));
                     bands(ui, cx, found);
                 }
                 Some(None) => {
-                    verbs(ui, cx, &subject);
-                    ui.label(RichText::new("No pixel of the picture is in it.").color(cx.tones.quiet));
+                    buttons(ui, cx, &subject);
+                    ui.label(RichText::new("No pixel of the picture is in it.").color(cx.palette.secondary));
                 }
                 None => {
-                    ui.label(RichText::new("counting\u{2026}").color(cx.tones.quiet));
+                    ui.label(RichText::new("counting\u{2026}").color(cx.palette.secondary));
                 }
             });
         });
@@ -78,7 +82,7 @@ fn name_of(item: Item, width: usize) -> String {
     }
 }
 
-fn verbs(ui: &mut Ui, cx: &mut PanelContext, subject: &str) {
+fn buttons(ui: &mut Ui, cx: &mut PanelContext, subject: &str) {
     let marked = cx.state.document.selection.marked.is_some();
     ui.horizontal(|ui| {
         ui.label(subject);
@@ -96,7 +100,7 @@ fn verbs(ui: &mut Ui, cx: &mut PanelContext, subject: &str) {
 fn facts(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
     ui.spacing_mut().item_spacing.x = 4.0;
     let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {
-        let name = RichText::new(name).size(SMALL_PT).color(cx.tones.quiet);
+        let name = RichText::new(name).size(SMALL_PT).color(cx.palette.secondary);
         ui.add(Label::new(name).extend()).on_hover_text(tip);
         ui.add(Label::new(value).selectable(true).extend()).on_hover_text(tip);
         ui.add_space(8.0);
@@ -119,11 +123,11 @@ fn facts(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
         format!("{x:.3}  {y:.3}  {z:.3}"),
         "The first principal axis: the matte line's direction, of a linear cluster (section 5.3).",
     );
-    let box_ = &found.bounds;
+    let bounds = &found.bounds;
     fact(
         ui,
         "box",
-        format!("{}, {}  {} \u{d7} {}", box_.left, box_.top, box_.width, box_.height),
+        format!("{}, {}  {} \u{d7} {}", bounds.left, bounds.top, bounds.width, bounds.height),
         "Left, top, width and height of the smallest rectangle, pixels.",
     );
     let percent = |n: usize| format!("{:.1} %", 100.0 * n as f64 / found.pixels.max(1) as f64);
@@ -147,31 +151,32 @@ fn bands(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
         ("G", Color32::from_rgb(0x6C, 0xB0, 0x6A)),
         ("B", Color32::from_rgb(0x6E, 0x96, 0xDE)),
     ];
-    let quiet = |text: &str| RichText::new(text.to_owned()).size(SMALL_PT).color(cx.tones.quiet);
+    let secondary_text =
+        |text: &str| RichText::new(text.to_owned()).size(SMALL_PT).color(cx.palette.secondary);
     egui::Grid::new("bands").num_columns(6).spacing([12.0, 2.0]).show(ui, |ui| {
         for title in ["", "min", "median", "mean", "max", "counts"] {
-            ui.label(quiet(title));
+            ui.label(secondary_text(title));
         }
         ui.end_row();
         for ((band, (name, color)), mean) in found.bands.iter().zip(colors).zip(found.mean) {
             ui.label(RichText::new(name).color(color));
             for value in [f64::from(band.min), f64::from(band.median), mean, f64::from(band.max)] {
-                widgets::number(ui, cx.tones, 44.0, &format!("{value:.1}"), "");
+                widgets::number(ui, cx.palette, 44.0, &format!("{value:.1}"), "");
             }
-            histogram(ui, band, color, cx.tones.well);
+            histogram(ui, band, color, cx.palette.well);
             ui.end_row();
         }
     });
 }
 
 /// Paints a band's histogram from 0 to full scale; the tallest bar has full height.
-fn histogram(ui: &mut Ui, band: &Band, color: Color32, ground: Color32) {
+fn histogram(ui: &mut Ui, band: &Band, color: Color32, background: Color32) {
     let size = vec2(ui.available_width().clamp(96.0, 220.0), HISTOGRAM_PT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     response
         .widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, "histogram of a band"));
     let painter = ui.painter_at(rect);
-    painter.rect_filled(rect, 2.0, ground);
+    painter.rect_filled(rect, 2.0, background);
     let most = band.histogram.iter().copied().max().unwrap_or(0).max(1) as f32;
     let width = rect.width() / band.histogram.len().max(1) as f32;
     for (bin, &count) in band.histogram.iter().enumerate().filter(|(_, count)| **count > 0) {

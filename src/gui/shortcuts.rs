@@ -3,7 +3,7 @@
 mod debug;
 mod shortcut;
 
-pub use debug::{Listeners, SpaceTap};
+pub use debug::{KeyListeners, SpaceTap};
 
 use super::PanelContext;
 use super::action::{Action, DebugAction};
@@ -12,66 +12,71 @@ use crate::view::{Layer, Tool};
 use egui::{Key, KeyboardShortcut, Modifiers, RichText, Ui};
 use shortcut::Shortcut;
 
-const fn plain(group: &'static str, key: Key, action: Action, words: &'static str) -> Shortcut {
-    Shortcut::new(group, Modifiers::NONE, key, action, words)
+const fn key_alone(group: &'static str, key: Key, action: Action, description: &'static str) -> Shortcut {
+    Shortcut::new(group, Modifiers::NONE, key, action, description)
 }
 
-const fn command(group: &'static str, key: Key, action: Action, words: &'static str) -> Shortcut {
-    Shortcut::new(group, Modifiers::COMMAND, key, action, words)
+const fn key_with_command(
+    group: &'static str,
+    key: Key,
+    action: Action,
+    description: &'static str,
+) -> Shortcut {
+    Shortcut::new(group, Modifiers::COMMAND, key, action, description)
 }
 
 const SHIFT_COMMAND: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 /// All keys.
-fn all() -> impl Iterator<Item = &'static Shortcut> {
+fn all_shortcuts() -> impl Iterator<Item = &'static Shortcut> {
     GENERAL.iter().chain(debug::KEYS)
 }
 
 /// The keys that are not the debugger's. Those with more modifiers come first: egui lets `Ctrl+Shift+Z` pass for `Ctrl+Z`.
 const GENERAL: &[Shortcut] = &[
     Shortcut::new("Edit", SHIFT_COMMAND, Key::Z, Action::Redo, "Redo"),
-    command("File", Key::O, Action::Open, "Open a photograph"),
-    command("File", Key::E, Action::Export, "Export"),
-    command("File", Key::S, Action::Save, "Save the workspace"),
-    command("Edit", Key::Z, Action::Undo, "Undo"),
-    command("Edit", Key::Y, Action::Redo, "Redo"),
-    command("Edit", Key::I, Action::Invert, "Invert the marked pixels"),
-    command("Edit", Key::A, Action::MarkRegion, "Mark the pixels of the selected region"),
-    plain("Edit", Key::Escape, Action::Escape, "Give up the gesture; select and mark nothing"),
-    plain("Edit", Key::CloseBracket, Action::Region(true), "Select the next region"),
-    plain("Edit", Key::OpenBracket, Action::Region(false), "Select the region before"),
-    plain("Image", Key::Num1, Action::Layer(Layer::Input), "Input"),
-    plain("Image", Key::Num2, Action::Layer(Layer::Masks), "Masks: dark, clipped, bloomed"),
-    plain("Image", Key::Num3, Action::Layer(Layer::Classes), "Classification"),
-    plain("Image", Key::Num4, Action::Layer(Layer::Areas), "Merged areas"),
-    plain("Image", Key::Num5, Action::Layer(Layer::Linear), "Linear hypotheses"),
-    plain("Image", Key::Num6, Action::Layer(Layer::Planar), "Planar hypotheses"),
-    plain("Image", Key::Num7, Action::Layer(Layer::Regions), "Final regions"),
-    plain("Image", Key::Num8, Action::Layer(Layer::Body), "Body reflection"),
-    plain("Image", Key::Num9, Action::Layer(Layer::Surface), "Surface reflection"),
-    plain("Image", Key::Num0, Action::Layer(Layer::Noise), "Noise"),
-    plain("Image", Key::F, Action::Fit, "Fit the whole picture"),
-    plain("Image", Key::Z, Action::OneToOne, "One point a pixel"),
-    plain("Image", Key::O, Action::Outline, "Outlines or fills"),
-    plain("Tools", Key::V, Action::Tool(Tool::Pointer), "Pointer: click selects, drag pans"),
-    plain("Tools", Key::R, Action::Tool(Tool::Rectangle), "Rectangle"),
-    plain("Tools", Key::L, Action::Tool(Tool::Lasso), "Lasso"),
-    plain("Tools", Key::G, Action::Tool(Tool::Polygon), "Polygon"),
-    plain("Tools", Key::B, Action::Tool(Tool::Brush), "Brush"),
-    plain("Tools", Key::P, Action::Tool(Tool::Profile), "Profile line"),
-    plain("Tools", Key::W, Action::Tool(Tool::WhitePatch), "White patch: pin the light's color"),
-    plain("Compare", Key::K, Action::Pin, "Pin the result, or let it go"),
-    plain("Compare", Key::A, Action::Swap, "A/B: pinned or newest result"),
-    plain("Window", Key::T, Action::Theme, "Light or dark"),
-    plain("Window", Key::Questionmark, Action::Help, "This list"),
-    plain("Window", Key::F1, Action::Help, "This list"),
+    key_with_command("File", Key::O, Action::Open, "Open a photograph"),
+    key_with_command("File", Key::E, Action::Export, "Export"),
+    key_with_command("File", Key::S, Action::Save, "Save the workspace"),
+    key_with_command("Edit", Key::Z, Action::Undo, "Undo"),
+    key_with_command("Edit", Key::Y, Action::Redo, "Redo"),
+    key_with_command("Edit", Key::I, Action::Invert, "Invert the marked pixels"),
+    key_with_command("Edit", Key::A, Action::MarkRegion, "Mark the pixels of the selected region"),
+    key_alone("Edit", Key::Escape, Action::Escape, "Give up the gesture; select and mark nothing"),
+    key_alone("Edit", Key::CloseBracket, Action::Region(true), "Select the next region"),
+    key_alone("Edit", Key::OpenBracket, Action::Region(false), "Select the region before"),
+    key_alone("Image", Key::Num1, Action::Layer(Layer::Input), "Input"),
+    key_alone("Image", Key::Num2, Action::Layer(Layer::Masks), "Masks: dark, clipped, bloomed"),
+    key_alone("Image", Key::Num3, Action::Layer(Layer::Classes), "Classification"),
+    key_alone("Image", Key::Num4, Action::Layer(Layer::Areas), "Merged areas"),
+    key_alone("Image", Key::Num5, Action::Layer(Layer::Linear), "Linear hypotheses"),
+    key_alone("Image", Key::Num6, Action::Layer(Layer::Planar), "Planar hypotheses"),
+    key_alone("Image", Key::Num7, Action::Layer(Layer::Regions), "Final regions"),
+    key_alone("Image", Key::Num8, Action::Layer(Layer::Body), "Body reflection"),
+    key_alone("Image", Key::Num9, Action::Layer(Layer::Surface), "Surface reflection"),
+    key_alone("Image", Key::Num0, Action::Layer(Layer::Noise), "Noise"),
+    key_alone("Image", Key::F, Action::Fit, "Fit the whole picture"),
+    key_alone("Image", Key::Z, Action::OneToOne, "One point a pixel"),
+    key_alone("Image", Key::O, Action::Outline, "Outlines or fills"),
+    key_alone("Tools", Key::V, Action::Tool(Tool::Pointer), "Pointer: click selects, drag pans"),
+    key_alone("Tools", Key::R, Action::Tool(Tool::Rectangle), "Rectangle"),
+    key_alone("Tools", Key::L, Action::Tool(Tool::Lasso), "Lasso"),
+    key_alone("Tools", Key::G, Action::Tool(Tool::Polygon), "Polygon"),
+    key_alone("Tools", Key::B, Action::Tool(Tool::Brush), "Brush"),
+    key_alone("Tools", Key::P, Action::Tool(Tool::Profile), "Profile line"),
+    key_alone("Tools", Key::W, Action::Tool(Tool::WhitePatch), "White patch: pin the light's color"),
+    key_alone("Compare", Key::K, Action::Pin, "Pin the result, or let it go"),
+    key_alone("Compare", Key::A, Action::Swap, "A/B: pinned or newest result"),
+    key_alone("Window", Key::T, Action::Theme, "Light or dark"),
+    key_alone("Window", Key::Questionmark, Action::Help, "This list"),
+    key_alone("Window", Key::F1, Action::Help, "This list"),
 ];
 
 /// A window of this width has room for four columns of keys, points.
 const FOUR_COLUMNS_PT: f32 = 1200.0;
 
 /// What the pointer does, listed with the keys.
-const POINTER: &[(&str, &str)] = &[
+const POINTER_HELP: &[(&str, &str)] = &[
     ("Scroll", "zoom at the pointer"),
     ("Drag", "pan the image, orbit the color space"),
     ("Middle drag, Space drag", "pan, whatever the tool"),
@@ -86,47 +91,49 @@ const POINTER: &[(&str, &str)] = &[
 
 /// The keys of an action as text, for menus and tooltips; empty where it has none.
 pub fn keys_of(ctx: &egui::Context, action: Action) -> String {
-    let found = all().find(|shortcut| shortcut.action == action);
-    found.map_or_else(String::new, |shortcut| written(ctx, shortcut.keys))
+    let shortcut = all_shortcuts().find(|shortcut| shortcut.action == action);
+    shortcut.map_or_else(String::new, |shortcut| keys_as_text(ctx, shortcut.keys))
 }
 
 /// Keys as they are printed on a keyboard.
-fn written(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
-    let all = ctx.format_shortcut(&keys);
+fn keys_as_text(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
+    let all_shortcuts = ctx.format_shortcut(&keys);
     let symbol = match keys.logical_key {
         // Of these the bundled fonts have no other sign.
         Key::ArrowLeft => "\u{2190}",
         Key::ArrowRight => "\u{2192}",
         key => key.symbol_or_name(),
     };
-    all.strip_suffix(keys.logical_key.name()).map_or_else(|| all.clone(), |held| format!("{held}{symbol}"))
+    all_shortcuts
+        .strip_suffix(keys.logical_key.name())
+        .map_or_else(|| all_shortcuts.clone(), |held_key| format!("{held_key}{symbol}"))
 }
 
-/// The actions whose keys were pressed; none while a text is being edited. `escape_is_meant`: whether Escape is an action, and
+/// The actions whose keys were pressed; none while a text is being edited. `escape_is_action`: whether Escape is an action, and
 /// does not close something that is open over the panels.
 pub fn pressed(
     ctx: &egui::Context,
-    escape_is_meant: bool,
-    listeners: Listeners,
-    tap: &mut SpaceTap,
+    escape_is_action: bool,
+    listeners: KeyListeners,
+    space_tap: &mut SpaceTap,
 ) -> Vec<Action> {
     if ctx.text_edit_focused() {
         return Vec::new();
     }
-    let meant: Vec<&Shortcut> = all()
-        .filter(|shortcut| escape_is_meant || shortcut.action != Action::Escape)
-        .filter(|shortcut| listeners.leave(ctx, shortcut))
+    let active: Vec<&Shortcut> = all_shortcuts()
+        .filter(|shortcut| escape_is_action || shortcut.action != Action::Escape)
+        .filter(|shortcut| listeners.allows(ctx, shortcut))
         .collect();
-    let (taps, keys): (Vec<&Shortcut>, Vec<&Shortcut>) =
-        meant.into_iter().partition(|shortcut| shortcut.keys.logical_key == Key::Space);
-    let tapped = tap.tapped(ctx, !taps.is_empty());
+    let (space_shortcuts, keys): (Vec<&Shortcut>, Vec<&Shortcut>) =
+        active.into_iter().partition(|shortcut| shortcut.keys.logical_key == Key::Space);
+    let played = space_tap.played(ctx, !space_shortcuts.is_empty());
     let mut actions: Vec<Action> = ctx.input_mut(|input| {
         keys.iter()
             .filter(|shortcut| input.consume_shortcut(&shortcut.keys))
             .map(|shortcut| shortcut.action)
             .collect()
     });
-    actions.extend(tapped.map(|direction| Action::Debug(DebugAction::Play(direction))));
+    actions.extend(played.map(|direction| Action::Debug(DebugAction::Play(direction))));
     actions
 }
 
@@ -148,25 +155,25 @@ pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
         .show(&ctx, |ui| {
             ui.horizontal_top(|ui| {
                 for groups in columns {
-                    ui.vertical(|ui| groups.iter().for_each(|group| list(ui, cx, group)));
+                    ui.vertical(|ui| groups.iter().for_each(|group| show_group(ui, cx, group)));
                     ui.add_space(12.0);
                 }
             });
         });
 }
 
-fn list(ui: &mut Ui, cx: &PanelContext, group: &str) {
-    super::widgets::heading(ui, cx.tones, group);
+fn show_group(ui: &mut Ui, cx: &PanelContext, group: &str) {
+    super::widgets::heading(ui, cx.palette, group);
     let rows: Vec<(String, &str)> = if group == "Pointer" {
-        POINTER.iter().map(|&(keys, words)| (keys.to_owned(), words)).collect()
+        POINTER_HELP.iter().map(|&(keys, description)| (keys.to_owned(), description)).collect()
     } else {
-        let of_group = all().filter(|shortcut| shortcut.group == group);
-        of_group.map(|shortcut| (written(ui.ctx(), shortcut.keys), shortcut.words)).collect()
+        let of_group = all_shortcuts().filter(|shortcut| shortcut.group == group);
+        of_group.map(|shortcut| (keys_as_text(ui.ctx(), shortcut.keys), shortcut.description)).collect()
     };
     egui::Grid::new(group).num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| {
-        for (keys, words) in rows {
-            ui.label(RichText::new(keys).size(SMALL_PT).color(cx.tones.accent));
-            ui.label(words);
+        for (keys, description) in rows {
+            ui.label(RichText::new(keys).size(SMALL_PT).color(cx.palette.accent));
+            ui.label(description);
             ui.end_row();
         }
     });

@@ -9,14 +9,14 @@ use egui::{Align, Layout, RichText, Ui};
 use std::time::Duration;
 
 /// Time after which running work is shown with a spinner and a progress bar.
-pub const PATIENCE: Duration = Duration::from_millis(150);
+pub const PROGRESS_DELAY: Duration = Duration::from_millis(150);
 
 /// Shows the line, right-aligned in the remaining space of the menu bar.
 pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         progress(ui, cx);
-        let quiet = |text: String| RichText::new(text).size(SMALL_PT).color(cx.tones.quiet);
+        let quiet = |text: String| RichText::new(text).size(SMALL_PT).color(cx.palette.secondary);
         for part in parts(cx).into_iter().rev() {
             ui.add(egui::Label::new(quiet(part)).truncate());
         }
@@ -53,7 +53,7 @@ fn progress(ui: &mut Ui, cx: &mut PanelContext) {
         return;
     };
     let elapsed = job.since.elapsed();
-    if let Some(rest) = PATIENCE.checked_sub(elapsed) {
+    if let Some(rest) = PROGRESS_DELAY.checked_sub(elapsed) {
         ui.ctx().request_repaint_after(rest);
         return;
     }
@@ -63,7 +63,7 @@ fn progress(ui: &mut Ui, cx: &mut PanelContext) {
         cx.send(JobCommand::CancelExport);
     }
     let bar = egui::ProgressBar::new(done.unwrap_or(1.0)).desired_width(72.0).desired_height(6.0);
-    ui.add(bar.fill(cx.tones.accent));
-    ui.label(RichText::new(words).size(SMALL_PT).color(cx.tones.accent));
-    ui.add(egui::Spinner::new().size(12.0).color(cx.tones.accent));
+    ui.add(bar.fill(cx.palette.accent));
+    ui.label(RichText::new(words).size(SMALL_PT).color(cx.palette.accent));
+    ui.add(egui::Spinner::new().size(12.0).color(cx.palette.accent));
 }

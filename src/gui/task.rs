@@ -37,7 +37,7 @@ mod tests {
     use super::*;
 
     /// Takes until the slot is empty.
-    fn ended<T: Send + 'static>(slot: &mut Option<Task<T>>) -> Option<T> {
+    fn wait_for<T: Send + 'static>(slot: &mut Option<Task<T>>) -> Option<T> {
         let mut result = None;
         while slot.is_some() {
             result = Task::take(slot);
@@ -53,9 +53,9 @@ mod tests {
         let mut slot = Task::start(&ctx, "slow", move || wait.recv().is_err());
         assert!(Task::take(&mut slot).is_none() && slot.is_some(), "the task is under way");
         drop(go);
-        assert_eq!(ended(&mut slot), Some(true));
+        assert_eq!(wait_for(&mut slot), Some(true));
         assert_eq!(Task::take(&mut slot), None);
         let mut failed = Task::<u8>::start(&ctx, "failing", || std::panic::resume_unwind(Box::new(())));
-        assert_eq!(ended(&mut failed), None);
+        assert_eq!(wait_for(&mut failed), None);
     }
 }

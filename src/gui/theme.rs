@@ -6,7 +6,7 @@ use egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, Style, TextStyle, 
 
 /// The colors of a theme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Tones {
+pub struct Palette {
     /// Background of images.
     pub background: Color32,
     /// Background of panels and controls.
@@ -18,14 +18,14 @@ pub struct Tones {
     /// Text and values.
     pub text: Color32,
     /// Secondary text: units, labels, inactive values.
-    pub quiet: Color32,
+    pub secondary: Color32,
     /// Cursor, selection and primary action.
     pub accent: Color32,
     /// Messages about errors.
     pub error: Color32,
 }
 
-impl Tones {
+impl Palette {
     /// The colors of `theme`.
     pub fn of(theme: Theme) -> Self {
         match theme {
@@ -35,7 +35,7 @@ impl Tones {
                 well: Color32::from_rgb(0x2A, 0x2B, 0x2E),
                 line: Color32::from_rgb(0x30, 0x32, 0x36),
                 text: Color32::from_rgb(0xD6, 0xD8, 0xDC),
-                quiet: Color32::from_rgb(0x8C, 0x90, 0x96),
+                secondary: Color32::from_rgb(0x8C, 0x90, 0x96),
                 accent: Color32::from_rgb(0xE8, 0xA3, 0x3D),
                 error: Color32::from_rgb(0xF0, 0x6A, 0x5E),
             },
@@ -45,7 +45,7 @@ impl Tones {
                 well: Color32::from_rgb(0xE2, 0xE2, 0xE2),
                 line: Color32::from_rgb(0xC4, 0xC4, 0xC6),
                 text: Color32::from_rgb(0x1E, 0x1F, 0x22),
-                quiet: Color32::from_rgb(0x60, 0x63, 0x68),
+                secondary: Color32::from_rgb(0x60, 0x63, 0x68),
                 accent: Color32::from_rgb(0xA8, 0x62, 0x00),
                 error: Color32::from_rgb(0xB8, 0x2A, 0x1E),
             },
@@ -70,14 +70,14 @@ pub fn load_fonts(ctx: &egui::Context) {
 
 /// Applies the look of `theme` to the whole context.
 pub fn apply(ctx: &egui::Context, theme: Theme) {
-    let tones = Tones::of(theme);
+    let palette = Palette::of(theme);
     let base = if theme == Theme::Dark { egui::Theme::Dark } else { egui::Theme::Light };
     ctx.set_theme(base);
-    ctx.all_styles_mut(|style| dress(style, theme, &tones));
+    ctx.all_styles_mut(|style| apply_to_style(style, theme, &palette));
 }
 
-fn dress(style: &mut Style, theme: Theme, tones: &Tones) {
-    style.visuals = visuals(theme, tones);
+fn apply_to_style(style: &mut Style, theme: Theme, palette: &Palette) {
+    style.visuals = visuals(theme, palette);
     let font = |size| FontId::new(size, FontFamily::Proportional);
     style.text_styles = [
         (TextStyle::Small, font(SMALL_PT)),
@@ -102,31 +102,31 @@ fn dress(style: &mut Style, theme: Theme, tones: &Tones) {
     style.animation_time = 0.0;
 }
 
-fn visuals(theme: Theme, tones: &Tones) -> Visuals {
+fn visuals(theme: Theme, palette: &Palette) -> Visuals {
     let mut visuals = if theme == Theme::Dark { Visuals::dark() } else { Visuals::light() };
     visuals.override_text_color = None;
-    visuals.panel_fill = tones.panel;
-    visuals.window_fill = tones.panel;
-    visuals.window_stroke = Stroke::new(1.0, tones.line);
-    visuals.extreme_bg_color = tones.well;
-    visuals.faint_bg_color = tones.well.gamma_multiply(0.5);
-    visuals.hyperlink_color = tones.accent;
-    visuals.error_fg_color = tones.error;
-    visuals.warn_fg_color = tones.accent;
-    visuals.weak_text_color = Some(tones.quiet);
-    visuals.selection.bg_fill = tones.accent.gamma_multiply(0.35);
-    visuals.selection.stroke = Stroke::new(1.0, tones.text);
+    visuals.panel_fill = palette.panel;
+    visuals.window_fill = palette.panel;
+    visuals.window_stroke = Stroke::new(1.0, palette.line);
+    visuals.extreme_bg_color = palette.well;
+    visuals.faint_bg_color = palette.well.gamma_multiply(0.5);
+    visuals.hyperlink_color = palette.accent;
+    visuals.error_fg_color = palette.error;
+    visuals.warn_fg_color = palette.accent;
+    visuals.weak_text_color = Some(palette.secondary);
+    visuals.selection.bg_fill = palette.accent.gamma_multiply(0.35);
+    visuals.selection.stroke = Stroke::new(1.0, palette.text);
     visuals.slider_trailing_fill = true;
     visuals.menu_corner_radius = CornerRadius::same(4);
     visuals.window_corner_radius = CornerRadius::same(4);
     let widgets = &mut visuals.widgets;
-    widgets.noninteractive.bg_stroke = Stroke::new(1.0, tones.line);
-    widgets.noninteractive.fg_stroke = Stroke::new(1.0, tones.text);
+    widgets.noninteractive.bg_stroke = Stroke::new(1.0, palette.line);
+    widgets.noninteractive.fg_stroke = Stroke::new(1.0, palette.text);
     for (widget, fill, text) in [
-        (&mut widgets.inactive, tones.well, tones.text),
-        (&mut widgets.hovered, tones.line, tones.text),
-        (&mut widgets.active, tones.line, tones.accent),
-        (&mut widgets.open, tones.line, tones.text),
+        (&mut widgets.inactive, palette.well, palette.text),
+        (&mut widgets.hovered, palette.line, palette.text),
+        (&mut widgets.active, palette.line, palette.accent),
+        (&mut widgets.open, palette.line, palette.text),
     ] {
         widget.bg_fill = fill;
         widget.weak_bg_fill = fill;
@@ -136,6 +136,6 @@ fn visuals(theme: Theme, tones: &Tones) -> Visuals {
         widget.expansion = 0.0;
     }
     // Keyboard focus is drawn with the stroke of `hovered`.
-    widgets.hovered.bg_stroke = Stroke::new(1.0, tones.quiet);
+    widgets.hovered.bg_stroke = Stroke::new(1.0, palette.secondary);
     visuals
 }

@@ -2,10 +2,10 @@
 //! cursor.
 
 mod drawing;
-mod hint;
 mod icons;
 mod run_to;
 mod scale;
+mod tooltip;
 mod track;
 mod transport;
 
@@ -32,13 +32,13 @@ impl TimelinePanel {
         let state = cx.state;
         let debugger = &state.debugger;
         if state.picture.is_none() {
-            return widgets::nothing(ui, cx.tones, "The timeline appears when a photograph is open.");
+            return widgets::placeholder(ui, cx.palette, "The timeline appears when a photograph is open.");
         }
         if !state.view.debug.open {
-            return off(ui, cx);
+            return recording_off(ui, cx);
         }
         let Some(replay) = debugger.replay.as_ref().filter(|replay| !replay.trace().is_empty()) else {
-            return widgets::nothing(ui, cx.tones, "Recording the decisions of the analysis\u{2026}");
+            return widgets::placeholder(ui, cx.palette, "Recording the decisions of the analysis\u{2026}");
         };
         let names = self.names(debugger.generation, replay.trace());
         Frame::new().inner_margin(Margin { left: 8, right: 8, top: 3, bottom: 5 }).show(ui, |ui| {
@@ -48,16 +48,16 @@ impl TimelinePanel {
     }
 
     fn names(&mut self, generation: u64, trace: &Trace) -> Names {
-        let (made, names) = self.names.get_or_insert_with(|| (generation, Names::of(trace)));
-        if *made != generation {
-            (*made, *names) = (generation, Names::of(trace));
+        let (known, names) = self.names.get_or_insert_with(|| (generation, Names::of(trace)));
+        if *known != generation {
+            (*known, *names) = (generation, Names::of(trace));
         }
         names.clone()
     }
 }
 
 /// Shows, while no decisions are recorded, what that means and the button that starts recording.
-fn off(ui: &mut Ui, cx: &mut PanelContext) {
+fn recording_off(ui: &mut Ui, cx: &mut PanelContext) {
     ui.add_space((ui.available_height() / 2.0 - 14.0).max(4.0));
     ui.horizontal_wrapped(|ui| {
         ui.add_space(8.0);
@@ -67,6 +67,6 @@ fn off(ui: &mut Ui, cx: &mut PanelContext) {
             cx.send(Command::Debug(DebugCommand::Settings(settings)));
         }
         let text = "Nothing is recorded: the analysis is a little faster, and cannot be stopped or rewound.";
-        ui.label(RichText::new(text).color(cx.tones.quiet));
+        ui.label(RichText::new(text).color(cx.palette.secondary));
     });
 }

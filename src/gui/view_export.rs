@@ -5,7 +5,7 @@ use super::cube_panel::CubePanel;
 use super::dock::{Pane, Panels};
 use super::offscreen::OffscreenContext;
 use super::task::Task;
-use super::theme::{self, Tones};
+use super::theme::{self, Palette};
 use crate::app::{
     Command, DrawnPicture, Export, ExportKind, ExportOptions, JobCommand, Severity, State, ViewCommand,
 };
@@ -39,35 +39,40 @@ impl ViewExporter {
         cube: &CubePanel,
     ) {
         let Some(gpu) = cx.gpu.cloned() else { return };
-        let (state, cube) = (cx.state.clone(), cube.clone_view());
+        let (state, cube) = (cx.state.clone(), cube.clone_with_camera());
         let draw = move || draw(&view_export, &state, cube, &gpu);
         self.drawing = Task::start(ctx, "view export", draw);
     }
 
     /// The command that writes the picture, once it is drawn.
-    pub fn done(&mut self) -> Option<Command> {
+    pub fn take_command(&mut self) -> Option<Command> {
         Task::take(&mut self.drawing)
     }
 }
 
 /// Pictures of at most this many columns have one pixel for each point; in larger ones, text and lines grow with the size.
-const COLUMNS_AT_ONE: f32 = 900.0;
+const COLUMNS_AT_SCALE_ONE: f32 = 900.0;
 
 fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderState) -> Command {
     let RenderState { instance, adapter, device, queue, .. } = gpu.clone();
-    let existing = WgpuSetupExisting { instance, adapter, device, queue };
-    let pixels_per_point = (view_export.size_px[0] as f32 / COLUMNS_AT_ONE).max(1.0);
-    let drawn = OffscreenContext::new(existing, view_export.size_px, pixels_per_point).and_then(
+    let device_setup = WgpuSetupExisting { instance, adapter, device, queue };
+    let pixels_per_point = (view_export.size_px[0] as f32 / COLUMNS_AT_SCALE_ONE).max(1.0);
+    let drawn = OffscreenContext::new(device_setup, view_export.size_px, pixels_per_point).and_then(
         |mut offscreen_context| {
             theme::load_fonts(offscreen_context.ctx());
             theme::apply(offscreen_context.ctx(), state.view.theme);
-            let (tones, gpu) = (Tones::of(state.view.theme), offscreen_context.gpu());
+            let (palette, gpu) = (Palette::of(state.view.theme), offscreen_context.gpu());
             let mut panels = Panels { cube, ..Panels::default() };
             offscreen_context.picture(|ui| {
                 let mut ignored = Vec::new();
-                let mut cx =
-                    PanelContext { state, tones: &tones, gpu: Some(&gpu), bare: true, out: &mut ignored };
-                let frame = egui::Frame::new().fill(tones.background);
+                let mut cx = PanelContext {
+                    state,
+                    palette: &palette,
+                    gpu: Some(&gpu),
+                    is_export: true,
+                    commands: &mut ignored,
+                };
+                let frame = egui::Frame::new().fill(palette.background);
                 egui::CentralPanel::default()
                     .frame(frame)
                     .show(ui, |ui| panels.show(view_export.pane, ui, &mut cx));

@@ -1,6 +1,6 @@
 //! The watch panel: values at the debugger's cursor, with a mark on those that changed since the cursor last stopped.
 
-use super::theme::{SMALL_PT, Tones};
+use super::theme::{Palette, SMALL_PT};
 use super::{PanelContext, widgets};
 use crate::color::Vec3;
 use crate::view::{AxisDistance, Current, Watch, WatchedPixel, watch};
@@ -51,7 +51,7 @@ impl WatchPanel {
         let (state, debugger) = (cx.state, &cx.state.debugger);
         let (Some(replay), Some(picture)) = (&debugger.replay, &state.picture) else {
             let text = "Values at the cursor appear when the decisions of an analysis are recorded (D).";
-            return widgets::nothing(ui, cx.tones, text);
+            return widgets::placeholder(ui, cx.palette, text);
         };
         // While another scale is analyzed, the working picture may be another one than that of the trace.
         let pixel_blocks = replay.trace().pixel_blocks();
@@ -60,20 +60,20 @@ impl WatchPanel {
         let pixel = state.explained_pixel().filter(|_| working.is_some());
         let colors = working.map_or(&picture.photo.image.pixels, |working| &working.image.pixels);
         let found = watch(replay, &debugger.names, colors, pixel);
-        let mut groups = vec![of_run(&found)];
-        groups.extend(found.current.as_ref().map(of_current));
-        groups.extend(found.pixel.as_ref().map(|pixel| of_pixel(pixel, picture.size().0)));
+        let mut groups = vec![run_lines(&found)];
+        groups.extend(found.current.as_ref().map(hypothesis_lines));
+        groups.extend(found.pixel.as_ref().map(|pixel| pixel_lines(pixel, picture.size().0)));
         self.remember((debugger.generation, replay.at()), debugger.playing.is_none(), groups);
         let Some(now) = &self.now else { return };
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {
             egui::Frame::new().inner_margin(8).show(ui, |ui| {
                 ui.spacing_mut().item_spacing = vec2(4.0, 1.0);
-                table(ui, cx.tones, &now.groups, |line| self.has_changed(line));
+                table(ui, cx.palette, &now.groups, |line| self.has_changed(line));
                 if let Some(pixel) = &found.pixel {
                     distances(ui, cx, pixel);
                 } else {
                     let text = "Select a pixel (Alt + click) to see its distances to every axis and plane.";
-                    ui.label(RichText::new(text).size(SMALL_PT).color(cx.tones.quiet));
+                    ui.label(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary));
                 }
             });
         });
@@ -104,18 +104,18 @@ impl Line {
     }
 }
 
-fn none() -> String {
+fn dash() -> String {
     "\u{2013}".to_owned()
 }
 
 /// Lines about the progress of the analysis.
-fn of_run(watch: &Watch) -> Vec<Line> {
-    let stage = watch.stage.map_or_else(none, |stage| stage.name().to_owned());
-    let pass = watch.pass.map_or_else(none, |pass| pass.name().to_owned());
+fn run_lines(watch: &Watch) -> Vec<Line> {
+    let stage = watch.stage.map_or_else(dash, |stage| stage.name().to_owned());
+    let pass = watch.pass.map_or_else(dash, |pass| pass.name().to_owned());
     let [standing, begun] = watch.regions.map(widgets::grouped);
     let regions = format!("{standing} of {begun}");
     let unassigned = widgets::grouped(watch.unassigned as usize);
-    let light = watch.light.map_or_else(|| vec![none()], |light| light.map(|v| format!("{v:.3}")).to_vec());
+    let light = watch.light.map_or_else(|| vec![dash()], |light| light.map(|v| format!("{v:.3}")).to_vec());
     vec![
         Line::one("stage", "The stage of the step taken last (5.2 to 6).", stage, ""),
         Line::one("pass", "The part of that stage.", pass, ""),
@@ -126,7 +126,7 @@ fn of_run(watch: &Watch) -> Vec<Line> {
 }
 
 /// Lines about the hypothesis that the step at the cursor concerns.
-fn of_current(current: &Current) -> Vec<Line> {
+fn hypothesis_lines(current: &Current) -> Vec<Line> {
     let number = match current.region {
         None => current.hypothesis.to_string(),
         Some(region) => format!("{} (region {region})", current.hypothesis),
@@ -134,7 +134,7 @@ fn of_current(current: &Current) -> Vec<Line> {
     let pixels = widgets::grouped(current.pixels as usize);
     let vector = |v: &Vec3, digits: usize| v.iter().map(|v| format!("{v:.digits$}")).collect();
     let (mean, direction) = (vector(&current.line.mean, 1), vector(&current.line.direction, 3));
-    let half = current.half_width.map_or_else(none, |half| format!("{half:.2}"));
+    let half = current.half_width.map_or_else(dash, |half| format!("{half:.2}"));
     let tip = "The one that the cursor is about, and what it is in the result.";
     vec![
         Line::one("hypothesis", tip, number, ""),
@@ -147,14 +147,14 @@ fn of_current(current: &Current) -> Vec<Line> {
 }
 
 /// Lines about the selected pixel; `width` is the photograph's, pixels.
-fn of_pixel(pixel: &WatchedPixel, width: usize) -> Vec<Line> {
+fn pixel_lines(pixel: &WatchedPixel, width: usize) -> Vec<Line> {
     let [x, y] = pixel.pixel.position(width);
     let class = match pixel.class {
-        None => none(),
+        None => dash(),
         Some(None) => "too few pixels".to_owned(),
         Some(Some(class)) => class.name().to_owned(),
     };
-    let holder = pixel.hypothesis.map_or_else(none, |hypothesis| format!("hypothesis {hypothesis}"));
+    let holder = pixel.hypothesis.map_or_else(dash, |hypothesis| format!("hypothesis {hypothesis}"));
     let color = pixel.color.map(|v| format!("{v:.1}")).to_vec();
     let role = pixel.kind.name().to_owned();
     vec![
@@ -167,15 +167,15 @@ fn of_pixel(pixel: &WatchedPixel, width: usize) -> Vec<Line> {
 }
 
 /// Shows groups of lines, in two columns if there is room.
-fn table(ui: &mut Ui, tones: &Tones, groups: &[Vec<Line>], changed: impl Fn(&Line) -> bool) {
-    let abreast = if ui.available_width() >= 2.0 * GROUP_PT + 8.0 { 2 } else { 1 };
-    for row in groups.chunks(abreast) {
+fn table(ui: &mut Ui, palette: &Palette, groups: &[Vec<Line>], changed: impl Fn(&Line) -> bool) {
+    let groups_per_row = if ui.available_width() >= 2.0 * GROUP_PT + 8.0 { 2 } else { 1 };
+    for row in groups.chunks(groups_per_row) {
         ui.horizontal_top(|ui| {
             for group in row {
                 ui.vertical(|ui| {
                     ui.set_width(GROUP_PT);
                     for line in group {
-                        show_line(ui, tones, line, changed(line));
+                        show_line(ui, palette, line, changed(line));
                     }
                 });
             }
@@ -184,26 +184,26 @@ fn table(ui: &mut Ui, tones: &Tones, groups: &[Vec<Line>], changed: impl Fn(&Lin
     }
 }
 
-fn show_line(ui: &mut Ui, tones: &Tones, line: &Line, changed: bool) {
+fn show_line(ui: &mut Ui, palette: &Palette, line: &Line, changed: bool) {
     ui.horizontal(|ui| {
-        name(ui, tones, line, changed);
-        let ink = if changed { tones.accent } else { tones.text };
+        name(ui, palette, line, changed);
+        let text_color = if changed { palette.accent } else { palette.text };
         for value in &line.values {
-            cell(ui, NUMBERS_PT / line.values.len() as f32 - 4.0, RichText::new(value).color(ink));
+            cell(ui, NUMBERS_PT / line.values.len() as f32 - 4.0, RichText::new(value).color(text_color));
         }
-        ui.label(RichText::new(line.unit).color(tones.quiet));
+        ui.label(RichText::new(line.unit).color(palette.secondary));
     });
 }
 
-fn name(ui: &mut Ui, tones: &Tones, line: &Line, changed: bool) {
+fn name(ui: &mut Ui, palette: &Palette, line: &Line, changed: bool) {
     let size = vec2(NAME_PT, LINE_PT);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         ui.set_min_size(size);
         let (rect, _) = ui.allocate_exact_size(vec2(3.0, LINE_PT - 4.0), egui::Sense::hover());
         if changed {
-            ui.painter().rect_filled(rect, 1.0, tones.accent);
+            ui.painter().rect_filled(rect, 1.0, palette.accent);
         }
-        let text = RichText::new(line.name).color(tones.quiet);
+        let text = RichText::new(line.name).color(palette.secondary);
         ui.add(Label::new(text).truncate()).on_hover_text(line.tip);
     });
 }
@@ -220,16 +220,16 @@ fn cell(ui: &mut Ui, width: f32, text: RichText) {
 /// text
 /// color, others in the secondary color.
 fn distances(ui: &mut Ui, cx: &PanelContext, pixel: &WatchedPixel) {
-    let tones = cx.tones;
+    let palette = cx.palette;
     let heading =
         format!("from pixel to region, {}", if pixel.distances.is_empty() { "none yet" } else { "counts" });
-    widgets::heading(ui, tones, &heading).on_hover_text(
+    widgets::heading(ui, palette, &heading).on_hover_text(
         "Distance from each cylinder's axis against its radius (5.3.2), and from each slice's plane against half its width (5.4.2).",
     );
     if pixel.distances.is_empty() {
         return;
     }
-    let small = |text: &str| RichText::new(text.to_owned()).size(SMALL_PT).color(tones.quiet);
+    let small = |text: &str| RichText::new(text.to_owned()).size(SMALL_PT).color(palette.secondary);
     ui.horizontal(|ui| {
         ui.add_space(REGION_PT + ui.spacing().item_spacing.x);
         for title in ["axis / radius", "plane / half", "along"] {
@@ -242,7 +242,7 @@ fn distances(ui: &mut Ui, cx: &PanelContext, pixel: &WatchedPixel) {
 }
 
 fn row(ui: &mut Ui, cx: &PanelContext, distance: &AxisDistance) {
-    let (tones, names) = (cx.tones, &cx.state.debugger.names);
+    let (palette, names) = (cx.palette, &cx.state.debugger.names);
     let size = vec2(REGION_PT, LINE_PT);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         ui.set_min_size(size);
@@ -252,19 +252,19 @@ fn row(ui: &mut Ui, cx: &PanelContext, distance: &AxisDistance) {
             widgets::color(names.color(hypothesis)),
             &format!("color of hypothesis {hypothesis}"),
         );
-        ui.label(RichText::new(format!("hypothesis {hypothesis}")).color(tones.quiet));
+        ui.label(RichText::new(format!("hypothesis {hypothesis}")).color(palette.secondary));
     });
-    let against = |[value, limit]: [f64; 2]| {
-        let ink: Color32 = if value <= limit { tones.text } else { tones.quiet };
-        RichText::new(format!("{value:.1} / {limit:.1}")).color(ink)
+    let with_limit = |[value, limit]: [f64; 2]| {
+        let text_color: Color32 = if value <= limit { palette.text } else { palette.secondary };
+        RichText::new(format!("{value:.1} / {limit:.1}")).color(text_color)
     };
-    cell(ui, DISTANCE_PT, against(distance.axis));
+    cell(ui, DISTANCE_PT, with_limit(distance.axis));
     cell(
         ui,
         DISTANCE_PT,
-        distance.plane.map_or_else(|| RichText::new("\u{2013}").color(tones.quiet), against),
+        distance.plane.map_or_else(|| RichText::new("\u{2013}").color(palette.secondary), with_limit),
     );
-    cell(ui, DISTANCE_PT, RichText::new(format!("{:.0}", distance.along)).color(tones.quiet));
+    cell(ui, DISTANCE_PT, RichText::new(format!("{:.0}", distance.along)).color(palette.secondary));
     let inside = |[value, limit]: [f64; 2]| value <= limit;
     let words = match (inside(distance.axis), distance.plane.is_some_and(inside)) {
         (true, true) => "in both",
@@ -272,7 +272,7 @@ fn row(ui: &mut Ui, cx: &PanelContext, distance: &AxisDistance) {
         (false, true) => "in slice",
         (false, false) => "",
     };
-    ui.label(RichText::new(words).size(SMALL_PT).color(tones.text));
+    ui.label(RichText::new(words).size(SMALL_PT).color(palette.text));
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! parameter would
 //! change the pixel's result.
 
-use super::later::{AT_ONCE_PX, Later};
+use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::analysis::WhatIf;
@@ -15,12 +15,12 @@ use egui::{FontId, Response, RichText, ScrollArea, Sense, Ui, Widget, WidgetInfo
 use std::sync::Arc;
 
 /// Identity of the answers: generation of the trace, pixel, and hypothesis id.
-type Dialog = (u64, Option<PixelIndex>, Option<HypothesisId>);
+type WhyKey = (u64, Option<PixelIndex>, Option<HypothesisId>);
 
 /// The why panel.
 #[derive(Default)]
 pub struct WhyPanel {
-    answers: Later<Dialog, Why>,
+    show_answers: BackgroundValue<WhyKey, Why>,
 }
 
 impl WhyPanel {
@@ -28,41 +28,41 @@ impl WhyPanel {
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let debugger = &cx.state.debugger;
         let (Some(trace), Some(shown)) = (debugger.trace().cloned(), cx.state.newest.clone()) else {
-            return unrecorded(ui, cx);
+            return not_recorded(ui, cx);
         };
         let pixel = cx.state.explained_pixel();
         let selected = cx.state.selected_region().filter(|_| pixel.is_none());
         let of_region = selected.and_then(|region| debugger.names.hypotheses_of(region).next());
-        let birth = debugger.chosen.filter(|_| pixel.is_none()).or(of_region);
-        if pixel.is_none() && birth.is_none() {
+        let hypothesis = debugger.chosen.filter(|_| pixel.is_none()).or(of_region);
+        if pixel.is_none() && hypothesis.is_none() {
             let text =
                 "Click a pixel or a region: its history appears here, and the reason for every refusal.";
-            let inset = egui::Frame::new().inner_margin(12);
-            inset.show(ui, |ui| widgets::nothing(ui, cx.tones, text));
+            let frame = egui::Frame::new().inner_margin(12);
+            frame.show(ui, |ui| widgets::placeholder(ui, cx.palette, text));
             return;
         }
         let (names, generation) = (Arc::clone(&debugger.names), debugger.generation);
-        let at_once = shown.labels().len() <= AT_ONCE_PX;
-        let question = (generation, pixel, birth);
-        let answer = move || why(&shown, &trace, &names, pixel, birth);
-        let Some(found) = self.answers.get(ui.ctx(), question, at_once, answer) else { return };
+        let synchronous = shown.labels().len() <= SYNCHRONOUS_PX;
+        let key = (generation, pixel, hypothesis);
+        let compute = move || why(&shown, &trace, &names, pixel, hypothesis);
+        let Some(found) = self.show_answers.get(ui.ctx(), key, synchronous, compute) else { return };
         egui::Frame::new().inner_margin(8).show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| answers(ui, cx, found));
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| show_answers(ui, cx, found));
         });
     }
 }
 
 /// Shows, while no decisions are recorded, a hint or the button that starts recording.
-fn unrecorded(ui: &mut Ui, cx: &mut PanelContext) {
+fn not_recorded(ui: &mut Ui, cx: &mut PanelContext) {
     if cx.state.picture.is_none() {
-        return widgets::nothing(
+        return widgets::placeholder(
             ui,
-            cx.tones,
+            cx.palette,
             "Open a photograph, then click a pixel to learn why it is what it is.",
         );
     }
     if cx.state.view.debug.open {
-        return widgets::nothing(ui, cx.tones, "The decisions are being recorded\u{2026}");
+        return widgets::placeholder(ui, cx.palette, "The decisions are being recorded\u{2026}");
     }
     ui.centered_and_justified(|ui| {
         let record = egui::Button::new("Record the decisions").ui(ui);
@@ -76,25 +76,25 @@ fn unrecorded(ui: &mut Ui, cx: &mut PanelContext) {
     });
 }
 
-fn answers(ui: &mut Ui, cx: &mut PanelContext, found: &Why) {
+fn show_answers(ui: &mut Ui, cx: &mut PanelContext, found: &Why) {
     if let Some((pixel, history)) = &found.pixel {
         about_pixel(ui, cx, *pixel);
-        entries(ui, cx, history);
+        show_sentences(ui, cx, history);
         what_if(ui, cx, *pixel);
     }
-    if let Some((birth, told)) = &found.hypothesis {
-        let heading = widgets::heading(ui, cx.tones, &format!("Hypothesis {birth}"));
+    if let Some((hypothesis, sentences)) = &found.hypothesis {
+        let heading = widgets::heading(ui, cx.palette, &format!("Hypothesis {hypothesis}"));
         heading.on_hover_text(
             "5.3\u{2013}5.4: why it was chosen, which neighbors were tested as its highlight, how it ended.",
         );
-        entries(ui, cx, told);
+        show_sentences(ui, cx, sentences);
     }
-    if let Some((number, told)) = &found.region {
-        let heading = widgets::heading(ui, cx.tones, &format!("Region {number} is made of"));
+    if let Some((number, sentences)) = &found.region {
+        let heading = widgets::heading(ui, cx.palette, &format!("Region {number} is made of"));
         heading.on_hover_text(
             "The hypotheses, absorptions and merges that made it, each under what it became part of.",
         );
-        entries(ui, cx, told);
+        show_sentences(ui, cx, sentences);
     }
 }
 
@@ -108,7 +108,7 @@ fn about_pixel(ui: &mut Ui, cx: &PanelContext, pixel: PixelIndex) {
         widgets::chip(ui, widgets::own_color(color), "the pixel's color");
         ui.label(format!("Pixel {x}, {y}"));
         let [r, g, b] = color;
-        ui.label(RichText::new(format!("{r:.0} {g:.0} {b:.0} counts")).color(cx.tones.quiet));
+        ui.label(RichText::new(format!("{r:.0} {g:.0} {b:.0} counts")).color(cx.palette.secondary));
         let kind = shown.analysis.intrinsic.kinds[pixel.index()].name();
         let fate = region.map_or_else(|| kind.to_owned(), |region| format!("region {region}, {kind}"));
         ui.label(fate);
@@ -116,16 +116,16 @@ fn about_pixel(ui: &mut Ui, cx: &PanelContext, pixel: PixelIndex) {
 }
 
 /// Shows sentences, each a link that moves the cursor to the sentence's step.
-fn entries(ui: &mut Ui, cx: &mut PanelContext, accounts: &[Account]) {
-    if accounts.is_empty() {
-        ui.label(RichText::new("nothing was decided about it").color(cx.tones.quiet));
+fn show_sentences(ui: &mut Ui, cx: &mut PanelContext, sentences: &[Account]) {
+    if sentences.is_empty() {
+        ui.label(RichText::new("nothing was decided about it").color(cx.palette.secondary));
     }
     let at = cx.state.debugger.replay.as_ref().map(crate::trace::Replay::at);
-    for account in accounts {
-        let now = at == Some(account.step + 1);
-        let response = entry(ui, cx, account, now);
+    for sentence in sentences {
+        let is_current = at == Some(sentence.step + 1);
+        let response = show_sentence(ui, cx, sentence, is_current);
         if response.on_hover_text("Go to this step.").clicked() {
-            cx.send(Command::Debug(DebugCommand::Seek(account.step + 1)));
+            cx.send(Command::Debug(DebugCommand::Seek(sentence.step + 1)));
         }
     }
 }
@@ -135,27 +135,27 @@ const STAGE_PT: f32 = 58.0;
 /// Indentation per level of the tree of merged hypotheses, points.
 const INDENT_PT: f32 = 12.0;
 
-fn entry(ui: &mut Ui, cx: &PanelContext, account: &Account, now: bool) -> Response {
+fn show_sentence(ui: &mut Ui, cx: &PanelContext, sentence: &Account, is_current: bool) -> Response {
     let width = ui.available_width();
-    let left = STAGE_PT + INDENT_PT * account.depth as f32;
+    let left = STAGE_PT + INDENT_PT * sentence.depth as f32;
     let font = FontId::proportional(SMALL_PT);
-    let color = if now { cx.tones.accent } else { cx.tones.text };
+    let color = if is_current { cx.palette.accent } else { cx.palette.text };
     let galley =
-        ui.painter().layout(account.text.clone(), font.clone(), color, (width - left - 4.0).max(40.0));
+        ui.painter().layout(sentence.text.clone(), font.clone(), color, (width - left - 4.0).max(40.0));
     let size = vec2(width, galley.size().y + 4.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     if response.hovered() || response.has_focus() {
-        ui.painter().rect_filled(rect, 2.0, cx.tones.line);
+        ui.painter().rect_filled(rect, 2.0, cx.palette.line);
     }
-    if now {
+    if is_current {
         let bar = egui::Rect::from_min_size(rect.min, vec2(2.0, rect.height()));
-        ui.painter().rect_filled(bar, 0.0, cx.tones.accent);
+        ui.painter().rect_filled(bar, 0.0, cx.palette.accent);
     }
     let top = rect.top() + 2.0;
-    let stage = ui.painter().layout_no_wrap(account.stage.name().to_owned(), font, cx.tones.quiet);
-    ui.painter().galley(pos2(rect.left() + 6.0, top), stage, cx.tones.quiet);
+    let stage = ui.painter().layout_no_wrap(sentence.stage.name().to_owned(), font, cx.palette.secondary);
+    ui.painter().galley(pos2(rect.left() + 6.0, top), stage, cx.palette.secondary);
     ui.painter().galley(pos2(rect.left() + left, top), galley, color);
-    response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Link, true, &account.text));
+    response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Link, true, &sentence.text));
     response
 }
 
@@ -163,7 +163,7 @@ fn entry(ui: &mut Ui, cx: &PanelContext, account: &Account, now: bool) -> Respon
 /// the
 /// button that starts the search.
 fn what_if(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
-    let heading = widgets::heading(ui, cx.tones, "What if");
+    let heading = widgets::heading(ui, cx.palette, "What if");
     heading.on_hover_text(
         "How far each parameter would have to move for this pixel to end otherwise, tried by analyzing again.",
     );
@@ -197,7 +197,7 @@ fn what_if(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
 fn alternatives(ui: &mut Ui, cx: &mut PanelContext, found: &[WhatIf]) {
     if found.is_empty() {
         let text = "No value of any single parameter that was tried changes what this pixel is.";
-        ui.label(RichText::new(text).color(cx.tones.quiet));
+        ui.label(RichText::new(text).color(cx.palette.secondary));
     }
     for what_if in found {
         let text = what_if_sentence(what_if);

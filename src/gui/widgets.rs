@@ -1,12 +1,12 @@
 //! Small widgets and formats that several panels share.
 
-use super::theme::{SMALL_PT, Tones};
+use super::theme::{Palette, SMALL_PT};
 use egui::{Align, Color32, Layout, Response, RichText, Sense, Ui, vec2};
 
 /// A heading in the secondary color over a group of controls.
-pub fn heading(ui: &mut Ui, tones: &Tones, text: &str) -> Response {
+pub fn heading(ui: &mut Ui, palette: &Palette, text: &str) -> Response {
     ui.add_space(6.0);
-    ui.label(RichText::new(text).size(SMALL_PT).color(tones.quiet))
+    ui.label(RichText::new(text).size(SMALL_PT).color(palette.secondary))
 }
 
 /// A square of 12 points filled with a color; `name` is its accessible name.
@@ -24,20 +24,20 @@ pub fn clickable(slider: &Response) -> Response {
 }
 
 /// A number, and its unit in the secondary color, right-aligned in `width` points.
-pub fn number(ui: &mut Ui, tones: &Tones, width: f32, value: &str, unit: &str) {
+pub fn number(ui: &mut Ui, palette: &Palette, width: f32, value: &str, unit: &str) {
     ui.allocate_ui_with_layout(vec2(width, 18.0), Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         ui.set_min_width(width);
         if !unit.is_empty() {
-            ui.label(RichText::new(unit).color(tones.quiet));
+            ui.label(RichText::new(unit).color(palette.secondary));
         }
         ui.label(value);
     });
 }
 
 /// A sentence in the middle of a panel that has nothing to show.
-pub fn nothing(ui: &mut Ui, tones: &Tones, text: &str) {
-    ui.centered_and_justified(|ui| ui.label(RichText::new(text).color(tones.quiet)));
+pub fn placeholder(ui: &mut Ui, palette: &Palette, text: &str) {
+    ui.centered_and_justified(|ui| ui.label(RichText::new(text).color(palette.secondary)));
 }
 
 /// An opaque color from sRGB bytes.

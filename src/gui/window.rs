@@ -26,23 +26,25 @@ pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
     let mut origin = Some(photograph.map_or_else(|| Origin::Sample(sample::NAME.to_owned()), Origin::File));
     let handover: Handover = Arc::default();
     loop {
-        let (origin, arrived) = (origin.take(), Arc::clone(&handover));
+        let (origin, handed_over) = (origin.take(), Arc::clone(&handover));
         let create = move |cc: &eframe::CreationContext<'_>| {
-            let app = lock(&arrived).take();
+            let app = lock(&handed_over).take();
             let app = match (app, origin) {
                 (Some(mut app), _) => {
                     app.move_to(&cc.egui_ctx, cc.wgpu_render_state.clone());
                     app
                 }
-                (None, origin) => begin(cc, origin)?,
+                (None, origin) => first_app(cc, origin)?,
             };
-            let lost =
-                cc.wgpu_render_state.as_ref().map_or_else(Arc::default, |gpu| watch(gpu, &cc.egui_ctx));
-            Ok(Box::new(WindowApp { app: Some(app), lost, handover: arrived }) as Box<dyn eframe::App>)
+            let lost = cc
+                .wgpu_render_state
+                .as_ref()
+                .map_or_else(Arc::default, |gpu| device_lost_flag(gpu, &cc.egui_ctx));
+            Ok(Box::new(WindowApp { app: Some(app), lost, handover: handed_over }) as Box<dyn eframe::App>)
         };
-        let ended = eframe::run_native("dichroscope", options(), Box::new(create));
+        let result = eframe::run_native("dichroscope", options(), Box::new(create));
         if lock(&handover).is_none() {
-            return ended.map_err(|error| WindowError(reason(&error.to_string()).to_owned()));
+            return result.map_err(|error| WindowError(short_reason(&error.to_string()).to_owned()));
         }
     }
 }
@@ -79,7 +81,7 @@ fn icon() -> egui::IconData {
 }
 
 /// The application of the first window, with the settings stored by the previous run.
-fn begin(cc: &eframe::CreationContext<'_>, origin: Option<Origin>) -> std::io::Result<App> {
+fn first_app(cc: &eframe::CreationContext<'_>, origin: Option<Origin>) -> std::io::Result<App> {
     let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.clone(), Executor::Threads)?;
     if let Some(path) = Settings::path() {
         let (settings, warning) = Settings::load(&path);
@@ -95,7 +97,7 @@ fn begin(cc: &eframe::CreationContext<'_>, origin: Option<Origin>) -> std::io::R
 }
 
 /// A flag that is set when the graphics device is lost.
-fn watch(gpu: &RenderState, ctx: &egui::Context) -> Arc<AtomicBool> {
+fn device_lost_flag(gpu: &RenderState, ctx: &egui::Context) -> Arc<AtomicBool> {
     let lost = Arc::new(AtomicBool::new(false));
     let (flag, ctx) = (Arc::clone(&lost), ctx.clone());
     gpu.device.set_device_lost_callback(move |_, message| {
@@ -140,7 +142,7 @@ impl eframe::App for WindowApp {
 }
 
 /// A message without the source location at its beginning and the full stop at its end.
-fn reason(message: &str) -> &str {
+fn short_reason(message: &str) -> &str {
     let after = message.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
     after.map_or(message, |(_, reason)| reason).trim_end_matches('.')
 }
@@ -158,7 +160,7 @@ mod tests {
     #[test]
     fn a_reason_tells_no_places_in_sources() {
         let winit = "winit EventLoopError: os error at /home/a/linux/mod.rs:765: neither DISPLAY nor WAYLAND_DISPLAY is set.";
-        assert_eq!(reason(winit), "neither DISPLAY nor WAYLAND_DISPLAY is set");
-        assert_eq!(reason("no adapter: out of memory"), "no adapter: out of memory");
+        assert_eq!(short_reason(winit), "neither DISPLAY nor WAYLAND_DISPLAY is set");
+        assert_eq!(short_reason("no adapter: out of memory"), "no adapter: out of memory");
     }
 }

@@ -1,6 +1,6 @@
 //! The row of controls above the color space: coloring, space, tools, shapes to show, named views.
 
-use super::camera_controller::{CameraController, Plane, Sight};
+use super::camera_controller::{CameraController, NamedView, Plane};
 use crate::app::ViewCommand;
 use crate::gpu::Projection;
 use crate::gui::PanelContext;
@@ -50,11 +50,11 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, camera_controller: &mut CameraCo
         color_by(ui, &mut settings);
         space(ui, &mut settings);
         tools(ui, cx, &mut settings, narrow);
-        stays_open("Show").ui(ui, |ui| what_to_show(ui, &mut settings));
-        ui.menu_button("Views", |ui| views(ui, camera_controller, Plane::of(cx.state), size)).response.on_hover_text(
+        open_menu("Show").ui(ui, |ui| shape_checkboxes(ui, &mut settings));
+        ui.menu_button("Views", |ui| view_menu(ui, camera_controller, Plane::of(cx.state), size)).response.on_hover_text(
             "Views with a name: along an axis, onto the selected dichromatic plane, in perspective or not.",
         );
-        let lock = icons::button(ui, cx.tones, Icon::Lock(settings.locked), settings.locked, "Lock the view");
+        let lock = icons::button(ui, cx.palette, Icon::Lock(settings.locked), settings.locked, "Lock the view");
         if lock
             .on_hover_text(
                 "Locked: a view of the dichromatic plane stays as it is when another region is selected.",
@@ -69,7 +69,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, camera_controller: &mut CameraCo
     }
 }
 
-fn stays_open(text: &str) -> MenuButton<'_> {
+fn open_menu(text: &str) -> MenuButton<'_> {
     MenuButton::new(text).config(MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside))
 }
 
@@ -84,9 +84,9 @@ fn color_by(ui: &mut Ui, settings: &mut CubeSettings) {
         ),
         (ColorBy::Density, "Density", "By how many pixels have it, on a logarithmic scale."),
     ];
-    let now =
+    let current =
         CHOICES.iter().find(|(choice, ..)| *choice == settings.color_by).map_or("", |(_, name, _)| name);
-    combo(ui, "Color by", now, 58.0, |ui| {
+    combo(ui, "Color by", current, 58.0, |ui| {
         for (choice, name, tip) in CHOICES {
             ui.selectable_value(&mut settings.color_by, choice, name).on_hover_text(tip);
         }
@@ -94,7 +94,7 @@ fn color_by(ui: &mut Ui, settings: &mut CubeSettings) {
 }
 
 fn space(ui: &mut Ui, settings: &mut CubeSettings) {
-    combo(ui, "Color space shown", short(settings.space), 58.0, |ui| {
+    combo(ui, "Color space shown", short_name(settings.space), 58.0, |ui| {
         for space in ColorSpace::ALL {
             ui.selectable_value(&mut settings.space, space, space.name()).on_hover_text(space.meaning());
         }
@@ -102,7 +102,7 @@ fn space(ui: &mut Ui, settings: &mut CubeSettings) {
 }
 
 /// A name short enough for the button.
-const fn short(space: ColorSpace) -> &'static str {
+const fn short_name(space: ColorSpace) -> &'static str {
     match space {
         ColorSpace::Lab => "L*a*b*",
         ColorSpace::Chromaticity => "r\u{2013}g",
@@ -110,12 +110,12 @@ const fn short(space: ColorSpace) -> &'static str {
     }
 }
 
-fn combo(ui: &mut Ui, name: &str, now: &str, width: f32, choices: impl FnOnce(&mut Ui)) {
-    let combo = ComboBox::from_id_salt(name).selected_text(now).width(width);
+fn combo(ui: &mut Ui, name: &str, current: &str, width: f32, choices: impl FnOnce(&mut Ui)) {
+    let combo = ComboBox::from_id_salt(name).selected_text(current).width(width);
     let response = combo.show_ui(ui, choices).response;
     response.widget_info(|| {
         let mut info = WidgetInfo::labeled(egui::accesskit::Role::ComboBox, true, name);
-        info.current_text_value = Some(now.to_owned());
+        info.current_text_value = Some(current.to_owned());
         info
     });
     response.on_hover_text(name);
@@ -135,14 +135,14 @@ fn tools(ui: &mut Ui, cx: &PanelContext, settings: &mut CubeSettings, narrow: bo
     }
     ui.spacing_mut().item_spacing.x = 1.0;
     for (tool, icon, name, tip) in TOOLS {
-        if icons::button(ui, cx.tones, icon, settings.tool == tool, name).on_hover_text(tip).clicked() {
+        if icons::button(ui, cx.palette, icon, settings.tool == tool, name).on_hover_text(tip).clicked() {
             settings.tool = tool;
         }
     }
     ui.spacing_mut().item_spacing.x = 4.0;
 }
 
-fn what_to_show(ui: &mut Ui, settings: &mut CubeSettings) {
+fn shape_checkboxes(ui: &mut Ui, settings: &mut CubeSettings) {
     let mut row = |on: &mut bool, name: &str, tip: &str| {
         ui.checkbox(on, name).on_hover_text(tip);
     };
@@ -180,16 +180,16 @@ fn what_to_show(ui: &mut Ui, settings: &mut CubeSettings) {
     );
 }
 
-fn views(ui: &mut Ui, camera_controller: &mut CameraController, plane: Option<Plane>, size: [f32; 2]) {
-    for (sight, key, name, tip) in Sight::ALL {
-        let of_plane = matches!(sight, Sight::FaceOn | Sight::EdgeOn);
+fn view_menu(ui: &mut Ui, camera_controller: &mut CameraController, plane: Option<Plane>, size: [f32; 2]) {
+    for (named_view, key, name, tip) in NamedView::ALL {
+        let of_plane = matches!(named_view, NamedView::FaceOn | NamedView::EdgeOn);
         let button = Button::new(name).shortcut_text(key.name());
         let response = ui.add_enabled(!of_plane || plane.is_some(), button);
         let response = response
             .on_hover_text(tip)
             .on_disabled_hover_text("Select a region that has a dichromatic plane, in the RGB space.");
         if response.clicked() {
-            camera_controller.look(sight, plane, size);
+            camera_controller.go_to_view(named_view, plane, size);
         }
     }
     let mut perspective = camera_controller.orbit.projection == Projection::Perspective;

@@ -18,7 +18,7 @@ const SCROLL_PT: f32 = 260.0;
 
 /// The views that a menu offers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sight {
+pub enum NamedView {
     /// Along a named direction.
     Along(Preset),
     /// Onto the selected region's dichromatic plane.
@@ -27,7 +27,7 @@ pub enum Sight {
     EdgeOn,
 }
 
-impl Sight {
+impl NamedView {
     /// All views with key, name and tooltip.
     pub const ALL: [(Self, Key, &'static str, &'static str); 7] = [
         (Self::Along(Preset::Home), Key::Home, "Home", "The whole cube from the front, blue up."),
@@ -90,46 +90,46 @@ pub struct CameraController {
     /// Place and direction of the camera.
     pub orbit: Orbit,
     /// Points to be seen when the space is framed, world units; the corners of the unit cube if empty.
-    whole: Vec<[f32; 3]>,
+    content: Vec<[f32; 3]>,
     /// Size of the view for which the space was framed, points.
-    framed: Option<[f32; 2]>,
+    framed_size: Option<[f32; 2]>,
     /// Whether the user has moved the camera since the space was framed.
-    by_hand: bool,
+    moved_by_user: bool,
     /// The view of the plane, which follows the selection until the user turns the camera.
-    follows: Option<Sight>,
-    faced: Option<Plane>,
+    followed_view: Option<NamedView>,
+    followed_plane: Option<Plane>,
 }
 
 impl CameraController {
     /// Restores a camera that the user chose earlier.
-    pub fn place(&mut self, orbit: Orbit) {
-        (self.orbit, self.by_hand) = (orbit.checked(), true);
+    pub fn set_orbit(&mut self, orbit: Orbit) {
+        (self.orbit, self.moved_by_user) = (orbit.checked(), true);
     }
 
     /// Frames the whole space when the view's size has changed, unless the user has moved the camera.
-    pub fn arrive(&mut self, size: [f32; 2]) {
-        if !self.by_hand && self.framed != Some(size) {
+    pub fn frame_if_resized(&mut self, size: [f32; 2]) {
+        if !self.moved_by_user && self.framed_size != Some(size) {
             self.frame(size);
         }
     }
 
     /// Sets the points of another space that are to be seen; the next frame frames them, unless the user has moved
     /// the camera.
-    pub fn enter(&mut self, whole: Vec<[f32; 3]>) {
-        self.whole = whole;
-        self.framed = None;
+    pub fn set_content(&mut self, content: Vec<[f32; 3]>) {
+        self.content = content;
+        self.framed_size = None;
     }
 
     /// Moves the camera to a named view. Views of a plane have no effect without one.
-    pub fn look(&mut self, sight: Sight, plane: Option<Plane>, size: [f32; 2]) {
-        match (sight, plane) {
-            (Sight::Along(preset), _) => {
+    pub fn go_to_view(&mut self, named_view: NamedView, plane: Option<Plane>, size: [f32; 2]) {
+        match (named_view, plane) {
+            (NamedView::Along(preset), _) => {
                 self.orbit.preset(preset);
-                self.follows = None;
+                self.followed_view = None;
             }
-            (Sight::FaceOn | Sight::EdgeOn, Some(plane)) => {
-                self.turn_to(sight, plane);
-                (self.follows, self.faced) = (Some(sight), Some(plane));
+            (NamedView::FaceOn | NamedView::EdgeOn, Some(plane)) => {
+                self.turn_to(named_view, plane);
+                (self.followed_view, self.followed_plane) = (Some(named_view), Some(plane));
             }
             (_, None) => return,
         }
@@ -138,18 +138,18 @@ impl CameraController {
 
     /// Turns the camera to the plane of a newly selected region, unless the view is locked.
     pub fn follow(&mut self, plane: Option<Plane>, locked: bool) {
-        if let (Some(sight), Some(plane), false) = (self.follows, plane, locked)
-            && self.faced != Some(plane)
+        if let (Some(named_view), Some(plane), false) = (self.followed_view, plane, locked)
+            && self.followed_plane != Some(plane)
         {
-            self.turn_to(sight, plane);
-            self.faced = Some(plane);
+            self.turn_to(named_view, plane);
+            self.followed_plane = Some(plane);
         }
     }
 
-    fn turn_to(&mut self, sight: Sight, Plane { normal, body }: Plane) {
+    fn turn_to(&mut self, named_view: NamedView, Plane { normal, body }: Plane) {
         // The body vector points to the right and the light's color up, as in the plane panel.
         let inward = cross(normal, body);
-        if sight == Sight::FaceOn {
+        if named_view == NamedView::FaceOn {
             self.orbit.face(normal, inward);
         } else {
             self.orbit.edge_on(normal, body);
@@ -158,24 +158,24 @@ impl CameraController {
 
     /// Moves and scales the space to the middle of the view, as large as the margins allow.
     fn frame(&mut self, size: [f32; 2]) {
-        (self.framed, self.by_hand) = (Some(size), false);
+        (self.framed_size, self.moved_by_user) = (Some(size), false);
         self.orbit.fit(size[0] / size[1].max(1.0));
         let middle = size.map(|length| 0.5 * length);
         // Moving the space changes its perspective slightly, so the step is repeated.
         for _ in 0..3 {
             let projector = self.orbit.projector(size);
-            let cube = cube_edges().into_iter().flatten().filter(|_| self.whole.is_empty());
-            let mut seen = Rect::NOTHING;
-            cube.chain(self.whole.iter().copied())
+            let cube = cube_edges().into_iter().flatten().filter(|_| self.content.is_empty());
+            let mut bounds = Rect::NOTHING;
+            cube.chain(self.content.iter().copied())
                 .filter_map(|corner| projector.screen_from_world(corner))
-                .for_each(|corner| seen.extend_with(corner.at.into()));
-            if !seen.is_positive() {
+                .for_each(|corner| bounds.extend_with(corner.at.into()));
+            if !bounds.is_positive() {
                 return;
             }
             let free = |axis: usize| size[axis] - 2.0 * MARGIN_PT[axis].min(MARGIN_SHARE * size[axis]);
-            let center = seen.center();
+            let center = bounds.center();
             self.orbit.pan([middle[0] - center.x, middle[1] - center.y], size[1]);
-            let factor = (free(0) / seen.width()).min(free(1) / seen.height());
+            let factor = (free(0) / bounds.width()).min(free(1) / bounds.height());
             self.orbit.zoom_at(factor, middle, size);
         }
     }
@@ -191,35 +191,42 @@ impl CameraController {
     /// Turns, moves and zooms the camera by pointer and keys. `orbits`: whether a drag with the primary button turns
     /// the camera,
     /// which it does while the pointer tool is chosen.
-    pub fn obey(&mut self, ui: &Ui, response: &Response, rect: Rect, orbits: bool, plane: Option<Plane>) {
+    pub fn handle_input(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        rect: Rect,
+        orbits: bool,
+        plane: Option<Plane>,
+    ) {
         let size = [rect.width(), rect.height()];
         let before = self.orbit;
-        let listens = (response.hovered() || response.has_focus()) && !ui.ctx().text_edit_focused();
-        let keys = if listens { pressed(ui) } else { Vec::new() };
-        self.obey_pointer(ui, response, rect, orbits);
+        let takes_keys = (response.hovered() || response.has_focus()) && !ui.ctx().text_edit_focused();
+        let keys = if takes_keys { pressed(ui) } else { Vec::new() };
+        self.handle_pointer(ui, response, rect, orbits);
         for &key in &keys {
-            self.obey_key(key, size);
+            self.handle_key(key, size);
         }
-        self.by_hand |= self.orbit != before;
-        let named = keys.iter().find_map(|key| Sight::ALL.into_iter().find(|(_, of, ..)| of == key));
-        let reset = (response.double_clicked() && orbits).then_some(Sight::ALL[0]);
-        if let Some((sight, ..)) = named.or(reset) {
-            self.look(sight, plane, size);
+        self.moved_by_user |= self.orbit != before;
+        let named = keys.iter().find_map(|key| NamedView::ALL.into_iter().find(|(_, of, ..)| of == key));
+        let reset = (response.double_clicked() && orbits).then_some(NamedView::ALL[0]);
+        if let Some((named_view, ..)) = named.or(reset) {
+            self.go_to_view(named_view, plane, size);
         }
     }
 
-    fn obey_pointer(&mut self, ui: &Ui, response: &Response, rect: Rect, orbits: bool) {
+    fn handle_pointer(&mut self, ui: &Ui, response: &Response, rect: Rect, orbits: bool) {
         let size = [rect.width(), rect.height()];
         let delta = response.drag_delta();
         let shift = ui.input(|input| input.modifiers.shift);
         let primary = response.dragged_by(PointerButton::Primary) && orbits;
-        let second =
+        let other_button =
             response.dragged_by(PointerButton::Middle) || response.dragged_by(PointerButton::Secondary);
-        if second || (primary && shift) {
+        if other_button || (primary && shift) {
             self.orbit.pan(delta.into(), size[1]);
         } else if primary && delta != egui::Vec2::ZERO {
             self.orbit.orbit(delta.into());
-            self.follows = None;
+            self.followed_view = None;
         }
         if let Some(pointer) = response.hover_pos() {
             let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
@@ -230,7 +237,7 @@ impl CameraController {
         }
     }
 
-    fn obey_key(&mut self, key: Key, size: [f32; 2]) {
+    fn handle_key(&mut self, key: Key, size: [f32; 2]) {
         let middle = size.map(|length| length / 2.0);
         let step = match key {
             Key::ArrowLeft => [-KEY_STEP_PT, 0.0],
@@ -243,7 +250,7 @@ impl CameraController {
             _ => return,
         };
         self.orbit.orbit(step);
-        self.follows = None;
+        self.followed_view = None;
     }
 }
 

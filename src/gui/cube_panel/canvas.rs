@@ -7,10 +7,10 @@ use egui_wgpu::RenderState;
 /// The renderer and egui's texture id of its image; both are made at the first drawing.
 #[derive(Default)]
 pub struct Canvas {
-    made: Option<Made>,
+    renderer: Option<DeviceRenderer>,
 }
 
-struct Made {
+struct DeviceRenderer {
     device: wgpu::Device,
     renderer: Renderer,
     texture: Option<(TextureId, u64)>,
@@ -19,26 +19,26 @@ struct Made {
 impl Canvas {
     /// Draws the scene if scene, camera or size have changed, and shows the image in `rect`.
     pub fn show(&mut self, ui: &Ui, gpu: &RenderState, rect: Rect, scene: &Scene, camera: &Orbit) {
-        let made = self.made(gpu);
+        let renderer = self.renderer(gpu);
         let scale = ui.ctx().pixels_per_point();
         let size_px = [rect.width(), rect.height()].map(|length| (length * scale).round().max(1.0) as u32);
-        made.renderer.draw(&gpu.device, &gpu.queue, scene, camera, size_px, scale);
+        renderer.renderer.draw(&gpu.device, &gpu.queue, scene, camera, size_px, scale);
         let uv = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-        ui.painter().image(made.texture(gpu), rect, uv, egui::Color32::WHITE);
+        ui.painter().image(renderer.texture(gpu), rect, uv, egui::Color32::WHITE);
     }
 
     /// The image: columns and rows, then sRGB bytes with alpha, row-major. `None` before the first drawing.
     pub fn read_back(&self, gpu: &RenderState) -> Option<([u32; 2], Vec<u8>)> {
-        let renderer = &self.made.as_ref()?.renderer;
+        let renderer = &self.renderer.as_ref()?.renderer;
         Some((renderer.size_px(), renderer.read_back(&gpu.device, &gpu.queue)?))
     }
 
     /// The renderer of the graphics device; made anew when a lost device was replaced by another.
-    fn made(&mut self, gpu: &RenderState) -> &mut Made {
-        if self.made.as_ref().is_some_and(|made| made.device != gpu.device) {
-            self.made = None;
+    fn renderer(&mut self, gpu: &RenderState) -> &mut DeviceRenderer {
+        if self.renderer.as_ref().is_some_and(|renderer| renderer.device != gpu.device) {
+            self.renderer = None;
         }
-        self.made.get_or_insert_with(|| Made {
+        self.renderer.get_or_insert_with(|| DeviceRenderer {
             device: gpu.device.clone(),
             renderer: Renderer::new(&gpu.device),
             texture: None,
@@ -46,12 +46,12 @@ impl Canvas {
     }
 }
 
-impl Made {
+impl DeviceRenderer {
     fn texture(&mut self, gpu: &RenderState) -> TextureId {
         let (view, generation) = (self.renderer.view(), self.renderer.generation());
         let filter = wgpu::FilterMode::Nearest;
         match self.texture {
-            Some((id, known)) if known == generation => id,
+            Some((id, uploaded)) if uploaded == generation => id,
             Some((id, _)) => {
                 let mut window = gpu.renderer.write();
                 window.update_egui_texture_from_wgpu_texture(&gpu.device, view, filter, id);

@@ -2,7 +2,7 @@
 
 use crate::app::State;
 use crate::gpu::{Batch, Point};
-use crate::gui::theme::Tones;
+use crate::gui::theme::Palette;
 use crate::raster::Mask;
 use crate::raster::RegionId;
 use crate::trace::Class;
@@ -24,7 +24,7 @@ const GHOST_ALPHA: u8 = 72;
 #[derive(Default)]
 pub struct Cloud {
     of: Option<Inputs>,
-    tally: Tally,
+    majorities: BinMajorities,
     /// The bins, in the histogram's order.
     pub bins: Vec<Point>,
     /// The points to draw: those in focus, then the ghosts.
@@ -35,7 +35,7 @@ pub struct Cloud {
 
 /// Majority region and class of each bin.
 #[derive(Default)]
-struct Tally {
+struct BinMajorities {
     of: Option<(Arc<Picture>, Option<Arc<ResultSnapshot>>)>,
     /// Region that most pixels of each bin are in; 0 for no region.
     regions: Vec<u16>,
@@ -43,7 +43,7 @@ struct Tally {
     classes: Vec<Option<Class>>,
 }
 
-impl Tally {
+impl BinMajorities {
     /// Counts anew when photograph or result have changed.
     fn update(&mut self, picture: &Arc<Picture>, shown: Option<&Arc<ResultSnapshot>>) {
         let same = |(counted, result): &(Arc<Picture>, Option<Arc<ResultSnapshot>>)| {
@@ -68,14 +68,19 @@ struct Inputs {
     shown: Option<Arc<ResultSnapshot>>,
     marked: Option<Arc<Mask>>,
     item: Option<Item>,
-    look: (ColorSpace, ColorBy, bool, bool, Theme),
-    detail: Option<Arc<[UniqueColor]>>,
+    settings: (ColorSpace, ColorBy, bool, bool, Theme),
+    unique_colors: Option<Arc<[UniqueColor]>>,
     /// Whether all points are ghosts, because the pixels at the debugger's cursor are drawn instead.
-    ghostly: bool,
+    ghosts_only: bool,
 }
 
 impl Inputs {
-    fn of(state: &State, picture: &Arc<Picture>, detail: Option<&Arc<[UniqueColor]>>, ghostly: bool) -> Self {
+    fn of(
+        state: &State,
+        picture: &Arc<Picture>,
+        unique_colors: Option<&Arc<[UniqueColor]>>,
+        ghosts_only: bool,
+    ) -> Self {
         let CubeSettings { space, size_by_count, ghost_rest, .. } = state.view.cube;
         let color_by = color_by(state);
         let selection = &state.document.selection;
@@ -84,9 +89,9 @@ impl Inputs {
             shown: state.shown().cloned(),
             marked: selection.marked.clone(),
             item: selection.item,
-            look: (space, color_by, size_by_count, ghost_rest, state.view.theme),
-            detail: detail.cloned(),
-            ghostly,
+            settings: (space, color_by, size_by_count, ghost_rest, state.view.theme),
+            unique_colors: unique_colors.cloned(),
+            ghosts_only,
         }
     }
 
@@ -95,8 +100,8 @@ impl Inputs {
         Arc::ptr_eq(&self.picture, &other.picture)
             && same(self.shown.as_ref(), other.shown.as_ref())
             && same_arc(self.marked.as_ref(), other.marked.as_ref())
-            && same_arc(self.detail.as_ref(), other.detail.as_ref())
-            && (self.item, self.look, self.ghostly) == (other.item, other.look, other.ghostly)
+            && same_arc(self.unique_colors.as_ref(), other.unique_colors.as_ref())
+            && (self.item, self.settings, self.ghosts_only) == (other.item, other.settings, other.ghosts_only)
     }
 }
 
@@ -119,36 +124,43 @@ fn same_arc<T: ?Sized>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
 }
 
 impl Cloud {
-    /// Rebuilds the points when an input has changed. `detail` holds the unique colors, if they are drawn in place of
+    /// Rebuilds the points when an input has changed. `unique_colors` holds the unique colors, if they are drawn in place of
     /// bins.
-    /// With `ghostly`, all points are ghosts.
+    /// With `ghosts_only`, all points are ghosts.
     pub fn update(
         &mut self,
         state: &State,
-        tones: &Tones,
+        palette: &Palette,
         picture: &Arc<Picture>,
-        detail: Option<&Arc<[UniqueColor]>>,
-        ghostly: bool,
+        unique_colors: Option<&Arc<[UniqueColor]>>,
+        ghosts_only: bool,
     ) {
-        let inputs = Inputs::of(state, picture, detail, ghostly);
+        let inputs = Inputs::of(state, picture, unique_colors, ghosts_only);
         if self.of.as_ref().is_some_and(|of| of.is(&inputs)) {
             return;
         }
-        self.tally.update(picture, inputs.shown.as_ref());
-        let focus = if ghostly { Some(vec![0; picture.histogram.bins.len()]) } else { focus(state, picture) };
+        self.majorities.update(picture, inputs.shown.as_ref());
+        let pixels_in_focus = if ghosts_only {
+            Some(vec![0; picture.histogram.bins.len()])
+        } else {
+            pixels_in_focus(state, picture)
+        };
         self.fullest = picture.histogram.bins.iter().map(|bin| bin.count).max().unwrap_or(1);
-        let brush = Brush { inputs: &inputs, tally: &self.tally, tones, fullest: self.fullest };
+        let style =
+            PointStyle { inputs: &inputs, majorities: &self.majorities, palette, fullest: self.fullest };
         let bins = picture.histogram.bins.iter().enumerate();
-        self.bins = bins.map(|(bin, of)| brush.point(bin, of.mean, of.count)).collect();
-        self.drawn = match &inputs.detail {
+        self.bins = bins.map(|(bin, of)| style.point(bin, of.mean, of.count)).collect();
+        self.drawn = match &inputs.unique_colors {
             None => {
                 let points = self.bins.iter().copied().enumerate();
-                Brush::split(points.map(|(bin, point)| (point, looked_at(focus.as_deref(), bin))))
+                PointStyle::split(
+                    points.map(|(bin, point)| (point, is_in_focus(pixels_in_focus.as_deref(), bin))),
+                )
             }
-            Some(colors) => Brush::split(colors.iter().map(|unique| {
-                let mut point = brush.point(unique.bin as usize, unique.color, unique.count);
+            Some(colors) => PointStyle::split(colors.iter().map(|unique| {
+                let mut point = style.point(unique.bin as usize, unique.color, unique.count);
                 point.size_px = point.size_px.min(PLAIN_PT);
-                (point, looked_at(focus.as_deref(), unique.bin as usize))
+                (point, is_in_focus(pixels_in_focus.as_deref(), unique.bin as usize))
             })),
         };
         self.of = Some(inputs);
@@ -156,19 +168,19 @@ impl Cloud {
 
     /// The region that most pixels of a bin are in; `None` when most are in none.
     pub fn region_of(&self, bin: u32) -> Option<RegionId> {
-        RegionId::from_label(*self.tally.regions.get(bin as usize)?)
+        RegionId::from_label(*self.majorities.regions.get(bin as usize)?)
     }
 }
 
 /// Whether a bin has pixels in focus; always true when nothing is selected.
-fn looked_at(focus: Option<&[u32]>, bin: usize) -> bool {
-    focus.is_none_or(|focus| focus[bin] > 0)
+fn is_in_focus(pixels_in_focus: Option<&[u32]>, bin: usize) -> bool {
+    pixels_in_focus.is_none_or(|pixels_in_focus| pixels_in_focus[bin] > 0)
 }
 
 /// Number of pixels of each bin that are marked or in the selected region, window or bin; `None` when no pixel is, or
 /// when
 /// the setting `ghost_rest` is off.
-fn focus(state: &State, picture: &Picture) -> Option<Vec<u32>> {
+fn pixels_in_focus(state: &State, picture: &Picture) -> Option<Vec<u32>> {
     if !state.view.cube.ghost_rest {
         return None;
     }
@@ -185,25 +197,29 @@ fn focus(state: &State, picture: &Picture) -> Option<Vec<u32>> {
 }
 
 /// Computes position, color and size of points.
-struct Brush<'a> {
+struct PointStyle<'a> {
     inputs: &'a Inputs,
-    tally: &'a Tally,
-    tones: &'a Tones,
+    majorities: &'a BinMajorities,
+    palette: &'a Palette,
     fullest: u32,
 }
 
-impl Brush<'_> {
+impl PointStyle<'_> {
     fn point(&self, bin: usize, counts: [f32; 3], pixels: u32) -> Point {
-        let (space, color_by, size_by_count, ..) = self.inputs.look;
+        let (space, color_by, size_by_count, ..) = self.inputs.settings;
         let full = self.inputs.picture.histogram.full_counts;
         let share = (pixels as f32).ln_1p() / (self.fullest as f32).ln_1p().max(1e-6);
         let color = match color_by {
             ColorBy::Own => crate::gui::widgets::own_color(counts),
             ColorBy::Region => self.region_color(bin),
-            ColorBy::Class => {
-                self.tally.classes.get(bin).copied().flatten().map_or(self.tones.quiet, class_color)
-            }
-            ColorBy::Density => density_color(share, self.inputs.look.4),
+            ColorBy::Class => self
+                .majorities
+                .classes
+                .get(bin)
+                .copied()
+                .flatten()
+                .map_or(self.palette.secondary, class_color),
+            ColorBy::Density => density_color(share, self.inputs.settings.4),
         };
         let size_px =
             if size_by_count { SIZES_PT[0] + (SIZES_PT[1] - SIZES_PT[0]) * share * share } else { PLAIN_PT };
@@ -211,17 +227,17 @@ impl Brush<'_> {
     }
 
     fn region_color(&self, bin: usize) -> Color32 {
-        let region = self.tally.regions.get(bin).copied().unwrap_or(0);
+        let region = self.majorities.regions.get(bin).copied().unwrap_or(0);
         let colors = self.inputs.shown.as_ref().map(|shown| shown.region_colors.as_slice());
         let color = colors.and_then(|colors| colors.get(usize::from(region).checked_sub(1)?));
-        color.map_or(self.tones.quiet, |&color| crate::gui::widgets::color(color))
+        color.map_or(self.palette.secondary, |&color| crate::gui::widgets::color(color))
     }
 
     /// Separates the points in focus from the others, and makes the others ghosts.
     fn split(points: impl Iterator<Item = (Point, bool)>) -> [Batch<Point>; 2] {
         let (mut full, mut ghosts) = (Vec::new(), Vec::new());
-        for (point, looked_at) in points {
-            if looked_at {
+        for (point, is_in_focus) in points {
+            if is_in_focus {
                 full.push(point);
             } else {
                 let [r, g, b, _] = point.color;

@@ -1,10 +1,10 @@
 //! The shapes of one region in the color space: cylinder, slice, skewed T, illuminant, window ellipsoid.
 
-use super::instant::{InstantKey, instant_key};
 use super::labels::{Label, all_around};
 use crate::app::State;
 use crate::gpu::{self, Line, Orbit, Overlay, Projection, Projector, Vertex};
-use crate::gui::theme::{SMALL_PT, Tones};
+use crate::gui::instant_key::{InstantKey, instant_key};
+use crate::gui::theme::{Palette, SMALL_PT};
 use crate::gui::widgets;
 use crate::raster::RegionId;
 use crate::view::{
@@ -31,14 +31,14 @@ pub struct Figure {
     pub meshes: Vec<gpu::Mesh>,
     /// Edges of the translucent bodies, and the lines of the skewed T.
     pub lines: Vec<Line>,
-    smooth: Vec<(Mesh, Color32)>,
-    notes: Vec<Note>,
+    smooth_meshes: Vec<(Mesh, Color32)>,
+    shape_labels: Vec<ShapeLabel>,
     /// Ends of the matte line, world units: labels are placed across this line.
-    spine: Option<[Point; 2]>,
+    matte_line: Option<[Point; 2]>,
 }
 
 /// A labeled point, world units.
-struct Note {
+struct ShapeLabel {
     place: Point,
     text: Cow<'static, str>,
     tip: &'static str,
@@ -106,10 +106,10 @@ impl Figure {
         else {
             return true;
         };
-        let tones = Tones::of(theme);
-        let mut pen = ShapeBuilder { figure: self, space, full: picture.histogram.full_counts };
+        let palette = Palette::of(theme);
+        let mut builder = ShapeBuilder { figure: self, space, full: picture.histogram.full_counts };
         if let Some(replay) = state.followed() {
-            pen.instant(state, replay, &shown, &tones);
+            builder.add_instant(state, replay, &shown, &palette);
             return true;
         }
         let [cylinder, slice, lines, illuminant, ellipsoid] = show;
@@ -117,29 +117,29 @@ impl Figure {
             && let Some(shapes) = view::region_shapes(&shown, region)
         {
             let color = shown.region_colors.get(region.index());
-            let color = color.map_or(tones.quiet, |&color| widgets::color(color));
+            let color = color.map_or(palette.secondary, |&color| widgets::color(color));
             if cylinder {
-                pen.cylinder(&shown, &shapes, color, tones.quiet);
+                builder.cylinder(&shown, &shapes, color, palette.secondary);
             }
             if let Some(solid) = shapes.slice.as_ref().filter(|_| slice) {
-                pen.solid(solid, color, SLICE_ALPHA);
-                pen.note_at_corner(
+                builder.add_solid(solid, color, SLICE_ALPHA);
+                builder.add_label_at_corner(
                     solid,
                     "slice",
                     "The colors within the slice's half width of the dichromatic plane (section 5.4.2).",
                 );
             }
             if lines {
-                pen.skewed_t(&shapes, tones.text);
+                builder.add_skewed_t(&shapes, palette.text);
             }
         }
         if let Some(ends) = view::illuminant_line(&shown).filter(|_| illuminant) {
             let tip = "The color of the light, common to all highlights (section 5.4).";
-            pen.light(&ends, tones.text, "illuminant", tip);
+            builder.add_light(&ends, palette.text, "illuminant", tip);
         }
         if let Some(solid) = window.filter(|_| ellipsoid).and_then(|w| view::window_ellipsoid(&shown, w)) {
-            pen.solid(&solid, tones.accent, ELLIPSOID_ALPHA);
-            pen.note_at_corner(&solid, "window", "The window's colors at two standard deviations: what its class is decided from (section 5.2.1).");
+            builder.add_solid(&solid, palette.accent, ELLIPSOID_ALPHA);
+            builder.add_label_at_corner(&solid, "window", "The window's colors at two standard deviations: what its class is decided from (section 5.2.1).");
         }
         true
     }
@@ -147,35 +147,37 @@ impl Figure {
     /// The silhouettes of the smooth bodies: the curves along which their surface turns away from the camera.
     pub fn silhouettes(&self, orbit: &Orbit) -> Vec<Line> {
         let mut lines = Vec::new();
-        for (mesh, color) in &self.smooth {
-            silhouette(mesh, orbit, |a, b| lines.push(outline(a, b, *color)));
+        for (mesh, color) in &self.smooth_meshes {
+            silhouette(mesh, orbit, |a, b| lines.push(outline_piece(a, b, *color)));
         }
         lines
     }
 
     /// The labels of the shapes, the most important first. The dots are painted here.
-    pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, tones: &Tones) -> Vec<Label> {
+    pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, palette: &Palette) -> Vec<Label> {
         let painter = ui.painter_at(rect);
-        let ends = self.spine.map(|ends| ends.map(|end| super::frame::screen(projector, rect, end)));
-        let spine = if let Some([Some(a), Some(b)]) = ends { (b - a).normalized() } else { egui::Vec2::ZERO };
+        let ends =
+            self.matte_line.map(|ends| ends.map(|end| super::frame::screen_from_world(projector, rect, end)));
+        let matte_line =
+            if let Some([Some(a), Some(b)]) = ends { (b - a).normalized() } else { egui::Vec2::ZERO };
         let mut sides = all_around();
-        sides.sort_by(|a, b| a.dot(spine).abs().total_cmp(&b.dot(spine).abs()));
-        let of = |note: &Note| {
-            let at = super::frame::screen(projector, rect, note.place)?;
+        sides.sort_by(|a, b| a.dot(matte_line).abs().total_cmp(&b.dot(matte_line).abs()));
+        let of = |note: &ShapeLabel| {
+            let at = super::frame::screen_from_world(projector, rect, note.place)?;
             if note.dot {
-                painter.circle(at, 4.0, tones.background, Stroke::new(1.8, tones.text));
+                painter.circle(at, 4.0, palette.background, Stroke::new(1.8, palette.text));
             }
             Some(Label {
                 text: note.text.to_string(),
                 at,
                 sides: sides.clone(),
                 leader: true,
-                color: tones.text,
+                color: palette.text,
                 size_pt: SMALL_PT,
                 tip: note.tip,
             })
         };
-        self.notes.iter().filter_map(of).collect()
+        self.shape_labels.iter().filter_map(of).collect()
     }
 }
 
@@ -189,78 +191,84 @@ pub struct ShapeBuilder<'a> {
 impl ShapeBuilder<'_> {
     fn cylinder(&mut self, shown: &ResultSnapshot, shapes: &RegionShapes, color: Color32, dark: Color32) {
         if let Some(solid) = &shapes.cylinder {
-            self.solid(solid, color, CYLINDER_ALPHA);
-            self.note_at_corner(
+            self.add_solid(solid, color, CYLINDER_ALPHA);
+            self.add_label_at_corner(
                 solid,
                 "cylinder",
                 "The colors within the cylinder's radius of the matte line (section 5.3.2).",
             );
         }
         if let Some(solid) = view::dark_sphere(shown) {
-            self.solid(&solid, dark, DARK_ALPHA);
+            self.add_solid(&solid, dark, DARK_ALPHA);
         }
     }
 
-    fn skewed_t(&mut self, shapes: &RegionShapes, color: Color32) {
+    fn add_skewed_t(&mut self, shapes: &RegionShapes, color: Color32) {
         for &place in &shapes.meeting_points {
             let tip = if shapes.meeting_point_found {
                 "Where the highlight line leaves the matte line: the body reflection under the highlight (section 3.1)."
             } else {
                 "No highlight was found: where highlights usually leave the matte line, at half of its length or beyond (section 5.4.1)."
             };
-            self.note(place, "meeting point", tip, true);
+            self.add_label(place, "meeting point", tip, true);
         }
         let tip = "The end of the matte line, where the surface faces the light (section 5.4.1).";
-        self.note(shapes.brightest_matte, "brightest matte point", tip, true);
-        self.spine(&shapes.matte_line, color, LINE_PT);
-        let third = along(shapes.matte_line, 0.35);
-        self.note(
+        self.add_label(shapes.brightest_matte, "brightest matte point", tip, true);
+        self.add_matte_line(&shapes.matte_line, color, LINE_PT);
+        let third = interpolated(shapes.matte_line, 0.35);
+        self.add_label(
             third,
             "matte line",
             "Body reflection alone: from black to the brightest matte point (section 3.1).",
             false,
         );
         for &ends in &shapes.highlight_lines {
-            self.line(&ends, color, LINE_PT, 0.0);
+            self.add_line(&ends, color, LINE_PT, 0.0);
             let tip = "Body reflection of one shade plus more and more light reflected at the surface (section 3.1).";
-            self.note(along(ends, 0.75), "highlight line", tip, false);
+            self.add_label(interpolated(ends, 0.75), "highlight line", tip, false);
         }
     }
 
     /// Adds the line of the light's color.
-    pub fn light(&mut self, ends: &[Point; 2], color: Color32, name: &'static str, tip: &'static str) {
+    pub fn add_light(&mut self, ends: &[Point; 2], color: Color32, name: &'static str, tip: &'static str) {
         let dash = if self.space == ColorSpace::Rgb { DASH_PT } else { 0.0 };
-        self.line(ends, color, OUTLINE_PT, dash);
-        self.note(ends[1], name, tip, false);
+        self.add_line(ends, color, OUTLINE_PT, dash);
+        self.add_label(ends[1], name, tip, false);
     }
 
     /// Adds the matte line; labels are placed across this line.
-    pub fn spine(&mut self, ends: &[Point; 2], color: Color32, width_px: f32) {
-        self.line(ends, color, width_px, 0.0);
-        self.figure.spine = Some(ends.map(|end| self.space.place(end, self.full)));
+    pub fn add_matte_line(&mut self, ends: &[Point; 2], color: Color32, width_px: f32) {
+        self.add_line(ends, color, width_px, 0.0);
+        self.figure.matte_line = Some(ends.map(|end| self.space.place(end, self.full)));
     }
 
     /// Adds a translucent body with a label.
-    pub fn body(&mut self, solid: &Solid, color: Color32, name: &'static str, tip: &'static str) {
-        self.solid(solid, color, CYLINDER_ALPHA);
-        self.note_at_corner(solid, name, tip);
+    pub fn add_body(&mut self, solid: &Solid, color: Color32, name: &'static str, tip: &'static str) {
+        self.add_solid(solid, color, CYLINDER_ALPHA);
+        self.add_label_at_corner(solid, name, tip);
     }
 
     /// Adds a label at a color, counts; with a dot if `dot` is set.
-    pub fn note(&mut self, counts: Point, text: impl Into<Cow<'static, str>>, tip: &'static str, dot: bool) {
+    pub fn add_label(
+        &mut self,
+        counts: Point,
+        text: impl Into<Cow<'static, str>>,
+        tip: &'static str,
+        dot: bool,
+    ) {
         let place = self.space.place(counts, self.full);
-        self.figure.notes.push(Note { place, text: text.into(), tip, dot });
+        self.figure.shape_labels.push(ShapeLabel { place, text: text.into(), tip, dot });
     }
 
     /// Adds a label at the first point of the solid's last outline.
-    fn note_at_corner(&mut self, solid: &Solid, text: &'static str, tip: &'static str) {
+    fn add_label_at_corner(&mut self, solid: &Solid, text: &'static str, tip: &'static str) {
         if let Some(&corner) = solid.outlines.last().and_then(|outline| outline.first()) {
-            self.note(corner, text, tip, false);
+            self.add_label(corner, text, tip, false);
         }
     }
 
     /// Adds a polyline through colors, counts.
-    pub fn line(&mut self, counts: &[Point], color: Color32, width_px: f32, dash_px: f32) {
+    pub fn add_line(&mut self, counts: &[Point], color: Color32, width_px: f32, dash_px: f32) {
         let curve = self.space.polyline(counts, self.full);
         let pieces = curve.windows(2).map(|ends| Line {
             a: ends[0],
@@ -273,7 +281,7 @@ impl ShapeBuilder<'_> {
         self.figure.lines.extend(pieces);
     }
 
-    fn solid(&mut self, solid: &Solid, color: Color32, alpha: u8) {
+    fn add_solid(&mut self, solid: &Solid, color: Color32, alpha: u8) {
         let surface = self.space.surface(&solid.surface, self.full);
         let [r, g, b, _] = color.to_array();
         let corner = |&index: &u32| Vertex {
@@ -284,19 +292,19 @@ impl ShapeBuilder<'_> {
         self.figure.meshes.push(gpu::Mesh::new(surface.triangles.iter().flatten().map(corner).collect()));
         for edge in &solid.outlines {
             let curve = self.space.polyline(edge, self.full);
-            self.figure.lines.extend(curve.windows(2).map(|ends| outline(ends[0], ends[1], color)));
+            self.figure.lines.extend(curve.windows(2).map(|ends| outline_piece(ends[0], ends[1], color)));
         }
-        self.figure.smooth.push((surface, color));
+        self.figure.smooth_meshes.push((surface, color));
     }
 }
 
-fn outline(a: Point, b: Point, color: Color32) -> Line {
+fn outline_piece(a: Point, b: Point, color: Color32) -> Line {
     let [r, g, b_, _] = color.to_array();
     let color = [r, g, b_, OUTLINE_ALPHA];
     Line { a, b, color, width_px: OUTLINE_PT, dash_px: 0.0, overlay: Overlay::Faint }
 }
 
-fn along([a, b]: [Point; 2], t: f32) -> Point {
+fn interpolated([a, b]: [Point; 2], t: f32) -> Point {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t)
 }
 
@@ -305,13 +313,13 @@ fn along([a, b]: [Point; 2], t: f32) -> Point {
 /// Zorin 2000).
 fn silhouette(mesh: &Mesh, orbit: &Orbit, mut add: impl FnMut(Point, Point)) {
     let [_, _, forward] = orbit.right_up_forward();
-    let camera_controller = orbit.eye();
+    let eye = orbit.eye();
     let facing: Vec<f32> = mesh
         .points
         .iter()
         .zip(&mesh.normals)
         .map(|(point, normal)| match orbit.projection {
-            Projection::Perspective => (0..3).map(|i| normal[i] * (camera_controller[i] - point[i])).sum(),
+            Projection::Perspective => (0..3).map(|i| normal[i] * (eye[i] - point[i])).sum(),
             Projection::Orthographic => (0..3).map(|i| -normal[i] * forward[i]).sum::<f32>(),
         })
         .collect();
@@ -322,7 +330,7 @@ fn silhouette(mesh: &Mesh, orbit: &Orbit, mut add: impl FnMut(Point, Point)) {
             let (a, b) = (triangle[side] as usize, triangle[(side + 1) % 3] as usize);
             if (facing[a] > 0.0) != (facing[b] > 0.0) {
                 let t = facing[a] / (facing[a] - facing[b]);
-                crossings[found] = along([mesh.points[a], mesh.points[b]], t);
+                crossings[found] = interpolated([mesh.points[a], mesh.points[b]], t);
                 found += 1;
             }
         }
@@ -337,7 +345,7 @@ mod tests {
     use super::*;
 
     /// The side of an upright cylinder of radius 0.2 around the middle of the unit square.
-    fn tube(sides: u32) -> Mesh {
+    fn cylinder_side(sides: u32) -> Mesh {
         let mut mesh = Mesh::default();
         for side in 0..sides {
             let (y, x) = (std::f32::consts::TAU * side as f32 / sides as f32).sin_cos();
@@ -357,7 +365,7 @@ mod tests {
         // Seen along +y, the silhouettes are the lines at the smallest and the largest x.
         orbit.look_along([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
         let mut found = Vec::new();
-        silhouette(&tube(62), &orbit, |a, b| found.push((a, b)));
+        silhouette(&cylinder_side(62), &orbit, |a, b| found.push((a, b)));
         assert!(found.len() >= 4);
         for (a, b) in found {
             for end in [a, b] {

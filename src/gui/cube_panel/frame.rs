@@ -2,7 +2,7 @@
 
 use super::labels::Label;
 use crate::gpu::{Line, Overlay, Projector};
-use crate::gui::theme::{SMALL_PT, Tones};
+use crate::gui::theme::{Palette, SMALL_PT};
 use crate::view::{Axis, ColorSpace, Theme};
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
@@ -15,38 +15,38 @@ const GIZMO_PT: f32 = 22.0;
 
 /// Edges and axes of the space.
 #[derive(Default)]
-pub struct Frame {
+pub struct AxesFrame {
     of: Option<(ColorSpace, u32, Theme)>,
     /// Edges and axes as lines, world units.
     pub lines: Vec<Line>,
     axes: Vec<Axis>,
 }
 
-impl Frame {
+impl AxesFrame {
     /// Rebuilds edges and axes when space, full scale or theme have changed; returns whether one has.
     pub fn update(&mut self, space: ColorSpace, full_counts: f32, theme: Theme) -> bool {
         let inputs = Some((space, full_counts.to_bits(), theme));
         if self.of == inputs {
             return false;
         }
-        let tones = Tones::of(theme);
-        let dim = mixed(tones.background, tones.quiet, 0.45);
+        let palette = Palette::of(theme);
+        let dim = mixed(palette.background, palette.secondary, 0.45);
         self.lines.clear();
         for edge in space.frame(full_counts) {
-            self.lines.extend(pieces(&edge, dim, EDGE_PT));
+            self.lines.extend(line_segments(&edge, dim, EDGE_PT));
         }
         self.axes = space.axes(full_counts);
-        let bright = mixed(tones.background, tones.quiet, 0.9);
+        let bright = mixed(palette.background, palette.secondary, 0.9);
         for axis in &self.axes {
-            self.lines.extend(pieces(&axis.line, bright, AXIS_PT));
+            self.lines.extend(line_segments(&axis.line, bright, AXIS_PT));
         }
         self.of = inputs;
         true
     }
 
     /// Labels of the axes, the black corner and the ticks, the most important first. The ticks are painted here.
-    pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, tones: &Tones) -> Vec<Label> {
-        let on_screen = |world| screen(projector, rect, world);
+    pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, palette: &Palette) -> Vec<Label> {
+        let on_screen = |world| screen_from_world(projector, rect, world);
         let Some(middle) = on_screen([0.5; 3]) else { return Vec::new() };
         let (mut names, mut values) = (Vec::new(), Vec::new());
         let painter = ui.painter_at(rect);
@@ -57,35 +57,35 @@ impl Frame {
             };
             let along = (to - from).normalized();
             let length = (to - from).length();
-            let closed = length < 1.0;
+            let is_closed = length < 1.0;
             let unit = if axis.unit.is_empty() || axis.unit == "\u{b0}" { "" } else { ", counts" };
-            let side = if closed { vec2(0.0, -1.0) } else { along };
+            let side = if is_closed { vec2(0.0, -1.0) } else { along };
             names.push(Label {
                 text: format!("{}{unit}", axis.name),
                 at: to,
                 sides: vec![side, outward(along, from, middle), -outward(along, from, middle)],
-                color: tones.text,
+                color: palette.text,
                 size_pt: SMALL_PT + 0.5,
                 tip: axis.meaning,
                 leader: false,
             });
-            if !closed && length < 24.0 {
+            if !is_closed && length < 24.0 {
                 // The axis is seen end-on: the labels of its values would overlap.
                 continue;
             }
             for tick in &axis.ticks {
                 let Some(at) = on_screen(tick.place) else { continue };
-                let side = if closed {
+                let side = if is_closed {
                     (at - middle).normalized()
                 } else {
                     outward(along, from.lerp(to, 0.5), middle)
                 };
-                painter.line_segment([at, at + side * TICK_PT], Stroke::new(1.0, tones.quiet));
+                painter.line_segment([at, at + side * TICK_PT], Stroke::new(1.0, palette.secondary));
                 values.push(Label {
                     text: format!("{}{}", tick.label, if axis.unit == "\u{b0}" { "\u{b0}" } else { "" }),
                     at,
                     sides: vec![side],
-                    color: tones.quiet,
+                    color: palette.secondary,
                     size_pt: SMALL_PT - 1.0,
                     tip: "",
                     leader: false,
@@ -93,8 +93,8 @@ impl Frame {
             }
         }
         if let (Some((ColorSpace::Rgb, ..)), Some(at)) = (self.of, on_screen([0.0; 3])) {
-            painter.circle(at, 3.5, Color32::BLACK, Stroke::new(1.2, tones.text));
-            names.push(black(at, middle, tones));
+            painter.circle(at, 3.5, Color32::BLACK, Stroke::new(1.2, palette.text));
+            names.push(black_label(at, middle, palette));
         }
         names.extend(values);
         names
@@ -102,12 +102,12 @@ impl Frame {
 }
 
 /// The label of the black corner.
-fn black(at: Pos2, middle: Pos2, tones: &Tones) -> Label {
+fn black_label(at: Pos2, middle: Pos2, palette: &Palette) -> Label {
     Label {
         text: "black".to_owned(),
         at,
         sides: vec![(at - middle).normalized(), vec2(0.0, 1.0), vec2(-1.0, 0.0)],
-        color: tones.quiet,
+        color: palette.secondary,
         size_pt: SMALL_PT,
         tip: "No light at all: every matte line starts here (section 3.1).",
         leader: false,
@@ -120,9 +120,9 @@ pub fn gizmo(
     [right, up, forward]: [[f32; 3]; 3],
     rect: Rect,
     names: [&str; 3],
-    tones: &Tones,
+    palette: &Palette,
 ) -> Rect {
-    let room = Rect::from_min_size(
+    let area = Rect::from_min_size(
         rect.left_bottom() + vec2(4.0, -2.0 * GIZMO_PT - 24.0),
         Vec2::splat(2.0 * GIZMO_PT + 20.0),
     );
@@ -137,9 +137,10 @@ pub fn gizmo(
     order.sort_by(|&a: &usize, &b: &usize| forward[b].total_cmp(&forward[a]));
     for axis in order {
         let tip = vec2(right[axis], -up[axis]);
-        let end = room.center() + tip * GIZMO_PT;
-        let color = if forward[axis] > 0.05 { mixed(tones.background, hues[axis], 0.6) } else { hues[axis] };
-        painter.line_segment([room.center(), end], Stroke::new(1.8, color));
+        let end = area.center() + tip * GIZMO_PT;
+        let color =
+            if forward[axis] > 0.05 { mixed(palette.background, hues[axis], 0.6) } else { hues[axis] };
+        painter.line_segment([area.center(), end], Stroke::new(1.8, color));
         let beyond = if tip.length() < 0.2 { vec2(0.3, -0.3) } else { tip.normalized() * 0.32 };
         painter.text(
             end + beyond * GIZMO_PT,
@@ -149,16 +150,16 @@ pub fn gizmo(
             color,
         );
     }
-    room
+    area
 }
 
 /// Screen position of a point in world units; `None` behind the camera.
-pub fn screen(projector: &Projector, rect: Rect, world: [f32; 3]) -> Option<Pos2> {
+pub fn screen_from_world(projector: &Projector, rect: Rect, world: [f32; 3]) -> Option<Pos2> {
     projector.screen_from_world(world).map(|point| rect.min + Vec2::from(point.at))
 }
 
 /// A polyline, world units, as line segments that points hide.
-fn pieces(curve: &[[f32; 3]], color: Color32, width_px: f32) -> impl Iterator<Item = Line> + '_ {
+fn line_segments(curve: &[[f32; 3]], color: Color32, width_px: f32) -> impl Iterator<Item = Line> + '_ {
     curve.windows(2).map(move |ends| Line {
         a: ends[0],
         b: ends[1],

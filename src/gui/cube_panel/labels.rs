@@ -7,7 +7,7 @@ const GAP_PT: f32 = 5.0;
 /// Distance between a label and its point when a line connects them, screen points.
 const LEADER_PT: f32 = 16.0;
 /// Free space around a label, screen points.
-const AIR_PT: f32 = 1.5;
+const SPACE_PT: f32 = 1.5;
 
 /// A text label of a point on the screen.
 #[derive(Clone, Debug)]
@@ -40,21 +40,22 @@ pub fn all_around() -> Vec<Vec2> {
 /// another
 /// or leave `bounds`.
 pub fn arrange(labels: &[(&Label, Vec2)], bounds: Rect, occupied: &[Rect]) -> Vec<Option<Rect>> {
-    let mut taken = occupied.to_vec();
+    let mut occupied_rects = occupied.to_vec();
     let mut places = Vec::with_capacity(labels.len());
     for (label, size) in labels {
         let free = |rect: &Rect| {
-            bounds.contains_rect(*rect) && taken.iter().all(|other| !other.intersects(rect.expand(AIR_PT)))
+            bounds.contains_rect(*rect)
+                && occupied_rects.iter().all(|other| !other.intersects(rect.expand(SPACE_PT)))
         };
-        let place = label.sides.iter().map(|&side| beside(label, side, *size)).find(free);
-        taken.extend(place);
+        let place = label.sides.iter().map(|&side| rect_on_side(label, side, *size)).find(free);
+        occupied_rects.extend(place);
         places.push(place);
     }
     places
 }
 
 /// The rectangle of a label of `size`, placed on `side` of the labeled point.
-fn beside(label: &Label, side: Vec2, size: Vec2) -> Rect {
+fn rect_on_side(label: &Label, side: Vec2, size: Vec2) -> Rect {
     let gap = if label.leader { LEADER_PT } else { GAP_PT };
     // Half the extent of the rectangle in the direction `side`.
     let reach = side.x.abs() * size.x / 2.0 + side.y.abs() * size.y / 2.0;
@@ -64,8 +65,8 @@ fn beside(label: &Label, side: Vec2, size: Vec2) -> Rect {
 
 /// Paints the labels that fit, in the order of importance, outside of the `occupied` rectangles, on a background of
 /// color
-/// `halo`.
-pub fn show(ui: &Ui, id: Id, labels: &[Label], bounds: Rect, occupied: &[Rect], halo: Color32) {
+/// `background`.
+pub fn show(ui: &Ui, id: Id, labels: &[Label], bounds: Rect, occupied: &[Rect], background: Color32) {
     let painter = ui.painter_at(bounds);
     let galleys: Vec<_> = labels
         .iter()
@@ -82,7 +83,7 @@ pub fn show(ui: &Ui, id: Id, labels: &[Label], bounds: Rect, occupied: &[Rect], 
             let end = place.clamp(label.at);
             painter.line_segment([label.at, end], egui::Stroke::new(1.0, label.color.gamma_multiply(0.6)));
         }
-        painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, halo);
+        painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, background);
         painter.galley(Align2::LEFT_TOP.align_size_within_rect(place.size(), place).min, galley, label.color);
         if !label.tip.is_empty() {
             let response = ui.interact(place, id.with(index), Sense::hover());
@@ -139,12 +140,15 @@ mod tests {
     #[test]
     fn a_label_stands_clear_of_its_place() {
         for side in all_around() {
-            let rect = beside(&label(0.0, 0.0, Vec::new()), side, vec2(40.0, 14.0));
+            let rect = rect_on_side(&label(0.0, 0.0, Vec::new()), side, vec2(40.0, 14.0));
             assert!(
                 !rect.contains(pos2(0.0, 0.0)) && rect.distance_to_pos(pos2(0.0, 0.0)) >= 3.0,
                 "{side:?}"
             );
         }
-        assert_eq!(beside(&label(3.0, 4.0, Vec::new()), Vec2::ZERO, vec2(2.0, 2.0)).center(), pos2(3.0, 4.0));
+        assert_eq!(
+            rect_on_side(&label(3.0, 4.0, Vec::new()), Vec2::ZERO, vec2(2.0, 2.0)).center(),
+            pos2(3.0, 4.0)
+        );
     }
 }

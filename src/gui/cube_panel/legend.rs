@@ -24,20 +24,20 @@ pub fn show(ui: &Ui, cx: &PanelContext, rect: Rect, fullest: u32) -> Rect {
 }
 
 fn classes(painter: &Painter, cx: &PanelContext, corner: egui::Pos2) -> Rect {
-    let mut room = Rect::from_min_size(corner, vec2(0.0, 0.0));
+    let mut area = Rect::from_min_size(corner, vec2(0.0, 0.0));
     for class in [Class::Point, Class::Line, Class::Plane, Class::Volume] {
         let name = class.name();
-        let left = pos2(room.right(), corner.y);
+        let left = pos2(area.right(), corner.y);
         painter.rect_filled(
             Rect::from_min_size(left + vec2(0.0, 3.0), vec2(9.0, 9.0)),
             2.0,
             class_color(class),
         );
         let font = FontId::proportional(SMALL_PT);
-        let text = painter.text(left + vec2(13.0, 0.0), Align2::LEFT_TOP, name, font, cx.tones.text);
-        room = room.union(text.expand2(vec2(5.0, 0.0)));
+        let text = painter.text(left + vec2(13.0, 0.0), Align2::LEFT_TOP, name, font, cx.palette.text);
+        area = area.union(text.expand2(vec2(5.0, 0.0)));
     }
-    room
+    area
 }
 
 fn density(painter: &Painter, cx: &PanelContext, corner: egui::Pos2, fullest: u32) -> Rect {
@@ -58,8 +58,8 @@ fn density(painter: &Painter, cx: &PanelContext, corner: egui::Pos2, fullest: u3
     painter.add(ramp);
     let font = FontId::proportional(SMALL_PT - 1.0);
     let below = bar.left_bottom() + vec2(0.0, 1.0);
-    let one = painter.text(below, Align2::LEFT_TOP, "1 px", font.clone(), cx.tones.quiet);
+    let one = painter.text(below, Align2::LEFT_TOP, "1 px", font.clone(), cx.palette.secondary);
     let end = bar.right_bottom() + vec2(0.0, 1.0);
-    let most = painter.text(end, Align2::RIGHT_TOP, format!("{fullest} px"), font, cx.tones.quiet);
+    let most = painter.text(end, Align2::RIGHT_TOP, format!("{fullest} px"), font, cx.palette.secondary);
     bar.union(one).union(most)
 }

@@ -20,12 +20,12 @@ pub struct Outline {
 
 impl Outline {
     /// Whether an outline has been begun and not finished.
-    pub fn is_begun(&self) -> bool {
+    pub fn is_unfinished(&self) -> bool {
         !self.corners.is_empty()
     }
 
     /// Adds corners as the pointer moves and clicks. Returns the closed outline in the frame in which it is finished.
-    pub fn follow(&mut self, ui: &Ui, response: &Response, tool: Tool) -> Option<Vec<Pos2>> {
+    pub fn handle_pointer(&mut self, ui: &Ui, response: &Response, tool: Tool) -> Option<Vec<Pos2>> {
         if tool != self.tool {
             self.corners.clear();
             self.tool = tool;

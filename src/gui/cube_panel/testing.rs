@@ -41,7 +41,7 @@ impl ColorSpaceDrawing {
     /// behind the
     /// camera.
     pub fn screen(&self, canvas: Rect, world: [f32; 3]) -> Option<Pos2> {
-        frame::screen(&self.orbit.projector(canvas.size().into()), canvas, world)
+        frame::screen_from_world(&self.orbit.projector(canvas.size().into()), canvas, world)
     }
 }
 

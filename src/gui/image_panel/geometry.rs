@@ -8,7 +8,7 @@ use egui::{Pos2, Rect, Vec2, pos2, vec2};
 /// Margin around a fitted picture, screen points.
 const MARGIN_PT: f32 = 6.0;
 /// Largest zoom, screen points per pixel.
-const NEAREST: f32 = 192.0;
+const LARGEST_ZOOM: f32 = 192.0;
 /// Smallest length of a picture's longer side, screen points.
 const SMALLEST_PT: f32 = 32.0;
 
@@ -28,7 +28,7 @@ pub struct Placement {
 impl Placement {
     /// The placement in the settings, limited so that the picture stays in sight.
     pub fn new(view: Rect, size: Vec2, settings: &ImageSettings) -> Self {
-        let zoom = settings.zoom.unwrap_or_else(|| fit(view, size));
+        let zoom = settings.zoom.unwrap_or_else(|| fitting_zoom(view, size));
         let center = match (settings.zoom, settings.center_px) {
             (Some(_), Some([x, y])) => pos2(x, y),
             _ => (size / 2.0).to_pos2(),
@@ -37,7 +37,7 @@ impl Placement {
     }
 
     /// Stores zoom and center in the settings.
-    pub fn put(&self, settings: &mut ImageSettings) {
+    pub fn store(&self, settings: &mut ImageSettings) {
         settings.zoom = Some(self.zoom);
         settings.center_px = Some(self.center.into());
     }
@@ -86,7 +86,7 @@ impl Placement {
     #[must_use]
     pub fn zoomed(mut self, factor: f32, anchor: Pos2) -> Self {
         let fixed = self.image_from_screen(anchor);
-        let [least, most] = limits(self.view, self.size);
+        let [least, most] = zoom_limits(self.view, self.size);
         self.zoom = (self.zoom * factor).clamp(least, most);
         self.center = fixed - (anchor - self.view.center()) / self.zoom;
         self.clamped()
@@ -101,7 +101,7 @@ impl Placement {
 
     /// This placement with zoom and center limited: a point of the picture is always in the middle of the view.
     fn clamped(mut self) -> Self {
-        let [least, most] = limits(self.view, self.size);
+        let [least, most] = zoom_limits(self.view, self.size);
         self.zoom = self.zoom.clamp(least, most);
         self.center = self.center.clamp(Pos2::ZERO, self.size.to_pos2());
         self
@@ -109,15 +109,15 @@ impl Placement {
 }
 
 /// The zoom at which the whole picture is seen, screen points per pixel.
-fn fit(view: Rect, size: Vec2) -> f32 {
+fn fitting_zoom(view: Rect, size: Vec2) -> f32 {
     let free = (view.size() - Vec2::splat(2.0 * MARGIN_PT)).max(Vec2::splat(1.0));
     (free / size.max(Vec2::splat(1.0))).min_elem()
 }
 
-fn limits(view: Rect, size: Vec2) -> [f32; 2] {
-    let fit = fit(view, size);
+fn zoom_limits(view: Rect, size: Vec2) -> [f32; 2] {
+    let fit = fitting_zoom(view, size);
     let least = (SMALLEST_PT / size.max_elem().max(1.0)).min(fit);
-    [least, NEAREST.max(fit)]
+    [least, LARGEST_ZOOM.max(fit)]
 }
 
 /// Level of the smaller copy of a picture to show: 0 is the picture, each further level half as large. The copy has
@@ -132,7 +132,7 @@ pub fn level_for(screen_px_per_pixel: f32, levels: usize) -> usize {
 mod tests {
     use super::*;
 
-    fn placed(settings: &ImageSettings) -> Placement {
+    fn placement(settings: &ImageSettings) -> Placement {
         Placement::new(
             Rect::from_min_size(pos2(100.0, 50.0), vec2(600.0, 400.0)),
             vec2(512.0, 480.0),
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn the_whole_picture_fits_and_is_in_the_middle() {
-        let place = placed(&ImageSettings::default());
+        let place = placement(&ImageSettings::default());
         assert!(place.view.contains_rect(place.screen_rect()));
         assert!((place.screen_rect().center() - place.view.center()).length() < 1e-3);
         assert!((place.zoom - (400.0 - 12.0) / 480.0).abs() < 1e-6);
@@ -154,7 +154,7 @@ mod tests {
         for zoom in [None, Some(0.3), Some(1.0), Some(17.3)] {
             let settings =
                 ImageSettings { zoom, center_px: Some([130.5, 77.25]), ..ImageSettings::default() };
-            let place = placed(&settings);
+            let place = placement(&settings);
             for point in [pos2(100.0, 50.0), pos2(333.3, 222.2), pos2(699.0, 449.0)] {
                 let back = place.screen_from_image(place.image_from_screen(point));
                 assert!((back - point).length() < 1e-2, "{zoom:?} {point:?} {back:?}");
@@ -164,11 +164,11 @@ mod tests {
 
     #[test]
     fn a_point_is_in_the_pixel_whose_square_holds_it() {
-        let place = placed(&ImageSettings { zoom: Some(4.0), ..ImageSettings::default() });
+        let place = placement(&ImageSettings { zoom: Some(4.0), ..ImageSettings::default() });
         let pixel = place.pixel_at(pos2(400.0, 250.0)).unwrap();
         assert_eq!(pixel, PixelIndex::new(240 * 512 + 256));
         assert!(place.screen_rect_of(place.square_of(pixel)).contains(pos2(401.0, 251.0)));
-        let fitted = placed(&ImageSettings::default());
+        let fitted = placement(&ImageSettings::default());
         assert_eq!(fitted.pixel_at(fitted.screen_rect().min - vec2(1.0, 1.0)), None);
         assert_eq!(fitted.pixel_at(fitted.screen_rect().max + vec2(1.0, 1.0)), None);
     }
@@ -176,7 +176,7 @@ mod tests {
     #[test]
     fn zooming_keeps_what_is_under_the_pointer() {
         let pointer = pos2(321.0, 187.0);
-        let mut place = placed(&ImageSettings::default());
+        let mut place = placement(&ImageSettings::default());
         let under = place.image_from_screen(pointer);
         for factor in [1.25, 1.25, 3.0, 0.5, 8.0] {
             place = place.zoomed(factor, pointer);
@@ -186,14 +186,14 @@ mod tests {
 
     #[test]
     fn the_picture_cannot_be_lost() {
-        let place = placed(&ImageSettings::default());
+        let place = placement(&ImageSettings::default());
         for by in [vec2(1e6, -1e6), vec2(-1e6, 0.0)] {
             let moved = place.panned(by);
             assert!(moved.view.intersects(moved.screen_rect()));
         }
         let far = place.zoomed(1e-9, place.view.min);
         assert!(far.screen_rect().size().max_elem() >= SMALLEST_PT - 1e-3);
-        assert!((place.zoomed(1e9, place.view.min).zoom - NEAREST).abs() < 1e-3);
+        assert!((place.zoomed(1e9, place.view.min).zoom - LARGEST_ZOOM).abs() < 1e-3);
     }
 
     #[test]

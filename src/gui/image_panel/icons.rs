@@ -1,7 +1,7 @@
 //! Icons of the image panel's buttons.
 
-use crate::gui::icons::sign_button;
-use crate::gui::theme::Tones;
+use crate::gui::icons::icon_button;
+use crate::gui::theme::Palette;
 use crate::view::{Arrangement, Fill, Tool};
 use egui::{Color32, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
 
@@ -9,7 +9,7 @@ pub use crate::gui::icons::SIDE_PT;
 
 /// The icon on a button.
 #[derive(Clone, Copy)]
-pub enum Sign {
+pub enum ToolbarIcon {
     /// A tool of the image panel.
     Tool(Tool),
     /// One layer, or the arrangement of two.
@@ -21,43 +21,50 @@ pub enum Sign {
 }
 
 /// A button that is on or off. `name` is its accessible name.
-pub fn toggle(ui: &mut Ui, tones: &Tones, sign: Sign, on: bool, name: &str, tip: &str) -> Response {
-    sign_button(ui, tones, on, name, tip, |painter, square, color| draw(painter, square, sign, color))
+pub fn toggle(
+    ui: &mut Ui,
+    palette: &Palette,
+    icon: ToolbarIcon,
+    on: bool,
+    name: &str,
+    tip: &str,
+) -> Response {
+    icon_button(ui, palette, on, name, tip, |painter, square, color| draw(painter, square, icon, color))
 }
 
 /// Paints an icon. Coordinates are those of a square of 14 × 14.
-fn draw(painter: &Painter, square: Rect, sign: Sign, color: Color32) {
+fn draw(painter: &Painter, square: Rect, icon: ToolbarIcon, color: Color32) {
     let stroke = Stroke::new(1.3, color);
     let at = |x: f32, y: f32| square.min + vec2(x, y) * (square.width() / 14.0);
     let part = |x0, y0, x1, y1| Rect::from_min_max(at(x0, y0), at(x1, y1));
     let frame = |rect| painter.rect_stroke(rect, 1.0, stroke, egui::StrokeKind::Middle);
-    match sign {
-        Sign::Tool(tool) => draw_tool(painter, tool, stroke, at),
-        Sign::Arrangement(Arrangement::Single) => {
+    match icon {
+        ToolbarIcon::Tool(tool) => draw_tool(painter, tool, stroke, at),
+        ToolbarIcon::Arrangement(Arrangement::Single) => {
             frame(part(1.5, 2.5, 12.5, 11.5));
         }
-        Sign::Arrangement(Arrangement::Wipe(_)) => {
+        ToolbarIcon::Arrangement(Arrangement::Wipe(_)) => {
             frame(part(1.5, 2.5, 12.5, 11.5));
             painter.rect_filled(part(7.0, 2.5, 12.5, 11.5), 0.0, color.gamma_multiply(0.55));
             painter.line_segment([at(7.0, 0.5), at(7.0, 13.5)], stroke);
         }
-        Sign::Arrangement(Arrangement::SideBySide) => {
+        ToolbarIcon::Arrangement(Arrangement::SideBySide) => {
             frame(part(0.8, 3.0, 6.2, 11.0));
             frame(part(7.8, 3.0, 13.2, 11.0));
         }
-        Sign::Fill(Fill::Fill) => {
+        ToolbarIcon::Fill(Fill::Fill) => {
             painter.rect_filled(part(2.0, 2.0, 12.0, 12.0), 2.0, color.gamma_multiply(0.7));
         }
-        Sign::Fill(Fill::Outline) => {
+        ToolbarIcon::Fill(Fill::Outline) => {
             frame(part(2.5, 2.5, 11.5, 11.5));
         }
-        Sign::Display => {
+        ToolbarIcon::Display => {
             painter.circle_stroke(at(7.0, 7.0), 5.4, stroke);
-            let turn = |i: usize| {
+            let on_circle = |i: usize| {
                 let angle = (i as f32 / 12.0 - 0.5) * std::f32::consts::PI;
                 at(7.0 + 5.4 * angle.cos(), 7.0 + 5.4 * angle.sin())
             };
-            painter.add(Shape::convex_polygon((0..=12).map(turn).collect(), color, Stroke::NONE));
+            painter.add(Shape::convex_polygon((0..=12).map(on_circle).collect(), color, Stroke::NONE));
         }
     }
 }
@@ -75,11 +82,11 @@ fn draw_tool(painter: &Painter, tool: Tool, stroke: Stroke, at: impl Fn(f32, f32
             painter.extend(Shape::dashed_line(&corners, stroke, 2.4, 1.7));
         }
         Tool::Lasso => {
-            let turn = |i: usize| {
+            let on_circle = |i: usize| {
                 let angle = i as f32 / 24.0 * std::f32::consts::TAU;
                 at(7.3 + 5.6 * angle.cos(), 5.6 + 3.9 * angle.sin())
             };
-            painter.add(Shape::closed_line((0..24).map(turn).collect(), stroke));
+            painter.add(Shape::closed_line((0..24).map(on_circle).collect(), stroke));
             painter.add(Shape::line(path(&[(4.2, 9.0), (3.0, 10.6), (4.2, 11.8), (3.0, 13.3)]), stroke));
         }
         Tool::Polygon => {

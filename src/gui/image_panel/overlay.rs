@@ -4,27 +4,27 @@ use super::geometry::Placement;
 use super::icons::{corners, cross};
 use super::textures::LayerTexture;
 use crate::app::State;
-use crate::gui::theme::{SMALL_PT, Tones};
+use crate::gui::theme::{Palette, SMALL_PT};
 use crate::view::{ACCENT, Item, Layer, LegendEntry, ProfileLine, Tool, legend};
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
 /// The accent color over pictures, the same in both themes, because a picture is equally dark in both.
-pub const MARK: Color32 = Color32::from_rgb(ACCENT[0], ACCENT[1], ACCENT[2]);
+pub const MARK_COLOR: Color32 = Color32::from_rgb(ACCENT[0], ACCENT[1], ACCENT[2]);
 /// Smallest zoom with a pixel grid, screen points per pixel.
-const GRID: f32 = 8.0;
+const GRID_ZOOM: f32 = 8.0;
 /// Smallest zoom with values in the pixels, screen points per pixel.
-const VALUES: f32 = 48.0;
+const VALUES_ZOOM: f32 = 48.0;
 /// Smallest zoom at which outlines are lines between pixels, screen points per pixel; below, outlines are pixels of a
 /// texture.
-pub const LINES: f32 = 4.0;
+pub const OUTLINE_ZOOM: f32 = 4.0;
 
 /// Paints lines between pixels.
 pub fn grid(painter: &Painter, place: &Placement) {
-    if place.zoom < GRID {
+    if place.zoom < GRID_ZOOM {
         return;
     }
     // The contrast of the grid grows with the zoom.
-    let strength = ((place.zoom - GRID) / GRID).clamp(0.2, 1.0);
+    let strength = ((place.zoom - GRID_ZOOM) / GRID_ZOOM).clamp(0.2, 1.0);
     let stroke = Stroke::new(1.0, Color32::from_gray(128).gamma_multiply(0.35 * strength));
     let area = place.screen_rect().intersect(place.view);
     let [columns, rows] = place.visible();
@@ -38,7 +38,7 @@ pub fn grid(painter: &Painter, place: &Placement) {
 
 /// Writes values into the pixels: those of the layer if it has numbers, otherwise the photograph's linear counts.
 pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer, texture: &LayerTexture) {
-    if place.zoom < VALUES {
+    if place.zoom < VALUES_ZOOM {
         return;
     }
     let Some(picture) = &state.picture else { return };
@@ -75,18 +75,18 @@ fn readable_on([r, g, b, _]: [u8; 4]) -> Color32 {
     if luminance > 0.18 { Color32::BLACK } else { Color32::WHITE }
 }
 
-/// Paints outlines between pixels of what is marked, selected and hovered, for a zoom of at least `LINES`.
+/// Paints outlines between pixels of what is marked, selected and hovered, for a zoom of at least `OUTLINE_ZOOM`.
 pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
     let (Some(picture), width) = (&state.picture, place.size.x as usize) else { return };
     let selection = &state.document.selection;
     if let Some(mask) = &selection.marked {
         let marked = |x: usize, y: usize| mask.get(x, y).copied().unwrap_or(false);
-        fill(painter, place, MARK.gamma_multiply(0.28), marked);
-        edges(painter, place, MARK, marked);
+        fill(painter, place, MARK_COLOR.gamma_multiply(0.28), marked);
+        edges(painter, place, MARK_COLOR, marked);
     }
     // Regions and windows belong to the result, which does not exist yet while the debugger's cursor is followed.
     let shown = state.shown().filter(|_| state.followed().is_none());
-    for (item, color) in [(selection.item, MARK), (state.hover, Color32::WHITE)] {
+    for (item, color) in [(selection.item, MARK_COLOR), (state.hover, Color32::WHITE)] {
         match (item, shown) {
             (Some(Item::Region(region)), Some(shown)) => {
                 let label = region.get();
@@ -165,17 +165,17 @@ fn frame(painter: &Painter, area: Rect, color: Color32) {
 /// the pointer
 /// (`pointer_here`).
 pub fn pixels(painter: &Painter, place: &Placement, state: &State, pointer_here: bool) {
-    let show = |item: Option<Item>, color: Color32, from_afar: bool| {
+    let paint_pixel = |item: Option<Item>, color: Color32, at_any_zoom: bool| {
         let Some(Item::Pixel(pixel)) = item else { return };
         let square = place.screen_rect_of(place.square_of(pixel));
-        if place.zoom >= GRID {
+        if place.zoom >= GRID_ZOOM {
             frame(painter, square, color);
-        } else if from_afar {
+        } else if at_any_zoom {
             cross(painter, square.center(), color);
         }
     };
-    show(state.explained_pixel().map(Item::Pixel), MARK, true);
-    show(state.hover, Color32::WHITE, !pointer_here);
+    paint_pixel(state.explained_pixel().map(Item::Pixel), MARK_COLOR, true);
+    paint_pixel(state.hover, Color32::WHITE, !pointer_here);
 }
 
 /// Paints the line of the profile, with handles while the profile tool is chosen.
@@ -183,23 +183,23 @@ pub fn profile(painter: &Painter, place: &Placement, state: &State) {
     let editing = state.view.image.tool == Tool::Profile;
     let ends = match state.view.profile {
         ProfileLine::Between(a, b) => [a, b].map(Pos2::from),
-        line if editing => whole(line, place, state),
+        line if editing => full_line(line, place, state),
         _ => return,
     };
     let [a, b] = ends.map(|end| place.screen_from_image(end));
     let strength = if editing { 1.0 } else { 0.6 };
     painter.line_segment([a, b], Stroke::new(3.0, Color32::from_black_alpha(130)));
-    painter.line_segment([a, b], Stroke::new(1.3, MARK.gamma_multiply(strength)));
+    painter.line_segment([a, b], Stroke::new(1.3, MARK_COLOR.gamma_multiply(strength)));
     if editing && matches!(state.view.profile, ProfileLine::Between(..)) {
         for end in [a, b] {
-            painter.circle(end, 4.0, Color32::from_black_alpha(160), Stroke::new(1.5, MARK));
+            painter.circle(end, 4.0, Color32::from_black_alpha(160), Stroke::new(1.5, MARK_COLOR));
         }
     }
 }
 
 /// Ends of the row or column of the hovered pixel, otherwise of the selected one, otherwise of the picture's middle,
 /// pixels.
-fn whole(line: ProfileLine, place: &Placement, state: &State) -> [Pos2; 2] {
+fn full_line(line: ProfileLine, place: &Placement, state: &State) -> [Pos2; 2] {
     let pixel = [state.hover, state.document.selection.item].into_iter().find_map(|item| match item {
         Some(Item::Pixel(pixel)) => Some(place.square_of(pixel).center()),
         _ => None,
@@ -213,27 +213,27 @@ fn whole(line: ProfileLine, place: &Placement, state: &State) -> [Pos2; 2] {
 }
 
 /// Writes a text with a background over the picture; returns the rectangle.
-pub fn tag(painter: &Painter, tones: &Tones, at: Pos2, align: Align2, text: &str) -> Rect {
-    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(SMALL_PT), tones.text);
+pub fn text_box(painter: &Painter, palette: &Palette, at: Pos2, align: Align2, text: &str) -> Rect {
+    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(SMALL_PT), palette.text);
     let area = align.anchor_size(at, galley.size() + vec2(10.0, 4.0));
-    painter.rect_filled(area, 3.0, tones.panel.gamma_multiply(0.86));
-    painter.galley(area.min + vec2(5.0, 2.0), galley, tones.text);
+    painter.rect_filled(area, 3.0, palette.panel.gamma_multiply(0.86));
+    painter.galley(area.min + vec2(5.0, 2.0), galley, palette.text);
     area
 }
 
 /// Paints the legend of a layer along the lower edge.
-pub fn key(painter: &Painter, tones: &Tones, view: Rect, layer: Layer) {
-    entries(painter, tones, view, &legend(layer));
+pub fn layer_legend(painter: &Painter, palette: &Palette, view: Rect, layer: Layer) {
+    legend_box(painter, palette, view, &legend(layer));
 }
 
 /// Paints a legend of colors and names along the lower edge, in as many lines as needed.
-pub fn entries(painter: &Painter, tones: &Tones, view: Rect, entries: &[LegendEntry]) {
+pub fn legend_box(painter: &Painter, palette: &Palette, view: Rect, entries: &[LegendEntry]) {
     const LINE_PT: f32 = 18.0;
     let font = FontId::proportional(SMALL_PT);
     let most = view.width() - 12.0;
     let mut lines: Vec<(f32, Vec<_>)> = Vec::new();
     for entry in entries {
-        let galley = painter.layout_no_wrap(entry.name.to_owned(), font.clone(), tones.text);
+        let galley = painter.layout_no_wrap(entry.name.to_owned(), font.clone(), palette.text);
         let step = galley.size().x + 24.0;
         match lines.last_mut() {
             Some((width, line)) if *width + step <= most => {
@@ -247,31 +247,31 @@ pub fn entries(painter: &Painter, tones: &Tones, view: Rect, entries: &[LegendEn
     for (index, (width, line)) in lines.into_iter().enumerate() {
         let corner = pos2(view.left() + 6.0, top + LINE_PT * index as f32);
         let area = Rect::from_min_size(corner, vec2(width, LINE_PT));
-        painter.rect_filled(area, 3.0, tones.panel.gamma_multiply(0.86));
+        painter.rect_filled(area, 3.0, palette.panel.gamma_multiply(0.86));
         let mut x = area.left() + 6.0;
         for (entry, galley) in line {
             let chip = Rect::from_center_size(pos2(x + 4.5, area.center().y), vec2(9.0, 9.0));
             painter.rect_filled(chip, 2.0, crate::gui::widgets::color(entry.color));
             let (text, step) =
                 (pos2(x + 13.0, area.center().y - galley.size().y / 2.0), galley.size().x + 24.0);
-            painter.galley(text, galley, tones.text);
+            painter.galley(text, galley, palette.text);
             x += step;
         }
     }
 }
 
 /// Paints the warnings of the analysis along the upper edge.
-pub fn warnings(painter: &Painter, tones: &Tones, view: Rect, state: &State) {
+pub fn warnings(painter: &Painter, palette: &Palette, view: Rect, state: &State) {
     let Some(shown) = state.shown() else { return };
     let mut top = view.top() + 6.0;
     for warning in &shown.analysis.warnings {
         let width = view.width() - 32.0;
         let font = FontId::proportional(SMALL_PT);
-        let galley = painter.layout(warning.clone(), font, tones.quiet, width.max(40.0));
+        let galley = painter.layout(warning.clone(), font, palette.secondary, width.max(40.0));
         let size = galley.size() + vec2(12.0, 6.0);
         let area = Rect::from_min_size(pos2(view.center().x - size.x / 2.0, top), size);
-        painter.rect_filled(area, 3.0, tones.panel.gamma_multiply(0.9));
-        painter.galley(area.min + vec2(6.0, 3.0), galley, tones.quiet);
+        painter.rect_filled(area, 3.0, palette.panel.gamma_multiply(0.9));
+        painter.galley(area.min + vec2(6.0, 3.0), galley, palette.secondary);
         top = area.bottom() + 4.0;
     }
 }

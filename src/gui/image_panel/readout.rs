@@ -1,7 +1,7 @@
 //! The readout: values of one pixel in a strip of cells with fixed positions.
 
 use crate::app::State;
-use crate::gui::theme::{SMALL_PT, Tones};
+use crate::gui::theme::{Palette, SMALL_PT};
 use crate::intrinsic::PixelKind;
 use crate::raster::{HypothesisId, PixelIndex};
 use crate::trace::{Class, Replay};
@@ -46,13 +46,13 @@ const CELLS: [Cell; 11] = [
 
 /// Height of the strip, points.
 pub fn height(ui: &Ui, width: f32) -> f32 {
-    if is_narrow(ui, width) { 2.0 * LINE_PT } else { LINE_PT }
+    if needs_two_lines(ui, width) { 2.0 * LINE_PT } else { LINE_PT }
 }
 
 /// Whether the cells need two lines.
-fn is_narrow(ui: &Ui, width: f32) -> bool {
-    let taken = |cell: &Cell| cell.width + name_width(ui, cell.name) + GAP_PT;
-    CELLS.iter().map(taken).sum::<f32>() - GAP_PT > width
+fn needs_two_lines(ui: &Ui, width: f32) -> bool {
+    let cell_width = |cell: &Cell| cell.width + name_width(ui, cell.name) + GAP_PT;
+    CELLS.iter().map(cell_width).sum::<f32>() - GAP_PT > width
 }
 
 fn name_width(ui: &Ui, name: &str) -> f32 {
@@ -64,21 +64,21 @@ fn name_width(ui: &Ui, name: &str) -> f32 {
 }
 
 /// Shows the strip for the pixel that is hovered in any panel, otherwise for the selected pixel.
-pub fn show(ui: &mut Ui, state: &State, tones: &Tones) {
+pub fn show(ui: &mut Ui, state: &State, palette: &Palette) {
     let full = ui.available_rect_before_wrap();
     let pixel = [state.hover, state.document.selection.item].into_iter().find_map(|item| match item {
         Some(Item::Pixel(pixel)) => Some(pixel.index()),
         _ => None,
     });
-    let facts = state.picture.as_ref().zip(pixel).and_then(|(picture, pixel)| match state.followed() {
-        Some(replay) => Facts::at_cursor(picture, replay, &state.debugger.names, pixel),
-        None => Facts::of(picture, state.shown().map(|shown| &**shown), pixel),
+    let readout = state.picture.as_ref().zip(pixel).and_then(|(picture, pixel)| match state.followed() {
+        Some(replay) => PixelReadout::at_cursor(picture, replay, &state.debugger.names, pixel),
+        None => PixelReadout::of(picture, state.shown().map(|shown| &**shown), pixel),
     });
-    let values = facts.as_ref().map_or_else(Default::default, Facts::values);
-    let chip = facts.as_ref().and_then(|facts| facts.chip);
+    let values = readout.as_ref().map_or_else(Default::default, PixelReadout::values);
+    let chip = readout.as_ref().and_then(|readout| readout.chip);
     let whole = ui.interact(full, ui.scope_id().with("readout"), Sense::hover());
     whole.widget_info(|| WidgetInfo::labeled(Role::Label, true, sentence(&values)));
-    let lines: &[&[usize]] = if is_narrow(ui, full.width()) {
+    let lines: &[&[usize]] = if needs_two_lines(ui, full.width()) {
         &[&[0, 1, 2, 3, 4, 6], &[5, 7, 8, 9, 10]]
     } else {
         &[&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10]]
@@ -87,18 +87,25 @@ pub fn show(ui: &mut Ui, state: &State, tones: &Tones) {
         let mut x = full.left();
         for &cell in *cells {
             let top = full.top() + line as f32 * LINE_PT;
-            x = place(ui, tones, pos2(x, top), cell, &values[cell], chip) + GAP_PT;
+            x = show_cell(ui, palette, pos2(x, top), cell, &values[cell], chip) + GAP_PT;
         }
     }
 }
 
 /// Paints a cell with its upper left corner at `at`; returns the horizontal position of its right end.
-fn place(ui: &Ui, tones: &Tones, at: egui::Pos2, index: usize, value: &str, chip: Option<Color32>) -> f32 {
+fn show_cell(
+    ui: &Ui,
+    palette: &Palette,
+    at: egui::Pos2,
+    index: usize,
+    value: &str,
+    chip: Option<Color32>,
+) -> f32 {
     let cell = &CELLS[index];
     let font = FontId::proportional(SMALL_PT);
     let painter = ui.painter();
     let middle = at.y + LINE_PT / 2.0;
-    painter.text(pos2(at.x, middle), Align2::LEFT_CENTER, cell.name, font.clone(), tones.quiet);
+    painter.text(pos2(at.x, middle), Align2::LEFT_CENTER, cell.name, font.clone(), palette.secondary);
     let left = at.x + name_width(ui, cell.name);
     let right = left + cell.width;
     if let Some(color) = chip.filter(|_| index == 6) {
@@ -109,7 +116,7 @@ fn place(ui: &Ui, tones: &Tones, at: egui::Pos2, index: usize, value: &str, chip
         5 | 10 => (left, Align2::LEFT_CENTER),
         _ => (right, Align2::RIGHT_CENTER),
     };
-    let (text, tone) = if value.is_empty() { ("\u{2013}", tones.quiet) } else { (value, tones.text) };
+    let (text, tone) = if value.is_empty() { ("\u{2013}", palette.secondary) } else { (value, palette.text) };
     painter.text(pos2(x, middle), align, text, font, tone);
     let area = Rect::from_min_max(at, pos2(right, at.y + LINE_PT));
     ui.interact(area, ui.scope_id().with(("readout", index)), Sense::hover()).on_hover_text(cell.tip);
@@ -126,39 +133,40 @@ fn sentence(values: &[String; 11]) -> String {
 }
 
 /// Values of a pixel.
-struct Facts {
+struct PixelReadout {
     at: [usize; 2],
     color: [f32; 3],
-    found: Option<Found>,
+    analyzed: Option<AnalyzedPixel>,
     chip: Option<Color32>,
 }
 
-struct Found {
+struct AnalyzedPixel {
     class: Option<Class>,
     kind: PixelKind,
     /// Number of the region; at the debugger's cursor, of the hypothesis.
     region: Option<u16>,
-    split: Option<Split>,
+    amounts: Option<Amounts>,
 }
 
 /// Amounts of body and surface reflection and noise of a pixel, counts (equation 13).
-struct Split {
+struct Amounts {
     body: f32,
     surface: Option<f32>,
     noise: f32,
 }
 
-impl Facts {
+impl PixelReadout {
     fn of(picture: &Picture, shown: Option<&ResultSnapshot>, pixel: usize) -> Option<Self> {
         let image = &picture.photo.image;
         let color = *image.pixels.as_slice().get(pixel)?;
         let at = [pixel % image.width(), pixel / image.width()];
-        let found = shown.map(|shown| Found::of(shown, pixel, at));
-        let chip = found.as_ref().and_then(|found| found.region).zip(shown).and_then(|(region, shown)| {
-            let color = shown.region_colors.get(usize::from(region).wrapping_sub(1))?;
-            Some(crate::gui::widgets::color(*color))
-        });
-        Some(Self { at, color, found, chip })
+        let analyzed = shown.map(|shown| AnalyzedPixel::of(shown, pixel, at));
+        let chip =
+            analyzed.as_ref().and_then(|analyzed| analyzed.region).zip(shown).and_then(|(region, shown)| {
+                let color = shown.region_colors.get(usize::from(region).wrapping_sub(1))?;
+                Some(crate::gui::widgets::color(*color))
+            });
+        Some(Self { at, color, analyzed, chip })
     }
 
     /// Values at the debugger's cursor; the region is a hypothesis id. `None` outside of the photograph.
@@ -172,10 +180,10 @@ impl Facts {
         });
         let hypothesis = HypothesisId::from_label(*replay.labels().as_slice().get(working_pixel)?);
         let region = hypothesis.map(HypothesisId::get);
-        let found = Found { class, kind: replay.kind(working_pixel), region, split: None };
+        let analyzed = AnalyzedPixel { class, kind: replay.kind(working_pixel), region, amounts: None };
         let chip = hypothesis.map(|hypothesis| crate::gui::widgets::color(names.color(hypothesis)));
         let at = [pixel % image.width(), pixel / image.width()];
-        Some(Self { at, color, found: Some(found), chip })
+        Some(Self { at, color, analyzed: Some(analyzed), chip })
     }
 
     fn values(&self) -> [String; 11] {
@@ -185,36 +193,37 @@ impl Facts {
         for (value, &band) in values[2..5].iter_mut().zip(&self.color) {
             *value = counts(band);
         }
-        let Some(found) = &self.found else { return values };
-        found.class.map_or("", Class::name).clone_into(&mut values[5]);
-        let Some(region) = found.region else { return values };
+        let Some(analyzed) = &self.analyzed else { return values };
+        analyzed.class.map_or("", Class::name).clone_into(&mut values[5]);
+        let Some(region) = analyzed.region else { return values };
         values[6] = region.to_string();
-        if let Some(split) = &found.split {
-            values[7] = counts(split.body);
-            values[8] = split.surface.map_or_else(String::new, counts);
-            values[9] = format!("{:+.1}", split.noise);
+        if let Some(amounts) = &analyzed.amounts {
+            values[7] = counts(amounts.body);
+            values[8] = amounts.surface.map_or_else(String::new, counts);
+            values[9] = format!("{:+.1}", amounts.noise);
         }
         // A pixel in no region has no kind.
-        let kind = if found.kind == PixelKind::Unassigned { "" } else { found.kind.name() };
+        let kind = if analyzed.kind == PixelKind::Unassigned { "" } else { analyzed.kind.name() };
         kind.clone_into(&mut values[10]);
         values
     }
 }
 
-impl Found {
+impl AnalyzedPixel {
     fn of(shown: &ResultSnapshot, pixel: usize, [x, y]: [usize; 2]) -> Self {
         let intrinsic = &shown.analysis.intrinsic;
         let label = shown.labels()[pixel];
         let reflection = intrinsic.regions.get(usize::from(label).wrapping_sub(1));
         // The component along a unit vector is the amount.
-        let along = |color: [f32; 3], vector: [f64; 3]| crate::color::dot(color, vector.map(|v| v as f32));
+        let amount_along =
+            |color: [f32; 3], vector: [f64; 3]| crate::color::dot(color, vector.map(|v| v as f32));
         Self {
             class: shown.classes().get(x / shown.window_px(), y / shown.window_px()).copied().flatten(),
             kind: intrinsic.kinds[pixel],
             region: reflection.map(|_| label),
-            split: reflection.map(|region| Split {
-                body: along(intrinsic.body[pixel], region.body),
-                surface: region.surface.map(|surface| along(intrinsic.surface[pixel], surface)),
+            amounts: reflection.map(|region| Amounts {
+                body: amount_along(intrinsic.body[pixel], region.body),
+                surface: region.surface.map(|surface| amount_along(intrinsic.surface[pixel], surface)),
                 noise: intrinsic.noise[pixel],
             }),
         }

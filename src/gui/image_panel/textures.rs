@@ -1,7 +1,7 @@
 //! Painted layers and marks, and their textures: painted when something changed, uploaded where they are seen.
 
 use super::geometry::{Placement, level_for};
-use super::tiles::{TILE, Tile, boldest, options};
+use super::tiles::{TILE, Tile, copies_of_marks, texture_options};
 use crate::app::State;
 use crate::gui::task::Task;
 use crate::raster::{Mask, Raster};
@@ -25,7 +25,7 @@ pub enum Slot {
     /// The layer.
     Layer,
     /// The second layer.
-    Other,
+    SecondLayer,
     /// Over both.
     Marks,
     /// The instant at the debugger's cursor, over the photograph.
@@ -98,9 +98,9 @@ impl PaintRequest {
         match &self.subject {
             Subject::Layer(layer, look) => paint(*layer, &self.picture, shown, pinned, look),
             Subject::Marks(selection, hover) => {
-                let drawn = marks(&self.picture, shown, selection, *hover);
+                let painted_marks = marks(&self.picture, shown, selection, *hover);
                 // Where nothing is marked, one transparent texel.
-                drawn.unwrap_or_else(|| Raster::filled(1, 1, [0; 4]))
+                painted_marks.unwrap_or_else(|| Raster::filled(1, 1, [0; 4]))
             }
             Subject::Instant(instant, look) => {
                 let (width, height) = self.picture.size();
@@ -109,8 +109,8 @@ impl PaintRequest {
         }
     }
 
-    fn key(&self) -> Key {
-        let weak =
+    fn key(&self) -> TextureKey {
+        let downgraded =
             |shown: &Option<Arc<ResultSnapshot>>| shown.as_ref().map(Arc::downgrade).unwrap_or_default();
         let subject = match &self.subject {
             Subject::Layer(layer, look) => SubjectKey::Layer(*layer, *look),
@@ -120,10 +120,10 @@ impl PaintRequest {
             }
             Subject::Instant(instant, look) => SubjectKey::Instant(Arc::downgrade(instant), *look),
         };
-        Key {
+        TextureKey {
             picture: Arc::downgrade(&self.picture),
-            shown: weak(&self.shown),
-            pinned: weak(&self.pinned),
+            shown: downgraded(&self.shown),
+            pinned: downgraded(&self.pinned),
             subject,
         }
     }
@@ -131,7 +131,7 @@ impl PaintRequest {
 
 /// The identity of a texture. Weak references do not keep results alive.
 #[derive(Clone)]
-struct Key {
+struct TextureKey {
     picture: Weak<Picture>,
     shown: Weak<ResultSnapshot>,
     pinned: Weak<ResultSnapshot>,
@@ -145,7 +145,7 @@ enum SubjectKey {
     Instant(Weak<Instant>, Look),
 }
 
-impl PartialEq for Key {
+impl PartialEq for TextureKey {
     fn eq(&self, other: &Self) -> bool {
         let subject = match (&self.subject, &other.subject) {
             (SubjectKey::Layer(a, b), SubjectKey::Layer(c, d)) => (a, b) == (c, d),
@@ -165,20 +165,20 @@ impl PartialEq for Key {
 /// The textures that are kept.
 #[derive(Default)]
 pub struct TextureCache {
-    kept: Vec<LayerTexture>,
+    textures: Vec<LayerTexture>,
     /// What each slot showed last: it stays until the new one is painted.
-    last: [Option<Key>; 4],
+    shown_last: [Option<TextureKey>; 4],
     painting: Option<Task<LayerTexture>>,
-    clock: u64,
+    uses: u64,
 }
 
 impl TextureCache {
     /// The texture of a request, or an older one of the same photograph while the requested one is being painted.
     pub fn get(&mut self, ctx: &Context, slot: Slot, request: &PaintRequest) -> Option<&mut LayerTexture> {
-        self.take_in();
-        self.clock += 1;
+        self.take_painted();
+        self.uses += 1;
         let key = request.key();
-        if !self.kept.iter().any(|texture| texture.key == key) {
+        if !self.textures.iter().any(|texture| texture.key == key) {
             if request.picture.photo.image.pixels.len() <= LARGE_PX {
                 let texture = LayerTexture::painted(request);
                 self.keep(texture);
@@ -188,22 +188,23 @@ impl TextureCache {
             // The painter requests a repaint when it has ended; off screen that request has no effect, so look again.
             ctx.request_repaint_after(Duration::from_millis(30));
         }
-        let last = &mut self.last[slot as usize];
-        if self.kept.iter().any(|texture| texture.key == key) {
-            *last = Some(key);
+        let shown_last = &mut self.shown_last[slot as usize];
+        if self.textures.iter().any(|texture| texture.key == key) {
+            *shown_last = Some(key);
         }
-        let wanted =
-            last.clone().filter(|last| Weak::ptr_eq(&last.picture, &Arc::downgrade(&request.picture)))?;
-        self.forget_oldest();
-        let texture = self.kept.iter_mut().find(|texture| texture.key == wanted)?;
-        texture.used = self.clock;
+        let wanted = shown_last
+            .clone()
+            .filter(|shown_last| Weak::ptr_eq(&shown_last.picture, &Arc::downgrade(&request.picture)))?;
+        self.drop_oldest();
+        let texture = self.textures.iter_mut().find(|texture| texture.key == wanted)?;
+        texture.last_use = self.uses;
         Some(texture)
     }
 
     /// Keeps the texture that the painter has finished.
-    fn take_in(&mut self) {
+    fn take_painted(&mut self) {
         if let Some(mut texture) = Task::take(&mut self.painting) {
-            texture.used = self.clock;
+            texture.last_use = self.uses;
             self.keep(texture);
         }
     }
@@ -212,12 +213,12 @@ impl TextureCache {
     fn keep(&mut self, mut texture: LayerTexture) {
         let instant = |texture: &LayerTexture| matches!(texture.key.subject, SubjectKey::Instant(..));
         if instant(&texture) {
-            for old in self.kept.extract_if(.., |old| instant(old)) {
+            for old in self.textures.extract_if(.., |old| instant(old)) {
                 texture.spare.extend(old.spare);
                 texture.spare.extend(old.tiles);
             }
         }
-        self.kept.push(texture);
+        self.textures.push(texture);
     }
 
     /// Whether a texture is being painted in the background.
@@ -236,30 +237,30 @@ impl TextureCache {
     }
 
     /// Drops textures of results that are gone, and then the oldest ones beyond the limits.
-    fn forget_oldest(&mut self) {
-        let last = &self.last;
-        let in_use = |texture: &LayerTexture| last.iter().flatten().any(|key| *key == texture.key);
-        self.kept.retain(|texture| in_use(texture) || !texture.is_orphan());
+    fn drop_oldest(&mut self) {
+        let shown_last = &self.shown_last;
+        let in_use = |texture: &LayerTexture| shown_last.iter().flatten().any(|key| *key == texture.key);
+        self.textures.retain(|texture| in_use(texture) || !texture.is_outdated());
         loop {
-            let pixels: usize = self.kept.iter().map(|texture| texture.levels[0].len()).sum();
-            if self.kept.len() <= MOST.0 && pixels <= MOST.1 {
+            let pixels: usize = self.textures.iter().map(|texture| texture.levels[0].len()).sum();
+            if self.textures.len() <= MOST.0 && pixels <= MOST.1 {
                 return;
             }
-            let free = self.kept.iter().enumerate().filter(|(_, texture)| !in_use(texture));
-            let Some((oldest, _)) = free.min_by_key(|(_, texture)| texture.used) else { return };
-            self.kept.swap_remove(oldest);
+            let free = self.textures.iter().enumerate().filter(|(_, texture)| !in_use(texture));
+            let Some((oldest, _)) = free.min_by_key(|(_, texture)| texture.last_use) else { return };
+            self.textures.swap_remove(oldest);
         }
     }
 }
 
 /// A painted picture, smaller copies of it, and textures of the parts that were visible.
 pub struct LayerTexture {
-    key: Key,
+    key: TextureKey,
     levels: Vec<Raster<[u8; 4]>>,
     tiles: HashMap<[usize; 3], TextureHandle>,
     /// Textures of the same size with an older picture.
     spare: HashMap<[usize; 3], TextureHandle>,
-    used: u64,
+    last_use: u64,
 }
 
 impl LayerTexture {
@@ -269,14 +270,14 @@ impl LayerTexture {
             levels: vec![request.paint()],
             tiles: HashMap::new(),
             spare: HashMap::new(),
-            used: 0,
+            last_use: 0,
         }
     }
 
-    fn is_orphan(&self) -> bool {
-        let gone =
+    fn is_outdated(&self) -> bool {
+        let is_gone =
             |shown: &Weak<ResultSnapshot>| shown.strong_count() == 0 && !Weak::ptr_eq(shown, &Weak::new());
-        self.key.picture.strong_count() == 0 || gone(&self.key.shown) || gone(&self.key.pinned)
+        self.key.picture.strong_count() == 0 || is_gone(&self.key.shown) || is_gone(&self.key.pinned)
     }
 
     /// The color shown for a pixel.
@@ -289,7 +290,7 @@ impl LayerTexture {
         if self.levels.len() == 1 {
             let copies = match self.key.subject {
                 SubjectKey::Layer(..) | SubjectKey::Instant(..) => pyramid(&self.levels[0]),
-                SubjectKey::Marks(..) => boldest(&self.levels[0]),
+                SubjectKey::Marks(..) => copies_of_marks(&self.levels[0]),
             };
             self.levels.extend(copies);
         }
@@ -307,7 +308,7 @@ impl LayerTexture {
         }
         let level = level_for(scale, self.levels.len());
         let texels = &self.levels[level];
-        let shrunk = (1usize << level) as f32;
+        let texels_per_copy = (1usize << level) as f32;
         let [columns, rows] = place.visible().map(|seen| {
             let tile = TILE << level;
             seen.start / tile..seen.end.div_ceil(tile)
@@ -317,19 +318,19 @@ impl LayerTexture {
                 let Some(tile) = Tile::of(texels, column, row) else { continue };
                 let place_of_tile = [level, column, row];
                 let texture = self.tiles.entry(place_of_tile).or_insert_with(|| {
-                    let image = tile.cut(texels);
+                    let image = tile.image(texels);
                     if let Some(mut spare) = self.spare.remove(&place_of_tile) {
-                        spare.set(image, options());
+                        spare.set(image, texture_options());
                         return spare;
                     }
-                    painter.ctx().load_texture("picture", image, options())
+                    painter.ctx().load_texture("picture", image, texture_options())
                 });
                 let part = Rect::from_min_max(
-                    tile.inner.min * shrunk,
-                    (tile.inner.max * shrunk).min(place.size.to_pos2()),
+                    tile.inner.min * texels_per_copy,
+                    (tile.inner.max * texels_per_copy).min(place.size.to_pos2()),
                 );
                 let uv = |texel: egui::Pos2| ((texel - tile.outer.min) / tile.outer.size()).to_pos2();
-                let uv = Rect::from_min_max(uv(part.min / shrunk), uv(part.max / shrunk));
+                let uv = Rect::from_min_max(uv(part.min / texels_per_copy), uv(part.max / texels_per_copy));
                 let mut mesh = Mesh::with_texture(texture.id());
                 mesh.add_rect_with_uv(place.screen_rect_of(part), uv, tint);
                 painter.add(Shape::mesh(mesh));

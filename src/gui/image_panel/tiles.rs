@@ -7,7 +7,7 @@ use egui::{Color32, ColorImage, Rect, TextureFilter, TextureOptions, pos2};
 pub const TILE: usize = 1024;
 
 /// Texture filtering: sharp pixels when enlarged, smooth when reduced.
-pub fn options() -> TextureOptions {
+pub fn texture_options() -> TextureOptions {
     TextureOptions {
         magnification: TextureFilter::Nearest,
         minification: TextureFilter::Linear,
@@ -45,7 +45,7 @@ impl Tile {
     }
 
     /// The texels to upload.
-    pub fn cut(&self, texels: &Raster<[u8; 4]>) -> ColorImage {
+    pub fn image(&self, texels: &Raster<[u8; 4]>) -> ColorImage {
         let columns = self.outer.min.x as usize..self.outer.max.x as usize;
         let rows = self.outer.min.y as usize..self.outer.max.y as usize;
         // Neighboring texels of overlays are mostly equal, so the last conversion is kept.
@@ -68,7 +68,7 @@ impl Tile {
 /// Smaller copies, each half as large as the one before, which keep thin outlines: a texel is the most opaque of 2 ×
 /// 2. The
 /// last copy has at least 33 texels on its longer side.
-pub fn boldest(marks: &Raster<[u8; 4]>) -> Vec<Raster<[u8; 4]>> {
+pub fn copies_of_marks(marks: &Raster<[u8; 4]>) -> Vec<Raster<[u8; 4]>> {
     let mut levels: Vec<Raster<[u8; 4]>> = Vec::new();
     loop {
         let last = levels.last().unwrap_or(marks);
@@ -76,12 +76,12 @@ pub fn boldest(marks: &Raster<[u8; 4]>) -> Vec<Raster<[u8; 4]>> {
         if last.width().max(last.height()) <= 64 {
             return levels;
         }
-        let boldest = |at: usize| {
+        let most_opaque = |at: usize| {
             let (x, y) = (at % width * 2, at / width * 2);
             let four = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
             four.iter().filter_map(|&(x, y)| last.get(x, y)).max_by_key(|texel| texel[3]).copied()
         };
-        let data = (0..width * height).map(|at| boldest(at).unwrap_or_default()).collect();
+        let data = (0..width * height).map(|at| most_opaque(at).unwrap_or_default()).collect();
         levels.push(Raster::from_vec(width, height, data).unwrap_or_default());
     }
 }
@@ -97,7 +97,7 @@ mod tests {
         let second = Tile::of(&texels, 1, 0).unwrap();
         assert_eq!((first.inner.max.x, first.outer.max.x), (1024.0, 1025.0));
         assert_eq!((second.outer.min.x, second.outer.max.x), (1023.0, 1034.0));
-        assert_eq!(second.cut(&texels).size, [11, 5]);
+        assert_eq!(second.image(&texels).size, [11, 5]);
         assert!(Tile::of(&texels, 2, 0).is_none());
     }
 
@@ -105,7 +105,7 @@ mod tests {
     fn a_thin_outline_survives_in_smaller_copies() {
         let mut marks = Raster::filled(200, 100, [0u8; 4]);
         marks[37 * 200 + 133] = [9, 9, 9, 255];
-        let levels = boldest(&marks);
+        let levels = copies_of_marks(&marks);
         assert_eq!(levels.len(), 2);
         assert_eq!(*levels[1].get(33, 9).unwrap(), [9, 9, 9, 255]);
     }

@@ -1,10 +1,10 @@
 //! The image panel's row of controls (layer, arrangement, zoom, display) and its column of tools.
 
-use super::icons::{self, Sign};
+use super::icons::{self, ToolbarIcon};
 use crate::app::{DebugSettings, State};
 use crate::gui::action::Action;
 use crate::gui::shortcuts::keys_of;
-use crate::gui::theme::{SMALL_PT, Tones};
+use crate::gui::theme::{Palette, SMALL_PT};
 use crate::gui::widgets::clickable;
 use crate::view::{Arrangement, Fill, ImageSettings, Layer, Tool};
 use egui::accesskit::Role;
@@ -28,7 +28,7 @@ const TOOLS: [(Tool, &str, &str); 7] = [
 pub fn row(
     ui: &mut Ui,
     state: &State,
-    tones: &Tones,
+    palette: &Palette,
     settings: &mut ImageSettings,
     debug: &mut DebugSettings,
     zoom: f32,
@@ -37,61 +37,64 @@ pub fn row(
     ui.spacing_mut().interact_size.y = icons::SIDE_PT;
     ui.horizontal_wrapped(|ui| {
         let followed = state.followed().is_some();
-        if layer(ui, state, "Layer", &mut settings.layer, followed) {
+        if layer_menu(ui, state, "Layer", &mut settings.layer, followed) {
             debug.follow = false;
         }
-        arrangement(ui, tones, settings);
+        arrangement_buttons(ui, palette, settings);
         if settings.arrangement != Arrangement::Single {
-            layer(ui, state, "Second layer", &mut settings.other, false);
+            layer_menu(ui, state, "Second layer", &mut settings.other, false);
         }
-        fill(ui, tones, settings);
-        zooming(ui, settings, zoom);
-        display(ui, tones, settings);
-        super::cursor::toggle(ui, state, debug);
+        fill_button(ui, palette, settings);
+        zoom_controls(ui, settings, zoom);
+        display_menu(ui, palette, settings);
+        super::cursor::follow_button(ui, state, debug);
     });
 }
 
 /// Shows the choice of a layer; returns whether a layer was chosen in place of the instant at the debugger's cursor.
-fn layer(ui: &mut Ui, state: &State, name: &str, layer: &mut Layer, followed: bool) -> bool {
-    let now = if followed { "At the cursor" } else { layer.name() };
+fn layer_menu(ui: &mut Ui, state: &State, name: &str, layer_menu: &mut Layer, followed: bool) -> bool {
+    let now = if followed { "At the cursor" } else { layer_menu.name() };
     let combo = ComboBox::from_id_salt(name).width(104.0).height(320.0).selected_text(now);
     let mut chosen = false;
     let shown = combo.show_ui(ui, |ui| {
         for choice in Layer::ALL {
             let possible = !choice.needs_pinned() || state.pinned.is_some();
             let keys = keys_of(ui.ctx(), Action::Layer(choice));
-            let button = Button::selectable(!followed && *layer == choice, choice.name()).shortcut_text(keys);
+            let button =
+                Button::selectable(!followed && *layer_menu == choice, choice.name()).shortcut_text(keys);
             let button = ui.add_enabled(possible, button).on_hover_text(choice.tip());
             if button.on_disabled_hover_text("Pin a result first (K).").clicked() {
-                *layer = choice;
+                *layer_menu = choice;
                 chosen = followed;
             }
         }
     });
     shown.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
     let of_cursor = "What is decided at the debugger's cursor; a layer shows the result instead.";
-    shown.response.on_hover_text(if followed { of_cursor } else { layer.tip() });
+    shown.response.on_hover_text(if followed { of_cursor } else { layer_menu.tip() });
     chosen
 }
 
-fn arrangement(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
+fn arrangement_buttons(ui: &mut Ui, palette: &Palette, settings: &mut ImageSettings) {
     let now = settings.arrangement;
-    let half = if let Arrangement::Wipe(share) = now { share } else { 0.5 };
+    let wipe_share = if let Arrangement::Wipe(share) = now { share } else { 0.5 };
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         for (choice, name, tip) in [
             (Arrangement::Single, "One layer", "One layer"),
-            (Arrangement::Wipe(half), "Wipe", "A wipe between two layers: drag the line"),
+            (Arrangement::Wipe(wipe_share), "Wipe", "A wipe between two layers: drag the line"),
             (Arrangement::SideBySide, "Side by side", "Two layers side by side, panned and zoomed as one"),
         ] {
-            if icons::toggle(ui, tones, Sign::Arrangement(choice), now == choice, name, tip).clicked() {
+            if icons::toggle(ui, palette, ToolbarIcon::Arrangement(choice), now == choice, name, tip)
+                .clicked()
+            {
                 settings.arrangement = choice;
             }
         }
     });
 }
 
-fn fill(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
+fn fill_button(ui: &mut Ui, palette: &Palette, settings: &mut ImageSettings) {
     let second = settings.arrangement != Arrangement::Single;
     let overlay = settings.layer.is_overlay() || (second && settings.other.is_overlay());
     let outline = settings.fill == Fill::Outline;
@@ -100,14 +103,14 @@ fn fill(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
         keys_of(ui.ctx(), Action::Outline)
     );
     ui.add_enabled_ui(overlay, |ui| {
-        let sign = Sign::Fill(Fill::Outline);
-        if icons::toggle(ui, tones, sign, outline && overlay, "Outlines", &tip).clicked() {
+        let icon = ToolbarIcon::Fill(Fill::Outline);
+        if icons::toggle(ui, palette, icon, outline && overlay, "Outlines", &tip).clicked() {
             settings.fill = if outline { Fill::Fill } else { Fill::Outline };
         }
     });
 }
 
-fn zooming(ui: &mut Ui, settings: &mut ImageSettings, zoom: f32) {
+fn zoom_controls(ui: &mut Ui, settings: &mut ImageSettings, zoom: f32) {
     ui.spacing_mut().button_padding.x = 5.0;
     let fit = Button::selectable(settings.zoom.is_none(), "Fit");
     let tip = format!("The whole picture ({}, double-click)", keys_of(ui.ctx(), Action::Fit));
@@ -115,22 +118,22 @@ fn zooming(ui: &mut Ui, settings: &mut ImageSettings, zoom: f32) {
         (settings.zoom, settings.center_px) = (None, None);
     }
     let tip = format!("One screen point a pixel ({})", keys_of(ui.ctx(), Action::OneToOne));
-    let same = settings.zoom == Some(1.0);
-    if ui.add(Button::selectable(same, "1:1")).on_hover_text(tip).clicked() {
+    let is_one_to_one = settings.zoom == Some(1.0);
+    if ui.add(Button::selectable(is_one_to_one, "1:1")).on_hover_text(tip).clicked() {
         settings.zoom = Some(1.0);
     }
     let mut percent = zoom * 100.0;
     let speed = percent / 100.0;
-    let typed = DragValue::new(&mut percent).range(0.0..=f32::MAX).speed(speed).max_decimals(0).suffix(" %");
-    let typed = ui.add_sized(vec2(48.0, ui.spacing().interact_size.y), typed);
-    named(&typed, "Zoom", f64::from(percent));
-    if typed.changed() && percent > 0.0 {
+    let field = DragValue::new(&mut percent).range(0.0..=f32::MAX).speed(speed).max_decimals(0).suffix(" %");
+    let field = ui.add_sized(vec2(48.0, ui.spacing().interact_size.y), field);
+    set_accessible_name(&field, "Zoom", f64::from(percent));
+    if field.changed() && percent > 0.0 {
         settings.zoom = Some(percent / 100.0);
     }
-    typed.on_hover_text("Zoom: scroll over the picture, + and \u{2212}, or type here");
+    field.on_hover_text("Zoom: scroll over the picture, + and \u{2212}, or type here");
 }
 
-fn named(response: &Response, name: &str, value: f64) {
+fn set_accessible_name(response: &Response, name: &str, value: f64) {
     response
         .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::drag_value(true, value) });
 }
@@ -138,31 +141,32 @@ fn named(response: &Response, name: &str, value: f64) {
 /// Shows the button of the display settings, which do not change the analysis. The button is on while exposure or
 /// gamma
 /// differ from their defaults.
-fn display(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
-    let neutral = ImageSettings::default();
-    let off = |value: f32, neutral: f32| (value - neutral).abs() > 1e-4;
-    let changed = off(settings.exposure_ev, neutral.exposure_ev) || off(settings.gamma, neutral.gamma);
+fn display_menu(ui: &mut Ui, palette: &Palette, settings: &mut ImageSettings) {
+    let defaults = ImageSettings::default();
+    let differs = |value: f32, defaults: f32| (value - defaults).abs() > 1e-4;
+    let changed =
+        differs(settings.exposure_ev, defaults.exposure_ev) || differs(settings.gamma, defaults.gamma);
     let tip = "Exposure, gamma and opacity, of the display only";
-    let button = icons::toggle(ui, tones, Sign::Display, changed, "Display", tip);
+    let button = icons::toggle(ui, palette, ToolbarIcon::Display, changed, "Display", tip);
     let popup = Popup::menu(&button).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     popup.show(|ui| {
         ui.spacing_mut().slider_width = 120.0;
         egui::Grid::new("display").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
             let exposure = Slider::new(&mut settings.exposure_ev, -6.0..=6.0).step_by(0.1).suffix(" EV");
             if slider(ui, "Exposure", "Stops, of the display only.", exposure) {
-                settings.exposure_ev = neutral.exposure_ev;
+                settings.exposure_ev = defaults.exposure_ev;
             }
             let gamma = Slider::new(&mut settings.gamma, 0.25..=4.0).logarithmic(true).max_decimals(2);
             if slider(ui, "Gamma", "Brightens (above 1) the middle tones, of the display only.", gamma) {
-                settings.gamma = neutral.gamma;
+                settings.gamma = defaults.gamma;
             }
             let opacity = Slider::new(&mut settings.opacity, 0.0..=1.0).max_decimals(2);
             if slider(ui, "Opacity", "Of fills over the photograph.", opacity) {
-                settings.opacity = neutral.opacity;
+                settings.opacity = defaults.opacity;
             }
         });
         let note = "Double-click resets. None of this changes the analysis.";
-        ui.label(RichText::new(note).size(SMALL_PT).color(tones.quiet));
+        ui.label(RichText::new(note).size(SMALL_PT).color(palette.secondary));
     });
 }
 
@@ -175,11 +179,11 @@ fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> bool {
 }
 
 /// Shows the column of tools, and the field of the brush's radius.
-pub fn column(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
+pub fn column(ui: &mut Ui, palette: &Palette, settings: &mut ImageSettings) {
     ui.spacing_mut().item_spacing.y = 2.0;
     for (tool, name, tip) in TOOLS {
         let tip = format!("{name} ({}). {tip}", keys_of(ui.ctx(), Action::Tool(tool)));
-        if icons::toggle(ui, tones, Sign::Tool(tool), settings.tool == tool, name, &tip).clicked() {
+        if icons::toggle(ui, palette, ToolbarIcon::Tool(tool), settings.tool == tool, name, &tip).clicked() {
             settings.tool = tool;
         }
     }
@@ -192,7 +196,7 @@ pub fn column(ui: &mut Ui, tones: &Tones, settings: &mut ImageSettings) {
         let radius = DragValue::new(&mut settings.brush_px).range(0.5..=500.0).speed(0.25);
         let radius = radius.max_decimals(decimals);
         let radius = ui.add_sized(vec2(icons::SIDE_PT, 18.0), radius);
-        named(&radius, "Brush radius", f64::from(settings.brush_px));
+        set_accessible_name(&radius, "Brush radius", f64::from(settings.brush_px));
         radius.on_hover_text("Radius of the brush, pixels of the picture");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::geometry::Placement;
 use super::icons::{corners, dashed};
-use super::overlay::MARK;
+use super::overlay::MARK_COLOR;
 use crate::app::{Combine, Command, Edit, Gesture, Question, Severity, State, ViewCommand};
 use crate::gui::PanelContext;
 use crate::raster::{Mask, PixelIndex};
@@ -14,13 +14,13 @@ use egui::{
 use std::sync::Arc;
 
 /// Distance within which the pointer is on a handle or a first corner, screen points.
-const GRASP_PT: f32 = 8.0;
+const HANDLE_RADIUS_PT: f32 = 8.0;
 /// A drag shorter than this is a click, screen points.
-const STILL_PT: f32 = 3.0;
+const CLICK_TOLERANCE_PT: f32 = 3.0;
 
 /// A gesture in progress, in pixels of the picture.
 #[derive(Clone, Debug, Default, PartialEq)]
-enum Draft {
+enum PendingGesture {
     #[default]
     None,
     /// Space and drag.
@@ -37,10 +37,10 @@ enum Draft {
 /// The state of the tool.
 #[derive(Default)]
 pub struct ToolState {
-    draft: Draft,
+    gesture: PendingGesture,
     tool: Tool,
     /// The pointer, in pixels of the picture.
-    at: Pos2,
+    pointer_px: Pos2,
 }
 
 /// The view under the pointer.
@@ -55,27 +55,27 @@ pub struct PointerContext<'a> {
 
 impl ToolState {
     /// Cancels the gesture in progress.
-    pub fn give_up(&mut self) {
-        self.draft = Draft::None;
+    pub fn cancel(&mut self) {
+        self.gesture = PendingGesture::None;
     }
 
     /// Whether a gesture is in progress.
     pub fn is_busy(&self) -> bool {
-        self.draft != Draft::None
+        self.gesture != PendingGesture::None
     }
 
     /// Follows the pointer in one view.
-    pub fn act(
+    pub fn handle_pointer(
         &mut self,
         ui: &Ui,
-        spot: &PointerContext,
+        context: &PointerContext,
         cx: &mut PanelContext,
         settings: &mut ImageSettings,
     ) {
         if self.tool != settings.tool {
-            (self.draft, self.tool) = (Draft::None, settings.tool);
+            (self.gesture, self.tool) = (PendingGesture::None, settings.tool);
         }
-        let PointerContext { response, place, .. } = spot;
+        let PointerContext { response, place, .. } = context;
         let (pointer, modifiers, pressed, released, space) = ui.input(|input| {
             let pointer = &input.pointer;
             let space = input.key_down(Key::Space);
@@ -87,23 +87,23 @@ impl ToolState {
                 space,
             )
         });
-        let held = response.is_pointer_button_down_on();
-        if let Some(pointer) = pointer.filter(|_| held || response.hovered()) {
-            self.at = place.image_from_screen(pointer);
+        let is_pressed_here = response.is_pointer_button_down_on();
+        if let Some(pointer) = pointer.filter(|_| is_pressed_here || response.hovered()) {
+            self.pointer_px = place.image_from_screen(pointer);
         }
-        if pressed && held && space {
-            self.draft = Draft::Pan;
+        if pressed && is_pressed_here && space {
+            self.gesture = PendingGesture::Pan;
         }
         let primary = response.dragged_by(PointerButton::Primary);
-        let pans = self.draft == Draft::Pan || (self.tool == Tool::Pointer && !space);
+        let pans = self.gesture == PendingGesture::Pan || (self.tool == Tool::Pointer && !space);
         if response.dragged_by(PointerButton::Middle) || (primary && pans) {
-            place.panned(response.drag_delta()).put(settings);
+            place.panned(response.drag_delta()).store(settings);
             ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
             return;
         }
-        if self.draft == Draft::Pan {
+        if self.gesture == PendingGesture::Pan {
             if released {
-                self.draft = Draft::None;
+                self.gesture = PendingGesture::None;
             }
             return;
         }
@@ -111,65 +111,76 @@ impl ToolState {
             ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
         }
         match self.tool {
-            Tool::Pointer => point(spot, cx, settings, modifiers),
-            Tool::Polygon => self.polygon(ui, spot, cx, modifiers),
+            Tool::Pointer => select_by_click(context, cx, settings, modifiers),
+            Tool::Polygon => self.polygon(ui, context, cx, modifiers),
             _ => {
-                if pressed && held {
-                    self.begin(place, cx, modifiers, settings.brush_px);
-                } else if held {
-                    self.go_on(place, cx, modifiers, settings.brush_px);
+                if pressed && is_pressed_here {
+                    self.begin_drag(place, cx, modifiers, settings.brush_px);
+                } else if is_pressed_here {
+                    self.continue_drag(place, cx, modifiers, settings.brush_px);
                 }
-                if released && (held || response.drag_stopped() || response.clicked()) {
-                    self.end(place, cx, modifiers);
+                if released && (is_pressed_here || response.drag_stopped() || response.clicked()) {
+                    self.end_drag(place, cx, modifiers);
                 }
             }
         }
     }
 
-    fn begin(&mut self, place: &Placement, cx: &mut PanelContext, modifiers: Modifiers, radius_px: f32) {
-        let at = self.at;
+    fn begin_drag(&mut self, place: &Placement, cx: &mut PanelContext, modifiers: Modifiers, radius_px: f32) {
+        let pointer_px = self.pointer_px;
         match self.tool {
-            Tool::Rectangle | Tool::WhitePatch => self.draft = Draft::Rectangle(at),
-            Tool::Lasso => self.draft = Draft::Lasso(vec![at]),
+            Tool::Rectangle | Tool::WhitePatch => self.gesture = PendingGesture::Rectangle(pointer_px),
+            Tool::Lasso => self.gesture = PendingGesture::Lasso(vec![pointer_px]),
             Tool::Brush => {
-                self.draft = Draft::Brush(at);
-                let mask = brush(size(place), &[at.into()], radius_px);
-                cx.send(Edit::Mark(Arc::new(mask), combine(modifiers), Some(Gesture::Brush)));
+                self.gesture = PendingGesture::Brush(pointer_px);
+                let mask = brush(picture_size(place), &[pointer_px.into()], radius_px);
+                cx.send(Edit::Mark(Arc::new(mask), combine_by_keys(modifiers), Some(Gesture::Brush)));
             }
             Tool::Profile => {
-                let near = |end: &[f32; 2]| (pos2(end[0], end[1]) - at).length() * place.zoom < GRASP_PT;
-                let stays = match cx.state.view.profile {
+                let near = |end: &[f32; 2]| {
+                    (pos2(end[0], end[1]) - pointer_px).length() * place.zoom < HANDLE_RADIUS_PT
+                };
+                let fixed_end = match cx.state.view.profile {
                     ProfileLine::Between(a, b) if near(&a) => b.into(),
                     ProfileLine::Between(a, b) if near(&b) => a.into(),
-                    _ => within(at, place),
+                    _ => clamped_to_picture(pointer_px, place),
                 };
-                self.draft = Draft::Profile(stays);
+                self.gesture = PendingGesture::Profile(fixed_end);
             }
             Tool::Pointer | Tool::Polygon => {}
         }
     }
 
-    fn go_on(&mut self, place: &Placement, cx: &mut PanelContext, modifiers: Modifiers, radius_px: f32) {
-        let at = self.at;
-        match &mut self.draft {
-            Draft::Lasso(path) => {
-                let far = path.last().is_none_or(|last| (*last - at).length() * place.zoom >= 1.5);
+    fn continue_drag(
+        &mut self,
+        place: &Placement,
+        cx: &mut PanelContext,
+        modifiers: Modifiers,
+        radius_px: f32,
+    ) {
+        let pointer_px = self.pointer_px;
+        match &mut self.gesture {
+            PendingGesture::Lasso(path) => {
+                let far = path.last().is_none_or(|last| (*last - pointer_px).length() * place.zoom >= 1.5);
                 if far {
-                    path.push(at);
+                    path.push(pointer_px);
                 }
             }
-            Draft::Brush(last) if *last != at => {
-                let mask = brush(size(place), &[(*last).into(), at.into()], radius_px);
-                *last = at;
+            PendingGesture::Brush(last) if *last != pointer_px => {
+                let mask = brush(picture_size(place), &[(*last).into(), pointer_px.into()], radius_px);
+                *last = pointer_px;
                 // A stroke that replaces the marks does so with its first sample.
-                let combine = if modifiers.alt { Combine::Subtract } else { Combine::Union };
-                cx.send(Edit::Mark(Arc::new(mask), combine, Some(Gesture::Brush)));
+                let combine_by_keys = if modifiers.alt { Combine::Subtract } else { Combine::Union };
+                cx.send(Edit::Mark(Arc::new(mask), combine_by_keys, Some(Gesture::Brush)));
             }
-            Draft::Profile(stays) => {
-                let stays = *stays;
-                let end = within(if modifiers.shift { straight(stays, at) } else { at }, place);
-                let line = ProfileLine::Between(stays.into(), end.into());
-                if end != stays && line != cx.state.view.profile {
+            PendingGesture::Profile(fixed_end) => {
+                let fixed_end = *fixed_end;
+                let end = clamped_to_picture(
+                    if modifiers.shift { on_row_or_column(fixed_end, pointer_px) } else { pointer_px },
+                    place,
+                );
+                let line = ProfileLine::Between(fixed_end.into(), end.into());
+                if end != fixed_end && line != cx.state.view.profile {
                     cx.send(ViewCommand::Profile(line));
                 }
             }
@@ -177,47 +188,49 @@ impl ToolState {
         }
     }
 
-    fn end(&mut self, place: &Placement, cx: &mut PanelContext, modifiers: Modifiers) {
-        let at = self.at;
-        match std::mem::take(&mut self.draft) {
-            Draft::Rectangle(from) => {
-                let mask = rectangle(size(place), from.into(), at.into());
-                let still = (from - at).abs().max_elem() * place.zoom < STILL_PT;
-                match (self.tool, still) {
-                    (Tool::WhitePatch, false) => pin(cx, &mask),
+    fn end_drag(&mut self, place: &Placement, cx: &mut PanelContext, modifiers: Modifiers) {
+        let pointer_px = self.pointer_px;
+        match std::mem::take(&mut self.gesture) {
+            PendingGesture::Rectangle(from) => {
+                let mask = rectangle(picture_size(place), from.into(), pointer_px.into());
+                let is_click = (from - pointer_px).abs().max_elem() * place.zoom < CLICK_TOLERANCE_PT;
+                match (self.tool, is_click) {
+                    (Tool::WhitePatch, false) => pin_illuminant(cx, &mask),
                     (Tool::WhitePatch, true) => {}
-                    (_, false) => mark(cx, mask, modifiers),
-                    (_, true) => unmark(cx, modifiers),
+                    (_, false) => send_mark(cx, mask, modifiers),
+                    (_, true) => clear_marks(cx, modifiers),
                 }
             }
-            Draft::Lasso(path) if path.len() > 2 => mark(cx, outline(size(place), &arrays(&path)), modifiers),
-            Draft::Lasso(_) => unmark(cx, modifiers),
-            Draft::Brush(_) => cx.send(Edit::EndGesture),
+            PendingGesture::Lasso(path) if path.len() > 2 => {
+                send_mark(cx, outline(picture_size(place), &as_arrays(&path)), modifiers)
+            }
+            PendingGesture::Lasso(_) => clear_marks(cx, modifiers),
+            PendingGesture::Brush(_) => cx.send(Edit::EndGesture),
             _ => {}
         }
     }
 
-    fn polygon(&mut self, ui: &Ui, spot: &PointerContext, cx: &mut PanelContext, modifiers: Modifiers) {
-        let (response, place) = (spot.response, &spot.place);
-        let at = self.at;
-        let mut closes = ui.input(|input| input.key_pressed(Key::Enter));
+    fn polygon(&mut self, ui: &Ui, context: &PointerContext, cx: &mut PanelContext, modifiers: Modifiers) {
+        let (response, place) = (context.response, &context.place);
+        let pointer_px = self.pointer_px;
+        let mut is_closed = ui.input(|input| input.key_pressed(Key::Enter));
         if response.clicked_by(PointerButton::Primary) {
-            if let Draft::Polygon(path) = &mut self.draft {
-                let first = (path[0] - at).length() * place.zoom < GRASP_PT;
-                closes |= response.double_clicked_by(PointerButton::Primary) || (first && path.len() > 2);
-                if !closes {
-                    path.push(at);
+            if let PendingGesture::Polygon(path) = &mut self.gesture {
+                let first = (path[0] - pointer_px).length() * place.zoom < HANDLE_RADIUS_PT;
+                is_closed |= response.double_clicked_by(PointerButton::Primary) || (first && path.len() > 2);
+                if !is_closed {
+                    path.push(pointer_px);
                 }
             } else {
-                self.draft = Draft::Polygon(vec![at]);
+                self.gesture = PendingGesture::Polygon(vec![pointer_px]);
             }
         }
-        if !closes {
+        if !is_closed {
             return;
         }
-        match std::mem::take(&mut self.draft) {
-            Draft::Polygon(path) if path.len() > 2 => {
-                mark(cx, outline(size(place), &arrays(&path)), modifiers);
+        match std::mem::take(&mut self.gesture) {
+            PendingGesture::Polygon(path) if path.len() > 2 => {
+                send_mark(cx, outline(picture_size(place), &as_arrays(&path)), modifiers);
             }
             _ => {}
         }
@@ -228,54 +241,59 @@ impl ToolState {
         let to_screen = |points: &[Pos2]| -> Vec<Pos2> {
             points.iter().map(|&point| place.screen_from_image(point)).collect()
         };
-        match &self.draft {
-            Draft::Rectangle(from) => {
-                let area = place.screen_rect_of(Rect::from_two_pos(*from, self.at));
-                painter.rect_filled(area, 0.0, MARK.gamma_multiply(0.12));
-                dashed(painter, &corners(area), MARK);
+        match &self.gesture {
+            PendingGesture::Rectangle(from) => {
+                let area = place.screen_rect_of(Rect::from_two_pos(*from, self.pointer_px));
+                painter.rect_filled(area, 0.0, MARK_COLOR.gamma_multiply(0.12));
+                dashed(painter, &corners(area), MARK_COLOR);
             }
-            Draft::Lasso(path) | Draft::Polygon(path) => {
+            PendingGesture::Lasso(path) | PendingGesture::Polygon(path) => {
                 let mut points = to_screen(path);
-                points.push(place.screen_from_image(self.at));
-                if matches!(self.draft, Draft::Polygon(_)) {
+                points.push(place.screen_from_image(self.pointer_px));
+                if matches!(self.gesture, PendingGesture::Polygon(_)) {
                     for &corner in &points[..points.len() - 1] {
-                        painter.circle_filled(corner, 2.5, MARK);
+                        painter.circle_filled(corner, 2.5, MARK_COLOR);
                     }
-                    painter.circle_stroke(points[0], GRASP_PT, Stroke::new(1.0, MARK));
+                    painter.circle_stroke(points[0], HANDLE_RADIUS_PT, Stroke::new(1.0, MARK_COLOR));
                 } else {
                     points.push(points[0]);
                 }
-                dashed(painter, &points, MARK);
+                dashed(painter, &points, MARK_COLOR);
             }
             _ => {}
         }
         if let Some(radius_px) = brush_px {
-            let center = place.screen_from_image(self.at);
+            let center = place.screen_from_image(self.pointer_px);
             let radius = (radius_px * place.zoom).max(1.5);
             painter.circle_stroke(center, radius, Stroke::new(2.6, Color32::from_black_alpha(140)));
-            painter.circle_stroke(center, radius, Stroke::new(1.2, MARK));
+            painter.circle_stroke(center, radius, Stroke::new(1.2, MARK_COLOR));
         }
     }
 }
 
 /// Selects on a click, and fits the picture on a double click.
-fn point(spot: &PointerContext, cx: &mut PanelContext, settings: &mut ImageSettings, modifiers: Modifiers) {
-    let response = spot.response;
+fn select_by_click(
+    context: &PointerContext,
+    cx: &mut PanelContext,
+    settings: &mut ImageSettings,
+    modifiers: Modifiers,
+) {
+    let response = context.response;
     if response.double_clicked_by(PointerButton::Primary) {
         (settings.zoom, settings.center_px) = (None, None);
     } else if response.clicked_by(PointerButton::Primary) {
-        let pixel = response.interact_pointer_pos().and_then(|at| spot.place.pixel_at(at));
-        let item = pixel.and_then(|pixel| item_at(cx.state, spot.layer, pixel, modifiers.alt));
+        let pixel = response.interact_pointer_pos().and_then(|pointer_px| context.place.pixel_at(pointer_px));
+        let item = pixel.and_then(|pixel| item_at(cx.state, context.layer, pixel, modifiers.alt));
         if item != cx.state.document.selection.item {
             cx.send(Edit::Select(item));
         }
-        cx.out.extend(pixel.map(|pixel| Command::Ask(Question::Why(pixel))));
+        cx.commands.extend(pixel.map(|pixel| Command::Ask(Question::Why(pixel))));
     }
 }
 
 /// The item that a click on a pixel selects.
-fn item_at(state: &State, layer: Layer, pixel: PixelIndex, the_pixel: bool) -> Option<Item> {
-    if the_pixel {
+fn item_at(state: &State, layer: Layer, pixel: PixelIndex, exact_pixel: bool) -> Option<Item> {
+    if exact_pixel {
         return Some(Item::Pixel(pixel));
     }
     let shown = state.shown()?;
@@ -289,7 +307,7 @@ fn item_at(state: &State, layer: Layer, pixel: PixelIndex, the_pixel: bool) -> O
 }
 
 /// How new marks combine with those before, by the modifier keys.
-fn combine(modifiers: Modifiers) -> Combine {
+fn combine_by_keys(modifiers: Modifiers) -> Combine {
     match (modifiers.shift, modifiers.alt) {
         (_, true) => Combine::Subtract,
         (true, false) => Combine::Union,
@@ -297,14 +315,14 @@ fn combine(modifiers: Modifiers) -> Combine {
     }
 }
 
-fn mark(cx: &mut PanelContext, mask: Mask, modifiers: Modifiers) {
-    cx.send(Edit::Mark(Arc::new(mask), combine(modifiers), None));
+fn send_mark(cx: &mut PanelContext, mask: Mask, modifiers: Modifiers) {
+    cx.send(Edit::Mark(Arc::new(mask), combine_by_keys(modifiers), None));
 }
 
 /// Clears the marks after a click that draws nothing.
-fn unmark(cx: &mut PanelContext, modifiers: Modifiers) {
+fn clear_marks(cx: &mut PanelContext, modifiers: Modifiers) {
     if let Some(marked) = &cx.state.document.selection.marked
-        && combine(modifiers) == Combine::Replace
+        && combine_by_keys(modifiers) == Combine::Replace
     {
         let nothing = Mask::filled(marked.width(), marked.height(), false);
         cx.send(Edit::Mark(Arc::new(nothing), Combine::Replace, None));
@@ -312,7 +330,7 @@ fn unmark(cx: &mut PanelContext, modifiers: Modifiers) {
 }
 
 /// Pins the light's color to the mean of the reliable pixels.
-fn pin(cx: &mut PanelContext, mask: &Mask) {
+fn pin_illuminant(cx: &mut PanelContext, mask: &Mask) {
     let command: Command = match mean_direction(cx.state, mask) {
         Some(direction) => Edit::PinIlluminant(Some(direction), None).into(),
         None => ViewCommand::Notify(
@@ -328,10 +346,10 @@ fn pin(cx: &mut PanelContext, mask: &Mask) {
 fn mean_direction(state: &State, mask: &Mask) -> Option<[f64; 3]> {
     let image = &state.picture.as_ref()?.photo.image;
     let masks = state.newest.as_ref().map(|shown| &shown.analysis.masks);
-    let full = image.saturation.unwrap_or(f32::INFINITY);
+    let saturation = image.saturation.unwrap_or(f32::INFINITY);
     let usable = |pixel: usize, color: &[f32; 3]| match masks {
         Some(masks) => !masks.distorted(pixel) && !masks.invalid(pixel),
-        None => !image.invalid[pixel] && color.iter().all(|&band| band < full),
+        None => !image.invalid[pixel] && color.iter().all(|&band| band < saturation),
     };
     let mut sum = [0.0f64; 3];
     for (pixel, color) in image.pixels.as_slice().iter().enumerate() {
@@ -346,18 +364,18 @@ fn mean_direction(state: &State, mask: &Mask) -> Option<[f64; 3]> {
 }
 
 /// The point on the row or column of `from` that is nearest to `to`.
-fn straight(from: Pos2, to: Pos2) -> Pos2 {
+fn on_row_or_column(from: Pos2, to: Pos2) -> Pos2 {
     if (to.x - from.x).abs() >= (to.y - from.y).abs() { pos2(to.x, from.y) } else { pos2(from.x, to.y) }
 }
 
-fn within(point: Pos2, place: &Placement) -> Pos2 {
+fn clamped_to_picture(point: Pos2, place: &Placement) -> Pos2 {
     point.clamp(Pos2::ZERO, place.size.to_pos2())
 }
 
-fn size(place: &Placement) -> (usize, usize) {
+fn picture_size(place: &Placement) -> (usize, usize) {
     (place.size.x as usize, place.size.y as usize)
 }
 
-fn arrays(points: &[Pos2]) -> Vec<[f32; 2]> {
+fn as_arrays(points: &[Pos2]) -> Vec<[f32; 2]> {
     points.iter().map(|&point| point.into()).collect()
 }

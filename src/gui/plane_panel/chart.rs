@@ -1,6 +1,6 @@
 //! The plane on the screen: conversion between counts and screen points, the oblique axes, and the skewed T.
 
-use crate::gui::theme::{SMALL_PT, Tones};
+use crate::gui::theme::{Palette, SMALL_PT};
 use crate::view::RegionPlane;
 use egui::{Align2, FontId, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
@@ -30,13 +30,13 @@ impl Chart {
             .chain(plane.highlight_lines().flatten())
             .chain(plane.points.iter().map(|point| [point.body, point.surface]))
             .chain(plane.points.is_empty().then_some([finite(body[1]), finite(surface[1])]));
-        let mut room = Rect::NOTHING;
+        let mut area = Rect::NOTHING;
         for [body, surface] in corners {
-            room.extend_with(plane.oblique(body, surface).into());
+            area.extend_with(plane.oblique(body, surface).into());
         }
         let free = (rect.size() - 2.0 * MARGIN_PT).max(vec2(20.0, 20.0));
-        let needed = room.size().max(vec2(1.0, 1.0)) / free;
-        Self { center: room.center().into(), counts_per_pt: needed.max_elem().clamp(SCALES[0], SCALES[1]) }
+        let needed = area.size().max(vec2(1.0, 1.0)) / free;
+        Self { center: area.center().into(), counts_per_pt: needed.max_elem().clamp(SCALES[0], SCALES[1]) }
     }
 
     /// Screen position of oblique counts; the second axis points up.
@@ -67,8 +67,8 @@ impl Chart {
     }
 
     /// Paints both axes through black, and a grid of lines of equal amounts.
-    pub fn axes(self, painter: &Painter, plane: &RegionPlane, rect: Rect, tones: &Tones) {
-        let step = step(TICKS_APART_PT * self.counts_per_pt);
+    pub fn axes(self, painter: &Painter, plane: &RegionPlane, rect: Rect, palette: &Palette) {
+        let round_step = round_step(TICKS_APART_PT * self.counts_per_pt);
         let corners = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()]
             .map(|corner| plane.from_oblique(self.oblique(corner, rect)));
         let at = |body: f32, surface: f32| self.screen(plane.oblique(body, surface), rect);
@@ -81,8 +81,8 @@ impl Chart {
             ]
         };
         let (body, surface) = (span(0), span(1));
-        for value in multiples(body, step) {
-            let stroke = line(value, tones);
+        for value in multiples(body, round_step) {
+            let stroke = line(value, palette);
             painter.line_segment([at(value, surface[0]), at(value, surface[1])], stroke);
             let foot = at(value, 0.0);
             if value != 0.0 && rect.shrink2(vec2(12.0, 0.0)).x_range().contains(foot.x) {
@@ -90,23 +90,23 @@ impl Chart {
                 painter.text(
                     pos2(foot.x, y + 3.0),
                     Align2::CENTER_TOP,
-                    number(value),
+                    number_text(value),
                     font.clone(),
-                    tones.quiet,
+                    palette.secondary,
                 );
             }
         }
-        for value in multiples(surface, step) {
-            painter.line_segment([at(body[0], value), at(body[1], value)], line(value, tones));
+        for value in multiples(surface, round_step) {
+            painter.line_segment([at(body[0], value), at(body[1], value)], line(value, palette));
             let foot = at(0.0, value);
             if value != 0.0 && rect.shrink2(vec2(0.0, 20.0)).y_range().contains(foot.y) {
                 let x = foot.x.clamp(rect.left() + 28.0, rect.right() - 6.0);
                 painter.text(
                     pos2(x - 4.0, foot.y),
                     Align2::RIGHT_CENTER,
-                    number(value),
+                    number_text(value),
                     font.clone(),
-                    tones.quiet,
+                    palette.secondary,
                 );
             }
         }
@@ -118,25 +118,25 @@ impl Chart {
         let black = self.screen([0.0, 0.0], rect);
         let away = plane.oblique(0.0, 1.0);
         let rise = vec2(away[0], -away[1]);
-        let room = rect.shrink2(vec2(90.0, 24.0));
-        let to_top = (room.top() - black.y) / rise.y.min(-1e-3);
-        let side = if rise.x >= 0.0 { room.right() } else { room.left() };
+        let area = rect.shrink2(vec2(90.0, 24.0));
+        let to_top = (area.top() - black.y) / rise.y.min(-1e-3);
+        let side = if rise.x >= 0.0 { area.right() } else { area.left() };
         let to_side = if rise.x.abs() < 1e-3 { f32::INFINITY } else { (side - black.x) / rise.x };
         black + rise * to_top.min(to_side).max(0.0) + vec2(-34.0, -4.0)
     }
 
     /// Paints matte line, highlight lines, meeting points and the border of the cylinder, with labels.
-    pub fn skewed_t(self, ui: &Ui, response: &Response, plane: &RegionPlane, rect: Rect, tones: &Tones) {
+    pub fn skewed_t(self, ui: &Ui, response: &Response, plane: &RegionPlane, rect: Rect, palette: &Palette) {
         let painter = ui.painter_at(rect);
         let at = |[body, surface]: [f32; 2]| self.screen(plane.oblique(body, surface), rect);
         for side in [plane.radius, -plane.radius] {
             let ends = [[0.0, side], [plane.matte_length, side]].map(|end| self.screen(end, rect));
-            painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, tones.quiet), 4.0, 4.0));
+            painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, palette.secondary), 4.0, 4.0));
         }
-        let stroke = Stroke::new(1.8, tones.text);
+        let stroke = Stroke::new(1.8, palette.text);
         let matte = plane.matte_line().map(at);
         painter.line_segment(matte, stroke);
-        let mut names = vec![Name {
+        let mut names = vec![ChartLabel {
             at: pos2(rect.right() - 8.0, matte[0].y - 4.0),
             anchor: Align2::RIGHT_BOTTOM,
             text: "m_b, counts",
@@ -144,21 +144,21 @@ impl Chart {
         }];
         names.extend(self.highlight_lines(&painter, plane, rect, stroke));
         let axis = if plane.has_plane { "m_s, counts" } else { "across, counts" };
-        names.push(Name {
+        names.push(ChartLabel {
             at: self.top_of_axis(plane, rect),
             anchor: Align2::RIGHT_TOP,
             text: axis,
             tip: "Amount of surface reflection, in the direction of the light's color (equation 13).",
         });
-        names.push(Name {
+        names.push(ChartLabel {
             at: matte[0].lerp(matte[1], 0.3) + vec2(0.0, 16.0),
             anchor: Align2::CENTER_TOP,
             text: "matte line",
             tip: "Body reflection alone, from black to the brightest matte point (section 3.1).",
         });
-        names.extend(self.meeting_points(&painter, plane, rect, tones));
+        names.extend(self.meeting_points(&painter, plane, rect, palette));
         for name in names {
-            name.show(ui, response, rect, tones);
+            name.show(ui, response, rect, palette);
         }
     }
 
@@ -169,7 +169,7 @@ impl Chart {
         plane: &RegionPlane,
         rect: Rect,
         stroke: Stroke,
-    ) -> Option<Name> {
+    ) -> Option<ChartLabel> {
         let lines: Vec<[[f32; 2]; 2]> = plane.highlight_lines().collect();
         for line in &lines {
             painter.line_segment(
@@ -188,7 +188,12 @@ impl Chart {
         } else {
             ("highlight line", "More and more light reflected at the surface, along m_s (section 3.1).")
         };
-        Some(Name { at: end + vec2(away[0], -away[1]) * 10.0, anchor: Align2::CENTER_BOTTOM, text, tip })
+        Some(ChartLabel {
+            at: end + vec2(away[0], -away[1]) * 10.0,
+            anchor: Align2::CENTER_BOTTOM,
+            text,
+            tip,
+        })
     }
 
     /// Paints the points where highlight lines leave the matte line. Returns their label, placed below their middle;
@@ -199,12 +204,12 @@ impl Chart {
         painter: &Painter,
         plane: &RegionPlane,
         rect: Rect,
-        tones: &Tones,
-    ) -> Option<Name> {
+        palette: &Palette,
+    ) -> Option<ChartLabel> {
         let places: Vec<Pos2> =
             plane.branches.iter().map(|branch| self.screen([branch.meeting_point, 0.0], rect)).collect();
         for &place in &places {
-            painter.circle(place, 4.0, tones.panel, Stroke::new(1.8, tones.text));
+            painter.circle(place, 4.0, palette.panel, Stroke::new(1.8, palette.text));
         }
         let middle = Rect::from_points(&places).center();
         let (text, tip) = match places.len() {
@@ -218,28 +223,29 @@ impl Chart {
                 "The shades on which highlights lie: where their lines leave the matte line (sections 3.1, 7.4).",
             ),
         };
-        Some(Name { at: middle + vec2(0.0, 16.0), anchor: Align2::CENTER_TOP, text, tip })
+        Some(ChartLabel { at: middle + vec2(0.0, 16.0), anchor: Align2::CENTER_TOP, text, tip })
     }
 }
 
 /// A text label with a tooltip.
-struct Name {
+struct ChartLabel {
     at: Pos2,
     anchor: Align2,
     text: &'static str,
     tip: &'static str,
 }
 
-impl Name {
-    fn show(&self, ui: &Ui, response: &Response, rect: Rect, tones: &Tones) {
+impl ChartLabel {
+    fn show(&self, ui: &Ui, response: &Response, rect: Rect, palette: &Palette) {
         let painter = ui.painter_at(rect);
-        let galley = painter.layout_no_wrap(self.text.to_owned(), FontId::proportional(SMALL_PT), tones.text);
+        let galley =
+            painter.layout_no_wrap(self.text.to_owned(), FontId::proportional(SMALL_PT), palette.text);
         let place = self.anchor.anchor_size(self.at, galley.size());
         if !rect.contains_rect(place) {
             return;
         }
-        painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, tones.panel.gamma_multiply(0.75));
-        painter.galley(place.min, galley, tones.text);
+        painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, palette.panel.gamma_multiply(0.75));
+        painter.galley(place.min, galley, palette.text);
         let name = ui.interact(place, response.id.with(self.text), Sense::hover());
         name.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, self.text));
         name.on_hover_text(self.tip);
@@ -247,30 +253,30 @@ impl Name {
 }
 
 /// Stroke of the grid line of a value: the line of zero is an axis and darker.
-fn line(value: f32, tones: &Tones) -> Stroke {
+fn line(value: f32, palette: &Palette) -> Stroke {
     if value == 0.0 {
-        Stroke::new(1.0, tones.quiet)
+        Stroke::new(1.0, palette.secondary)
     } else {
-        Stroke::new(1.0, tones.line.gamma_multiply(0.55))
+        Stroke::new(1.0, palette.line.gamma_multiply(0.55))
     }
 }
 
 /// The smallest number not below `least` that is 1, 2 or 5 times a power of ten.
-fn step(least: f32) -> f32 {
+fn round_step(least: f32) -> f32 {
     let decade = 10f32.powf(least.max(1e-6).log10().floor());
     [1.0, 2.0, 5.0, 10.0]
         .map(|factor| factor * decade)
         .into_iter()
-        .find(|step| *step >= least)
+        .find(|round_step| *round_step >= least)
         .unwrap_or(least)
 }
 
-fn multiples([low, high]: [f32; 2], step: f32) -> impl Iterator<Item = f32> {
-    let range = (low / step).ceil() as i32..=(high / step).floor() as i32;
-    range.take(400).map(move |i| i as f32 * step)
+fn multiples([low, high]: [f32; 2], round_step: f32) -> impl Iterator<Item = f32> {
+    let range = (low / round_step).ceil() as i32..=(high / round_step).floor() as i32;
+    range.take(400).map(move |i| i as f32 * round_step)
 }
 
-fn number(value: f32) -> String {
+fn number_text(value: f32) -> String {
     let digits = usize::from(value.fract() != 0.0);
     if value < 0.0 { format!("\u{2212}{:.digits$}", -value) } else { format!("{value:.digits$}") }
 }
@@ -282,10 +288,10 @@ mod tests {
     #[test]
     fn steps_are_round() {
         for (least, round) in [(0.7, 1.0), (1.0, 1.0), (1.2, 2.0), (3.0, 5.0), (7.0, 10.0), (44.0, 50.0)] {
-            assert!((step(least) - round).abs() < 1e-4 * round, "{least}: {}", step(least));
+            assert!((round_step(least) - round).abs() < 1e-4 * round, "{least}: {}", round_step(least));
         }
         assert_eq!(multiples([-1.0, 2.1], 1.0).collect::<Vec<_>>(), [-1.0, 0.0, 1.0, 2.0]);
-        assert_eq!(number(-50.0), "\u{2212}50");
+        assert_eq!(number_text(-50.0), "\u{2212}50");
     }
 
     #[test]

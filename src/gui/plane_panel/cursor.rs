@@ -2,19 +2,19 @@
 //! span, or a
 //! region that grows in its slice (section 5.4.2).
 
-use super::{PlanePanel, cloud, hovered, kinds, navigate, quiet};
+use super::{PlanePanel, kinds, navigate, paint_hovered, point_mesh, secondary_text};
 use crate::app::State;
-use crate::gui::{PanelContext, verdict, widgets};
+use crate::gui::{PanelContext, skewed_t_test, widgets};
 use crate::raster::HypothesisId;
 use crate::trace::{PixelKind, Replay};
 use crate::view::{growing_plane, test_at_cursor, test_plane};
 use egui::{Sense, Stroke, Ui, vec2};
 
 /// A kind of pixel, its name and tooltip.
-type Name = (PixelKind, &'static str, &'static str);
+type KindLabel = (PixelKind, &'static str, &'static str);
 
 /// The kinds of points in a test.
-const TESTED: [Name; 3] = [
+const TESTED: [KindLabel; 3] = [
     (
         PixelKind::Matte,
         "measured",
@@ -33,7 +33,7 @@ const TESTED: [Name; 3] = [
 ];
 
 /// The kinds of points of a growing region.
-const GROWING: [Name; 3] = [
+const GROWING: [KindLabel; 3] = [
     (PixelKind::Matte, "its pixels", "What the region holds at the cursor (section 5.3.2, 5.4.2)."),
     (PixelKind::Highlight, "just taken", "What it took in the ring at work (section 5.3.2, 5.4.2)."),
     (
@@ -44,10 +44,10 @@ const GROWING: [Name; 3] = [
 ];
 
 /// Identity of an instant: generation of the trace, number of steps taken, and id of the hypothesis shown.
-pub type Frame = (u64, usize, HypothesisId);
+pub type PlaneInstant = (u64, usize, HypothesisId);
 
 /// The instant to show at the cursor; `None` when the step concerns no hypothesis.
-pub fn frame(state: &State) -> Option<Frame> {
+pub fn plane_instant(state: &State) -> Option<PlaneInstant> {
     let replay = state.followed()?;
     let hypothesis = match test_at_cursor(replay) {
         Some(test) => test.hypothesis,
@@ -58,18 +58,26 @@ pub fn frame(state: &State) -> Option<Frame> {
 
 impl PlanePanel {
     /// Shows the plane of the hypothesis at the cursor.
-    pub(super) fn show_instant(&mut self, ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, frame: Frame) {
+    pub(super) fn show_instant(
+        &mut self,
+        ui: &mut Ui,
+        cx: &mut PanelContext,
+        replay: &Replay,
+        plane_instant: PlaneInstant,
+    ) {
         let state = cx.state;
         let Some(picture) = &state.picture else { return };
-        self.update_instant(state, replay, frame);
+        self.update_instant(state, replay, plane_instant);
         let Some(plane) = &self.plane else {
             let text = "At the cursor there is no plane: a line is missing, or both have one direction.";
-            return widgets::nothing(ui, cx.tones, text);
+            return widgets::placeholder(ui, cx.palette, text);
         };
         let test = test_at_cursor(replay);
-        if !cx.bare {
+        if !cx.is_export {
             let names = if test.is_some() { TESTED } else { GROWING };
-            egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 3)).show(ui, |ui| bar(ui, cx, names));
+            egui::Frame::new()
+                .inner_margin(egui::Margin::symmetric(6, 3))
+                .show(ui, |ui| legend(ui, cx, names));
         }
         ui.spacing_mut().item_spacing.y = 0.0;
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
@@ -78,55 +86,55 @@ impl PlanePanel {
         }
         response.widget_info(|| {
             let what = if test.is_some() { "Skewed-T test" } else { "Growth" };
-            let name = format!("{what} of hypothesis {}", frame.2);
+            let name = format!("{what} of hypothesis {}", plane_instant.2);
             egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, name)
         });
         let chart = navigate(ui, &response, plane, self.chart, rect);
         self.chart = Some(chart);
         let painter = ui.painter_at(rect);
-        chart.axes(&painter, plane, rect, cx.tones);
-        painter.add(egui::Shape::Mesh(cloud(&mut self.cloud, cx, plane, chart, rect)));
+        chart.axes(&painter, plane, rect, cx.palette);
+        painter.add(egui::Shape::Mesh(point_mesh(&mut self.point_mesh, cx, plane, chart, rect)));
         if let Some(test) = test {
             // The part of the matte line on which a highlight may begin (section 5.4.1).
             let along = |percent: f64| (percent / 100.0 * test.matte_length) as f32;
             let upper =
                 test.position_limits.map(|percent| chart.screen(plane.oblique(along(percent), 0.0), rect));
-            painter.line_segment(upper, Stroke::new(5.0, cx.tones.accent.gamma_multiply(0.55)));
+            painter.line_segment(upper, Stroke::new(5.0, cx.palette.accent.gamma_multiply(0.55)));
         }
-        chart.skewed_t(ui, &response, plane, rect, cx.tones);
+        chart.skewed_t(ui, &response, plane, rect, cx.palette);
         if let Some(test) = test {
-            verdict::show(ui, cx.tones, cx.tones.panel, rect.left_top() + vec2(8.0, 4.0), test);
+            skewed_t_test::show(ui, cx.palette, cx.palette.panel, rect.left_top() + vec2(8.0, 4.0), test);
         }
-        hovered(&painter, cx, plane, chart, picture, rect);
-        self.point(cx, &response, chart, rect);
+        paint_hovered(&painter, cx, plane, chart, picture, rect);
+        self.handle_pointer(cx, &response, chart, rect);
     }
 
-    fn update_instant(&mut self, state: &State, replay: &Replay, frame: Frame) {
+    fn update_instant(&mut self, state: &State, replay: &Replay, plane_instant: PlaneInstant) {
         let Some(shown) = &state.newest else { return };
-        if self.frame == Some(frame) {
+        if self.plane_instant == Some(plane_instant) {
             return;
         }
-        let (region, working) = (state.debugger.names.region_of(frame.2), &shown.analysis.working);
+        let (region, working) = (state.debugger.names.region_of(plane_instant.2), &shown.analysis.working);
         let test = test_at_cursor(replay);
         self.plane = match test {
             Some(test) => test_plane(replay, test, region, working),
-            None => growing_plane(replay, frame.2, region, working),
+            None => growing_plane(replay, plane_instant.2, region, working),
         };
         // Scale and center are kept while the same region grows.
-        if test.is_some() || self.frame.is_none_or(|(_, _, before)| before != frame.2) {
+        if test.is_some() || self.plane_instant.is_none_or(|(_, _, before)| before != plane_instant.2) {
             self.chart = None;
         }
-        (self.frame, self.cloud) = (Some(frame), None);
+        (self.plane_instant, self.point_mesh) = (Some(plane_instant), None);
     }
 }
 
 /// Shows the legend of the points' colors.
-fn bar(ui: &mut Ui, cx: &PanelContext, names: [Name; 3]) {
+fn legend(ui: &mut Ui, cx: &PanelContext, names: [KindLabel; 3]) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         for (kind, name, tip) in names {
             widgets::chip(ui, kinds::color(kind, cx.state.view.theme), name).on_hover_text(tip);
-            ui.label(quiet(cx, name)).on_hover_text(tip);
+            ui.label(secondary_text(cx, name)).on_hover_text(tip);
             ui.add_space(6.0);
         }
     });

@@ -1,6 +1,6 @@
 //! Kinds of pixels (matte, highlight, restored, lost; section 6): colors, names, and the legend.
 
-use super::quiet;
+use super::secondary_text;
 use crate::app::ViewCommand;
 use crate::gui::PanelContext;
 use crate::gui::widgets;
@@ -39,7 +39,7 @@ pub fn color(kind: PixelKind, theme: Theme) -> Color32 {
 }
 
 /// Shows the choice between own colors and labels, and the legend of the labels.
-pub fn bar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
+pub fn toolbar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
     let by_label = cx.state.view.plane.color_by_label;
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
@@ -57,7 +57,7 @@ pub fn bar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
             for (kind, name, tip) in KINDS {
                 if plane.points.iter().any(|point| point.kind == kind) {
                     widgets::chip(ui, color(kind, cx.state.view.theme), name).on_hover_text(tip);
-                    ui.label(quiet(cx, name)).on_hover_text(tip);
+                    ui.label(secondary_text(cx, name)).on_hover_text(tip);
                     ui.add_space(6.0);
                 }
             }

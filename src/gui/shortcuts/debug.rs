@@ -7,8 +7,8 @@ use crate::view::Tool;
 use Direction::{Back, Forward};
 use egui::{Context, Event, Id, Key, Modifiers, Rect};
 
-const fn key(modifiers: Modifiers, key: Key, action: DebugAction, words: &'static str) -> Shortcut {
-    Shortcut::new("Decisions", modifiers, key, Action::Debug(action), words)
+const fn key(modifiers: Modifiers, key: Key, action: DebugAction, description: &'static str) -> Shortcut {
+    Shortcut::new("Decisions", modifiers, key, Action::Debug(action), description)
 }
 
 /// The debugger's keys, those with modifiers first.
@@ -42,45 +42,48 @@ pub const KEYS: &[Shortcut] = &[
 
 /// Widgets and views that take keys before the debugger does.
 #[derive(Clone, Copy, Debug)]
-pub struct Listeners {
+pub struct KeyListeners {
     /// The area of the color space, which has keys of its own; none if it is not shown.
-    pub colors: Option<Rect>,
+    pub color_space_rect: Option<Rect>,
     /// The timeline's track: while it has the focus, the debugger's keys still work.
     pub track: Id,
     /// Whether there is a trace to move in.
-    pub traced: bool,
+    pub has_trace: bool,
     /// Whether Enter closes an outline.
-    pub outlining: bool,
+    pub draws_polygon: bool,
 }
 
-impl Listeners {
-    /// The listeners of a state, the color space being shown at `colors`.
-    pub fn of(state: &State, colors: Option<Rect>, track: Id) -> Self {
-        let outlining = [state.view.image.tool, state.view.cube.tool].contains(&Tool::Polygon);
-        Self { colors, track, traced: state.debugger.replay.is_some(), outlining }
+impl KeyListeners {
+    /// The listeners of a state, the color space being shown at `color_space_rect`.
+    pub fn of(state: &State, color_space_rect: Option<Rect>, track: Id) -> Self {
+        let draws_polygon = [state.view.image.tool, state.view.cube.tool].contains(&Tool::Polygon);
+        Self { color_space_rect, track, has_trace: state.debugger.replay.is_some(), draws_polygon }
     }
 
     /// Whether the listeners leave a key to its action.
-    pub fn leave(&self, ctx: &Context, shortcut: &Shortcut) -> bool {
+    pub fn allows(&self, ctx: &Context, shortcut: &Shortcut) -> bool {
         let Action::Debug(action) = shortcut.action else { return true };
         if ctx.text_edit_focused() || egui::Popup::is_any_open(ctx) {
             return false;
         }
         let focused = ctx.memory(egui::Memory::focused).filter(|&id| id != self.track);
-        let holder = focused.and_then(|id| ctx.read_response(id));
+        let focused_widget = focused.and_then(|id| ctx.read_response(id));
         // A widget that senses clicks and drags is a view: the image or the color space. Keys do not press it as a button.
-        let on_view = holder.as_ref().is_none_or(|it| it.sense.senses_click() && it.sense.senses_drag());
-        let held = holder.map(|holder| holder.rect.center());
-        let spots = [ctx.pointer_hover_pos(), held];
-        let in_colors = spots.iter().flatten().any(|&at| self.colors.is_some_and(|rect| rect.contains(at)));
-        let free = match shortcut.keys.logical_key {
+        let on_view = focused_widget
+            .as_ref()
+            .is_none_or(|widget| widget.sense.senses_click() && widget.sense.senses_drag());
+        let held_key = focused_widget.map(|focused_widget| focused_widget.rect.center());
+        let places = [ctx.pointer_hover_pos(), held_key];
+        let in_color_space =
+            places.iter().flatten().any(|&at| self.color_space_rect.is_some_and(|rect| rect.contains(at)));
+        let is_free = match shortcut.keys.logical_key {
             Key::ArrowLeft | Key::ArrowRight if shortcut.keys.modifiers.is_none() => focused.is_none(),
             Key::ArrowLeft | Key::ArrowRight | Key::Space | Key::End => on_view,
-            Key::Enter => on_view && !self.outlining,
-            Key::Home | Key::D => on_view && !in_colors,
+            Key::Enter => on_view && !self.draws_polygon,
+            Key::Home | Key::D => on_view && !in_color_space,
             _ => true,
         };
-        free && (self.traced || action == DebugAction::Record)
+        is_free && (self.has_trace || action == DebugAction::Record)
     }
 }
 
@@ -88,33 +91,33 @@ impl Listeners {
 #[derive(Default)]
 pub struct SpaceTap {
     /// Whether Space is down and nothing was dragged since; with Shift, backwards.
-    held: Option<Direction>,
+    held_key: Option<Direction>,
 }
 
 impl SpaceTap {
-    /// The direction to play in, when Space was tapped. `ours`: whether a press of Space in this frame is the debugger's.
-    pub fn tapped(&mut self, ctx: &Context, ours: bool) -> Option<Direction> {
-        let mut tapped = None;
+    /// The direction to play in, when Space was tapped. `space_plays`: whether a press of Space in this frame is the debugger's.
+    pub fn played(&mut self, ctx: &Context, space_plays: bool) -> Option<Direction> {
+        let mut played = None;
         ctx.input_mut(|input| {
             let down = input.pointer.any_down();
             input.events.retain(|event| match event {
                 Event::Key { key: Key::Space, pressed: true, repeat, modifiers, .. } => {
-                    if ours && !repeat && !down && !modifiers.command && !modifiers.alt {
-                        self.held = Some(if modifiers.shift { Back } else { Forward });
+                    if space_plays && !repeat && !down && !modifiers.command && !modifiers.alt {
+                        self.held_key = Some(if modifiers.shift { Back } else { Forward });
                     }
-                    !ours
+                    !space_plays
                 }
                 Event::Key { key: Key::Space, pressed: false, .. } => {
-                    tapped = self.held.take().or(tapped);
+                    played = self.held_key.take().or(played);
                     true
                 }
                 Event::PointerButton { pressed: true, .. } => {
-                    self.held = None;
+                    self.held_key = None;
                     true
                 }
                 _ => true,
             });
         });
-        tapped
+        played
     }
 }

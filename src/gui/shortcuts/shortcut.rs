@@ -12,7 +12,7 @@ pub struct Shortcut {
     /// The action.
     pub action: Action,
     /// What the action does, in words.
-    pub words: &'static str,
+    pub description: &'static str,
 }
 
 impl Shortcut {
@@ -22,8 +22,8 @@ impl Shortcut {
         modifiers: Modifiers,
         key: Key,
         action: Action,
-        words: &'static str,
+        description: &'static str,
     ) -> Self {
-        Self { group, keys: KeyboardShortcut::new(modifiers, key), action, words }
+        Self { group, keys: KeyboardShortcut::new(modifiers, key), action, description }
     }
 }

@@ -3,7 +3,7 @@
 use crate::app::{Command, DebugCommand, Direction, Goal};
 use crate::gui::PanelContext;
 use crate::gui::action::{Action, DebugAction};
-use crate::gui::move_cursor::selected;
+use crate::gui::move_cursor::selected_goal;
 use crate::gui::shortcuts::keys_of;
 use crate::gui::theme::SMALL_PT;
 use crate::trace::Kind;
@@ -35,7 +35,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
         let direction =
             if ui.input(|input| input.modifiers.shift) { Direction::Back } else { Direction::Forward };
         let mut chosen = None;
-        let goal = selected(cx.state);
+        let goal = selected_goal(cx.state);
         let words = match goal {
             Some(Goal::Pixel(_)) => "Next change of the selected pixel",
             Some(_) => "Next change of the selected region",
@@ -46,9 +46,9 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
         if button.on_disabled_hover_text("Select a region, or with Alt + click a pixel.").clicked() {
             chosen = goal;
         }
-        let any = cx.state.view.debug.breakpoints.iter().any(|breakpoint| breakpoint.enabled);
+        let any_breakpoint = cx.state.view.debug.breakpoints.iter().any(|breakpoint| breakpoint.enabled);
         let keys = keys_of(ui.ctx(), Action::Debug(DebugAction::Breakpoint(Direction::Forward)));
-        let button = ui.add_enabled(any, Button::new("Next breakpoint").shortcut_text(keys));
+        let button = ui.add_enabled(any_breakpoint, Button::new("Next breakpoint").shortcut_text(keys));
         if button.on_disabled_hover_text("There is none that is enabled.").clicked() {
             chosen = Some(Goal::Breakpoint);
         }
@@ -62,7 +62,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
                 }
             });
         }
-        ui.label(RichText::new("With Shift: the one before").size(SMALL_PT).color(cx.tones.quiet));
+        ui.label(RichText::new("With Shift: the one before").size(SMALL_PT).color(cx.palette.secondary));
         if let Some(goal) = chosen {
             cx.send(Command::Debug(DebugCommand::RunTo(goal, direction)));
             ui.close();

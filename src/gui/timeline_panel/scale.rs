@@ -28,7 +28,7 @@ pub struct Scale<'a> {
 
 impl Scale<'_> {
     /// The place along the axis at a column of the screen.
-    pub fn place(&self, x: f32) -> f64 {
+    pub fn place_at(&self, x: f32) -> f64 {
         self.section.place(f64::from((x - self.rect.left()) / self.rect.width()))
     }
 
@@ -41,11 +41,11 @@ impl Scale<'_> {
 
     /// The step at a column of the screen.
     pub fn step_at(&self, x: f32) -> Option<usize> {
-        self.axis.step_at(self.place(x))
+        self.axis.step_at(self.place_at(x))
     }
 
     /// A range of steps in a lane; none where it is not visible.
-    pub fn part(&self, lane: Rect, steps: &std::ops::Range<usize>) -> Option<Rect> {
+    pub fn rect_of_steps(&self, lane: Rect, steps: &std::ops::Range<usize>) -> Option<Rect> {
         let (left, right) = (self.x(steps.start), self.x(steps.end));
         (right > lane.left() && left < lane.right())
             .then(|| Rect::from_x_y_ranges(left.max(lane.left())..=right.min(lane.right()), lane.y_range()))

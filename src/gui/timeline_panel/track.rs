@@ -1,8 +1,8 @@
 //! The track of the timeline: stages, passes and blocks in order of time, the density of decisions, and the cursor.
 
 use super::drawing::draw;
-use super::hint;
 use super::scale::{Lanes, Scale};
+use super::tooltip;
 use crate::app::{Command, DebugCommand, Direction, Edit, Goal, ViewCommand};
 use crate::describe::Names;
 use crate::gui::PanelContext;
@@ -21,18 +21,18 @@ pub fn track_id() -> Id {
 }
 
 /// Inputs of the density: generation of the trace, visible section, and number of columns.
-type Counted = (u64, TimelineSection, usize);
+type DensityKey = (u64, TimelineSection, usize);
 
 /// The track: its visible section, and what was computed for that.
 #[derive(Default)]
 pub struct Track {
     axis: Option<(u64, TimelineAxis)>,
     section: TimelineSection,
-    density: Option<(Counted, Vec<usize>)>,
+    density: Option<(DensityKey, Vec<usize>)>,
     /// Position of the cursor and length of the trace in the last frame, steps.
     cursor: [usize; 2],
     /// The region that this panel last reported as hovered.
-    pointed: Option<RegionId>,
+    sent_region: Option<RegionId>,
 }
 
 impl Track {
@@ -44,35 +44,35 @@ impl Track {
         }
         let generation = cx.state.debugger.generation;
         let axis = match self.axis.take() {
-            Some((made, axis)) if made == generation => axis,
+            Some((known, axis)) if known == generation => axis,
             _ => TimelineAxis::of(replay.trace()),
         };
         let response = ui.interact(rect, track_id(), Sense::click_and_drag());
         ui.advance_cursor_after_rect(rect);
-        self.follow(&axis, replay);
-        self.travel(ui, &response, &axis);
+        self.follow_cursor(&axis, replay);
+        self.navigate(ui, &response, &axis);
         let scale = Scale { axis: &axis, section: self.section, rect };
         let lanes = Lanes::of(rect);
-        self.act(ui, cx, &response, &scale, &lanes, replay);
-        describe(ui, cx, &response, replay);
+        self.handle_pointer(ui, cx, &response, &scale, &lanes, replay);
+        set_accessible_value(ui, cx, &response, replay);
         let columns = rect.width() as usize;
         let key = (generation, self.section, columns);
         let density = match self.density.take() {
-            Some((counted, density)) if counted == key => density,
+            Some((known, density)) if known == key => density,
             _ => timeline_density(replay.trace(), &axis, self.section, columns),
         };
         draw(&ui.painter_at(rect), cx, &scale, &lanes, replay, &density);
         if response.has_focus() {
-            let stroke = Stroke::new(1.0, cx.tones.quiet.gamma_multiply(0.5));
+            let stroke = Stroke::new(1.0, cx.palette.secondary.gamma_multiply(0.5));
             ui.painter().rect_stroke(rect.expand(2.0), 2.0, stroke, StrokeKind::Inside);
         }
-        tell(&response, cx, &scale, replay, names);
+        show_tooltip(&response, cx, &scale, replay, names);
         self.density = Some((key, density));
         self.axis = Some((generation, axis));
     }
 
     /// Moves the section to the cursor when the cursor has moved; shows another trace whole.
-    fn follow(&mut self, axis: &TimelineAxis, replay: &Replay) {
+    fn follow_cursor(&mut self, axis: &TimelineAxis, replay: &Replay) {
         let now = [replay.at(), replay.trace().len()];
         let before = std::mem::replace(&mut self.cursor, now);
         if before[1] != now[1] {
@@ -83,7 +83,7 @@ impl Track {
     }
 
     /// Zooms and pans by wheel, pinch, double click and middle button.
-    fn travel(&mut self, ui: &Ui, response: &Response, axis: &TimelineAxis) {
+    fn navigate(&mut self, ui: &Ui, response: &Response, axis: &TimelineAxis) {
         let rect = response.rect;
         if response.double_clicked() {
             self.section = TimelineSection::default();
@@ -104,7 +104,7 @@ impl Track {
     }
 
     /// A click seeks, with Shift it runs there; a drag scrubs; a click on a block selects its region.
-    fn act(
+    fn handle_pointer(
         &mut self,
         ui: &Ui,
         cx: &mut PanelContext,
@@ -122,21 +122,21 @@ impl Track {
         let block = pointer
             .filter(|pointer| lanes.blocks.contains(*pointer))
             .and_then(|pointer| replay.trace().block_at(scale.step_at(pointer.x)?));
-        self.point(cx, response.contains_pointer().then_some(block.as_ref()).flatten());
+        self.send_hover(cx, response.contains_pointer().then_some(block.as_ref()).flatten());
         if response.hovered() && !response.dragged() {
             ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
         }
         let Some(pointer) = response.interact_pointer_pos() else { return };
-        let runs = response.clicked() && ui.input(|input| input.modifiers.shift);
+        let runs_to = response.clicked() && ui.input(|input| input.modifiers.shift);
         if response.clicked_by(PointerButton::Primary)
-            && !runs
+            && !runs_to
             && let Some(block) = block
         {
-            choose(cx, &block);
+            select_block(cx, &block);
         } else if response.dragged_by(PointerButton::Primary) || response.clicked_by(PointerButton::Primary) {
-            let n = scale.axis.taken_at(scale.place(pointer.x));
+            let n = scale.axis.taken_at(scale.place_at(pointer.x));
             let direction = if n < replay.at() { Direction::Back } else { Direction::Forward };
-            if runs {
+            if runs_to {
                 cx.send(Command::Debug(DebugCommand::RunTo(Goal::Step(n), direction)));
             } else if n != replay.at() {
                 cx.send(Command::Debug(DebugCommand::Seek(n)));
@@ -145,21 +145,21 @@ impl Track {
     }
 
     /// Sends the region under the pointer, when it has changed.
-    fn point(&mut self, cx: &mut PanelContext, block: Option<&Block>) {
+    fn send_hover(&mut self, cx: &mut PanelContext, block: Option<&Block>) {
         let names = &cx.state.debugger.names;
         let region = block.and_then(|block| names.region_of(block.topic.hypothesis()));
-        if region != self.pointed {
-            let ours = self.pointed.map(Item::Region) == cx.state.hover;
-            if region.is_some() || ours {
+        if region != self.sent_region {
+            let is_own_hover = self.sent_region.map(Item::Region) == cx.state.hover;
+            if region.is_some() || is_own_hover {
                 cx.send(ViewCommand::Hover(region.map(Item::Region)));
             }
-            self.pointed = region;
+            self.sent_region = region;
         }
     }
 }
 
 /// Selects a block's region, and goes to its first decision.
-fn choose(cx: &mut PanelContext, block: &Block) {
+fn select_block(cx: &mut PanelContext, block: &Block) {
     let hypothesis = block.topic.hypothesis();
     let item = cx.state.debugger.names.region_of(hypothesis).map(Item::Region);
     if item.is_some() && item != cx.state.document.selection.item {
@@ -170,7 +170,7 @@ fn choose(cx: &mut PanelContext, block: &Block) {
 }
 
 /// Describes the track as a slider to assistive technology, and takes the value set there.
-fn describe(ui: &Ui, cx: &mut PanelContext, response: &Response, replay: &Replay) {
+fn set_accessible_value(ui: &Ui, cx: &mut PanelContext, response: &Response, replay: &Replay) {
     response.widget_info(|| WidgetInfo::slider(true, replay.at() as f64, "Timeline"));
     let last = replay.trace().len();
     ui.ctx().accesskit_node_builder(response.id, |node| {
@@ -179,7 +179,7 @@ fn describe(ui: &Ui, cx: &mut PanelContext, response: &Response, replay: &Replay
         node.set_numeric_value_step(1.0);
         node.add_action(Action::SetValue);
     });
-    let wanted = ui.input(|input| {
+    let requested = ui.input(|input| {
         let values = input.accesskit_action_requests(response.id, Action::SetValue);
         values
             .filter_map(|request| match request.data {
@@ -188,18 +188,18 @@ fn describe(ui: &Ui, cx: &mut PanelContext, response: &Response, replay: &Replay
             })
             .last()
     });
-    if let Some(value) = wanted {
+    if let Some(value) = requested {
         cx.send(Command::Debug(DebugCommand::Seek(value.max(0.0) as usize)));
     }
 }
 
 /// Shows the step under the pointer as a tooltip.
-fn tell(response: &Response, cx: &PanelContext, scale: &Scale, replay: &Replay, names: &Names) {
+fn show_tooltip(response: &Response, cx: &PanelContext, scale: &Scale, replay: &Replay, names: &Names) {
     let step = response.hover_pos().and_then(|pointer| scale.step_at(pointer.x));
     if let Some(step) = step.filter(|_| !response.dragged()) {
         let regions = &cx.state.debugger.names;
         response.clone().on_hover_ui_at_pointer(|ui| {
-            for line in hint::lines(replay.trace(), regions, names, step) {
+            for line in tooltip::lines(replay.trace(), regions, names, step) {
                 ui.label(line);
             }
         });

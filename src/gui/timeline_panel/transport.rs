@@ -1,6 +1,6 @@
 //! The row above the track: playback controls, rate, the cursor's position, and a sentence about the last step.
 
-use super::icons::{self, Sign};
+use super::icons::{self, PlaybackIcon};
 use super::run_to;
 use crate::app::{Command, DebugCommand, DebugSettings, Direction, Grain};
 use crate::describe::Names;
@@ -20,24 +20,24 @@ const SENTENCE_PT: f32 = 130.0;
 const TWO_ROWS_PT: f32 = 88.0;
 
 /// A button: icon, accessible name, action and tooltip.
-type Control = (Sign, &'static str, DebugAction, &'static str);
+type Control = (PlaybackIcon, &'static str, DebugAction, &'static str);
 
 const LEFT: [Control; 4] = [
-    (Sign::Limit(Back), "To the beginning", DebugAction::Start, "Before the first decision"),
+    (PlaybackIcon::Limit(Back), "To the beginning", DebugAction::Start, "Before the first decision"),
     (
-        Sign::Stage(Back),
+        PlaybackIcon::Stage(Back),
         "Stage back",
         DebugAction::Step(Grain::Stage, Back),
         "Back to where a stage begins (5.2 to 6)",
     ),
     (
-        Sign::Hypothesis(Back),
+        PlaybackIcon::Hypothesis(Back),
         "Hypothesis back",
         DebugAction::Step(Grain::Hypothesis, Back),
         "Back to where a hypothesis, slice or hole begins (5.3 to 5.5)",
     ),
     (
-        Sign::Event(Back),
+        PlaybackIcon::Event(Back),
         "Event back",
         DebugAction::Step(Grain::Event, Back),
         "Back by a decision that is more than a pixel's claim",
@@ -46,26 +46,26 @@ const LEFT: [Control; 4] = [
 
 const RIGHT: [Control; 5] = [
     (
-        Sign::Event(Forward),
+        PlaybackIcon::Event(Forward),
         "Event forward",
         DebugAction::Step(Grain::Event, Forward),
         "On by a decision that is more than a pixel's claim",
     ),
     (
-        Sign::Hypothesis(Forward),
+        PlaybackIcon::Hypothesis(Forward),
         "Hypothesis forward",
         DebugAction::Step(Grain::Hypothesis, Forward),
         "On to where a hypothesis, slice or hole ends (5.3 to 5.5)",
     ),
     (
-        Sign::Stage(Forward),
+        PlaybackIcon::Stage(Forward),
         "Stage forward",
         DebugAction::Step(Grain::Stage, Forward),
         "On to where a stage ends (5.2 to 6)",
     ),
-    (Sign::Limit(Forward), "To the result", DebugAction::End, "After the last decision: the result"),
+    (PlaybackIcon::Limit(Forward), "To the result", DebugAction::End, "After the last decision: the result"),
     (
-        Sign::Into,
+        PlaybackIcon::Into,
         "Into the next hypothesis",
         DebugAction::Into,
         "Into the next hypothesis or slice, whose growth plays ring by ring (5.3.2)",
@@ -76,18 +76,18 @@ const RIGHT: [Control; 5] = [
 pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) {
     ui.spacing_mut().item_spacing = vec2(2.0, 3.0);
     ui.spacing_mut().interact_size.y = icons::SIDE_PT;
-    let tall = ui.available_height() >= TWO_ROWS_PT;
+    let has_two_rows = ui.available_height() >= TWO_ROWS_PT;
     let beside = ui
         .horizontal_wrapped(|ui| {
             controls(ui, cx, &LEFT);
-            players(ui, cx);
+            play_buttons(ui, cx);
             controls(ui, cx, &RIGHT);
             ui.add_space(4.0);
-            pace(ui, cx);
+            playback_settings(ui, cx);
             run_to::show(ui, cx);
             // A group of its own, which a wrapped row does not split.
-            ui.horizontal(|ui| counter(ui, cx, replay));
-            let beside = !tall || ui.available_size_before_wrap().x >= SENTENCE_PT;
+            ui.horizontal(|ui| step_field(ui, cx, replay));
+            let beside = !has_two_rows || ui.available_size_before_wrap().x >= SENTENCE_PT;
             if beside {
                 sentence(ui, cx, replay, names);
             }
@@ -100,15 +100,15 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) 
 }
 
 fn controls(ui: &mut Ui, cx: &mut PanelContext, controls: &[Control]) {
-    for &(sign, name, action, tip) in controls {
+    for &(icon, name, action, tip) in controls {
         let keys = keys_of(ui.ctx(), Action::Debug(action));
-        if icons::button(ui, cx.tones, sign, false, name, &format!("{tip} ({keys})")).clicked() {
+        if icons::button(ui, cx.palette, icon, false, name, &format!("{tip} ({keys})")).clicked() {
             move_cursor(action, cx);
         }
     }
 }
 
-fn players(ui: &mut Ui, cx: &mut PanelContext) {
+fn play_buttons(ui: &mut Ui, cx: &mut PanelContext) {
     let playing = cx.state.debugger.playing;
     ui.add_space(4.0);
     for (direction, name, tip) in [
@@ -116,9 +116,9 @@ fn players(ui: &mut Ui, cx: &mut PanelContext) {
         (None, "Pause", "Stop here (Space)"),
         (Some(Forward), "Play", "Play the decisions one after the other (Space)"),
     ] {
-        let sign = direction.map_or(Sign::Pause, Sign::Play);
+        let icon = direction.map_or(PlaybackIcon::Pause, PlaybackIcon::Play);
         let on = direction.is_some() && playing == direction;
-        if icons::button(ui, cx.tones, sign, on, name, tip).clicked() {
+        if icons::button(ui, cx.palette, icon, on, name, tip).clicked() {
             cx.send(Command::Debug(DebugCommand::Play(direction)));
         }
     }
@@ -159,7 +159,7 @@ fn grain_tip(grain: Grain) -> &'static str {
 }
 
 /// Shows the controls of playing: step size, rate, loop, and the button that stops recording.
-fn pace(ui: &mut Ui, cx: &mut PanelContext) {
+fn playback_settings(ui: &mut Ui, cx: &mut PanelContext) {
     let before = &cx.state.view.debug;
     let mut settings = before.clone();
     let combo = ComboBox::from_id_salt("grain").width(78.0).selected_text(plural(settings.grain));
@@ -180,17 +180,17 @@ fn pace(ui: &mut Ui, cx: &mut PanelContext) {
     slider.widget_info(|| WidgetInfo::slider(true, before.per_second, "Rate"));
     slider.on_hover_text("How many of these a second while playing.");
     let tip = "Begin anew when the end is reached.";
-    if icons::button(ui, cx.tones, Sign::Loop, settings.looped, "Loop", tip).clicked() {
+    if icons::button(ui, cx.palette, PlaybackIcon::Loop, settings.looped, "Loop", tip).clicked() {
         settings.looped = !settings.looped;
     }
     let tip = "Decisions are recorded. Click to stop that, and to free their memory (D).";
-    if icons::button(ui, cx.tones, Sign::Record, false, "Stop recording", tip).clicked() {
+    if icons::button(ui, cx.palette, PlaybackIcon::Record, false, "Stop recording", tip).clicked() {
         settings.open = false;
     }
-    tell(cx, settings);
+    send_settings(cx, settings);
 }
 
-fn tell(cx: &mut PanelContext, settings: DebugSettings) {
+fn send_settings(cx: &mut PanelContext, settings: DebugSettings) {
     if settings != cx.state.view.debug {
         cx.send(Command::Debug(DebugCommand::Settings(settings)));
     }
@@ -207,11 +207,11 @@ fn rate_text(rate: f64) -> String {
 }
 
 /// Shows the cursor's position; a typed number moves the cursor.
-fn counter(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay) {
-    let quiet = |text: String| RichText::new(text).color(cx.tones.quiet);
+fn step_field(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay) {
+    let secondary_text = |text: String| RichText::new(text).color(cx.palette.secondary);
     let len = replay.trace().len();
     ui.add_space(6.0);
-    ui.label(quiet("step".to_owned()));
+    ui.label(secondary_text("step".to_owned()));
     let mut at = replay.at();
     let field = DragValue::new(&mut at)
         .range(0..=len)
@@ -229,7 +229,7 @@ fn counter(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay) {
         cx.send(Command::Debug(DebugCommand::Seek(at)));
     }
     field.on_hover_text("Decisions taken so far. Type a number to go there.");
-    ui.label(quiet(format!("/ {}", grouped(len))));
+    ui.label(secondary_text(format!("/ {}", grouped(len))));
     ui.add_space(8.0);
 }
 
@@ -237,13 +237,13 @@ fn counter(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay) {
 fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names) {
     let debugger = &cx.state.debugger;
     let stale = cx.state.newest.as_ref().is_some_and(|newest| newest.generation != debugger.generation);
-    let (word, tone) = match (debugger.playing, debugger.stopped_by) {
-        (Some(Forward), _) => ("playing".to_owned(), cx.tones.accent),
-        (Some(Back), _) => ("playing back".to_owned(), cx.tones.accent),
-        (None, Some(index)) => (format!("breakpoint {}", index + 1), cx.tones.accent),
-        (None, None) if stale => ("recording\u{2026}".to_owned(), cx.tones.quiet),
-        (None, None) if debugger.stopped().is_none() => ("result".to_owned(), cx.tones.quiet),
-        (None, None) => ("stopped".to_owned(), cx.tones.quiet),
+    let (status, tone) = match (debugger.playing, debugger.stopped_by) {
+        (Some(Forward), _) => ("playing".to_owned(), cx.palette.accent),
+        (Some(Back), _) => ("playing back".to_owned(), cx.palette.accent),
+        (None, Some(index)) => (format!("breakpoint {}", index + 1), cx.palette.accent),
+        (None, None) if stale => ("recording\u{2026}".to_owned(), cx.palette.secondary),
+        (None, None) if debugger.stopped().is_none() => ("result".to_owned(), cx.palette.secondary),
+        (None, None) => ("stopped".to_owned(), cx.palette.secondary),
     };
     let text = match replay.last() {
         Some(step) => names.step(&step),
@@ -252,7 +252,7 @@ fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names) {
     // A text that does not fit is truncated: the space below belongs to the track.
     let size = vec2(ui.available_size_before_wrap().x.max(1.0), ui.spacing().interact_size.y);
     ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
-        ui.add(Label::new(RichText::new(word).size(SMALL_PT).color(tone)).truncate());
+        ui.add(Label::new(RichText::new(status).size(SMALL_PT).color(tone)).truncate());
         ui.add_space(6.0);
         ui.add(Label::new(&text).truncate()).on_hover_text(&text)
     });

@@ -6,30 +6,30 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// The camera is at rest when it has not moved for this time.
-pub const REST: Duration = Duration::from_millis(200);
+pub const REST_TIME: Duration = Duration::from_millis(200);
 
 /// The unique colors of one photograph, and when the camera last moved.
 #[derive(Default)]
-pub struct Detail {
+pub struct UniqueColors {
     of: Option<Arc<Picture>>,
-    found: Option<Arc<[UniqueColor]>>,
+    colors: Option<Arc<[UniqueColor]>>,
     search: Option<Task<Arc<[UniqueColor]>>>,
-    moved: Option<Instant>,
+    moved_at: Option<Instant>,
 }
 
-impl Detail {
+impl UniqueColors {
     /// Notes that the camera has moved.
-    pub fn stir(&mut self) {
-        self.moved = Some(Instant::now());
+    pub fn note_camera_moved(&mut self) {
+        self.moved_at = Some(Instant::now());
     }
 
-    /// The colors, once they are known and the camera is at rest; with `swift`, for a fast graphics device, also while it
+    /// The colors, once they are known and the camera is at rest; with `fast_device`, for a fast graphics device, also while it
     /// moves.
     pub fn get(
         &mut self,
         ctx: &egui::Context,
         picture: &Arc<Picture>,
-        swift: bool,
+        fast_device: bool,
     ) -> Option<Arc<[UniqueColor]>> {
         if !self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, picture)) {
             *self = Self { of: Some(Arc::clone(picture)), ..Self::default() };
@@ -37,13 +37,15 @@ impl Detail {
             let find = move || picture.histogram.unique(&picture.photo.image).into();
             self.search = Task::start(ctx, "unique colors", find);
         }
-        if let Some(found) = Task::take(&mut self.search) {
-            self.found = Some(found);
+        if let Some(colors) = Task::take(&mut self.search) {
+            self.colors = Some(colors);
         }
-        if let Some(moved) = self.moved.filter(|moved| !swift && moved.elapsed() < REST) {
-            ctx.request_repaint_after(REST.saturating_sub(moved.elapsed()));
+        if let Some(moved_at) =
+            self.moved_at.filter(|moved_at| !fast_device && moved_at.elapsed() < REST_TIME)
+        {
+            ctx.request_repaint_after(REST_TIME.saturating_sub(moved_at.elapsed()));
             return None;
         }
-        self.found.clone()
+        self.colors.clone()
     }
 }

@@ -4,7 +4,7 @@
 
 use super::{ROW_PT, cell, vector};
 use crate::app::{Command, DebugCommand, Edit, ViewCommand};
-use crate::gui::theme::Tones;
+use crate::gui::theme::Palette;
 use crate::gui::{PanelContext, widgets};
 use crate::raster::RegionId;
 use crate::trace::Replay;
@@ -17,7 +17,7 @@ use egui_extras::{Column, TableBuilder, TableRow};
 
 /// The column that the rows are sorted by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Key {
+enum SortKey {
     #[default]
     Birth,
     Pixels,
@@ -28,45 +28,45 @@ enum Key {
 }
 
 /// A column: key, title, width in points, tooltip.
-const COLUMNS: [(Key, &str, f32, &str); 6] = [
+const COLUMNS: [(SortKey, &str, f32, &str); 6] = [
     (
-        Key::Birth,
+        SortKey::Birth,
         "#",
         40.0,
         "The hypothesis' number, in the order of birth; its color is that of what becomes of it.",
     ),
-    (Key::Pixels, "pixels", 52.0, "Pixels of the working picture that it has at the cursor."),
+    (SortKey::Pixels, "pixels", 52.0, "Pixels of the working picture that it has at the cursor."),
     (
-        Key::Direction,
+        SortKey::Direction,
         "direction",
         96.0,
         "Unit direction of its line at the cursor, red green blue (section 5.3.1).",
     ),
-    (Key::Radius, "radius", 52.0, "Radius of its cylinder, counts (section 5.3.2)."),
-    (Key::Status, "status", 110.0, "What became of it up to the cursor (section 5.3)."),
-    (Key::Becomes, "result", 70.0, "The region of the result that it is, or is part of."),
+    (SortKey::Radius, "radius", 52.0, "Radius of its cylinder, counts (section 5.3.2)."),
+    (SortKey::Status, "status", 110.0, "What became of it up to the cursor (section 5.3)."),
+    (SortKey::Becomes, "result", 70.0, "The region of the result that it is, or is part of."),
 ];
 
 /// The table's order of rows.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Sorting {
-    key: Key,
+pub struct HypothesisTable {
+    key: SortKey,
     descending: bool,
 }
 
-impl Sorting {
+impl HypothesisTable {
     /// Shows the light, and the hypotheses or the windows at the cursor.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext, replay: &Replay) {
-        light(ui, cx.tones, replay);
+        light(ui, cx.palette, replay);
         let rows = hypothesis_rows(replay, &cx.state.debugger.names);
         if !rows.is_empty() {
             egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
                 self.table(ui, cx, &rows, replay.trace().pixel_blocks().side());
             });
         } else if let Some(counts) = window_counts(replay) {
-            windows(ui, cx.tones, &counts);
+            windows(ui, cx.palette, &counts);
         } else {
-            widgets::nothing(ui, cx.tones, "At the cursor no window has been laid yet.");
+            widgets::placeholder(ui, cx.palette, "At the cursor no window has been laid yet.");
         }
     }
 
@@ -79,7 +79,7 @@ impl Sorting {
         let mut hovered = None;
         let mut table = TableBuilder::new(ui).striped(false).sense(Sense::click()).resizable(false);
         for (key, _, width, _) in COLUMNS {
-            let last = key == Key::Becomes;
+            let last = key == SortKey::Becomes;
             table =
                 table.column(if last { Column::remainder().at_least(width) } else { Column::exact(width) });
         }
@@ -89,24 +89,24 @@ impl Sorting {
         table
             .header(ROW_PT, |mut header| {
                 for (key, title, _, tip) in COLUMNS {
-                    let is_count = key == Key::Pixels && side > 1;
+                    let is_count = key == SortKey::Pixels && side > 1;
                     let title = if is_count { working_pixels.as_str() } else { title };
-                    header.col(|ui| self.heading(ui, cx.tones, key, title, tip));
+                    header.col(|ui| self.heading(ui, cx.palette, key, title, tip));
                 }
             })
             .body(|body| {
                 body.rows(ROW_PT, order.len(), |mut row| {
-                    let of = &rows[order[row.index()]];
-                    row.set_selected(Some(of.hypothesis) == focus);
-                    cells(&mut row, cx.tones, of, &cx.state.debugger.names);
+                    let row_of = &rows[order[row.index()]];
+                    row.set_selected(Some(row_of.hypothesis) == focus);
+                    cells(&mut row, cx.palette, row_of, &cx.state.debugger.names);
                     let response = row.response();
-                    let becomes = of.region.map(Item::Region);
+                    let becomes = row_of.region.map(Item::Region);
                     if response.hovered() {
                         hovered = becomes;
                     }
                     if response.clicked() {
-                        cx.send(Command::Debug(DebugCommand::Choose(Some(of.hypothesis))));
-                        cx.out.extend(becomes.map(|item| Edit::Select(Some(item)).into()));
+                        cx.send(Command::Debug(DebugCommand::Choose(Some(row_of.hypothesis))));
+                        cx.commands.extend(becomes.map(|item| Edit::Select(Some(item)).into()));
                     }
                 });
             });
@@ -115,15 +115,15 @@ impl Sorting {
         }
     }
 
-    fn heading(&mut self, ui: &mut Ui, tones: &Tones, key: Key, title: &str, tip: &str) {
+    fn heading(&mut self, ui: &mut Ui, palette: &Palette, key: SortKey, title: &str, tip: &str) {
         let chosen = self.key == key;
         let layout = match key {
-            Key::Pixels | Key::Radius => Layout::right_to_left(Align::Center),
+            SortKey::Pixels | SortKey::Radius => Layout::right_to_left(Align::Center),
             _ => Layout::left_to_right(Align::Center),
         };
         ui.with_layout(layout, |ui| {
-            if super::sorted_by(ui, tones, chosen.then_some(self.descending), title, tip) {
-                self.descending = if chosen { !self.descending } else { key == Key::Pixels };
+            if super::sorted_by(ui, palette, chosen.then_some(self.descending), title, tip) {
+                self.descending = if chosen { !self.descending } else { key == SortKey::Pixels };
                 self.key = key;
             }
         });
@@ -132,11 +132,11 @@ impl Sorting {
     fn order(self, rows: &[HypothesisRow]) -> Vec<usize> {
         let mut order: Vec<usize> = (0..rows.len()).collect();
         let value = |row: &HypothesisRow| match self.key {
-            Key::Birth => f64::from(row.hypothesis.get()),
-            Key::Pixels => f64::from(row.pixels),
-            Key::Direction => row.direction.map_or(-10.0, super::hue_rad),
-            Key::Radius => row.radius,
-            Key::Status => match row.status {
+            SortKey::Birth => f64::from(row.hypothesis.get()),
+            SortKey::Pixels => f64::from(row.pixels),
+            SortKey::Direction => row.direction.map_or(-10.0, super::hue_rad),
+            SortKey::Radius => row.radius,
+            SortKey::Status => match row.status {
                 Status::AtWork => 0.0,
                 Status::Stands => 1.0,
                 Status::Absorbed(_) => 2.0,
@@ -144,7 +144,7 @@ impl Sorting {
                 Status::Barren => 4.0,
                 Status::Dropped => 5.0,
             },
-            Key::Becomes => f64::from(RegionId::label(row.region)),
+            SortKey::Becomes => f64::from(RegionId::label(row.region)),
         };
         order.sort_by(|&a, &b| {
             let by_value = value(&rows[a]).total_cmp(&value(&rows[b]));
@@ -154,9 +154,9 @@ impl Sorting {
     }
 }
 
-fn cells(row: &mut TableRow, tones: &Tones, of: &HypothesisRow, names: &RegionNames) {
-    let over = !matches!(of.status, Status::AtWork | Status::Stands);
-    let tone = if over { tones.quiet } else { tones.text };
+fn cells(row: &mut TableRow, palette: &Palette, row_of: &HypothesisRow, names: &RegionNames) {
+    let has_ended = !matches!(row_of.status, Status::AtWork | Status::Stands);
+    let tone = if has_ended { palette.secondary } else { palette.text };
     let plain = |ui: &mut Ui, text: String| {
         ui.add(Label::new(RichText::new(text).color(tone)).selectable(false));
     };
@@ -166,16 +166,16 @@ fn cells(row: &mut TableRow, tones: &Tones, of: &HypothesisRow, names: &RegionNa
         });
     };
     cell(row, |ui| {
-        let color = widgets::color(names.color(of.hypothesis));
-        widgets::chip(ui, color, &format!("color of hypothesis {}", of.hypothesis));
-        plain(ui, of.hypothesis.to_string());
+        let color = widgets::color(names.color(row_of.hypothesis));
+        widgets::chip(ui, color, &format!("color of hypothesis {}", row_of.hypothesis));
+        plain(ui, row_of.hypothesis.to_string());
     });
-    number(row, widgets::grouped(of.pixels as usize));
-    cell(row, |ui| vector(ui, tones, of.direction));
-    number(row, format!("{:.1}", of.radius));
-    cell(row, |ui| plain(ui, of.status.text()));
+    number(row, widgets::grouped(row_of.pixels as usize));
+    cell(row, |ui| vector(ui, palette, row_of.direction));
+    number(row, format!("{:.1}", row_of.radius));
+    cell(row, |ui| plain(ui, row_of.status.text()));
     cell(row, |ui| {
-        let becomes = match of.region {
+        let becomes = match row_of.region {
             None => "\u{2013}".to_owned(),
             Some(number) => format!("\u{2192} region {number}"),
         };
@@ -184,22 +184,22 @@ fn cells(row: &mut TableRow, tones: &Tones, of: &HypothesisRow, names: &RegionNa
 }
 
 /// Shows the light's direction as estimated at the cursor.
-fn light(ui: &mut Ui, tones: &Tones, replay: &Replay) {
+fn light(ui: &mut Ui, palette: &Palette, replay: &Replay) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         let tip = "The color of the light as it is estimated up to the cursor (section 5.4).";
-        ui.label(RichText::new("light so far").color(tones.quiet)).on_hover_text(tip);
+        ui.label(RichText::new("light so far").color(palette.secondary)).on_hover_text(tip);
         match replay.light() {
-            Some(direction) => vector(ui, tones, Some(direction)),
+            Some(direction) => vector(ui, palette, Some(direction)),
             None => {
-                ui.label(RichText::new("not estimated yet").color(tones.quiet));
+                ui.label(RichText::new("not estimated yet").color(palette.secondary));
             }
         }
     });
 }
 
 /// Shows the number of windows of each class, and the number of areas that they form.
-fn windows(ui: &mut Ui, tones: &Tones, counts: &WindowCounts) {
+fn windows(ui: &mut Ui, palette: &Palette, counts: &WindowCounts) {
     ui.add_space(4.0);
     let row = |ui: &mut Ui, entry: Option<LegendEntry>, name: &str, tip: &str, count: usize| {
         match entry {
@@ -207,7 +207,7 @@ fn windows(ui: &mut Ui, tones: &Tones, counts: &WindowCounts) {
             None => ui.label(""),
         };
         ui.label(name).on_hover_text(tip);
-        widgets::number(ui, tones, 70.0, &widgets::grouped(count), "");
+        widgets::number(ui, palette, 70.0, &widgets::grouped(count), "");
         ui.end_row();
     };
     egui::Grid::new("windows so far").num_columns(3).spacing([6.0, 2.0]).show(ui, |ui| {

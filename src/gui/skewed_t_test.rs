@@ -1,6 +1,6 @@
 //! A skewed-T test (section 5.4.1) in words: each value with its limit, and whether it passed.
 
-use super::theme::{SMALL_PT, Tones};
+use super::theme::{Palette, SMALL_PT};
 use crate::trace::CandidateTested;
 use crate::view::{Check, candidate_name, skewed_t_view};
 use egui::accesskit::Role;
@@ -10,35 +10,35 @@ use egui::{Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec
 const MARK_PT: f32 = 12.0;
 
 /// Shows the test with its upper left corner at `corner`, on the background color `ground`; returns the rectangle.
-pub fn show(ui: &Ui, tones: &Tones, ground: Color32, corner: Pos2, test: &CandidateTested) -> Rect {
+pub fn show(ui: &Ui, palette: &Palette, ground: Color32, corner: Pos2, test: &CandidateTested) -> Rect {
     let halo = ground.gamma_multiply(0.8);
-    let head = format!("highlight of {}: {}?", test.hypothesis, candidate_name(test.candidate));
+    let heading = format!("highlight of {}: {}?", test.hypothesis, candidate_name(test.candidate));
     let tip =
         "A neighboring cluster is the region's highlight if both lines form a skewed T (section 5.4.1).";
-    let mut room = line(ui, (tones, halo), corner, &head, None, tip);
+    let mut area_so_far = line(ui, (palette, halo), corner, &heading, None, tip);
     for Check { passed, text, tip } in skewed_t_view(test, None).checks {
-        let below = room.left_bottom() + vec2(0.0, 1.0);
-        room = room.union(line(ui, (tones, halo), below, &text, Some(passed), tip));
+        let below = area_so_far.left_bottom() + vec2(0.0, 1.0);
+        area_so_far = area_so_far.union(line(ui, (palette, halo), below, &text, Some(passed), tip));
     }
-    room
+    area_so_far
 }
 
 /// Shows a line of text: with a cross and in the text color if failed, with a tick and in the secondary color if
 /// passed.
 fn line(
     ui: &Ui,
-    (tones, halo): (&Tones, Color32),
+    (palette, halo): (&Palette, Color32),
     at: Pos2,
     text: &str,
     passed: Option<bool>,
     tip: &str,
 ) -> Rect {
-    let tone = if passed == Some(true) { tones.quiet } else { tones.text };
+    let tone = if passed == Some(true) { palette.secondary } else { palette.text };
     let galley = ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(SMALL_PT), tone);
-    let aside = if passed.is_some() { MARK_PT } else { 0.0 };
-    let area = Rect::from_min_size(at, galley.size() + vec2(aside, 0.0));
+    let mark_width = if passed.is_some() { MARK_PT } else { 0.0 };
+    let area = Rect::from_min_size(at, galley.size() + vec2(mark_width, 0.0));
     ui.painter().rect_filled(area.expand2(vec2(2.0, 0.0)), 2.0, halo);
-    ui.painter().galley(at + vec2(aside, 0.0), galley, tone);
+    ui.painter().galley(at + vec2(mark_width, 0.0), galley, tone);
     if let Some(passed) = passed {
         let middle = pos2(at.x + 4.0, area.center().y);
         let stroke = Stroke::new(1.5, tone);
@@ -51,13 +51,13 @@ fn line(
             ui.painter().line_segment(ends.map(|end| middle + end), stroke);
         }
     }
-    let said = match passed {
+    let accessible_text = match passed {
         None => text.to_owned(),
         Some(true) => format!("passed: {text}"),
         Some(false) => format!("failed: {text}"),
     };
     let response = ui.interact(area, ui.scope_id().with(("verdict", text)), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, said.clone()));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, accessible_text.clone()));
     response.on_hover_text(tip);
     area
 }

@@ -4,49 +4,49 @@ use super::task::Task;
 use egui::Context;
 
 /// Work on at most this many pixels is done in the frame itself.
-pub const AT_ONCE_PX: usize = 400_000;
+pub const SYNCHRONOUS_PX: usize = 400_000;
 
 /// A value computed from a key, and the computation of the next value.
-pub struct Later<K, T> {
+pub struct BackgroundValue<K, T> {
     /// The last value, with its key.
-    made: Option<(K, T)>,
+    value: Option<(K, T)>,
     /// The key of the value that `task` makes.
-    making: Option<K>,
+    pending_key: Option<K>,
     task: Option<Task<T>>,
 }
 
-impl<K, T> Default for Later<K, T> {
+impl<K, T> Default for BackgroundValue<K, T> {
     fn default() -> Self {
-        Self { made: None, making: None, task: None }
+        Self { value: None, pending_key: None, task: None }
     }
 }
 
-impl<K: PartialEq + Clone, T: Send + 'static> Later<K, T> {
+impl<K: PartialEq + Clone, T: Send + 'static> BackgroundValue<K, T> {
     /// The value of `key`; the value of an earlier key while the new value is being computed; `None` before the first
     /// value. At
-    /// most one value is computed at a time. With `at_once`, the value is computed in this call.
+    /// most one value is computed at a time. With `synchronous`, the value is computed in this call.
     pub fn get(
         &mut self,
         ctx: &Context,
         key: K,
-        at_once: bool,
+        synchronous: bool,
         make: impl FnOnce() -> T + Send + 'static,
     ) -> Option<&T> {
         if let Some(value) = Task::take(&mut self.task)
-            && let Some(made_for) = self.making.take()
+            && let Some(key) = self.pending_key.take()
         {
-            self.made = Some((made_for, value));
+            self.value = Some((key, value));
         }
-        let stale = self.made.as_ref().is_none_or(|(made, _)| *made != key);
+        let stale = self.value.as_ref().is_none_or(|(value, _)| *value != key);
         if stale && self.task.is_none() {
-            if at_once {
-                self.made = Some((key, make()));
+            if synchronous {
+                self.value = Some((key, make()));
             } else {
                 self.task = Task::start(ctx, "panel", make);
-                self.making = Some(key);
+                self.pending_key = Some(key);
             }
         }
-        self.made.as_ref().map(|(_, value)| value)
+        self.value.as_ref().map(|(_, value)| value)
     }
 }
 
@@ -57,19 +57,19 @@ mod tests {
 
     #[test]
     fn the_former_value_stays_until_the_new_one_is_there() {
-        let (ctx, mut later) = (Context::default(), Later::default());
-        assert_eq!(later.get(&ctx, 1, true, || "one"), Some(&"one"));
+        let (ctx, mut background_value) = (Context::default(), BackgroundValue::default());
+        assert_eq!(background_value.get(&ctx, 1, true, || "one"), Some(&"one"));
         let (go, wait) = channel::<()>();
         let slow = move || {
             let _ = wait.recv();
             "two"
         };
-        assert_eq!(later.get(&ctx, 2, false, slow), Some(&"one"));
-        assert_eq!(later.get(&ctx, 3, true, || "three"), Some(&"one"), "one at a time");
+        assert_eq!(background_value.get(&ctx, 2, false, slow), Some(&"one"));
+        assert_eq!(background_value.get(&ctx, 3, true, || "three"), Some(&"one"), "one at a time");
         drop(go);
-        while later.get(&ctx, 2, true, || "again") == Some(&"one") {
+        while background_value.get(&ctx, 2, true, || "again") == Some(&"one") {
             std::thread::yield_now();
         }
-        assert_eq!(later.get(&ctx, 2, true, || "again"), Some(&"two"));
+        assert_eq!(background_value.get(&ctx, 2, true, || "again"), Some(&"two"));
     }
 }
