@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 /// What is to be analyzed, and how.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct AnalysisRequest {
     /// The request's number; larger is newer.
     pub generation: u64,
     /// The photograph.
@@ -45,13 +45,13 @@ pub(super) struct LatestRequest {
 
 #[derive(Default)]
 struct Waiting {
-    request: Option<Request>,
+    request: Option<AnalysisRequest>,
     closed: bool,
 }
 
 impl LatestRequest {
     /// Leaves a request; one that still waits is dropped.
-    pub(super) fn leave(&self, request: Request) {
+    pub(super) fn submit(&self, request: AnalysisRequest) {
         self.lock().request = Some(request);
         self.arrived.notify_one();
     }
@@ -63,7 +63,7 @@ impl LatestRequest {
     }
 
     /// Waits for a request; none once it is closed.
-    fn take(&self) -> Option<Request> {
+    fn take(&self) -> Option<AnalysisRequest> {
         let mut waiting = self.lock();
         loop {
             if waiting.closed {
@@ -77,14 +77,14 @@ impl LatestRequest {
     }
 
     /// Whether no request comes within `quiet`.
-    fn rests(&self, quiet: Duration) -> bool {
+    fn is_quiet_for(&self, quiet: Duration) -> bool {
         let nothing = |waiting: &mut Waiting| !waiting.closed && waiting.request.is_none();
         let waited = self.arrived.wait_timeout_while(self.lock(), quiet, nothing);
         waited.unwrap_or_else(PoisonError::into_inner).1.timed_out()
     }
 
     /// Whether a newer request waits, or the worker is to stop.
-    fn is_overtaken(&self) -> bool {
+    fn is_superseded(&self) -> bool {
         let waiting = self.lock();
         waiting.closed || waiting.request.is_some()
     }
@@ -95,27 +95,27 @@ impl LatestRequest {
 }
 
 /// A slider that has not moved for this time is at rest.
-const QUIET: Duration = Duration::from_millis(200);
+const REST_TIME: Duration = Duration::from_millis(200);
 
 /// Analyzes requests until `latest_request` is closed.
 pub(super) fn work(latest_request: &LatestRequest, outbox: &Sender<Report>, wake: &(dyn Fn() + Send + Sync)) {
     let mut analysis_worker = AnalysisWorker::default();
     while let Some(request) = latest_request.take() {
-        let tell = |report| {
+        let send = |report| {
             // The receiver is gone once the window closes; the report is not needed then.
             let _ = outbox.send(report);
             wake();
         };
-        if let Some(shown) = analysis_worker.analyze(&request, &tell, &|| latest_request.is_overtaken()) {
-            tell(Report::Analyzed(Arc::clone(&shown)));
+        if let Some(shown) = analysis_worker.analyze(&request, &send, &|| latest_request.is_superseded()) {
+            send(Report::Analyzed(Arc::clone(&shown)));
             if request.tracing == Tracing::AtOnce {
-                analysis_worker.trace(&request, &shown, &tell, &|| latest_request.is_overtaken());
+                analysis_worker.trace(&request, &shown, &send, &|| latest_request.is_superseded());
             }
             // Scoring and recording take as long as the analysis: they wait until no slider moves.
             let records = request.tracing == Tracing::AtRest;
-            if (records || shown.picture.truth.is_some()) && latest_request.rests(QUIET) {
+            if (records || shown.picture.truth.is_some()) && latest_request.is_quiet_for(REST_TIME) {
                 if records {
-                    analysis_worker.trace(&request, &shown, &tell, &|| latest_request.is_overtaken());
+                    analysis_worker.trace(&request, &shown, &send, &|| latest_request.is_superseded());
                 }
                 if shown.picture.truth.is_some() {
                     shown.measure();
@@ -137,9 +137,9 @@ impl AnalysisWorker {
     /// Analyzes; none when the request was overtaken.
     pub(super) fn analyze(
         &mut self,
-        request: &Request,
-        tell: &(dyn Fn(Report) + Sync),
-        overtaken: &(dyn Fn() -> bool + Sync),
+        request: &AnalysisRequest,
+        send: &(dyn Fn(Report) + Sync),
+        superseded: &(dyn Fn() -> bool + Sync),
     ) -> Option<Arc<ResultSnapshot>> {
         let same = |session: &(Arc<Picture>, Session)| Arc::ptr_eq(&session.0, &request.picture);
         if !self.session.as_ref().is_some_and(same) {
@@ -152,25 +152,25 @@ impl AnalysisWorker {
             // The reducer drops the areas of other pictures; an area of another size restricts nothing.
             session.restrict(None).ok()?;
         }
-        let mut watch = Watch {
+        let mut observer = RunObserver {
             request,
-            begun: Instant::now(),
-            stage_begun: None,
+            began_at: Instant::now(),
+            stage_began_at: None,
             took_ms: [None; Stage::ALL.len()],
             partial: self.last.as_deref().map(|last| last.analysis.clone()),
-            base: self.last.as_deref(),
+            last_result: self.last.as_deref(),
             must_show: self.last.is_some(),
-            tell,
-            overtaken,
+            send,
+            superseded,
         };
         let (analysis, trace) = if request.tracing == Tracing::AtOnce {
-            let (analysis, trace) = session.run_traced(&request.params, &mut watch).ok()?;
+            let (analysis, trace) = session.run_traced(&request.params, &mut observer).ok()?;
             (analysis, Some(Arc::new(trace)))
         } else {
-            (session.run(&request.params, &mut watch).ok()?, None)
+            (session.run(&request.params, &mut observer).ok()?, None)
         };
-        let took_ms = watch.took_ms;
-        let shown = Arc::new(show(request, analysis, took_ms, self.last.as_deref()));
+        let took_ms = observer.took_ms;
+        let shown = Arc::new(result_snapshot(request, analysis, took_ms, self.last.as_deref()));
         if let Some(trace) = trace {
             shown.trace.get_or_init(|| trace);
         }
@@ -181,16 +181,16 @@ impl AnalysisWorker {
     /// Records the decisions that led to a result, where `request` wants it and it has not been done, and reports a cursor.
     pub(super) fn trace(
         &mut self,
-        request: &Request,
+        request: &AnalysisRequest,
         shown: &ResultSnapshot,
-        tell: &(dyn Fn(Report) + Sync),
-        overtaken: &(dyn Fn() -> bool + Sync),
+        send: &(dyn Fn(Report) + Sync),
+        superseded: &(dyn Fn() -> bool + Sync),
     ) {
         let Some((_, session)) = self.session.as_mut().filter(|_| request.tracing != Tracing::Never) else {
             return;
         };
         if shown.trace.get().is_none() {
-            let Ok((_, trace)) = session.run_traced(&request.params, &mut CancelOnly(overtaken)) else {
+            let Ok((_, trace)) = session.run_traced(&request.params, &mut CancelOnly(superseded)) else {
                 return;
             };
             shown.trace.get_or_init(|| Arc::new(trace));
@@ -198,7 +198,7 @@ impl AnalysisWorker {
         let Some(trace) = shown.trace.get() else { return };
         let mut replay = Replay::new(Arc::clone(trace));
         replay.prepare();
-        tell(Report::Traced { generation: request.generation, replay: Box::new(replay) });
+        send(Report::Traced { generation: request.generation, replay: Box::new(replay) });
     }
 }
 
@@ -211,8 +211,8 @@ impl Observer for CancelOnly<'_> {
     }
 }
 
-fn show(
-    request: &Request,
+fn result_snapshot(
+    request: &AnalysisRequest,
     analysis: Analysis,
     took_ms: [Option<f64>; 7],
     last: Option<&ResultSnapshot>,
@@ -247,29 +247,29 @@ fn coverage(analysis: &Analysis) -> f64 {
 const SHOW_STAGES_AFTER: Duration = Duration::from_millis(60);
 
 /// Measures the time of each stage, reports the stages, and stops for a newer request.
-struct Watch<'a> {
-    request: &'a Request,
-    begun: Instant,
-    stage_begun: Option<Instant>,
+struct RunObserver<'a> {
+    request: &'a AnalysisRequest,
+    began_at: Instant,
+    stage_began_at: Option<Instant>,
     took_ms: [Option<f64>; Stage::ALL.len()],
     /// The last result with the stages that have been computed anew.
     partial: Option<Analysis>,
-    base: Option<&'a ResultSnapshot>,
+    last_result: Option<&'a ResultSnapshot>,
     /// Whether nothing new has been shown yet. Then the run goes on although it has been overtaken: otherwise a slider in
     /// steady motion over a large picture would never show a result.
     must_show: bool,
-    tell: &'a (dyn Fn(Report) + Sync),
-    overtaken: &'a (dyn Fn() -> bool + Sync),
+    send: &'a (dyn Fn(Report) + Sync),
+    superseded: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl Observer for Watch<'_> {
+impl Observer for RunObserver<'_> {
     fn started(&mut self, stage: Stage) {
-        self.stage_begun = Some(Instant::now());
-        (self.tell)(Report::Progress { generation: self.request.generation, stage });
+        self.stage_began_at = Some(Instant::now());
+        (self.send)(Report::Progress { generation: self.request.generation, stage });
     }
 
     fn finished(&mut self, stage: Stage, reused: bool) {
-        let took = self.stage_begun.take().map(|begun| begun.elapsed().as_secs_f64() * 1e3);
+        let took = self.stage_began_at.take().map(|began_at| began_at.elapsed().as_secs_f64() * 1e3);
         self.took_ms[stage as usize] = took.filter(|_| !reused);
     }
 
@@ -286,19 +286,21 @@ impl Observer for Watch<'_> {
             StageOutput::Finals(_) | StageOutput::Intrinsic(_) => return,
         }
         let anew = self.took_ms[stage as usize].is_some();
-        let Some(base) = self.base.filter(|_| anew && self.begun.elapsed() > SHOW_STAGES_AFTER) else {
+        let Some(last_result) =
+            self.last_result.filter(|_| anew && self.began_at.elapsed() > SHOW_STAGES_AFTER)
+        else {
             return;
         };
         let next = Stage::ALL.iter().copied().find(|&later| later > stage);
-        (self.tell)(Report::Analyzed(Arc::new(ResultSnapshot {
+        (self.send)(Report::Analyzed(Arc::new(ResultSnapshot {
             generation: self.request.generation,
             picture: Arc::clone(&self.request.picture),
             params: self.request.params,
             area: self.request.area.clone(),
             analysis: partial.clone(),
             stale_from: next,
-            coverage: base.coverage,
-            region_colors: base.region_colors.clone(),
+            coverage: last_result.coverage,
+            region_colors: last_result.region_colors.clone(),
             took_ms: self.took_ms,
             trace: OnceLock::new(),
             accuracy: OnceLock::new(),
@@ -307,6 +309,6 @@ impl Observer for Watch<'_> {
     }
 
     fn cancelled(&self) -> bool {
-        !self.must_show && (self.overtaken)()
+        !self.must_show && (self.superseded)()
     }
 }

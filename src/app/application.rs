@@ -5,7 +5,9 @@ use super::export_input::ExportInput;
 use super::exports::write_export;
 use super::reduce::reduce_report;
 use super::report::Report;
-use super::{Command, Effect, Job, Request, State, WhatIfProgress, WhatIfRequest, jobs, read, reduce};
+use super::{
+    AnalysisRequest, Command, Effect, Job, State, WhatIfProgress, WhatIfRequest, jobs, read, reduce,
+};
 use crate::analysis::{Session, WhatIfObserver, what_if};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -62,10 +64,11 @@ impl Application {
             Executor::Inline => Workers::Inline(Box::default()),
             Executor::Threads => {
                 let latest_request = Arc::new(LatestRequest::default());
-                let (at, report, ring) = (Arc::clone(&latest_request), outbox.clone(), Arc::clone(&wake));
+                let (requests, report, wake_window) =
+                    (Arc::clone(&latest_request), outbox.clone(), Arc::clone(&wake));
                 let worker = thread::Builder::new()
                     .name("analysis".to_owned())
-                    .spawn(move || analysis_worker::work(&at, &report, &*ring))?;
+                    .spawn(move || analysis_worker::work(&requests, &report, &*wake_window))?;
                 Workers::Threads { latest_request, worker: Some(worker) }
             }
         };
@@ -110,7 +113,7 @@ impl Application {
     }
 
     /// Restores what was saved from another session.
-    pub fn remember(&mut self, view: super::ViewSettings, recent: Vec<std::path::PathBuf>) {
+    pub fn restore_settings(&mut self, view: super::ViewSettings, recent: Vec<std::path::PathBuf>) {
         (self.state.view, self.state.recent) = (view, recent);
     }
 
@@ -133,11 +136,11 @@ impl Application {
                 self.stop_writing = Arc::default();
                 let stop = Arc::clone(&self.stop_writing);
                 let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
-                let tell = move |done, total| {
+                let send = move |done, total| {
                     let _ = outbox.send(Report::Exporting { done, total });
                     wake();
                 };
-                self.run("writer", move || Report::Exported(write_export(&export, &input, &stop, &tell)));
+                self.run("writer", move || Report::Exported(write_export(&export, &input, &stop, &send)));
             }
             Effect::StopWriting => self.stop_writing.stop(),
             Effect::FindWhatIf(request) => self.find_what_if(request),
@@ -156,7 +159,7 @@ impl Application {
 
     fn analyze(&mut self, tracing: Tracing) {
         let Some(picture) = &self.state.picture else { return };
-        let request = Request {
+        let request = AnalysisRequest {
             generation: self.state.generation,
             picture: Arc::clone(picture),
             params: self.state.document.params,
@@ -167,16 +170,16 @@ impl Application {
         let begun = self.state.jobs.analysis.unwrap_or_else(Job::now);
         self.state.jobs.analysis = Some(Job { stage: None, ..begun });
         match &mut self.workers {
-            Workers::Threads { latest_request, .. } => latest_request.leave(request),
+            Workers::Threads { latest_request, .. } => latest_request.submit(request),
             Workers::Inline(analysis_worker) => {
                 let outbox = Mutex::new(self.outbox.clone());
-                let tell = |report| {
+                let send = |report| {
                     let _ = outbox.lock().unwrap_or_else(PoisonError::into_inner).send(report);
                 };
-                if let Some(shown) = analysis_worker.analyze(&request, &tell, &|| false) {
+                if let Some(shown) = analysis_worker.analyze(&request, &send, &|| false) {
                     shown.measure();
-                    tell(Report::Analyzed(Arc::clone(&shown)));
-                    analysis_worker.trace(&request, &shown, &tell, &|| false);
+                    send(Report::Analyzed(Arc::clone(&shown)));
+                    analysis_worker.trace(&request, &shown, &send, &|| false);
                 }
             }
         }

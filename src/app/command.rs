@@ -51,7 +51,7 @@ pub enum Edit {
 
     /// Select an item, or nothing.
     Select(Option<Item>),
-    /// Mark pixels.
+    /// Mark pixels with a tool.
     Mark(Arc<Mask>, Combine, Option<Gesture>),
     /// Mark exactly the pixels that are not marked.
     InvertMarked,
@@ -76,13 +76,13 @@ pub enum ViewCommand {
     Plane(PlaneSettings),
     /// Set the line of the profile.
     Profile(ProfileLine),
-    /// Set the theme.
+    /// Set the light or the dark theme.
     Theme(Theme),
     /// Set the arrangement of the panels, in the window's own format.
     Layout(String),
     /// Set the camera of the color space view, in the window's own format.
     Camera(String),
-    /// Show a notice.
+    /// Show a notice with this text.
     Notify(Severity, String),
     /// Remove the notice with this id.
     Dismiss(u64),
@@ -103,7 +103,7 @@ pub enum JobCommand {
     LoadParams(PathBuf),
     /// Write a file or a folder.
     Export(Export),
-    /// Stop writing.
+    /// Stop the export under way.
     CancelExport,
 }
 

@@ -57,9 +57,9 @@ fn params_words(params: &Params) -> Vec<String> {
     if params.method == Method::Paper {
         words.extend(["--method".to_owned(), "paper".to_owned()]);
     }
-    let usual = Params::of(params.method);
+    let defaults = Params::of(params.method);
     for parameter in Parameter::ALL {
-        if params.get(parameter) != usual.get(parameter) {
+        if params.get(parameter) != defaults.get(parameter) {
             words.push(format!("--{}", parameter.spec().name.replace('_', "-")));
             words.push(params.get(parameter).to_string());
         }

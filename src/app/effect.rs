@@ -24,6 +24,6 @@ pub enum Effect {
     ReadWorkspace(PathBuf),
     /// Write a file or a folder.
     Write(Export),
-    /// Stop writing.
+    /// Stop the export under way.
     StopWriting,
 }

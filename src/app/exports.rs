@@ -16,7 +16,7 @@ pub struct Export {
     pub kind: ExportKind,
     /// The file or folder. The extension of some kinds says in which format.
     pub path: PathBuf,
-    /// The options.
+    /// The options of the export.
     pub options: ExportOptions,
 }
 
@@ -151,7 +151,7 @@ exports! {
         available: |_| true,
         writer: Writer::File(write::parameters),
     };
-    /// The workspace.
+    /// The workspace as JSON.
     Workspace: ExportRow {
         title: "Workspace",
         tip: "The photograph's place, parameters, selection and views.",
@@ -199,17 +199,17 @@ impl ExportKind {
     }
 }
 
-/// Writes an export; every file and folder appears whole or not at all. `tell` is called with the number of files written and
+/// Writes an export; every file and folder appears whole or not at all. `report_progress` is called with the number of files written and
 /// the number of files in all. The sentence says what was written, or what failed, why, and what to do.
 pub(super) fn write_export(
     export: &Export,
     input: &ExportInput,
     stop: &Stop,
-    tell: Progress,
+    report_progress: Progress,
 ) -> Result<String, String> {
     let Export { kind, path, options } = export;
     let Contents { path, bytes, what } = match kind.row().writer {
-        Writer::Folder(write) => return write(path, options, input, stop, tell),
+        Writer::Folder(write) => return write(path, options, input, stop, report_progress),
         Writer::File(contents) => contents(path, options, input)?,
     };
     if stop.stopped() {
@@ -217,7 +217,7 @@ pub(super) fn write_export(
     }
     match write_file(&path, &bytes) {
         Ok(()) => Ok(format!("wrote {what} to {}", path.display())),
-        Err(error) => Err(format!("{}; choose another place", write::whole_reason(&error))),
+        Err(error) => Err(format!("{}; choose another place", write::error_chain(&error))),
     }
 }
 

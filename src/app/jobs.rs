@@ -7,18 +7,18 @@ use std::time::Instant;
 /// The work that is under way.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct JobState {
-    /// The analysis.
+    /// The analysis under way.
     pub analysis: Option<Job>,
-    /// Reading a photograph.
+    /// The reading of a photograph.
     pub reading: Option<Job>,
-    /// An export.
+    /// The export under way.
     pub export: Option<Job>,
 }
 
 /// One piece of work.
 #[derive(Clone, Copy, Debug)]
 pub struct Job {
-    /// When it began.
+    /// The time at which the work began.
     pub since: Instant,
     /// Of an analysis: the stage under way.
     pub stage: Option<Stage>,

@@ -25,7 +25,7 @@ mod what_if_job;
 mod workspace;
 mod write;
 
-pub use analysis_worker::Request;
+pub use analysis_worker::AnalysisRequest;
 pub use application::{Application, Executor};
 pub use command::{Combine, Command, Edit, JobCommand, ViewCommand};
 pub use command_line::analyze_call;

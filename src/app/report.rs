@@ -38,9 +38,9 @@ pub(super) enum Report {
     },
     /// An export has written some of its files.
     Exporting {
-        /// Files written so far.
+        /// Number of files written so far.
         done: usize,
-        /// Files in all.
+        /// Number of all files.
         total: usize,
     },
     /// An export ended: the sentence to show.

@@ -56,7 +56,7 @@ impl Settings {
     pub fn save(&self, path: &Path) -> Result<(), String> {
         let failed = |reason: String| format!("{}: settings cannot be kept: {reason}", path.display());
         let text = serde_json::to_string_pretty(self).map_err(|error| failed(error.to_string()))?;
-        write_file(path, (text + "\n").as_bytes()).map_err(|error| failed(super::write::whole_reason(&error)))
+        write_file(path, (text + "\n").as_bytes()).map_err(|error| failed(super::write::error_chain(&error)))
     }
 }
 

@@ -20,7 +20,7 @@ pub struct ViewSettings {
     pub debug: DebugSettings,
     /// Whether the pinned result is shown in place of the newest (A/B).
     pub show_pinned: bool,
-    /// The theme.
+    /// The light or the dark theme.
     pub theme: Theme,
     /// The arrangement of the panels, in the window's own format; empty: the first arrangement.
     pub layout: String,

@@ -20,7 +20,7 @@ pub struct WhatIfJob {
 /// The pixel and the result that a what-if job is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WhatIfRequest {
-    /// The pixel.
+    /// The pixel in question.
     pub pixel: PixelIndex,
     /// Number of the result.
     pub generation: u64,

@@ -19,7 +19,7 @@ pub(super) fn stopped(path: &Path) -> String {
 }
 
 /// An error with its causes, in one line.
-pub(super) fn whole_reason(error: &dyn Error) -> String {
+pub(super) fn error_chain(error: &dyn Error) -> String {
     let mut text = error.to_string();
     let mut cause = error.source();
     while let Some(error) = cause {
@@ -33,7 +33,7 @@ pub(super) fn whole_reason(error: &dyn Error) -> String {
 pub(super) struct Contents {
     /// The file, with the extension that fits the contents.
     pub path: PathBuf,
-    /// The bytes.
+    /// The bytes of the file.
     pub bytes: Vec<u8>,
     /// What the file holds, in words.
     pub what: String,
@@ -93,7 +93,7 @@ pub(super) fn parameters(path: &Path, _: &ExportOptions, input: &ExportInput) ->
     Ok(file(path, text.into_bytes(), "the parameters"))
 }
 
-/// The workspace.
+/// The workspace as JSON.
 pub(super) fn workspace(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
     let workspace = input.workspace.as_ref().map_err(String::clone)?;
     Ok(file(path, workspace.to_json(path)?.into_bytes(), "the workspace"))
@@ -118,7 +118,7 @@ fn shown(input: &ExportInput) -> Result<&ResultSnapshot, String> {
 pub(super) fn matte(path: &Path, options: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
     let (shown, keep_surface) = (shown(input)?, options.keep_surface);
     let (extension, bytes) = matte_bytes(&shown.picture.photo, &shown.analysis.intrinsic, keep_surface)
-        .map_err(|error| whole_reason(&error))?;
+        .map_err(|error| error_chain(&error))?;
     // The format is the photograph's own, or else one that can hold its values.
     let fits = |given: &str| match extension {
         "jpg" => ["jpg", "jpeg"].contains(&given),
@@ -165,16 +165,16 @@ pub(super) fn result(
     options: &ExportOptions,
     input: &ExportInput,
     stop: &Stop,
-    tell: &(dyn Fn(usize, usize) + Sync),
+    report_progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<String, String> {
     let shown = shown(input)?;
     let report = report(shown)?;
     let whole = WholeResult { photo: &shown.picture.photo, analysis: &shown.analysis, keep_surface: 0.0 };
-    let watch = |done, total| {
-        tell(done, total);
+    let goes_on = |done, total| {
+        report_progress(done, total);
         !stop.stopped()
     };
-    match whole.write(report, folder, options.force, &watch) {
+    match whole.write(report, folder, options.force, &goes_on) {
         Ok(_) => Ok(format!("wrote the result to {}", folder.display())),
         Err(ExportError::Stopped) => Ok(stopped(folder)),
         Err(ExportError::Occupied(folder)) => Err(format!(
@@ -182,7 +182,7 @@ pub(super) fn result(
             folder.display()
         )),
         Err(error @ ExportError::NotAFolder(_)) => Err(format!("{error}; choose another place")),
-        Err(error) => Err(format!("{}; choose another place", whole_reason(&error))),
+        Err(error) => Err(format!("{}; choose another place", error_chain(&error))),
     }
 }
 

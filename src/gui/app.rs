@@ -32,6 +32,7 @@ struct WindowContent {
     panels: Panels,
     dialogs: Dialogs,
     view_exporter: ViewExporter,
+    /// Whether the list of keys is shown.
     help: bool,
     space_tap: shortcuts::SpaceTap,
     /// Whether a text field had the focus in the last frame.
@@ -81,8 +82,8 @@ impl App {
     }
 
     /// Restores the settings of an earlier session.
-    pub fn remember(&mut self, settings: Settings) {
-        self.application.remember(settings.view, settings.recent);
+    pub fn restore_settings(&mut self, settings: Settings) {
+        self.application.restore_settings(settings.view, settings.recent);
     }
 
     /// Applies a command, as if a panel had sent it.
@@ -95,12 +96,12 @@ impl App {
         self.content.single_pane = pane;
     }
 
-    /// The state.
+    /// The state that the panels show.
     pub fn state(&self) -> &State {
         self.application.state()
     }
 
-    /// The panels.
+    /// The panels, for tests that look at their drawings.
     pub(super) fn panels(&self) -> &Panels {
         &self.content.panels
     }
@@ -165,7 +166,8 @@ impl WindowContent {
         }
     }
 
-    /// Does the same for the camera of the color space view.
+    /// Takes the camera of the state where that has changed (a workspace was opened); otherwise sends the camera of the color
+    /// space view to the state.
     fn sync_camera(&mut self, cx: &mut PanelContext) {
         let saved = &cx.state.view.camera;
         if *saved != self.camera {

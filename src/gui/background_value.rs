@@ -23,8 +23,7 @@ impl<K, T> Default for BackgroundValue<K, T> {
 
 impl<K: PartialEq + Clone, T: Send + 'static> BackgroundValue<K, T> {
     /// The value of `key`; the value of an earlier key while the new value is being computed; `None` before the first
-    /// value. At
-    /// most one value is computed at a time. With `synchronous`, the value is computed in this call.
+    /// value. At most one value is computed at a time. With `synchronous`, the value is computed in this call.
     pub fn get(
         &mut self,
         ctx: &Context,

@@ -6,7 +6,7 @@ use super::{PanelContext, widgets};
 use crate::app::{Command, DebugCommand, Difference, Edit, ViewCommand};
 use crate::describe::Names;
 use crate::raster::RegionId;
-use crate::view::{Comparison, Fate, ImageSettings, Item, Layer, compare};
+use crate::view::{Comparison, ImageSettings, Item, Layer, RegionChange, compare};
 use egui::{Grid, RichText, ScrollArea, Ui};
 
 /// The comparison panel.
@@ -190,22 +190,22 @@ fn regions(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
         }
     });
     widgets::heading(ui, cx.palette, "Regions that are not the same");
-    let changed: Vec<_> = found.regions.iter().filter(|fate| fate.fate != Fate::Kept).collect();
+    let changed: Vec<_> = found.regions.iter().filter(|region| region.change != RegionChange::Kept).collect();
     if changed.is_empty() {
         ui.label(secondary_text(cx, "none"));
     }
-    for fate in changed {
+    for region in changed {
         let id = |id: Option<RegionId>| id.map_or("\u{2013}".to_owned(), |id| id.to_string());
-        let change_text = match fate.fate {
-            Fate::Gained => "gained",
-            Fate::Lost => "lost",
-            Fate::Changed | Fate::Kept => "changed",
+        let change_text = match region.change {
+            RegionChange::Gained => "gained",
+            RegionChange::Lost => "lost",
+            RegionChange::Changed | RegionChange::Kept => "changed",
         };
-        let change = fate.pixels_newest as i64 - fate.pixels_pinned as i64;
+        let pixels = region.pixels_newest as i64 - region.pixels_pinned as i64;
         let text =
-            format!("{change_text}  A {} \u{2192} B {}  {change:+} px", id(fate.pinned), id(fate.newest));
+            format!("{change_text}  A {} \u{2192} B {}  {pixels:+} px", id(region.pinned), id(region.newest));
         let row = ui.selectable_label(false, text);
-        let target = if cx.state.view.show_pinned { fate.pinned } else { fate.newest };
+        let target = if cx.state.view.show_pinned { region.pinned } else { region.newest };
         if row.clicked()
             && let Some(region) = target
         {

@@ -1,6 +1,5 @@
 //! The color space panel: the photograph's colors as points in three dimensions, with the shapes of the model:
-//! cylinder, slice,
-//! skewed T and illuminant.
+//! cylinder, slice, skewed T and illuminant.
 
 mod bar;
 mod camera_controller;
@@ -70,8 +69,8 @@ impl CubePanel {
         self.camera_controller.orbit
     }
 
-    /// Restores a stored camera. The camera then counts as moved by the user: a resized panel does not frame the cube
-    /// anew.
+    /// Restores a stored camera. The camera then counts as moved by the user: a resized panel does not
+    /// frame the cube anew.
     pub fn set_camera(&mut self, camera: Orbit) {
         self.camera_controller.set_orbit(camera);
     }
@@ -261,8 +260,8 @@ impl CubePanel {
         }
     }
 
-    /// Sends what the pointer does: hovering a bin highlights its pixels; a click selects the bin's region, Alt +
-    /// click the bin.
+    /// Sends what the pointer does: hovering a bin highlights its pixels; a click selects the bin's region,
+    /// Alt + click the bin.
     fn handle_pointer(
         &mut self,
         cx: &mut PanelContext,

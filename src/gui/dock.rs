@@ -21,7 +21,7 @@ use egui_tiles::{
 };
 use serde::{Deserialize, Serialize};
 
-/// One panel.
+/// A row of the table: one panel.
 struct PaneRow {
     /// The name on its tab.
     title: &'static str,
@@ -49,7 +49,7 @@ enum TabGroup {
 /// of [`Panels`] that it keeps if it keeps anything, and its row.
 macro_rules! panes {
     ($($(#[$attribute:meta])* $pane:ident { $($field:ident: $panel:ty)? } $row:expr;)+) => {
-        /// A panel.
+        /// A panel of the window.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
         pub enum Pane {
             $($(#[$attribute])* $pane,)+
@@ -270,8 +270,8 @@ impl Dock {
     }
 }
 
-/// The first arrangement: image over tables; color space over plane and profile; parameters over questions; the timeline
-/// below.
+/// The first arrangement: image over tables; color space over plane and profile; parameters over questions;
+/// the timeline below.
 fn initial_arrangement() -> Tree<Pane> {
     let mut tiles = Tiles::default();
     let mut tabs = |group: TabGroup| {

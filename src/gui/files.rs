@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// What a dialog asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialog {
-    /// A photograph.
+    /// A photograph to open.
     Open,
     /// A parameter file to read.
     LoadParameters,
@@ -62,7 +62,7 @@ impl Default for Dialogs {
 }
 
 impl Dialogs {
-    /// Opens the dialog of a question.
+    /// Opens a dialog.
     pub fn open(&mut self, dialog: Dialog) {
         (self.dialog, self.focus, self.options.force) = (Some(dialog), true, false);
         match dialog {

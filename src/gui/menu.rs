@@ -13,7 +13,7 @@ use crate::truth::sample::SAMPLES;
 use crate::view::{Origin, Theme};
 use egui::{Button, RadioButton, Ui};
 
-/// Shows the bar.
+/// Shows the menu bar and the status line.
 pub fn show(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock, dialogs: &mut Dialogs, help: &mut bool) {
     egui::MenuBar::new().ui(ui, |ui| {
         ui.menu_button("File", |ui| file(ui, cx, dialogs));
@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock, dialogs: &mut D
     });
 }
 
-/// Shows a row with its keys. Returns whether it was chosen.
+/// Shows a row of a menu with the keys of its action. Returns whether the row was chosen.
 fn item(ui: &mut Ui, text: &str, action: Action, enabled: bool) -> bool {
     let keys = keys_of(ui.ctx(), action);
     ui.add_enabled(enabled, Button::new(text).shortcut_text(keys)).clicked()

@@ -120,8 +120,8 @@ fn plot(ui: &mut Ui, cx: &mut PanelContext, samples: &[ProfileSample], hovered: 
         samples.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
     });
     if let Some(sample) = pointed {
-        // Hovering is sent only for a fixed line: a row or column through the hovered pixel would move with the
-        // pointer.
+        // Hovering is sent only for a fixed line: a row or column through the hovered pixel would move
+        // with the pointer.
         let fixed = matches!(cx.state.view.profile, ProfileLine::Between(..))
             || matches!(cx.state.document.selection.item, Some(Item::Pixel(_)));
         if fixed && cx.state.hover != Some(Item::Pixel(sample.pixel)) {

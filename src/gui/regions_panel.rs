@@ -322,8 +322,7 @@ fn ambient(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
 }
 
 /// Shows the title of a sortable column; returns whether the title was clicked. `descending` is the order of the rows
-/// if they
-/// are sorted by this column, otherwise `None`.
+/// if they are sorted by this column, otherwise `None`.
 fn sorted_by(ui: &mut Ui, palette: &Palette, descending: Option<bool>, title: &str, tip: &str) -> bool {
     let arrow = match descending {
         None => "",

@@ -128,8 +128,7 @@ fn gallery() -> Vec<GalleryPicture> {
 }
 
 /// Writes the gallery of `origin` into `folder` as PNG files: the whole window at `size_px` (columns, rows), single
-/// panels at
-/// three fifths of that size. Returns the paths.
+/// panels at three fifths of that size. Returns the paths.
 ///
 /// # Errors
 /// When there is no graphics adapter, the photograph cannot be opened or a file cannot be written.

@@ -13,8 +13,7 @@ use std::sync::Arc;
 /// Height of a band's histogram, points.
 const HISTOGRAM_PT: f32 = 36.0;
 
-/// Identity of the statistics: generation of the result, and address of the mask of marked pixels, otherwise the
-/// item.
+/// Identity of the statistics: generation of the result, and address of the mask of marked pixels, otherwise the item.
 type StatisticsKey = (u64, Option<usize>, Option<Item>);
 
 /// The selection panel.

@@ -27,7 +27,7 @@ const fn key_with_command(
 
 const SHIFT_COMMAND: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
-/// All keys.
+/// All keys, in the order in which the help lists them.
 fn all_shortcuts() -> impl Iterator<Item = &'static Shortcut> {
     GENERAL.iter().chain(debug::KEYS)
 }

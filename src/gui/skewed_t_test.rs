@@ -23,8 +23,8 @@ pub fn show(ui: &Ui, palette: &Palette, ground: Color32, corner: Pos2, test: &Ca
     area_so_far
 }
 
-/// Shows a line of text: with a cross and in the text color if failed, with a tick and in the secondary color if
-/// passed.
+/// Shows a line of text: with a cross and in the text color if failed, with a tick and in the
+/// secondary color if passed.
 fn line(
     ui: &Ui,
     (palette, halo): (&Palette, Color32),

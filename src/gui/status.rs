@@ -1,5 +1,5 @@
-//! The status line: photograph, size, encoding, noise, number of regions, coverage, time, and the progress of running
-//! work.
+//! The status line: photograph, size, encoding, noise, number of regions, coverage, time, and the
+//! progress of running work.
 
 use super::PanelContext;
 use super::theme::SMALL_PT;

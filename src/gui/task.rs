@@ -7,8 +7,8 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 pub struct Task<T>(Receiver<T>);
 
 impl<T: Send + 'static> Task<T> {
-    /// Starts `work` on a thread called `name`; the window is drawn again when the work has ended. None where the system
-    /// gives no thread.
+    /// Starts `work` on a thread called `name`; the window is drawn again when the work has ended. None where the
+    /// system gives no thread.
     pub fn start(ctx: &Context, name: &str, work: impl FnOnce() -> T + Send + 'static) -> Option<Self> {
         let (send, receive) = channel();
         let ctx = ctx.clone();

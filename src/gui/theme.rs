@@ -1,5 +1,4 @@
-//! The look of the window: neutral grays, so that colors in images are not misjudged, one accent color, two font
-//! sizes.
+//! The look of the window: neutral grays, so that colors in images are not misjudged, one accent color, two font sizes.
 
 use crate::view::Theme;
 use egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, Style, TextStyle, Visuals, vec2};
@@ -58,8 +57,8 @@ pub const BODY_PT: f32 = 12.5;
 /// Font size of headers and notes, points.
 pub const SMALL_PT: f32 = 11.0;
 
-/// Loads the bundled fonts. Arrows and mathematical signs, which the proportional font lacks, come from the
-/// monospaced font.
+/// Loads the bundled fonts. Arrows and mathematical signs, which the proportional font lacks, come from
+/// the monospaced font.
 pub fn load_fonts(ctx: &egui::Context) {
     let mut fonts = egui::FontDefinitions::default();
     if let Some(family) = fonts.families.get_mut(&FontFamily::Proportional) {
@@ -98,7 +97,7 @@ fn apply_to_style(style: &mut Style, theme: Theme, palette: &Palette) {
     spacing.combo_width = 64.0;
     style.interaction.selectable_labels = false;
     style.interaction.tooltip_delay = 0.4;
-    // No animations.
+    // Widgets change without animations, so that pictures of tests do not depend on the time.
     style.animation_time = 0.0;
 }
 

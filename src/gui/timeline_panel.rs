@@ -1,5 +1,5 @@
-//! The timeline panel: all decisions of the analysis in order, the debugger's cursor, and the controls that move the
-//! cursor.
+//! The timeline panel: all decisions of the analysis in order, the debugger's cursor, and the controls
+//! that move the cursor.
 
 mod drawing;
 mod icons;

@@ -15,11 +15,11 @@ use std::path::PathBuf;
 /// A view to be drawn and written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewExport {
-    /// The view.
+    /// The panel to draw.
     pub pane: Pane,
     /// Columns and rows.
     pub size_px: [u32; 2],
-    /// Where the picture goes.
+    /// The file to write.
     pub path: PathBuf,
 }
 

@@ -3,7 +3,7 @@
 use super::theme::{Palette, SMALL_PT};
 use super::{PanelContext, widgets};
 use crate::color::Vec3;
-use crate::view::{AxisDistance, Current, Watch, WatchedPixel, watch};
+use crate::view::{AxisDistance, CurrentHypothesis, Watch, WatchedPixel, watch};
 use egui::{Align, Color32, Label, Layout, RichText, ScrollArea, Ui, vec2};
 
 /// Width of the names, points.
@@ -63,7 +63,7 @@ impl WatchPanel {
         let mut groups = vec![run_lines(&found)];
         groups.extend(found.current.as_ref().map(hypothesis_lines));
         groups.extend(found.pixel.as_ref().map(|pixel| pixel_lines(pixel, picture.size().0)));
-        self.remember((debugger.generation, replay.at()), debugger.playing.is_none(), groups);
+        self.store_values((debugger.generation, replay.at()), debugger.playing.is_none(), groups);
         let Some(now) = &self.now else { return };
         ScrollArea::both().auto_shrink(false).show(ui, |ui| {
             egui::Frame::new().inner_margin(8).show(ui, |ui| {
@@ -80,9 +80,8 @@ impl WatchPanel {
     }
 
     /// Stores the values of this frame. When the cursor leaves a position at which it had stopped, the values of that
-    /// position
-    /// become those that new values are compared with.
-    fn remember(&mut self, at: (u64, usize), is_at_rest: bool, groups: Vec<Vec<Line>>) {
+    /// position become those that new values are compared with.
+    fn store_values(&mut self, at: (u64, usize), is_at_rest: bool, groups: Vec<Vec<Line>>) {
         let before = self.now.replace(CursorValues { at, is_at_rest, groups });
         if let Some(before) = before.filter(|before| before.at != at && before.is_at_rest) {
             self.lines_before = before.groups;
@@ -126,7 +125,7 @@ fn run_lines(watch: &Watch) -> Vec<Line> {
 }
 
 /// Lines about the hypothesis that the step at the cursor concerns.
-fn hypothesis_lines(current: &Current) -> Vec<Line> {
+fn hypothesis_lines(current: &CurrentHypothesis) -> Vec<Line> {
     let number = match current.region {
         None => current.hypothesis.to_string(),
         Some(region) => format!("{} (region {region})", current.hypothesis),
@@ -217,8 +216,7 @@ fn cell(ui: &mut Ui, width: f32, text: RichText) {
 }
 
 /// Shows the selected pixel's distances to every region, each with its limit. Distances within the limit are in the
-/// text
-/// color, others in the secondary color.
+/// text color, others in the secondary color.
 fn distances(ui: &mut Ui, cx: &PanelContext, pixel: &WatchedPixel) {
     let palette = cx.palette;
     let heading =
@@ -288,18 +286,18 @@ mod tests {
         let mut panel = WatchPanel::default();
         let marked =
             |panel: &WatchPanel| panel.now.as_ref().is_some_and(|now| panel.has_changed(&now.groups[0][0]));
-        panel.remember((1, 10), true, line("5"));
+        panel.store_values((1, 10), true, line("5"));
         assert!(!marked(&panel), "nothing came before");
-        panel.remember((1, 11), true, line("6"));
+        panel.store_values((1, 11), true, line("6"));
         assert!(marked(&panel));
-        panel.remember((1, 11), true, line("6"));
+        panel.store_values((1, 11), true, line("6"));
         assert!(marked(&panel), "as long as the cursor rests");
         for at in 12..20 {
-            panel.remember((1, at), false, line(&at.to_string()));
+            panel.store_values((1, at), false, line(&at.to_string()));
         }
-        panel.remember((1, 19), true, line("6"));
+        panel.store_values((1, 19), true, line("6"));
         assert!(!marked(&panel), "playing is one move");
-        panel.remember((1, 20), true, line("6"));
+        panel.store_values((1, 20), true, line("6"));
         assert!(!marked(&panel));
     }
 }

@@ -1,6 +1,5 @@
 //! The why panel: the history of the selected pixel, of its hypothesis and of its region, and which changes of a
-//! parameter would
-//! change the pixel's result.
+//! parameter would change the pixel's result.
 
 use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
 use super::theme::SMALL_PT;
@@ -10,14 +9,14 @@ use crate::app::{Command, DebugCommand, Edit, Question, WhatIfJob};
 use crate::describe::what_if_sentence;
 use crate::params::Setting;
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
-use crate::view::{Account, Why, why};
+use crate::view::{Why, WhySentence, why};
 use egui::{FontId, Response, RichText, ScrollArea, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
 /// Identity of the answers: generation of the trace, pixel, and hypothesis id.
 type WhyKey = (u64, Option<PixelIndex>, Option<HypothesisId>);
 
-/// The why panel.
+/// The why panel: the answers that were computed last.
 #[derive(Default)]
 pub struct WhyPanel {
     show_answers: BackgroundValue<WhyKey, Why>,
@@ -110,13 +109,13 @@ fn about_pixel(ui: &mut Ui, cx: &PanelContext, pixel: PixelIndex) {
         let [r, g, b] = color;
         ui.label(RichText::new(format!("{r:.0} {g:.0} {b:.0} counts")).color(cx.palette.secondary));
         let kind = shown.analysis.intrinsic.kinds[pixel.index()].name();
-        let fate = region.map_or_else(|| kind.to_owned(), |region| format!("region {region}, {kind}"));
-        ui.label(fate);
+        let change = region.map_or_else(|| kind.to_owned(), |region| format!("region {region}, {kind}"));
+        ui.label(change);
     });
 }
 
 /// Shows sentences, each a link that moves the cursor to the sentence's step.
-fn show_sentences(ui: &mut Ui, cx: &mut PanelContext, sentences: &[Account]) {
+fn show_sentences(ui: &mut Ui, cx: &mut PanelContext, sentences: &[WhySentence]) {
     if sentences.is_empty() {
         ui.label(RichText::new("nothing was decided about it").color(cx.palette.secondary));
     }
@@ -135,7 +134,7 @@ const STAGE_PT: f32 = 58.0;
 /// Indentation per level of the tree of merged hypotheses, points.
 const INDENT_PT: f32 = 12.0;
 
-fn show_sentence(ui: &mut Ui, cx: &PanelContext, sentence: &Account, is_current: bool) -> Response {
+fn show_sentence(ui: &mut Ui, cx: &PanelContext, sentence: &WhySentence, is_current: bool) -> Response {
     let width = ui.available_width();
     let left = STAGE_PT + INDENT_PT * sentence.depth as f32;
     let font = FontId::proportional(SMALL_PT);
@@ -160,8 +159,7 @@ fn show_sentence(ui: &mut Ui, cx: &PanelContext, sentence: &Account, is_current:
 }
 
 /// Shows how far each parameter would have to move for the pixel's result to change, the progress of that search, or
-/// the
-/// button that starts the search.
+/// the button that starts the search.
 fn what_if(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
     let heading = widgets::heading(ui, cx.palette, "What if");
     heading.on_hover_text(

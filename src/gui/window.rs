@@ -17,8 +17,7 @@ pub struct WindowError(String);
 /// Opens the window on `photograph`, or on the sample scene, and returns when it is closed.
 ///
 /// When the graphics device is lost (a driver restarts, a card is unplugged), the window closes, and another window
-/// with a new
-/// device opens with the same application in it.
+/// with a new device opens with the same application in it.
 ///
 /// # Errors
 /// When there is no display or no graphics adapter.
@@ -85,7 +84,7 @@ fn first_app(cc: &eframe::CreationContext<'_>, origin: Option<Origin>) -> std::i
     let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.clone(), Executor::Threads)?;
     if let Some(path) = Settings::path() {
         let (settings, warning) = Settings::load(&path);
-        app.remember(settings);
+        app.restore_settings(settings);
         if let Some(text) = warning {
             app.apply(ViewCommand::Notify(Severity::Warning, text));
         }

@@ -19,7 +19,7 @@ pub(crate) fn region_colors(analysis: &Analysis, before: Option<(&LabelMap, &[[u
 }
 
 /// Colors for `count` hypotheses that became no region, in a fixed order: colors that no region has, as long as there are any.
-pub(crate) fn orphan_colors(taken: &[[u8; 3]], count: usize) -> Vec<[u8; 3]> {
+pub(crate) fn colors_of_dropped(taken: &[[u8; 3]], count: usize) -> Vec<[u8; 3]> {
     let palette = Palette::new();
     let all = palette.colors();
     let free: Vec<[u8; 3]> = all.iter().copied().filter(|color| !taken.contains(color)).collect();
@@ -43,8 +43,8 @@ fn colors(
             }
         }
     }
-    // Two adjacent regions of one color would look like one region: the smaller, which has the higher number, gets another
-    // color.
+    // Two adjacent regions of one color would look like one region: the smaller, which has the higher number,
+    // gets another color.
     for now in 1..kept.len() {
         let touched =
             neighbors[now - 1].iter().map(|other| usize::from(other.get())).filter(|&other| other < now);

@@ -20,9 +20,9 @@ pub struct Comparison {
     /// Angle between the two illuminants, degrees; none where a result has no illuminant.
     pub illuminant_deg: Option<f64>,
     /// The fates of the regions: those of the newest result by number, then those that are lost.
-    pub regions: Vec<RegionFate>,
+    pub regions: Vec<ComparedRegion>,
     /// The fates of the pixels.
-    pub pixels: PixelFates,
+    pub pixels: PixelChanges,
     /// The change of the body reflection.
     pub body: BodyChange,
 }
@@ -51,9 +51,9 @@ pub struct Figure {
     pub newest: Option<f64>,
 }
 
-/// The fate of a region.
+/// The difference between a region of one result and the same region of another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
+pub enum RegionChange {
     /// The region has the same pixels.
     Kept,
     /// The region has other pixels, but is still the same region.
@@ -64,12 +64,12 @@ pub enum Fate {
     Lost,
 }
 
-/// A region of the pinned result and the same region of the newest result. Two regions are the same where each covers most of
-/// the other.
+/// A region of the pinned result and the same region of the newest result. Two regions are the same where each covers
+/// most of the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RegionFate {
-    /// The fate.
-    pub fate: Fate,
+pub struct ComparedRegion {
+    /// The difference between the two.
+    pub change: RegionChange,
     /// The region in the pinned result.
     pub pinned: Option<RegionId>,
     /// The region in the newest result.
@@ -84,7 +84,7 @@ pub struct RegionFate {
 
 /// Numbers of pixels that stayed with their region, and that did not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PixelFates {
+pub struct PixelChanges {
     /// Pixels in the same region, or in no region, in both results.
     pub kept: usize,
     /// Pixels in no region of the pinned result and in a region of the newest.
@@ -112,7 +112,7 @@ pub fn compare(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Option<Compa
         return None;
     }
     let light = |shown: &ResultSnapshot| shown.analysis.illuminant.map(|light| light.direction);
-    let (regions, pixels) = fates(pinned, newest);
+    let (regions, pixels) = changes(pinned, newest);
     Some(Comparison {
         settings: settings(pinned, newest),
         figures: figures(pinned, newest),
@@ -199,7 +199,7 @@ fn fit_error_counts(shown: &ResultSnapshot) -> Option<f64> {
     (pixels > 0).then(|| (sum / pixels as f64).sqrt())
 }
 
-fn fates(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> (Vec<RegionFate>, PixelFates) {
+fn changes(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> (Vec<ComparedRegion>, PixelChanges) {
     let shared = overlaps(pinned.labels(), newest.labels());
     let (into, from) =
         (best_overlaps(pinned.labels(), newest.labels()), best_overlaps(newest.labels(), pinned.labels()));
@@ -221,13 +221,13 @@ fn fates(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> (Vec<RegionFate>, 
         let pixels_pinned = old.map_or(0, |old| sizes_pinned[old.index() + 1]);
         let covers = old.map_or(&[][..], |old| &shared[old.index() + 1]);
         let pixels_shared = covers.iter().find(|cover| cover.0 == new.get()).map_or(0, |cover| cover.1);
-        let fate = match old {
-            None => Fate::Gained,
-            Some(_) if pixels_shared == pixels_pinned && pixels_shared == pixels_newest => Fate::Kept,
-            Some(_) => Fate::Changed,
+        let change = match old {
+            None => RegionChange::Gained,
+            Some(_) if pixels_shared == pixels_pinned && pixels_shared == pixels_newest => RegionChange::Kept,
+            Some(_) => RegionChange::Changed,
         };
-        regions.push(RegionFate {
-            fate,
+        regions.push(ComparedRegion {
+            change,
             pinned: old,
             newest: Some(new),
             pixels_pinned,
@@ -237,15 +237,15 @@ fn fates(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> (Vec<RegionFate>, 
     }
     let lost = RegionId::all(into.len().saturating_sub(1))
         .filter(|&old| sizes_pinned[old.index() + 1] > 0 && pair(old).is_none());
-    regions.extend(lost.map(|old| RegionFate {
-        fate: Fate::Lost,
+    regions.extend(lost.map(|old| ComparedRegion {
+        change: RegionChange::Lost,
         pinned: Some(old),
         newest: None,
         pixels_pinned: sizes_pinned[old.index() + 1],
         pixels_newest: 0,
         pixels_shared: 0,
     }));
-    let mut pixels = PixelFates::default();
+    let mut pixels = PixelChanges::default();
     for (old, covers) in (0u16..).zip(&shared) {
         for &(new, count) in covers {
             match (RegionId::from_label(old), RegionId::from_label(new)) {
@@ -296,14 +296,24 @@ mod tests {
 
     /// Regions of two results of one gray picture, as (pinned, newest, shared pixels), and the pixels' fates.
     #[track_caller]
-    fn check(before: &[&str], after: &[&str], regions: &[(Fate, u16, u16, usize)], pixels: [usize; 4]) {
+    fn check(
+        before: &[&str],
+        after: &[&str],
+        regions: &[(RegionChange, u16, u16, usize)],
+        pixels: [usize; 4],
+    ) {
         let picture = gray(before, 90);
         let found = compare(&divided(&picture, before), &divided(&picture, after)).unwrap();
-        let plain = |fate: &RegionFate| {
-            (fate.fate, RegionId::label(fate.pinned), RegionId::label(fate.newest), fate.pixels_shared)
+        let plain = |change: &ComparedRegion| {
+            (
+                change.change,
+                RegionId::label(change.pinned),
+                RegionId::label(change.newest),
+                change.pixels_shared,
+            )
         };
         assert_eq!(found.regions.iter().map(plain).collect::<Vec<_>>(), regions);
-        let PixelFates { kept, gained, lost, changed } = found.pixels;
+        let PixelChanges { kept, gained, lost, changed } = found.pixels;
         assert_eq!([kept, gained, lost, changed], pixels);
         assert_eq!(kept + gained + lost + changed, picture.size().0 * picture.size().1);
     }
@@ -314,22 +324,22 @@ mod tests {
         check(
             &before,
             &before,
-            &[(Fate::Kept, 1, 1, 6), (Fate::Kept, 2, 2, 2), (Fate::Kept, 3, 3, 1)],
+            &[(RegionChange::Kept, 1, 1, 6), (RegionChange::Kept, 2, 2, 2), (RegionChange::Kept, 3, 3, 1)],
             [12, 0, 0, 0],
         );
         let after = ["2221", "2211", ".333"];
         let regions = [
-            (Fate::Changed, 2, 1, 2),
-            (Fate::Changed, 1, 2, 5),
-            (Fate::Gained, 0, 3, 0),
-            (Fate::Lost, 3, 0, 0),
+            (RegionChange::Changed, 2, 1, 2),
+            (RegionChange::Changed, 1, 2, 5),
+            (RegionChange::Gained, 0, 3, 0),
+            (RegionChange::Lost, 3, 0, 0),
         ];
         check(&before, &after, &regions, [7, 3, 1, 1]);
     }
 
     #[test]
     fn a_region_that_falls_apart_is_changed_and_gained() {
-        let regions = [(Fate::Changed, 1, 1, 3), (Fate::Gained, 0, 2, 0)];
+        let regions = [(RegionChange::Changed, 1, 1, 3), (RegionChange::Gained, 0, 2, 0)];
         check(&["11111"], &["11122"], &regions, [3, 0, 0, 2]);
     }
 

@@ -143,8 +143,8 @@ impl Histogram {
         self.majority_of(usize::from(largest) + 1, |pixel| labels[pixel])
     }
 
-    /// The class of the windows of most pixels of each bin; none where most have no class. `width` is the width of the picture,
-    /// pixels.
+    /// The class of the windows of most pixels of each bin; none where most have no class. `width` is the width of
+    /// the picture, pixels.
     pub fn majority_class(&self, windows: &Windows, width: usize) -> Vec<Option<Class>> {
         const CLASSES: [Class; 4] = [Class::Point, Class::Line, Class::Plane, Class::Volume];
         let number = |class: &Option<Class>| class.map_or(0, |class| class as u16 + 1);
@@ -200,8 +200,8 @@ impl Histogram {
         most.into_iter().map(|(_, number)| number).collect()
     }
 
-    /// The colors of `image`, which is the image of the histogram, to 10 bits a band, in the order of their bins. Sorts all
-    /// pixels.
+    /// The colors of `image`, which is the image of the histogram, to 10 bits a band, in the order of their bins.
+    /// Sorts all pixels.
     pub fn unique(&self, image: &LinearImage) -> Vec<UniqueColor> {
         let colors = image.pixels.as_slice();
         if colors.len() != self.of_pixel.len() {
@@ -260,8 +260,8 @@ fn corner(cell: usize) -> [usize; 3] {
     [cell / BINS_PER_BAND / BINS_PER_BAND, cell / BINS_PER_BAND % BINS_PER_BAND, cell % BINS_PER_BAND]
 }
 
-/// The largest value of any band, counts; 0 without pixels. No band is negative, so that the order of the bits is the order of
-/// the values.
+/// The largest value of any band, counts; 0 without pixels. No band is negative, so that the order of the bits is the
+/// order of the values.
 fn brightest(colors: &[[f32; 3]]) -> f32 {
     let largest = |values: &[f32]| values.iter().fold(0i32, |most, v| most.max(v.to_bits() as i32));
     let parts = colors.as_flattened().par_chunks(3 * PIXELS_PER_TASK).map(largest);

@@ -7,7 +7,7 @@ use std::sync::Arc;
 /// Something that a person can point at in any panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Item {
-    /// A pixel.
+    /// A pixel of the photograph.
     Pixel(PixelIndex),
     /// A window of the classification, by its row-major index.
     Window(u32),

@@ -32,7 +32,9 @@ mod vector;
 pub use accuracy::{Accuracy, RegionAccuracy};
 pub use axes::{Axis, Tick};
 pub(crate) use colors::region_colors;
-pub use compare::{BodyChange, Comparison, Fate, Figure, PixelFates, RegionFate, SettingChange, compare};
+pub use compare::{
+    BodyChange, ComparedRegion, Comparison, Figure, PixelChanges, RegionChange, SettingChange, compare,
+};
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
 pub use item::{Item, Selection};
 pub use layers::{
@@ -46,13 +48,13 @@ pub use plane_points::{
 pub(crate) use profile::profile_csv;
 pub use profile::{ProfileSample, profile, profile_ends};
 pub use replay::{
-    Account, AxisDistance, Check, Current, Growth, HypothesisRow, Instant, InstantView, LookedAt,
-    RegionNames, RegionsView, Role, RolesView, SkewedTView, Status, TimelineAxis, TimelineSection, Watch,
-    WatchedPixel, Why, WindowCounts, WindowsView, candidate_name, candidate_reach, cursor_place, growth,
-    hypothesis_rows, looked_at, sampled, skewed_t_view, test_at_cursor, timeline_density, watch, why,
-    window_counts,
+    AxisDistance, Check, CurrentHypothesis, Growth, HypothesisRow, Instant, InstantView, RegionNames,
+    RegionsView, Role, RolesView, SkewedTView, Status, StepPixels, TimelineAxis, TimelineSection, Watch,
+    WatchedPixel, Why, WhySentence, WindowCounts, WindowsView, candidate_name, candidate_reach, cursor_place,
+    growth, hypothesis_rows, sampled, skewed_t_view, step_pixels, test_at_cursor, timeline_density, watch,
+    why, window_counts,
 };
-pub(crate) use replay::{candidate_pixels, measured_and_ignored, pixels_of_region, rings, tracks};
+pub(crate) use replay::{candidate_pixels, growth_pixels, measured_and_ignored, pixels_of_region, rings};
 pub(crate) use runs::MaskRuns;
 pub use settings::{
     Arrangement, ColorBy, ColorSpace, CubeSettings, ImageSettings, PlaneSettings, ProfileLine, Theme, Tool,

@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// The source of a photograph.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Origin {
-    /// A file.
+    /// A file of the computer.
     File(PathBuf),
     /// A sample scene that the program carries, by name.
     Sample(String),

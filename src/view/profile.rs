@@ -10,7 +10,7 @@ use std::fmt::Write;
 pub struct ProfileSample {
     /// Distance from the beginning of the line, pixels.
     pub position_px: f32,
-    /// The pixel.
+    /// The pixel of the sample.
     pub pixel: PixelIndex,
     /// Color of the pixel, linear counts.
     pub input: [f32; 3],

@@ -7,17 +7,17 @@ use serde::{Deserialize, Serialize};
 /// The theme of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Theme {
-    /// Light on dark.
+    /// Light text on a dark background.
     #[default]
     Dark,
-    /// Dark on light.
+    /// Dark text on a light background.
     Light,
 }
 
 /// How one or two layers share the image view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Arrangement {
-    /// One layer.
+    /// One layer in the whole view.
     #[default]
     Single,
     /// `layer` left of a line at this share of the picture's width, `other` right of it.
@@ -136,7 +136,7 @@ pub enum ColorBy {
 #[serde(default)]
 #[allow(clippy::struct_excessive_bools, reason = "each shows or hides one thing")]
 pub struct CubeSettings {
-    /// The space.
+    /// The color space shown.
     pub space: ColorSpace,
     /// The source of the points' colors.
     #[serde(alias = "colour_by")]

@@ -21,7 +21,7 @@ const ELLIPSOID_SIGMAS: f64 = 2.0;
 /// The skewed T of a region and the parts of the cube that it claims, in counts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionShapes {
-    /// The region.
+    /// The region of the shapes.
     pub region: RegionId,
     /// The cylinder (5.3.2), from the dark sphere to the far sides of the cube; none where nothing lies between them.
     pub cylinder: Option<Solid>,
@@ -114,8 +114,8 @@ fn full(shown: &ResultSnapshot) -> f64 {
     f64::from(shown.picture.histogram.full_counts)
 }
 
-/// The slice by which the segmentation claims pixels ([`crate::reflection::Slice`]) as a body, bounded where the refinement is
-/// on.
+/// The slice by which the segmentation claims pixels ([`crate::reflection::Slice`]) as a body, bounded where the
+/// refinement is on.
 fn slice(
     shown: &ResultSnapshot,
     hypothesis: &PlanarHypothesis,
@@ -160,8 +160,8 @@ pub(super) fn starts(reflection: &RegionReflection, hypothesis: &PlanarHypothesi
     if found.is_empty() { vec![hypothesis.start] } else { found }
 }
 
-/// The line from each start along the light to the brightest highlight pixel that is nearer to this line than to the others,
-/// counts.
+/// The line from each start along the light to the brightest highlight pixel that is nearer to this line than to
+/// the others, counts.
 fn highlight_lines(
     shown: &ResultSnapshot,
     region: RegionId,

@@ -19,7 +19,7 @@ pub struct ResultSnapshot {
     pub params: Params,
     /// The pixels that the request was restricted to; none: all pixels.
     pub area: Option<Arc<Mask>>,
-    /// The result.
+    /// The outputs of all stages.
     pub analysis: Analysis,
     /// The first stage whose output belongs to an older request; none: all outputs belong to this request.
     pub stale_from: Option<Stage>,

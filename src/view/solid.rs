@@ -16,7 +16,7 @@ pub struct Mesh {
 /// A body: its surface, and outlines that show its form where the surface is translucent.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Solid {
-    /// The surface.
+    /// The surface as triangles.
     pub surface: Mesh,
     /// The outlines, as polylines.
     pub outlines: Vec<Vec<Point>>,

@@ -1,7 +1,7 @@
 //! The color spaces of the color space view: the place of a color in each space.
 //!
-//! Every space is a function from linear counts into a world about the size of the unit cube, whose third coordinate points
-//! up.
+//! Every space is a function from linear counts into a world about the size of the unit cube, whose third
+//! coordinate points up.
 
 use super::ColorSpace;
 use super::vector::{Point, dot};
@@ -54,8 +54,7 @@ impl ColorSpace {
 
     /// The place in the world of a color in linear counts; `full_counts` is the end of each band of the cube.
     ///
-    /// Bands below zero count as zero, except in RGB. Black has no hue and no chromaticity: its place is that of
-    /// gray.
+    /// Bands below zero count as zero, except in RGB. Black has no hue and no chromaticity: its place is that of gray.
     pub fn place(self, counts: Point, full_counts: f32) -> Point {
         let shares = counts.map(|v| v / full_counts);
         if self == Self::Rgb {

@@ -61,13 +61,13 @@ pub struct Band {
 /// A rectangle of pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bounds {
-    /// First column.
+    /// The leftmost column.
     pub left: usize,
-    /// First row.
+    /// The topmost row.
     pub top: usize,
-    /// Columns.
+    /// Number of columns.
     pub width: usize,
-    /// Rows.
+    /// Number of rows.
     pub height: usize,
 }
 

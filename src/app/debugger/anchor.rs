@@ -22,7 +22,7 @@ struct BlockAnchor {
     /// The area that the hypothesis started from.
     area: Option<u32>,
     /// Number of earlier blocks about the same region.
-    turn: usize,
+    earlier_blocks: usize,
     /// Place within the block, 0…1.
     share: f64,
     /// The decision at the cursor: its kind, and the number of that kind earlier in the block.
@@ -38,12 +38,13 @@ impl Anchor {
             |steps: &std::ops::Range<usize>| (last + 1 - steps.start) as f64 / steps.len().max(1) as f64;
         let block = trace.block_at(last).map(|block| {
             let hypothesis = block.topic.hypothesis();
-            let turn = trace.blocks().filter(|b| b.topic == block.topic && b.steps.start < block.steps.start);
+            let earlier_blocks =
+                trace.blocks().filter(|b| b.topic == block.topic && b.steps.start < block.steps.start);
             BlockAnchor {
                 topic: block.topic,
                 region: names.region_of(hypothesis),
                 area: replay.hypothesis(hypothesis).and_then(|hypothesis| hypothesis.area),
-                turn: turn.count(),
+                earlier_blocks: earlier_blocks.count(),
                 share: share(&block.steps),
                 decision: trace.event(last).map(|event| {
                     (event.kind(), events_of(trace, block.steps.start..last, event.kind()).count())
@@ -65,37 +66,37 @@ impl Anchor {
 impl BlockAnchor {
     fn find(&self, trace: &Trace, names: &RegionNames, best_overlaps: &[Option<RegionId>]) -> Option<usize> {
         let blocks = |hypothesis: HypothesisId| {
-            let alike = |block: &Block| discriminant(&block.topic) == discriminant(&self.topic);
-            trace.blocks().filter(move |block| alike(block) && block.topic.hypothesis() == hypothesis)
+            let is_same_kind = |block: &Block| discriminant(&block.topic) == discriminant(&self.topic);
+            trace.blocks().filter(move |block| is_same_kind(block) && block.topic.hypothesis() == hypothesis)
         };
         // None where the hypothesis became no region.
         let best_overlap =
             self.region.and_then(|region| best_overlaps.get(usize::from(region.get())).copied());
         // The hypothesis from the same area, if it became the same region; otherwise any that did.
-        let from_area = self.area.and_then(|area| born_of(trace, area));
+        let from_area = self.area.and_then(|area| hypothesis_from_area(trace, area));
         let from_area = from_area
             .filter(|&id| best_overlap.is_none_or(|best_overlap| names.region_of(id) == best_overlap));
         let hypothesis = from_area.filter(|&id| blocks(id).next().is_some()).or_else(|| {
             names.hypotheses_of(best_overlap.flatten()?).find(|&id| blocks(id).next().is_some())
         })?;
-        let block = blocks(hypothesis).nth(self.turn).or_else(|| blocks(hypothesis).next_back())?;
+        let block = blocks(hypothesis).nth(self.earlier_blocks).or_else(|| blocks(hypothesis).next_back())?;
         Some(self.place_in(trace, &block))
     }
 
     fn place_in(&self, trace: &Trace, block: &Block) -> usize {
         let decision = self.decision.and_then(|(kind, before)| {
-            let alike = events_of(trace, block.steps.clone(), kind);
-            alike.take(before + 1).last().map(|n| n + 1)
+            let is_same_kind = events_of(trace, block.steps.clone(), kind);
+            is_same_kind.take(before + 1).last().map(|n| n + 1)
         });
         decision.unwrap_or_else(|| {
-            let within = (self.share * block.steps.len() as f64).round() as usize;
-            block.steps.start + within.clamp(1, block.steps.len().max(1))
+            let steps_within = (self.share * block.steps.len() as f64).round() as usize;
+            block.steps.start + steps_within.clamp(1, block.steps.len().max(1))
         })
     }
 }
 
 /// The hypothesis that started from an area of the picture's own grid.
-fn born_of(trace: &Trace, area: u32) -> Option<HypothesisId> {
+fn hypothesis_from_area(trace: &Trace, area: u32) -> Option<HypothesisId> {
     trace.events().find_map(|(_, event)| match event {
         Event::HypothesisChosen(chosen) if chosen.area == area => Some(chosen.hypothesis),
         _ => None,

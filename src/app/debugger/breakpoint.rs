@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub struct Breakpoint {
     /// Whether the breakpoint is on.
     pub enabled: bool,
-    /// The condition.
+    /// The condition that stops the cursor.
     pub condition: Condition,
 }
 
@@ -26,7 +26,7 @@ pub enum Condition {
         /// The hypothesis; none: any.
         #[serde(rename = "region")]
         hypothesis: Option<HypothesisId>,
-        /// The pixels.
+        /// The largest number of pixels that does not stop the cursor.
         pixels: u32,
     },
     /// A hypothesis is rejected: passed over although it was large enough, given up, absorbed or dropped.
@@ -42,7 +42,7 @@ pub enum Condition {
 /// A test of a highlight candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CandidateCheck {
-    /// Any test.
+    /// Any of the four tests.
     Any,
     /// The lines meet.
     LinesMeet,
@@ -55,7 +55,7 @@ pub enum CandidateCheck {
 }
 
 impl CandidateCheck {
-    /// All tests.
+    /// Any test, and the four tests in the order in which they are made.
     pub const ALL: [Self; 5] = [Self::Any, Self::LinesMeet, Self::UpperHalf, Self::Positive, Self::Beyond];
 
     /// The test's name in lists.
@@ -129,14 +129,14 @@ pub fn next_stop(replay: &Replay, goal: usize, breakpoints: &[Breakpoint]) -> Op
     };
     if goal >= at {
         trace.steps_in(at..goal).find_map(|(n, step)| {
-            sizes.take(&step, Direction::Forward);
+            sizes.apply(&step, Direction::Forward);
             stops(&step, &sizes).map(|index| (n + 1, index))
         })
     } else {
         // The step taken last is excluded: the cursor stands there already.
         trace.steps_in(goal..at).rev().find_map(|(n, step)| {
             let stop = (n + 1 < at).then(|| stops(&step, &sizes)).flatten();
-            sizes.take(&step, Direction::Back);
+            sizes.apply(&step, Direction::Back);
             stop.map(|index| (n + 1, index))
         })
     }
@@ -171,8 +171,8 @@ impl Condition {
                 Step::Refusal { holder: a, challenger: b, .. }
                 | Step::Claim { before: Some(a), after: Some(b), contest: Some(_), .. },
             ) => {
-                let is = |wanted: Option<HypothesisId>, found| wanted.is_none_or(|wanted| wanted == found);
-                (is(one, *a) && is(other, *b)) || (is(one, *b) && is(other, *a))
+                let fits = |wanted: Option<HypothesisId>, found| wanted.is_none_or(|wanted| wanted == found);
+                (fits(one, *a) && fits(other, *b)) || (fits(one, *b) && fits(other, *a))
             }
             _ => false,
         }
@@ -200,7 +200,7 @@ impl Sizes<'_> {
         i64::from(self.replay.size(hypothesis)) + gained
     }
 
-    fn take(&mut self, step: &Step, direction: Direction) {
+    fn apply(&mut self, step: &Step, direction: Direction) {
         let Step::Claim { before, after, .. } = step else { return };
         let gain = if direction == Direction::Forward { 1 } else { -1 };
         for (hypothesis, gain) in [(before, -gain), (after, gain)] {

@@ -25,9 +25,9 @@ pub enum Grain {
     Ring,
     /// A hypothesis, a slice, a region's candidates.
     Hypothesis,
-    /// A part of a stage.
+    /// A pass: a part of a stage.
     Pass,
-    /// A stage.
+    /// A stage of the analysis.
     Stage,
 }
 
@@ -73,21 +73,22 @@ pub fn place_after_unit(trace: &Trace, at: usize, grain: Grain, direction: Direc
         (Grain::Event, direction) => next_event(trace, at, direction),
         (Grain::Hypothesis, direction) => {
             let spans = trace.blocks().map(|block| block.steps);
-            edge(spans, at, direction).unwrap_or_else(|| place_after_unit(trace, at, Grain::Stage, direction))
+            nearest_edge(spans, at, direction)
+                .unwrap_or_else(|| place_after_unit(trace, at, Grain::Stage, direction))
         }
         (Grain::Pass, direction) => {
             let passes = trace.passes().map(|span| span.steps);
             let stages = trace.stages().map(|(_, steps)| steps);
-            edge(passes.chain(stages), at, direction).unwrap_or(at)
+            nearest_edge(passes.chain(stages), at, direction).unwrap_or(at)
         }
         (Grain::Stage, direction) => {
-            edge(trace.stages().map(|(_, steps)| steps), at, direction).unwrap_or(at)
+            nearest_edge(trace.stages().map(|(_, steps)| steps), at, direction).unwrap_or(at)
         }
     }
 }
 
 /// The nearest end after `at`, or the nearest beginning before it.
-fn edge(
+fn nearest_edge(
     spans: impl Iterator<Item = std::ops::Range<usize>>,
     at: usize,
     direction: Direction,
@@ -101,11 +102,11 @@ fn edge(
 fn next_event(trace: &Trace, at: usize, direction: Direction) -> usize {
     let found = match direction {
         Direction::Forward => {
-            first(trace.steps_in(at..trace.len()), |_, step| matches!(step, Step::Event(_)))
+            place_after_first(trace.steps_in(at..trace.len()), |_, step| matches!(step, Step::Event(_)))
         }
-        Direction::Back => {
-            first(trace.steps_in(0..at.saturating_sub(1)).rev(), |_, step| matches!(step, Step::Event(_)))
-        }
+        Direction::Back => place_after_first(trace.steps_in(0..at.saturating_sub(1)).rev(), |_, step| {
+            matches!(step, Step::Event(_))
+        }),
     };
     found.unwrap_or(match direction {
         Direction::Forward => trace.len(),
@@ -114,44 +115,44 @@ fn next_event(trace: &Trace, at: usize, direction: Direction) -> usize {
 }
 
 /// The place after the first of these steps for which `test` holds.
-fn first<'a>(
+fn place_after_first<'a>(
     mut steps: impl Iterator<Item = (usize, Step<'a>)>,
     test: impl Fn(usize, &Step) -> bool,
 ) -> Option<usize> {
     steps.find(|(n, step)| test(*n, step)).map(|(n, _)| n + 1)
 }
 
-/// The place after the next step that fits a goal, or the last one before; none where no step fits. Breakpoints are resolved by
-/// the caller.
+/// The place after the next step that fits a goal, or the last one before; none where no step fits. Breakpoints are
+/// resolved by the caller.
 pub fn next_place(trace: &Trace, at: usize, goal: Goal, direction: Direction) -> Option<usize> {
     let goal = match goal {
         Goal::Pixel(pixel) => Goal::Pixel(trace.working_pixel(pixel)),
         other => other,
     };
     let windows = match goal {
-        Goal::Pixel(pixel) => concerning(trace, pixel),
+        Goal::Pixel(pixel) => steps_about_pixel(trace, pixel),
         _ => Vec::new(),
     };
     let region = match goal {
         Goal::Hypothesis(hypothesis) => region_of(trace, hypothesis),
         _ => None,
     };
-    let meant = |n: usize, step: &Step| match goal {
+    let fits_goal = |n: usize, step: &Step| match goal {
         Goal::Kind(kind) => step.kind() == kind,
         Goal::Pixel(pixel) => step.pixel() == Some(pixel) || windows.binary_search(&n).is_ok(),
         Goal::Hypothesis(hypothesis) => step.concerns(hypothesis, region),
         Goal::Breakpoint | Goal::Step(_) => false,
     };
     match direction {
-        Direction::Forward => first(trace.steps_in(at..trace.len()), meant),
-        Direction::Back => first(trace.steps_in(0..at.saturating_sub(1)).rev(), meant),
+        Direction::Forward => place_after_first(trace.steps_in(at..trace.len()), fits_goal),
+        Direction::Back => place_after_first(trace.steps_in(0..at.saturating_sub(1)).rev(), fits_goal),
     }
 }
 
 /// The steps at which windows and blobs that hold a working pixel were judged, ascending.
-fn concerning(trace: &Trace, pixel: PixelIndex) -> Vec<usize> {
+fn steps_about_pixel(trace: &Trace, pixel: PixelIndex) -> Vec<usize> {
     let [x, y] = pixel.position(trace.width());
-    let mut holding = None;
+    let mut window_of_pixel = None;
     let local = trace.stage_trace(Stage::Split).and_then(|stage_trace| stage_trace.local());
     let own_blob = local.and_then(|local| local.point(pixel.index())).map(|point| point.blob);
     let mut found = Vec::new();
@@ -159,9 +160,9 @@ fn concerning(trace: &Trace, pixel: PixelIndex) -> Vec<usize> {
         match event {
             Event::WindowsLaid(laid) => {
                 let size = (laid.size_px as usize).max(1);
-                holding = Some((y / size * laid.columns as usize + x / size) as u32);
+                window_of_pixel = Some((y / size * laid.columns as usize + x / size) as u32);
             }
-            Event::WindowClassified(WindowClassified { window, .. }) if holding == Some(*window) => {
+            Event::WindowClassified(WindowClassified { window, .. }) if window_of_pixel == Some(*window) => {
                 found.push(n);
             }
             event if event.blob().is_some_and(|blob| Some(blob) == own_blob) => found.push(n),

@@ -5,8 +5,8 @@ use crate::trace::Replay;
 use crate::trace::{CandidateSource, MergeTried, Trace, WindowClassified};
 use crate::trace::{Event, Stage, Step, Topic};
 use crate::view::{
-    Instant, InstantView, RegionsView, Status, candidate_pixels, cursor_place, hypothesis_rows, looked_at,
-    measured_and_ignored, pixels_of_region, test_at_cursor, tracks, window_counts,
+    Instant, InstantView, RegionsView, Status, candidate_pixels, cursor_place, growth_pixels,
+    hypothesis_rows, measured_and_ignored, pixels_of_region, step_pixels, test_at_cursor, window_counts,
 };
 use crate::view::{Layer, Look, Origin, Role};
 use crate::view::{paint, paint_instant};
@@ -141,7 +141,7 @@ fn what_a_region_took_lies_inside_and_what_it_left_outside_or_elsewhere() {
     for block in trace.blocks().filter(|block| grows(block.topic) && block.steps.len() > 60) {
         seek(&mut application, block.steps.start + block.steps.len() * 3 / 5);
         let replay = application.state().followed().unwrap();
-        let tracks = tracks(replay, colors(&application), masks(&application)).unwrap();
+        let tracks = growth_pixels(replay, colors(&application), masks(&application)).unwrap();
         let hypothesis = block.topic.hypothesis();
         assert_eq!(tracks.hypothesis, hypothesis);
         let held = |pixel: &u32| replay.labels()[*pixel as usize] == hypothesis.get();
@@ -179,7 +179,7 @@ fn the_newest_ring_is_reached_from_the_one_before() {
     for n in began + 2..end {
         seek(&mut application, n);
         let newest =
-            tracks(application.state().followed().unwrap(), colors(&application), masks(&application))
+            growth_pixels(application.state().followed().unwrap(), colors(&application), masks(&application))
                 .unwrap()
                 .newest;
         if newest.len() <= before.len() && !before.is_empty() && newest.first() != before.first() {
@@ -207,7 +207,7 @@ fn a_test_looks_at_both_clusters_and_at_what_it_ignores() {
         |pixel: &u32| crate::color::vec3(colors(&application)[*pixel as usize]).dot(&test.matte.direction);
     let longer = measured.iter().filter(|pixel| along(pixel) > test.matte_length + 1.0).count();
     assert!(longer * 100 <= measured.len(), "the matte line ends where its brightest pixels do");
-    let groups = looked_at(replay, None, colors(&application), masks(&application), 50);
+    let groups = step_pixels(replay, None, colors(&application), masks(&application), 50);
     assert!(groups.iter().all(|(_, pixels)| pixels.len() <= 50));
     assert!(groups.iter().any(|(role, _)| *role == Role::Own));
     if !matches!(test.candidate, CandidateSource::Absorbed(_)) {

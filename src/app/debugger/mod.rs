@@ -54,7 +54,7 @@ pub struct Debugger {
 pub enum Difference {
     /// The traces are the same.
     None,
-    /// At this step.
+    /// The first step that differs.
     At(usize),
     /// The pinned result has no trace.
     NotRecorded,

@@ -113,8 +113,8 @@ impl CameraController {
         }
     }
 
-    /// Sets the points of another space that are to be seen; the next frame frames them, unless the user has moved
-    /// the camera.
+    /// Sets the points of another space that are to be seen; the next frame frames them, unless the user has
+    /// moved the camera.
     pub fn set_content(&mut self, content: Vec<[f32; 3]>) {
         self.content = content;
         self.framed_size = None;
@@ -189,8 +189,7 @@ impl CameraController {
     }
 
     /// Turns, moves and zooms the camera by pointer and keys. `orbits`: whether a drag with the primary button turns
-    /// the camera,
-    /// which it does while the pointer tool is chosen.
+    /// the camera, which it does while the pointer tool is chosen.
     pub fn handle_input(
         &mut self,
         ui: &Ui,

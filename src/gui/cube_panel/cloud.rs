@@ -106,8 +106,7 @@ impl Inputs {
 }
 
 /// How points are colored. Regions and classes belong to the result, which does not exist yet while the debugger's
-/// cursor is
-/// followed: points then have their own color.
+/// cursor is followed: points then have their own color.
 pub fn color_by(state: &State) -> ColorBy {
     match state.view.cube.color_by {
         ColorBy::Region | ColorBy::Class if state.followed().is_some() => ColorBy::Own,
@@ -124,9 +123,8 @@ fn same_arc<T: ?Sized>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
 }
 
 impl Cloud {
-    /// Rebuilds the points when an input has changed. `unique_colors` holds the unique colors, if they are drawn in place of
-    /// bins.
-    /// With `ghosts_only`, all points are ghosts.
+    /// Rebuilds the points when an input has changed. `unique_colors` holds the unique colors, if they are drawn in
+    /// place of bins. With `ghosts_only`, all points are ghosts.
     pub fn update(
         &mut self,
         state: &State,
@@ -178,8 +176,7 @@ fn is_in_focus(pixels_in_focus: Option<&[u32]>, bin: usize) -> bool {
 }
 
 /// Number of pixels of each bin that are marked or in the selected region, window or bin; `None` when no pixel is, or
-/// when
-/// the setting `ghost_rest` is off.
+/// when the setting `ghost_rest` is off.
 fn pixels_in_focus(state: &State, picture: &Picture) -> Option<Vec<u32>> {
     if !state.view.cube.ghost_rest {
         return None;
@@ -259,8 +256,8 @@ pub const fn class_color(class: Class) -> Color32 {
     }
 }
 
-/// Color of a bin's density, from 0 (few pixels) to 1 (the fullest bin). Contrast with the background grows with
-/// density.
+/// Color of a bin's density, from 0 (few pixels) to 1 (the fullest bin). Contrast with the background
+/// grows with density.
 pub fn density_color(share: f32, theme: Theme) -> Color32 {
     // The color map Viridis at 0, 1/4, 1/2, 3/4 and 1 (Smith & van der Walt 2015).
     const STOPS: [[f32; 3]; 5] = [

@@ -1,5 +1,5 @@
-//! The color space at the debugger's cursor: the pixels that the current step examines, and the shapes as they are
-//! then.
+//! The color space at the debugger's cursor: the pixels that the current step examines, and the shapes
+//! as they are then.
 
 use super::figure::ShapeBuilder;
 use crate::app::State;
@@ -9,7 +9,7 @@ use crate::gui::theme::Palette;
 use crate::gui::widgets;
 use crate::trace::{Measured, Replay};
 use crate::view::{
-    self, CubeSettings, Picture, ResultSnapshot, Role, Theme, beside_color, candidate_reach, looked_at,
+    self, CubeSettings, Picture, ResultSnapshot, Role, Theme, beside_color, candidate_reach, step_pixels,
     test_at_cursor,
 };
 use egui::Color32;
@@ -56,7 +56,7 @@ impl CursorPoints {
         let (colors, masks) = (&working.image.pixels, &working.masks);
         let focus = state.debugger.focus();
         let (space, full) = (state.view.cube.space, picture.histogram.full_counts);
-        for (role, pixels) in looked_at(replay, focus, colors, masks, MOST_POINTS) {
+        for (role, pixels) in step_pixels(replay, focus, colors, masks, MOST_POINTS) {
             let (color, size_px) = color_and_size(role, focus_color(state), palette);
             let point = |&pixel: &u32| Point {
                 position: space.place(colors.as_slice()[pixel as usize], full),
@@ -137,7 +137,7 @@ impl ShapeBuilder<'_> {
     fn add_window(&mut self, replay: &Replay, shown: &ResultSnapshot, palette: &Palette) {
         let working = &shown.analysis.working;
         let colors = &working.image.pixels;
-        let groups = looked_at(replay, None, colors, &working.masks, usize::MAX);
+        let groups = step_pixels(replay, None, colors, &working.masks, usize::MAX);
         let Some((Role::Window(_), pixels)) = groups.first() else { return };
         let colors = pixels.iter().map(|&pixel| colors.as_slice()[pixel as usize]);
         if let Some(solid) = view::cluster_ellipsoid(colors) {
@@ -146,8 +146,8 @@ impl ShapeBuilder<'_> {
         }
     }
 
-    /// Adds a skewed-T test: both lines, the part of the matte line where highlights may begin, and the gap (section
-    /// 5.4.1).
+    /// Adds a skewed-T test: both lines, the part of the matte line where highlights may begin, and the
+    /// gap (section 5.4.1).
     fn test(
         &mut self,
         test: &crate::trace::CandidateTested,

@@ -309,8 +309,7 @@ fn interpolated([a, b]: [Point; 2], t: f32) -> Point {
 }
 
 /// The silhouette of a mesh: the curve on which the interpolated normal is perpendicular to the line of sight
-/// (Hertzmann &
-/// Zorin 2000).
+/// (Hertzmann & Zorin 2000).
 fn silhouette(mesh: &Mesh, orbit: &Orbit, mut add: impl FnMut(Point, Point)) {
     let [_, _, forward] = orbit.right_up_forward();
     let eye = orbit.eye();

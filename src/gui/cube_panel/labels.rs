@@ -12,12 +12,11 @@ const SPACE_PT: f32 = 1.5;
 /// A text label of a point on the screen.
 #[derive(Clone, Debug)]
 pub struct Label {
-    /// The text.
+    /// The text of the label.
     pub text: String,
     /// The labeled point on the screen.
     pub at: Pos2,
-    /// Directions from the point in which the label may be placed, the best first; zero centers the label on the
-    /// point.
+    /// Directions from the point in which the label may be placed, the best first; zero centers the label on the point.
     pub sides: Vec<Vec2>,
     /// Color of the text.
     pub color: Color32,
@@ -37,8 +36,7 @@ pub fn all_around() -> Vec<Vec2> {
 }
 
 /// The rectangle of each label, given with its size, in the order of importance; `None` when the label would cover
-/// another
-/// or leave `bounds`.
+/// another or leave `bounds`.
 pub fn arrange(labels: &[(&Label, Vec2)], bounds: Rect, occupied: &[Rect]) -> Vec<Option<Rect>> {
     let mut occupied_rects = occupied.to_vec();
     let mut places = Vec::with_capacity(labels.len());
@@ -64,8 +62,7 @@ fn rect_on_side(label: &Label, side: Vec2, size: Vec2) -> Rect {
 }
 
 /// Paints the labels that fit, in the order of importance, outside of the `occupied` rectangles, on a background of
-/// color
-/// `background`.
+/// color `background`.
 pub fn show(ui: &Ui, id: Id, labels: &[Label], bounds: Rect, occupied: &[Rect], background: Color32) {
     let painter = ui.painter_at(bounds);
     let galleys: Vec<_> = labels

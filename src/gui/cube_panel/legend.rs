@@ -1,5 +1,4 @@
-//! The legend of the points' colors: window classes or density. Points in their own or their region's color have
-//! none.
+//! The legend of the points' colors: window classes or density. Points in their own or their region's color have none.
 
 use super::cloud::{class_color, color_by, density_color};
 use crate::gui::PanelContext;
@@ -11,8 +10,8 @@ use egui::{Align2, FontId, Mesh, Painter, Rect, Ui, pos2, vec2};
 const RAMP_PT: egui::Vec2 = vec2(96.0, 6.0);
 const STEPS: usize = 24;
 
-/// Paints the legend into the upper left corner; returns its rectangle. `fullest` is the pixel count of the fullest
-/// bin.
+/// Paints the legend into the upper left corner; returns its rectangle. `fullest` is the pixel count
+/// of the fullest bin.
 pub fn show(ui: &Ui, cx: &PanelContext, rect: Rect, fullest: u32) -> Rect {
     let painter = ui.painter_at(rect);
     let corner = rect.min + vec2(8.0, 6.0);

@@ -10,7 +10,7 @@ use egui_wgpu::RenderState;
 /// The color space panel's last drawing.
 #[derive(Clone, Debug)]
 pub struct ColorSpaceDrawing {
-    /// The camera.
+    /// The camera that the scene was drawn with.
     pub orbit: Orbit,
     /// Position of each bin of the color histogram, world units (counts / 255).
     pub bins: Vec<[f32; 3]>,
@@ -38,16 +38,14 @@ impl ColorSpaceDrawing {
     }
 
     /// Screen position of a point in world units, where `canvas` is the panel's rectangle on the screen; `None`
-    /// behind the
-    /// camera.
+    /// behind the camera.
     pub fn screen(&self, canvas: Rect, world: [f32; 3]) -> Option<Pos2> {
         frame::screen_from_world(&self.orbit.projector(canvas.size().into()), canvas, world)
     }
 }
 
 /// The panel's image as the graphics device holds it: columns and rows, then sRGB bytes with alpha, row-major. `None`
-/// before
-/// the first frame.
+/// before the first frame.
 pub fn color_space_pixels(app: &App, gpu: &RenderState) -> Option<([u32; 2], Vec<u8>)> {
     app.panels().cube.canvas.read_back(gpu)
 }

@@ -23,8 +23,8 @@ impl UniqueColors {
         self.moved_at = Some(Instant::now());
     }
 
-    /// The colors, once they are known and the camera is at rest; with `fast_device`, for a fast graphics device, also while it
-    /// moves.
+    /// The colors, once they are known and the camera is at rest; with `fast_device`, for a fast graphics device,
+    /// also while it moves.
     pub fn get(
         &mut self,
         ctx: &egui::Context,

@@ -1,5 +1,5 @@
-//! The picture's position on the screen. The pixel of column x and row y covers the square from (x, y) to (x + 1, y +
-//! 1).
+//! The picture's position on the screen. The pixel of column x and row y covers the square from (x, y)
+//! to (x + 1, y + 1).
 
 use crate::raster::PixelIndex;
 use crate::view::ImageSettings;
@@ -120,9 +120,8 @@ fn zoom_limits(view: Rect, size: Vec2) -> [f32; 2] {
     [least, LARGEST_ZOOM.max(fit)]
 }
 
-/// Level of the smaller copy of a picture to show: 0 is the picture, each further level half as large. The copy has
-/// at least
-/// one and less than two texels per screen pixel, as far as there are copies.
+/// Level of the smaller copy of a picture to show: 0 is the picture, each further level half as large. The copy has at
+/// least one and less than two texels per screen pixel, as far as there are copies.
 pub fn level_for(screen_px_per_pixel: f32, levels: usize) -> usize {
     let level = (1.0 / screen_px_per_pixel.max(f32::MIN_POSITIVE)).log2().floor();
     (level.max(0.0) as usize).min(levels.saturating_sub(1))

@@ -14,8 +14,8 @@ pub const MARK_COLOR: Color32 = Color32::from_rgb(ACCENT[0], ACCENT[1], ACCENT[2
 const GRID_ZOOM: f32 = 8.0;
 /// Smallest zoom with values in the pixels, screen points per pixel.
 const VALUES_ZOOM: f32 = 48.0;
-/// Smallest zoom at which outlines are lines between pixels, screen points per pixel; below, outlines are pixels of a
-/// texture.
+/// Smallest zoom at which outlines are lines between pixels, screen points per pixel; below, outlines are
+/// pixels of a texture.
 pub const OUTLINE_ZOOM: f32 = 4.0;
 
 /// Paints lines between pixels.
@@ -161,9 +161,8 @@ fn frame(painter: &Painter, area: Rect, color: Color32) {
     painter.add(Shape::line(corners(area).to_vec(), Stroke::new(1.4, color)));
 }
 
-/// Marks the selected pixel and the hovered pixel. At a small zoom the hovered pixel has no mark in the view under
-/// the pointer
-/// (`pointer_here`).
+/// Marks the selected pixel and the hovered pixel. At a small zoom the hovered pixel has no mark in the view under the
+/// pointer (`pointer_here`).
 pub fn pixels(painter: &Painter, place: &Placement, state: &State, pointer_here: bool) {
     let paint_pixel = |item: Option<Item>, color: Color32, at_any_zoom: bool| {
         let Some(Item::Pixel(pixel)) = item else { return };
@@ -197,8 +196,8 @@ pub fn profile(painter: &Painter, place: &Placement, state: &State) {
     }
 }
 
-/// Ends of the row or column of the hovered pixel, otherwise of the selected one, otherwise of the picture's middle,
-/// pixels.
+/// Ends of the row or column of the hovered pixel, otherwise of the selected one, otherwise of the
+/// picture's middle, pixels.
 fn full_line(line: ProfileLine, place: &Placement, state: &State) -> [Pos2; 2] {
     let pixel = [state.hover, state.document.selection.item].into_iter().find_map(|item| match item {
         Some(Item::Pixel(pixel)) => Some(place.square_of(pixel).center()),

@@ -19,14 +19,14 @@ pub const LARGE_PX: usize = 1 << 20;
 /// Textures kept at most, and their pixels in total.
 const MOST: (usize, usize) = (8, 40 << 20);
 
-/// Where a texture is shown.
+/// The place in the image view that a texture is shown at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slot {
-    /// The layer.
+    /// The first layer.
     Layer,
     /// The second layer.
     SecondLayer,
-    /// Over both.
+    /// The marks, over both layers.
     Marks,
     /// The instant at the debugger's cursor, over the photograph.
     Instant,
@@ -166,7 +166,7 @@ impl PartialEq for TextureKey {
 #[derive(Default)]
 pub struct TextureCache {
     textures: Vec<LayerTexture>,
-    /// What each slot showed last: it stays until the new one is painted.
+    /// The texture that each slot showed last, which stays until the requested texture is painted.
     shown_last: [Option<TextureKey>; 4],
     painting: Option<Task<LayerTexture>>,
     uses: u64,

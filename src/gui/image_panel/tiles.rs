@@ -16,8 +16,7 @@ pub fn texture_options() -> TextureOptions {
 }
 
 /// A part of a picture. The uploaded texture has a border of one texel where the picture continues, because smoothing
-/// at the
-/// edge reads the neighboring texel.
+/// at the edge reads the neighboring texel.
 pub struct Tile {
     /// The drawn part, texels of the picture.
     pub inner: Rect,

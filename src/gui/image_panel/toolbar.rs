@@ -138,8 +138,7 @@ fn set_accessible_name(response: &Response, name: &str, value: f64) {
         .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::drag_value(true, value) });
 }
 
-/// Shows the button of the display settings, which do not change the analysis. The button is on while exposure or
-/// gamma
+/// Shows the button of the display settings, which do not change the analysis. The button is on while exposure or gamma
 /// differ from their defaults.
 fn display_menu(ui: &mut Ui, palette: &Palette, settings: &mut ImageSettings) {
     let defaults = ImageSettings::default();

@@ -28,13 +28,13 @@ enum PendingGesture {
     Rectangle(Pos2),
     Lasso(Vec<Pos2>),
     Polygon(Vec<Pos2>),
-    /// Where the brush was last.
+    /// The position of the brush in the last frame.
     Brush(Pos2),
     /// The end of the profile line that stays.
     Profile(Pos2),
 }
 
-/// The state of the tool.
+/// The tool, and the gesture in progress.
 #[derive(Default)]
 pub struct ToolState {
     gesture: PendingGesture,
@@ -45,9 +45,9 @@ pub struct ToolState {
 
 /// The view under the pointer.
 pub struct PointerContext<'a> {
-    /// The view.
+    /// The response of the view's widget.
     pub response: &'a Response,
-    /// The picture's place in it.
+    /// The picture's place in the view.
     pub place: Placement,
     /// The layer under the pointer.
     pub layer: Layer,

@@ -112,8 +112,7 @@ impl Chart {
         }
     }
 
-    /// Position of the label of the m_s axis: left of the point where the axis leaves the view at the top or at a
-    /// side.
+    /// Position of the label of the m_s axis: left of the point where the axis leaves the view at the top or at a side.
     fn top_of_axis(self, plane: &RegionPlane, rect: Rect) -> Pos2 {
         let black = self.screen([0.0, 0.0], rect);
         let away = plane.oblique(0.0, 1.0);
@@ -197,8 +196,7 @@ impl Chart {
     }
 
     /// Paints the points where highlight lines leave the matte line. Returns their label, placed below their middle;
-    /// `None`
-    /// without a point.
+    /// `None` without a point.
     fn meeting_points(
         self,
         painter: &Painter,

@@ -1,6 +1,5 @@
-//! The plane panel at the debugger's cursor: a skewed-T test (section 5.4.1), drawn in the plane that both lines
-//! span, or a
-//! region that grows in its slice (section 5.4.2).
+//! The plane panel at the debugger's cursor: a skewed-T test (section 5.4.1), drawn in the plane that both lines span,
+//! or a region that grows in its slice (section 5.4.2).
 
 use super::{PlanePanel, kinds, navigate, paint_hovered, point_mesh, secondary_text};
 use crate::app::State;

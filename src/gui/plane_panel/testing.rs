@@ -25,8 +25,8 @@ impl PlaneDrawing {
         Some(Self { plane, center: chart.center, counts_per_pt: chart.counts_per_pt, chart })
     }
 
-    /// Screen position of amounts of body and surface reflection, counts, where `canvas` is the panel's rectangle on
-    /// the screen.
+    /// Screen position of amounts of body and surface reflection, counts, where `canvas` is the panel's
+    /// rectangle on the screen.
     pub fn screen(&self, [body, surface]: [f32; 2], canvas: Rect) -> Pos2 {
         self.chart.screen(self.plane.oblique(body, surface), canvas)
     }

@@ -1,6 +1,5 @@
 //! The regions panel at the debugger's cursor: a table of the hypotheses so far; before the first one, counts of
-//! windows and
-//! areas.
+//! windows and areas.
 
 use super::{ROW_PT, cell, vector};
 use crate::app::{Command, DebugCommand, Edit, ViewCommand};

@@ -5,11 +5,11 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 /// A key, its action, and the words for it.
 pub struct Shortcut {
-    /// The group that it is listed in.
+    /// The group of the help that the key is listed in.
     pub group: &'static str,
     /// Modifiers and key.
     pub keys: KeyboardShortcut,
-    /// The action.
+    /// The action that the key starts.
     pub action: Action,
     /// What the action does, in words.
     pub description: &'static str,

@@ -12,8 +12,7 @@ const TICK_PT: f32 = 4.0;
 const NAMED_PT: f32 = 12.0;
 
 /// Paints the track: density, stages, passes, blocks, single steps if they are far enough apart, and the cursor.
-/// `density` is
-/// the number of decisions per column of the track.
+/// `density` is the number of decisions per column of the track.
 pub fn draw(
     painter: &Painter,
     cx: &PanelContext,
@@ -125,8 +124,8 @@ fn blocks(painter: &Painter, cx: &PanelContext, scale: &Scale, lane: Rect, trace
     }
 }
 
-/// Paints single steps where they are far enough apart: lines for events, dots for claims and labels, rings for
-/// refusals.
+/// Paints single steps where they are far enough apart: lines for events, dots for claims and labels,
+/// rings for refusals.
 fn ticks(painter: &Painter, palette: &Palette, scale: &Scale, lane: Rect, trace: &Trace) {
     for (steps, width) in scale.axis.stretches(scale.section) {
         let paint_span = scale.section.to - scale.section.from;

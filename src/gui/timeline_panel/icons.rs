@@ -20,7 +20,7 @@ pub enum PlaybackIcon {
     Event(Direction),
     /// Play forward or backward.
     Play(Direction),
-    /// Pause playing.
+    /// Stop playing at the cursor.
     Pause,
     /// Step into the next hypothesis.
     Into,

@@ -1,24 +1,24 @@
-//! Where the rows of the track and its steps are on the screen.
+//! The positions of the track's rows and steps on the screen.
 
 use crate::view::{TimelineAxis, TimelineSection};
 use egui::{Rect, pos2, vec2};
 
 /// Rows of the track, from top to bottom.
 pub struct Lanes {
-    /// Number of decisions in each column.
+    /// The row of the numbers of decisions.
     pub density: Rect,
-    /// Stages.
+    /// The row of the stages.
     pub stages: Rect,
-    /// Passes.
+    /// The row of the passes.
     pub passes: Rect,
-    /// Hypotheses, slices, candidates, holes.
+    /// The row of the blocks: hypotheses, slices, candidates, holes.
     pub blocks: Rect,
 }
 
-/// From steps to places on the screen.
+/// The conversion of steps to positions on the screen.
 #[derive(Clone, Copy)]
 pub struct Scale<'a> {
-    /// From steps to places along the axis.
+    /// The conversion of steps to places along the axis.
     pub axis: &'a TimelineAxis,
     /// The section of the axis that is visible.
     pub section: TimelineSection,

@@ -72,7 +72,7 @@ const RIGHT: [Control; 5] = [
     ),
 ];
 
-/// Shows the row.
+/// Shows the playback controls and the sentence about the last step.
 pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) {
     ui.spacing_mut().item_spacing = vec2(2.0, 3.0);
     ui.spacing_mut().interact_size.y = icons::SIDE_PT;

@@ -29,8 +29,7 @@ pub(super) const CLASSES: [LegendEntry; 4] = [
     LegendEntry::new("volume", [0, 0, 255], "5.2.1: three directions, clipping or several objects"),
 ];
 
-/// Names, colors and meanings of the masks (section 4). A pixel has the color of the last mask that holds the
-/// pixel.
+/// Names, colors and meanings of the masks (section 4). A pixel has the color of the last mask that holds the pixel.
 pub(super) const MASKS: [LegendEntry; 5] = [
     LegendEntry::new("dark", [74, 111, 212], "4: too near to black, its color is mostly noise"),
     LegendEntry::new("bloomed", [240, 128, 32], "4: charge spilled over from clipped neighbors"),

@@ -12,7 +12,7 @@ const DIMMED: f32 = 0.35;
 /// How areas are drawn over the photograph.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Fill {
-    /// Filled areas.
+    /// Areas filled with their color.
     #[default]
     Fill,
     /// Outlines of the areas.

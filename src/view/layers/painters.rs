@@ -27,7 +27,7 @@ pub(super) struct PaintInput<'a> {
 
 /// The photograph, and the curve from counts to sRGB codes.
 pub(super) struct Base<'a> {
-    /// Linear counts.
+    /// Linear counts of red, green and blue.
     pub photo: &'a Raster<[f32; 3]>,
     /// The curve from counts to codes.
     pub curve: Curve,

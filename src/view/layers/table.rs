@@ -21,7 +21,7 @@ pub(super) enum LayerKind {
     RegionOverlay,
 }
 
-/// One layer.
+/// A row of the table: one layer.
 pub(super) struct LayerRow {
     /// The name on buttons.
     pub name: &'static str,
@@ -29,7 +29,7 @@ pub(super) struct LayerRow {
     pub tip: &'static str,
     /// What the picture depends on.
     pub kind: LayerKind,
-    /// The legend.
+    /// The legend of the colors.
     pub legend: &'static [LegendEntry],
     /// The numbers at a pixel, where the layer has numbers of its own.
     pub numbers: Option<fn(&Intrinsic, usize) -> Vec<f32>>,

@@ -7,7 +7,7 @@ use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::reflection::{Components, ReflectionTransform};
 use crate::trace::{CandidateTested, PixelKind, Replay};
 use crate::view::MOST_PLANE_POINTS;
-use crate::view::{candidate_pixels, measured_and_ignored, pixels_of_region, sampled, tracks};
+use crate::view::{candidate_pixels, growth_pixels, measured_and_ignored, pixels_of_region, sampled};
 
 /// The working picture, and the transform into the coordinates of a plane.
 struct PlaneProjection<'a> {
@@ -102,7 +102,7 @@ pub fn growing_plane(
     let has_plane = in_plane.is_some();
     let (colors, masks) = (&working.image.pixels, &working.masks);
     let projection = PlaneProjection { working, transform: in_plane.or_else(across)? };
-    let tracks = tracks(replay, colors, masks).filter(|tracks| tracks.hypothesis == focus);
+    let tracks = growth_pixels(replay, colors, masks).filter(|tracks| tracks.hypothesis == focus);
     let (outside, newest) = tracks.map_or_else(Default::default, |tracks| (tracks.outside, tracks.newest));
     let points = projection.points(&[
         (pixels_of_region(replay, focus), PixelKind::Matte),

@@ -1,17 +1,18 @@
 //! What the image view shows of an instant, copied from the cursor so that the picture can be painted on another thread.
 
 use super::RegionNames;
-use super::looked_at::blob_at_cursor;
-use super::tracks::{candidate_pixels, test_at_cursor, tracks};
+use super::growth_pixels::{candidate_pixels, growth_pixels, test_at_cursor};
+use super::step_pixels::blob_at_cursor;
 use crate::photo::{Masks, WorkingPicture};
 use crate::raster::{Blocks, HypothesisId, LabelMap, PixelIndex, Raster};
 use crate::trace::{
     Class, Event, Grid, MergeTried, Pass, PixelKind, Replay, Stage, Step, Topic, WindowClassified,
 };
+
 /// An instant as the image view shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
-    /// The contents.
+    /// The contents of the image view.
     pub view: InstantView,
     /// The pixel of the step taken last, where the step is about a pixel, and whether the pixel changed.
     pub pixel: Option<(PixelIndex, bool)>,
@@ -184,7 +185,7 @@ fn regions(
     masks: &Masks,
     windows: Option<WindowsView>,
 ) -> RegionsView {
-    let tracks = tracks(replay, colors, masks);
+    let tracks = growth_pixels(replay, colors, masks);
     let (newest, beside) = tracks.map_or_else(Default::default, |tracks| {
         let mut beside = tracks.outside;
         beside.extend(tracks.kept_out);

@@ -4,7 +4,7 @@ use crate::raster::{HypothesisId, RegionId};
 use crate::trace::{End, Replay};
 
 /// Color of a hypothesis that a trace does not hold, sRGB.
-const UNKNOWN: [u8; 3] = [128; 3];
+const UNKNOWN_COLOR: [u8; 3] = [128; 3];
 
 /// The region that each hypothesis became part of, and a color for each hypothesis; lists by [`HypothesisId::index`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -15,14 +15,14 @@ pub struct RegionNames {
 
 impl RegionNames {
     /// The names, from a cursor at the end of its trace; `colors` are the colors of the regions, sRGB.
-    pub fn new(end: &Replay, colors: &[[u8; 3]]) -> Self {
-        let count = end.hypotheses().len();
+    pub fn new(end_of_trace: &Replay, colors: &[[u8; 3]]) -> Self {
+        let count = end_of_trace.hypotheses().len();
         let regions: Vec<Option<RegionId>> =
-            HypothesisId::all(count).map(|id| region_at_end(end, id)).collect();
-        let mut orphans = super::super::colors::orphan_colors(colors, count).into_iter();
+            HypothesisId::all(count).map(|id| region_at_end(end_of_trace, id)).collect();
+        let mut dropped_colors = super::super::colors::colors_of_dropped(colors, count).into_iter();
         let color = |&region: &Option<RegionId>| {
             let kept = region.and_then(|region| colors.get(region.index())).copied();
-            kept.or_else(|| orphans.next()).unwrap_or(UNKNOWN)
+            kept.or_else(|| dropped_colors.next()).unwrap_or(UNKNOWN_COLOR)
         };
         let colors = regions.iter().map(color).collect();
         Self { regions, colors }
@@ -35,7 +35,7 @@ impl RegionNames {
 
     /// The color of a hypothesis, sRGB: the color of the region that the hypothesis became part of, where there is one.
     pub fn color(&self, hypothesis: HypothesisId) -> [u8; 3] {
-        self.colors.get(hypothesis.index()).copied().unwrap_or(UNKNOWN)
+        self.colors.get(hypothesis.index()).copied().unwrap_or(UNKNOWN_COLOR)
     }
 
     /// The hypotheses that became part of a region, in the order in which hypotheses were made.
@@ -46,15 +46,15 @@ impl RegionNames {
 }
 
 /// The region of a hypothesis, or of the hypothesis that it became part of.
-fn region_at_end(end: &Replay, hypothesis: HypothesisId) -> Option<RegionId> {
-    let mut at = hypothesis;
+fn region_at_end(end_of_trace: &Replay, hypothesis: HypothesisId) -> Option<RegionId> {
+    let mut current = hypothesis;
     // Each hypothesis ends in one that still stood; more turns than hypotheses would be a circle.
-    for _ in 0..=end.hypotheses().len() {
-        if let Some(region) = end.region_of(at) {
+    for _ in 0..=end_of_trace.hypotheses().len() {
+        if let Some(region) = end_of_trace.region_of(current) {
             return Some(region);
         }
-        match end.hypothesis(at).and_then(crate::trace::Hypothesis::end) {
-            Some(End::Merged(into) | End::Absorbed(into)) => at = into,
+        match end_of_trace.hypothesis(current).and_then(crate::trace::Hypothesis::end) {
+            Some(End::Merged(into) | End::Absorbed(into)) => current = into,
             _ => return None,
         }
     }

@@ -5,7 +5,7 @@ use crate::trace::{Event, SeedsPlaced, Step, Trace};
 use std::ops::Range;
 
 /// In place of a ring: the owner of the pixel changes within the steps, but has not changed yet.
-const LATER: u32 = u32::MAX;
+const NOT_YET: u32 = u32::MAX;
 
 /// The rings in which a hypothesis took pixels within some steps.
 pub(super) struct Rings {
@@ -17,8 +17,8 @@ pub(super) struct Rings {
     seeds: u32,
     /// Steps at which a ring begins, ascending.
     pub(super) starts: Vec<usize>,
-    /// The pixels of the ring that took pixels last, in the order of the claims; none right after seeds or a growth were
-    /// announced.
+    /// The pixels of the ring that took pixels last, in the order of the claims; none right after seeds or a
+    /// growth were announced.
     pub(super) newest: Vec<u32>,
 }
 
@@ -40,16 +40,16 @@ impl Rings {
         };
         for (_, step) in trace.steps_in(steps.clone()) {
             if let Step::Claim { pixel, .. } = step {
-                rings.ring_of[pixel.index()] = LATER;
+                rings.ring_of[pixel.index()] = NOT_YET;
             }
         }
         for (n, step) in trace.steps_in(steps) {
-            rings.take(n, &step, labels, hypothesis);
+            rings.apply(n, &step, labels, hypothesis);
         }
         rings
     }
 
-    fn take(&mut self, n: usize, step: &Step, labels: &LabelMap, hypothesis: HypothesisId) {
+    fn apply(&mut self, n: usize, step: &Step, labels: &LabelMap, hypothesis: HypothesisId) {
         match *step {
             Step::Event(event) => {
                 if let Event::SeedsPlaced(SeedsPlaced { pixels, .. }) = event {
@@ -58,20 +58,20 @@ impl Rings {
                 if matches!(event, Event::SeedsPlaced(_) | Event::GrowthBegan(_)) {
                     self.newest.clear();
                 }
-                self.begin(n);
+                self.begin_ring(n);
             }
             Step::Claim { pixel, after, .. } if after == Some(hypothesis) => {
-                let mut nearest = LATER;
+                let mut nearest = NOT_YET;
                 labels.for_each_neighbor(pixel.index(), |near| match self.ring_of[near] {
                     0 if labels[near] == hypothesis.get() => nearest = 0,
-                    0 | LATER => {}
+                    0 | NOT_YET => {}
                     ring => nearest = nearest.min(ring),
                 });
                 if self.seeds > 0 {
                     self.seeds -= 1;
                 } else if nearest == self.ring {
                     // Reached from a pixel of this very ring: a new ring begins.
-                    self.begin(n);
+                    self.begin_ring(n);
                 }
                 if self.newest.first().is_some_and(|&first| self.ring_of[first as usize] != self.ring) {
                     self.newest.clear();
@@ -79,12 +79,12 @@ impl Rings {
                 self.newest.push(pixel.get());
                 self.ring_of[pixel.index()] = self.ring;
             }
-            Step::Claim { pixel, .. } => self.ring_of[pixel.index()] = LATER,
+            Step::Claim { pixel, .. } => self.ring_of[pixel.index()] = NOT_YET,
             Step::Refusal { .. } | Step::Label { .. } => {}
         }
     }
 
-    fn begin(&mut self, n: usize) {
+    fn begin_ring(&mut self, n: usize) {
         if self.starts.last() != Some(&n) {
             self.starts.push(n);
             self.ring += 1;

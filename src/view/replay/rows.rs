@@ -96,14 +96,14 @@ pub fn window_counts(replay: &Replay) -> Option<WindowCounts> {
     let grid = replay.grid()?;
     let mut counts = WindowCounts { windows: grid.classes.len(), ..WindowCounts::default() };
     // No event is recorded of an empty window: unclassified windows before the window at the cursor are empty.
-    let looked_at = match replay.last()? {
+    let step_pixels = match replay.last()? {
         Step::Event(Event::WindowClassified(WindowClassified { window, .. })) => *window as usize,
         Step::Event(Event::WindowsLaid(_)) => 0,
         _ => counts.windows,
     };
     for (window, (class, area)) in grid.classes.as_slice().iter().zip(grid.areas()).enumerate() {
         match class {
-            None if window < looked_at => counts.empty += 1,
+            None if window < step_pixels => counts.empty += 1,
             None => counts.waiting += 1,
             Some(None) => counts.unclassed += 1,
             Some(Some(class)) => {

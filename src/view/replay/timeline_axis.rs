@@ -10,19 +10,18 @@ use std::ops::Range;
 /// Exponent of the weight: `n` steps weigh `n` to this power.
 const COMPRESSION: f64 = 0.3;
 /// Weight of labels, as a share of the weight of other steps: there is one label per pixel, all decided alike (6).
-const LABELS: f64 = 0.02;
+const LABEL_WEIGHT: f64 = 0.02;
 /// Least share of a stage in the line.
-const LEAST_STAGE: f64 = 0.045;
+const LEAST_STAGE_SHARE: f64 = 0.045;
 /// Least share of a pass in its stage.
-const LEAST_PASS: f64 = 0.03;
+const LEAST_PASS_SHARE: f64 = 0.03;
 /// Number of steps that are visible at the largest zoom.
 const FEWEST_STEPS: f64 = 12.0;
 
 /// The steps of a trace along a line from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimelineAxis {
-    /// Steps and their places, both ascending; between two entries, places are proportional to
-    /// steps.
+    /// Steps and their places, both ascending; between two entries, places are proportional to steps.
     knots: Vec<(usize, f64)>,
 }
 
@@ -40,14 +39,16 @@ impl TimelineAxis {
     pub fn of(trace: &Trace) -> Self {
         let passes: Vec<PassSpan> = trace.passes().collect();
         let spans = trace.stages().map(|(_, steps)| steps).filter(|steps| !steps.is_empty());
-        let stages: Vec<Vec<(Range<usize>, f64)>> = spans.map(|stage| parted(&stage, &passes)).collect();
-        let weights = stages.iter().map(|parts| compressed(parts.iter().map(measure).sum())).collect();
+        let stages: Vec<Vec<(Range<usize>, f64)>> =
+            spans.map(|stage| parts_of_stage(&stage, &passes)).collect();
+        let weights =
+            stages.iter().map(|parts| compressed_weight(parts.iter().map(weighted_steps).sum())).collect();
         let mut axis = Self { knots: vec![(0, 0.0)] };
         let mut place = 0.0;
-        for (parts, share) in stages.iter().zip(shares(weights, LEAST_STAGE)) {
-            let weights = parts.iter().map(|part| compressed(measure(part))).collect();
-            for ((part, _), of_stage) in parts.iter().zip(shares(weights, LEAST_PASS)) {
-                place += share * of_stage;
+        for (parts, share) in stages.iter().zip(shares(weights, LEAST_STAGE_SHARE)) {
+            let weights = parts.iter().map(|part| compressed_weight(weighted_steps(part))).collect();
+            for ((part, _), share_of_stage) in parts.iter().zip(shares(weights, LEAST_PASS_SHARE)) {
+                place += share * share_of_stage;
                 axis.knots.push((part.end, place));
             }
         }
@@ -124,14 +125,14 @@ impl TimelineSection {
         let anchor = self.place(share);
         let least = (FEWEST_STEPS * axis.step_width(anchor)).min(1.0);
         let width = ((self.to - self.from) / factor).clamp(least, 1.0);
-        Self { from: anchor - share * width, to: anchor + (1.0 - share) * width }.within()
+        Self { from: anchor - share * width, to: anchor + (1.0 - share) * width }.within_line()
     }
 
     /// The section moved by a share of its width, within the line.
     #[must_use]
     pub fn panned(&self, shares: f64) -> Self {
         let by = shares * (self.to - self.from);
-        Self { from: self.from + by, to: self.to + by }.within()
+        Self { from: self.from + by, to: self.to + by }.within_line()
     }
 
     /// The section moved just so far that it contains a place.
@@ -144,7 +145,7 @@ impl TimelineSection {
         }
     }
 
-    fn within(self) -> Self {
+    fn within_line(self) -> Self {
         let width = (self.to - self.from).min(1.0);
         let from = self.from.clamp(0.0, 1.0 - width);
         Self { from, to: from + width }
@@ -171,12 +172,12 @@ pub fn timeline_density(
 }
 
 /// The passes of a stage and the steps between them, each with the weight of a step.
-fn parted(stage: &Range<usize>, passes: &[PassSpan]) -> Vec<(Range<usize>, f64)> {
+fn parts_of_stage(stage: &Range<usize>, passes: &[PassSpan]) -> Vec<(Range<usize>, f64)> {
     let mut parts = Vec::new();
     let mut at = stage.start;
     for PassSpan { steps, pass } in passes {
         if steps.start >= stage.start && steps.end <= stage.end {
-            let weight = if *pass == Pass::Labels { LABELS } else { 1.0 };
+            let weight = if *pass == Pass::Labels { LABEL_WEIGHT } else { 1.0 };
             parts.extend([(at..steps.start, 1.0), (steps.clone(), weight)]);
             at = steps.end;
         }
@@ -186,12 +187,12 @@ fn parted(stage: &Range<usize>, passes: &[PassSpan]) -> Vec<(Range<usize>, f64)>
     parts
 }
 
-fn measure((steps, weight): &(Range<usize>, f64)) -> f64 {
+fn weighted_steps((steps, weight): &(Range<usize>, f64)) -> f64 {
     weight * steps.len() as f64
 }
 
-fn compressed(measure: f64) -> f64 {
-    measure.powf(COMPRESSION)
+fn compressed_weight(weighted_steps: f64) -> f64 {
+    weighted_steps.powf(COMPRESSION)
 }
 
 /// Weights as shares, whose sum is 1.

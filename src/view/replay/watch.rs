@@ -19,7 +19,7 @@ pub struct Watch {
     /// Number of pixels in no hypothesis.
     pub unassigned: u32,
     /// The hypothesis that the cursor is about.
-    pub current: Option<Current>,
+    pub current: Option<CurrentHypothesis>,
     /// Unit direction of the light as estimated so far.
     pub light: Option<[f64; 3]>,
     /// The watched pixel, where one is selected.
@@ -28,7 +28,7 @@ pub struct Watch {
 
 /// The hypothesis that the cursor is about.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Current {
+pub struct CurrentHypothesis {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
     /// The region that the hypothesis will be part of in the result; none where nothing is left of the hypothesis.
@@ -46,12 +46,12 @@ pub struct Current {
 /// The selected pixel at the cursor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WatchedPixel {
-    /// The pixel.
+    /// The pixel of the photograph.
     pub pixel: PixelIndex,
     /// Color of the pixel, counts.
     pub color: [f32; 3],
-    /// Class of the pixel's window; none as long as the window was not classified, `Some(None)` where the window holds too few
-    /// pixels.
+    /// Class of the pixel's window; none as long as the window was not classified, `Some(None)` where the window
+    /// holds too few pixels.
     pub class: Option<Option<Class>>,
     /// The hypothesis that holds the pixel; none: no hypothesis.
     pub hypothesis: Option<HypothesisId>,
@@ -81,23 +81,23 @@ pub fn watch(
     colors: &Raster<[f32; 3]>,
     pixel: Option<PixelIndex>,
 ) -> Watch {
-    let standing = replay.hypotheses().iter().filter(|hypothesis| hypothesis.end().is_none()).count();
+    let active = replay.hypotheses().iter().filter(|hypothesis| hypothesis.end().is_none()).count();
     let block = replay.at().checked_sub(1).and_then(|last| replay.trace().block_at(last));
     Watch {
         at: [replay.at(), replay.trace().len()],
         stage: replay.stage(),
         pass: replay.pass(),
-        regions: [standing, replay.hypotheses().len()],
+        regions: [active, replay.hypotheses().len()],
         unassigned: replay.unassigned(),
-        current: block.and_then(|block| current(replay, names, block.topic.hypothesis())),
+        current: block.and_then(|block| current_hypothesis(replay, names, block.topic.hypothesis())),
         light: replay.light(),
-        pixel: pixel.and_then(|pixel| watched(replay, colors, pixel)),
+        pixel: pixel.and_then(|pixel| watched_pixel(replay, colors, pixel)),
     }
 }
 
-fn current(replay: &Replay, names: &RegionNames, id: HypothesisId) -> Option<Current> {
+fn current_hypothesis(replay: &Replay, names: &RegionNames, id: HypothesisId) -> Option<CurrentHypothesis> {
     let hypothesis = replay.hypothesis(id)?;
-    Some(Current {
+    Some(CurrentHypothesis {
         hypothesis: id,
         region: names.region_of(id),
         pixels: replay.size(id),
@@ -107,7 +107,7 @@ fn current(replay: &Replay, names: &RegionNames, id: HypothesisId) -> Option<Cur
     })
 }
 
-fn watched(replay: &Replay, colors: &Raster<[f32; 3]>, pixel: PixelIndex) -> Option<WatchedPixel> {
+fn watched_pixel(replay: &Replay, colors: &Raster<[f32; 3]>, pixel: PixelIndex) -> Option<WatchedPixel> {
     let [width, height] = replay.trace().pixel_blocks().picture();
     let working_pixel = replay.trace().working_pixel(pixel);
     let color = *colors.as_slice().get(working_pixel.index()).filter(|_| pixel.index() < width * height)?;

@@ -123,9 +123,9 @@ fn a_click_selects_the_region_and_with_alt_the_color() {
     click(&mut harness, at, Modifiers::NONE);
     assert_eq!(harness.state().state().selected_region(), region);
     assert!(region.is_some());
-    let [looked_at, pale] = drawing(&harness).points;
-    assert!(looked_at > 0 && pale > 0, "the rest is pale, not hidden");
-    assert_eq!(looked_at + pale, drawing(&harness).bins.len());
+    let [step_pixels, pale] = drawing(&harness).points;
+    assert!(step_pixels > 0 && pale > 0, "the rest is pale, not hidden");
+    assert_eq!(step_pixels + pale, drawing(&harness).bins.len());
     harness.run_steps(60);
     click(&mut harness, at, Modifiers::ALT);
     assert_eq!(harness.state().state().document.selection.item, Some(Item::Bin(bin)));

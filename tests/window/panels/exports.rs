@@ -1,5 +1,4 @@
-//! Files exported from the window equal those that the library writes. `tests/cli` tests the same of the command
-//! line.
+//! Files exported from the window equal those that the library writes. `tests/cli` tests the same of the command line.
 
 use crate::window::{
     Window, answer, apply, choose, click, item, marked, named, notice, open_sample, press, region, shown,

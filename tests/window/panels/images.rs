@@ -1,5 +1,5 @@
-//! Tests of the image panel on the small photograph: layers, marked pixels, and the area that an analysis is
-//! restricted to.
+//! Tests of the image panel on the small photograph: layers, marked pixels, and the area that an analysis
+//! is restricted to.
 
 use crate::window::{at, click, drag, marked, named, press, shown, size, state, tiny_window, undo, zoom_in};
 use dichroscope::view::{Arrangement, Fill, Layer, Tool};

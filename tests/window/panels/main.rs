@@ -1,9 +1,7 @@
-//! Tests of the whole window without a screen: widgets are found by accessible names, clicked, dragged and typed
-//! into.
+//! Tests of the whole window without a screen: widgets are found by accessible names, clicked, dragged and typed into.
 //!
 //! Work is done in the calling thread ([`dichroscope::app::Executor::Inline`]), so that no test waits for another
-//! thread.
-//! Only tests that draw the color space or compare pictures need a graphics adapter, see [`window::with_gpu`].
+//! thread. Only tests that draw the color space or compare pictures need a graphics adapter, see [`window::with_gpu`].
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 

@@ -1,5 +1,4 @@
-//! Tests of opening photographs by menu, path, drop, paste and list of recent files, and of the messages about
-//! errors.
+//! Tests of opening photographs by menu, path, drop, paste and list of recent files, and of the messages about errors.
 
 use crate::window::{
     Window, answer, apply, choose, click, notice, open_sample, press, region, says, shown, sigma, size,

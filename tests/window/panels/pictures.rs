@@ -1,7 +1,7 @@
 //! Pictures of panels are compared with stored ones; a few pixels may differ.
 //!
-//! `UPDATE_SNAPSHOTS=1 cargo test -p dichroscope-window-tests` writes the stored pictures anew. No picture shows a
-//! time.
+//! `UPDATE_SNAPSHOTS=1 cargo test -p dichroscope-window-tests` writes the stored pictures anew. No
+//! picture shows a time.
 
 use crate::window::{Fixture, Window, apply, named, region, with_software_driver};
 use dichroscope::app::{Command, DebugCommand, Edit, ViewCommand};

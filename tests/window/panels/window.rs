@@ -28,8 +28,8 @@ const FRAMES: usize = 3;
 pub enum Fixture {
     /// The small photograph of [`tiny`].
     Tiny,
-    /// The photograph of `Tiny`, with the camera's noise set to 2.5 counts, so that pictures do not depend on the
-    /// estimate.
+    /// The photograph of `Tiny`, with the camera's noise set to 2.5 counts, so that pictures do not
+    /// depend on the estimate.
     TinyFixedNoise,
     /// The sample scene that the program opens at its start.
     Sample,
@@ -66,8 +66,7 @@ fn undrawn(state: State) -> Window {
 }
 
 /// A window with a graphics adapter. Without an adapter, the result is `None` and the test is skipped with a message;
-/// it fails
-/// if `DICHROSCOPE_REQUIRE_GPU` is set.
+/// it fails if `DICHROSCOPE_REQUIRE_GPU` is set.
 pub fn with_gpu(size: Vec2, fixture: Fixture) -> Option<Window> {
     Some(with_device(size, fixture)?.0)
 }
@@ -80,8 +79,8 @@ pub fn with_device(size: Vec2, fixture: Fixture) -> Option<(Window, RenderState)
     }
 }
 
-/// Like [`with_gpu`], with Mesa's software driver, which drew the stored pictures: graphics cards draw edges
-/// differently.
+/// Like [`with_gpu`], with Mesa's software driver, which drew the stored pictures: graphics cards draw
+/// edges differently.
 pub fn with_software_driver(size: Vec2, fixture: Fixture) -> Option<Window> {
     let gpu = match render_state() {
         Ok(gpu) => gpu,

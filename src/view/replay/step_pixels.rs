@@ -1,7 +1,7 @@
 //! The pixels that the step at the cursor is about: the color space view shows them in full, all others faintly.
 
-use super::tracks::{
-    candidate_pixels, measured_and_ignored, pixels_of_region, sampled, test_at_cursor, tracks,
+use super::growth_pixels::{
+    candidate_pixels, growth_pixels, measured_and_ignored, pixels_of_region, sampled, test_at_cursor,
 };
 use crate::photo::Masks;
 use crate::raster::{HypothesisId, Raster};
@@ -14,8 +14,8 @@ pub enum Role {
     Own,
     /// Pixels of the hypothesis that the newest ring took.
     Newest,
-    /// Pixels that the hypothesis did not take, of the cluster that is tested, of the area that would vanish, or of a blob that is
-    /// no highlight.
+    /// Pixels that the hypothesis did not take, of the cluster that is tested, of the area that would vanish, or of a
+    /// blob that is no highlight.
     Beside,
     /// Pixels on the inside of a tested matte line, without which the length of the line is measured (5.4.1).
     Ignored,
@@ -24,19 +24,19 @@ pub enum Role {
 }
 
 /// A group of pixels, and its part in the step.
-pub type LookedAt = (Role, Vec<u32>);
+pub type StepPixels = (Role, Vec<u32>);
 
 /// The pixels that the step at the cursor is about, at most `most` of each group, evenly chosen. `focus` is the hypothesis whose
 /// pixels stand in where the step is about no pixels.
-pub fn looked_at(
+pub fn step_pixels(
     replay: &Replay,
     focus: Option<HypothesisId>,
     colors: &Raster<[f32; 3]>,
     masks: &Masks,
     most: usize,
-) -> Vec<LookedAt> {
+) -> Vec<StepPixels> {
     let groups = groups(replay, focus, colors, masks).into_iter();
-    let few = |(role, pixels): LookedAt| (role, sampled(&pixels, most).collect::<Vec<u32>>());
+    let few = |(role, pixels): StepPixels| (role, sampled(&pixels, most).collect::<Vec<u32>>());
     groups.map(few).filter(|(_, pixels)| !pixels.is_empty()).collect()
 }
 
@@ -45,14 +45,14 @@ fn groups(
     focus: Option<HypothesisId>,
     colors: &Raster<[f32; 3]>,
     masks: &Masks,
-) -> Vec<LookedAt> {
+) -> Vec<StepPixels> {
     if let Some(test) = test_at_cursor(replay) {
         let own = pixels_of_region(replay, test.hypothesis);
         let (measured, ignored) = measured_and_ignored(test, &own, colors);
         let candidate = candidate_pixels(replay, test.candidate, masks);
         return vec![(Role::Own, measured), (Role::Ignored, ignored), (Role::Beside, candidate)];
     }
-    if let Some(tracks) = tracks(replay, colors, masks) {
+    if let Some(tracks) = growth_pixels(replay, colors, masks) {
         return vec![
             (Role::Own, pixels_of_region(replay, tracks.hypothesis)),
             (Role::Beside, tracks.outside),
@@ -83,8 +83,8 @@ fn groups(
     }
 }
 
-/// The pixels of the blob that the step taken last judged, and whether the blob is a highlight; of a clipped blob, whether it is
-/// filled.
+/// The pixels of the blob that the step taken last judged, and whether the blob is a highlight; of a clipped blob,
+/// whether it is filled.
 pub fn blob_at_cursor(replay: &Replay) -> Option<(Vec<u32>, bool)> {
     let (blob, kept) = match replay.last()? {
         Step::Event(Event::BlobJudged(judged)) => (judged.blob, judged.kept),

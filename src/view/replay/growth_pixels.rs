@@ -10,7 +10,7 @@ use crate::trace::{CandidateSource, CandidateTested, Event, Replay, Topic};
 
 /// Pixels of the hypothesis that grows at the cursor, and the pixels around them.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Tracks {
+pub struct GrowthPixels {
     /// The hypothesis.
     pub hypothesis: HypothesisId,
     /// Pixels that the hypothesis has claimed since its block began and still has, in the order of the claims.
@@ -42,7 +42,7 @@ impl Bounds {
         }
     }
 
-    fn hold(&self, color: [f32; 3]) -> bool {
+    fn contains(&self, color: [f32; 3]) -> bool {
         match self {
             Self::Cylinder(cylinder) => cylinder.contains(color),
             Self::Slice(slice) => slice.contains(color),
@@ -53,11 +53,11 @@ impl Bounds {
 /// The growth in which the cursor stands; none where the step taken last belongs to none.
 ///
 /// Neighbors in no hypothesis whose colors lie inside were not reached yet: they are left out.
-pub fn tracks(replay: &Replay, colors: &Raster<[f32; 3]>, masks: &Masks) -> Option<Tracks> {
+pub fn growth_pixels(replay: &Replay, colors: &Raster<[f32; 3]>, masks: &Masks) -> Option<GrowthPixels> {
     let block = replay.trace().block_at(replay.at().checked_sub(1)?)?;
     let growth = growth(replay)?;
     let bounds = Bounds::of(replay, growth.hypothesis, block.topic);
-    let mut tracks = Tracks {
+    let mut tracks = GrowthPixels {
         hypothesis: growth.hypothesis,
         claimed: growth.claimed,
         newest: Vec::new(),
@@ -67,7 +67,7 @@ pub fn tracks(replay: &Replay, colors: &Raster<[f32; 3]>, masks: &Masks) -> Opti
     for pixel in growth.around {
         let at = pixel as usize;
         let Some(bounds) = &bounds else { continue };
-        if !masks.dark(at) && !bounds.hold(colors.as_slice()[at]) {
+        if !masks.dark(at) && !bounds.contains(colors.as_slice()[at]) {
             tracks.outside.push(pixel);
         } else if replay.labels()[at] != UNASSIGNED || masks.dark(at) || masks.distorted(at) {
             tracks.kept_out.push(pixel);
