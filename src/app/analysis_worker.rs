@@ -1,4 +1,4 @@
-//! The worker that analyzes. A newer request replaces one that waits and cancels the one under way.
+//! The worker that analyzes. A newer request replaces a waiting request and cancels the request under way.
 
 use super::report::Report;
 use crate::analysis::{Analysis, Observer, Session, Stage, StageOutput};
@@ -10,7 +10,7 @@ use std::sync::mpsc::Sender;
 use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-/// What is to be analyzed, and how.
+/// A request to analyze a photograph.
 #[derive(Clone, Debug)]
 pub struct AnalysisRequest {
     /// The request's number; larger is newer.
@@ -25,7 +25,7 @@ pub struct AnalysisRequest {
     pub tracing: Tracing,
 }
 
-/// When decisions are recorded.
+/// The time at which decisions are recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tracing {
     /// Never: the debugger is closed.
@@ -36,7 +36,7 @@ pub enum Tracing {
     AtOnce,
 }
 
-/// The request that waits for the worker; a newer one replaces it.
+/// The request that waits for the worker. A newer request replaces the waiting request.
 #[derive(Default)]
 pub(super) struct LatestRequest {
     waiting: Mutex<Waiting>,
@@ -50,7 +50,7 @@ struct Waiting {
 }
 
 impl LatestRequest {
-    /// Leaves a request; one that still waits is dropped.
+    /// Submits a request; an earlier request that still waits is dropped.
     pub(super) fn submit(&self, request: AnalysisRequest) {
         self.lock().request = Some(request);
         self.arrived.notify_one();
@@ -62,7 +62,7 @@ impl LatestRequest {
         self.arrived.notify_one();
     }
 
-    /// Waits for a request; none once it is closed.
+    /// Waits for a request; none once [`LatestRequest::close`] was called.
     fn take(&self) -> Option<AnalysisRequest> {
         let mut waiting = self.lock();
         loop {
@@ -102,7 +102,7 @@ pub(super) fn work(latest_request: &LatestRequest, outbox: &Sender<Report>, wake
     let mut analysis_worker = AnalysisWorker::default();
     while let Some(request) = latest_request.take() {
         let send = |report| {
-            // The receiver is gone once the window closes; the report is not needed then.
+            // A closed window has dropped the receiver, and needs no report.
             let _ = outbox.send(report);
             wake();
         };
@@ -243,7 +243,7 @@ fn coverage(analysis: &Analysis) -> f64 {
     assigned as f64 / lit.max(1) as f64
 }
 
-/// A run that takes longer than this shows the stages as they end.
+/// A run that takes longer than this time shows each stage at the stage's end.
 const SHOW_STAGES_AFTER: Duration = Duration::from_millis(60);
 
 /// Measures the time of each stage, reports the stages, and stops for a newer request.
@@ -255,7 +255,7 @@ struct RunObserver<'a> {
     /// The last result with the stages that have been computed anew.
     partial: Option<Analysis>,
     last_result: Option<&'a ResultSnapshot>,
-    /// Whether nothing new has been shown yet. Then the run goes on although it has been overtaken: otherwise a slider in
+    /// Whether the run has shown no stage yet. Such a run goes on although a newer request waits: otherwise a slider in
     /// steady motion over a large picture would never show a result.
     must_show: bool,
     send: &'a (dyn Fn(Report) + Sync),

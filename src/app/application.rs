@@ -13,12 +13,12 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 
-/// Where background work is done.
+/// The place where background work is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Executor {
-    /// On named threads; the caller never waits.
+    /// On named threads; the caller does not wait.
     Threads,
-    /// Inside [`Application::apply`], which returns when all is done; for tests and pictures.
+    /// Inside [`Application::apply`], which returns when all work has ended; for tests and pictures.
     Inline,
 }
 
@@ -40,7 +40,7 @@ enum Workers {
 }
 
 impl Application {
-    /// An application in which nothing is open. `wake` is called, on any thread, when [`Application::poll`] will find something.
+    /// An application in which nothing is open. `wake` is called, on any thread, when a report waits for [`Application::poll`].
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -83,12 +83,12 @@ impl Application {
         })
     }
 
-    /// All there is to show.
+    /// The state that panels show.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// Applies a command and sets its effects going.
+    /// Applies a command and starts the effects.
     pub fn apply(&mut self, command: impl Into<Command>) {
         for effect in reduce(&mut self.state, command) {
             self.carry_out(effect);
@@ -98,21 +98,21 @@ impl Application {
         }
     }
 
-    /// Takes in what the workers have finished.
+    /// Applies the reports that workers have sent.
     pub fn poll(&mut self) {
         while let Ok(report) = self.inbox.try_recv() {
             self.take_report(report);
         }
     }
 
-    /// Takes in what a worker reports and sets the effects going.
+    /// Applies a report of a worker and starts the effects.
     pub(super) fn take_report(&mut self, report: Report) {
         for effect in reduce_report(&mut self.state, report) {
             self.carry_out(effect);
         }
     }
 
-    /// Restores what was saved from another session.
+    /// Restores the settings of an earlier session.
     pub fn restore_settings(&mut self, view: super::ViewSettings, recent: Vec<std::path::PathBuf>) {
         (self.state.view, self.state.recent) = (view, recent);
     }
@@ -148,7 +148,8 @@ impl Application {
         }
     }
 
-    /// When decisions are recorded: with the result while the cursor stands among them, otherwise when no slider moves.
+    /// The time at which decisions are recorded: with the result while the cursor stands before the end of the trace, otherwise
+    /// when no slider moves.
     fn tracing(&self) -> Tracing {
         match (self.state.view.debug.open, self.state.debugger.stopped().is_some(), &self.workers) {
             (false, ..) => Tracing::Never,
@@ -166,7 +167,7 @@ impl Application {
             area: self.state.document.area.clone(),
             tracing,
         };
-        // The job keeps its begin over a series of requests, so that the spinner shows the whole wait of a slider's drag.
+        // A series of requests is one job with one beginning, so that the spinner shows the whole wait of a slider's drag.
         let begun = self.state.jobs.analysis.unwrap_or_else(Job::now);
         self.state.jobs.analysis = Some(Job { stage: None, ..begun });
         match &mut self.workers {
@@ -217,7 +218,7 @@ impl Application {
     }
 }
 
-/// Reports how far a what-if job is, and stops it.
+/// Reports the progress of a what-if job, and stops the job when `stop` is set.
 struct ProgressReporter {
     request: WhatIfRequest,
     stop: Arc<jobs::Stop>,

@@ -1,5 +1,5 @@
-//! What a person can ask for. A [`Command`] is the only way in which panels change a [`super::State`]; what workers report is
-//! a type of its own, which no panel can make.
+//! The commands of a person. A [`Command`] is the only way in which panels change a [`super::State`]; the reports of workers are
+//! a type of their own, which no panel can make.
 
 use super::{DebugCommand, Export, Gesture, Question, Severity};
 use crate::params::{AmbientSetting, Method, Parameter, Params, Setting, Switch};
@@ -9,12 +9,12 @@ use crate::view::{CubeSettings, ImageSettings, Item, Origin, PlaneSettings, Prof
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A change that a person asks for: one of five kinds, each with a reducer of its own.
+/// A change that a person wants: one of five kinds, each with a reducer of its own.
 #[derive(Clone, Debug)]
 pub enum Command {
     /// Change the document.
     Edit(Edit),
-    /// Change how things are shown.
+    /// Change how results are shown.
     View(ViewCommand),
     /// Start or stop work in the background.
     Job(JobCommand),
@@ -59,7 +59,7 @@ pub enum Edit {
     ClearSelection,
 }
 
-/// A change of how things are shown. It is no step of the undo history and needs no analysis.
+/// A change of how results are shown. Such a change is no step of the undo history and needs no analysis.
 #[derive(Clone, Debug)]
 pub enum ViewCommand {
     /// The pointer is over this item, or over none.

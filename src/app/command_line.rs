@@ -115,13 +115,13 @@ mod tests {
     }
 
     #[test]
-    fn defaults_need_no_words() {
+    fn a_call_with_defaults_has_no_flags() {
         assert_eq!(analyze_call(&State::default()), "dichroscope analyze PHOTO --out results");
         assert_eq!(analyze_call(&open("a/b.png", |_| ())), "dichroscope analyze a/b.png --out results");
     }
 
     #[test]
-    fn what_differs_is_said() {
+    fn a_call_holds_the_parameters_that_differ_from_the_defaults() {
         let mut state = open("my photo's.png", |picture| {
             picture.reading.encoding = EncodingChoice::Gamma(2.2);
             picture.reading.full_scale = Some(2040.0);
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_file_is_said() {
+    fn a_call_names_the_photograph_that_has_no_file() {
         let mut state = open("x", |picture| picture.origin = Origin::Sample("plastic8_white".into()));
         assert!(analyze_call(&state).contains("# camera8.png: the sample scene"));
         state = State { picture: Some(gray(&["."], 9)), ..State::default() };

@@ -1,4 +1,4 @@
-//! The part of the state that undo restores: parameters, area and selection.
+//! The part of the state that undo restores: parameters, area and selection; and the history of that part.
 
 use crate::params::{Parameter, Params};
 use crate::raster::Mask;
@@ -34,11 +34,11 @@ pub enum Gesture {
 pub struct History {
     past: Vec<Document>,
     future: Vec<Document>,
-    /// The gesture whose changes still belong to the last step.
+    /// The gesture whose changes belong to the last step; none: the next change is a new step.
     open: Option<Gesture>,
 }
 
-/// Number of steps kept.
+/// Largest number of steps that are kept.
 const LONGEST: usize = 500;
 
 impl History {

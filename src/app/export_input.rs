@@ -1,11 +1,11 @@
-//! What an export is made from, and its options.
+//! The input of an export, and the options of an export.
 
 use super::{Document, State, Workspace};
 use crate::raster::RegionId;
 use crate::view::{ImageSettings, Picture, ResultSnapshot};
 use std::sync::Arc;
 
-/// Options of an export. Each kind of export reads those that concern it.
+/// Options of an export. Each kind of export reads the options that it needs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ExportOptions {
     /// Share of the surface reflection that stays in the photograph without highlights, 0…1.
@@ -32,7 +32,7 @@ pub(super) struct ExportInput {
     pub(super) shown: Option<Arc<ResultSnapshot>>,
     pub(super) pinned: Option<Arc<ResultSnapshot>>,
     pub(super) document: Document,
-    /// What the image view shows, and how.
+    /// The settings of the image view.
     pub(super) image: ImageSettings,
     pub(super) selected_region: Option<RegionId>,
     /// Ends of the profile's line, pixels.

@@ -20,10 +20,10 @@ pub struct Export {
     pub options: ExportOptions,
 }
 
-/// Reports how many files of how many are written.
+/// Receives the number of files written and the number of all files.
 type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
 
-/// How a kind is written.
+/// The function that writes a kind of export.
 enum Writer {
     /// The contents of one file.
     File(fn(&Path, &ExportOptions, &ExportInput) -> Result<Contents, String>),
@@ -35,15 +35,15 @@ enum Writer {
 struct ExportRow {
     /// The name in the export dialog.
     title: &'static str,
-    /// What is written: a tooltip.
+    /// The contents of the file or folder: a tooltip.
     tip: &'static str,
     /// The end of the proposed file name. Without an extension, a file gets the photograph's.
     file: &'static str,
-    /// Whether the export dialog offers it; the others have dialogs of their own.
+    /// Whether the export dialog offers the kind; other kinds have dialogs of their own.
     offered: bool,
     /// Whether there is anything to write.
     available: fn(&State) -> bool,
-    /// How it is written.
+    /// The function that writes the export.
     writer: Writer,
 }
 
@@ -88,7 +88,7 @@ exports! {
         available: |_| true,
         writer: Writer::Folder(write::result),
     };
-    /// What the image view shows, a pixel a pixel.
+    /// The layer of the image view, one pixel of the file for each pixel of the photograph.
     Layer: ExportRow {
         title: "Image view as PNG",
         tip: "The layer that the image view shows, a pixel a pixel.",
@@ -163,22 +163,22 @@ exports! {
 }
 
 impl ExportKind {
-    /// Its name in the export dialog.
+    /// The name in the export dialog.
     pub const fn title(self) -> &'static str {
         self.row().title
     }
 
-    /// What it writes: a tooltip.
+    /// The contents of the file or folder: a tooltip.
     pub const fn tip(self) -> &'static str {
         self.row().tip
     }
 
-    /// Whether the export dialog offers it; the others have dialogs of their own.
+    /// Whether the export dialog offers the kind; other kinds have dialogs of their own.
     pub const fn is_offered(self) -> bool {
         self.row().offered
     }
 
-    /// Whether it writes a folder.
+    /// Whether the kind is a folder.
     pub const fn is_folder(self) -> bool {
         matches!(self.row().writer, Writer::Folder(_))
     }

@@ -1,4 +1,4 @@
-//! Work in the background, as the panels show it.
+//! The work in the background that the panels show.
 
 use crate::analysis::Stage;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,9 +1,11 @@
 //! The application without a screen.
 //!
-//! A [`State`] is all there is to show. Panels read it and send [`Command`]s, and [`reduce()`] applies each command to the
-//! state: it is a pure function that returns the [`Effect`]s to be carried out, and is tested without a window. An
-//! [`Application`] carries the effects out, on threads or inline in tests; its workers answer with reports, which only the
-//! application can apply.
+//! A [`State`] is all data that panels show. Panels send [`Command`]s, and [`reduce()`] applies each command to the state:
+//! a pure function that returns the [`Effect`]s to be carried out, and is tested without a window. An [`Application`] carries
+//! the effects out, on threads or inline in tests; workers answer with reports, which only the application can apply.
+//!
+//! Files use one another in one direction: plain data (document, view settings, debugger, workspace), then the state, then
+//! exports and commands, then the reducers, then the application.
 
 mod analysis_worker;
 mod application;

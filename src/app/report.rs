@@ -1,4 +1,4 @@
-//! What workers report. Only [`super::Application`] hands reports to the state.
+//! The reports of workers. Only [`super::Application`] applies reports to the state.
 
 use super::{WhatIfProgress, WhatIfRequest, Workspace};
 use crate::analysis::Stage;
@@ -7,7 +7,7 @@ use crate::trace::Replay;
 use crate::view::{Picture, ResultSnapshot};
 use std::sync::Arc;
 
-/// What a worker reports.
+/// A report of a worker.
 #[derive(Clone, Debug)]
 pub(super) enum Report {
     /// A photograph was read.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// How things are shown, and the photographs opened before.
+/// The settings of the views, and the photographs opened before.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
@@ -66,7 +66,7 @@ mod tests {
     use crate::view::Theme;
 
     #[test]
-    fn settings_come_back() {
+    fn saved_settings_are_read_back() {
         let root = tempfile::tempdir().unwrap();
         let path = root.path().join("deep/settings.json");
         assert_eq!(Settings::load(&path), (Settings::default(), None));

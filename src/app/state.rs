@@ -23,7 +23,7 @@ pub struct State {
     pub pinned: Option<Arc<ResultSnapshot>>,
     /// The item under the pointer, in any panel.
     pub hover: Option<Item>,
-    /// How things are shown.
+    /// The settings of the views.
     pub view: ViewSettings,
     /// The step debugger.
     pub debugger: Debugger,
@@ -31,7 +31,7 @@ pub struct State {
     pub(super) explained_pixel: Option<PixelIndex>,
     /// The what-if job, if one was started for the newest result.
     pub what_if_job: Option<WhatIfJob>,
-    /// Work in the background.
+    /// The work under way in the background.
     pub jobs: JobState,
     /// Notices, oldest first.
     pub notices: Vec<Notice>,

@@ -9,18 +9,18 @@ use serde::{Deserialize, Serialize};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-/// Version of the format; it rises when a field changes its name or its meaning.
+/// Version of the format. The version rises when a field changes its name or its meaning.
 const SCHEMA: u32 = 1;
 
-/// What a workspace file holds, as JSON.
+/// The contents of a workspace file, as JSON.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Workspace {
     schema: u32,
-    /// Version of the program that wrote it.
+    /// Version of the program that wrote the file.
     program: String,
     /// The photograph; in the file, a path is relative to the file's folder where it can be.
     pub origin: Origin,
-    /// The encoding of the photograph's values, in the words of `--encoding`.
+    /// The encoding of the photograph's values, as text of the flag `--encoding`.
     pub encoding: String,
     /// Counts of full scale, where it is not 255.
     #[serde(default)]
@@ -39,7 +39,7 @@ pub struct Workspace {
     /// The marked pixels.
     #[serde(default)]
     pub marked: Option<MaskRuns>,
-    /// How things are shown.
+    /// The settings of the views.
     #[serde(default)]
     pub view: ViewSettings,
 }
@@ -85,7 +85,7 @@ impl Workspace {
         })
     }
 
-    /// How the photograph is to be read.
+    /// The options with which the photograph is read.
     ///
     /// # Errors
     /// A sentence, where the encoding is unknown.
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn a_workspace_comes_back_from_its_file() {
+    fn a_saved_workspace_is_read_back() {
         let root = tempfile::tempdir().unwrap();
         std::fs::create_dir(root.path().join("photos")).unwrap();
         std::fs::create_dir(root.path().join("work")).unwrap();

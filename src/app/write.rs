@@ -35,7 +35,7 @@ pub(super) struct Contents {
     pub path: PathBuf,
     /// The bytes of the file.
     pub bytes: Vec<u8>,
-    /// What the file holds, in words.
+    /// The contents of the file, for the notice.
     pub what: String,
 }
 
@@ -64,7 +64,7 @@ pub(super) fn profile_table(path: &Path, _: &ExportOptions, input: &ExportInput)
     Ok(file(path, profile_csv(&samples, picture.size().0).into_bytes(), "the profile"))
 }
 
-/// The layer of the image view, a pixel a pixel.
+/// The layer of the image view, one pixel of the file for each pixel of the photograph.
 pub(super) fn layer(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
     let (picture, settings) = (picture(input)?, &input.image);
     let look = settings.look(input.selected_region);
@@ -119,7 +119,7 @@ pub(super) fn matte(path: &Path, options: &ExportOptions, input: &ExportInput) -
     let (shown, keep_surface) = (shown(input)?, options.keep_surface);
     let (extension, bytes) = matte_bytes(&shown.picture.photo, &shown.analysis.intrinsic, keep_surface)
         .map_err(|error| error_chain(&error))?;
-    // The format is the photograph's own, or else one that can hold its values.
+    // The format is the photograph's own, or a format that can hold the photograph's values.
     let fits = |given: &str| match extension {
         "jpg" => ["jpg", "jpeg"].contains(&given),
         "tif" => ["tif", "tiff"].contains(&given),
@@ -159,7 +159,7 @@ fn extension_of(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
-/// The files of `analyze`, as it would write them for the photograph and parameters of the result shown.
+/// The files that `analyze` would write for the photograph and the parameters of the result shown.
 pub(super) fn result(
     folder: &Path,
     options: &ExportOptions,

@@ -1,8 +1,8 @@
-//! The window's content: the application, the panels that show it, and input from keyboard and desktop.
+//! The window's content: the application, the panels, and input from keyboard and desktop.
 
 use super::dock::{Dock, Pane, Panels};
 use super::files::{Dialogs, is_workspace};
-use super::theme::{self, Palette};
+use super::theme::{self, ThemeColors};
 use super::view_export::ViewExporter;
 use super::{PanelContext, menu, notices, perform, shortcuts, timeline_panel};
 use crate::app::{Application, Command, DebugCommand, Executor, JobCommand, Settings, State, ViewCommand};
@@ -11,23 +11,23 @@ use egui::{Event, Ui};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The window's content. It needs no window: tests show it in a harness.
+/// The window's content. The content needs no window: tests show the content in a harness.
 pub struct App {
     application: Application,
     content: WindowContent,
     gpu: Option<egui_wgpu::RenderState>,
     applied_theme: Option<Theme>,
-    /// The context that workers ask for a repaint when they report.
+    /// The context whose repaint workers request when they report.
     repaint_context: Arc<Mutex<egui::Context>>,
 }
 
-/// The panels, and the dialogs that open over them.
+/// The panels, and the dialogs that open over the panels.
 #[derive(Default)]
 struct WindowContent {
     dock: Dock,
-    /// The arrangement as it was last sent to the state.
+    /// The arrangement that was last sent to the state.
     layout: String,
-    /// The camera as it was last sent to the state.
+    /// The camera that was last sent to the state.
     camera: String,
     panels: Panels,
     dialogs: Dialogs,
@@ -115,7 +115,7 @@ impl App {
             theme::apply(ui.ctx(), theme);
             self.applied_theme = Some(theme);
         }
-        let palette = Palette::of(theme);
+        let palette = ThemeColors::of(theme);
         let mut commands = Vec::new();
         let mut cx = PanelContext {
             state: self.application.state(),
@@ -128,7 +128,7 @@ impl App {
         self.content.sync_layout(&mut cx);
         self.content.sync_camera(&mut cx);
         if !commands.is_empty() {
-            // Otherwise the change would appear only when the pointer next moves.
+            // Without this request, the change would appear only when the pointer moves.
             ui.ctx().request_repaint();
         }
         for command in commands {
@@ -198,7 +198,7 @@ impl WindowContent {
             timeline_panel::track_id(),
         );
         for action in shortcuts::pressed(ui.ctx(), escape_is_action, listeners, &mut self.space_tap) {
-            // A dialog that opens is laid out invisibly in its first frame.
+            // A dialog is invisible in its first frame, in which egui measures the dialog.
             ui.ctx().request_repaint();
             perform::carry_out(action, cx, &mut self.dialogs, &mut self.help);
         }

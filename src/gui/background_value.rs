@@ -1,16 +1,17 @@
-//! A value of one panel that takes longer than a frame: it is made on a thread, and the former value is shown until then.
+//! A value of a panel whose computation takes longer than a frame: a thread computes the value, and the panel shows the former
+//! value until then.
 
 use super::task::Task;
 use egui::Context;
 
-/// Work on at most this many pixels is done in the frame itself.
+/// Largest number of pixels of work that is done within a frame, without a thread.
 pub const SYNCHRONOUS_PX: usize = 400_000;
 
 /// A value computed from a key, and the computation of the next value.
 pub struct BackgroundValue<K, T> {
-    /// The last value, with its key.
+    /// The last value, with the key of the value.
     value: Option<(K, T)>,
-    /// The key of the value that `task` makes.
+    /// The key of the value that `task` computes.
     pending_key: Option<K>,
     task: Option<Task<T>>,
 }
@@ -55,7 +56,7 @@ mod tests {
     use std::sync::mpsc::channel;
 
     #[test]
-    fn the_former_value_stays_until_the_new_one_is_there() {
+    fn the_former_value_stays_until_the_new_value_is_computed() {
         let (ctx, mut background_value) = (Context::default(), BackgroundValue::default());
         assert_eq!(background_value.get(&ctx, 1, true, || "one"), Some(&"one"));
         let (go, wait) = channel::<()>();

@@ -23,7 +23,7 @@ impl ComparePanel {
             let (Some(pinned), Some(newest)) = (pinned, newest) else { return pin_hint(ui, cx) };
             let key = (pinned.generation, newest.generation);
             let synchronous = newest.labels().len() <= SYNCHRONOUS_PX;
-            // A result is compared once all of its stages are of the same run.
+            // A result whose stages belong to different runs is not compared.
             if newest.stale_from.is_some() {
                 return buttons(ui, cx);
             }
@@ -42,7 +42,7 @@ impl ComparePanel {
     }
 }
 
-/// Shows, while no result is pinned, what the panel does and the button that pins a result.
+/// Shows, while no result is pinned, a sentence about the panel and the button that pins a result.
 fn pin_hint(ui: &mut Ui, cx: &mut PanelContext) {
     ui.label(
         RichText::new("Pin this result, change a slider, and see what changed.").color(cx.palette.secondary),
@@ -85,7 +85,7 @@ fn buttons(ui: &mut Ui, cx: &mut PanelContext) {
     decisions(ui, cx);
 }
 
-/// Shows the first decision in which the two analyses differ, and the button that finds it.
+/// Shows the first decision in which the two analyses differ, and the button that finds that decision.
 fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
     ui.horizontal(|ui| {
         let find = egui::Button::new("First decision that differs");
@@ -108,7 +108,7 @@ fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
     });
 }
 
-/// Shows what each analysis decided at a step.
+/// Shows the decision of each analysis at a step.
 fn decisions_at(ui: &mut Ui, cx: &PanelContext, step: usize) {
     let pinned = cx.state.pinned.as_ref().and_then(|pinned| pinned.trace());
     ui.vertical(|ui| {

@@ -1,6 +1,6 @@
 //! The table of the panels, and their arrangement: docked, resized, rearranged by hand, and saved with the workspace.
 //!
-//! A new panel is a module with its `show` and a row of the table.
+//! A new panel is a module with a function `show`, and a row of the table.
 
 use super::breakpoints_panel::BreakpointsPanel;
 use super::compare_panel::ComparePanel;
@@ -10,7 +10,7 @@ use super::plane_panel::PlanePanel;
 use super::profile_panel::ProfilePanel;
 use super::regions_panel::RegionsPanel;
 use super::selection_panel::SelectionPanel;
-use super::theme::Palette;
+use super::theme::ThemeColors;
 use super::timeline_panel::TimelinePanel;
 use super::watch_panel::WatchPanel;
 use super::why_panel::WhyPanel;
@@ -23,13 +23,13 @@ use serde::{Deserialize, Serialize};
 
 /// A row of the table: one panel.
 struct PaneRow {
-    /// The name on its tab.
+    /// The name on the panel's tab.
     title: &'static str,
-    /// The color behind it.
-    background: fn(&Palette) -> Color32,
-    /// The tabs that it belongs to in the first arrangement, in the order of the table.
+    /// The background color of the panel.
+    background: fn(&ThemeColors) -> Color32,
+    /// The group of tabs that the panel belongs to in the first arrangement.
     tabs: TabGroup,
-    /// Shows it in all of the given area.
+    /// Shows the panel in the whole `Ui`.
     show: fn(&mut Panels, &mut Ui, &mut PanelContext),
 }
 
@@ -46,7 +46,7 @@ enum TabGroup {
 }
 
 /// Makes [`Pane`], [`Pane::ALL`] and [`Panels`] from the table: for each panel its name in saved arrangements, the field
-/// of [`Panels`] that it keeps if it keeps anything, and its row.
+/// of [`Panels`] with the panel's own data (braces are empty without such data), and the row.
 macro_rules! panes {
     ($($(#[$attribute:meta])* $pane:ident { $($field:ident: $panel:ty)? } $row:expr;)+) => {
         /// A panel of the window.
@@ -66,11 +66,11 @@ macro_rules! panes {
             }
         }
 
-        /// What the panels have uploaded, and the gestures that they are in the middle of.
+        /// The panels' own data: uploaded textures, and gestures in progress.
         #[derive(Default)]
         pub struct Panels {
             $($(#[doc = concat!("The panel ", stringify!($pane), ".")] pub $field: $panel,)?)+
-            /// Where the color space was in the last frame; none if it was not shown.
+            /// The rectangle of the color space in the last frame; none if the color space was not shown.
             pub color_space_rect: Option<Rect>,
         }
     };
@@ -144,7 +144,7 @@ panes! {
         tabs: TabGroup::Timeline,
         show: |panels, ui, cx| panels.timeline.show(ui, cx),
     };
-    /// Why a pixel or a region is what it is.
+    /// The decisions that gave a pixel its region, or made a region.
     Why { why: WhyPanel } PaneRow {
         title: "Why",
         background: |palette| palette.panel,
@@ -168,7 +168,7 @@ panes! {
 }
 
 impl Pane {
-    /// Its name on its tab.
+    /// The name on the panel's tab.
     pub const fn title(self) -> &'static str {
         self.row().title
     }
@@ -195,12 +195,12 @@ impl Default for Dock {
 }
 
 impl Dock {
-    /// Shows every panel in its place.
+    /// Shows all panels as they are arranged.
     pub fn show(&mut self, ui: &mut Ui, panels: &mut Panels, cx: &mut PanelContext) {
         self.tree.ui(&mut DockBehavior { panels, cx }, ui);
     }
 
-    /// Whether a panel is in the window at all.
+    /// Whether a panel is in the window, in front or behind another tab.
     pub fn is_visible(&self, pane: Pane) -> bool {
         self.find(pane).is_some_and(|id| self.tree.is_visible(id))
     }
@@ -220,12 +220,12 @@ impl Dock {
         self.tree.make_active(|_, tile| matches!(tile, Tile::Pane(found) if *found == pane));
     }
 
-    /// Back to the arrangement of the first start.
+    /// Restores the first arrangement.
     pub fn reset(&mut self) {
         *self = Self::default();
     }
 
-    /// The arrangement, to be remembered: the same for the same arrangement, however its tiles are hashed.
+    /// The arrangement as text, to be saved. Equal arrangements give equal texts, although the tiles lie in a hash map.
     pub fn to_text(&self) -> String {
         let Ok(mut tree) = serde_json::to_value(&self.tree) else { return String::new() };
         tree.sort_all_objects();

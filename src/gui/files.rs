@@ -1,6 +1,6 @@
-//! Dialogs for files: always a field for the path, and the system's own file dialog where there is one.
+//! Dialogs for files: a field for the path, and beside the field the system's own file dialog, where the system has one.
 //!
-//! The system's dialog runs on a thread of its own, so that one that hangs does not stop the window.
+//! The system's dialog runs on a thread of its own, so that a dialog that hangs does not stop the window.
 
 use super::PanelContext;
 use super::dock::Pane;
@@ -12,20 +12,20 @@ use crate::view::Origin;
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
 
-/// What a dialog asks for.
+/// The dialogs of the window, by what a person chooses in the dialog.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialog {
     /// A photograph to open.
     Open,
     /// A parameter file to read.
     LoadParameters,
-    /// Where to write parameters.
+    /// The path to write the parameters to.
     SaveParameters,
     /// A workspace to read.
     OpenWorkspace,
-    /// Where to write the workspace.
+    /// The path to write the workspace to.
     SaveWorkspace,
-    /// What to export, and where.
+    /// The kind of an export, and the path to write.
     Export,
 }
 
@@ -81,7 +81,7 @@ impl Dialogs {
         }
     }
 
-    /// Shows the open dialog. Returns the view that is to be drawn, when that was chosen.
+    /// Shows the open dialog. Returns the view to draw, when the export of a view was confirmed.
     pub fn show(&mut self, ui: &Ui, cx: &mut PanelContext) -> Option<ViewExport> {
         self.take_chosen_path(ui);
         let dialog = self.dialog?;
@@ -162,7 +162,7 @@ impl Dialogs {
         ui.add_space(4.0);
     }
 
-    /// Shows the path's field and the buttons. Returns whether the question was answered.
+    /// Shows the path's field and the buttons. Returns whether the dialog was confirmed.
     fn path_row(&mut self, ui: &mut Ui, dialog: Dialog, cx: &mut PanelContext) -> bool {
         let button_text = match dialog {
             Dialog::Open | Dialog::OpenWorkspace => "Open",

@@ -1,6 +1,6 @@
 //! Icons on buttons, drawn as lines.
 
-use super::theme::Palette;
+use super::theme::ThemeColors;
 use egui::{Color32, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
 /// An icon on a button.
@@ -24,7 +24,7 @@ pub const SIDE_PT: f32 = 22.0;
 /// A button that is on or off. `name` is its accessible name; `draw` paints the icon into a square, in a color.
 pub fn icon_button(
     ui: &mut Ui,
-    palette: &Palette,
+    palette: &ThemeColors,
     on: bool,
     name: &str,
     tip: &str,
@@ -49,7 +49,7 @@ pub fn icon_button(
 }
 
 /// A button with an icon; `name` is its accessible name.
-pub fn button(ui: &mut Ui, palette: &Palette, icon: Icon, selected: bool, name: &str) -> Response {
+pub fn button(ui: &mut Ui, palette: &ThemeColors, icon: Icon, selected: bool, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ui.spacing().interact_size.y), Sense::click());
     response.widget_info(|| {
         egui::WidgetInfo::selected(egui::accesskit::Role::Button, ui.is_enabled(), selected, name)

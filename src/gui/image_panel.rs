@@ -31,7 +31,7 @@ const HANDLE_PT: f32 = 6.0;
 /// Distance that an arrow key moves the picture, points.
 const PAN_STEP_PT: f32 = 40.0;
 
-/// The panel: what it has uploaded, and the gesture in progress.
+/// The image panel: the uploaded textures, and the gesture in progress.
 #[derive(Default)]
 pub struct ImagePanel {
     textures: TextureCache,
@@ -145,7 +145,7 @@ impl ImagePanel {
         pointer.and_then(|pointer| place.pixel_at(pointer))
     }
 
-    /// The line between two layers; where it is on the screen.
+    /// Shows the line between two layers, which can be dragged; returns the horizontal position of the line, screen points.
     fn show_wipe_handle(&self, ui: &Ui, settings: &mut ImageSettings, place: &Placement) -> Option<f32> {
         let Arrangement::Wipe(share) = settings.arrangement else { return None };
         let view = place.view;
@@ -218,7 +218,7 @@ impl ImagePanel {
             .then_some(settings.brush_px);
         self.tool_state.draw(&painter, place, brush);
         if let Some(x) = wipe_x {
-            handle(&painter, cx, place.view, x);
+            paint_wipe_line(&painter, cx, place.view, x);
         }
         show_texts(ui, &painter, cx, &parts, instant.as_deref());
     }
@@ -247,7 +247,7 @@ impl ImagePanel {
         cursor::mark_step(painter, &context.place, instant);
     }
 
-    /// Sends the pixel under the pointer, when it has changed.
+    /// Sends the pixel under the pointer as hovered, when the pixel has changed.
     fn send_hover(&mut self, cx: &mut PanelContext, pixel: Option<PixelIndex>) {
         let item = pixel.map(Item::Pixel);
         let concerns_hover = self.sent_pixel.is_some() || pixel.is_some();
@@ -261,7 +261,7 @@ impl ImagePanel {
     }
 }
 
-/// Names of the layers where there are two, what their colors mean, and what the analysis warns of.
+/// Writes the names of two layers, the legends of their colors, and the warnings of the analysis.
 fn show_texts(
     ui: &Ui,
     painter: &egui::Painter,
@@ -336,7 +336,7 @@ fn pointer_is_right_of(ui: &Ui, x: f32) -> bool {
     ui.input(|input| input.pointer.interact_pos()).is_some_and(|pointer| pointer.x >= x)
 }
 
-/// A picture of an older result is dimmed when the newer one takes long.
+/// The factor of a layer's colors: gray for a layer of an older result, when the newer result takes long; otherwise white.
 fn tint(cx: &PanelContext, layer: Layer) -> Color32 {
     let state = cx.state;
     let is_late = state.jobs.analysis.is_some_and(|job| job.since.elapsed() >= PROGRESS_DELAY);
@@ -345,7 +345,7 @@ fn tint(cx: &PanelContext, layer: Layer) -> Color32 {
 }
 
 /// The wipe's line, with a grip in its middle.
-fn handle(painter: &egui::Painter, cx: &PanelContext, view: Rect, x: f32) {
+fn paint_wipe_line(painter: &egui::Painter, cx: &PanelContext, view: Rect, x: f32) {
     painter.vline(x, view.y_range(), (3.0, Color32::from_black_alpha(130)));
     painter.vline(x, view.y_range(), (1.4, overlay::MARK_COLOR));
     let grip = Rect::from_center_size(pos2(x, view.center().y), vec2(9.0, 26.0));

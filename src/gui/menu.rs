@@ -80,7 +80,7 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
     }
 }
 
-/// The menu of the encodings, for files that do not declare theirs or declare it wrongly.
+/// The menu of the encodings, for files that declare no encoding or a wrong one.
 fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
     let now = cx.state.picture.as_ref().map_or_else(ReadOptions::default, |picture| picture.reading);
     for (choice, name, tip) in [

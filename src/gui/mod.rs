@@ -1,7 +1,7 @@
-//! The window: one file per panel, all of them over one [`crate::app::State`].
+//! The window: one file per panel; all panels show one [`crate::app::State`].
 //!
-//! A panel reads the state from a [`PanelContext`] and sends commands to it. It keeps only what it has uploaded to the graphics
-//! device, and the gesture in progress.
+//! A panel reads the state from a [`PanelContext`] and sends commands to the application. A panel keeps only its
+//! uploads to the graphics device, and the gesture in progress.
 
 mod action;
 mod app;

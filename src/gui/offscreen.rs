@@ -37,7 +37,7 @@ impl OffscreenContext {
     /// A context that draws with an existing graphics device.
     ///
     /// # Errors
-    /// When the device cannot draw it.
+    /// When the device cannot draw egui's interface.
     pub fn new(
         device: WgpuSetupExisting,
         size_px: [u32; 2],

@@ -1,6 +1,6 @@
-//! The context of a panel: the state that it shows, and the commands that it sends.
+//! The context of a panel: the state to show, and the commands of the panel.
 
-use super::theme::Palette;
+use super::theme::ThemeColors;
 use crate::app::{Command, State};
 
 /// The argument of every panel, made anew in every frame.
@@ -8,10 +8,10 @@ pub struct PanelContext<'a> {
     /// The state to show.
     pub state: &'a State,
     /// The colors of the theme.
-    pub palette: &'a Palette,
-    /// The graphics device, where there is one.
+    pub palette: &'a ThemeColors,
+    /// The graphics device; none without a graphics adapter.
     pub gpu: Option<&'a egui_wgpu::RenderState>,
-    /// Whether views are drawn without their toolbars, because they are exported as pictures.
+    /// Whether the panel is drawn into a file: views then have no toolbars.
     pub is_export: bool,
     /// The commands that panels have sent in this frame.
     pub commands: &'a mut Vec<Command>,

@@ -1,4 +1,4 @@
-//! Sliders and switches: what is asked of the analysis (section 7.3, table 6).
+//! The parameters panel: sliders, switches, the given light and the analyzed area (section 7.3, table 6).
 
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
@@ -8,19 +8,19 @@ use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Sense, Slider
 
 /// Width of the labels' column, points.
 const LABEL_PT: f32 = 100.0;
-/// Width of a typed value.
+/// Width of the field of a value, points.
 const VALUE_PT: f32 = 46.0;
-/// Width of its unit.
+/// Width of a value's unit, points.
 const UNIT_PT: f32 = 38.0;
-/// Width of the `auto` button.
+/// Width of the button `auto`, points.
 const AUTO_PT: f32 = 38.0;
-/// Height of a row.
+/// Height of a row, points.
 const ROW_PT: f32 = 20.0;
-/// A panel of less than this is narrow.
+/// Width below which a panel is narrow, points.
 const NARROW_PT: f32 = 272.0;
-/// Width of the labels' column in a narrow panel.
+/// Width of the labels' column in a narrow panel, points.
 const NARROW_LABEL_PT: f32 = 78.0;
-/// Between the columns.
+/// Distance between two columns, points.
 const GAP_PT: f32 = 4.0;
 
 /// Shows the panel.
@@ -99,7 +99,7 @@ impl Columns {
     fn of(ui: &mut Ui) -> Self {
         let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_PT), egui::Sense::hover());
         let mut left = row.left();
-        // In a narrow panel the tooltips tell the units.
+        // In a narrow panel only the tooltips show the units.
         let (label, unit) =
             if row.width() < NARROW_PT { (NARROW_LABEL_PT, 0.0) } else { (LABEL_PT, UNIT_PT) };
         let slider = (row.width() - label - VALUE_PT - unit - AUTO_PT - 4.0 * GAP_PT).max(20.0);
@@ -123,7 +123,7 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
     let setting = cx.state.document.params.get(parameter);
     let used = cx.state.newest.as_ref().map(|shown| shown.analysis.used.get(parameter));
     let gesture = Gesture::Parameter(parameter);
-    // What is typed or dragged starts from what is in force.
+    // Dragging and typing start from the value in force.
     let mut value = setting.value().or(used).filter(|value| value.is_finite()).unwrap_or(spec.paper);
     let tip = format!(
         "{}: {}.\nPaper, table 6: {} {}. Double-click: back to the default. ({})",
@@ -139,7 +139,7 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
             .step_by(spec.slider.step)
             .logarithmic(spec.slider.logarithmic)
             .clamping(egui::SliderClamping::Never);
-        // No tooltip here: it would hide the rows below from the hand that drags.
+        // The slider has no tooltip, which would hide the rows below while a person drags.
         let slider = widgets::clickable(&columns.slider.show(ui, slider));
         slider.widget_info(|| egui::WidgetInfo::slider(true, value, spec.title));
         let decimals = usize::from(spec.slider.step < 1.0) * 2;
@@ -183,7 +183,7 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
     });
 }
 
-/// The pinned illuminant, the ambient light and the outlined area.
+/// Shows the values that a person gives by hand: the light, the ambient light and the analyzed area.
 fn given_by_hand(ui: &mut Ui, cx: &mut PanelContext) {
     widgets::heading(ui, cx.palette, "By hand");
     illuminant(ui, cx);
@@ -197,7 +197,7 @@ fn given_by_hand(ui: &mut Ui, cx: &mut PanelContext) {
                 let pixels = area.as_slice().iter().filter(|&&inside| inside).count();
                 ui.label(format!("{} px", widgets::grouped(pixels)));
             }
-            // In a narrow panel the button alone has room.
+            // A narrow panel has room for the button only.
             None if narrow => {}
             None => {
                 ui.label(RichText::new("whole picture").color(cx.palette.secondary));
@@ -219,11 +219,11 @@ fn given_by_hand(ui: &mut Ui, cx: &mut PanelContext) {
     });
 }
 
-/// The light: the one found, or one that is given and turns every plane to it.
+/// Shows the direction of the light: the direction found, or a given direction, to which every plane then turns.
 fn illuminant(ui: &mut Ui, cx: &mut PanelContext) {
     let setting = cx.state.document.params.illuminant;
     let given = setting.direction();
-    // As it was typed: a unit vector would turn with each digit.
+    // The numbers as typed: the components of a unit vector would all change with each digit.
     let field = match setting {
         IlluminantSetting::Given(bands) if bands.iter().all(|&band| band <= 1.0) => Some(bands),
         _ => given,
@@ -253,7 +253,7 @@ fn illuminant(ui: &mut Ui, cx: &mut PanelContext) {
     }
 }
 
-/// The ambient light: what was found and subtracted, or what is given.
+/// Shows the ambient light: the counts that were found and subtracted, or given counts.
 fn ambient(ui: &mut Ui, cx: &mut PanelContext) {
     let setting = cx.state.document.params.ambient;
     let found = cx.state.newest.as_ref().map(|shown| shown.analysis.intrinsic.ambient);
@@ -295,7 +295,8 @@ struct Bands {
 }
 
 impl Bands {
-    /// Shows it with something at its end; whether a number was changed, and whether it was let go of.
+    /// Shows the row with the widgets of `end` at the right; returns whether a number was changed, and whether a number was
+    /// released.
     fn show(&self, ui: &mut Ui, values: &mut [f64; 3], end: impl FnOnce(&mut Ui)) -> [bool; 2] {
         let narrow = ui.available_width() < NARROW_PT;
         if narrow {

@@ -2,7 +2,7 @@
 
 mod hypothesis_table;
 
-use super::theme::{Palette, SMALL_PT};
+use super::theme::{SMALL_PT, ThemeColors};
 use super::{PanelContext, widgets};
 use crate::app::{Edit, ViewCommand};
 use crate::intrinsic::{HighlightBranch, RegionReflection};
@@ -141,7 +141,7 @@ impl RegionsPanel {
         }
     }
 
-    fn heading(&mut self, ui: &mut Ui, palette: &Palette, key: SortKey, title: &str, tip: &str) {
+    fn heading(&mut self, ui: &mut Ui, palette: &ThemeColors, key: SortKey, title: &str, tip: &str) {
         let chosen = self.key == key;
         ui.with_layout(layout_of(key), |ui| {
             if sorted_by(ui, palette, chosen.then_some(self.descending), title, tip) {
@@ -187,7 +187,7 @@ fn layout_of(key: SortKey) -> Layout {
     }
 }
 
-fn cells(row: &mut TableRow, palette: &Palette, region: &RegionReflection, shown: &ResultSnapshot) {
+fn cells(row: &mut TableRow, palette: &ThemeColors, region: &RegionReflection, shown: &ResultSnapshot) {
     let dash = || RichText::new("\u{2013}").color(palette.secondary);
     let plain = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).selectable(false));
     cell(row, |ui| {
@@ -258,7 +258,7 @@ fn cell(row: &mut TableRow, contents: impl FnOnce(&mut Ui)) {
 }
 
 /// Shows a square of a unit vector's color, then its three components in aligned columns.
-fn vector(ui: &mut Ui, palette: &Palette, vector: Option<[f64; 3]>) {
+fn vector(ui: &mut Ui, palette: &ThemeColors, vector: Option<[f64; 3]>) {
     ui.spacing_mut().item_spacing.x = 4.0;
     let Some(vector) = vector else {
         ui.label(RichText::new("\u{2013}").color(palette.secondary));
@@ -323,7 +323,7 @@ fn ambient(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
 
 /// Shows the title of a sortable column; returns whether the title was clicked. `descending` is the order of the rows
 /// if they are sorted by this column, otherwise `None`.
-fn sorted_by(ui: &mut Ui, palette: &Palette, descending: Option<bool>, title: &str, tip: &str) -> bool {
+fn sorted_by(ui: &mut Ui, palette: &ThemeColors, descending: Option<bool>, title: &str, tip: &str) -> bool {
     let arrow = match descending {
         None => "",
         Some(false) => " \u{2191}",

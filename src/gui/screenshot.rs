@@ -42,7 +42,7 @@ struct GalleryPicture {
     cube: CubeSettings,
     /// Position of the debugger's cursor; `None` for the end of the trace.
     moment: Option<Moment>,
-    /// Whether the why panel shows a pixel's history and what would change the pixel's result.
+    /// Whether the why panel shows a pixel's history and the parameters that would change the pixel's result.
     shows_why: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The keyboard: one list, which decides what keys do and is shown as help.
+//! The list of all keys: the actions of the keys, and the help that shows them.
 
 mod debug;
 mod shortcut;
@@ -75,7 +75,7 @@ const GENERAL: &[Shortcut] = &[
 /// A window of this width has room for four columns of keys, points.
 const FOUR_COLUMNS_PT: f32 = 1200.0;
 
-/// What the pointer does, listed with the keys.
+/// The effects of the pointer, which the help lists beside the keys.
 const POINTER_HELP: &[(&str, &str)] = &[
     ("Scroll", "zoom at the pointer"),
     ("Drag", "pan the image, orbit the color space"),
@@ -89,7 +89,7 @@ const POINTER_HELP: &[(&str, &str)] = &[
     ("X Y U D S E M on the cube", "named views, see its menu"),
 ];
 
-/// The keys of an action as text, for menus and tooltips; empty where it has none.
+/// The keys of an action as text, for menus and tooltips; empty for an action without keys.
 pub fn keys_of(ctx: &egui::Context, action: Action) -> String {
     let shortcut = all_shortcuts().find(|shortcut| shortcut.action == action);
     shortcut.map_or_else(String::new, |shortcut| keys_as_text(ctx, shortcut.keys))
@@ -99,7 +99,7 @@ pub fn keys_of(ctx: &egui::Context, action: Action) -> String {
 fn keys_as_text(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
     let all_shortcuts = ctx.format_shortcut(&keys);
     let symbol = match keys.logical_key {
-        // Of these the bundled fonts have no other sign.
+        // The bundled fonts have these arrows, and not those of egui's symbols.
         Key::ArrowLeft => "\u{2190}",
         Key::ArrowRight => "\u{2192}",
         key => key.symbol_or_name(),
@@ -137,7 +137,7 @@ pub fn pressed(
     actions
 }
 
-/// Shows the list of keys, in a window that stays until it is closed.
+/// Shows the list of keys in a window of its own, until a person closes the window.
 pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
     let ctx = ui.ctx().clone();
     let columns: &[&[&str]] = if ctx.content_rect().width() >= FOUR_COLUMNS_PT {

@@ -1,6 +1,6 @@
 //! A skewed-T test (section 5.4.1) in words: each value with its limit, and whether it passed.
 
-use super::theme::{Palette, SMALL_PT};
+use super::theme::{SMALL_PT, ThemeColors};
 use crate::trace::CandidateTested;
 use crate::view::{Check, candidate_name, skewed_t_view};
 use egui::accesskit::Role;
@@ -10,7 +10,7 @@ use egui::{Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec
 const MARK_PT: f32 = 12.0;
 
 /// Shows the test with its upper left corner at `corner`, on the background color `ground`; returns the rectangle.
-pub fn show(ui: &Ui, palette: &Palette, ground: Color32, corner: Pos2, test: &CandidateTested) -> Rect {
+pub fn show(ui: &Ui, palette: &ThemeColors, ground: Color32, corner: Pos2, test: &CandidateTested) -> Rect {
     let halo = ground.gamma_multiply(0.8);
     let heading = format!("highlight of {}: {}?", test.hypothesis, candidate_name(test.candidate));
     let tip =
@@ -27,7 +27,7 @@ pub fn show(ui: &Ui, palette: &Palette, ground: Color32, corner: Pos2, test: &Ca
 /// secondary color if passed.
 fn line(
     ui: &Ui,
-    (palette, halo): (&Palette, Color32),
+    (palette, halo): (&ThemeColors, Color32),
     at: Pos2,
     text: &str,
     passed: Option<bool>,

@@ -1,6 +1,6 @@
-//! What tests of the window look at beyond accessible names: what two panels have drawn, as plain data.
+//! The drawings of two panels as plain data. Tests of the window look at these drawings and at accessible names.
 //!
-//! No panel uses this module. It is public for the tests of the window, which are a package of their own.
+//! No panel uses this module. The module is public for the tests of the window, which are a package of their own.
 
 pub use super::cube_panel::testing::{ColorSpaceDrawing, color_space_pixels};
 pub use super::image_panel::Placement;

@@ -5,7 +5,7 @@ use egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, Style, TextStyle, 
 
 /// The colors of a theme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Palette {
+pub struct ThemeColors {
     /// Background of images.
     pub background: Color32,
     /// Background of panels and controls.
@@ -24,7 +24,7 @@ pub struct Palette {
     pub error: Color32,
 }
 
-impl Palette {
+impl ThemeColors {
     /// The colors of `theme`.
     pub fn of(theme: Theme) -> Self {
         match theme {
@@ -69,13 +69,13 @@ pub fn load_fonts(ctx: &egui::Context) {
 
 /// Applies the look of `theme` to the whole context.
 pub fn apply(ctx: &egui::Context, theme: Theme) {
-    let palette = Palette::of(theme);
+    let palette = ThemeColors::of(theme);
     let base = if theme == Theme::Dark { egui::Theme::Dark } else { egui::Theme::Light };
     ctx.set_theme(base);
     ctx.all_styles_mut(|style| apply_to_style(style, theme, &palette));
 }
 
-fn apply_to_style(style: &mut Style, theme: Theme, palette: &Palette) {
+fn apply_to_style(style: &mut Style, theme: Theme, palette: &ThemeColors) {
     style.visuals = visuals(theme, palette);
     let font = |size| FontId::new(size, FontFamily::Proportional);
     style.text_styles = [
@@ -101,7 +101,7 @@ fn apply_to_style(style: &mut Style, theme: Theme, palette: &Palette) {
     style.animation_time = 0.0;
 }
 
-fn visuals(theme: Theme, palette: &Palette) -> Visuals {
+fn visuals(theme: Theme, palette: &ThemeColors) -> Visuals {
     let mut visuals = if theme == Theme::Dark { Visuals::dark() } else { Visuals::light() };
     visuals.override_text_color = None;
     visuals.panel_fill = palette.panel;

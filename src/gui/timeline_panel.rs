@@ -56,7 +56,7 @@ impl TimelinePanel {
     }
 }
 
-/// Shows, while no decisions are recorded, what that means and the button that starts recording.
+/// Shows, while no decisions are recorded, a sentence and the button that starts recording.
 fn recording_off(ui: &mut Ui, cx: &mut PanelContext) {
     ui.add_space((ui.available_height() / 2.0 - 14.0).max(4.0));
     ui.horizontal_wrapped(|ui| {

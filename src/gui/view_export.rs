@@ -5,7 +5,7 @@ use super::cube_panel::CubePanel;
 use super::dock::{Pane, Panels};
 use super::offscreen::OffscreenContext;
 use super::task::Task;
-use super::theme::{self, Palette};
+use super::theme::{self, ThemeColors};
 use crate::app::{
     Command, DrawnPicture, Export, ExportKind, ExportOptions, JobCommand, Severity, State, ViewCommand,
 };
@@ -44,13 +44,13 @@ impl ViewExporter {
         self.drawing = Task::start(ctx, "view export", draw);
     }
 
-    /// The command that writes the picture, once it is drawn.
+    /// The command that writes the picture, once the picture is drawn; none before.
     pub fn take_command(&mut self) -> Option<Command> {
         Task::take(&mut self.drawing)
     }
 }
 
-/// Pictures of at most this many columns have one pixel for each point; in larger ones, text and lines grow with the size.
+/// Pictures of at most this many columns have one pixel for each point; in wider pictures, text and lines grow with the size.
 const COLUMNS_AT_SCALE_ONE: f32 = 900.0;
 
 fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderState) -> Command {
@@ -61,7 +61,7 @@ fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderSt
         |mut offscreen_context| {
             theme::load_fonts(offscreen_context.ctx());
             theme::apply(offscreen_context.ctx(), state.view.theme);
-            let (palette, gpu) = (Palette::of(state.view.theme), offscreen_context.gpu());
+            let (palette, gpu) = (ThemeColors::of(state.view.theme), offscreen_context.gpu());
             let mut panels = Panels { cube, ..Panels::default() };
             offscreen_context.picture(|ui| {
                 let mut ignored = Vec::new();

@@ -1,6 +1,6 @@
-//! The watch panel: values at the debugger's cursor, with a mark on those that changed since the cursor last stopped.
+//! The watch panel: values at the debugger's cursor, with a mark on each value that changed since the cursor last stopped.
 
-use super::theme::{Palette, SMALL_PT};
+use super::theme::{SMALL_PT, ThemeColors};
 use super::{PanelContext, widgets};
 use crate::color::Vec3;
 use crate::view::{AxisDistance, CurrentHypothesis, Watch, WatchedPixel, watch};
@@ -23,7 +23,7 @@ const LINE_PT: f32 = 18.0;
 #[derive(Default)]
 pub struct WatchPanel {
     now: Option<CursorValues>,
-    /// The lines at the position where the cursor was at rest before.
+    /// The lines at the earlier position of rest, which new lines are compared with.
     lines_before: Vec<Vec<Line>>,
 }
 
@@ -79,8 +79,8 @@ impl WatchPanel {
         });
     }
 
-    /// Stores the values of this frame. When the cursor leaves a position at which it had stopped, the values of that
-    /// position become those that new values are compared with.
+    /// Stores the values of this frame. When the cursor leaves a position of rest, the values at that position are kept, so
+    /// that new values are compared with them.
     fn store_values(&mut self, at: (u64, usize), is_at_rest: bool, groups: Vec<Vec<Line>>) {
         let before = self.now.replace(CursorValues { at, is_at_rest, groups });
         if let Some(before) = before.filter(|before| before.at != at && before.is_at_rest) {
@@ -166,7 +166,7 @@ fn pixel_lines(pixel: &WatchedPixel, width: usize) -> Vec<Line> {
 }
 
 /// Shows groups of lines, in two columns if there is room.
-fn table(ui: &mut Ui, palette: &Palette, groups: &[Vec<Line>], changed: impl Fn(&Line) -> bool) {
+fn table(ui: &mut Ui, palette: &ThemeColors, groups: &[Vec<Line>], changed: impl Fn(&Line) -> bool) {
     let groups_per_row = if ui.available_width() >= 2.0 * GROUP_PT + 8.0 { 2 } else { 1 };
     for row in groups.chunks(groups_per_row) {
         ui.horizontal_top(|ui| {
@@ -183,7 +183,7 @@ fn table(ui: &mut Ui, palette: &Palette, groups: &[Vec<Line>], changed: impl Fn(
     }
 }
 
-fn show_line(ui: &mut Ui, palette: &Palette, line: &Line, changed: bool) {
+fn show_line(ui: &mut Ui, palette: &ThemeColors, line: &Line, changed: bool) {
     ui.horizontal(|ui| {
         name(ui, palette, line, changed);
         let text_color = if changed { palette.accent } else { palette.text };
@@ -194,7 +194,7 @@ fn show_line(ui: &mut Ui, palette: &Palette, line: &Line, changed: bool) {
     });
 }
 
-fn name(ui: &mut Ui, palette: &Palette, line: &Line, changed: bool) {
+fn name(ui: &mut Ui, palette: &ThemeColors, line: &Line, changed: bool) {
     let size = vec2(NAME_PT, LINE_PT);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
         ui.set_min_size(size);
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn what_changed_since_the_last_rest_is_marked() {
+    fn values_that_changed_since_the_last_rest_are_marked() {
         let mut panel = WatchPanel::default();
         let marked =
             |panel: &WatchPanel| panel.now.as_ref().is_some_and(|now| panel.has_changed(&now.groups[0][0]));

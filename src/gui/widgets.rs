@@ -1,10 +1,10 @@
 //! Small widgets and formats that several panels share.
 
-use super::theme::{Palette, SMALL_PT};
+use super::theme::{SMALL_PT, ThemeColors};
 use egui::{Align, Color32, Layout, Response, RichText, Sense, Ui, vec2};
 
 /// A heading in the secondary color over a group of controls.
-pub fn heading(ui: &mut Ui, palette: &Palette, text: &str) -> Response {
+pub fn heading(ui: &mut Ui, palette: &ThemeColors, text: &str) -> Response {
     ui.add_space(6.0);
     ui.label(RichText::new(text).size(SMALL_PT).color(palette.secondary))
 }
@@ -24,7 +24,7 @@ pub fn clickable(slider: &Response) -> Response {
 }
 
 /// A number, and its unit in the secondary color, right-aligned in `width` points.
-pub fn number(ui: &mut Ui, palette: &Palette, width: f32, value: &str, unit: &str) {
+pub fn number(ui: &mut Ui, palette: &ThemeColors, width: f32, value: &str, unit: &str) {
     ui.allocate_ui_with_layout(vec2(width, 18.0), Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         ui.set_min_width(width);
@@ -36,7 +36,7 @@ pub fn number(ui: &mut Ui, palette: &Palette, width: f32, value: &str, unit: &st
 }
 
 /// A sentence in the middle of a panel that has nothing to show.
-pub fn placeholder(ui: &mut Ui, palette: &Palette, text: &str) {
+pub fn placeholder(ui: &mut Ui, palette: &ThemeColors, text: &str) {
     ui.centered_and_justified(|ui| ui.label(RichText::new(text).color(palette.secondary)));
 }
 

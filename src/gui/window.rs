@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn a_reason_tells_no_places_in_sources() {
+    fn an_error_message_has_no_source_location() {
         let winit = "winit EventLoopError: os error at /home/a/linux/mod.rs:765: neither DISPLAY nor WAYLAND_DISPLAY is set.";
         assert_eq!(short_reason(winit), "neither DISPLAY nor WAYLAND_DISPLAY is set");
         assert_eq!(short_reason("no adapter: out of memory"), "no adapter: out of memory");

@@ -89,7 +89,7 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
-    fn regions_meet_their_objects() {
+    fn each_region_is_compared_with_the_object_that_it_overlaps_most() {
         let found = ["11122", "11122", "....3"];
         let mut picture = Arc::into_inner(gray(&found, 100)).unwrap();
         let real = labels(&["11112", "11112", "....."]);

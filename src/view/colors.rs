@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn a_brush_with_another_is_no_heritage() {
+    fn a_small_overlap_passes_no_color_on() {
         let first = labels(&["1111111111.........."]);
         let second = labels(&[".........11111111111"]);
         assert!(continued_regions(&first, &second).is_empty());
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn of_two_alike_that_come_to_touch_the_smaller_takes_another_color() {
+    fn of_two_touching_regions_of_one_color_the_smaller_takes_another_color() {
         let apart = labels(&["111111..22"]);
         let touching = labels(&["11111112.2"]);
         let alike = [Palette::new().color(3); 2];

@@ -367,7 +367,7 @@ mod tests {
     }
 
     #[test]
-    fn the_angle_between_two_lights_is_told() {
+    fn the_angle_between_two_lights_is_computed() {
         let picture = gray(&["11"], 90);
         let lit = |direction| {
             let mut shown = divided(&picture, &["11"]);

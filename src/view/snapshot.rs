@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn an_heir_covers_most_and_of_equals_has_the_smaller_number() {
+    fn the_best_overlap_covers_most_and_of_equals_has_the_smaller_number() {
         let (before, after) = (labels("0111122223340"), labels("1330122110443"));
         assert_eq!(best_overlaps(&before, &after), [1, 3, 1, 4, 4].map(RegionId::from_label));
         let best_overlap = |before: &LabelMap, after: &LabelMap, region: usize| {

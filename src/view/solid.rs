@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn what_bounds_nothing_has_no_face() {
+    fn a_half_space_that_bounds_nothing_has_no_face() {
         let mut sides = cube(1.0).to_vec();
         sides.push(HalfSpace::new([1.0; 3], 9.0));
         sides.push(HalfSpace::new([2.0, 0.0, 0.0], 2.0));

@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn known_colors_lie_where_the_books_say() {
+    fn known_colors_have_their_published_coordinates() {
         check(ColorSpace::Rgb, [51.0, 102.0, 255.0], [0.2, 0.4, 1.0]);
         // sRGB's red: L* 53.24, a* 80.09, b* 67.20.
         let lab = |v: f32| 0.5 + v / 220.0;
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_color_has_is_no_color() {
+    fn coordinates_outside_the_space_are_no_color() {
         assert_eq!(ColorSpace::Hsv.inverse([1.0, 0.5, 0.5], 255.0), None, "outside the cone");
         assert_eq!(ColorSpace::Lab.inverse([1.0, 0.0, 0.1], 255.0), None);
         assert_eq!(ColorSpace::Chromaticity.inverse([0.8, 0.8, 0.5], 255.0), None);

@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn a_window_has_the_class_of_the_classification() {
+    fn statistics_of_a_window_have_its_class() {
         let shown = tiny();
         let windows = &shown.analysis.windows;
         for window in 0..windows.classes.len() {

@@ -35,7 +35,7 @@ pub enum Condition {
     CandidateFails(CandidateCheck),
     /// A window is of this class.
     ClassIs(SavedClass),
-    /// Two hypotheses want the same pixel; none: any hypothesis.
+    /// Two hypotheses claim the same pixel; none: any hypothesis.
     Conflict(Option<HypothesisId>, Option<HypothesisId>),
 }
 
@@ -80,7 +80,7 @@ impl CandidateCheck {
     }
 }
 
-/// A class as it is written into workspaces.
+/// A class of windows, in the spelling of workspace files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[allow(missing_docs, reason = "as Class")]

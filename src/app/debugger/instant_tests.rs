@@ -54,7 +54,7 @@ fn events<'a>(trace: &'a Trace, wanted: impl Fn(&Event) -> bool + 'a) -> impl It
 }
 
 #[test]
-fn the_cursor_is_followed_before_the_end_only_and_where_that_is_wanted() {
+fn the_cursor_is_followed_before_the_end_if_the_setting_is_on() {
     let mut application = application();
     assert!(application.state().followed().is_none(), "at the end the result is shown");
     seek(&mut application, 10);
@@ -133,7 +133,7 @@ fn windows_appear_one_by_one_and_a_pair_that_is_joined_is_one() {
 }
 
 #[test]
-fn what_a_region_took_lies_inside_and_what_it_left_outside_or_elsewhere() {
+fn claimed_pixels_lie_inside_the_bounds_and_refused_pixels_outside() {
     let mut application = application();
     let trace = trace(&application);
     let grows = |topic: Topic| matches!(topic, Topic::Hypothesis(_) | Topic::Slice(_));
@@ -192,7 +192,7 @@ fn the_newest_ring_is_reached_from_the_one_before() {
 }
 
 #[test]
-fn a_test_looks_at_both_clusters_and_at_what_it_ignores() {
+fn a_test_is_about_both_clusters_and_the_ignored_pixels() {
     let mut application = application();
     let trace = trace(&application);
     let accepted = |event: &Event| matches!(event, Event::CandidateTested(test) if test.verdict.accepted());
@@ -221,7 +221,7 @@ fn a_test_looks_at_both_clusters_and_at_what_it_ignores() {
 }
 
 #[test]
-fn rows_tell_what_became_of_each_hypothesis_by_now() {
+fn rows_show_the_status_of_each_hypothesis_at_the_cursor() {
     let mut application = application();
     let trace = trace(&application);
     let block =
@@ -255,7 +255,7 @@ fn rows_tell_what_became_of_each_hypothesis_by_now() {
 }
 
 #[test]
-fn the_place_is_told_in_a_few_words() {
+fn the_place_of_the_cursor_is_named() {
     let mut application = application();
     let trace = trace(&application);
     seek(&mut application, 0);

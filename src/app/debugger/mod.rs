@@ -29,17 +29,17 @@ pub struct Debugger {
     pub replay: Option<Replay>,
     /// Names and colors of the trace's regions.
     pub names: Arc<RegionNames>,
-    /// Number of the result whose trace it is.
+    /// Number of the result whose trace is replayed.
     pub generation: u64,
     /// The hypothesis that was chosen in a table.
     pub chosen: Option<HypothesisId>,
-    /// The direction in which the cursor plays; none: it does not play.
+    /// The direction in which the cursor plays; none: the cursor does not play.
     pub playing: Option<Direction>,
     /// The breakpoint that stopped the cursor last: its index in [`DebugSettings::breakpoints`].
     pub stopped_by: Option<usize>,
-    /// The first step at which the trace differs from the pinned result's, if that was asked for.
+    /// The first step at which the trace differs from the pinned result's trace, once the two were compared.
     pub difference: Option<Difference>,
-    /// The regions of the result whose trace it is.
+    /// The regions of the result whose trace is replayed.
     pub(super) finals: Option<Arc<FinalRegions>>,
     /// The step at which playing ends; none: the end of the trace.
     pub(super) play_until: Option<usize>,

@@ -71,7 +71,7 @@ fn a_result_comes_with_its_trace_and_the_cursor_at_its_end() {
 }
 
 #[test]
-fn without_the_debugger_nothing_is_recorded_and_opening_it_records_what_is_there() {
+fn a_closed_debugger_records_nothing_and_an_opened_one_records_the_result() {
     let mut application = application();
     settings(&mut application, |settings| settings.open = false);
     assert!(application.state().debugger.replay.is_none());
@@ -194,7 +194,7 @@ fn playing_goes_on_with_time_stops_at_the_end_and_may_begin_anew() {
 }
 
 #[test]
-fn into_plays_one_hypothesis() {
+fn the_command_into_plays_one_hypothesis() {
     let mut application = application();
     let first = block(&trace(&application), grows);
     let linear = trace(&application).steps_of(Stage::Linear);
@@ -394,7 +394,7 @@ fn another_picture_closes_the_trace() {
 }
 
 #[test]
-fn what_is_watched_is_what_stands_at_the_cursor() {
+fn the_watch_list_holds_the_values_at_the_cursor() {
     let mut application = application();
     let picture = Arc::clone(application.state().picture.as_ref().unwrap());
     let first = block(&trace(&application), grows);
@@ -417,7 +417,7 @@ fn what_is_watched_is_what_stands_at_the_cursor() {
 }
 
 #[test]
-fn the_growth_at_the_cursor_is_the_regions_and_its_surroundings_are_not() {
+fn pixels_of_a_growth_belong_to_the_hypothesis_and_its_surroundings_do_not() {
     let mut application = application();
     let first = block(&trace(&application), grows);
     debug(&mut application, DebugCommand::Seek(first.steps.end));
@@ -430,7 +430,7 @@ fn the_growth_at_the_cursor_is_the_regions_and_its_surroundings_are_not() {
 }
 
 #[test]
-fn a_pixel_is_told_newest_first_with_its_hypothesis_and_its_region() {
+fn the_history_of_a_pixel_is_newest_first_with_hypothesis_and_region() {
     let application = application();
     let (state, trace) = (application.state(), trace(&application));
     let shown = state.newest.as_ref().unwrap();

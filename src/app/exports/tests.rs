@@ -30,7 +30,7 @@ fn write_one(export: &Export, input: &ExportInput) -> Result<String, String> {
 }
 
 #[test]
-fn every_file_is_written_and_said() {
+fn every_kind_of_file_is_written_and_named() {
     let root = tempfile::tempdir().unwrap();
     let at = |name: &str| root.path().join(name);
     let drawn = Some(DrawnPicture { size: [2, 2], rgba: vec![255; 16].into() });
@@ -62,7 +62,7 @@ fn every_file_is_written_and_said() {
 }
 
 #[test]
-fn what_cannot_be_written_is_said_with_what_to_do() {
+fn an_export_that_fails_says_why_and_what_to_do() {
     let root = tempfile::tempdir().unwrap();
     let fails = |export: Export, input: &ExportInput, expected: &str| {
         let error = write_one(&export, input).unwrap_err();
@@ -96,7 +96,7 @@ fn the_matte_file_has_an_extension_that_fits() {
 }
 
 #[test]
-fn a_result_tells_its_progress_and_can_be_stopped() {
+fn an_export_of_a_folder_reports_progress_and_can_be_stopped() {
     let root = tempfile::tempdir().unwrap();
     let (folder, input, stop) = (root.path().join("result"), input(), Stop::default());
     let files = AtomicUsize::new(0);
@@ -119,7 +119,7 @@ fn a_result_tells_its_progress_and_can_be_stopped() {
 }
 
 #[test]
-fn the_application_exports_and_says_so() {
+fn an_export_ends_with_a_notice() {
     let root = tempfile::tempdir().unwrap();
     let mut app = Application::new(Executor::Inline, || ()).unwrap();
     app.apply(JobCommand::Open(Origin::Sample(sample::NAME.into())));

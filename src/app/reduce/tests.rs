@@ -72,7 +72,7 @@ fn a_drag_is_one_step() {
 }
 
 #[test]
-fn a_value_out_of_range_changes_nothing_and_is_said_once() {
+fn a_value_out_of_range_changes_nothing_and_gives_one_notice() {
     let mut application = opened_tiny();
     let before = application.state().document.clone();
     for _ in 0..2 {
@@ -88,7 +88,7 @@ fn a_value_out_of_range_changes_nothing_and_is_said_once() {
 }
 
 #[test]
-fn a_selected_region_follows_its_heir() {
+fn a_selected_region_becomes_the_region_that_overlaps_it_most() {
     let mut application = opened_tiny();
     let shown = Arc::clone(application.state().shown().unwrap());
     assert!(!shown.analysis.intrinsic.regions.is_empty());
@@ -101,7 +101,7 @@ fn a_selected_region_follows_its_heir() {
 }
 
 #[test]
-fn masks_join_leave_and_turn_over() {
+fn marks_are_added_taken_away_and_inverted() {
     let mut application = opened_tiny();
     let (width, height) = application.state().picture.as_ref().unwrap().size();
     let of = |test: &dyn Fn(usize) -> bool| -> Arc<Mask> {
@@ -171,7 +171,7 @@ fn a_second_photograph_keeps_the_parameters_and_forgets_the_rest() {
 }
 
 #[test]
-fn what_cannot_be_opened_leaves_everything_as_it_was() {
+fn a_photograph_that_cannot_be_opened_changes_nothing() {
     let mut application = opened_tiny();
     application.apply(Edit::Select(Some(Item::Region(RegionId::from_index(0)))));
     let (document, newest) =
@@ -216,7 +216,7 @@ fn a_photograph_is_read_again_in_another_encoding() {
 }
 
 #[test]
-fn a_workspace_brings_everything_back() {
+fn a_workspace_restores_all_that_it_saved() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join("a.dichroscope");
     let mut application = opened_tiny();
@@ -303,7 +303,7 @@ fn on_threads_the_newest_request_wins() {
 }
 
 #[test]
-fn what_would_change_a_pixel_is_asked_in_the_background_and_forgotten_with_the_result() {
+fn a_what_if_job_runs_in_the_background_and_ends_with_its_result() {
     let mut application = opened_tiny();
     let labels = application.state().shown().unwrap().labels().clone();
     let pixel = labels.as_slice().iter().position(|&label| label == 1).unwrap();

@@ -84,7 +84,7 @@ impl Plane {
     }
 }
 
-/// The camera, and how it got to its place.
+/// The camera, and whether a person, the frame of the view or a selected plane has placed the camera.
 #[derive(Clone, Default)]
 pub struct CameraController {
     /// Place and direction of the camera.
@@ -161,7 +161,7 @@ impl CameraController {
         (self.framed_size, self.moved_by_user) = (Some(size), false);
         self.orbit.fit(size[0] / size[1].max(1.0));
         let middle = size.map(|length| 0.5 * length);
-        // Moving the space changes its perspective slightly, so the step is repeated.
+        // A moved space has a slightly different perspective, so the step is repeated.
         for _ in 0..3 {
             let projector = self.orbit.projector(size);
             let cube = cube_edges().into_iter().flatten().filter(|_| self.content.is_empty());
@@ -253,7 +253,7 @@ impl CameraController {
     }
 }
 
-/// Keys pressed in this frame, alone or with Shift.
+/// Keys pressed in this frame without modifiers or with Shift.
 fn pressed(ui: &Ui) -> Vec<Key> {
     let plain = |event: &Event| match event {
         Event::Key { key, pressed: true, modifiers, .. } if !modifiers.command && !modifiers.alt => {

@@ -1,10 +1,10 @@
-//! The color space drawn into a texture of its own, and that texture shown in the window.
+//! The color space drawn into a texture, and the texture shown in the window.
 
 use crate::gpu::{Orbit, Renderer, Scene};
 use egui::{Rect, TextureId, Ui};
 use egui_wgpu::RenderState;
 
-/// The renderer and egui's texture id of its image; both are made at the first drawing.
+/// The renderer, and egui's texture id of the renderer's image; both are made at the first drawing.
 #[derive(Default)]
 pub struct Canvas {
     renderer: Option<DeviceRenderer>,

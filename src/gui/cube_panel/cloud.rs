@@ -2,7 +2,7 @@
 
 use crate::app::State;
 use crate::gpu::{Batch, Point};
-use crate::gui::theme::Palette;
+use crate::gui::theme::ThemeColors;
 use crate::raster::Mask;
 use crate::raster::RegionId;
 use crate::trace::Class;
@@ -128,7 +128,7 @@ impl Cloud {
     pub fn update(
         &mut self,
         state: &State,
-        palette: &Palette,
+        palette: &ThemeColors,
         picture: &Arc<Picture>,
         unique_colors: Option<&Arc<[UniqueColor]>>,
         ghosts_only: bool,
@@ -197,7 +197,7 @@ fn pixels_in_focus(state: &State, picture: &Picture) -> Option<Vec<u32>> {
 struct PointStyle<'a> {
     inputs: &'a Inputs,
     majorities: &'a BinMajorities,
-    palette: &'a Palette,
+    palette: &'a ThemeColors,
     fullest: u32,
 }
 

@@ -1,11 +1,11 @@
-//! The color space at the debugger's cursor: the pixels that the current step examines, and the shapes
-//! as they are then.
+//! The color space at the debugger's cursor: the pixels that the current step examines, and the
+//! shapes as they are at that step.
 
 use super::figure::ShapeBuilder;
 use crate::app::State;
 use crate::gpu::{Batch, Point};
 use crate::gui::instant_key::{InstantKey, instant_key};
-use crate::gui::theme::Palette;
+use crate::gui::theme::ThemeColors;
 use crate::gui::widgets;
 use crate::trace::{Measured, Replay};
 use crate::view::{
@@ -43,7 +43,7 @@ pub struct CursorPoints {
 
 impl CursorPoints {
     /// Rebuilds the points when the instant has changed.
-    pub fn update(&mut self, state: &State, palette: &Palette, picture: &Picture) {
+    pub fn update(&mut self, state: &State, palette: &ThemeColors, picture: &Picture) {
         let of = instant_key(state).map(|key| (key, state.view.cube.clone(), state.view.theme));
         if self.of == of || (of.is_some() && self.keeps_earlier_points(state, picture)) {
             return;
@@ -85,7 +85,7 @@ fn focus_color(state: &State) -> Option<[u8; 3]> {
     state.debugger.focus().map(|focus| state.debugger.names.color(focus))
 }
 
-fn color_and_size(role: Role, own: Option<[u8; 3]>, palette: &Palette) -> (Color32, f32) {
+fn color_and_size(role: Role, own: Option<[u8; 3]>, palette: &ThemeColors) -> (Color32, f32) {
     let accent = |color: Option<[u8; 3]>| color.map_or(palette.accent, widgets::color);
     match role {
         Role::Own => (accent(own), OWN_PT),
@@ -98,7 +98,13 @@ fn color_and_size(role: Role, own: Option<[u8; 3]>, palette: &Palette) -> (Color
 
 impl ShapeBuilder<'_> {
     /// Adds the shapes at the cursor.
-    pub fn add_instant(&mut self, state: &State, replay: &Replay, shown: &ResultSnapshot, palette: &Palette) {
+    pub fn add_instant(
+        &mut self,
+        state: &State,
+        replay: &Replay,
+        shown: &ResultSnapshot,
+        palette: &ThemeColors,
+    ) {
         let show = &state.view.cube;
         let focus = state.debugger.focus();
         let shapes = view::cursor_shapes(replay, focus, shown);
@@ -134,7 +140,7 @@ impl ShapeBuilder<'_> {
     }
 
     /// Adds the ellipsoid of the window that was classified last.
-    fn add_window(&mut self, replay: &Replay, shown: &ResultSnapshot, palette: &Palette) {
+    fn add_window(&mut self, replay: &Replay, shown: &ResultSnapshot, palette: &ThemeColors) {
         let working = &shown.analysis.working;
         let colors = &working.image.pixels;
         let groups = step_pixels(replay, None, colors, &working.masks, usize::MAX);
@@ -154,7 +160,7 @@ impl ShapeBuilder<'_> {
         replay: &Replay,
         shown: &ResultSnapshot,
         color: Color32,
-        palette: &Palette,
+        palette: &ThemeColors,
     ) {
         let working = &shown.analysis.working;
         let colors = working.image.pixels.as_slice();

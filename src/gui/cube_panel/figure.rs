@@ -4,7 +4,7 @@ use super::labels::{Label, all_around};
 use crate::app::State;
 use crate::gpu::{self, Line, Orbit, Overlay, Projection, Projector, Vertex};
 use crate::gui::instant_key::{InstantKey, instant_key};
-use crate::gui::theme::{Palette, SMALL_PT};
+use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets;
 use crate::raster::RegionId;
 use crate::view::{
@@ -106,7 +106,7 @@ impl Figure {
         else {
             return true;
         };
-        let palette = Palette::of(theme);
+        let palette = ThemeColors::of(theme);
         let mut builder = ShapeBuilder { figure: self, space, full: picture.histogram.full_counts };
         if let Some(replay) = state.followed() {
             builder.add_instant(state, replay, &shown, &palette);
@@ -144,7 +144,7 @@ impl Figure {
         true
     }
 
-    /// The silhouettes of the smooth bodies: the curves along which their surface turns away from the camera.
+    /// The silhouettes of the smooth bodies: the curves along which the surface turns away from the camera.
     pub fn silhouettes(&self, orbit: &Orbit) -> Vec<Line> {
         let mut lines = Vec::new();
         for (mesh, color) in &self.smooth_meshes {
@@ -154,7 +154,7 @@ impl Figure {
     }
 
     /// The labels of the shapes, the most important first. The dots are painted here.
-    pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, palette: &Palette) -> Vec<Label> {
+    pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, palette: &ThemeColors) -> Vec<Label> {
         let painter = ui.painter_at(rect);
         let ends =
             self.matte_line.map(|ends| ends.map(|end| super::frame::screen_from_world(projector, rect, end)));

@@ -2,7 +2,7 @@
 
 use super::labels::Label;
 use crate::gpu::{Line, Overlay, Projector};
-use crate::gui::theme::{Palette, SMALL_PT};
+use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::view::{Axis, ColorSpace, Theme};
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
@@ -29,7 +29,7 @@ impl AxesFrame {
         if self.of == inputs {
             return false;
         }
-        let palette = Palette::of(theme);
+        let palette = ThemeColors::of(theme);
         let dim = mixed(palette.background, palette.secondary, 0.45);
         self.lines.clear();
         for edge in space.frame(full_counts) {
@@ -45,7 +45,7 @@ impl AxesFrame {
     }
 
     /// Labels of the axes, the black corner and the ticks, the most important first. The ticks are painted here.
-    pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, palette: &Palette) -> Vec<Label> {
+    pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, palette: &ThemeColors) -> Vec<Label> {
         let on_screen = |world| screen_from_world(projector, rect, world);
         let Some(middle) = on_screen([0.5; 3]) else { return Vec::new() };
         let (mut names, mut values) = (Vec::new(), Vec::new());
@@ -102,7 +102,7 @@ impl AxesFrame {
 }
 
 /// The label of the black corner.
-fn black_label(at: Pos2, middle: Pos2, palette: &Palette) -> Label {
+fn black_label(at: Pos2, middle: Pos2, palette: &ThemeColors) -> Label {
     Label {
         text: "black".to_owned(),
         at,
@@ -120,7 +120,7 @@ pub fn gizmo(
     [right, up, forward]: [[f32; 3]; 3],
     rect: Rect,
     names: [&str; 3],
-    palette: &Palette,
+    palette: &ThemeColors,
 ) -> Rect {
     let area = Rect::from_min_size(
         rect.left_bottom() + vec2(4.0, -2.0 * GIZMO_PT - 24.0),

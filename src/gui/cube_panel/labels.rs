@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn a_label_stands_clear_of_its_place() {
+    fn a_label_keeps_a_distance_from_its_point() {
         for side in all_around() {
             let rect = rect_on_side(&label(0.0, 0.0, Vec::new()), side, vec2(40.0, 14.0));
             assert!(

@@ -24,7 +24,7 @@ impl Outline {
         !self.corners.is_empty()
     }
 
-    /// Adds corners as the pointer moves and clicks. Returns the closed outline in the frame in which it is finished.
+    /// Adds corners as the pointer moves and clicks. Returns the closed outline in the frame in which the outline is finished.
     pub fn handle_pointer(&mut self, ui: &Ui, response: &Response, tool: Tool) -> Option<Vec<Pos2>> {
         if tool != self.tool {
             self.corners.clear();

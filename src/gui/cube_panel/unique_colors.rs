@@ -5,7 +5,7 @@ use crate::view::{Picture, UniqueColor};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The camera is at rest when it has not moved for this time.
+/// A camera that has not moved for this time is at rest.
 pub const REST_TIME: Duration = Duration::from_millis(200);
 
 /// The unique colors of one photograph, and when the camera last moved.
@@ -24,7 +24,7 @@ impl UniqueColors {
     }
 
     /// The colors, once they are known and the camera is at rest; with `fast_device`, for a fast graphics device,
-    /// also while it moves.
+    /// also while the camera moves.
     pub fn get(
         &mut self,
         ctx: &egui::Context,

@@ -5,7 +5,7 @@ use super::icons::{corners, cross};
 use super::overlay::{self, MARK_COLOR};
 use crate::app::{Command, DebugCommand, DebugSettings, State};
 use crate::gui::PanelContext;
-use crate::gui::theme::{Palette, SMALL_PT};
+use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets::{color, grouped};
 use crate::raster::HypothesisId;
 use crate::view::{Instant, cursor_place, instant_legend};
@@ -13,10 +13,10 @@ use egui::accesskit::Role;
 use egui::{Align2, Button, Color32, Painter, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 use std::sync::Arc;
 
-/// From this zoom on a single pixel is framed, below it is marked with a cross; screen points per pixel.
+/// Smallest zoom at which a single pixel is framed, screen points per pixel; at a smaller zoom a cross marks the pixel.
 const FRAME_ZOOM: f32 = 8.0;
 
-/// The instant that is shown, computed once for each place of the cursor.
+/// The instant at the cursor, computed once for each place of the cursor.
 #[derive(Default)]
 pub struct InstantCache {
     shown: Option<(InstantKey, Arc<Instant>)>,
@@ -26,8 +26,8 @@ pub struct InstantCache {
 type InstantKey = (u64, usize, Option<HypothesisId>);
 
 impl InstantCache {
-    /// The instant at the cursor, where it is followed; an older one while `is_painting`, so that a large picture is not copied
-    /// more often than it is painted.
+    /// The instant at the cursor, where the cursor is followed. While `is_painting`, an older instant of the same trace, so
+    /// that a large picture is copied no more often than painted.
     pub fn instant(&mut self, state: &State, is_painting: bool) -> Option<Arc<Instant>> {
         let (Some(replay), Some(shown)) = (state.followed(), state.newest.as_ref()) else {
             self.shown = None;
@@ -94,7 +94,7 @@ pub fn mark_step(painter: &Painter, place: &Placement, instant: &Instant) {
 pub fn show_texts(
     ui: &Ui,
     painter: &Painter,
-    palette: &Palette,
+    palette: &ThemeColors,
     view: Rect,
     state: &State,
     instant: &Instant,
@@ -113,7 +113,7 @@ pub fn show_texts(
 }
 
 /// Shows the region in focus beside the cursor's place.
-fn show_focus(painter: &Painter, palette: &Palette, beside: Rect, state: &State) {
+fn show_focus(painter: &Painter, palette: &ThemeColors, beside: Rect, state: &State) {
     let Some(focus) = state.debugger.focus() else { return };
     let names = &state.debugger.names;
     let text = match names.region_of(focus) {

@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn zooming_keeps_what_is_under_the_pointer() {
+    fn zooming_keeps_the_point_under_the_pointer() {
         let pointer = pos2(321.0, 187.0);
         let mut place = placement(&ImageSettings::default());
         let under = place.image_from_screen(pointer);
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn the_picture_cannot_be_lost() {
+    fn the_picture_cannot_be_panned_or_zoomed_out_of_sight() {
         let place = placement(&ImageSettings::default());
         for by in [vec2(1e6, -1e6), vec2(-1e6, 0.0)] {
             let moved = place.panned(by);

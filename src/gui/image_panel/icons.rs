@@ -1,7 +1,7 @@
 //! Icons of the image panel's buttons.
 
 use crate::gui::icons::icon_button;
-use crate::gui::theme::Palette;
+use crate::gui::theme::ThemeColors;
 use crate::view::{Arrangement, Fill, Tool};
 use egui::{Color32, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
 
@@ -23,7 +23,7 @@ pub enum ToolbarIcon {
 /// A button that is on or off. `name` is its accessible name.
 pub fn toggle(
     ui: &mut Ui,
-    palette: &Palette,
+    palette: &ThemeColors,
     icon: ToolbarIcon,
     on: bool,
     name: &str,

@@ -4,7 +4,7 @@ use super::geometry::Placement;
 use super::icons::{corners, cross};
 use super::textures::LayerTexture;
 use crate::app::State;
-use crate::gui::theme::{Palette, SMALL_PT};
+use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::view::{ACCENT, Item, Layer, LegendEntry, ProfileLine, Tool, legend};
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
@@ -36,7 +36,7 @@ pub fn grid(painter: &Painter, place: &Placement) {
     }
 }
 
-/// Writes values into the pixels: those of the layer if it has numbers, otherwise the photograph's linear counts.
+/// Writes numbers into the pixels: the layer's numbers if the layer has numbers, otherwise the photograph's linear counts.
 pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer, texture: &LayerTexture) {
     if place.zoom < VALUES_ZOOM {
         return;
@@ -75,7 +75,8 @@ fn readable_on([r, g, b, _]: [u8; 4]) -> Color32 {
     if luminance > 0.18 { Color32::BLACK } else { Color32::WHITE }
 }
 
-/// Paints outlines between pixels of what is marked, selected and hovered, for a zoom of at least `OUTLINE_ZOOM`.
+/// Paints the outlines of marked pixels and of selected and hovered items as lines between pixels, for a zoom of at
+/// least `OUTLINE_ZOOM`.
 pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
     let (Some(picture), width) = (&state.picture, place.size.x as usize) else { return };
     let selection = &state.document.selection;
@@ -212,7 +213,7 @@ fn full_line(line: ProfileLine, place: &Placement, state: &State) -> [Pos2; 2] {
 }
 
 /// Writes a text with a background over the picture; returns the rectangle.
-pub fn text_box(painter: &Painter, palette: &Palette, at: Pos2, align: Align2, text: &str) -> Rect {
+pub fn text_box(painter: &Painter, palette: &ThemeColors, at: Pos2, align: Align2, text: &str) -> Rect {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(SMALL_PT), palette.text);
     let area = align.anchor_size(at, galley.size() + vec2(10.0, 4.0));
     painter.rect_filled(area, 3.0, palette.panel.gamma_multiply(0.86));
@@ -221,12 +222,12 @@ pub fn text_box(painter: &Painter, palette: &Palette, at: Pos2, align: Align2, t
 }
 
 /// Paints the legend of a layer along the lower edge.
-pub fn layer_legend(painter: &Painter, palette: &Palette, view: Rect, layer: Layer) {
+pub fn layer_legend(painter: &Painter, palette: &ThemeColors, view: Rect, layer: Layer) {
     legend_box(painter, palette, view, &legend(layer));
 }
 
 /// Paints a legend of colors and names along the lower edge, in as many lines as needed.
-pub fn legend_box(painter: &Painter, palette: &Palette, view: Rect, entries: &[LegendEntry]) {
+pub fn legend_box(painter: &Painter, palette: &ThemeColors, view: Rect, entries: &[LegendEntry]) {
     const LINE_PT: f32 = 18.0;
     let font = FontId::proportional(SMALL_PT);
     let most = view.width() - 12.0;
@@ -260,7 +261,7 @@ pub fn legend_box(painter: &Painter, palette: &Palette, view: Rect, entries: &[L
 }
 
 /// Paints the warnings of the analysis along the upper edge.
-pub fn warnings(painter: &Painter, palette: &Palette, view: Rect, state: &State) {
+pub fn warnings(painter: &Painter, palette: &ThemeColors, view: Rect, state: &State) {
     let Some(shown) = state.shown() else { return };
     let mut top = view.top() + 6.0;
     for warning in &shown.analysis.warnings {

@@ -1,7 +1,7 @@
 //! The readout: values of one pixel in a strip of cells with fixed positions.
 
 use crate::app::State;
-use crate::gui::theme::{Palette, SMALL_PT};
+use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::intrinsic::PixelKind;
 use crate::raster::{HypothesisId, PixelIndex};
 use crate::trace::{Class, Replay};
@@ -64,7 +64,7 @@ fn name_width(ui: &Ui, name: &str) -> f32 {
 }
 
 /// Shows the strip for the pixel that is hovered in any panel, otherwise for the selected pixel.
-pub fn show(ui: &mut Ui, state: &State, palette: &Palette) {
+pub fn show(ui: &mut Ui, state: &State, palette: &ThemeColors) {
     let full = ui.available_rect_before_wrap();
     let pixel = [state.hover, state.document.selection.item].into_iter().find_map(|item| match item {
         Some(Item::Pixel(pixel)) => Some(pixel.index()),
@@ -95,7 +95,7 @@ pub fn show(ui: &mut Ui, state: &State, palette: &Palette) {
 /// Paints a cell with its upper left corner at `at`; returns the horizontal position of its right end.
 fn show_cell(
     ui: &Ui,
-    palette: &Palette,
+    palette: &ThemeColors,
     at: egui::Pos2,
     index: usize,
     value: &str,

@@ -1,4 +1,4 @@
-//! Painted layers and marks, and their textures: painted when something changed, uploaded where they are seen.
+//! Painted layers and marks, and their textures. A layer is painted when its inputs changed; visible tiles are uploaded.
 
 use super::geometry::{Placement, level_for};
 use super::tiles::{TILE, Tile, copies_of_marks, texture_options};
@@ -14,9 +14,9 @@ use std::collections::HashMap;
 use std::sync::{Arc, Weak};
 use std::time::Duration;
 
-/// Larger pictures are painted in the background, so that no frame waits for them; pixels.
+/// Number of pixels above which a picture is painted on a thread, so that no frame waits for the picture.
 pub const LARGE_PX: usize = 1 << 20;
-/// Textures kept at most, and their pixels in total.
+/// Largest number of textures, and largest number of pixels of all textures together.
 const MOST: (usize, usize) = (8, 40 << 20);
 
 /// The place in the image view that a texture is shown at.

@@ -4,7 +4,7 @@ use super::icons::{self, ToolbarIcon};
 use crate::app::{DebugSettings, State};
 use crate::gui::action::Action;
 use crate::gui::shortcuts::keys_of;
-use crate::gui::theme::{Palette, SMALL_PT};
+use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets::clickable;
 use crate::view::{Arrangement, Fill, ImageSettings, Layer, Tool};
 use egui::accesskit::Role;
@@ -28,7 +28,7 @@ const TOOLS: [(Tool, &str, &str); 7] = [
 pub fn row(
     ui: &mut Ui,
     state: &State,
-    palette: &Palette,
+    palette: &ThemeColors,
     settings: &mut ImageSettings,
     debug: &mut DebugSettings,
     zoom: f32,
@@ -52,30 +52,29 @@ pub fn row(
 }
 
 /// Shows the choice of a layer; returns whether a layer was chosen in place of the instant at the debugger's cursor.
-fn layer_menu(ui: &mut Ui, state: &State, name: &str, layer_menu: &mut Layer, followed: bool) -> bool {
-    let now = if followed { "At the cursor" } else { layer_menu.name() };
+fn layer_menu(ui: &mut Ui, state: &State, name: &str, layer: &mut Layer, followed: bool) -> bool {
+    let now = if followed { "At the cursor" } else { layer.name() };
     let combo = ComboBox::from_id_salt(name).width(104.0).height(320.0).selected_text(now);
     let mut chosen = false;
     let shown = combo.show_ui(ui, |ui| {
         for choice in Layer::ALL {
             let possible = !choice.needs_pinned() || state.pinned.is_some();
             let keys = keys_of(ui.ctx(), Action::Layer(choice));
-            let button =
-                Button::selectable(!followed && *layer_menu == choice, choice.name()).shortcut_text(keys);
+            let button = Button::selectable(!followed && *layer == choice, choice.name()).shortcut_text(keys);
             let button = ui.add_enabled(possible, button).on_hover_text(choice.tip());
             if button.on_disabled_hover_text("Pin a result first (K).").clicked() {
-                *layer_menu = choice;
+                *layer = choice;
                 chosen = followed;
             }
         }
     });
     shown.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
     let of_cursor = "What is decided at the debugger's cursor; a layer shows the result instead.";
-    shown.response.on_hover_text(if followed { of_cursor } else { layer_menu.tip() });
+    shown.response.on_hover_text(if followed { of_cursor } else { layer.tip() });
     chosen
 }
 
-fn arrangement_buttons(ui: &mut Ui, palette: &Palette, settings: &mut ImageSettings) {
+fn arrangement_buttons(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings) {
     let now = settings.arrangement;
     let wipe_share = if let Arrangement::Wipe(share) = now { share } else { 0.5 };
     ui.scope(|ui| {
@@ -94,7 +93,7 @@ fn arrangement_buttons(ui: &mut Ui, palette: &Palette, settings: &mut ImageSetti
     });
 }
 
-fn fill_button(ui: &mut Ui, palette: &Palette, settings: &mut ImageSettings) {
+fn fill_button(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings) {
     let second = settings.arrangement != Arrangement::Single;
     let overlay = settings.layer.is_overlay() || (second && settings.other.is_overlay());
     let outline = settings.fill == Fill::Outline;
@@ -140,7 +139,7 @@ fn set_accessible_name(response: &Response, name: &str, value: f64) {
 
 /// Shows the button of the display settings, which do not change the analysis. The button is on while exposure or gamma
 /// differ from their defaults.
-fn display_menu(ui: &mut Ui, palette: &Palette, settings: &mut ImageSettings) {
+fn display_menu(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings) {
     let defaults = ImageSettings::default();
     let differs = |value: f32, defaults: f32| (value - defaults).abs() > 1e-4;
     let changed =
@@ -178,7 +177,7 @@ fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> bool {
 }
 
 /// Shows the column of tools, and the field of the brush's radius.
-pub fn column(ui: &mut Ui, palette: &Palette, settings: &mut ImageSettings) {
+pub fn column(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings) {
     ui.spacing_mut().item_spacing.y = 2.0;
     for (tool, name, tip) in TOOLS {
         let tip = format!("{name} ({}). {tip}", keys_of(ui.ctx(), Action::Tool(tool)));

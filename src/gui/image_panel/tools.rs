@@ -169,7 +169,7 @@ impl ToolState {
             PendingGesture::Brush(last) if *last != pointer_px => {
                 let mask = brush(picture_size(place), &[(*last).into(), pointer_px.into()], radius_px);
                 *last = pointer_px;
-                // A stroke that replaces the marks does so with its first sample.
+                // The first sample of a stroke has replaced the earlier marks already.
                 let combine_by_keys = if modifiers.alt { Combine::Subtract } else { Combine::Union };
                 cx.send(Edit::Mark(Arc::new(mask), combine_by_keys, Some(Gesture::Brush)));
             }
@@ -282,7 +282,7 @@ fn select_by_click(
     if response.double_clicked_by(PointerButton::Primary) {
         (settings.zoom, settings.center_px) = (None, None);
     } else if response.clicked_by(PointerButton::Primary) {
-        let pixel = response.interact_pointer_pos().and_then(|pointer_px| context.place.pixel_at(pointer_px));
+        let pixel = response.interact_pointer_pos().and_then(|at| context.place.pixel_at(at));
         let item = pixel.and_then(|pixel| item_at(cx.state, context.layer, pixel, modifiers.alt));
         if item != cx.state.document.selection.item {
             cx.send(Edit::Select(item));
@@ -306,7 +306,7 @@ fn item_at(state: &State, layer: Layer, pixel: PixelIndex, exact_pixel: bool) ->
     state.region_of(Item::Pixel(pixel)).map(Item::Region)
 }
 
-/// How new marks combine with those before, by the modifier keys.
+/// The combination of new marks with earlier marks that the modifier keys choose.
 fn combine_by_keys(modifiers: Modifiers) -> Combine {
     match (modifiers.shift, modifiers.alt) {
         (_, true) => Combine::Subtract,

@@ -1,6 +1,6 @@
 //! The plane on the screen: conversion between counts and screen points, the oblique axes, and the skewed T.
 
-use crate::gui::theme::{Palette, SMALL_PT};
+use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::view::RegionPlane;
 use egui::{Align2, FontId, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
@@ -67,7 +67,7 @@ impl Chart {
     }
 
     /// Paints both axes through black, and a grid of lines of equal amounts.
-    pub fn axes(self, painter: &Painter, plane: &RegionPlane, rect: Rect, palette: &Palette) {
+    pub fn axes(self, painter: &Painter, plane: &RegionPlane, rect: Rect, palette: &ThemeColors) {
         let round_step = round_step(TICKS_APART_PT * self.counts_per_pt);
         let corners = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()]
             .map(|corner| plane.from_oblique(self.oblique(corner, rect)));
@@ -125,7 +125,14 @@ impl Chart {
     }
 
     /// Paints matte line, highlight lines, meeting points and the border of the cylinder, with labels.
-    pub fn skewed_t(self, ui: &Ui, response: &Response, plane: &RegionPlane, rect: Rect, palette: &Palette) {
+    pub fn skewed_t(
+        self,
+        ui: &Ui,
+        response: &Response,
+        plane: &RegionPlane,
+        rect: Rect,
+        palette: &ThemeColors,
+    ) {
         let painter = ui.painter_at(rect);
         let at = |[body, surface]: [f32; 2]| self.screen(plane.oblique(body, surface), rect);
         for side in [plane.radius, -plane.radius] {
@@ -202,7 +209,7 @@ impl Chart {
         painter: &Painter,
         plane: &RegionPlane,
         rect: Rect,
-        palette: &Palette,
+        palette: &ThemeColors,
     ) -> Option<ChartLabel> {
         let places: Vec<Pos2> =
             plane.branches.iter().map(|branch| self.screen([branch.meeting_point, 0.0], rect)).collect();
@@ -234,7 +241,7 @@ struct ChartLabel {
 }
 
 impl ChartLabel {
-    fn show(&self, ui: &Ui, response: &Response, rect: Rect, palette: &Palette) {
+    fn show(&self, ui: &Ui, response: &Response, rect: Rect, palette: &ThemeColors) {
         let painter = ui.painter_at(rect);
         let galley =
             painter.layout_no_wrap(self.text.to_owned(), FontId::proportional(SMALL_PT), palette.text);
@@ -251,7 +258,7 @@ impl ChartLabel {
 }
 
 /// Stroke of the grid line of a value: the line of zero is an axis and darker.
-fn line(value: f32, palette: &Palette) -> Stroke {
+fn line(value: f32, palette: &ThemeColors) -> Stroke {
     if value == 0.0 {
         Stroke::new(1.0, palette.secondary)
     } else {
@@ -293,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn zooming_keeps_what_is_under_the_pointer() {
+    fn zooming_keeps_the_point_under_the_pointer() {
         let rect = Rect::from_min_size(pos2(10.0, 20.0), vec2(300.0, 200.0));
         let mut chart = Chart { center: [100.0, 30.0], counts_per_pt: 0.8 };
         let pointer = pos2(60.0, 150.0);

@@ -3,7 +3,7 @@
 
 use super::{ROW_PT, cell, vector};
 use crate::app::{Command, DebugCommand, Edit, ViewCommand};
-use crate::gui::theme::Palette;
+use crate::gui::theme::ThemeColors;
 use crate::gui::{PanelContext, widgets};
 use crate::raster::RegionId;
 use crate::trace::Replay;
@@ -114,7 +114,7 @@ impl HypothesisTable {
         }
     }
 
-    fn heading(&mut self, ui: &mut Ui, palette: &Palette, key: SortKey, title: &str, tip: &str) {
+    fn heading(&mut self, ui: &mut Ui, palette: &ThemeColors, key: SortKey, title: &str, tip: &str) {
         let chosen = self.key == key;
         let layout = match key {
             SortKey::Pixels | SortKey::Radius => Layout::right_to_left(Align::Center),
@@ -153,7 +153,7 @@ impl HypothesisTable {
     }
 }
 
-fn cells(row: &mut TableRow, palette: &Palette, row_of: &HypothesisRow, names: &RegionNames) {
+fn cells(row: &mut TableRow, palette: &ThemeColors, row_of: &HypothesisRow, names: &RegionNames) {
     let has_ended = !matches!(row_of.status, Status::AtWork | Status::Stands);
     let tone = if has_ended { palette.secondary } else { palette.text };
     let plain = |ui: &mut Ui, text: String| {
@@ -183,7 +183,7 @@ fn cells(row: &mut TableRow, palette: &Palette, row_of: &HypothesisRow, names: &
 }
 
 /// Shows the light's direction as estimated at the cursor.
-fn light(ui: &mut Ui, palette: &Palette, replay: &Replay) {
+fn light(ui: &mut Ui, palette: &ThemeColors, replay: &Replay) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         let tip = "The color of the light as it is estimated up to the cursor (section 5.4).";
@@ -198,7 +198,7 @@ fn light(ui: &mut Ui, palette: &Palette, replay: &Replay) {
 }
 
 /// Shows the number of windows of each class, and the number of areas that they form.
-fn windows(ui: &mut Ui, palette: &Palette, counts: &WindowCounts) {
+fn windows(ui: &mut Ui, palette: &ThemeColors, counts: &WindowCounts) {
     ui.add_space(4.0);
     let row = |ui: &mut Ui, entry: Option<LegendEntry>, name: &str, tip: &str, count: usize| {
         match entry {

@@ -1,4 +1,4 @@
-//! The debugger's keys, and when they are left to other widgets.
+//! The debugger's keys, and the widgets that take these keys before the debugger does.
 
 use super::shortcut::Shortcut;
 use crate::app::{Direction, Grain, State};
@@ -11,7 +11,7 @@ const fn key(modifiers: Modifiers, key: Key, action: DebugAction, description: &
     Shortcut::new("Decisions", modifiers, key, Action::Debug(action), description)
 }
 
-/// The debugger's keys, those with modifiers first.
+/// The debugger's keys; keys with modifiers stand before the same keys without.
 pub const KEYS: &[Shortcut] = &[
     key(Modifiers::SHIFT, Key::Space, DebugAction::Play(Back), "Play backwards, or rest"),
     key(Modifiers::NONE, Key::Space, DebugAction::Play(Forward), "Play, or rest"),
@@ -43,9 +43,9 @@ pub const KEYS: &[Shortcut] = &[
 /// Widgets and views that take keys before the debugger does.
 #[derive(Clone, Copy, Debug)]
 pub struct KeyListeners {
-    /// The area of the color space, which has keys of its own; none if it is not shown.
+    /// The rectangle of the color space, which has keys of its own; none if the color space is not shown.
     pub color_space_rect: Option<Rect>,
-    /// The timeline's track: while it has the focus, the debugger's keys still work.
+    /// The id of the timeline's track. While the track has the focus, the debugger's keys still work.
     pub track: Id,
     /// Whether there is a trace to move in.
     pub has_trace: bool,
@@ -60,7 +60,7 @@ impl KeyListeners {
         Self { color_space_rect, track, has_trace: state.debugger.replay.is_some(), draws_polygon }
     }
 
-    /// Whether the listeners leave a key to its action.
+    /// Whether no listener takes the key of a shortcut, so that the shortcut's action is done.
     pub fn allows(&self, ctx: &Context, shortcut: &Shortcut) -> bool {
         let Action::Debug(action) = shortcut.action else { return true };
         if ctx.text_edit_focused() || egui::Popup::is_any_open(ctx) {
@@ -68,7 +68,7 @@ impl KeyListeners {
         }
         let focused = ctx.memory(egui::Memory::focused).filter(|&id| id != self.track);
         let focused_widget = focused.and_then(|id| ctx.read_response(id));
-        // A widget that senses clicks and drags is a view: the image or the color space. Keys do not press it as a button.
+        // A widget that senses clicks and drags is a view: the image or the color space. A key does not press a view as it presses a button.
         let on_view = focused_widget
             .as_ref()
             .is_none_or(|widget| widget.sense.senses_click() && widget.sense.senses_drag());
@@ -87,7 +87,7 @@ impl KeyListeners {
     }
 }
 
-/// Tells a tap of Space, which plays, from Space held while the pointer drags, which pans a view.
+/// Distinguishes a tap of Space, which plays, from Space held while the pointer drags, which pans a view.
 #[derive(Default)]
 pub struct SpaceTap {
     /// Whether Space is down and nothing was dragged since; with Shift, backwards.
@@ -95,7 +95,8 @@ pub struct SpaceTap {
 }
 
 impl SpaceTap {
-    /// The direction to play in, when Space was tapped. `space_plays`: whether a press of Space in this frame is the debugger's.
+    /// The direction to play in, when Space was tapped. `space_plays`: whether a press of Space in this frame
+    /// belongs to the debugger.
     pub fn played(&mut self, ctx: &Context, space_plays: bool) -> Option<Direction> {
         let mut played = None;
         ctx.input_mut(|input| {

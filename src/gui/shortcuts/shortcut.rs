@@ -3,7 +3,7 @@
 use crate::gui::action::Action;
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-/// A key, its action, and the words for it.
+/// A key, the action of the key, and a description of the action.
 pub struct Shortcut {
     /// The group of the help that the key is listed in.
     pub group: &'static str,
@@ -11,7 +11,7 @@ pub struct Shortcut {
     pub keys: KeyboardShortcut,
     /// The action that the key starts.
     pub action: Action,
-    /// What the action does, in words.
+    /// The effect of the action, for the help.
     pub description: &'static str,
 }
 

@@ -1,17 +1,17 @@
-//! Painting of the track. Single steps are painted only where they are far enough apart to be told from one another.
+//! Painting of the track. Single steps are painted only where neighboring steps are at least four points apart.
 
 use super::scale::{Lanes, Scale};
-use crate::gui::theme::{Palette, SMALL_PT};
+use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::{PanelContext, widgets};
 use crate::trace::{Replay, Step, Trace};
 use egui::{Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 
 /// Smallest distance of steps at which single steps are painted, points.
 const TICK_PT: f32 = 4.0;
-/// Smallest height of a stretch with a name in it, points.
+/// Smallest height of a bar with a name, points.
 const NAMED_PT: f32 = 12.0;
 
-/// Paints the track: density, stages, passes, blocks, single steps if they are far enough apart, and the cursor.
+/// Paints the track: density, stages, passes, blocks, single steps if neighboring steps are far enough apart, and the cursor.
 /// `density` is the number of decisions per column of the track.
 pub fn draw(
     painter: &Painter,
@@ -48,7 +48,7 @@ pub fn draw(
     cursor(painter, palette, scale, lanes, replay.at());
 }
 
-/// Paints a stretch, with its name if there is room.
+/// Paints the bar of a range of steps, with a name if the bar has room.
 fn paint_span(painter: &Painter, rect: Option<Rect>, fill: Color32, text_color: Color32, name: &str) {
     let Some(rect) = rect else { return };
     let right = (rect.right() - 1.0).max(rect.left() + 0.5);
@@ -58,7 +58,7 @@ fn paint_span(painter: &Painter, rect: Option<Rect>, fill: Color32, text_color: 
     }
 }
 
-/// Writes a text into a stretch that is wide enough for the text.
+/// Writes a text into a bar that is wide enough for the text.
 fn label(painter: &Painter, rect: Rect, text_color: Color32, name: &str) {
     let galley = painter.layout_no_wrap(name.to_owned(), FontId::proportional(SMALL_PT), text_color);
     if galley.size().x + 8.0 <= rect.width() {
@@ -68,7 +68,7 @@ fn label(painter: &Painter, rect: Rect, text_color: Color32, name: &str) {
 }
 
 /// Paints the number of decisions per column as bars, on a logarithmic scale.
-fn bars(painter: &Painter, palette: &Palette, scale: &Scale, lane: Rect, density: &[usize]) {
+fn bars(painter: &Painter, palette: &ThemeColors, scale: &Scale, lane: Rect, density: &[usize]) {
     let most = density.iter().copied().max().unwrap_or(0).max(1);
     let full = (most as f32).ln_1p();
     let width = scale.rect.width() / density.len().max(1) as f32;
@@ -83,7 +83,7 @@ fn bars(painter: &Painter, palette: &Palette, scale: &Scale, lane: Rect, density
 }
 
 /// Writes the names of passes without blocks into the row of blocks, which is empty there.
-fn names_of_empty(painter: &Painter, palette: &Palette, scale: &Scale, lane: Rect, trace: &Trace) {
+fn names_of_empty(painter: &Painter, palette: &ThemeColors, scale: &Scale, lane: Rect, trace: &Trace) {
     for pass in trace.passes() {
         let block = trace.blocks().find(|block| block.steps.start >= pass.steps.start);
         let empty = block.is_none_or(|block| block.steps.start >= pass.steps.end);
@@ -126,7 +126,7 @@ fn blocks(painter: &Painter, cx: &PanelContext, scale: &Scale, lane: Rect, trace
 
 /// Paints single steps where they are far enough apart: lines for events, dots for claims and labels,
 /// rings for refusals.
-fn ticks(painter: &Painter, palette: &Palette, scale: &Scale, lane: Rect, trace: &Trace) {
+fn ticks(painter: &Painter, palette: &ThemeColors, scale: &Scale, lane: Rect, trace: &Trace) {
     for (steps, width) in scale.axis.stretches(scale.section) {
         let paint_span = scale.section.to - scale.section.from;
         if width / paint_span * f64::from(scale.rect.width()) < f64::from(TICK_PT) {
@@ -154,7 +154,7 @@ fn ticks(painter: &Painter, palette: &Palette, scale: &Scale, lane: Rect, trace:
 }
 
 /// Paints the cursor, and shades the decisions after the cursor.
-fn cursor(painter: &Painter, palette: &Palette, scale: &Scale, lanes: &Lanes, at: usize) {
+fn cursor(painter: &Painter, palette: &ThemeColors, scale: &Scale, lanes: &Lanes, at: usize) {
     let rect = scale.rect;
     let x = scale.x(at);
     let ahead = Rect::from_min_max(pos2(x.clamp(rect.left(), rect.right()), lanes.stages.top()), rect.max);

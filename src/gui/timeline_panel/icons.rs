@@ -2,7 +2,7 @@
 
 use crate::app::Direction;
 use crate::gui::icons::icon_button;
-use crate::gui::theme::Palette;
+use crate::gui::theme::ThemeColors;
 use egui::{Color32, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
 
 pub use crate::gui::icons::SIDE_PT;
@@ -33,7 +33,7 @@ pub enum PlaybackIcon {
 /// A button that is on or off. `name` is its accessible name.
 pub fn button(
     ui: &mut Ui,
-    palette: &Palette,
+    palette: &ThemeColors,
     icon: PlaybackIcon,
     on: bool,
     name: &str,
@@ -45,7 +45,7 @@ pub fn button(
 }
 
 /// Paints an icon. Coordinates are those of the forward icon in a square of 14 × 14; backward icons are mirrored.
-fn draw(painter: &Painter, square: Rect, icon: PlaybackIcon, color: Color32, palette: &Palette) {
+fn draw(painter: &Painter, square: Rect, icon: PlaybackIcon, color: Color32, palette: &ThemeColors) {
     let back = matches!(
         icon,
         PlaybackIcon::Limit(Direction::Back)

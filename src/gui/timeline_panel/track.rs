@@ -23,7 +23,7 @@ pub fn track_id() -> Id {
 /// Inputs of the density: generation of the trace, visible section, and number of columns.
 type DensityKey = (u64, TimelineSection, usize);
 
-/// The track: its visible section, and what was computed for that.
+/// The track: the visible section, and the values that were computed for the section.
 #[derive(Default)]
 pub struct Track {
     axis: Option<(u64, TimelineAxis)>,
@@ -71,7 +71,7 @@ impl Track {
         self.axis = Some((generation, axis));
     }
 
-    /// Moves the section to the cursor when the cursor has moved; shows another trace whole.
+    /// Moves the section to the cursor when the cursor has moved; shows the whole line of another trace.
     fn follow_cursor(&mut self, axis: &TimelineAxis, replay: &Replay) {
         let now = [replay.at(), replay.trace().len()];
         let before = std::mem::replace(&mut self.cursor, now);
@@ -103,7 +103,8 @@ impl Track {
         }
     }
 
-    /// A click seeks, with Shift it runs there; a drag scrubs; a click on a block selects its region.
+    /// Sends the commands of the pointer: a click moves the cursor, a click with Shift runs to the step, a drag moves the
+    /// cursor with the pointer, a click on a block selects the block's region.
     fn handle_pointer(
         &mut self,
         ui: &Ui,
@@ -144,7 +145,7 @@ impl Track {
         }
     }
 
-    /// Sends the region under the pointer, when it has changed.
+    /// Sends the region under the pointer as hovered, when the region has changed.
     fn send_hover(&mut self, cx: &mut PanelContext, block: Option<&Block>) {
         let names = &cx.state.debugger.names;
         let region = block.and_then(|block| names.region_of(block.topic.hypothesis()));
@@ -158,7 +159,7 @@ impl Track {
     }
 }
 
-/// Selects a block's region, and goes to its first decision.
+/// Selects a block's region, and moves the cursor to the block's first decision.
 fn select_block(cx: &mut PanelContext, block: &Block) {
     let hypothesis = block.topic.hypothesis();
     let item = cx.state.debugger.names.region_of(hypothesis).map(Item::Region);

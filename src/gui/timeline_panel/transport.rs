@@ -85,7 +85,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) 
             ui.add_space(4.0);
             playback_settings(ui, cx);
             run_to::show(ui, cx);
-            // A group of its own, which a wrapped row does not split.
+            // A wrapped row does not split the widgets of an inner row.
             ui.horizontal(|ui| step_field(ui, cx, replay));
             let beside = !has_two_rows || ui.available_size_before_wrap().x >= SENTENCE_PT;
             if beside {

@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_visible_light_is_black_or_white() {
+    fn light_outside_the_visible_range_is_black_or_white() {
         let curve = Curve::new(0.0, 2.0);
         let odd = [f32::NAN, f32::NEG_INFINITY, -3.0, 0.0, 255.0, 1e9, f32::INFINITY];
         assert_eq!(odd.map(|counts| curve.code(counts)), [0, 0, 0, 0, 255, 255, 255]);

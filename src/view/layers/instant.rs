@@ -314,7 +314,7 @@ mod tests {
     const DIM: u8 = (255.0 * HELD) as u8;
 
     #[test]
-    fn the_region_in_focus_is_full_its_newest_ring_light_and_what_it_did_not_take_in_another_color() {
+    fn the_region_in_focus_its_newest_ring_and_its_surroundings_have_three_colors() {
         let mut view = regions(&["112..", "112..", "....."]);
         (view.newest, view.beside) = (vec![1, 6], vec![2, 7]);
         let named = [
@@ -384,7 +384,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_taken_never_looks_like_the_region() {
+    fn the_color_beside_a_region_differs_from_the_region() {
         assert_eq!(beside_color([0x30, 0xC0, 0xF0]), BESIDE[1]);
         assert_eq!(beside_color([0xF0, 0x50, 0xC0]), BESIDE[0]);
     }

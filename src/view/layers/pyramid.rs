@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn light_is_averaged_and_what_is_transparent_has_no_say() {
+    fn smaller_copies_average_linear_light_without_transparent_pixels() {
         let light = Light::new();
         let (black, white, clear) = ([0, 0, 0, 255], [255, 255, 255, 255], [255, 0, 0, 0]);
         assert_eq!(mean([black, white, white, black], &light), [188, 188, 188, 255]);

@@ -30,7 +30,7 @@ fn light_goes_through_exposure_srgb_and_gamma() {
 }
 
 #[test]
-fn what_has_no_result_is_the_photograph() {
+fn a_layer_without_a_result_shows_the_photograph() {
     let (picture, other) = (gray(&ROWS, 99), gray(&["....."], 99));
     let photograph = paint(Layer::Input, &picture, None, None, &Look::default());
     let foreign = shown(&other);
@@ -68,7 +68,7 @@ fn half_opaque_is_half_way_and_what_is_not_selected_is_dimmed() {
 }
 
 #[test]
-fn earlier_regions_have_the_colors_of_their_heirs() {
+fn earlier_regions_have_the_colors_of_the_regions_that_overlap_them_most() {
     let picture = gray(&ROWS, 255);
     let mut shown = divided(&picture, &ROWS);
     let earlier = labels(&["33355", "33355", "4...7", "....7"]);
@@ -108,7 +108,7 @@ fn windows_have_the_papers_colors_and_areas_those_of_the_stage_pictures() {
 }
 
 #[test]
-fn masks_are_told_apart_and_the_gravest_wins() {
+fn masks_have_different_colors_and_the_most_severe_is_shown() {
     let mut colors = vec![[90u8; 3]; 12];
     (colors[0], colors[9]) = ([255; 3], [3; 3]);
     let picture = picture(6, &colors);

@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_region_lies_across_its_line_until_it_has_a_slice() {
+    fn a_growing_region_is_shown_across_its_line_until_it_has_a_slice() {
         let shown = tiny();
         let trace = shown.trace().unwrap();
         let block = trace.blocks().find(|block| matches!(block.topic, Topic::Slice(_))).unwrap();

@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn the_line_reaches_through_its_cluster() {
+    fn the_candidates_line_spans_its_cluster() {
         let test = test();
         let found = candidate_reach(&test, [[140.0, 9.0, -5.0], [150.0, 7.0, 82.0]].into_iter());
         assert_eq!(found, Some([-5.0, 82.0]));
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn checks_tell_the_value_and_its_limit() {
+    fn checks_name_the_value_and_its_limit() {
         let texts =
             |test: &CandidateTested| skewed_t_view(test, None).checks.map(|check| (check.passed, check.text));
         let passed = texts(&test());

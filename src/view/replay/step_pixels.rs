@@ -118,7 +118,7 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
-    fn a_step_about_a_blob_looks_at_its_pixels() {
+    fn a_step_about_a_blob_is_about_its_pixels() {
         let window = Roi::around((4, 2), 0, |_| true).unwrap();
         let mut of = Raster::filled(4, 2, LocalPoint::default());
         (of[1].blob, of[2].blob, of[7].blob) = (1, 1, 2);
