@@ -2,19 +2,8 @@
 //!
 //! A new panel is a module with a function `show`, and a row of the table.
 
-use super::breakpoints_panel::BreakpointsPanel;
-use super::compare_panel::ComparePanel;
-use super::cube_panel::CubePanel;
-use super::image_panel::ImagePanel;
-use super::plane_panel::PlanePanel;
-use super::profile_panel::ProfilePanel;
-use super::regions_panel::RegionsPanel;
-use super::selection_panel::SelectionPanel;
+use super::PanelContext;
 use super::theme::ThemeColors;
-use super::timeline_panel::TimelinePanel;
-use super::watch_panel::WatchPanel;
-use super::why_panel::WhyPanel;
-use super::{PanelContext, parameters};
 use egui::{Color32, Rect, Stroke, Ui, Visuals, WidgetText};
 use egui_tiles::{
     Behavior, LinearDir, SimplificationOptions, TabState, Tile, TileId, Tiles, Tree, UiResponse,
@@ -78,7 +67,7 @@ macro_rules! panes {
 
 panes! {
     /// The photograph and its layers.
-    Image { image: ImagePanel } PaneRow {
+    Image { image: super::image_panel::ImagePanel } PaneRow {
         title: "Image",
         background: |palette| palette.background,
         tabs: TabGroup::Image,
@@ -86,7 +75,7 @@ panes! {
     };
     /// The color space.
     #[serde(alias = "Colours")]
-    Colors { cube: CubePanel } PaneRow {
+    Colors { cube: super::cube_panel::CubePanel } PaneRow {
         title: "Color space",
         background: |palette| palette.background,
         tabs: TabGroup::Colors,
@@ -96,14 +85,14 @@ panes! {
         },
     };
     /// The dichromatic plane of one region.
-    Plane { plane: PlanePanel } PaneRow {
+    Plane { plane: super::plane_panel::PlanePanel } PaneRow {
         title: "Plane",
         background: |palette| palette.panel,
         tabs: TabGroup::Plots,
         show: |panels, ui, cx| panels.plane.show(ui, cx),
     };
     /// Body, surface and ε along a line.
-    Profile { profile: ProfilePanel } PaneRow {
+    Profile { profile: super::profile_panel::ProfilePanel } PaneRow {
         title: "Profile",
         background: |palette| palette.panel,
         tabs: TabGroup::Plots,
@@ -114,52 +103,52 @@ panes! {
         title: "Parameters",
         background: |palette| palette.panel,
         tabs: TabGroup::Parameters,
-        show: |_, ui, cx| parameters::show(ui, cx),
+        show: |_, ui, cx| super::parameters::show(ui, cx),
     };
     /// The regions as a table.
-    Regions { regions: RegionsPanel } PaneRow {
+    Regions { regions: super::regions_panel::RegionsPanel } PaneRow {
         title: "Regions",
         background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.regions.show(ui, cx),
     };
     /// Statistics of the selection.
-    Selection { selection: SelectionPanel } PaneRow {
+    Selection { selection: super::selection_panel::SelectionPanel } PaneRow {
         title: "Selection",
         background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.selection.show(ui, cx),
     };
     /// Pinned and newest result.
-    Compare { compare: ComparePanel } PaneRow {
+    Compare { compare: super::compare_panel::ComparePanel } PaneRow {
         title: "Compare",
         background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.compare.show(ui, cx),
     };
     /// The decisions in their order, and the cursor among them.
-    Timeline { timeline: TimelinePanel } PaneRow {
+    Timeline { timeline: super::timeline_panel::TimelinePanel } PaneRow {
         title: "Timeline",
         background: |palette| palette.panel,
         tabs: TabGroup::Timeline,
         show: |panels, ui, cx| panels.timeline.show(ui, cx),
     };
     /// The decisions that gave a pixel its region, or made a region.
-    Why { why: WhyPanel } PaneRow {
+    Why { why: super::why_panel::WhyPanel } PaneRow {
         title: "Why",
         background: |palette| palette.panel,
         tabs: TabGroup::Questions,
         show: |panels, ui, cx| panels.why.show(ui, cx),
     };
     /// Values at the cursor.
-    Watch { watch: WatchPanel } PaneRow {
+    Watch { watch: super::watch_panel::WatchPanel } PaneRow {
         title: "Watch",
         background: |palette| palette.panel,
         tabs: TabGroup::Questions,
         show: |panels, ui, cx| panels.watch.show(ui, cx),
     };
     /// Conditions that stop the cursor.
-    Breakpoints { breakpoints: BreakpointsPanel } PaneRow {
+    Breakpoints { breakpoints: super::breakpoints_panel::BreakpointsPanel } PaneRow {
         title: "Breakpoints",
         background: |palette| palette.panel,
         tabs: TabGroup::Questions,
