@@ -37,16 +37,6 @@ pub(super) struct LayerRow {
     pub paint: fn(&PaintInput) -> Raster<[u8; 4]>,
 }
 
-/// The columns that many rows of the table leave out.
-const PLAIN: LayerRow = LayerRow {
-    name: "",
-    tip: "",
-    kind: LayerKind::Photograph,
-    legend: &[],
-    numbers: None,
-    paint: painters::photograph,
-};
-
 /// Makes [`Layer`], [`Layer::ALL`] and the rows from the table.
 macro_rules! layers {
     ($($(#[$attribute:meta])* $layer:ident: $row:expr;)+) => {
@@ -77,8 +67,9 @@ layers! {
         name: "Input",
         tip: "The photograph.",
         kind: LayerKind::Photograph,
+        legend: &[],
+        numbers: None,
         paint: painters::photograph,
-        ..PLAIN
     };
     /// Dark, clipped, bloomed and invalid pixels (4).
     Masks: LayerRow {
@@ -86,8 +77,8 @@ layers! {
         tip: "Pixels not to believe: dark, clipped, bloomed (section 4).",
         kind: LayerKind::Overlay,
         legend: &legends::MASKS,
+        numbers: None,
         paint: painters::masks,
-        ..PLAIN
     };
     /// Windows by class (5.2.1).
     Classes: LayerRow {
@@ -95,58 +86,62 @@ layers! {
         tip: "Windows by the shape of their color cluster: point, line, plane, volume (section 5.2.1).",
         kind: LayerKind::Overlay,
         legend: &legends::CLASSES,
+        numbers: None,
         paint: painters::classes,
-        ..PLAIN
     };
     /// Merged areas (5.2.2).
     Areas: LayerRow {
         name: "Merged areas",
         tip: "Neighboring windows of one class merged (section 5.2.2).",
         kind: LayerKind::Overlay,
+        legend: &[],
+        numbers: None,
         paint: painters::areas,
-        ..PLAIN
     };
     /// Regions after the linear stage (5.3).
     Linear: LayerRow {
         name: "Linear",
         tip: "Regions grown from linear hypotheses: matte pixels in a cylinder (section 5.3).",
         kind: LayerKind::RegionOverlay,
+        legend: &[],
+        numbers: None,
         paint: painters::linear,
-        ..PLAIN
     };
     /// Regions after the planar stage (5.4).
     Planar: LayerRow {
         name: "Planar",
         tip: "Regions grown from planar hypotheses: matte and highlight in a slice (section 5.4).",
         kind: LayerKind::RegionOverlay,
+        legend: &[],
+        numbers: None,
         paint: painters::planar,
-        ..PLAIN
     };
     /// The final regions (5.5).
     Regions: LayerRow {
         name: "Regions",
         tip: "The final regions, clipped pixels included (section 5.5).",
         kind: LayerKind::RegionOverlay,
+        legend: &[],
+        numbers: None,
         paint: painters::regions,
-        ..PLAIN
     };
     /// Body reflection (6).
     Body: LayerRow {
         name: "Body",
         tip: "Body reflection: the photograph without highlights (section 6).",
         kind: LayerKind::Result,
+        legend: &[],
         numbers: Some(|found, pixel| found.body[pixel].to_vec()),
         paint: painters::body,
-        ..PLAIN
     };
     /// Surface reflection (6).
     Surface: LayerRow {
         name: "Surface",
         tip: "Surface reflection: the highlights alone (section 6).",
         kind: LayerKind::Result,
+        legend: &[],
         numbers: Some(|found, pixel| found.surface[pixel].to_vec()),
         paint: painters::surface,
-        ..PLAIN
     };
     /// Distance ε from the dichromatic plane, gray = 0 (6).
     Noise: LayerRow {
@@ -172,8 +167,8 @@ layers! {
         tip: "Why pixels are not explained by one region's skewed T (sections 5.6 and 7.5).",
         kind: LayerKind::Overlay,
         legend: &legends::REASONS,
+        numbers: None,
         paint: painters::reasons,
-        ..PLAIN
     };
     /// The newest result's body reflection minus the pinned one's, gray = 0.
     Difference: LayerRow {
@@ -181,7 +176,7 @@ layers! {
         tip: "Body reflection minus that of the pinned result; gray is 0.",
         kind: LayerKind::Comparison,
         legend: &legends::DIFFERENCE,
+        numbers: None,
         paint: painters::difference,
-        ..PLAIN
     };
 }
