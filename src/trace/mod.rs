@@ -21,19 +21,10 @@ mod timeline;
 
 pub use crate::params::Stage;
 pub use blocks::{Block, PassSpan, Topic};
-pub(crate) use events::dispatch_event;
-pub use events::{
-    Absorbed, Ambient, AmbientVerdict, BlobJudged, BlobsCounted, BordersLimited, BranchesSought,
-    CandidateChosen, CandidateSource, CandidateTested, CandidateVerdict, ComponentSplit, Contribution,
-    Dropped, Event, FitLimits, GrowthBegan, HighlightCore, HoleFilled, HypothesisChosen,
-    HypothesisPassedOver, IlluminantEstimated, IlluminantGiven, Kind, LightBasis, LightChosen, LightLimits,
-    LightOdds, LimitedPixel, LineRefitted, LocalBegan, LocalLimits, LocalStart, MasksMade, Meeting,
-    MergeTried, Pass, PassBegan, PassedOver, PlausibilityLimits, PlausibilityTested, RegionsMerged,
-    RejectReason, Renumbered, RepairTried, RepairVerdict, SeedsPlaced, SliceMade, StageBegan, Subject,
-    TextureFade, TwoLightTest, VectorsFitted, VoteResult, VotesCast, WindowClassified, WindowsLaid,
-};
 #[cfg(test)]
-pub(crate) use events::{EventData, all_events};
+pub(crate) use events::all_events;
+pub(crate) use events::dispatch_event;
+pub use events::*;
 pub use history::{
     Barrier, BorderLimit, HistoryEntry, HistoryKind, LocalFate, LocalStory, MaskVerdict, MergeRefusal,
     MergeStory, Reach, Release, SplitStory, Unfit, WindowStory, pixel_history,

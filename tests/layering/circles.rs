@@ -1,7 +1,7 @@
 //! Circles between the files of a room: files that use one another, directly or through others.
 //!
 //! A file is named by its first module below the room (`src/view/layers/table.rs` is `layers` of `view`). A name that the room's
-//! `mod.rs` re-exports counts as a use of the file that defines the name. Tests may use whatever they like.
+//! `mod.rs` re-exports, by itself or by a glob, counts as a use of the file that defines the name. Tests may use whatever they like.
 
 use crate::source::mentions;
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,9 +29,16 @@ pub fn uses(room: &str, files: &[(Vec<String>, String)]) -> Uses {
         // Paths that begin with a module that the source declares are no mentions: without declarations they are.
         let lines = source.lines().filter(|line| !line.trim_start_matches("pub ").starts_with("mod "));
         for path in paths_in(modules, &lines.collect::<Vec<_>>().join("\n")) {
-            if let [file, .., name] = path.as_slice()
-                && names.contains(file.as_str())
-            {
+            let [file, .., name] = path.as_slice() else { continue };
+            if !names.contains(file.as_str()) {
+                continue;
+            }
+            if name == "*" {
+                let of_file =
+                    files.iter().filter(|(modules, _)| own(modules) && modules.get(1) == Some(file));
+                let all = of_file.flat_map(|(_, source)| public_names(source));
+                defined_in.extend(all.map(|name| (name, file.clone())));
+            } else {
                 defined_in.insert(name.clone(), file.clone());
             }
         }
@@ -50,6 +57,19 @@ pub fn uses(room: &str, files: &[(Vec<String>, String)]) -> Uses {
         }
     }
     uses
+}
+
+/// The names of the public items of a source, those in macros too: a glob re-exports at most these names.
+fn public_names(source: &str) -> impl Iterator<Item = String> + '_ {
+    source.lines().filter_map(|line| {
+        let mut words =
+            line.trim_start().strip_prefix("pub ")?.split(|c: char| !c.is_alphanumeric() && c != '_');
+        let keyword = words.find(|word| !["const", "unsafe", "async"].contains(word))?;
+        let is_item = ["struct", "enum", "trait", "fn", "type", "static", "union"].contains(&keyword);
+        // A constant: its name follows `const`.
+        let name = if is_item { words.next()? } else { keyword };
+        Some(name.to_owned())
+    })
 }
 
 /// The sets of files that can reach one another, each sorted.

@@ -367,6 +367,15 @@ mod the_checker_can_fail {
         assert_eq!(circles("use super::super::c::Third;"), [["a", "b", "c"]]);
         assert_eq!(circles("fn f() { crate::view::a::g(); }"), [["a", "b"]]);
         assert!(circles("#[cfg(test)] mod tests { use crate::view::a::g; }").is_empty());
+        let glob = [
+            file("src/view/mod.rs", "mod a;\nmod b;\npub use b::*;"),
+            a.clone(),
+            file("src/view/b/inner.rs", "    pub struct Name;\nfn f() { crate::view::a::g(); }"),
+        ];
+        assert_eq!(
+            circles::circles(&circles::uses("view", &glob)).into_iter().collect::<Vec<_>>(),
+            [["a", "b"]]
+        );
     }
 
     #[test]

@@ -21,28 +21,19 @@ mod planar;
 mod vectors;
 mod windows;
 
-pub use ambient::{Ambient, AmbientVerdict, Meeting};
-pub use borders::{BordersLimited, LimitedPixel};
-pub use branches::{BranchesSought, HighlightCore};
-pub use candidates::{CandidateChosen, CandidateSource, CandidateTested, CandidateVerdict};
-pub use clipping::{ComponentSplit, Dropped, HoleFilled, Renumbered};
-pub use light::{
-    Contribution, IlluminantEstimated, IlluminantGiven, LightBasis, LightChosen, LightLimits, LightOdds,
-    TwoLightTest, VoteResult, VotesCast,
-};
-pub use linear::{
-    Absorbed, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted, PassedOver, RegionsMerged,
-    SeedsPlaced,
-};
-pub use local::{
-    BlobJudged, BlobsCounted, LocalBegan, LocalLimits, LocalStart, PlausibilityLimits, PlausibilityTested,
-    RejectReason, RepairTried, RepairVerdict, TextureFade,
-};
-pub use masks::MasksMade;
-pub use passes::{Pass, PassBegan, StageBegan};
-pub use planar::SliceMade;
-pub use vectors::{FitLimits, VectorsFitted};
-pub use windows::{MergeTried, WindowClassified, WindowsLaid};
+pub use ambient::*;
+pub use borders::*;
+pub use branches::*;
+pub use candidates::*;
+pub use clipping::*;
+pub use light::*;
+pub use linear::*;
+pub use local::*;
+pub use masks::*;
+pub use passes::*;
+pub use planar::*;
+pub use vectors::*;
+pub use windows::*;
 
 use crate::raster::{HypothesisId, RegionId};
 
@@ -59,7 +50,7 @@ pub enum Subject {
 }
 
 /// Properties of every event.
-pub trait EventData {
+pub(crate) trait EventData {
     /// The hypotheses, regions and blobs that the event is about.
     fn subjects(&self) -> [Option<Subject>; 2];
 
