@@ -144,7 +144,7 @@ fn rings_are_what_one_more_step_from_the_region_reaches() {
         let mut from = first.steps.start;
         for &end in &ends {
             cursor.seek(from);
-            let held = cursor.labels().clone();
+            let labels = cursor.labels().clone();
             let seeds = matches!(trace.event(from), Some(Event::SeedsPlaced(_)));
             for (n, step) in trace.steps_in(from..end) {
                 let Step::Claim { pixel, after, .. } = step else { continue };
@@ -152,7 +152,7 @@ fn rings_are_what_one_more_step_from_the_region_reaches() {
                     continue;
                 }
                 let mut reached = false;
-                held.for_each_neighbor(pixel.index(), |near| reached |= held[near] == hypothesis.get());
+                labels.for_each_neighbor(pixel.index(), |near| reached |= labels[near] == hypothesis.get());
                 assert!(reached, "step {n} is not of the ring that ends at {end}");
             }
             from = end;
@@ -417,6 +417,22 @@ fn the_watch_list_holds_the_values_at_the_cursor() {
 }
 
 #[test]
+fn the_watch_list_of_an_averaged_photograph_holds_the_kind_of_the_working_pixel() {
+    let mut application = application();
+    application.apply(Edit::SetParameter(Parameter::Scale, Setting::Value(2.0), None));
+    let state = application.state();
+    let cursor = replay(state);
+    let colors = &state.newest.as_ref().unwrap().analysis.working.image.pixels;
+    assert_eq!(cursor.trace().pixel_blocks().side(), 2);
+    let size = state.picture.as_ref().unwrap().size();
+    for index in 0..size.0 * size.1 {
+        let pixel = PixelIndex::from_index(index);
+        let watched = watch(cursor, &state.debugger.names, colors, Some(pixel)).pixel.unwrap();
+        assert_eq!(watched.kind, cursor.kind(cursor.trace().working_pixel(pixel).index()), "{index}");
+    }
+}
+
+#[test]
 fn pixels_of_a_growth_belong_to_the_hypothesis_and_its_surroundings_do_not() {
     let mut application = application();
     let first = block(&trace(&application), grows);
@@ -437,16 +453,16 @@ fn the_history_of_a_pixel_is_newest_first_with_hypothesis_and_region() {
     let names = &state.debugger.names;
     let pixel = shown.labels().as_slice().iter().position(|&label| label == 1).unwrap();
     let pixel = PixelIndex::from_index(pixel);
-    let told = why(shown, &trace, names, Some(pixel), None);
-    let (about, history) = told.pixel.unwrap();
+    let answers = why(shown, &trace, names, Some(pixel), None);
+    let (about, history) = answers.pixel.unwrap();
     assert_eq!(about, pixel);
     assert_eq!(history.first().map(|account| account.stage), Some(Stage::Split), "{history:?}");
     assert_eq!(history.last().map(|account| account.stage), Some(Stage::Masks), "{history:?}");
     assert!(history.is_sorted_by(|a, b| a.step >= b.step));
-    let (hypothesis, story) = told.hypothesis.unwrap();
+    let (hypothesis, story) = answers.hypothesis.unwrap();
     assert_eq!(names.region_of(hypothesis), RegionId::from_label(1));
     assert!(matches!(trace.event(story[0].step), Some(Event::HypothesisChosen(_))));
-    let (region, made_of) = told.region.unwrap();
+    let (region, made_of) = answers.region.unwrap();
     assert_eq!((region.get(), made_of[0].depth), (1, 0));
     assert!(made_of.iter().all(|account| trace.event(account.step).is_some()));
 

@@ -130,5 +130,12 @@ fn watched_pixel(replay: &Replay, colors: &Raster<[f32; 3]>, pixel: PixelIndex) 
         })
         .collect();
     distances.sort_by(|a, b| a.axis[0].total_cmp(&b.axis[0]));
-    Some(WatchedPixel { pixel, color, class, hypothesis, kind: replay.kind(pixel.index()), distances })
+    Some(WatchedPixel {
+        pixel,
+        color,
+        class,
+        hypothesis,
+        kind: replay.kind(working_pixel.index()),
+        distances,
+    })
 }
