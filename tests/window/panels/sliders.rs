@@ -202,6 +202,9 @@ fn the_call_of_what_is_shown_can_be_copied() {
 #[test]
 fn ambient_light_is_given_switched_off_and_found_again() {
     let mut window = tiny_window();
+    // Alone, the panel shows all rows without scrolling.
+    window.state_mut().show_alone(Some(Pane::Parameters));
+    window.run_steps(2);
     assert_eq!(state(&window).document.params.ambient, AmbientSetting::Auto);
     click(&mut window, Role::CheckBox, "ambient automatic");
     assert_eq!(state(&window).document.params.ambient, AmbientSetting::Off);
