@@ -1,7 +1,8 @@
 //! Circles between the files of a room: files that use one another, directly or through others.
 //!
 //! A file is named by its first module below the room (`src/view/layers/table.rs` is `layers` of `view`). A name that the room's
-//! `mod.rs` re-exports, by itself or by a glob, counts as a use of the file that defines the name. Tests may use whatever they like.
+//! `mod.rs` re-exports, by itself or by a glob, counts as a use of the file that defines the name. Tests may use
+//! whatever they like.
 
 use crate::source::mentions;
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,8 +1,9 @@
 //! The events of a trace: every decision that is recorded, by section of the paper.
 //!
-//! One table makes [`Event`], [`Kind`], the list of all kinds, their names, and the dispatch to an event's structure. To add an
-//! event: write its structure with [`EventData`] in the file of its section, add a row to the table, record the event in the stage,
-//! and write its sentence in `describe/events`. The compiler names each place that is missing.
+//! One table makes [`Event`], [`Kind`], the list of all kinds, their names, and the dispatch to an event's
+//! structure. To add an event: write its structure with [`EventData`] in the file of its section, add a row to the
+//! table, record the event in the stage, and write its sentence in `describe/events`. The compiler names each place
+//! that is missing.
 //!
 //! Events are kept by the hundred thousand: large and rare ones are boxed. Claims, conflicts and labels are kept by the million
 //! and are no events, see [`super::StageTrace`].
