@@ -199,8 +199,9 @@ impl ExportKind {
     }
 }
 
-/// Writes an export; every file and folder appears whole or not at all. `report_progress` is called with the number of files written and
-/// the number of files in all. The sentence says what was written, or what failed, why, and what to do.
+/// Writes an export; every file and folder appears whole or not at all. `report_progress` is called with the number of
+/// files written and the number of files in all. The sentence says what was written, or what failed, why, and what to
+/// do.
 pub(super) fn write_export(
     export: &Export,
     input: &ExportInput,

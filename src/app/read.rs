@@ -14,7 +14,7 @@ use std::time::Instant;
 /// # Errors
 /// A sentence that names the file.
 pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, String> {
-    let begun = Instant::now();
+    let began_at = Instant::now();
     let (photo, sha256) = match &origin {
         Origin::File(path) => {
             let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
@@ -29,7 +29,7 @@ pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, S
         Origin::Bytes { name, bytes } => (photo::decode(bytes, name, &options), photo::sha256_hex(bytes)),
     };
     let photo = photo.map_err(|error| error.to_string())?;
-    let read_ms = begun.elapsed().as_secs_f64() * 1e3;
+    let read_ms = began_at.elapsed().as_secs_f64() * 1e3;
     let truth = truth(&origin);
     let histogram = Histogram::of(&photo.image);
     Ok(Picture { origin, reading: options, photo, sha256, read_ms, histogram, truth })

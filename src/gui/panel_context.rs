@@ -3,7 +3,7 @@
 use super::theme::ThemeColors;
 use crate::app::{Command, State};
 
-/// The argument of every panel, made anew in every frame.
+/// The argument of every panel; each frame has a new one.
 pub struct PanelContext<'a> {
     /// The state to show.
     pub state: &'a State,

@@ -3,7 +3,9 @@
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::app::{Edit, Gesture};
-use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Setting, Switch};
+use crate::params::{
+    AmbientSetting, IlluminantSetting, Method, Parameter, ParameterSpec, Params, Setting, Switch,
+};
 use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Sense, Slider, Ui, vec2};
 
 /// Width of the labels' column, points.
@@ -118,6 +120,7 @@ impl Columns {
     }
 }
 
+/// Shows a parameter: name, slider, field, unit and the button `auto`.
 fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
     let spec = parameter.spec();
     let setting = cx.state.document.params.get(parameter);
@@ -134,37 +137,18 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
         let name = egui::Label::new(spec.title).truncate().selectable(false).sense(Sense::click());
         let name = columns.label.show(ui, name).on_hover_text(&tip);
         ui.spacing_mut().slider_width = columns.slider.0.width();
-        let slider = Slider::new(&mut value, spec.slider.range[0]..=spec.slider.range[1])
-            .show_value(false)
-            .step_by(spec.slider.step)
-            .logarithmic(spec.slider.logarithmic)
-            .clamping(egui::SliderClamping::Never);
+        let slider = slider(&spec, &mut value);
         // The slider has no tooltip, which would hide the rows below while a person drags.
         let slider = widgets::clickable(&columns.slider.show(ui, slider));
         slider.widget_info(|| egui::WidgetInfo::slider(true, value, spec.title));
-        let decimals = usize::from(spec.slider.step < 1.0) * 2;
-        let field = DragValue::new(&mut value)
-            .speed(spec.slider.step)
-            .range(spec.range[0]..=spec.range[1])
-            .fixed_decimals(decimals);
-        let field = ui.put(columns.value.0, field).on_hover_text(&tip);
+        let field = ui.put(columns.value.0, field(&spec, &mut value)).on_hover_text(&tip);
         field.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, spec.name));
         let unit = RichText::new(spec.unit).size(SMALL_PT).color(cx.palette.secondary);
         if columns.unit.0.width() > 0.0 {
             columns.unit.show(ui, egui::Label::new(unit).truncate());
         }
         let automatic = setting == Setting::Auto;
-        let auto = Button::selectable(automatic, RichText::new("auto").size(SMALL_PT));
-        let auto = ui.put(columns.auto.0, auto);
-        auto.widget_info(|| {
-            egui::WidgetInfo::selected(
-                egui::accesskit::Role::CheckBox,
-                true,
-                automatic,
-                format!("{} auto", spec.title),
-            )
-        });
-        let auto = auto.on_hover_text("Estimated from the image; the slider shows what was used.");
+        let auto = auto_button(ui, &columns.auto, &spec, automatic);
         if name.double_clicked() || slider.double_clicked() {
             let default = Params::of(cx.state.document.params.method).get(parameter);
             cx.send(Edit::SetParameter(parameter, default, None));
@@ -181,6 +165,35 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
             cx.send(Edit::EndGesture);
         }
     });
+}
+
+/// The slider of a parameter, without the number.
+fn slider<'a>(spec: &ParameterSpec, value: &'a mut f64) -> Slider<'a> {
+    Slider::new(value, spec.slider.range[0]..=spec.slider.range[1])
+        .show_value(false)
+        .step_by(spec.slider.step)
+        .logarithmic(spec.slider.logarithmic)
+        .clamping(egui::SliderClamping::Never)
+}
+
+/// The field in which a parameter's value is typed.
+fn field<'a>(spec: &ParameterSpec, value: &'a mut f64) -> DragValue<'a> {
+    let decimals = usize::from(spec.slider.step < 1.0) * 2;
+    DragValue::new(value)
+        .speed(spec.slider.step)
+        .range(spec.range[0]..=spec.range[1])
+        .fixed_decimals(decimals)
+}
+
+/// Shows the button that sets a parameter to `auto`, or to the value that was used.
+fn auto_button(ui: &mut Ui, cell: &Cell, spec: &ParameterSpec, automatic: bool) -> egui::Response {
+    let auto = Button::selectable(automatic, RichText::new("auto").size(SMALL_PT));
+    let auto = ui.put(cell.0, auto);
+    auto.widget_info(|| {
+        let name = format!("{} auto", spec.title);
+        egui::WidgetInfo::selected(egui::accesskit::Role::CheckBox, true, automatic, name)
+    });
+    auto.on_hover_text("Estimated from the image; the slider shows what was used.")
 }
 
 /// Shows the values that a person gives by hand: the light, the ambient light and the analyzed area.

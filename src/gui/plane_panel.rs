@@ -134,7 +134,7 @@ fn navigate(ui: &Ui, response: &Response, plane: &RegionPlane, chart: Option<Cha
 
 /// The points as a mesh of two triangles each, rebuilt when chart, coloring or theme change.
 fn point_mesh(
-    kept: &mut Option<PointMesh>,
+    cached: &mut Option<PointMesh>,
     cx: &PanelContext,
     plane: &RegionPlane,
     chart: Chart,
@@ -142,7 +142,7 @@ fn point_mesh(
 ) -> Arc<egui::Mesh> {
     let by_label = cx.state.view.plane.color_by_label;
     let inputs = (chart, rect, by_label, cx.state.view.theme);
-    if let Some(point_mesh) = kept.as_ref().filter(|point_mesh| point_mesh.inputs == inputs) {
+    if let Some(point_mesh) = cached.as_ref().filter(|point_mesh| point_mesh.inputs == inputs) {
         return Arc::clone(&point_mesh.mesh);
     }
     let mut mesh = egui::Mesh::default();
@@ -161,7 +161,7 @@ fn point_mesh(
         }
     }
     let mesh = Arc::new(mesh);
-    *kept = Some(PointMesh { inputs, mesh: Arc::clone(&mesh) });
+    *cached = Some(PointMesh { inputs, mesh: Arc::clone(&mesh) });
     mesh
 }
 

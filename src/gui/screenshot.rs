@@ -76,7 +76,7 @@ impl Moment {
     }
 }
 
-fn whole(name: &'static str) -> GalleryPicture {
+fn whole_window(name: &'static str) -> GalleryPicture {
     GalleryPicture {
         name,
         pane: None,
@@ -90,17 +90,17 @@ fn whole(name: &'static str) -> GalleryPicture {
 }
 
 fn stopped(name: &'static str, moment: Moment) -> GalleryPicture {
-    GalleryPicture { moment: Some(moment), image: ImageSettings::default(), ..whole(name) }
+    GalleryPicture { moment: Some(moment), image: ImageSettings::default(), ..whole_window(name) }
 }
 
 fn image(name: &'static str, layer: Layer) -> GalleryPicture {
     let image = ImageSettings { layer, ..ImageSettings::default() };
-    GalleryPicture { pane: Some(Pane::Image), region: None, image, ..whole(name) }
+    GalleryPicture { pane: Some(Pane::Image), region: None, image, ..whole_window(name) }
 }
 
 fn colors(name: &'static str, region: Option<RegionId>, color_by: ColorBy) -> GalleryPicture {
     let cube = CubeSettings { color_by, ..CubeSettings::default() };
-    GalleryPicture { pane: Some(Pane::Colors), region, cube, ..whole(name) }
+    GalleryPicture { pane: Some(Pane::Colors), region, cube, ..whole_window(name) }
 }
 
 fn gallery() -> Vec<GalleryPicture> {
@@ -111,19 +111,19 @@ fn gallery() -> Vec<GalleryPicture> {
         ..ImageSettings::default()
     };
     vec![
-        whole("window"),
-        GalleryPicture { theme: Theme::Light, ..whole("window-light") },
+        whole_window("window"),
+        GalleryPicture { theme: Theme::Light, ..whole_window("window-light") },
         GalleryPicture { image: wipe, ..image("image-wipe", Layer::Input) },
         image("image-classification", Layer::Classes),
         image("image-regions", Layer::Regions),
         image("image-surface", Layer::Surface),
         colors("colors", None, ColorBy::Own),
         colors("colors-region", RegionId::from_label(1), ColorBy::Region),
-        GalleryPicture { pane: Some(Pane::Plane), ..whole("plane") },
-        GalleryPicture { pane: Some(Pane::Profile), ..whole("profile") },
+        GalleryPicture { pane: Some(Pane::Plane), ..whole_window("plane") },
+        GalleryPicture { pane: Some(Pane::Profile), ..whole_window("profile") },
         stopped("debugger-slice", Moment::Slice),
         stopped("debugger-skewed-t", Moment::Test),
-        GalleryPicture { shows_why: true, region: None, ..whole("debugger-why") },
+        GalleryPicture { shows_why: true, region: None, ..whole_window("debugger-why") },
     ]
 }
 

@@ -111,8 +111,8 @@ fn dash() -> String {
 fn run_lines(watch: &Watch) -> Vec<Line> {
     let stage = watch.stage.map_or_else(dash, |stage| stage.name().to_owned());
     let pass = watch.pass.map_or_else(dash, |pass| pass.name().to_owned());
-    let [standing, begun] = watch.regions.map(widgets::grouped);
-    let regions = format!("{standing} of {begun}");
+    let [active, all] = watch.regions.map(widgets::grouped);
+    let regions = format!("{active} of {all}");
     let unassigned = widgets::grouped(watch.unassigned as usize);
     let light = watch.light.map_or_else(|| vec![dash()], |light| light.map(|v| format!("{v:.3}")).to_vec());
     vec![
@@ -153,14 +153,14 @@ fn pixel_lines(pixel: &WatchedPixel, width: usize) -> Vec<Line> {
         Some(None) => "too few pixels".to_owned(),
         Some(Some(class)) => class.name().to_owned(),
     };
-    let holder = pixel.hypothesis.map_or_else(dash, |hypothesis| format!("hypothesis {hypothesis}"));
+    let owner = pixel.hypothesis.map_or_else(dash, |hypothesis| format!("hypothesis {hypothesis}"));
     let color = pixel.color.map(|v| format!("{v:.1}")).to_vec();
     let role = pixel.kind.name().to_owned();
     vec![
         Line::one("pixel", "The selected pixel: column, row.", format!("{x}, {y}"), ""),
         Line::new("color", "Linear counts, red green blue.", color, "counts"),
         Line::one("class", "Class of its window, once it is known (5.2.1).", class, ""),
-        Line::one("held by", "The region that has claimed it.", holder, ""),
+        Line::one("held by", "The region that has claimed it.", owner, ""),
         Line::one("role", "Matte, highlight, restored: once it is labeled (6).", role, ""),
     ]
 }

@@ -32,8 +32,8 @@ pub struct RegionAccuracy {
     pub surface_deg: Option<f64>,
 }
 
-/// Measures the result of a picture and of the parameters that were asked for; none where the picture has no ground truth of
-/// its size. Takes about as long as the analysis.
+/// Measures the result of a picture for the given parameters; none where the picture has no ground truth of its size.
+/// Takes about as long as the analysis.
 pub(super) fn accuracy(picture: &Picture, params: &Params, analysis: &Analysis) -> Option<Accuracy> {
     let (truth, photo) = (picture.truth.as_ref()?, &picture.photo);
     let facts = ImageFacts::of(photo, &picture.sha256);

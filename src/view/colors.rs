@@ -7,7 +7,7 @@ use crate::raster::{LabelMap, RegionId, UNASSIGNED};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// Least share of pixels of the smaller of two regions that both share, where one region continues the other.
+/// Least share of the smaller region's pixels that two regions share, if one region continues the other.
 const SHARED: f64 = 0.2;
 
 /// A color for each region: the color of the earlier region that the region continues, otherwise a color that differs from
@@ -27,7 +27,7 @@ pub(crate) fn colors_of_dropped(taken: &[[u8; 3]], count: usize) -> Vec<[u8; 3]>
     from.iter().copied().cycle().take(count).collect()
 }
 
-/// `neighbors`, the former colors and the result are lists by [`RegionId::index`].
+/// The colors of the regions. `neighbors`, the former colors and the returned colors are lists by [`RegionId::index`].
 fn colors(
     labels: &LabelMap,
     neighbors: &[&[RegionId]],

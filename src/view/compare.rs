@@ -82,7 +82,7 @@ pub struct ComparedRegion {
     pub pixels_shared: usize,
 }
 
-/// Numbers of pixels that stayed with their region, and that did not.
+/// Numbers of pixels that kept or changed their region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PixelChanges {
     /// Pixels in the same region, or in no region, in both results.

@@ -1,6 +1,6 @@
 //! Straight lines and surfaces of the RGB cube as curves and surfaces of the other color spaces.
 //!
-//! The shapes of the model are straight in RGB only. For other spaces they are subdivided until the pieces look straight.
+//! The shapes of the model are straight in RGB only. For other spaces the shapes are subdivided until the pieces look straight.
 
 use super::ColorSpace;
 use super::solid::Mesh;
@@ -79,7 +79,7 @@ impl ColorSpace {
         fine
     }
 
-    /// Divides the triangles whose edges become curves. Whether an edge is divided depends on its ends alone, so that its
+    /// Divides the triangles whose edges become curves. Only the ends of an edge decide whether the edge is divided, so that its
     /// two triangles agree. Returns whether any was.
     fn divide(self, mesh: &mut Mesh, full_counts: f32) -> bool {
         let mut middles: BTreeMap<(u32, u32), Option<u32>> = BTreeMap::new();

@@ -28,7 +28,7 @@ pub struct Histogram {
     pub bins: Vec<ColorBin>,
     /// Cell of the cube that each pixel is in.
     of_pixel: Vec<u32>,
-    /// Bin of each cell; a number that is no bin where the cell holds no pixel.
+    /// Bin of each cell; for a cell without pixels, a number that is no bin.
     of_cell: Vec<u32>,
 }
 

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 pub const MOST_PLANE_POINTS: usize = 20_000;
 /// Cells of the finest grid along each side; a power of two.
 const CELLS: usize = 1024;
-/// Kinds of pixels, each with cells of its own.
+/// Number of kinds of pixels; each kind has cells of its own.
 const KINDS: usize = 5;
 
 /// A region in its dichromatic plane.

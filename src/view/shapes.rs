@@ -1,4 +1,4 @@
-//! The shapes of the model in the RGB cube, in counts: the colors that a hypothesis claims, and its lines.
+//! The shapes of the model in the RGB cube, in counts: the colors that a hypothesis claims, and the lines of the hypothesis.
 
 mod cursor;
 
@@ -18,7 +18,7 @@ use rayon::prelude::*;
 /// Standard deviations that the ellipsoid of a window reaches.
 const ELLIPSOID_SIGMAS: f64 = 2.0;
 
-/// The skewed T of a region and the parts of the cube that it claims, in counts.
+/// The skewed T of a region, and the parts of the cube that the region claims, in counts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionShapes {
     /// The region of the shapes.

@@ -1,4 +1,4 @@
-//! A result as the panels see it.
+//! A result with all that panels show of it: region colors, times, trace and accuracy.
 
 use super::{Accuracy, Picture};
 use crate::analysis::{Analysis, Stage};
@@ -27,7 +27,8 @@ pub struct ResultSnapshot {
     pub region_colors: Vec<[u8; 3]>,
     /// Share of the pixels that are not dark which are in a region; 0 where all are dark.
     pub coverage: f64,
-    /// Time of each stage that ran, in the order of [`Stage::ALL`], milliseconds; none: its earlier output still stood.
+    /// Time of each stage that ran, in the order of [`Stage::ALL`], milliseconds; none: the earlier output of the stage
+    /// was reused.
     pub took_ms: [Option<f64>; Stage::ALL.len()],
     /// The decisions that led to the result, once recorded.
     pub(crate) trace: OnceLock<Arc<Trace>>,
@@ -105,8 +106,8 @@ pub(crate) fn best_overlaps(before: &LabelMap, after: &LabelMap) -> Vec<Option<R
         .collect()
 }
 
-/// For each label of `before` (the first: of unassigned pixels) the labels of `after` that it shares pixels with, and how
-/// many; in the order in which they are met.
+/// For each label of `before` (the first: of unassigned pixels) the labels of `after` with shared pixels, each
+/// with the number of shared pixels, in the order in which the pixels come.
 pub(crate) fn overlaps(before: &LabelMap, after: &LabelMap) -> Vec<Vec<(u16, usize)>> {
     let mut shared: Vec<Vec<(u16, usize)>> = vec![Vec::new()];
     let mut add = |(old, new): (u16, u16), pixels: usize| {

@@ -190,7 +190,8 @@ impl Tube {
         Some(ends.map(|t| point(std::array::from_fn(|k| self.mean[k] + self.direction[k] * t))))
     }
 
-    /// Where a line through `start` along the axis leaves the dark sphere, and the cube on its far sides.
+    /// The distances from `start` along the axis at which the line through `start` leaves the dark sphere and the cube, counts;
+    /// none where nothing of the line lies between them.
     fn extent(&self, start: [f64; 3]) -> Option<[f64; 2]> {
         let d = self.direction;
         let nearest = -dot64(start, d);

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 /// Bins of a band's histogram.
 pub const STATISTICS_BINS: usize = 64;
 /// Largest number of parts in which pixels are added up, whatever the number of threads, so that sums are identical bit for bit.
-const PARTS: usize = 16;
+const MOST_PARTS: usize = 16;
 /// Number of bins by the upper 15 bits of a float that is not negative, for the first step of a median.
 const COARSE_BINS: usize = 1 << 15;
 /// Number of bins by the lower 16 bits, for the second step: each bin is one float.
@@ -83,16 +83,16 @@ pub fn statistics(shown: &ResultSnapshot, mask: &Mask) -> Option<Statistics> {
         return None;
     }
     let full_counts = shown.picture.histogram.full_counts;
-    let survey = Survey { shown, mask, per_count: STATISTICS_BINS as f32 / full_counts };
-    let rows = height.div_ceil(PARTS);
+    let scan = PixelScan { shown, mask, per_count: STATISTICS_BINS as f32 / full_counts };
+    let rows = height.div_ceil(MOST_PARTS);
     let firsts: Vec<usize> = (0..height).step_by(rows).collect();
-    let parts: Vec<Part> =
-        firsts.par_iter().map(|&first| survey.part(first..(first + rows).min(height))).collect();
-    let whole = parts.into_iter().reduce(Part::joined)?;
+    let parts: Vec<PartialSums> =
+        firsts.par_iter().map(|&first| scan.sums_of_rows(first..(first + rows).min(height))).collect();
+    let whole = parts.into_iter().reduce(PartialSums::merged_with)?;
     if whole.pixels == 0 {
         return None;
     }
-    let medians = survey.medians(&whole);
+    let medians = scan.medians(&whole);
     let refined = shown.params.refinements().tail_test;
     let mut classifier = Classifier::new(shown.analysis.used.camera_noise, refined);
     let (variances, axes) = principal_axes(&whole.counted.covariance());
@@ -128,7 +128,7 @@ pub fn statistics(shown: &ResultSnapshot, mask: &Mask) -> Option<Statistics> {
 }
 
 /// The pixels that the figures are about.
-struct Survey<'a> {
+struct PixelScan<'a> {
     shown: &'a ResultSnapshot,
     mask: &'a Mask,
     /// Bins of the histogram per count.
@@ -136,7 +136,7 @@ struct Survey<'a> {
 }
 
 /// The sums of some rows.
-struct Part {
+struct PartialSums {
     pixels: usize,
     valid: usize,
     sum: [f64; 3],
@@ -159,12 +159,12 @@ struct BandCounts {
     coarse: Vec<u32>,
 }
 
-impl Survey<'_> {
-    fn part(&self, rows: std::ops::Range<usize>) -> Part {
+impl PixelScan<'_> {
+    fn sums_of_rows(&self, rows: std::ops::Range<usize>) -> PartialSums {
         let image = &self.shown.picture.photo.image;
         let (masks, labels) = (&self.shown.analysis.masks, self.shown.labels());
         let refined = self.shown.params.refinements().tail_test;
-        let mut part = Part::new(self.shown.analysis.finals.hypotheses.len());
+        let mut part = PartialSums::new(self.shown.analysis.finals.hypotheses.len());
         for y in rows {
             let first = y * image.width();
             for (x, _) in self.mask.row(y).iter().enumerate().filter(|(_, on)| **on) {
@@ -190,16 +190,16 @@ impl Survey<'_> {
     }
 
     /// The median of each band: the coarse counts give the range of floats, a second pass gives the value.
-    fn medians(&self, whole: &Part) -> [f32; 3] {
+    fn medians(&self, whole: &PartialSums) -> [f32; 3] {
         if whole.valid == 0 {
             return [0.0; 3];
         }
         let rank = ((whole.valid - 1) / 2) as u64;
         let found: [(usize, u64); 3] =
-            std::array::from_fn(|k| ranked(whole.bands[k].coarse.iter().map(|&n| u64::from(n)), rank));
+            std::array::from_fn(|k| bin_of_rank(whole.bands[k].coarse.iter().map(|&n| u64::from(n)), rank));
         let masks = &self.shown.analysis.masks;
         let pixels = self.shown.picture.photo.image.pixels.as_slice();
-        let length = pixels.len().div_ceil(PARTS);
+        let length = pixels.len().div_ceil(MOST_PARTS);
         let fine = |(part, colors): (usize, &[[f32; 3]])| {
             let mut fine: [Vec<u32>; 3] = std::array::from_fn(|_| vec![0; FINE_BINS]);
             for (pixel, color) in (part * length..).zip(colors) {
@@ -207,7 +207,7 @@ impl Survey<'_> {
                     continue;
                 }
                 for (k, fine) in fine.iter_mut().enumerate() {
-                    let bits = bits(color[k]);
+                    let bits = ordered_bits(color[k]);
                     if bits >> 16 == found[k].0 {
                         fine[bits & (FINE_BINS - 1)] += 1;
                     }
@@ -224,13 +224,13 @@ impl Survey<'_> {
         let fine = fine.unwrap_or_default();
         std::array::from_fn(|k| {
             let (coarse, rest) = found[k];
-            let (low, _) = ranked(fine[k].iter().map(|&n| u64::from(n)), rest);
+            let (low, _) = bin_of_rank(fine[k].iter().map(|&n| u64::from(n)), rest);
             f32::from_bits((coarse << 16 | low) as u32)
         })
     }
 }
 
-impl Part {
+impl PartialSums {
     fn new(regions: usize) -> Self {
         let counts = || BandCounts { histogram: vec![0; STATISTICS_BINS], coarse: vec![0; COARSE_BINS] };
         Self {
@@ -258,11 +258,11 @@ impl Part {
             self.max[k] = self.max[k].max(value);
             let band = &mut self.bands[k];
             band.histogram[((value * per_count) as usize).min(STATISTICS_BINS - 1)] += 1;
-            band.coarse[bits(value) >> 16] += 1;
+            band.coarse[ordered_bits(value) >> 16] += 1;
         }
     }
 
-    fn joined(mut self, other: Self) -> Self {
+    fn merged_with(mut self, other: Self) -> Self {
         self.pixels += other.pixels;
         self.valid += other.valid;
         self.clipped += other.clipped;
@@ -286,12 +286,12 @@ impl Part {
 
 /// Bits of a value that is not negative, in the order of the values; −0 is 0.
 #[inline]
-fn bits(value: f32) -> usize {
+fn ordered_bits(value: f32) -> usize {
     (value.to_bits() & (u32::MAX >> 1)) as usize
 }
 
 /// The bin that holds the value of a rank (from 0), and the rank of the value within the bin.
-fn ranked(counts: impl Iterator<Item = u64>, rank: u64) -> (usize, u64) {
+fn bin_of_rank(counts: impl Iterator<Item = u64>, rank: u64) -> (usize, u64) {
     let mut rest = rank;
     for (bin, count) in counts.enumerate() {
         if rest < count {
@@ -378,9 +378,9 @@ mod tests {
 
     #[test]
     fn a_rank_is_found_in_counted_bins_and_bits_keep_the_order() {
-        assert_eq!(ranked([0u64, 2, 0, 3].into_iter(), 0), (1, 0));
-        assert_eq!(ranked([0u64, 2, 0, 3].into_iter(), 2), (3, 0));
-        assert_eq!(ranked([0u64, 2, 0, 3].into_iter(), 4), (3, 2));
-        assert_eq!((bits(-0.0), f32::from_bits(bits(1.5) as u32)), (0, 1.5));
+        assert_eq!(bin_of_rank([0u64, 2, 0, 3].into_iter(), 0), (1, 0));
+        assert_eq!(bin_of_rank([0u64, 2, 0, 3].into_iter(), 2), (3, 0));
+        assert_eq!(bin_of_rank([0u64, 2, 0, 3].into_iter(), 4), (3, 2));
+        assert_eq!((ordered_bits(-0.0), f32::from_bits(ordered_bits(1.5) as u32)), (0, 1.5));
     }
 }

@@ -133,7 +133,7 @@ pub fn next_stop(replay: &Replay, goal: usize, breakpoints: &[Breakpoint]) -> Op
             stops(&step, &sizes).map(|index| (n + 1, index))
         })
     } else {
-        // The step taken last is excluded: the cursor stands there already.
+        // The step taken last is excluded: it would stop the cursor at its present place.
         trace.steps_in(goal..at).rev().find_map(|(n, step)| {
             let stop = (n + 1 < at).then(|| stops(&step, &sizes)).flatten();
             sizes.apply(&step, Direction::Back);

@@ -141,22 +141,22 @@ fn claimed_pixels_lie_inside_the_bounds_and_refused_pixels_outside() {
     for block in trace.blocks().filter(|block| grows(block.topic) && block.steps.len() > 60) {
         seek(&mut application, block.steps.start + block.steps.len() * 3 / 5);
         let replay = application.state().followed().unwrap();
-        let tracks = growth_pixels(replay, colors(&application), masks(&application)).unwrap();
+        let growth = growth_pixels(replay, colors(&application), masks(&application)).unwrap();
         let hypothesis = block.topic.hypothesis();
-        assert_eq!(tracks.hypothesis, hypothesis);
-        let held = |pixel: &u32| replay.labels()[*pixel as usize] == hypothesis.get();
-        assert!(tracks.claimed.iter().chain(&tracks.newest).all(held));
-        assert!(!tracks.outside.iter().chain(&tracks.kept_out).any(held));
+        assert_eq!(growth.hypothesis, hypothesis);
+        let is_of_hypothesis = |pixel: &u32| replay.labels()[*pixel as usize] == hypothesis.get();
+        assert!(growth.claimed.iter().chain(&growth.newest).all(is_of_hypothesis));
+        assert!(!growth.outside.iter().chain(&growth.kept_out).any(is_of_hypothesis));
         if let (Topic::Hypothesis(_), Some(known)) = (block.topic, replay.hypothesis(hypothesis)) {
             let away = |pixel: u32| {
                 let color = crate::color::vec3(colors(&application)[pixel as usize]);
                 known.line().unwrap().distance(&color)
             };
-            assert!(tracks.outside.iter().all(|&pixel| away(pixel) > known.radius - 1e-3));
+            assert!(growth.outside.iter().all(|&pixel| away(pixel) > known.radius - 1e-3));
         }
-        outside += tracks.outside.len();
+        outside += growth.outside.len();
         let shown = regions(instant(&application));
-        assert_eq!((shown.focus, shown.newest.len()), (Some(hypothesis), tracks.newest.len()));
+        assert_eq!((shown.focus, shown.newest.len()), (Some(hypothesis), growth.newest.len()));
     }
     assert!(outside > 0);
 }

@@ -85,7 +85,7 @@ impl Debugger {
         Some(anchor.find(trace, names, &overlaps))
     }
 
-    /// The hypothesis of the step taken last; the chosen one where that step concerns none.
+    /// The hypothesis of the step taken last; the chosen hypothesis where that step concerns none.
     pub fn focus(&self) -> Option<HypothesisId> {
         let replay = self.replay.as_ref()?;
         let block = replay.at().checked_sub(1).and_then(|last| replay.trace().block_at(last));

@@ -20,7 +20,7 @@ fn input() -> ExportInput {
 }
 
 /// The photograph with a share of its surface reflection.
-fn kept(keep_surface: f64, path: &Path) -> Export {
+fn matte_with_surface(keep_surface: f64, path: &Path) -> Export {
     let options = ExportOptions { keep_surface, ..ExportOptions::default() };
     Export { options, ..ExportKind::Matte.to(path) }
 }
@@ -37,7 +37,7 @@ fn every_kind_of_file_is_written_and_named() {
     let options = ExportOptions { drawn, ..ExportOptions::default() };
     let picture = Export { options, ..ExportKind::View.to(at("v.png")) };
     let exports = [
-        (kept(0.25, &at("m.png")), "25 % of its surface"),
+        (matte_with_surface(0.25, &at("m.png")), "25 % of its surface"),
         (ExportKind::Selection.to(at("s.png")), "as a mask"),
         (ExportKind::Selection.to(at("s.csv")), "as a table"),
         (ExportKind::Selection.to(at("s.PLY")), "as points"),
@@ -48,9 +48,9 @@ fn every_kind_of_file_is_written_and_named() {
         (ExportKind::Parameters.to(at("p.toml")), "parameters"),
     ];
     for (export, word) in exports {
-        let said = write_one(&export, &input()).unwrap();
-        assert!(said.starts_with("wrote ") && said.contains(word), "{said}");
-        assert!(said.ends_with(&export.path.display().to_string()), "{said}");
+        let text = write_one(&export, &input()).unwrap();
+        assert!(text.starts_with("wrote ") && text.contains(word), "{text}");
+        assert!(text.ends_with(&export.path.display().to_string()), "{text}");
         assert!(fs::metadata(&export.path).unwrap().len() > 0);
     }
     let mask = crate::photo::read(&at("s.png"), &crate::photo::ReadOptions::default()).unwrap();
@@ -91,8 +91,8 @@ fn an_export_that_fails_says_why_and_what_to_do() {
 fn the_matte_file_has_an_extension_that_fits() {
     let root = tempfile::tempdir().unwrap();
     let export = ExportKind::Matte.to(root.path().join("m.jpg"));
-    let said = write_one(&export, &input()).unwrap();
-    assert!(said.ends_with("m.png"), "a PNM becomes a PNG: {said}");
+    let text = write_one(&export, &input()).unwrap();
+    assert!(text.ends_with("m.png"), "a PNM becomes a PNG: {text}");
 }
 
 #[test]
@@ -101,14 +101,14 @@ fn an_export_of_a_folder_reports_progress_and_can_be_stopped() {
     let (folder, input, stop) = (root.path().join("result"), input(), Stop::default());
     let files = AtomicUsize::new(0);
     let export = ExportKind::Result.to(folder.clone());
-    let halt = |done: usize, total: usize| {
+    let stop_at_third = |done: usize, total: usize| {
         assert!((1..=total).contains(&done) && total == 15);
         if done == 3 {
             stop.stop();
         }
     };
-    let said = write_export(&export, &input, &stop, &halt).unwrap();
-    assert!(said.starts_with("stopped") && !folder.exists(), "{said}");
+    let text = write_export(&export, &input, &stop, &stop_at_third).unwrap();
+    assert!(text.starts_with("stopped") && !folder.exists(), "{text}");
     assert_eq!(fs::read_dir(root.path()).unwrap().count(), 0);
     let count = |_, _| {
         files.fetch_add(1, Ordering::Relaxed);

@@ -97,7 +97,7 @@ fn restore_workspace(state: &mut State, workspace: Workspace) {
     let Some(size) = state.picture.as_ref().map(|picture| picture.size()) else { return };
     let Workspace { params, pinned, area, item, marked, view, .. } = workspace;
     let show_pinned = view.show_pinned;
-    // The theme suits the light at a person's desk, not a workspace: the present theme stays.
+    // The theme is a choice for the whole program: a workspace does not change the theme.
     state.view = ViewSettings { show_pinned: false, theme: state.view.theme, ..view };
     let mut mask = |what: &str, runs: Option<MaskRuns>| {
         let runs = runs?;

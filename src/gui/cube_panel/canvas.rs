@@ -33,7 +33,7 @@ impl Canvas {
         Some((renderer.size_px(), renderer.read_back(&gpu.device, &gpu.queue)?))
     }
 
-    /// The renderer of the graphics device; made anew when a lost device was replaced by another.
+    /// The renderer of the graphics device. A device that replaces a lost one gets a new renderer.
     fn renderer(&mut self, gpu: &RenderState) -> &mut DeviceRenderer {
         if self.renderer.as_ref().is_some_and(|renderer| renderer.device != gpu.device) {
             self.renderer = None;

@@ -44,7 +44,7 @@ struct BinMajorities {
 }
 
 impl BinMajorities {
-    /// Counts anew when photograph or result have changed.
+    /// Counts again when photograph or result have changed.
     fn update(&mut self, picture: &Arc<Picture>, shown: Option<&Arc<ResultSnapshot>>) {
         let same = |(counted, result): &(Arc<Picture>, Option<Arc<ResultSnapshot>>)| {
             Arc::ptr_eq(counted, picture) && same_arc(result.as_ref(), shown)

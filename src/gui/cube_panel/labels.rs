@@ -127,10 +127,10 @@ mod tests {
         assert_eq!(places[1], None, "covered by the first");
         assert!(places[2].is_some(), "there is room on another side");
         assert_eq!(places[3], None, "beyond the border");
-        let kept: Vec<Rect> = places.into_iter().flatten().collect();
-        for (i, one) in kept.iter().enumerate() {
+        let placed: Vec<Rect> = places.into_iter().flatten().collect();
+        for (i, one) in placed.iter().enumerate() {
             assert!(bounds.contains_rect(*one) && !one.intersects(gizmo));
-            assert!(kept[..i].iter().all(|other| !other.intersects(*one)));
+            assert!(placed[..i].iter().all(|other| !other.intersects(*one)));
         }
     }
 

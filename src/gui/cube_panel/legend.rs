@@ -1,4 +1,5 @@
-//! The legend of the points' colors: window classes or density. Points in the color of their region, or in the color that they stand for, need no legend.
+//! The legend of the points' colors: window classes or density. Points in the color of their region, or in the color
+//! that they stand for, need no legend.
 
 use super::cloud::{class_color, color_by, density_color};
 use crate::gui::PanelContext;

@@ -19,7 +19,7 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Whether an outline has been begun and not finished.
+    /// Whether an outline has at least one corner and is not closed.
     pub fn is_unfinished(&self) -> bool {
         !self.corners.is_empty()
     }

@@ -26,7 +26,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// The placement in the settings, limited so that the picture stays in sight.
+    /// The placement in the settings, limited so that a part of the picture is visible.
     pub fn new(view: Rect, size: Vec2, settings: &ImageSettings) -> Self {
         let zoom = settings.zoom.unwrap_or_else(|| fitting_zoom(view, size));
         let center = match (settings.zoom, settings.center_px) {

@@ -76,8 +76,8 @@ pub fn show(ui: &mut Ui, state: &State, palette: &ThemeColors) {
     });
     let values = readout.as_ref().map_or_else(Default::default, PixelReadout::values);
     let chip = readout.as_ref().and_then(|readout| readout.chip);
-    let whole = ui.interact(full, ui.scope_id().with("readout"), Sense::hover());
-    whole.widget_info(|| WidgetInfo::labeled(Role::Label, true, sentence(&values)));
+    let strip = ui.interact(full, ui.scope_id().with("readout"), Sense::hover());
+    strip.widget_info(|| WidgetInfo::labeled(Role::Label, true, sentence(&values)));
     let lines: &[&[usize]] = if needs_two_lines(ui, full.width()) {
         &[&[0, 1, 2, 3, 4, 6], &[5, 7, 8, 9, 10]]
     } else {

@@ -49,7 +49,7 @@ enum Subject {
 }
 
 impl PaintRequest {
-    /// The request of a layer. Settings that do not change the picture are left out, so that it is not painted anew.
+    /// The request of a layer. Settings that do not change the picture are left out, so that the picture is not painted again.
     pub fn layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
         let picture = Arc::clone(state.picture.as_ref()?);
         let mut look = settings.look(state.selected_region().filter(|_| layer.dims_regions()));
@@ -181,7 +181,7 @@ impl TextureCache {
         if !self.textures.iter().any(|texture| texture.key == key) {
             if request.picture.photo.image.pixels.len() <= LARGE_PX {
                 let texture = LayerTexture::painted(request);
-                self.keep(texture);
+                self.add_texture(texture);
             } else if self.painting.is_none() {
                 self.paint_in_background(ctx, request);
             }
@@ -205,12 +205,12 @@ impl TextureCache {
     fn take_painted(&mut self) {
         if let Some(mut texture) = Task::take(&mut self.painting) {
             texture.last_use = self.uses;
-            self.keep(texture);
+            self.add_texture(texture);
         }
     }
 
     /// Keeps a new texture. One of an instant reuses the tiles of the instant before: they change many times a second.
-    fn keep(&mut self, mut texture: LayerTexture) {
+    fn add_texture(&mut self, mut texture: LayerTexture) {
         let instant = |texture: &LayerTexture| matches!(texture.key.subject, SubjectKey::Instant(..));
         if instant(&texture) {
             for old in self.textures.extract_if(.., |old| instant(old)) {
@@ -309,9 +309,9 @@ impl LayerTexture {
         let level = level_for(scale, self.levels.len());
         let texels = &self.levels[level];
         let texels_per_copy = (1usize << level) as f32;
-        let [columns, rows] = place.visible().map(|seen| {
+        let [columns, rows] = place.visible().map(|visible_range| {
             let tile = TILE << level;
-            seen.start / tile..seen.end.div_ceil(tile)
+            visible_range.start / tile..visible_range.end.div_ceil(tile)
         });
         for row in rows {
             for column in columns.clone() {

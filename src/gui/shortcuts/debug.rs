@@ -68,7 +68,8 @@ impl KeyListeners {
         }
         let focused = ctx.memory(egui::Memory::focused).filter(|&id| id != self.track);
         let focused_widget = focused.and_then(|id| ctx.read_response(id));
-        // A widget that senses clicks and drags is a view: the image or the color space. A key does not press a view as it presses a button.
+        // A widget that senses clicks and drags is a view: the image or the color space. A key does not press a view as
+        // it presses a button.
         let on_view = focused_widget
             .as_ref()
             .is_none_or(|widget| widget.sense.senses_click() && widget.sense.senses_drag());

@@ -21,8 +21,8 @@ pub fn lines(trace: &Trace, regions: &RegionNames, names: &Names, step: usize) -
         let claims = if claims > 0 { format!(": {} claims", grouped(claims)) } else { String::new() };
         lines.push(format!("{}{region}{claims}", topic(block.topic)));
     }
-    if let Some(taken) = trace.step(step) {
-        lines.push(format!("step {}: {}", grouped(step + 1), names.step(&taken)));
+    if let Some(step_at_pointer) = trace.step(step) {
+        lines.push(format!("step {}: {}", grouped(step + 1), names.step(&step_at_pointer)));
     }
     lines
 }

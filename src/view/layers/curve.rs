@@ -1,4 +1,4 @@
-//! From linear counts to 8-bit sRGB by one look-up in a table.
+//! The conversion of linear counts to 8-bit sRGB codes: one look-up in a table.
 
 use crate::color::srgb_from_linear;
 use crate::photo::FULL_SCALE_COUNTS;

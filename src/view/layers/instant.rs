@@ -209,8 +209,8 @@ impl RegionsView {
         self.focus.and_then(|focus| self.colors.get(focus.index())).copied().unwrap_or(ACCENT)
     }
 
-    /// Paints the hypotheses, all dimmed but the one in focus; pixels that it took last are lighter, pixels that it did not take
-    /// have another color.
+    /// Paints the hypotheses, all dimmed but the one in focus; pixels that this hypothesis took last are lighter,
+    /// pixels that it did not take have another color.
     fn paint(&self, painted: &mut Raster<[u8; 4]>, look: &Look) {
         let selected = |id: HypothesisId| self.focus.is_none_or(|focus| focus == id);
         let styles: Vec<[u8; 4]> = std::iter::once(CLEAR)

@@ -1,4 +1,4 @@
-//! How layers are drawn: exposure, fills and outlines, opacity.
+//! The appearance of layers: exposure, fills and outlines, opacity.
 
 use crate::raster::RegionId;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ pub const DIFFERENCE_COUNTS: f32 = 64.0;
 /// Share of their opacity that regions keep while another region is selected.
 const DIMMED: f32 = 0.35;
 
-/// How areas are drawn over the photograph.
+/// The two ways of drawing areas over the photograph.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Fill {
     /// Areas filled with their color.
@@ -19,7 +19,7 @@ pub enum Fill {
     Outline,
 }
 
-/// How layers are drawn.
+/// The appearance of a layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     /// Exposure, stops: light is multiplied by two to this power. Also the gain of [`super::Layer::Noise`] and

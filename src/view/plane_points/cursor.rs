@@ -81,8 +81,9 @@ pub fn test_plane(
     Some(RegionPlane { matte_length, branches, ..plane })
 }
 
-/// A hypothesis at the cursor: its pixels are shown as matte, the pixels that it took last as highlight, the pixels that it did not
-/// take as lost. The plane is the dichromatic plane once there is a slice, before that a plane across the line. `focus` is the hypothesis,
+/// A hypothesis at the cursor: its pixels are shown as matte, the pixels that it took last as highlight, the pixels
+/// that it did not take as lost. The plane is the dichromatic plane once there is a slice, before that a plane across
+/// the line. `focus` is the hypothesis,
 /// `region` the region that the hypothesis became part of. None where the hypothesis has no line.
 pub fn growing_plane(
     replay: &Replay,
@@ -102,8 +103,8 @@ pub fn growing_plane(
     let has_plane = in_plane.is_some();
     let (colors, masks) = (&working.image.pixels, &working.masks);
     let projection = PlaneProjection { working, transform: in_plane.or_else(across)? };
-    let tracks = growth_pixels(replay, colors, masks).filter(|tracks| tracks.hypothesis == focus);
-    let (outside, newest) = tracks.map_or_else(Default::default, |tracks| (tracks.outside, tracks.newest));
+    let grown = growth_pixels(replay, colors, masks).filter(|grown| grown.hypothesis == focus);
+    let (outside, newest) = grown.map_or_else(Default::default, |grown| (grown.outside, grown.newest));
     let points = projection.points(&[
         (pixels_of_region(replay, focus), PixelKind::Matte),
         (outside, PixelKind::Lost),

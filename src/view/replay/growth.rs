@@ -1,11 +1,11 @@
-//! The growth that the cursor stands in: the pixels that a hypothesis has taken so far, the pixels around them, and the rings in
-//! which they were taken.
+//! The growth at the cursor: the pixels that a hypothesis has taken so far, the pixels around these, and the rings of the growth:
+//! the pixels that were reached in one step.
 
 use super::rings::Rings;
 use crate::raster::HypothesisId;
 use crate::trace::{Block, Replay, Step, Topic};
 
-/// Pixels of the hypothesis that the cursor is about.
+/// Pixels of the hypothesis that grows at the cursor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Growth {
     /// The hypothesis.

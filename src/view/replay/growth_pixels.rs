@@ -57,7 +57,7 @@ pub fn growth_pixels(replay: &Replay, colors: &Raster<[f32; 3]>, masks: &Masks) 
     let block = replay.trace().block_at(replay.at().checked_sub(1)?)?;
     let growth = growth(replay)?;
     let bounds = Bounds::of(replay, growth.hypothesis, block.topic);
-    let mut tracks = GrowthPixels {
+    let mut grown = GrowthPixels {
         hypothesis: growth.hypothesis,
         claimed: growth.claimed,
         newest: Vec::new(),
@@ -68,13 +68,13 @@ pub fn growth_pixels(replay: &Replay, colors: &Raster<[f32; 3]>, masks: &Masks) 
         let at = pixel as usize;
         let Some(bounds) = &bounds else { continue };
         if !masks.dark(at) && !bounds.contains(colors.as_slice()[at]) {
-            tracks.outside.push(pixel);
+            grown.outside.push(pixel);
         } else if replay.labels()[at] != UNASSIGNED || masks.dark(at) || masks.distorted(at) {
-            tracks.kept_out.push(pixel);
+            grown.kept_out.push(pixel);
         }
     }
-    tracks.newest = newest_ring(replay, block.steps.start, growth.hypothesis);
-    Some(tracks)
+    grown.newest = newest_ring(replay, block.steps.start, growth.hypothesis);
+    Some(grown)
 }
 
 /// The highlight test at the cursor: the test made last, or the test that the chosen candidate had passed.

@@ -1,4 +1,4 @@
-//! What the image view shows of an instant, copied from the cursor so that the picture can be painted on another thread.
+//! The contents of the image view at an instant, copied from the cursor so that the picture can be painted on another thread.
 
 use super::RegionNames;
 use super::growth_pixels::{candidate_pixels, growth_pixels, test_at_cursor};
@@ -142,7 +142,7 @@ impl Instant {
         Self { view, pixel, window }.of_photograph(&replay.trace().pixel_blocks())
     }
 
-    /// The instant in pixels of the photograph, of one in working pixels, which are these blocks of the photograph.
+    /// Converts the instant from working pixels, which are these blocks of the photograph, to pixels of the photograph.
     fn of_photograph(self, blocks: &Blocks) -> Self {
         if blocks.side() == 1 {
             return self;
@@ -185,11 +185,11 @@ fn regions(
     masks: &Masks,
     windows: Option<WindowsView>,
 ) -> RegionsView {
-    let tracks = growth_pixels(replay, colors, masks);
-    let (newest, beside) = tracks.map_or_else(Default::default, |tracks| {
-        let mut beside = tracks.outside;
-        beside.extend(tracks.kept_out);
-        (tracks.newest, beside)
+    let grown = growth_pixels(replay, colors, masks);
+    let (newest, beside) = grown.map_or_else(Default::default, |grown| {
+        let mut beside = grown.outside;
+        beside.extend(grown.kept_out);
+        (grown.newest, beside)
     });
     let test = test_at_cursor(replay);
     let beside = test.map_or(beside, |test| candidate_pixels(replay, test.candidate, masks));

@@ -1,4 +1,4 @@
-//! What the panels show at the debugger's cursor in a trace.
+//! The data that panels show at the debugger's cursor in a trace.
 
 mod growth;
 mod growth_pixels;

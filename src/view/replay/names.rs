@@ -48,7 +48,8 @@ impl RegionNames {
 /// The region of a hypothesis, or of the hypothesis that it became part of.
 fn region_at_end(end_of_trace: &Replay, hypothesis: HypothesisId) -> Option<RegionId> {
     let mut current = hypothesis;
-    // Each hypothesis ends in one that still stood; more turns than hypotheses would be a circle.
+    // A hypothesis becomes part of one that is active at that time: a chain of these has no circle, and no more members than
+    // there are hypotheses.
     for _ in 0..=end_of_trace.hypotheses().len() {
         if let Some(region) = end_of_trace.region_of(current) {
             return Some(region);

@@ -52,11 +52,11 @@ fn groups(
         let candidate = candidate_pixels(replay, test.candidate, masks);
         return vec![(Role::Own, measured), (Role::Ignored, ignored), (Role::Beside, candidate)];
     }
-    if let Some(tracks) = growth_pixels(replay, colors, masks) {
+    if let Some(grown) = growth_pixels(replay, colors, masks) {
         return vec![
-            (Role::Own, pixels_of_region(replay, tracks.hypothesis)),
-            (Role::Beside, tracks.outside),
-            (Role::Newest, tracks.newest),
+            (Role::Own, pixels_of_region(replay, grown.hypothesis)),
+            (Role::Beside, grown.outside),
+            (Role::Newest, grown.newest),
         ];
     }
     if let Some((blob, kept)) = blob_at_cursor(replay) {

@@ -1,8 +1,8 @@
 //! The places of the steps of a trace along a line: the layout of the timeline, without a screen.
 //!
-//! A trace has a million claims and a thousand windows. With shares in proportion to the number of steps, all but two passes would
-//! be too thin to see. Stages, and passes within a stage, therefore get a share that grows slowly with their number of steps and
-//! has a lower limit; within a pass, places are proportional to steps.
+//! A trace has a million claims and a thousand windows. With shares in proportion to the number of steps, all but two
+//! passes would be too thin to see. Stages, and passes within a stage, therefore get a share that grows slowly with
+//! their number of steps and has a lower limit; within a pass, places are proportional to steps.
 
 use crate::trace::{Pass, PassSpan, Trace};
 use std::ops::Range;
@@ -78,7 +78,7 @@ impl TimelineAxis {
         Some(a + (steps as usize).min(b - a - 1))
     }
 
-    /// Number of steps that are taken when the cursor is put at a place: the step at the place is the last.
+    /// Number of steps before a cursor at a place; the step at the place is the last of these.
     pub fn taken_at(&self, place: f64) -> usize {
         let end = self.knots.last().map_or(0, |knot| knot.0);
         if place <= 0.0 { 0 } else { self.step_at(place).map_or(end, |step| step + 1) }

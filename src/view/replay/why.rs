@@ -1,4 +1,4 @@
-//! Why a pixel, a hypothesis and a region are what they are: sentences, each with the step that the sentence is about.
+//! The history of a pixel, of a hypothesis and of a region as sentences, each with the step that the sentence is about.
 
 use super::RegionNames;
 use crate::describe::{Names, condense};

@@ -1,4 +1,4 @@
-//! The shapes at the debugger's cursor: the colors that the hypothesis in focus accepts, and the axes of all that stand.
+//! The shapes at the debugger's cursor: the colors that the hypothesis in focus accepts, and the axes of all active hypotheses.
 
 use super::{ellipsoid_of, full, slice_body};
 use crate::color::Moments;
@@ -16,9 +16,9 @@ pub struct CursorShapes {
     pub slice: Option<Solid>,
     /// The axis of the hypothesis in focus, from the dark sphere to the side of the cube.
     pub axis: Option<[Point; 2]>,
-    /// The point where its highlight line leaves the matte line, once that is known.
+    /// The point where the highlight line leaves the matte line, once the point is known.
     pub start: Option<Point>,
-    /// The axes of the other hypotheses that stand.
+    /// The axes of the other active hypotheses.
     pub others: Vec<(HypothesisId, [Point; 2])>,
     /// The line from black along the light as it is estimated so far.
     pub light: Option<[Point; 2]>,
