@@ -89,6 +89,7 @@ impl LatestRequest {
         waiting.closed || waiting.request.is_some()
     }
 
+    /// The waiting request, also after a panic of another thread.
     fn lock(&self) -> std::sync::MutexGuard<'_, Waiting> {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -211,6 +212,7 @@ impl Observer for CancelOnly<'_> {
     }
 }
 
+/// The snapshot of a complete result, in which regions keep the colors of the regions of `last` that they continue.
 fn result_snapshot(
     request: &AnalysisRequest,
     analysis: Analysis,
@@ -235,6 +237,7 @@ fn result_snapshot(
     }
 }
 
+/// Share of the pixels that are not dark which are in a region, 0…1.
 fn coverage(analysis: &Analysis) -> f64 {
     let labels = analysis.finals.labels.as_slice().iter().enumerate();
     let (lit, assigned) = labels

@@ -117,6 +117,7 @@ impl Application {
         (self.state.view, self.state.recent) = (view, recent);
     }
 
+    /// Starts or stops the work of an effect.
     fn carry_out(&mut self, effect: Effect) {
         match effect {
             Effect::Analyze => self.analyze(self.tracing()),
@@ -158,6 +159,7 @@ impl Application {
         }
     }
 
+    /// Submits a request for the present document, or analyzes inline.
     fn analyze(&mut self, tracing: Tracing) {
         let Some(picture) = &self.state.picture else { return };
         let request = AnalysisRequest {

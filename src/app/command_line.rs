@@ -52,6 +52,7 @@ fn reading_words(state: &State) -> Vec<String> {
     words
 }
 
+/// Flags of the parameters and switches that differ from the defaults of their method.
 fn params_words(params: &Params) -> Vec<String> {
     let mut words = Vec::new();
     if params.method == Method::Paper {
@@ -83,6 +84,7 @@ fn params_words(params: &Params) -> Vec<String> {
     words
 }
 
+/// A path, quoted for a POSIX shell where needed.
 fn quoted_path(path: &Path) -> String {
     let text = path.display().to_string();
     // The folder before a name that begins with `-` keeps it from being read as a flag.

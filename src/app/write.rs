@@ -99,6 +99,7 @@ pub(super) fn workspace(path: &Path, _: &ExportOptions, input: &ExportInput) -> 
     Ok(file(path, workspace.to_json(path)?.into_bytes(), "the workspace"))
 }
 
+/// The photograph; an error where no photograph is open.
 fn picture(input: &ExportInput) -> Result<&Picture, String> {
     input.picture.as_deref().ok_or_else(|| "nothing to export: open a photograph first".to_owned())
 }
@@ -155,6 +156,7 @@ pub(super) fn selection(path: &Path, _: &ExportOptions, input: &ExportInput) -> 
     Ok(Contents { path: path.to_owned(), bytes, what: what.to_owned() })
 }
 
+/// The extension of a path in lower case; empty without one.
 fn extension_of(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
@@ -186,6 +188,7 @@ pub(super) fn result(
     }
 }
 
+/// The report of a result, as `analyze` writes it.
 fn report(shown: &ResultSnapshot) -> Result<Report, String> {
     let Picture { photo, sha256, read_ms, truth, .. } = &*shown.picture;
     let mut timings_ms = Timings { read: Some(*read_ms), ..Timings::default() };

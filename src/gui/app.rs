@@ -279,6 +279,7 @@ fn open_dropped_and_pasted(ui: &Ui, cx: &mut PanelContext) {
     }
 }
 
+/// Opens a workspace or a photograph, by the extension of the path.
 fn open_path(cx: &mut PanelContext, path: PathBuf) {
     cx.send(if is_workspace(&path) {
         JobCommand::OpenWorkspace(path)
@@ -287,6 +288,7 @@ fn open_path(cx: &mut PanelContext, path: PathBuf) {
     });
 }
 
+/// Sets the title of the window, where the title has changed.
 fn update_title(ui: &Ui, state: &State) {
     let title = state.picture.as_ref().map_or_else(
         || "Dichroscope".to_owned(),

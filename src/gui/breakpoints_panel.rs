@@ -142,6 +142,7 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, index: usize, breakpoint: &mut Breakp
     remove.clicked()
 }
 
+/// Shows the choice of the kind of a condition.
 fn kind_control(ui: &mut Ui, state: &State, number: usize, condition: &mut Condition) {
     let kind = ConditionKind::of(*condition);
     let (_, name, tip) =
@@ -159,6 +160,7 @@ fn kind_control(ui: &mut Ui, state: &State, number: usize, condition: &mut Condi
     combo.response.on_hover_text(tip);
 }
 
+/// Sets the accessible role and name of a widget.
 fn set_accessible_name(response: &Response, role: Role, name: String) {
     response.widget_info(move || WidgetInfo::labeled(role, true, &name));
 }
@@ -191,6 +193,7 @@ fn argument_controls(ui: &mut Ui, cx: &mut PanelContext, number: usize, conditio
     }
 }
 
+/// Shows a choice of one of several values.
 fn choice_control<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: String,

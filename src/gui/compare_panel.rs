@@ -53,6 +53,7 @@ fn pin_hint(ui: &mut Ui, cx: &mut PanelContext) {
     }
 }
 
+/// Shows the buttons for both results, and the first decision that differs.
 fn buttons(ui: &mut Ui, cx: &mut PanelContext) {
     ui.horizontal(|ui| {
         let pinned = cx.state.view.show_pinned;
@@ -125,10 +126,12 @@ fn decisions_at(ui: &mut Ui, cx: &PanelContext, step: usize) {
     });
 }
 
+/// Small text in the secondary color.
 fn secondary_text(cx: &PanelContext, text: impl Into<String>) -> RichText {
     RichText::new(text).size(SMALL_PT).color(cx.palette.secondary)
 }
 
+/// Shows the table of parameters and scores that differ.
 fn figures(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
     Grid::new("figures").num_columns(4).spacing([14.0, 2.0]).show(ui, |ui| {
         for title in ["", "A", "B", "B \u{2212} A"] {
@@ -172,6 +175,7 @@ fn shortened(value: f64) -> String {
     if value.abs() >= 1000.0 || value.fract() == 0.0 { format!("{value:.0}") } else { format!("{value:.3}") }
 }
 
+/// Shows the numbers of changed pixels, and the regions that differ.
 fn regions(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
     let (pixels, body) = (&found.pixels, &found.body);
     let all = (pixels.kept + pixels.gained + pixels.lost + pixels.changed).max(1) as f64;

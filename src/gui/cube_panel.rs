@@ -238,6 +238,7 @@ impl CubePanel {
         }
     }
 
+    /// Paints a ring around the hovered color.
     fn paint_hover_ring(
         &self,
         ui: &Ui,
@@ -310,6 +311,7 @@ impl CubePanel {
     }
 }
 
+/// Sets the accessible role and name of the view.
 fn set_accessible_name(response: &Response) {
     response
         .widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, "Color space view"));

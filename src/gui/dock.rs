@@ -254,6 +254,7 @@ impl Dock {
         });
     }
 
+    /// The tile of a panel.
     fn find(&self, pane: Pane) -> Option<TileId> {
         self.tree.tiles.find_pane(&pane)
     }
@@ -292,6 +293,7 @@ fn split(tiles: &mut Tiles<Pane>, dir: LinearDir, parts: &[(TileId, f32)]) -> Ti
     tiles.insert_new(Tile::Container(linear.into()))
 }
 
+/// The appearance and contents of the tiles.
 struct DockBehavior<'a, 'b> {
     panels: &'a mut Panels,
     cx: &'a mut PanelContext<'b>,

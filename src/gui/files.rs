@@ -237,6 +237,7 @@ impl Dialogs {
         is_chosen
     }
 
+    /// Opens the system's file dialog on a thread.
     fn browse(&mut self, ctx: &egui::Context, dialog: Dialog) {
         let folder = dialog == Dialog::Export && self.kind.is_folder();
         let writes = matches!(dialog, Dialog::SaveParameters | Dialog::SaveWorkspace | Dialog::Export);

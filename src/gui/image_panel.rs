@@ -39,9 +39,9 @@ pub struct ImagePanel {
     tool_state: ToolState,
     /// The pixel under the pointer that this panel sent last.
     sent_pixel: Option<PixelIndex>,
-    /// The layer of the last frame, if the instant at the cursor was shown in its place.
+    /// The layer of the last frame, if the instant at the cursor was shown in place of the layer.
     hidden_layer: Option<Layer>,
-    /// The zoom of the last frame, screen points a pixel.
+    /// The zoom of the last frame, screen points per pixel.
     zoom: f32,
     /// The toolbar's height in the last frame, points.
     toolbar_height_pt: f32,
@@ -104,24 +104,25 @@ impl ImagePanel {
         if full.width() < 8.0 || full.height() < 8.0 {
             return;
         }
-        let mut sent_pixel = None;
+        let mut hovered_pixel = None;
         if settings.arrangement == Arrangement::SideBySide {
             let middle = full.center().x.round();
             let left = Rect::from_min_max(full.min, pos2(middle - 1.0, full.bottom()));
             let right = Rect::from_min_max(pos2(middle + 1.0, full.top()), full.max);
             ui.painter().vline(middle, full.y_range(), (2.0, cx.palette.line));
             for (view, slot) in [(left, Slot::Layer), (right, Slot::SecondLayer)] {
-                sent_pixel = self
+                hovered_pixel = self
                     .show_view(ui, cx, settings, Placement::new(view, size, settings), slot)
-                    .or(sent_pixel);
+                    .or(hovered_pixel);
             }
         } else {
-            sent_pixel = self.show_view(ui, cx, settings, Placement::new(full, size, settings), Slot::Layer);
+            hovered_pixel =
+                self.show_view(ui, cx, settings, Placement::new(full, size, settings), Slot::Layer);
         }
-        self.send_hover(cx, sent_pixel);
+        self.send_hover(cx, hovered_pixel);
     }
 
-    /// Shows one view. Returns the pixel under the pointer in it.
+    /// Shows one view. Returns the pixel of the view under the pointer.
     fn show_view(
         &mut self,
         ui: &mut Ui,
@@ -140,7 +141,7 @@ impl ImagePanel {
         let context = PointerContext { response: &response, place, layer };
         self.tool_state.handle_pointer(ui, &context, cx, settings);
         navigate(ui, &response, &place, settings);
-        self.draw(ui, cx, &context, slot, wipe_x);
+        self.paint_view(ui, cx, &context, slot, wipe_x);
         let pointer = response.hover_pos().filter(|_| response.contains_pointer());
         pointer.and_then(|pointer| place.pixel_at(pointer))
     }
@@ -168,7 +169,9 @@ impl ImagePanel {
         Some(x)
     }
 
-    fn draw(
+    /// Paints one view: layers or instant, grid, outlines, profile, marks, and texts. `wipe_x` is the horizontal position of
+    /// the line between two layers, screen points.
+    fn paint_view(
         &mut self,
         ui: &Ui,
         cx: &PanelContext,
@@ -179,8 +182,8 @@ impl ImagePanel {
         let (place, state) = (&context.place, cx.state);
         let settings = &state.view.image;
         let painter = ui.painter_at(place.view);
-        let own = if slot == Slot::SecondLayer { settings.other } else { settings.layer };
-        let mut parts = vec![(own, slot, place.view)];
+        let whole_view = if slot == Slot::SecondLayer { settings.other } else { settings.layer };
+        let mut parts = vec![(whole_view, slot, place.view)];
         if let Some(x) = wipe_x {
             parts[0].2.max.x = x;
             parts.push((
@@ -189,12 +192,12 @@ impl ImagePanel {
                 Rect::from_min_max(pos2(x, place.view.top()), place.view.max),
             ));
         }
-        let large = place.size.x * place.size.y > textures::LARGE_PX as f32;
-        let instant = self.instant_cache.instant(state, large && self.textures.is_painting());
+        let is_large = place.size.x * place.size.y > textures::LARGE_PX as f32;
+        let instant = self.instant_cache.instant(state, is_large && self.textures.is_painting());
         for &(layer, slot, part) in &parts {
             let painter = painter.with_clip_rect(part);
             if let Some(instant) = instant.as_ref().filter(|_| slot == Slot::Layer) {
-                self.instant(ui, &painter, context, state, instant);
+                self.paint_instant(ui, &painter, context, state, instant);
                 continue;
             }
             let request = PaintRequest::layer(state, layer, settings);
@@ -223,8 +226,8 @@ impl ImagePanel {
         show_texts(ui, &painter, cx, &parts, instant.as_deref());
     }
 
-    /// The instant at the debugger's cursor, over the photograph.
-    fn instant(
+    /// Paints the instant at the debugger's cursor over the photograph.
+    fn paint_instant(
         &mut self,
         ui: &Ui,
         painter: &egui::Painter,
@@ -332,6 +335,7 @@ fn navigate(ui: &Ui, response: &Response, place: &Placement, settings: &mut Imag
     }
 }
 
+/// Whether the pointer is at a horizontal position or to the right of it, screen points.
 fn pointer_is_right_of(ui: &Ui, x: f32) -> bool {
     ui.input(|input| input.pointer.interact_pos()).is_some_and(|pointer| pointer.x >= x)
 }
@@ -359,6 +363,7 @@ fn paint_wipe_line(painter: &egui::Painter, cx: &PanelContext, view: Rect, x: f3
     }
 }
 
+/// Shows, while no photograph is open, a hint or the progress of reading.
 fn nothing_open(ui: &mut Ui, cx: &PanelContext) {
     match &cx.state.jobs.reading {
         Some(job) if job.since.elapsed() >= PROGRESS_DELAY => {

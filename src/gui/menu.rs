@@ -39,6 +39,7 @@ fn item(ui: &mut Ui, text: &str, action: Action, enabled: bool) -> bool {
     ui.add_enabled(enabled, Button::new(text).shortcut_text(keys)).clicked()
 }
 
+/// The menu of files, exports and workspaces.
 fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
     if item(ui, "Open\u{2026}", Action::Open, true) {
         dialogs.open(Dialog::Open);
@@ -116,6 +117,7 @@ fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
     });
 }
 
+/// The menu of undo, selection and area.
 fn edit(ui: &mut Ui, cx: &mut PanelContext) {
     let state = cx.state;
     let marked = state.document.selection.marked.as_ref();
@@ -142,6 +144,7 @@ fn edit(ui: &mut Ui, cx: &mut PanelContext) {
     }
 }
 
+/// The menu of panels and themes.
 fn view(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock) {
     for pane in Pane::ALL {
         let mut visible = dock.is_visible(pane);
@@ -201,6 +204,7 @@ fn capitalized(word: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
+/// The menu of methods, presets, parameter files and pinning.
 fn analyze(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
     let method = cx.state.document.params.method;
     for (choice, name, tip) in [

@@ -84,6 +84,7 @@ impl OffscreenContext {
         self.draw(output)
     }
 
+    /// Shows one frame.
     fn frame(&mut self, show: &mut impl FnMut(&mut egui::Ui)) -> FullOutput {
         self.frames += 1;
         let points = vec2(self.size_px[0] as f32, self.size_px[1] as f32) / self.pixels_per_point;
@@ -101,6 +102,7 @@ impl OffscreenContext {
         output
     }
 
+    /// Uploads changed textures of egui, and frees unused ones.
     fn upload(&self, output: &mut FullOutput) {
         let mut renderer = self.gpu.renderer.write();
         for (id, images) in output.textures_delta.set.drain() {
@@ -113,6 +115,7 @@ impl OffscreenContext {
         }
     }
 
+    /// Draws a frame into a texture and reads the texture back.
     fn draw(&self, output: FullOutput) -> Result<Vec<u8>, OffscreenError> {
         let RenderState { device, queue, renderer, target_format, .. } = &self.gpu;
         let screen =

@@ -39,6 +39,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
     });
 }
 
+/// Shows the choice of the method and the button "Reset".
 fn method(ui: &mut Ui, cx: &mut PanelContext) {
     let current = cx.state.document.params.method;
     ui.horizontal(|ui| {
@@ -67,6 +68,7 @@ fn method(ui: &mut Ui, cx: &mut PanelContext) {
     ui.add_space(4.0);
 }
 
+/// Shows the label of a row.
 fn label(ui: &mut Ui, text: &str, tip: &str) -> egui::Response {
     let size = vec2(LABEL_PT, ui.spacing().interact_size.y);
     let layout = Layout::left_to_right(Align::Center);
@@ -87,6 +89,7 @@ struct Columns {
     auto: Cell,
 }
 
+/// A cell of a row: its rectangle.
 struct Cell(egui::Rect);
 
 impl Cell {
@@ -341,6 +344,7 @@ impl Bands {
     }
 }
 
+/// Shows the boxes of the refinement switches.
 fn switches(ui: &mut Ui, cx: &mut PanelContext) {
     let params = cx.state.document.params;
     let refined = params.method == Method::Refined;

@@ -39,6 +39,7 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
     }
 }
 
+/// Changes the layer, tool, zoom or fill of the image view.
 fn change_image_view(action: Action, cx: &mut PanelContext) {
     use crate::view::Fill;
     let mut image = cx.state.view.image.clone();
@@ -60,12 +61,14 @@ fn change_image_view(action: Action, cx: &mut PanelContext) {
     cx.send(ViewCommand::Image(image));
 }
 
+/// Marks the pixels of the selected region.
 fn mark_region(cx: &mut PanelContext) {
     let (Some(region), Some(shown)) = (cx.state.selected_region(), cx.state.shown()) else { return };
     let mask = shown.labels().map(|&label| label == region.get());
     cx.send(Edit::Mark(std::sync::Arc::new(mask), Combine::Replace, None));
 }
 
+/// Selects the region after or before the selected one, by id.
 fn select_adjacent_region(cx: &mut PanelContext, next: bool) {
     let Some(count) = cx.state.shown().map(|shown| shown.analysis.intrinsic.regions.len()) else {
         return;

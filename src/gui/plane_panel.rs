@@ -86,6 +86,7 @@ impl PlanePanel {
         self.handle_pointer(cx, &response, chart, rect);
     }
 
+    /// Computes the plane of a region, where result or region have changed.
     fn update(&mut self, shown: &Arc<ResultSnapshot>, region: RegionId) {
         if self.plane_instant.take().is_some() {
             (self.of, self.chart) = (None, None);

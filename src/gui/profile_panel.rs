@@ -59,6 +59,7 @@ impl ProfilePanel {
     }
 }
 
+/// Shows the choice of the line, the ends of the line, and the button "Copy".
 fn toolbar(ui: &mut Ui, cx: &mut PanelContext, ends: [[f32; 2]; 2], samples: &[ProfileSample], width: usize) {
     let now = cx.state.view.profile;
     ui.horizontal(|ui| {
@@ -89,6 +90,7 @@ fn toolbar(ui: &mut Ui, cx: &mut PanelContext, ends: [[f32; 2]; 2], samples: &[P
     });
 }
 
+/// Plots the samples, and sends the pixel under the pointer as hovered.
 fn plot(ui: &mut Ui, cx: &mut PanelContext, samples: &[ProfileSample], hovered: Option<PixelIndex>) {
     let accent = cx.palette.accent;
     let plot = Plot::new("profile")

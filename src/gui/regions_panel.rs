@@ -100,6 +100,7 @@ impl RegionsPanel {
         });
     }
 
+    /// Shows the table of the regions.
     fn table(&mut self, ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
         ui.spacing_mut().item_spacing = egui::vec2(6.0, 1.0);
         let selected = cx.state.selected_region();
@@ -141,6 +142,7 @@ impl RegionsPanel {
         }
     }
 
+    /// Shows the title of a column, which sorts the rows by the column.
     fn heading(&mut self, ui: &mut Ui, palette: &ThemeColors, key: SortKey, title: &str, tip: &str) {
         let chosen = self.key == key;
         ui.with_layout(layout_of(key), |ui| {
@@ -178,6 +180,7 @@ fn hue_rad([r, g, b]: [f64; 3]) -> f64 {
     (3f64.sqrt() * (g - b)).atan2(2.0 * r - g - b)
 }
 
+/// Numbers are aligned to the right, other values to the left.
 fn layout_of(key: SortKey) -> Layout {
     match key {
         SortKey::Id | SortKey::Body | SortKey::Surface | SortKey::Warnings => {
@@ -187,6 +190,7 @@ fn layout_of(key: SortKey) -> Layout {
     }
 }
 
+/// Shows the cells of a row.
 fn cells(row: &mut TableRow, palette: &ThemeColors, region: &RegionReflection, shown: &ResultSnapshot) {
     let dash = || RichText::new("\u{2013}").color(palette.secondary);
     let plain = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).selectable(false));

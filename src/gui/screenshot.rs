@@ -76,6 +76,7 @@ impl Moment {
     }
 }
 
+/// The whole window, with outlines of the regions.
 fn whole_window(name: &'static str) -> GalleryPicture {
     GalleryPicture {
         name,
@@ -89,20 +90,24 @@ fn whole_window(name: &'static str) -> GalleryPicture {
     }
 }
 
+/// The whole window with the debugger's cursor at a moment.
 fn stopped(name: &'static str, moment: Moment) -> GalleryPicture {
     GalleryPicture { moment: Some(moment), image: ImageSettings::default(), ..whole_window(name) }
 }
 
+/// The image panel with a layer.
 fn image(name: &'static str, layer: Layer) -> GalleryPicture {
     let image = ImageSettings { layer, ..ImageSettings::default() };
     GalleryPicture { pane: Some(Pane::Image), region: None, image, ..whole_window(name) }
 }
 
+/// The color space panel.
 fn colors(name: &'static str, region: Option<RegionId>, color_by: ColorBy) -> GalleryPicture {
     let cube = CubeSettings { color_by, ..CubeSettings::default() };
     GalleryPicture { pane: Some(Pane::Colors), region, cube, ..whole_window(name) }
 }
 
+/// All pictures of the gallery.
 fn gallery() -> Vec<GalleryPicture> {
     let wipe = ImageSettings {
         layer: Layer::Input,
@@ -168,6 +173,7 @@ fn contested_pixel(state: &State) -> Option<PixelIndex> {
     })
 }
 
+/// Brings the application into the state of a picture.
 fn prepare(offscreen: &mut OffscreenApp, gallery_picture: &GalleryPicture, size_px: [u32; 2]) {
     let app = &mut offscreen.app;
     let notices: Vec<u64> = app.state().notices.iter().map(|notice| notice.id).collect();

@@ -69,6 +69,7 @@ impl SelectionPanel {
     }
 }
 
+/// The name of an item; `width` is the photograph's, pixels.
 fn name_of(item: Item, width: usize) -> String {
     match item {
         Item::Pixel(pixel) => {
@@ -81,6 +82,7 @@ fn name_of(item: Item, width: usize) -> String {
     }
 }
 
+/// Shows the subject, and the buttons that change the selection.
 fn buttons(ui: &mut Ui, cx: &mut PanelContext, subject: &str) {
     let marked = cx.state.document.selection.marked.is_some();
     ui.horizontal(|ui| {
@@ -96,6 +98,7 @@ fn buttons(ui: &mut Ui, cx: &mut PanelContext, subject: &str) {
     });
 }
 
+/// Shows numbers, class, axes, place and regions of the pixels.
 fn facts(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
     ui.spacing_mut().item_spacing.x = 4.0;
     let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {
@@ -144,6 +147,7 @@ fn facts(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
     fact(ui, "regions", regions.join("   "), "The regions that most of them are in.");
 }
 
+/// Shows the table of the bands with their histograms.
 fn bands(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
     let colors = [
         ("R", Color32::from_rgb(0xD8, 0x6A, 0x5E)),

@@ -12,10 +12,12 @@ use crate::view::{Layer, Tool};
 use egui::{Key, KeyboardShortcut, Modifiers, RichText, Ui};
 use shortcut::Shortcut;
 
+/// A key without modifiers.
 const fn key_alone(group: &'static str, key: Key, action: Action, description: &'static str) -> Shortcut {
     Shortcut::new(group, Modifiers::NONE, key, action, description)
 }
 
+/// A key with Ctrl, on a Mac with Command.
 const fn key_with_command(
     group: &'static str,
     key: Key,
@@ -25,6 +27,7 @@ const fn key_with_command(
     Shortcut::new(group, Modifiers::COMMAND, key, action, description)
 }
 
+/// Shift and Ctrl, on a Mac Shift and Command.
 const SHIFT_COMMAND: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 /// All keys, in the order in which the help lists them.
@@ -97,20 +100,19 @@ pub fn keys_of(ctx: &egui::Context, action: Action) -> String {
 
 /// Keys as they are printed on a keyboard.
 fn keys_as_text(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
-    let all_shortcuts = ctx.format_shortcut(&keys);
+    let text = ctx.format_shortcut(&keys);
     let symbol = match keys.logical_key {
         // The bundled fonts have these arrows, and not those of egui's symbols.
         Key::ArrowLeft => "\u{2190}",
         Key::ArrowRight => "\u{2192}",
         key => key.symbol_or_name(),
     };
-    all_shortcuts
-        .strip_suffix(keys.logical_key.name())
-        .map_or_else(|| all_shortcuts.clone(), |held_key| format!("{held_key}{symbol}"))
+    text.strip_suffix(keys.logical_key.name())
+        .map_or_else(|| text.clone(), |modifiers| format!("{modifiers}{symbol}"))
 }
 
-/// The actions whose keys were pressed; none while a text is being edited. `escape_is_action`: whether Escape is an action, and
-/// does not close something that is open over the panels.
+/// The actions whose keys were pressed; none while a text is being edited. `escape_is_action`: whether Escape is an
+/// action; otherwise Escape closes a dialog or a menu.
 pub fn pressed(
     ctx: &egui::Context,
     escape_is_action: bool,
@@ -126,14 +128,14 @@ pub fn pressed(
         .collect();
     let (space_shortcuts, keys): (Vec<&Shortcut>, Vec<&Shortcut>) =
         active.into_iter().partition(|shortcut| shortcut.keys.logical_key == Key::Space);
-    let played = space_tap.played(ctx, !space_shortcuts.is_empty());
+    let released = space_tap.released(ctx, !space_shortcuts.is_empty());
     let mut actions: Vec<Action> = ctx.input_mut(|input| {
         keys.iter()
             .filter(|shortcut| input.consume_shortcut(&shortcut.keys))
             .map(|shortcut| shortcut.action)
             .collect()
     });
-    actions.extend(played.map(|direction| Action::Debug(DebugAction::Play(direction))));
+    actions.extend(released.map(|direction| Action::Debug(DebugAction::Play(direction))));
     actions
 }
 
@@ -162,6 +164,7 @@ pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
         });
 }
 
+/// Shows a group of keys with its heading.
 fn show_group(ui: &mut Ui, cx: &PanelContext, group: &str) {
     super::widgets::heading(ui, cx.palette, group);
     let rows: Vec<(String, &str)> = if group == "Pointer" {

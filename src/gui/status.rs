@@ -23,6 +23,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
     });
 }
 
+/// The parts of the line, from left to right.
 fn parts(cx: &PanelContext) -> Vec<String> {
     let Some(picture) = &cx.state.picture else { return Vec::new() };
     let (width, height) = picture.size();
@@ -39,6 +40,7 @@ fn parts(cx: &PanelContext) -> Vec<String> {
     parts
 }
 
+/// Shows the progress of work that takes longer than `PROGRESS_DELAY`.
 fn progress(ui: &mut Ui, cx: &mut PanelContext) {
     let jobs = &cx.state.jobs;
     let stages = crate::analysis::Stage::ALL.len() as f32;

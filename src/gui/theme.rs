@@ -75,6 +75,7 @@ pub fn apply(ctx: &egui::Context, theme: Theme) {
     ctx.all_styles_mut(|style| apply_to_style(style, theme, &palette));
 }
 
+/// Sets colors, fonts and spacing of a style.
 fn apply_to_style(style: &mut Style, theme: Theme, palette: &ThemeColors) {
     style.visuals = visuals(theme, palette);
     let font = |size| FontId::new(size, FontFamily::Proportional);
@@ -101,6 +102,7 @@ fn apply_to_style(style: &mut Style, theme: Theme, palette: &ThemeColors) {
     style.animation_time = 0.0;
 }
 
+/// The colors of egui's widgets.
 fn visuals(theme: Theme, palette: &ThemeColors) -> Visuals {
     let mut visuals = if theme == Theme::Dark { Visuals::dark() } else { Visuals::light() };
     visuals.override_text_color = None;

@@ -47,6 +47,7 @@ impl TimelinePanel {
         });
     }
 
+    /// The names of the trace's hypotheses and regions, computed once for each trace.
     fn names(&mut self, generation: u64, trace: &Trace) -> Names {
         let (known, names) = self.names.get_or_insert_with(|| (generation, Names::of(trace)));
         if *known != generation {

@@ -53,6 +53,7 @@ impl ViewExporter {
 /// Pictures of at most this many columns have one pixel for each point; in wider pictures, text and lines grow with the size.
 const COLUMNS_AT_SCALE_ONE: f32 = 900.0;
 
+/// Draws a view off screen; returns the command that writes the picture, or the notice of a failure.
 fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderState) -> Command {
     let RenderState { instance, adapter, device, queue, .. } = gpu.clone();
     let device_setup = WgpuSetupExisting { instance, adapter, device, queue };

@@ -88,6 +88,7 @@ impl WatchPanel {
         }
     }
 
+    /// Whether a line has other values than at the earlier position of rest.
     fn has_changed(&self, line: &Line) -> bool {
         self.lines_before.iter().flatten().any(|old| old.tip == line.tip && old.values != line.values)
     }
@@ -103,6 +104,7 @@ impl Line {
     }
 }
 
+/// The text of a value that does not exist.
 fn dash() -> String {
     "\u{2013}".to_owned()
 }
@@ -183,6 +185,7 @@ fn table(ui: &mut Ui, palette: &ThemeColors, groups: &[Vec<Line>], changed: impl
     }
 }
 
+/// Shows a line: mark, name, values and unit.
 fn show_line(ui: &mut Ui, palette: &ThemeColors, line: &Line, changed: bool) {
     ui.horizontal(|ui| {
         name(ui, palette, line, changed);
@@ -194,6 +197,7 @@ fn show_line(ui: &mut Ui, palette: &ThemeColors, line: &Line, changed: bool) {
     });
 }
 
+/// Shows the name of a line, with a mark on changed values.
 fn name(ui: &mut Ui, palette: &ThemeColors, line: &Line, changed: bool) {
     let size = vec2(NAME_PT, LINE_PT);
     ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
@@ -207,6 +211,7 @@ fn name(ui: &mut Ui, palette: &ThemeColors, line: &Line, changed: bool) {
     });
 }
 
+/// Shows a value, aligned to the right.
 fn cell(ui: &mut Ui, width: f32, text: RichText) {
     let size = vec2(width, LINE_PT);
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
@@ -239,6 +244,7 @@ fn distances(ui: &mut Ui, cx: &PanelContext, pixel: &WatchedPixel) {
     }
 }
 
+/// Shows the distances from one hypothesis.
 fn row(ui: &mut Ui, cx: &PanelContext, distance: &AxisDistance) {
     let (palette, names) = (cx.palette, &cx.state.debugger.names);
     let size = vec2(REGION_PT, LINE_PT);

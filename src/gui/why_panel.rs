@@ -75,6 +75,7 @@ fn not_recorded(ui: &mut Ui, cx: &mut PanelContext) {
     });
 }
 
+/// Shows the histories of pixel, hypothesis and region.
 fn show_answers(ui: &mut Ui, cx: &mut PanelContext, found: &Why) {
     if let Some((pixel, history)) = &found.pixel {
         about_pixel(ui, cx, *pixel);
@@ -134,6 +135,7 @@ const STAGE_PT: f32 = 58.0;
 /// Indentation per level of the tree of merged hypotheses, points.
 const INDENT_PT: f32 = 12.0;
 
+/// Shows a sentence with its stage; `is_current` marks the sentence at the cursor.
 fn show_sentence(ui: &mut Ui, cx: &PanelContext, sentence: &WhySentence, is_current: bool) -> Response {
     let width = ui.available_width();
     let left = STAGE_PT + INDENT_PT * sentence.depth as f32;

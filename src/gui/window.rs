@@ -51,10 +51,12 @@ pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
 /// Holds the application after a window with a lost device has closed, until the next window opens.
 type Handover = Arc<Mutex<Option<App>>>;
 
+/// The application that waits for the next window.
 fn lock(handover: &Handover) -> std::sync::MutexGuard<'_, Option<App>> {
     handover.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// The options of the desktop window.
 fn options() -> eframe::NativeOptions {
     let viewport = egui::ViewportBuilder::default()
         .with_title("Dichroscope")

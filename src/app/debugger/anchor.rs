@@ -83,6 +83,7 @@ impl BlockAnchor {
         Some(self.place_in(trace, &block))
     }
 
+    /// The number of steps at the corresponding place of a block.
     fn place_in(&self, trace: &Trace, block: &Block) -> usize {
         let decision = self.decision.and_then(|(kind, before)| {
             let is_same_kind = events_of(trace, block.steps.clone(), kind);

@@ -69,6 +69,7 @@ impl CandidateCheck {
         }
     }
 
+    /// Whether a candidate with these verdicts fails the check.
     fn fails(self, verdict: CandidateVerdict) -> bool {
         match self {
             Self::Any => !verdict.accepted(),
@@ -179,6 +180,7 @@ impl Condition {
     }
 }
 
+/// Whether an event rejects a hypothesis.
 fn rejects(event: &Event) -> bool {
     match event {
         Event::HypothesisPassedOver(HypothesisPassedOver { reason, .. }) => *reason != PassedOver::TooSmall,

@@ -99,6 +99,7 @@ fn nearest_edge(
     }
 }
 
+/// The place after the next event in a direction; the end of the trace where there is none.
 fn next_event(trace: &Trace, at: usize, direction: Direction) -> usize {
     let found = match direction {
         Direction::Forward => {

@@ -7,7 +7,7 @@ use crate::trace::Replay;
 use crate::view::rings;
 use std::sync::Arc;
 
-/// Upper limit of the time of one tick, seconds: after a window was hidden, the cursor does not leap.
+/// Upper limit of the time of one tick, seconds, so that the cursor does not jump after the window was hidden.
 const LONGEST_TICK: f64 = 0.25;
 
 impl Debugger {

@@ -112,6 +112,7 @@ pub(super) fn analyze(state: &mut State) -> Vec<Effect> {
     stop.into_iter().chain([Effect::Analyze]).collect()
 }
 
+/// Sets a direction of the light, or lets the analysis find the light.
 fn pin_illuminant(state: &mut State, direction: Option<[f64; 3]>, gesture: Option<Gesture>) -> Vec<Effect> {
     let setting = direction.map_or(IlluminantSetting::Auto, IlluminantSetting::Given);
     edit_params(state, gesture, |params| params.illuminant = setting)

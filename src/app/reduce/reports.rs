@@ -1,4 +1,4 @@
-//! The reducer of what workers report.
+//! The reducer of the reports of workers.
 
 use super::debugger::take_trace;
 use super::edits::{analyze, edit_params};

@@ -69,10 +69,12 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, camera_controller: &mut CameraCo
     }
 }
 
+/// A menu that stays open while its boxes are clicked.
 fn open_menu(text: &str) -> MenuButton<'_> {
     MenuButton::new(text).config(MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside))
 }
 
+/// Shows the choice of the coloring.
 fn color_by(ui: &mut Ui, settings: &mut CubeSettings) {
     const CHOICES: [(ColorBy, &str, &str); 4] = [
         (ColorBy::Own, "Own", "Each point in the color that it stands for."),
@@ -93,6 +95,7 @@ fn color_by(ui: &mut Ui, settings: &mut CubeSettings) {
     });
 }
 
+/// Shows the choice of the color space.
 fn space(ui: &mut Ui, settings: &mut CubeSettings) {
     combo(ui, "Color space shown", short_name(settings.space), 58.0, |ui| {
         for space in ColorSpace::ALL {
@@ -110,6 +113,7 @@ const fn short_name(space: ColorSpace) -> &'static str {
     }
 }
 
+/// Shows a choice with an accessible name.
 fn combo(ui: &mut Ui, name: &str, current: &str, width: f32, choices: impl FnOnce(&mut Ui)) {
     let combo = ComboBox::from_id_salt(name).selected_text(current).width(width);
     let response = combo.show_ui(ui, choices).response;
@@ -121,6 +125,7 @@ fn combo(ui: &mut Ui, name: &str, current: &str, width: f32, choices: impl FnOnc
     response.on_hover_text(name);
 }
 
+/// Shows the tools as buttons, or as a menu in a narrow view.
 fn tools(ui: &mut Ui, cx: &PanelContext, settings: &mut CubeSettings, narrow: bool) {
     if narrow {
         ui.menu_button("Tool", |ui| {
@@ -142,6 +147,7 @@ fn tools(ui: &mut Ui, cx: &PanelContext, settings: &mut CubeSettings, narrow: bo
     ui.spacing_mut().item_spacing.x = 4.0;
 }
 
+/// Shows the boxes of the shapes and of the points' appearance.
 fn shape_checkboxes(ui: &mut Ui, settings: &mut CubeSettings) {
     let mut row = |on: &mut bool, name: &str, tip: &str| {
         ui.checkbox(on, name).on_hover_text(tip);
@@ -180,6 +186,7 @@ fn shape_checkboxes(ui: &mut Ui, settings: &mut CubeSettings) {
     );
 }
 
+/// Shows the named views and the choice of the projection.
 fn view_menu(ui: &mut Ui, camera_controller: &mut CameraController, plane: Option<Plane>, size: [f32; 2]) {
     for (named_view, key, name, tip) in NamedView::ALL {
         let of_plane = matches!(named_view, NamedView::FaceOn | NamedView::EdgeOn);

@@ -146,6 +146,7 @@ impl CameraController {
         }
     }
 
+    /// Turns the camera to a view of a plane.
     fn turn_to(&mut self, named_view: NamedView, Plane { normal, body }: Plane) {
         // The body vector points to the right and the light's color up, as in the plane panel.
         let inward = cross(normal, body);
@@ -214,6 +215,7 @@ impl CameraController {
         }
     }
 
+    /// Turns, moves and zooms the camera by the pointer.
     fn handle_pointer(&mut self, ui: &Ui, response: &Response, rect: Rect, orbits: bool) {
         let size = [rect.width(), rect.height()];
         let delta = response.drag_delta();
@@ -236,6 +238,7 @@ impl CameraController {
         }
     }
 
+    /// Turns or zooms the camera by a key.
     fn handle_key(&mut self, key: Key, size: [f32; 2]) {
         let middle = size.map(|length| length / 2.0);
         let step = match key {
@@ -264,6 +267,7 @@ fn pressed(ui: &Ui) -> Vec<Key> {
     ui.input(|input| input.events.iter().filter_map(plain).collect())
 }
 
+/// The cross product.
 fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

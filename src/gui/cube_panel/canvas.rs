@@ -10,6 +10,7 @@ pub struct Canvas {
     renderer: Option<DeviceRenderer>,
 }
 
+/// The renderer of one graphics device, and egui's texture of its image.
 struct DeviceRenderer {
     device: wgpu::Device,
     renderer: Renderer,
@@ -47,6 +48,7 @@ impl Canvas {
 }
 
 impl DeviceRenderer {
+    /// The texture of the image; registered again when the image has another size.
     fn texture(&mut self, gpu: &RenderState) -> TextureId {
         let (view, generation) = (self.renderer.view(), self.renderer.generation());
         let filter = wgpu::FilterMode::Nearest;

@@ -23,7 +23,8 @@ const GHOST_ALPHA: u8 = 72;
 /// The points of a photograph.
 #[derive(Default)]
 pub struct Cloud {
-    of: Option<Inputs>,
+    /// The inputs that the points were made from.
+    inputs: Option<Inputs>,
     majorities: BinMajorities,
     /// The bins, in the histogram's order.
     pub bins: Vec<Point>,
@@ -36,7 +37,8 @@ pub struct Cloud {
 /// Majority region and class of each bin.
 #[derive(Default)]
 struct BinMajorities {
-    of: Option<(Arc<Picture>, Option<Arc<ResultSnapshot>>)>,
+    /// The photograph and the result that were counted.
+    counted: Option<(Arc<Picture>, Option<Arc<ResultSnapshot>>)>,
     /// Region that most pixels of each bin are in; 0 for no region.
     regions: Vec<u16>,
     /// Class that most pixels' windows have, per bin.
@@ -46,10 +48,10 @@ struct BinMajorities {
 impl BinMajorities {
     /// Counts again when photograph or result have changed.
     fn update(&mut self, picture: &Arc<Picture>, shown: Option<&Arc<ResultSnapshot>>) {
-        let same = |(counted, result): &(Arc<Picture>, Option<Arc<ResultSnapshot>>)| {
-            Arc::ptr_eq(counted, picture) && same_arc(result.as_ref(), shown)
+        let same = |(photograph, result): &(Arc<Picture>, Option<Arc<ResultSnapshot>>)| {
+            Arc::ptr_eq(photograph, picture) && same_arc(result.as_ref(), shown)
         };
-        if self.of.as_ref().is_some_and(same) {
+        if self.counted.as_ref().is_some_and(same) {
             return;
         }
         let (histogram, width) = (&picture.histogram, picture.size().0);
@@ -57,7 +59,7 @@ impl BinMajorities {
             let classes = histogram.majority_class(&shown.analysis.windows, width);
             (histogram.majority(shown.labels()), classes)
         });
-        self.of = Some((Arc::clone(picture), shown.cloned()));
+        self.counted = Some((Arc::clone(picture), shown.cloned()));
     }
 }
 
@@ -68,6 +70,7 @@ struct Inputs {
     shown: Option<Arc<ResultSnapshot>>,
     marked: Option<Arc<Mask>>,
     item: Option<Item>,
+    /// Color space, coloring, whether sizes show counts, whether the rest is ghosts, theme.
     settings: (ColorSpace, ColorBy, bool, bool, Theme),
     unique_colors: Option<Arc<[UniqueColor]>>,
     /// Whether all points are ghosts, because the pixels at the debugger's cursor are drawn instead.
@@ -95,7 +98,8 @@ impl Inputs {
         }
     }
 
-    fn is(&self, other: &Self) -> bool {
+    /// Whether the points of both inputs are the same.
+    fn is_same(&self, other: &Self) -> bool {
         let same = same_arc::<ResultSnapshot>;
         Arc::ptr_eq(&self.picture, &other.picture)
             && same(self.shown.as_ref(), other.shown.as_ref())
@@ -105,7 +109,7 @@ impl Inputs {
     }
 }
 
-/// How points are colored. Regions and classes belong to the result, which does not exist yet while the debugger's
+/// The coloring of the points. Regions and classes belong to the result, which does not exist yet while the debugger's
 /// cursor is followed: points then have their own color.
 pub fn color_by(state: &State) -> ColorBy {
     match state.view.cube.color_by {
@@ -114,6 +118,7 @@ pub fn color_by(state: &State) -> ColorBy {
     }
 }
 
+/// Whether two references are both none or lead to the same value.
 fn same_arc<T: ?Sized>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
     match (a, b) {
         (None, None) => true,
@@ -134,7 +139,7 @@ impl Cloud {
         ghosts_only: bool,
     ) {
         let inputs = Inputs::of(state, picture, unique_colors, ghosts_only);
-        if self.of.as_ref().is_some_and(|of| of.is(&inputs)) {
+        if self.inputs.as_ref().is_some_and(|known| known.is_same(&inputs)) {
             return;
         }
         self.majorities.update(picture, inputs.shown.as_ref());
@@ -161,7 +166,7 @@ impl Cloud {
                 (point, is_in_focus(pixels_in_focus.as_deref(), unique.bin as usize))
             })),
         };
-        self.of = Some(inputs);
+        self.inputs = Some(inputs);
     }
 
     /// The region that most pixels of a bin are in; `None` when most are in none.

@@ -35,8 +35,10 @@ const MARK_PT: f32 = 4.5;
 /// The pixels that the step at the cursor considers, as points.
 #[derive(Default)]
 pub struct CursorPoints {
-    of: Option<(InstantKey, CubeSettings, Theme)>,
-    made: Option<Instant>,
+    /// Instant, settings and theme that the points were made for.
+    inputs: Option<(InstantKey, CubeSettings, Theme)>,
+    /// The time at which the points were made.
+    made_at: Option<Instant>,
     /// One batch of points per role of the pixels in the step.
     pub drawn: Vec<Batch<Point>>,
 }
@@ -44,12 +46,12 @@ pub struct CursorPoints {
 impl CursorPoints {
     /// Rebuilds the points when the instant has changed.
     pub fn update(&mut self, state: &State, palette: &ThemeColors, picture: &Picture) {
-        let of = instant_key(state).map(|key| (key, state.view.cube.clone(), state.view.theme));
-        if self.of == of || (of.is_some() && self.keeps_earlier_points(state, picture)) {
+        let inputs = instant_key(state).map(|key| (key, state.view.cube.clone(), state.view.theme));
+        if self.inputs == inputs || (inputs.is_some() && self.keeps_earlier_points(state, picture)) {
             return;
         }
-        self.of = of;
-        self.made = Some(Instant::now());
+        self.inputs = inputs;
+        self.made_at = Some(Instant::now());
         self.drawn.clear();
         let (Some(replay), Some(shown)) = (state.followed(), &state.newest) else { return };
         let working = &shown.analysis.working;
@@ -71,7 +73,9 @@ impl CursorPoints {
     /// `UPDATE_INTERVAL`.
     fn keeps_earlier_points(&self, state: &State, picture: &Picture) -> bool {
         let large = picture.photo.image.pixels.len() > LARGE_PX && state.debugger.playing.is_some();
-        large && self.of.is_some() && self.made.is_some_and(|made| made.elapsed() < UPDATE_INTERVAL)
+        large
+            && self.inputs.is_some()
+            && self.made_at.is_some_and(|made_at| made_at.elapsed() < UPDATE_INTERVAL)
     }
 
     /// Whether the step has points, in front of which all other colors are ghosts.
@@ -85,6 +89,7 @@ fn focus_color(state: &State) -> Option<[u8; 3]> {
     state.debugger.focus().map(|focus| state.debugger.names.color(focus))
 }
 
+/// Color and diameter of the points of a role.
 fn color_and_size(role: Role, own: Option<[u8; 3]>, palette: &ThemeColors) -> (Color32, f32) {
     let accent = |color: Option<[u8; 3]>| color.map_or(palette.accent, widgets::color);
     match role {

@@ -26,11 +26,13 @@ const DASH_PT: f32 = 5.0;
 /// The shapes of the selected region, otherwise of the hovered one.
 #[derive(Default)]
 pub struct Figure {
-    of: Option<Inputs>,
+    /// The inputs that the shapes were made from.
+    inputs: Option<Inputs>,
     /// Translucent bodies.
     pub meshes: Vec<gpu::Mesh>,
     /// Edges of the translucent bodies, and the lines of the skewed T.
     pub lines: Vec<Line>,
+    /// Bodies whose silhouettes are drawn, with their colors.
     smooth_meshes: Vec<(Mesh, Color32)>,
     shape_labels: Vec<ShapeLabel>,
     /// Ends of the matte line, world units: labels are placed across this line.
@@ -45,17 +47,20 @@ struct ShapeLabel {
     dot: bool,
 }
 
+/// Everything that the shapes depend on.
 #[derive(Clone, PartialEq)]
 struct Inputs {
     /// The result, compared by its address. The `Arc` is kept, so that no other result can take the address.
     shown: SameResult,
     region: Option<RegionId>,
     window: Option<u32>,
+    /// Color space, which of cylinder, slice, lines, illuminant and ellipsoid are shown, theme.
     view: (ColorSpace, [bool; 5], Theme),
     /// The instant at the debugger's cursor, in place of the result.
     instant: Option<InstantKey>,
 }
 
+/// A result that equals another one if both are the same snapshot.
 #[derive(Clone)]
 struct SameResult(Arc<ResultSnapshot>);
 
@@ -97,10 +102,10 @@ impl Figure {
     /// Rebuilds the shapes when an input has changed; returns whether one has.
     pub fn update(&mut self, state: &State, picture: &Picture) -> bool {
         let inputs = Inputs::of(state);
-        if self.of == inputs {
+        if self.inputs == inputs {
             return false;
         }
-        *self = Self { of: inputs.clone(), ..Self::default() };
+        *self = Self { inputs: inputs.clone(), ..Self::default() };
         let Some(Inputs { shown: SameResult(shown), region, window, view: (space, show, theme), .. }) =
             inputs
         else {
@@ -189,6 +194,7 @@ pub struct ShapeBuilder<'a> {
 }
 
 impl ShapeBuilder<'_> {
+    /// Adds the cylinder of a region and the dark sphere.
     fn cylinder(&mut self, shown: &ResultSnapshot, shapes: &RegionShapes, color: Color32, dark: Color32) {
         if let Some(solid) = &shapes.cylinder {
             self.add_solid(solid, color, CYLINDER_ALPHA);
@@ -203,6 +209,7 @@ impl ShapeBuilder<'_> {
         }
     }
 
+    /// Adds both lines of a region, meeting points and labels.
     fn add_skewed_t(&mut self, shapes: &RegionShapes, color: Color32) {
         for &place in &shapes.meeting_points {
             let tip = if shapes.meeting_point_found {
@@ -281,6 +288,7 @@ impl ShapeBuilder<'_> {
         self.figure.lines.extend(pieces);
     }
 
+    /// Adds a body: its surface, its edges and its silhouette.
     fn add_solid(&mut self, solid: &Solid, color: Color32, alpha: u8) {
         let surface = self.space.surface(&solid.surface, self.full);
         let [r, g, b, _] = color.to_array();
@@ -298,12 +306,14 @@ impl ShapeBuilder<'_> {
     }
 }
 
+/// A piece of an outline, faint where points hide the piece.
 fn outline_piece(a: Point, b: Point, color: Color32) -> Line {
     let [r, g, b_, _] = color.to_array();
     let color = [r, g, b_, OUTLINE_ALPHA];
     Line { a, b, color, width_px: OUTLINE_PT, dash_px: 0.0, overlay: Overlay::Faint }
 }
 
+/// The point at a share `t` of the way between two points.
 fn interpolated([a, b]: [Point; 2], t: f32) -> Point {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t)
 }

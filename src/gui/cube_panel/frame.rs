@@ -16,7 +16,8 @@ const GIZMO_PT: f32 = 22.0;
 /// Edges and axes of the space.
 #[derive(Default)]
 pub struct AxesFrame {
-    of: Option<(ColorSpace, u32, Theme)>,
+    /// Color space, bits of full scale and theme that the lines were made for.
+    inputs: Option<(ColorSpace, u32, Theme)>,
     /// Edges and axes as lines, world units.
     pub lines: Vec<Line>,
     axes: Vec<Axis>,
@@ -26,7 +27,7 @@ impl AxesFrame {
     /// Rebuilds edges and axes when space, full scale or theme have changed; returns whether one has.
     pub fn update(&mut self, space: ColorSpace, full_counts: f32, theme: Theme) -> bool {
         let inputs = Some((space, full_counts.to_bits(), theme));
-        if self.of == inputs {
+        if self.inputs == inputs {
             return false;
         }
         let palette = ThemeColors::of(theme);
@@ -40,7 +41,7 @@ impl AxesFrame {
         for axis in &self.axes {
             self.lines.extend(line_segments(&axis.line, bright, AXIS_PT));
         }
-        self.of = inputs;
+        self.inputs = inputs;
         true
     }
 
@@ -92,7 +93,7 @@ impl AxesFrame {
                 });
             }
         }
-        if let (Some((ColorSpace::Rgb, ..)), Some(at)) = (self.of, on_screen([0.0; 3])) {
+        if let (Some((ColorSpace::Rgb, ..)), Some(at)) = (self.inputs, on_screen([0.0; 3])) {
             painter.circle(at, 3.5, Color32::BLACK, Stroke::new(1.2, palette.text));
             names.push(black_label(at, middle, palette));
         }

@@ -23,6 +23,7 @@ pub fn show(ui: &Ui, cx: &PanelContext, rect: Rect, fullest: u32) -> Rect {
     }
 }
 
+/// Paints the colors of the classes; returns their rectangle.
 fn classes(painter: &Painter, cx: &PanelContext, corner: egui::Pos2) -> Rect {
     let mut area = Rect::from_min_size(corner, vec2(0.0, 0.0));
     for class in [Class::Point, Class::Line, Class::Plane, Class::Volume] {
@@ -40,6 +41,7 @@ fn classes(painter: &Painter, cx: &PanelContext, corner: egui::Pos2) -> Rect {
     area
 }
 
+/// Paints the colors of the densities; returns their rectangle.
 fn density(painter: &Painter, cx: &PanelContext, corner: egui::Pos2, fullest: u32) -> Rect {
     let mut ramp = Mesh::default();
     let bar = Rect::from_min_size(corner + vec2(0.0, 2.0), RAMP_PT);

@@ -37,6 +37,7 @@ impl Outline {
         }
     }
 
+    /// Adds corners to a rectangle or lasso; returns the outline when the drag ends.
     fn drag(&mut self, response: &Response, tool: Tool) -> Option<Vec<Pos2>> {
         let at = response.interact_pointer_pos();
         if response.drag_started_by(PointerButton::Primary) {
@@ -55,6 +56,7 @@ impl Outline {
         response.drag_stopped_by(PointerButton::Primary).then(|| self.take())
     }
 
+    /// Adds a corner to a polygon at a click; returns the polygon when it is closed.
     fn click(&mut self, ui: &Ui, response: &Response) -> Option<Vec<Pos2>> {
         let enter = ui.input(|input| input.key_pressed(Key::Enter));
         let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
@@ -67,6 +69,7 @@ impl Outline {
         (done && self.corners.len() > 2).then(|| self.take())
     }
 
+    /// Ends the outline and returns its corners.
     fn take(&mut self) -> Vec<Pos2> {
         let closed = self.closed(None);
         self.corners.clear();

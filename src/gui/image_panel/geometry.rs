@@ -114,6 +114,7 @@ fn fitting_zoom(view: Rect, size: Vec2) -> f32 {
     (free / size.max(Vec2::splat(1.0))).min_elem()
 }
 
+/// Smallest and largest zoom, screen points per pixel.
 fn zoom_limits(view: Rect, size: Vec2) -> [f32; 2] {
     let fit = fitting_zoom(view, size);
     let least = (SMALLEST_PT / size.max_elem().max(1.0)).min(fit);

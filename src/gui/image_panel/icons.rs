@@ -69,6 +69,7 @@ fn draw(painter: &Painter, square: Rect, icon: ToolbarIcon, color: Color32) {
     }
 }
 
+/// Paints the icon of a tool.
 fn draw_tool(painter: &Painter, tool: Tool, stroke: Stroke, at: impl Fn(f32, f32) -> Pos2) {
     let path = |points: &[(f32, f32)]| -> Vec<Pos2> { points.iter().map(|&(x, y)| at(x, y)).collect() };
     match tool {

@@ -108,6 +108,7 @@ pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
     }
 }
 
+/// Fills the visible pixels that are inside.
 fn fill(painter: &Painter, place: &Placement, color: Color32, inside: impl Fn(usize, usize) -> bool) {
     let [columns, rows] = place.visible();
     for y in rows {
@@ -157,6 +158,7 @@ fn edges(painter: &Painter, place: &Placement, color: Color32, inside: impl Fn(u
     }
 }
 
+/// Paints a frame with a dark border.
 fn frame(painter: &Painter, area: Rect, color: Color32) {
     painter.add(Shape::line(corners(area).to_vec(), Stroke::new(3.0, Color32::from_black_alpha(140))));
     painter.add(Shape::line(corners(area).to_vec(), Stroke::new(1.4, color)));

@@ -22,10 +22,12 @@ struct Cell {
     width: f32,
 }
 
+/// A cell of the strip.
 const fn cell(name: &'static str, width: f32, tip: &'static str) -> Cell {
     Cell { name, tip, width }
 }
 
+/// The cells of the strip, in the order of the values.
 const CELLS: [Cell; 11] = [
     cell("x", 28.0, "Column, from 0 at the left"),
     cell("y", 28.0, "Row, from 0 at the top"),
@@ -55,6 +57,7 @@ fn needs_two_lines(ui: &Ui, width: f32) -> bool {
     CELLS.iter().map(cell_width).sum::<f32>() - GAP_PT > width
 }
 
+/// Width of a cell's name with the space after the name, points.
 fn name_width(ui: &Ui, name: &str) -> f32 {
     if name.is_empty() {
         return 0.0;
@@ -134,17 +137,25 @@ fn sentence(values: &[String; 11]) -> String {
 
 /// Values of a pixel.
 struct PixelReadout {
+    /// Column and row.
     at: [usize; 2],
+    /// Linear counts of red, green and blue.
     color: [f32; 3],
+    /// The values of the result; none before a result.
     analyzed: Option<AnalyzedPixel>,
+    /// Color of the region or hypothesis.
     chip: Option<Color32>,
 }
 
+/// Values of a pixel in a result.
 struct AnalyzedPixel {
+    /// Class of the pixel's window.
     class: Option<Class>,
+    /// Kind of the pixel: matte, highlight and so on.
     kind: PixelKind,
     /// Number of the region; at the debugger's cursor, of the hypothesis.
     region: Option<u16>,
+    /// The amounts; none in no region.
     amounts: Option<Amounts>,
 }
 

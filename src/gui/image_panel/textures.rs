@@ -226,6 +226,7 @@ impl TextureCache {
         self.painting.is_some()
     }
 
+    /// Starts to paint a request on a thread.
     fn paint_in_background(&mut self, ctx: &Context, request: &PaintRequest) {
         let request = request.clone();
         let paint = move || {
@@ -274,6 +275,7 @@ impl LayerTexture {
         }
     }
 
+    /// Whether the photograph or a result of the texture is no longer in memory.
     fn is_outdated(&self) -> bool {
         let is_gone =
             |shown: &Weak<ResultSnapshot>| shown.strong_count() == 0 && !Weak::ptr_eq(shown, &Weak::new());

@@ -74,6 +74,7 @@ fn layer_menu(ui: &mut Ui, state: &State, name: &str, layer: &mut Layer, followe
     chosen
 }
 
+/// Shows the buttons for one layer, a wipe, and two views.
 fn arrangement_buttons(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings) {
     let now = settings.arrangement;
     let wipe_share = if let Arrangement::Wipe(share) = now { share } else { 0.5 };
@@ -93,6 +94,7 @@ fn arrangement_buttons(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageS
     });
 }
 
+/// Shows the button that switches between fills and outlines.
 fn fill_button(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings) {
     let second = settings.arrangement != Arrangement::Single;
     let overlay = settings.layer.is_overlay() || (second && settings.other.is_overlay());
@@ -109,6 +111,7 @@ fn fill_button(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings)
     });
 }
 
+/// Shows the buttons "Fit" and "1:1", and the field of the zoom.
 fn zoom_controls(ui: &mut Ui, settings: &mut ImageSettings, zoom: f32) {
     ui.spacing_mut().button_padding.x = 5.0;
     let fit = Button::selectable(settings.zoom.is_none(), "Fit");
@@ -132,6 +135,7 @@ fn zoom_controls(ui: &mut Ui, settings: &mut ImageSettings, zoom: f32) {
     field.on_hover_text("Zoom: scroll over the picture, + and \u{2212}, or type here");
 }
 
+/// Sets the accessible name of a number's field.
 fn set_accessible_name(response: &Response, name: &str, value: f64) {
     response
         .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::drag_value(true, value) });

@@ -21,16 +21,20 @@ const CLICK_TOLERANCE_PT: f32 = 3.0;
 /// A gesture in progress, in pixels of the picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 enum PendingGesture {
+    /// No gesture.
     #[default]
     None,
-    /// Space and drag.
+    /// Moving the picture: a drag while Space is held.
     Pan,
+    /// Drawing a rectangle, with the corner where the drag began.
     Rectangle(Pos2),
+    /// Drawing a free outline, with the corners so far.
     Lasso(Vec<Pos2>),
+    /// Drawing a polygon, with the corners so far.
     Polygon(Vec<Pos2>),
-    /// The position of the brush in the last frame.
+    /// Painting, with the position of the brush in the last frame.
     Brush(Pos2),
-    /// The end of the profile line that stays.
+    /// Moving one end of the profile's line, with the other end.
     Profile(Pos2),
 }
 
@@ -64,7 +68,7 @@ impl ToolState {
         self.gesture != PendingGesture::None
     }
 
-    /// Follows the pointer in one view.
+    /// Handles the pointer in one view: begins, continues and ends gestures, and sends their commands.
     pub fn handle_pointer(
         &mut self,
         ui: &Ui,
@@ -112,7 +116,7 @@ impl ToolState {
         }
         match self.tool {
             Tool::Pointer => select_by_click(context, cx, settings, modifiers),
-            Tool::Polygon => self.polygon(ui, context, cx, modifiers),
+            Tool::Polygon => self.extend_polygon(ui, context, cx, modifiers),
             _ => {
                 if pressed && is_pressed_here {
                     self.begin_drag(place, cx, modifiers, settings.brush_px);
@@ -126,6 +130,7 @@ impl ToolState {
         }
     }
 
+    /// Begins the gesture of the tool at the pointer.
     fn begin_drag(&mut self, place: &Placement, cx: &mut PanelContext, modifiers: Modifiers, radius_px: f32) {
         let pointer_px = self.pointer_px;
         match self.tool {
@@ -151,6 +156,7 @@ impl ToolState {
         }
     }
 
+    /// Continues the gesture to the pointer.
     fn continue_drag(
         &mut self,
         place: &Placement,
@@ -188,6 +194,7 @@ impl ToolState {
         }
     }
 
+    /// Ends the gesture at the pointer, and sends its marks.
     fn end_drag(&mut self, place: &Placement, cx: &mut PanelContext, modifiers: Modifiers) {
         let pointer_px = self.pointer_px;
         match std::mem::take(&mut self.gesture) {
@@ -210,7 +217,14 @@ impl ToolState {
         }
     }
 
-    fn polygon(&mut self, ui: &Ui, context: &PointerContext, cx: &mut PanelContext, modifiers: Modifiers) {
+    /// Adds a corner to the polygon at a click; marks the polygon at a double click, a click on the first corner, or Enter.
+    fn extend_polygon(
+        &mut self,
+        ui: &Ui,
+        context: &PointerContext,
+        cx: &mut PanelContext,
+        modifiers: Modifiers,
+    ) {
         let (response, place) = (context.response, &context.place);
         let pointer_px = self.pointer_px;
         let mut is_closed = ui.input(|input| input.key_pressed(Key::Enter));
@@ -315,6 +329,7 @@ fn combine_by_keys(modifiers: Modifiers) -> Combine {
     }
 }
 
+/// Marks the pixels of a mask, combined with earlier marks by the modifier keys.
 fn send_mark(cx: &mut PanelContext, mask: Mask, modifiers: Modifiers) {
     cx.send(Edit::Mark(Arc::new(mask), combine_by_keys(modifiers), None));
 }
@@ -343,6 +358,7 @@ fn pin_illuminant(cx: &mut PanelContext, mask: &Mask) {
     cx.send(command);
 }
 
+/// The mean of the undistorted pixels of a mask, as a unit vector; none without such a pixel.
 fn mean_direction(state: &State, mask: &Mask) -> Option<[f64; 3]> {
     let image = &state.picture.as_ref()?.photo.image;
     let masks = state.newest.as_ref().map(|shown| &shown.analysis.masks);
@@ -368,14 +384,17 @@ fn on_row_or_column(from: Pos2, to: Pos2) -> Pos2 {
     if (to.x - from.x).abs() >= (to.y - from.y).abs() { pos2(to.x, from.y) } else { pos2(from.x, to.y) }
 }
 
+/// The point of the picture that is nearest to a point, pixels.
 fn clamped_to_picture(point: Pos2, place: &Placement) -> Pos2 {
     point.clamp(Pos2::ZERO, place.size.to_pos2())
 }
 
+/// Columns and rows of the picture.
 fn picture_size(place: &Placement) -> (usize, usize) {
     (place.size.x as usize, place.size.y as usize)
 }
 
+/// Points as arrays of x and y.
 fn as_arrays(points: &[Pos2]) -> Vec<[f32; 2]> {
     points.iter().map(|&point| point.into()).collect()
 }

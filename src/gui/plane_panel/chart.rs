@@ -276,11 +276,13 @@ fn round_step(least: f32) -> f32 {
         .unwrap_or(least)
 }
 
+/// The multiples of `step` within a range, at most 400.
 fn multiples([low, high]: [f32; 2], round_step: f32) -> impl Iterator<Item = f32> {
     let range = (low / round_step).ceil() as i32..=(high / round_step).floor() as i32;
     range.take(400).map(move |i| i as f32 * round_step)
 }
 
+/// A number as text, with a decimal where it is no whole number.
 fn number_text(value: f32) -> String {
     let digits = usize::from(value.fract() != 0.0);
     if value < 0.0 { format!("\u{2212}{:.digits$}", -value) } else { format!("{value:.digits$}") }

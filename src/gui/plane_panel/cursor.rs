@@ -108,6 +108,7 @@ impl PlanePanel {
         self.handle_pointer(cx, &response, chart, rect);
     }
 
+    /// Computes the plane at the cursor, where the instant has changed.
     fn update_instant(&mut self, state: &State, replay: &Replay, plane_instant: PlaneInstant) {
         let Some(shown) = &state.newest else { return };
         if self.plane_instant == Some(plane_instant) {

@@ -114,6 +114,7 @@ impl HypothesisTable {
         }
     }
 
+    /// Shows the title of a column, which sorts the rows by the column.
     fn heading(&mut self, ui: &mut Ui, palette: &ThemeColors, key: SortKey, title: &str, tip: &str) {
         let chosen = self.key == key;
         let layout = match key {
@@ -128,6 +129,7 @@ impl HypothesisTable {
         });
     }
 
+    /// Indices of the hypotheses in the order of the rows.
     fn order(self, rows: &[HypothesisRow]) -> Vec<usize> {
         let mut order: Vec<usize> = (0..rows.len()).collect();
         let value = |row: &HypothesisRow| match self.key {
@@ -153,6 +155,7 @@ impl HypothesisTable {
     }
 }
 
+/// Shows the cells of a row.
 fn cells(row: &mut TableRow, palette: &ThemeColors, row_of: &HypothesisRow, names: &RegionNames) {
     let has_ended = !matches!(row_of.status, Status::AtWork | Status::Stands);
     let tone = if has_ended { palette.secondary } else { palette.text };

@@ -7,6 +7,7 @@ use crate::view::Tool;
 use Direction::{Back, Forward};
 use egui::{Context, Event, Id, Key, Modifiers, Rect};
 
+/// A key of the group "Decisions".
 const fn key(modifiers: Modifiers, key: Key, action: DebugAction, description: &'static str) -> Shortcut {
     Shortcut::new("Decisions", modifiers, key, Action::Debug(action), description)
 }
@@ -73,8 +74,8 @@ impl KeyListeners {
         let on_view = focused_widget
             .as_ref()
             .is_none_or(|widget| widget.sense.senses_click() && widget.sense.senses_drag());
-        let held_key = focused_widget.map(|focused_widget| focused_widget.rect.center());
-        let places = [ctx.pointer_hover_pos(), held_key];
+        let focused_center = focused_widget.map(|widget| widget.rect.center());
+        let places = [ctx.pointer_hover_pos(), focused_center];
         let in_color_space =
             places.iter().flatten().any(|&at| self.color_space_rect.is_some_and(|rect| rect.contains(at)));
         let is_free = match shortcut.keys.logical_key {
@@ -91,35 +92,35 @@ impl KeyListeners {
 /// Distinguishes a tap of Space, which plays, from Space held while the pointer drags, which pans a view.
 #[derive(Default)]
 pub struct SpaceTap {
-    /// Whether Space is down and nothing was dragged since; with Shift, backwards.
-    held_key: Option<Direction>,
+    /// The direction to play in when Space is released; none once the pointer is pressed, and while Space is up.
+    direction: Option<Direction>,
 }
 
 impl SpaceTap {
     /// The direction to play in, when Space was tapped. `space_plays`: whether a press of Space in this frame
     /// belongs to the debugger.
-    pub fn played(&mut self, ctx: &Context, space_plays: bool) -> Option<Direction> {
-        let mut played = None;
+    pub fn released(&mut self, ctx: &Context, space_plays: bool) -> Option<Direction> {
+        let mut released = None;
         ctx.input_mut(|input| {
             let down = input.pointer.any_down();
             input.events.retain(|event| match event {
                 Event::Key { key: Key::Space, pressed: true, repeat, modifiers, .. } => {
                     if space_plays && !repeat && !down && !modifiers.command && !modifiers.alt {
-                        self.held_key = Some(if modifiers.shift { Back } else { Forward });
+                        self.direction = Some(if modifiers.shift { Back } else { Forward });
                     }
                     !space_plays
                 }
                 Event::Key { key: Key::Space, pressed: false, .. } => {
-                    played = self.held_key.take().or(played);
+                    released = self.direction.take().or(released);
                     true
                 }
                 Event::PointerButton { pressed: true, .. } => {
-                    self.held_key = None;
+                    self.direction = None;
                     true
                 }
                 _ => true,
             });
         });
-        played
+        released
     }
 }

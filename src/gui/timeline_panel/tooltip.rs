@@ -27,6 +27,7 @@ pub fn lines(trace: &Trace, regions: &RegionNames, names: &Names, step: usize) -
     lines
 }
 
+/// The subject of a block, as text.
 fn topic(topic: Topic) -> String {
     match topic {
         Topic::Hypothesis(id) => format!("hypothesis {id}"),

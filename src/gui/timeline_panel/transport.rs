@@ -99,6 +99,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) 
     }
 }
 
+/// Shows buttons that move the cursor.
 fn controls(ui: &mut Ui, cx: &mut PanelContext, controls: &[Control]) {
     for &(icon, name, action, tip) in controls {
         let keys = keys_of(ui.ctx(), Action::Debug(action));
@@ -108,6 +109,7 @@ fn controls(ui: &mut Ui, cx: &mut PanelContext, controls: &[Control]) {
     }
 }
 
+/// Shows the buttons that play and pause.
 fn play_buttons(ui: &mut Ui, cx: &mut PanelContext) {
     let playing = cx.state.debugger.playing;
     ui.add_space(4.0);
@@ -136,6 +138,7 @@ fn rates(grain: Grain) -> [f64; 3] {
     }
 }
 
+/// The plural of a unit.
 fn plural(grain: Grain) -> &'static str {
     match grain {
         Grain::Claim => "claims",
@@ -147,6 +150,7 @@ fn plural(grain: Grain) -> &'static str {
     }
 }
 
+/// The tooltip of a unit.
 fn grain_tip(grain: Grain) -> &'static str {
     match grain {
         Grain::Claim => "Each single step: a pixel's claim, a window's class.",
@@ -190,12 +194,14 @@ fn playback_settings(ui: &mut Ui, cx: &mut PanelContext) {
     send_settings(cx, settings);
 }
 
+/// Sends changed settings of the debugger.
 fn send_settings(cx: &mut PanelContext, settings: DebugSettings) {
     if settings != cx.state.view.debug {
         cx.send(Command::Debug(DebugCommand::Settings(settings)));
     }
 }
 
+/// A rate as text.
 fn rate_text(rate: f64) -> String {
     if rate >= 1e3 {
         grouped(rate.round() as usize)
