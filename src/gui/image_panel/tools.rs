@@ -209,7 +209,7 @@ impl ToolState {
                 }
             }
             PendingGesture::Lasso(path) if path.len() > 2 => {
-                send_mark(cx, outline(picture_size(place), &as_arrays(&path)), modifiers)
+                send_mark(cx, outline(picture_size(place), &as_arrays(&path)), modifiers);
             }
             PendingGesture::Lasso(_) => clear_marks(cx, modifiers),
             PendingGesture::Brush(_) => cx.send(Edit::EndGesture),
