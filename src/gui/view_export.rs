@@ -30,7 +30,7 @@ pub struct ViewExporter {
 }
 
 impl ViewExporter {
-    /// Begins to draw. A later [`ViewExporter::done`] returns the command that writes the picture.
+    /// Begins to draw. A later [`ViewExporter::take_command`] returns the command that writes the picture.
     pub fn begin(
         &mut self,
         ctx: &egui::Context,
