@@ -3,7 +3,7 @@
 //! One step of a code value is worth more counts in a bright pixel than in a dark one, because the tone curve is steeper
 //! there. The error of the stored values is therefore constant in code values, and grows with the intensity in counts. It
 //! has two causes: rounding (0.29 steps), and lossy compression. The error of JPEG extends over neighboring pixels, so that
-//! the windows of [`super::estimate_sigma`] miss most of it, while the distance of a region's pixels from its dichromatic
+//! the windows of [`super::NoiseEstimate`] miss most of it, while the distance of a region's pixels from its dichromatic
 //! plane contains all of it.
 //!
 //! Measured on 230 regions of rendered scenes, each file with noise of 0.7–1.6 counts before compression: the distance from
