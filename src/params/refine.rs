@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 macro_rules! switches {
     ($($field:ident $variant:ident {
-        first_stage: $stage:ident, meaning: $meaning:literal, worth: $worth:literal,
+        $(was: $former:literal,)? first_stage: $stage:ident, meaning: $meaning:literal, worth: $worth:literal,
     })*) => {
         /// The refinements beyond the paper, each a switch; `method = paper` ignores all of them.
         ///
@@ -22,7 +22,7 @@ macro_rules! switches {
         #[serde(default, deny_unknown_fields)]
         #[allow(clippy::struct_excessive_bools, reason = "these are the switches themselves")]
         pub struct Refine {
-            $(#[doc = $meaning] #[doc = ""] #[doc = $worth] pub $field: bool,)*
+            $(#[doc = $meaning] #[doc = ""] #[doc = $worth] $(#[serde(alias = $former)])? pub $field: bool,)*
         }
 
         impl Refine {
@@ -203,25 +203,27 @@ switches! {
         meaning: "Where no region holds, what is paler than its hue around it is taken for a highlight (6).",
         worth: "Body +3.9 dB, the whole picture +5.6 dB.",
     }
-    texture_test TextureTest {
+    highlight_evidence HighlightEvidence {
+        was: "texture_test",
         first_stage: Split,
-        meaning: "The local split passes over what varies against the body like a print (6).",
-        worth: "Body +1.5 dB, the whole picture +1.0 dB.",
+        meaning: "Four observations tell highlights from white print where no region holds: chroma, independence of the body, brightness, edges (6).",
+        worth: "Six printed scenes: the whole picture 31.4 → 35.4 dB (doing nothing: 21.5); photographs with measured truth, inside highlights: animals 30.4 → 32.1 dB, fruit 34.9 → 36.3 dB, together with guided_amount.",
     }
-    hysteresis Hysteresis {
+    guided_amount GuidedAmount {
+        was: "hysteresis",
         first_stage: Split,
-        meaning: "The local split takes faint blobs that have a strong core, and no others (6).",
-        worth: "Body +.4 dB, the whole picture −.2 dB.",
+        meaning: "The surface reflection of the local split follows the edges of the picture, so that the split makes no edges of its own (6).",
+        worth: "Six printed scenes: the whole picture 34.5 → 35.4 dB (doing nothing: 21.5).",
     }
     belief Belief {
         first_stage: Split,
-        meaning: "Where highlights or light are not believable, nothing is split locally (6).",
-        worth: "Gold, black, white and pale objects: body +.3 dB. Scenes with highlights may lose by it: it is a caution.",
+        meaning: "Where too few votes are for the light, nothing is split locally (6).",
+        worth: "A caution for gold, black, white and pale objects; nothing changes in scenes with highlights.",
     }
     clip_repair ClipRepair {
         first_stage: Split,
-        meaning: "Clipped hearts of local highlights take the body that surrounds them (5.5, 6).",
-        worth: "The whole picture +5.1 dB.",
+        meaning: "Clipped cores of local highlights take the body that surrounds them (5.5, 6).",
+        worth: "Six printed scenes: the whole picture 24.5 → 35.4 dB (doing nothing: 21.5).",
     }
     second_branch SecondBranch {
         first_stage: Split,

@@ -33,6 +33,8 @@ pub struct WhitenedColor {
     pub chroma: f32,
     /// Hue: the direction of the chromatic part, turns, from 0 to less than 1.
     pub hue_turns: f32,
+    /// The largest band of J, counts.
+    pub largest: f32,
 }
 
 impl WhiteningGain {
@@ -42,6 +44,12 @@ impl WhiteningGain {
         gain.iter().all(|gain| gain.is_finite() && *gain > 0.0).then_some(Self { gain })
     }
 
+    /// a: the mean of J of a color in counts, counts.
+    #[inline]
+    pub fn mean(&self, color: [f32; 3]) -> f32 {
+        (color[0] * self.gain[0] + color[1] * self.gain[1] + color[2] * self.gain[2]) / 3.0
+    }
+
     /// A color, counts, under white light.
     #[inline]
     pub fn whitened(&self, color: [f32; 3]) -> WhitenedColor {
@@ -49,7 +57,12 @@ impl WhiteningGain {
         let mean = (j[0] + j[1] + j[2]) / 3.0;
         let (u, v) = ((2.0 * j[0] - j[1] - j[2]) / 6f32.sqrt(), (j[1] - j[2]) / 2f32.sqrt());
         let turns = v.atan2(u) / std::f32::consts::TAU;
-        WhitenedColor { mean, chroma: (u * u + v * v).sqrt(), hue_turns: (turns + 1.0).fract() }
+        WhitenedColor {
+            mean,
+            chroma: (u * u + v * v).sqrt(),
+            hue_turns: (turns + 1.0).fract(),
+            largest: j[0].max(j[1]).max(j[2]),
+        }
     }
 }
 
@@ -83,10 +96,17 @@ impl Desaturation {
         }
     }
 
-    /// The desaturation of a color whose brightness cannot be judged: only body reflection, and no limits.
+    /// The desaturation of a color that cannot be judged: no limits.
     #[inline]
     pub fn unjudged(color: WhitenedColor, ratio: f32) -> Self {
-        Self { body: ratio * color.chroma, ..Self::default() }
+        let body = (ratio * color.chroma).min(color.mean);
+        Self { body, surface: (color.mean - body).max(0.0), ..Self::default() }
+    }
+
+    /// Whether the color has a hue, so that its surface reflection can be judged.
+    #[inline]
+    pub fn is_judged(&self) -> bool {
+        self.noise_limit > 0.0
     }
 
     /// Whether there is more surface reflection than noise explains.
@@ -107,7 +127,7 @@ mod tests {
     use super::*;
 
     fn limits(ratios: [f32; 2], body: f32) -> [f32; 2] {
-        let color = WhitenedColor { mean: 0.0, chroma: body / ratios[0], hue_turns: 0.0 };
+        let color = WhitenedColor { mean: 0.0, chroma: body / ratios[0], hue_turns: 0.0, largest: 0.0 };
         let found = Desaturation::new(color, ratios, 1.0);
         [found.noise_limit, found.variation_limit]
     }

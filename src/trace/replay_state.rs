@@ -256,8 +256,7 @@ impl ReplayState {
             Event::Renumbered(_) => self.numbered = Some(id),
             Event::VectorsFitted(_) => self.vectors.push(id),
             Event::LocalBegan(_)
-            | Event::BlobsCounted(_)
-            | Event::BlobJudged(_)
+            | Event::PictureOddsFound(_)
             | Event::RepairTried(_)
             | Event::PlausibilityTested(_) => self.local.push(id),
             other => {
@@ -304,8 +303,7 @@ impl ReplayState {
                 self.vectors.pop();
             }
             Event::LocalBegan(_)
-            | Event::BlobsCounted(_)
-            | Event::BlobJudged(_)
+            | Event::PictureOddsFound(_)
             | Event::RepairTried(_)
             | Event::PlausibilityTested(_) => {
                 self.local.pop();

@@ -154,10 +154,14 @@ const HIGHLIGHT: [usize; 2] = [20, 20];
 const SPECK: [usize; 2] = [33, 137];
 
 /// Output of `why` for a pixel of the marbled sheet; `body_share` scales the sheet's body reflection.
-fn why_marbled([x, y]: [usize; 2], body_share: f64) -> String {
+fn why_marbled(pixel: [usize; 2], body_share: f64) -> String {
+    why_marbled_with(pixel, body_share, "")
+}
+
+fn why_marbled_with([x, y]: [usize; 2], body_share: f64, flags: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let file = marbled_sheet(&folder, body_share);
-    succeeds(&format!("why {file} {x},{y} --encoding linear"))
+    succeeds(&format!("why {file} {x},{y} --encoding linear{flags}"))
 }
 
 fn marbled_sheet(folder: &tempfile::TempDir, body_share: f64) -> String {
@@ -185,9 +189,10 @@ fn why_tells_of_a_highlight_where_no_region_holds() {
         &text,
         &[
             "around it its hue has \u{3ba} = a/c ",
-            "more than noise (",
+            "log odds of a highlight ",
+            "independence of the body ",
             "weight ",
-            "of them are a strong core",
+            "paler than their hue most is ",
         ],
     );
     let amount = |before: &str| -> f64 {
@@ -199,10 +204,9 @@ fn why_tells_of_a_highlight_where_no_region_holds() {
 }
 
 #[test]
-fn why_tells_of_texture_and_of_a_clipped_heart_where_no_region_holds() {
+fn why_tells_of_print_and_of_a_clipped_core_where_no_region_holds() {
     let speck = why_marbled(SPECK, 1.0);
-    says(&speck, &["it varies against the body like texture, t 0.", "from 0.30 on nothing counts"]);
-    says(&speck, &["it keeps its color as body"]);
+    says(&speck, &["but it looks like white print: log odds of a highlight ", "(nothing counts up to -1.5"]);
     let saturated_core = why_marbled(CLIPPED, 1.0);
     says(
         &saturated_core,
@@ -213,16 +217,8 @@ fn why_tells_of_texture_and_of_a_clipped_heart_where_no_region_holds() {
 
 #[test]
 fn why_tells_why_nothing_was_split_locally() {
-    // More of the highlights outshine the body than the analysis accepts in a scene.
-    let text = why_marbled(HIGHLIGHT, 0.35);
-    says(
-        &text,
-        &[
-            "no highlight is believed, nothing is split locally: ",
-            " strong highlight pixels outshine the body under them (at most 60 %)",
-        ],
-    );
-    says(&text, &["surface would be ", "it keeps its color as body"]);
+    let text = why_marbled_with(HIGHLIGHT, 1.0, " --without local_split");
+    says(&text, &["they keep their colors, as the local split is off", "it keeps its color as body"]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Targets of the cursor's moves.
 
 use crate::raster::{HypothesisId, PixelIndex};
-use crate::trace::{Event, Kind, Stage, Step, Trace, WindowClassified, region_of};
+use crate::trace::{Event, Kind, LocalPoint, Stage, Step, Trace, WindowClassified, region_of};
 use serde::{Deserialize, Serialize};
 
 /// A direction in the trace.
@@ -155,7 +155,7 @@ fn steps_about_pixel(trace: &Trace, pixel: PixelIndex) -> Vec<usize> {
     let [x, y] = pixel.position(trace.width());
     let mut window_of_pixel = None;
     let local = trace.stage_trace(Stage::Split).and_then(|stage_trace| stage_trace.local());
-    let own_blob = local.and_then(|local| local.point(pixel.index())).map(|point| point.blob);
+    let own_blob = local.and_then(|local| local.point(pixel.index())).map(LocalPoint::blob);
     let mut found = Vec::new();
     for (n, event) in trace.events() {
         match event {

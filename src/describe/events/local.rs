@@ -5,8 +5,7 @@ use crate::describe::Names;
 use crate::describe::names::short;
 use crate::describe::names::{count, percent, tenths};
 use crate::trace::{
-    BlobJudged, BlobsCounted, LocalBegan, LocalStart, PlausibilityTested, RejectReason, RepairTried,
-    RepairVerdict,
+    LocalBegan, LocalStart, PictureOddsFound, PlausibilityTested, RepairTried, RepairVerdict,
 };
 use serde_json::json;
 
@@ -41,16 +40,16 @@ impl Describe for LocalBegan {
                 "lit": self.lit,
                 "light": self.light,
                 "origin": self.origin,
-                "texture_test": self.texture_test,
-                "hysteresis": self.hysteresis,
+                "highlight_evidence": self.highlight_evidence,
+                "guided_amount": self.guided_amount,
                 "clip_repair": self.clip_repair,
             }),
             json!({
                 "pixels": self.least,
                 "mean": short(limits.mean),
                 "chroma": short(limits.chroma),
-                "texture": limits.texture.ends().map(short),
-                "core_texture": short(limits.core_texture),
+                "log_odds": [short(limits.odds.start), short(limits.odds.end)],
+                "ratio": [short(limits.ratio.start), short(limits.ratio.end)],
             }),
         )
     }
@@ -65,159 +64,71 @@ impl Describe for LocalBegan {
             light: Some([0.6, 0.0, 0.8]),
             origin: [0.0; 3],
             limits: crate::trace::LocalLimits::default(),
-            texture_test: true,
-            hysteresis: true,
+            highlight_evidence: true,
+            guided_amount: true,
             clip_repair: true,
         }
     }
 }
 
-impl Describe for BlobsCounted {
+impl Describe for PictureOddsFound {
     fn sentence(&self, _names: &Names) -> String {
+        let Self { pixels, log_odds, .. } = *self;
+        let most = if log_odds > 0.0 { "highlight" } else { "print" };
         format!(
-            "{}, of which {} have fewer than {} pixels ({} in all) and are none",
-            count(self.found, "candidate highlight"),
-            self.small,
-            self.least,
-            self.small_pixels
+            "of {} paler than their hue most is {most}: {log_odds:+.1} is added to the log odds of each pixel",
+            count(pixels, "pixel")
         )
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
         LineObjects::new(
             nothing(),
-            json!({"found": self.found, "small": self.small, "small_pixels": self.small_pixels}),
-            json!({"pixels": self.least}),
-        )
-    }
-
-    #[cfg(test)]
-    fn example() -> Self {
-        Self { found: 12, small: 7, small_pixels: 20, least: 8 }
-    }
-}
-
-impl Describe for BlobJudged {
-    fn sentence(&self, names: &Names) -> String {
-        let Self { pixel, pixels, clipped, strong, calm, core, kept, .. } = *self;
-        let blob = format!("the candidate highlight of {} at {}", count(pixels, "pixel"), names.pixel(pixel));
-        match (kept, core, clipped) {
-            (true, 0, _) => {
-                format!("{blob} passes: it has no strong core, but {} in it", count(clipped, "clipped pixel"))
-            }
-            (true, ..) => {
-                format!("{blob} passes: {core} of them are a strong core, paler than their hue varies")
-            }
-            _ if strong == 0 => {
-                format!("{blob} fails: no pixel of it is paler than its hue varies")
-            }
-            _ if calm == 0 => format!(
-                "{blob} fails: {strong} of them are paler than their hue varies, but all these look like texture"
-            ),
-            _ => format!(
-                "{blob} fails: {calm} of them are paler than their hue varies and no texture, but nowhere do 3 \u{d7} 3 \
-                 of these lie together"
-            ),
-        }
-    }
-
-    fn line_objects(&self, names: &Names) -> LineObjects {
-        LineObjects::new(
-            json!({"blob": self.blob, "pixel": names.position(self.pixel)}),
-            json!({
-                "pixels": self.pixels,
-                "clipped": self.clipped,
-                "strong": self.strong,
-                "calm": self.calm,
-                "core": self.core,
-                "kept": self.kept,
-            }),
+            json!({"pixels": self.pixels, "log_odds": short(self.log_odds)}),
             nothing(),
         )
     }
 
     #[cfg(test)]
     fn example() -> Self {
-        Self {
-            blob: 3,
-            pixel: crate::raster::PixelIndex::new(23),
-            pixels: 60,
-            clipped: 0,
-            strong: 30,
-            calm: 20,
-            core: 9,
-            kept: true,
-        }
+        Self { pixels: 600, log_odds: 1.5 }
     }
 }
 
 impl Describe for PlausibilityTested {
     fn sentence(&self, _names: &Names) -> String {
-        let Self { share, surface, outshining, limits, reject_reason } = self;
-        let light = share.map(|share| {
-            format!("{} of the votes are for the light (at least {})", tenths(share), tenths(limits.share))
-        });
-        let amount = surface.map(|share| {
-            format!(
-                "{} of the light there would be surface reflection (at most {})",
-                tenths(share),
-                percent(limits.surface)
-            )
-        });
-        let bright = outshining.map(|(share, strong)| {
-            format!(
-                "{} of {} outshine the body under them (at most {})",
-                percent(share),
-                count(strong, "strong highlight pixel"),
-                percent(limits.outshining)
-            )
-        });
-        let failed = match reject_reason {
-            None => {
-                let found: Vec<String> = [light, amount, bright].into_iter().flatten().collect();
-                return format!("highlights are believed: {}", found.join("; "));
-            }
-            Some(RejectReason::NoVote) => light,
-            Some(RejectReason::TooMuch) => amount,
-            Some(RejectReason::Outshining) => bright,
+        let Some(share) = self.share else {
+            return "highlights are believed: the light needs no votes".to_owned();
         };
-        format!("no highlight is believed, nothing is split locally: {}", failed.unwrap_or_default())
+        let votes = format!(
+            "{} of the votes are for the light (at least {})",
+            tenths(share),
+            tenths(self.least_share)
+        );
+        if self.plausible() {
+            format!("highlights are believed: {votes}")
+        } else {
+            format!("no highlight is believed, nothing is split locally: {votes}")
+        }
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
-        let limits = self.limits;
         LineObjects::new(
             nothing(),
-            json!({
-                "share": self.share,
-                "surface": self.surface,
-                "outshining": self.outshining.map(|(share, _)| share),
-                "strong": self.outshining.map(|(_, strong)| strong),
-                "doubt": self.reject_reason.map(RejectReason::name),
-            }),
-            json!({
-                "share": limits.share,
-                "surface": limits.surface,
-                "outshining": limits.outshining,
-            }),
+            json!({"share": self.share, "plausible": self.plausible()}),
+            json!({"share": self.least_share}),
         )
     }
 
     #[cfg(test)]
     fn example() -> Self {
-        Self {
-            share: Some(0.01),
-            surface: None,
-            outshining: None,
-            limits: crate::trace::PlausibilityLimits { share: 0.02, surface: 0.25, outshining: 0.5 },
-            reject_reason: Some(RejectReason::NoVote),
-        }
+        Self { share: Some(0.01), least_share: 0.02 }
     }
 }
 
 impl Describe for RepairTried {
     fn sentence(&self, names: &Names) -> String {
-        let Self { pixel, pixels, ring, inner, outer, verdict, .. } = *self;
+        let Self { pixel, pixels, ring, inner, outer, spread, around, verdict, .. } = *self;
         let blob = format!("the blob of {} at {}", count(pixels, "clipped pixel"), names.pixel(pixel));
         let [share, least] = [ring.value, ring.limit].map(|share| percent(f64::from(share)));
         match verdict {
@@ -229,6 +140,15 @@ impl Describe for RepairTried {
             RepairVerdict::NoRing => format!("{blob} is left: no ring of unclipped pixels lies around it"),
             RepairVerdict::NoHighlight => format!(
                 "{blob} is left: {share} of its ring of 2 px are highlight, at least {least} are needed"
+            ),
+            RepairVerdict::Uneven => format!(
+                "{blob} is left: the body around it varies by {} of its mean (at most {}), so that it is of several materials",
+                percent(f64::from(spread.value)),
+                percent(f64::from(spread.limit))
+            ),
+            RepairVerdict::TooSmall => format!(
+                "{blob} is left: {:.0} highlight pixels lie around it, at least {:.0} are needed",
+                around.value, around.limit
             ),
             RepairVerdict::NoRise => format!(
                 "{blob} is left: the highlight does not rise towards it, {inner:.1} counts next to it, {outer:.1} farther out"
@@ -244,9 +164,15 @@ impl Describe for RepairTried {
                 "ring": short(self.ring.value),
                 "inner": short(self.inner),
                 "outer": short(self.outer),
+                "spread": short(self.spread.value),
+                "around": short(self.around.value),
                 "verdict": self.verdict.name(),
             }),
-            json!({"ring": short(self.ring.limit)}),
+            json!({
+                "ring": short(self.ring.limit),
+                "spread": short(self.spread.limit),
+                "around": short(self.around.limit),
+            }),
         )
     }
 
@@ -259,6 +185,8 @@ impl Describe for RepairTried {
             ring: crate::trace::Measured::new(0.75, 0.5),
             inner: 40.0,
             outer: 20.0,
+            spread: crate::trace::Measured::new(0.25, 0.5),
+            around: crate::trace::Measured::new(20.0, 6.0),
             verdict: RepairVerdict::Filled,
         }
     }

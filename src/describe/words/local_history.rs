@@ -2,63 +2,64 @@
 
 use super::super::events::failed_limits;
 use crate::raster::RegionId;
-use crate::trace::{LocalFate, LocalStory, Unfit};
+use crate::trace::{HighlightTerms, LocalFate, LocalStory, Ramp, Unfit};
 
 /// The sentence of the figures by which a pixel was judged.
 pub(super) fn surroundings(story: &LocalStory) -> String {
-    let LocalStory { mean, chroma, excess, noise, variation, texture, weight, limits, .. } = story;
+    let LocalStory { mean, chroma, excess, noise, variation, odds, weight, limits, surface, .. } = story;
     let seen = format!("a {mean:.1} and c {chroma:.1} counts (mean and chromatic part under the light)");
     if story.fate == LocalFate::Clipped {
         return format!(
             "{seen}, but it is clipped: only the ring around its blob can tell what of it is highlight"
         );
     }
+    let follows = match (*surface > 0.0, *weight > 0.0) {
+        (true, true) => format!(": surface is {surface:.1} counts, smooth but for the edges of the picture"),
+        (true, false) => format!("; by the pixels beside it surface is {surface:.1} counts"),
+        (false, _) => String::new(),
+    };
     let Some([ratio, median]) = story.ratios.filter(|_| story.fate != LocalFate::Gray) else {
         let why = match story.fate {
             LocalFate::Gray if *chroma <= limits.chroma => {
                 format!("it is too gray to have a hue (c at most {:.1})", limits.chroma)
             }
             LocalFate::Gray => format!("it is too dark to have a hue (a at most {:.1})", limits.mean),
-            _ => "nothing around it has its hue".to_owned(),
+            _ => "no pixel of the picture has its hue".to_owned(),
         };
-        return format!("{seen}: {why}, so that nothing tells how much of it is highlight");
+        return format!(
+            "{seen}: {why}, so that its own color does not tell how much of it is highlight{follows}"
+        );
     };
     let around = format!("{seen}; around it its hue has \u{3ba} = a/c {ratio:.2} (median {median:.2})");
     let body = story.body;
     if story.fate == LocalFate::Faint {
         return format!(
-            "{around}: \u{3ba}c = {body:.1} counts are body, and it is hardly paler: ms = {excess:.1} counts, noise up to {noise:.1}"
+            "{around}: \u{3ba}c = {body:.1} counts are body, and it is hardly paler: ms = {excess:.1} counts, noise up to {noise:.1}{follows}"
         );
     }
     let paler = format!("{around}: \u{3ba}c = {body:.1} counts are body, ms = {excess:.1} counts too many");
     if story.fate == LocalFate::Weak {
-        return format!("{paler}, no more than its hue varies ({variation:.1})");
+        return format!("{paler}, no more than its hue varies ({variation:.1}){follows}");
     }
-    let above = if excess > variation {
-        format!("more than noise ({noise:.1}) and than its hue varies ({variation:.1})")
-    } else {
-        format!("more than noise ({noise:.1}), less than its hue varies ({variation:.1})")
+    if story.fate == LocalFate::Pale {
+        let Ramp { start, end } = limits.ratio;
+        return format!(
+            "{paler}, but its hue is nearly gray: \u{3ba} above {start} counts less, from {end} on nothing{follows}"
+        );
+    }
+    let Some(HighlightTerms { chroma, independence, brightness, edges }) = story.terms else {
+        return format!("{paler}, more than its hue varies ({variation:.1}){follows}");
     };
-    let [all, none] = limits.texture.ends();
-    let fate = match story.fate {
-        LocalFate::Texture => {
-            format!(
-                "but it varies against the body like texture, t {texture:.2}: from {none:.2} on nothing counts"
-            )
-        }
-        LocalFate::Thin => "but no square of 3 \u{d7} 3 pixels like it holds it".to_owned(),
-        LocalFate::Small => format!("but its blob has fewer than {} pixels", story.least_px),
-        LocalFate::NoHighlight => "but its blob is no highlight".to_owned(),
-        _ => {
-            let would = if story.doubted { "would be" } else { "is" };
-            format!(
-                "texture t {texture:.2} (all counts up to {all:.2}, nothing from {none:.2} on), weight {weight:.2}: surface \
-                 {would} {:.1} counts",
-                story.surface()
-            )
-        }
-    };
-    format!("{paler}, {above}; {fate}")
+    let Ramp { start, end } = limits.odds;
+    let evidence = format!(
+        "log odds of a highlight {odds:+.1} (nothing counts up to {start}, all from {end} on), averaged around, of the picture {:+.1}; \
+         here chroma {chroma:+.1}, independence of the body {independence:+.1}, brightness {brightness:+.1}, edges {edges:+.1}",
+        story.picture_odds
+    );
+    if story.fate == LocalFate::Print {
+        return format!("{paler}, but it looks like white print: {evidence}{follows}");
+    }
+    format!("{paler}; {evidence}; weight {weight:.2}{follows}")
 }
 
 /// The sentence why the plane of a region is not used for a pixel.

@@ -195,35 +195,7 @@ fn every_step_is_a_sentence() {
 
 #[test]
 fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
-    use crate::trace::{BlobJudged, RepairTried, RepairVerdict};
-    let all = BlobJudged {
-        blob: 1,
-        pixel: PIXEL,
-        pixels: 40,
-        clipped: 0,
-        strong: 21,
-        calm: 12,
-        core: 9,
-        kept: true,
-    };
-    let verdicts = [
-        (all, "passes: 9 of them are a strong core"),
-        (BlobJudged { core: 0, clipped: 1, ..all }, "no strong core, but 1 clipped pixel in it"),
-        (
-            BlobJudged { core: 0, kept: false, ..all },
-            "12 of them are paler than their hue varies and no texture",
-        ),
-        (
-            BlobJudged { core: 0, calm: 0, kept: false, ..all },
-            "21 of them are paler than their hue varies, but all",
-        ),
-        (BlobJudged { core: 0, calm: 0, strong: 0, kept: false, ..all }, "no pixel of it is paler"),
-    ];
-    for (judged, part) in verdicts {
-        let said = names().event(&Event::BlobJudged(judged));
-        assert!(said.starts_with("the candidate highlight of 40 pixels at (3, 2) "), "{said}");
-        assert!(said.contains(part), "{said}");
-    }
+    use crate::trace::{RepairTried, RepairVerdict};
     let tried = RepairTried {
         blob: 2,
         pixel: PIXEL,
@@ -231,6 +203,8 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
         ring: Measured::new(0.62, 0.4),
         inner: 40.0,
         outer: 20.0,
+        spread: Measured::new(0.7, 0.5),
+        around: Measured::new(5.0, 6.0),
         verdict: RepairVerdict::Filled,
     };
     let verdicts = [
@@ -241,10 +215,12 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
         (RepairVerdict::TooLarge, "as large as a window"),
         (RepairVerdict::NoRing, "no ring of unclipped pixels"),
         (RepairVerdict::NoHighlight, "62 % of its ring of 2 px are highlight, at least 40 % are needed"),
+        (RepairVerdict::Uneven, "varies by 70 % of its mean (at most 50 %)"),
+        (RepairVerdict::TooSmall, "5 highlight pixels lie around it, at least 6 are needed"),
         (RepairVerdict::NoRise, "does not rise towards it, 40.0 counts"),
     ];
     for (verdict, part) in verdicts {
-        let said = names().event(&Event::RepairTried(RepairTried { verdict, ..tried }));
+        let said = names().event(&Event::RepairTried(Box::new(RepairTried { verdict, ..tried })));
         assert!(
             said.starts_with("the blob of 12 clipped pixels at (3, 2) is ") && said.contains(part),
             "{said}"

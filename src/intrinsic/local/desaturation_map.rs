@@ -3,7 +3,7 @@
 use super::hue_ratios::HueRatios;
 use crate::color::Vec3;
 use crate::raster::{Raster, Roi};
-use crate::reflection::{Desaturation, WhiteningGain};
+use crate::reflection::{Desaturation, WhitenedColor, WhiteningGain};
 use crate::segment::AnalysisInput;
 use crate::trace::LocalLimits;
 use rayon::prelude::*;
@@ -12,9 +12,12 @@ use rayon::prelude::*;
 pub struct DesaturationMap {
     /// The window.
     pub roi: Roi,
-    /// The desaturation of each pixel; zeros for dark pixels and for pixels without others of their hue around them.
+    /// The desaturation of each pixel; zeros for dark pixels.
     pub points: Raster<Desaturation>,
-    gain: WhiteningGain,
+    /// The whitened color of each pixel.
+    pub colors: Raster<WhitenedColor>,
+    /// The factor that makes the light white.
+    pub gain: WhiteningGain,
     ratios: HueRatios,
 }
 
@@ -24,22 +27,37 @@ impl DesaturationMap {
         let gain = WhiteningGain::new(light)?;
         let ratios = HueRatios::new(input, limits, &gain);
         let mut points = Raster::filled(roi.width, roi.height, Desaturation::default());
-        points.as_mut_slice().par_chunks_mut(roi.width).enumerate().for_each(|(row, points)| {
+        let mut colors = Raster::filled(roi.width, roi.height, WhitenedColor::default());
+        let rows = (
+            points.as_mut_slice().par_chunks_mut(roi.width),
+            colors.as_mut_slice().par_chunks_mut(roi.width),
+        );
+        rows.into_par_iter().enumerate().for_each(|(row, (points, colors))| {
             if input.stopped() {
                 return;
             }
-            for (column, point) in points.iter_mut().enumerate() {
+            for (column, (point, whitened)) in points.iter_mut().zip(colors).enumerate() {
                 let pixel = roi.at(column, row);
                 if input.masks.dark(pixel) {
                     continue;
                 }
                 let color = gain.whitened(input.pixels[pixel]);
                 let (x, y) = (roi.left + column, roi.top + row);
-                let Some(ratios) = ratios.at(x, y, color.hue_turns) else { continue };
-                *point = limits.desaturation(color, ratios, input.masks.clipped(pixel));
+                *whitened = color;
+                *point = match ratios.at(x, y, color.hue_turns) {
+                    Some(ratios) => limits.desaturation(color, ratios, input.masks.clipped(pixel)),
+                    None => Desaturation::unjudged(color, 1.0),
+                };
             }
         });
-        Some(Self { roi, points, gain, ratios })
+        Some(Self { roi, points, colors, gain, ratios })
+    }
+
+    /// A raster of the window whose values are `of` the indices of the pixels, computed in parallel.
+    pub fn raster<T: Send + Default>(&self, of: impl Fn(usize) -> T + Sync + Send) -> Raster<T> {
+        let data = (0..self.points.len()).into_par_iter().with_min_len(1 << 12).map(of).collect();
+        // The lengths agree by construction.
+        Raster::from_vec(self.roi.width, self.roi.height, data).unwrap_or_default()
     }
 
     /// κ and the median of a/c around the pixel at `index` of the window; none where no pixel around has the pixel's hue.

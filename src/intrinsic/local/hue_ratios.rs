@@ -9,6 +9,7 @@
 //! which nearly all are empty in any one cell: only the others take time. Without the local split, printed scenes lose 8 dB
 //! and more; with one κ for all hues of a cell 10 dB.
 
+use crate::photo::Masks;
 use crate::reflection::{WhitenedColor, WhiteningGain};
 use crate::segment::AnalysisInput;
 use crate::trace::{LocalLimits, LocalPoint};
@@ -28,6 +29,10 @@ const RATIOS: (f32, f32) = LocalPoint::RATIOS;
 const CELL_WEIGHTS: [f32; 7] = [1.0, 3.0, 6.0, 7.0, 6.0, 3.0, 1.0];
 /// Number of cells on each side that have a weight.
 const CELL_REACH: usize = CELL_WEIGHTS.len() / 2;
+/// Sum of the weights of all cells around a cell, and of a hue and its neighbors.
+const TOTAL_WEIGHT: f32 = 27.0 * 27.0 * 4.0;
+/// Share of the picture's mean histogram that is added to the histogram of each cell.
+const PICTURE_SHARE: f32 = 0.2;
 /// Quantile of a/c that is taken for body reflection.
 const QUANTILE: f32 = 0.3;
 
@@ -37,14 +42,25 @@ pub struct HueRatios {
     /// Number of cells in a row, and number of rows of cells.
     columns: usize,
     rows: usize,
-    /// ln κ and the logarithm of the median, cell by cell and hue by hue; none where no pixel around has the hue.
-    logarithms: Vec<Option<[f32; 2]>>,
+    /// The ratios, cell by cell and hue by hue; none where no pixel of the picture has the hue.
+    of: Vec<Option<Ratio>>,
+}
+
+/// The ratios of one hue in one cell.
+#[derive(Clone, Copy)]
+struct Ratio {
+    /// ln κ, and the logarithm of the median of a/c.
+    logarithms: [f32; 2],
+    /// Number of pixels, at most 1: how far the ratios of a cell with few pixels count.
+    weight: f32,
 }
 
 impl HueRatios {
     /// The ratios of a picture.
     pub fn new(input: &AnalysisInput, limits: &LocalLimits, gain: &WhiteningGain) -> Self {
-        Histogram::new(input, limits, gain).smoothed().ratios()
+        let histogram = Histogram::new(input, limits, gain);
+        let picture = histogram.mean();
+        histogram.smoothed().ratios(&picture)
     }
 
     /// κ and the median of a/c at the pixel (x, y) for a hue in turns, interpolated between the nearest cells and hues; none where
@@ -64,10 +80,10 @@ impl HueRatios {
         for (row, by_row) in rows {
             for (column, by_column) in columns {
                 for (hue, by_hue) in hues {
-                    let weight = by_row * by_column * by_hue;
-                    if let Some(ratio) = self.logarithms[(row * self.columns + column) * HUES + hue] {
-                        sums[0] += weight * ratio[0];
-                        sums[1] += weight * ratio[1];
+                    if let Some(ratio) = self.of[(row * self.columns + column) * HUES + hue] {
+                        let weight = by_row * by_column * by_hue * ratio.weight;
+                        sums[0] += weight * ratio.logarithms[0];
+                        sums[1] += weight * ratio.logarithms[1];
                         total += weight;
                     }
                 }
@@ -141,18 +157,39 @@ impl Histogram {
         let scale = ((width * height) as f64 / MEGAPIXEL).sqrt().max(1.0);
         let cell_px = (CELL_PX * scale).round() as usize;
         let columns = width.div_ceil(cell_px);
+        // A pixel counts in the two nearest cells of a row, and in the two nearest rows of cells, by its distance.
+        let shares = |at: usize, count: usize| {
+            let place = ((at as f32 + 0.5) / cell_px as f32 - 0.5).clamp(0.0, (count - 1) as f32);
+            let first = place as usize;
+            [(first, 1.0 - place.fract()), ((first + 1).min(count - 1), place.fract())]
+        };
+        let row_count = height.div_ceil(cell_px);
+        let near_clipped = NearClipped { masks: input.masks, width, height };
         let counted = |row: usize| {
             let mut counts = HistogramRow::empty(columns);
-            for y in row * cell_px..((row + 1) * cell_px).min(height) {
+            let first = (row * cell_px).saturating_sub(cell_px / 2 + 1);
+            for y in first..((row + 1) * cell_px + cell_px / 2 + 1).min(height) {
+                let by_row: f32 = shares(y, row_count)
+                    .into_iter()
+                    .filter(|share| share.0 == row)
+                    .map(|share| share.1)
+                    .sum();
+                if by_row <= 0.0 {
+                    continue;
+                }
                 for (x, &color) in input.pixels.row(y).iter().enumerate() {
                     let pixel = y * width + x;
-                    if input.masks.dark(pixel) || input.masks.clipped(pixel) {
+                    if input.masks.dark(pixel) || near_clipped.at(x, y) {
                         continue;
                     }
                     let color = gain.whitened(color);
                     if limits.has_hue(color) {
-                        let hue = hue_place(color.hue_turns) as usize;
-                        counts.get_mut(x / cell_px, hue)[bin_place(color) as usize] += 1.0;
+                        let (hue, bin) = (hue_place(color.hue_turns) as usize, bin_place(color) as usize);
+                        for (cell, by_cell) in shares(x, columns) {
+                            if by_cell > 0.0 {
+                                counts.get_mut(cell, hue)[bin] += by_row * by_cell;
+                            }
+                        }
                     }
                 }
             }
@@ -189,28 +226,61 @@ impl Histogram {
         Self { rows, ..self }
     }
 
-    /// κ and the median of each hue of each cell, smoothed over neighboring hues.
-    fn ratios(&self) -> HueRatios {
-        let of_cell = |row: &HistogramRow, cell: usize, hue: usize| {
-            let near = [hue + HUES - 1, hue, hue + 1].map(|hue| row.get(cell, hue % HUES));
-            if near.iter().all(Option::is_none) {
-                return None;
-            }
-            let mut bins = [0.0f32; BINS];
-            for (counts, weight) in near.into_iter().zip([1.0, 2.0, 1.0]) {
-                if let Some(counts) = counts {
-                    bins.iter_mut().zip(counts).for_each(|(sum, count)| *sum += weight * count);
+    /// The mean counts of all cells, by hue.
+    fn mean(&self) -> Vec<[f32; BINS]> {
+        let cells = (self.rows.len() * self.columns).max(1) as f32;
+        let mut mean = vec![[0.0f32; BINS]; HUES];
+        for row in &self.rows {
+            for cell in 0..self.columns {
+                for (hue, sum) in mean.iter_mut().enumerate() {
+                    if let Some(counts) = row.get(cell, hue) {
+                        sum.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count / cells);
+                    }
                 }
             }
+        }
+        mean
+    }
+
+    /// κ and the median of each hue of each cell, smoothed over neighboring hues. `picture`: the mean counts of all cells.
+    fn ratios(&self, picture: &[[f32; BINS]]) -> HueRatios {
+        let of_cell = |row: &HistogramRow, cell: usize, hue: usize| {
+            let mut bins = [0.0f32; BINS];
+            for (near, weight) in [hue + HUES - 1, hue, hue + 1].into_iter().zip([1.0, 2.0, 1.0]) {
+                if let Some(counts) = row.get(cell, near % HUES) {
+                    bins.iter_mut().zip(counts).for_each(|(sum, count)| *sum += weight * count);
+                }
+                let share = weight * PICTURE_SHARE * TOTAL_WEIGHT / 4.0;
+                bins.iter_mut().zip(&picture[near % HUES]).for_each(|(sum, count)| *sum += share * count);
+            }
             let total: f32 = bins.iter().sum();
-            (total > 0.0).then(|| [QUANTILE, 0.5].map(|share| quantile(&bins, share * total)))
+            (total > 0.0).then(|| Ratio {
+                logarithms: [QUANTILE, 0.5].map(|share| quantile(&bins, share * total)),
+                weight: (total / TOTAL_WEIGHT).min(1.0),
+            })
         };
         let of_row = |row: &HistogramRow| -> Vec<_> {
             let cells = (0..self.columns).flat_map(|cell| (0..HUES).map(move |hue| (cell, hue)));
             cells.map(|(cell, hue)| of_cell(row, cell, hue)).collect()
         };
-        let logarithms = self.rows.par_iter().flat_map_iter(of_row).collect();
-        HueRatios { cell_px: self.cell_px as f32, columns: self.columns, rows: self.rows.len(), logarithms }
+        let of = self.rows.par_iter().flat_map_iter(of_row).collect();
+        HueRatios { cell_px: self.cell_px as f32, columns: self.columns, rows: self.rows.len(), of }
+    }
+}
+
+/// Which pixels are clipped, or next to a clipped pixel.
+struct NearClipped<'a> {
+    masks: &'a Masks,
+    width: usize,
+    height: usize,
+}
+
+impl NearClipped<'_> {
+    fn at(&self, x: usize, y: usize) -> bool {
+        let rows = y.saturating_sub(1)..(y + 2).min(self.height);
+        rows.into_iter().any(|v| {
+            (x.saturating_sub(1)..(x + 2).min(self.width)).any(|u| self.masks.clipped(v * self.width + u))
+        })
     }
 }
 

@@ -3,20 +3,20 @@
 //! In real photographs, printed cups, fruit and skin break "one object, one skewed T", and a plane fitted to such a region makes
 //! the body image worse than the input. The dichromatic model still applies to each pixel: surface reflection adds the light's
 //! color, and so lowers a pixel's saturation below the saturation of the same hue around the pixel. `desaturation_map` measures
-//! that, `texture` and `blobs` decide where the cause is a highlight, `plausibility` whether this picture has any highlight, and
-//! `repair` fills clipped pixels.
+//! that, `evidence` tells highlights from white print, `plausibility` whether the light is known well enough, `guided` makes the
+//! amounts follow the edges of the picture, and `repair` fills clipped pixels.
 //!
 //! Body reflection is the input minus the surface reflection found, so that input = body + surface and body ≤ input. On a
 //! rendered scene of printed objects the body image goes from 19.6 dB (planes alone; doing nothing: 30.2 dB) to 41 dB.
 
-mod blobs;
 mod desaturation_map;
+mod evidence;
 mod full_resolution;
+mod guided;
 mod hue_ratios;
 mod limits;
 mod plausibility;
 mod repair;
-mod texture;
 mod trace_writer;
 
 pub use full_resolution::split_locally_at_full_resolution;
@@ -25,10 +25,12 @@ use super::confidence::LOCAL;
 use super::images::Images;
 use crate::color::Vec3;
 use crate::raster::{Mask, Raster, Roi};
+use crate::reflection::WhiteningGain;
 use crate::segment::{AnalysisInput, LightFindings};
-use crate::trace::{LocalStart, PixelKind, Recorder};
-use blobs::Highlights;
+use crate::trace::{LocalLimits, LocalStart, PixelKind, Recorder};
 use desaturation_map::DesaturationMap;
+use evidence::Evidence;
+use guided::AmountLines;
 use rayon::prelude::*;
 use trace_writer::LocalTraceWriter;
 
@@ -51,6 +53,12 @@ pub struct LocalInput<'a> {
 
 /// What the local split found.
 pub struct LocalSplit {
+    /// The amounts of surface reflection, as lines of the mean of J.
+    lines: AmountLines,
+    /// The factor that makes the light white.
+    gain: WhiteningGain,
+    /// Surface reflection per count of J in each band.
+    per_amount: [f32; 3],
     /// Confidence of the pixels that were split locally, 0 for others.
     pub confidence: Raster<f32>,
     /// The pixels of clipped blobs that were filled from around.
@@ -97,27 +105,68 @@ fn split_unexplained<R: Recorder>(
     };
     trace_writer.began(input, &limits, start, pixels, lit, findings.direction);
     let (light, map) = map?;
-    let texture = input.refine.texture_test.then(|| texture::texture(&map, input.sigma()));
-    let Highlights { weights, blobs } =
-        blobs::highlights::<R>(input, &limits, &map, texture.as_ref(), unexplained);
-    trace_writer.judged(input, &map, texture.as_ref(), unexplained, &blobs);
+    let wanted = input.refine.highlight_evidence;
+    let evidence = wanted.then(|| Evidence::new(input, &limits, &map, unexplained));
+    trace_writer.judged(input, &map, evidence.as_ref(), unexplained);
     if input.refine.belief {
-        let tested = plausibility::test(input, findings, &map, &weights, unexplained);
-        let is_rejected = tested.reject_reason.is_some();
+        let tested = plausibility::test(input, findings);
+        let is_plausible = tested.plausible();
         trace_writer.plausibility(tested);
-        if is_rejected {
+        if !is_plausible {
             return None;
         }
     }
-    let mut confidence = move_surface(&light, &map, &weights, images);
-    let mut filled = Mask::default();
+    let weights = weights(&limits, &map, evidence.as_ref(), unexplained);
+    let mut amounts = map.raster(|index| weights[index] * map.points[index].surface);
+    let mut fills = Vec::new();
     if input.refine.clip_repair {
         trace_writer.repairs_began();
-        filled = repair::repair(input, unexplained, images, &mut confidence, |tried, blob| {
-            trace_writer.repair(tried, blob);
-        });
+        let found = repair::Found { map: &map, weights: &weights, amounts: &amounts };
+        fills = repair::fills(input, unexplained, &found, |tried, blob| trace_writer.repair(tried, blob));
+        amounts = repair::faded(input, unexplained, &map, &fills, amounts);
     }
-    Some(LocalSplit { confidence, filled })
+    let lines = if input.refine.guided_amount {
+        let usable = map.raster(|index| {
+            let pixel = map.roi.pixel(index);
+            if input.masks.dark(pixel) || input.masks.clipped(pixel) { 0.0 } else { 1.0 }
+        });
+        AmountLines::guided(&map, &amounts, &usable, limits.sigma)
+    } else {
+        AmountLines::constant(&map, &amounts)
+    };
+    let amounts = map.raster(|index| {
+        let pixel = map.roi.pixel(index);
+        let line = lines.line(index).filter(|_| unexplained[pixel] && !input.masks.clipped(pixel));
+        line.map_or(0.0, |line| line.amount(map.colors[index].mean))
+    });
+    trace_writer.amounts(&amounts);
+    let per_amount = std::array::from_fn(|band| (3f64.sqrt() * light[band]) as f32);
+    let mut confidence = move_surface(&map, per_amount, &amounts, &weights, images);
+    let filled = repair::fill(input, &fills, images, &mut confidence);
+    Some(LocalSplit { lines, gain: map.gain, per_amount, confidence, filled })
+}
+
+/// The share of the excess ms of each pixel of the window that is surface reflection, 0…1; 0 for pixels that a region explains. Without
+/// `evidence`: all of it where ms exceeds the variation of the hue.
+fn weights(
+    limits: &LocalLimits,
+    map: &DesaturationMap,
+    evidence: Option<&Evidence>,
+    unexplained: &Mask,
+) -> Raster<f32> {
+    map.raster(|index| {
+        let found = &map.points[index];
+        if !unexplained[map.roi.pixel(index)] {
+            return 0.0;
+        }
+        match evidence {
+            Some(evidence) => {
+                let ratio = found.body / map.colors[index].chroma.max(f32::MIN_POSITIVE);
+                limits.weight(found, ratio, evidence.odds[index] + evidence.picture.log_odds)
+            }
+            None => f32::from(u8::from(found.is_strong())),
+        }
+    })
 }
 
 /// Resets pixels that no region explains to body = input, surface = 0, noise = 0. Returns the lit pixels among them, with the
@@ -152,18 +201,18 @@ fn undo_unexplained(input: &AnalysisInput, explained_mask: &Mask, images: &mut I
     unexplained
 }
 
-/// Moves the surface reflection found from the body image to the surface image. Returns the confidence of each pixel, 0 where
-/// nothing was moved.
+/// Moves the `amounts` of surface reflection, counts of J, from the body image to the surface image. `per_amount`: surface reflection per
+/// count of J in each band. Returns the confidence of each pixel by its weight, 0 where nothing was moved.
 fn move_surface(
-    light: &Vec3,
     map: &DesaturationMap,
+    per_amount: [f32; 3],
+    amounts: &Raster<f32>,
     weights: &Raster<f32>,
     images: &mut Images,
 ) -> Raster<f32> {
     let width = images.body.width();
     let mut confidence = Raster::filled(width, images.body.height(), 0.0);
     let roi = map.roi;
-    let per_amount: [f32; 3] = std::array::from_fn(|band| (3f64.sqrt() * light[band]) as f32);
     let rows = (
         images.body.as_mut_slice().par_chunks_mut(width.max(1)),
         images.surface.as_mut_slice().par_chunks_mut(width.max(1)),
@@ -172,13 +221,14 @@ fn move_surface(
     );
     let rows = rows.into_par_iter().skip(roi.top).take(roi.height);
     rows.enumerate().for_each(|(row, (body, surface, kinds, confidence))| {
-        let found = weights.row(row).iter().zip(map.points.row(row));
-        for (x, (&weight, point)) in (roi.left..).zip(found).filter(|(_, (weight, _))| **weight > 0.0) {
-            let amount = weight * point.surface;
+        let found = weights.row(row).iter().zip(amounts.row(row));
+        for (x, (&weight, &amount)) in (roi.left..).zip(found).filter(|(_, (_, amount))| **amount > 0.0) {
             // The surface reflection in a band is at most the input in that band.
             surface[x] = std::array::from_fn(|band| (amount * per_amount[band]).min(body[x][band].max(0.0)));
             body[x] = std::array::from_fn(|band| body[x][band] - surface[x][band]);
-            kinds[x] = if kinds[x] == PixelKind::Unassigned { kinds[x] } else { PixelKind::Highlight };
+            if weight > 0.0 && kinds[x] != PixelKind::Unassigned {
+                kinds[x] = PixelKind::Highlight;
+            }
             confidence[x] = LOCAL * weight;
         }
     });
@@ -210,6 +260,14 @@ mod tests {
 
     /// The split of a picture in which no region was found, under a known light.
     fn local(color: impl Fn(f64, f64) -> Vec3) -> (LinearImage, crate::intrinsic::Intrinsic) {
+        local_by_votes(0.1, color)
+    }
+
+    /// The same where a share of the votes is for the light.
+    fn local_by_votes(
+        share: f64,
+        color: impl Fn(f64, f64) -> Vec3,
+    ) -> (LinearImage, crate::intrinsic::Intrinsic) {
         let place = |i: usize| ((i % SIDE_PX) as f64, (i / SIDE_PX) as f64);
         let data = (0..SIDE_PX * SIDE_PX).map(|i| {
             let color = color(place(i).0, place(i).1);
@@ -226,7 +284,7 @@ mod tests {
         let light = LightFindings {
             direction: Some(light().into()),
             basis: LightBasis::Votes,
-            share: 0.1,
+            share,
             ..LightFindings::default()
         };
         let labels = LabelMap::filled(SIDE_PX, SIDE_PX, 0);
@@ -255,6 +313,13 @@ mod tests {
         assert!(crate::color::axis_angle_deg(&vec3(found), &light()) < 0.01);
         assert!(result.confidence[40 * SIDE_PX + 48] > 0.2);
         assert!(result.surface[80 * SIDE_PX + 10].iter().all(|band| *band == 0.0));
+    }
+
+    #[test]
+    fn nothing_is_split_under_a_light_with_too_few_votes() {
+        let (image, result) = local_by_votes(0.001, |x, y| slope(x, y) + highlight(x, y, 120.0));
+        assert_eq!(result.body.as_slice(), image.pixels.as_slice());
+        assert!(result.confidence.as_slice().iter().all(|&confidence| confidence == 0.0));
     }
 
     #[test]

@@ -1,46 +1,113 @@
 //! Rule `clip_repair`: the clipped core of a highlight takes the body reflection of the pixels around it.
 //!
-//! A blob of clipped pixels is filled where at least 40 % of the ring of 2 px around the blob are highlight and surface
-//! reflection rises towards the blob. The fill is harmonic: the smoothest that is continuous with the ring. Other
-//! clipped pixels (white paper, the sky) do not change. Worth 8 dB inside highlights of printed scenes, nothing elsewhere.
+//! A blob of clipped pixels is filled where at least 40 % of the ring of 2 px around the blob are highlight, surface reflection rises
+//! towards the blob, the body reflection of the ring is that of one material (its standard deviation is at most half its mean), and the
+//! highlight around the blob is half as large as the blob at least. The fill is harmonic: the smoothest that is continuous with the ring.
+//! Other clipped pixels (white paper, the sky) do not change, and the surface reflection around them fades out towards them, so that
+//! no hole is left in the middle of what may be a highlight.
 
+use super::desaturation_map::DesaturationMap;
 use crate::intrinsic::images::Images;
-use crate::raster::{ComponentSearch, Connectivity, Mask, PixelIndex, Raster};
+use crate::raster::{ComponentSearch, Connectivity, Mask, PixelIndex, Raster, blur};
 use crate::segment::AnalysisInput;
-use crate::trace::{Measured, PixelKind, RepairTried, RepairVerdict};
+use crate::trace::{Measured, PixelKind, Ramp, RepairTried, RepairVerdict};
 
 /// Least share of highlight pixels in the ring around a blob that is filled.
-const LEAST_HIGHLIGHT: f64 = 0.4;
+const LEAST_HIGHLIGHT: f32 = 0.4;
+/// Weight from which on a pixel counts as highlight.
+const HIGHLIGHT_WEIGHT: f32 = 0.5;
+/// Largest standard deviation of the body reflection of the ring, as a share of its mean.
+const MOST_SPREAD: f32 = 0.5;
+/// Least number of highlight pixels around a blob, as a share of the pixels of the blob.
+const LEAST_AROUND: f32 = 0.5;
+/// How far around a blob highlight pixels are counted: this many pixels, and at least half the square root of the blob's pixels.
+const AROUND_PX: f32 = 3.0;
 /// Most pixels of a blob that is filled: larger blobs are windows and skies.
 const MOST_PX: usize = 40_000;
+/// Width of the Gaussian by which surface reflection fades out towards clipped pixels that are not filled, pixels.
+const FADE_PX: f64 = 6.0;
+/// Share of such pixels around a pixel over which its surface reflection fades.
+const FADE: Ramp = Ramp { start: 0.0, end: 0.3 };
 /// Confidence of a repaired pixel.
 pub(super) const CONFIDENCE: f32 = 0.3;
 
-/// Fills the clipped blobs among the `unexplained` pixels that are highlights, sets the `confidence` of their pixels, and returns
-/// these pixels. `record` receives each blob's verdict and pixels.
-pub fn repair(
+/// The surface reflection around the clipped blobs of a window, by which the blobs are judged.
+pub struct Found<'a> {
+    /// The desaturation of the pixels.
+    pub map: &'a DesaturationMap,
+    /// The share of each pixel's excess that is surface reflection, 0…1.
+    pub weights: &'a Raster<f32>,
+    /// Amount of surface reflection of each pixel, counts of J.
+    pub amounts: &'a Raster<f32>,
+}
+
+/// A clipped blob that is filled.
+pub struct Fill {
+    blob: Vec<usize>,
+    /// The two rings of 1 px around the blob.
+    rings: [Vec<usize>; 2],
+}
+
+/// Judges the clipped blobs among the `unexplained` pixels. Returns the blobs that are filled. `record` receives each blob's verdict and pixels.
+pub fn fills(
     input: &AnalysisInput,
     unexplained: &Mask,
-    images: &mut Images,
-    confidence: &mut Raster<f32>,
+    found: &Found,
     mut record: impl FnMut(RepairTried, &[usize]),
-) -> Mask {
-    let mut all_filled = Mask::filled(unexplained.width(), unexplained.height(), false);
+) -> Vec<Fill> {
     let mut search = ComponentSearch::new(unexplained.width(), unexplained.height(), Connectivity::Eight);
     let mut surroundings = Surroundings { input, in_ring: unexplained.map(|_| false) };
     let clipped = |pixel: usize| unexplained[pixel] && input.masks.clipped(pixel);
+    let mut fills = Vec::new();
     for start in 0..unexplained.len() {
         let Some(blob) = search.component_at(start, clipped) else { continue };
         if input.stopped() {
             break;
         }
-        let rings = surroundings.rings(blob);
-        let tried = tried(blob, &rings, &images.surface);
+        let around = surroundings.around(blob, |pixel| found.is_highlight(pixel));
+        let tried = found.tried(input, blob, &around);
         record(tried, blob);
-        if tried.verdict != RepairVerdict::Filled {
-            continue;
+        if tried.verdict == RepairVerdict::Filled {
+            fills.push(Fill { blob: blob.to_vec(), rings: around.rings });
         }
-        let filled = surroundings.harmonic(blob, &rings, &images.body);
+    }
+    fills
+}
+
+/// The amounts of a window, faded out towards the clipped pixels of the `unexplained` that are not filled.
+pub fn faded(
+    input: &AnalysisInput,
+    unexplained: &Mask,
+    map: &DesaturationMap,
+    fills: &[Fill],
+    amounts: Raster<f32>,
+) -> Raster<f32> {
+    let roi = map.roi;
+    let mut unfilled =
+        roi.raster(|pixel| [if unexplained[pixel] && input.masks.clipped(pixel) { 1.0f32 } else { 0.0 }]);
+    for index in fills.iter().flat_map(|fill| &fill.blob).filter_map(|&pixel| roi.index(pixel)) {
+        unfilled[index] = [0.0];
+    }
+    if unfilled.as_slice().iter().all(|&[share]| share == 0.0) {
+        return amounts;
+    }
+    let near = blur(&unfilled, FADE_PX);
+    let faded = amounts.as_slice().iter().zip(near.as_slice());
+    let data = faded.map(|(amount, &[share])| amount * (1.0 - FADE.step(share))).collect();
+    Raster::from_vec(roi.width, roi.height, data).unwrap_or_default()
+}
+
+/// Fills blobs with the body reflection of their rings, sets the `confidence` of their pixels, and returns these pixels.
+pub fn fill(
+    input: &AnalysisInput,
+    fills: &[Fill],
+    images: &mut Images,
+    confidence: &mut Raster<f32>,
+) -> Mask {
+    let mut all_filled = Mask::filled(confidence.width(), confidence.height(), false);
+    let surroundings = Surroundings { input, in_ring: Mask::default() };
+    for Fill { blob, rings } in fills {
+        let filled = surroundings.harmonic(blob, rings, &images.body);
         for (&pixel, fill) in blob.iter().zip(filled) {
             let input = input.pixels[pixel];
             images.body[pixel] = std::array::from_fn(|band| fill[band].clamp(0.0, input[band].max(0.0)));
@@ -55,34 +122,68 @@ pub fn repair(
     all_filled
 }
 
-/// The verdict on a blob by the rings around the blob: whether enough of their pixels are highlight, and whether the inner ring
-/// has more surface reflection than the outer one.
-fn tried(blob: &[usize], [inner, outer]: &[Vec<usize>; 2], surface: &Raster<[f32; 3]>) -> RepairTried {
-    let amount = |&pixel: &usize| surface[pixel].iter().sum::<f32>();
-    let mean = |ring: &[usize]| ring.iter().map(amount).sum::<f32>() / ring.len().max(1) as f32;
-    let count = inner.len() + outer.len();
-    let highlight = inner.iter().chain(outer).filter(|pixel| amount(pixel) > 0.0).count();
-    let rise = [mean(inner), mean(outer)];
-    let verdict = if blob.len() > MOST_PX {
-        RepairVerdict::TooLarge
-    } else if inner.is_empty() || outer.is_empty() {
-        RepairVerdict::NoRing
-    } else if (highlight as f64) < LEAST_HIGHLIGHT * count as f64 {
-        RepairVerdict::NoHighlight
-    } else if rise[0] > rise[1] {
-        RepairVerdict::Filled
-    } else {
-        RepairVerdict::NoRise
-    };
-    RepairTried {
-        blob: 0,
-        pixel: PixelIndex::from_index(blob.first().copied().unwrap_or(0)),
-        pixels: blob.len() as u32,
-        ring: Measured::new(highlight as f32 / count.max(1) as f32, LEAST_HIGHLIGHT as f32),
-        inner: rise[0] / 3.0,
-        outer: rise[1] / 3.0,
-        verdict,
+impl Found<'_> {
+    fn is_highlight(&self, pixel: usize) -> bool {
+        self.map.roi.index(pixel).is_some_and(|index| self.weights[index] > HIGHLIGHT_WEIGHT)
     }
+
+    fn amount(&self, pixel: usize) -> f32 {
+        self.map.roi.index(pixel).map_or(0.0, |index| self.amounts[index])
+    }
+
+    /// The verdict on a blob by the pixels around it.
+    fn tried(&self, input: &AnalysisInput, blob: &[usize], around: &Around) -> RepairTried {
+        let [inner, outer] = &around.rings;
+        let ring = || inner.iter().chain(outer).copied();
+        let count = ring().count().max(1) as f32;
+        let mean = |ring: &[usize]| {
+            ring.iter().map(|&pixel| self.amount(pixel)).sum::<f32>() / ring.len().max(1) as f32
+        };
+        let body = |pixel: usize| input.pixels[pixel].iter().sum::<f32>() / 3.0 - self.amount(pixel);
+        let body_mean = ring().map(body).sum::<f32>() / count;
+        let variance = ring().map(|pixel| (body(pixel) - body_mean).powi(2)).sum::<f32>() / count;
+        let share = ring().filter(|&pixel| self.is_highlight(pixel)).count() as f32 / count;
+        let ring = Measured::new(share, LEAST_HIGHLIGHT);
+        let spread = Measured::new(variance.sqrt() / body_mean.abs().max(1e-3), MOST_SPREAD);
+        let highlights = Measured::new(around.highlights as f32, LEAST_AROUND * blob.len() as f32);
+        let rise = [mean(inner), mean(outer)];
+        let verdict = if blob.len() > MOST_PX {
+            RepairVerdict::TooLarge
+        } else if inner.is_empty() || outer.is_empty() {
+            RepairVerdict::NoRing
+        } else if ring.value < ring.limit {
+            RepairVerdict::NoHighlight
+        } else if rise[0] <= rise[1] {
+            RepairVerdict::NoRise
+        } else if spread.value > spread.limit {
+            RepairVerdict::Uneven
+        } else if highlights.value < highlights.limit {
+            RepairVerdict::TooSmall
+        } else {
+            RepairVerdict::Filled
+        };
+        let pixel = PixelIndex::from_index(blob.first().copied().unwrap_or(0));
+        let [inner, outer] = rise;
+        RepairTried {
+            blob: 0,
+            pixel,
+            pixels: blob.len() as u32,
+            ring,
+            inner,
+            outer,
+            spread,
+            around: highlights,
+            verdict,
+        }
+    }
+}
+
+/// The unclipped pixels around a clipped blob.
+struct Around {
+    /// The pixels next to the blob, and the pixels next to these.
+    rings: [Vec<usize>; 2],
+    /// Number of highlight pixels within reach; counting ends where they are enough.
+    highlights: usize,
 }
 
 /// Finds the unclipped pixels around blobs of clipped pixels.
@@ -93,12 +194,25 @@ struct Surroundings<'a> {
 }
 
 impl Surroundings<'_> {
-    /// The inner ring, the unclipped pixels next to a blob, and the outer ring, the unclipped pixels next to the inner ring.
-    fn rings(&mut self, blob: &[usize]) -> [Vec<usize>; 2] {
+    /// The pixels around a blob.
+    fn around(&mut self, blob: &[usize], is_highlight: impl Fn(usize) -> bool) -> Around {
+        let reach_px = AROUND_PX.max(0.5 * (blob.len() as f32).sqrt()) as usize;
+        let enough = blob.len().div_ceil(2);
+        let count = |ring: &[usize]| ring.iter().filter(|&&pixel| is_highlight(pixel)).count();
         let inner = self.ring(blob);
         let outer = self.ring(&inner);
-        inner.iter().chain(&outer).for_each(|&pixel| self.in_ring[pixel] = false);
-        [inner, outer]
+        let mut highlights = count(&inner) + count(&outer);
+        let mut visited = vec![outer.clone()];
+        while visited.len() + 1 < reach_px && highlights < enough {
+            let next = self.ring(visited.last().map_or(&[], Vec::as_slice));
+            if next.is_empty() {
+                break;
+            }
+            highlights += count(&next);
+            visited.push(next);
+        }
+        inner.iter().chain(visited.iter().flatten()).for_each(|&pixel| self.in_ring[pixel] = false);
+        Around { rings: [inner, outer], highlights }
     }
 
     /// Whether the value of a pixel can be used: the pixel is neither clipped nor invalid nor outside of the analyzed area.

@@ -1,12 +1,12 @@
 //! The record of the local split. Nothing is computed where no record is kept.
 
-use super::blobs::BlobRecord;
 use super::desaturation_map::DesaturationMap;
+use super::evidence::Evidence;
 use super::{LEAST_PIXELS, LEAST_SHARE};
 use crate::raster::{Mask, Raster};
 use crate::segment::AnalysisInput;
 use crate::trace::{
-    BlobsCounted, Event, LocalBegan, LocalLimits, LocalPoint, LocalPoints, LocalRecord, LocalStart, Pass,
+    Event, LocalBegan, LocalFigures, LocalLimits, LocalPoint, LocalPoints, LocalRecord, LocalStart, Pass,
     PassBegan, PlausibilityTested, Recorder, RepairTried,
 };
 use rayon::prelude::*;
@@ -55,36 +55,36 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
             light,
             origin: self.origin,
             limits: *limits,
-            texture_test: refine.texture_test,
-            hysteresis: refine.hysteresis,
+            highlight_evidence: refine.highlight_evidence,
+            guided_amount: refine.guided_amount,
             clip_repair: refine.clip_repair,
         });
     }
 
-    /// Records the candidate highlights, and what each pixel of the window was judged by.
+    /// Records what each pixel of the window is judged by.
     pub fn judged(
         &mut self,
         input: &AnalysisInput,
         map: &DesaturationMap,
-        texture: Option<&Raster<f32>>,
+        evidence: Option<&Evidence>,
         unexplained: &Mask,
-        blobs: &BlobRecord,
     ) {
         if !R::KEEPS {
             return;
         }
-        let mut of = points(input, map, texture, unexplained);
-        for &(index, blob) in &blobs.pixels {
-            of[index].blob = blob;
+        self.points = Some(LocalPoints { roi: map.roi, of: points(input, map, evidence, unexplained) });
+        if let Some(evidence) = evidence {
+            self.record(evidence.picture);
         }
-        self.points = Some(LocalPoints { roi: map.roi, of });
-        self.numbered = blobs.judged.len() as u16;
-        if input.refine.hysteresis {
-            let BlobRecord { found, small, small_pixels, .. } = *blobs;
-            self.record(BlobsCounted { found, small, small_pixels, least: BlobRecord::LEAST });
-        }
-        for &blob in &blobs.judged {
-            self.record(blob);
+    }
+
+    /// Records the amount of surface reflection that each pixel of the window got, counts of J.
+    pub fn amounts(&mut self, amounts: &Raster<f32>) {
+        if let Some(LocalPoints { of, .. }) = &mut self.points {
+            of.as_mut_slice()
+                .iter_mut()
+                .zip(amounts.as_slice())
+                .for_each(|(point, &amount)| point.amount = amount);
         }
     }
 
@@ -110,7 +110,7 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         self.numbered += 1;
         if let Some(LocalPoints { roi, of }) = &mut self.points {
             for index in blob.iter().filter_map(|&pixel| roi.index(pixel)) {
-                of[index].blob = self.numbered;
+                of[index].set_blob(self.numbered);
             }
         }
         self.record(RepairTried { blob: self.numbered, ..tried });
@@ -128,7 +128,7 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
 fn points(
     input: &AnalysisInput,
     map: &DesaturationMap,
-    texture: Option<&Raster<f32>>,
+    evidence: Option<&Evidence>,
     unexplained: &Mask,
 ) -> Raster<LocalPoint> {
     let width = map.roi.width;
@@ -138,8 +138,10 @@ fn points(
             let index = row * width + column;
             let pixel = map.roi.pixel(index);
             if !input.masks.dark(pixel) {
-                let texture = texture.map_or(0.0, |texture| texture[index]);
-                *point = LocalPoint::new(unexplained[pixel], map.ratios(input, index), texture);
+                let (terms, odds) = evidence
+                    .map_or_else(Default::default, |evidence| (evidence.terms[index], evidence.odds[index]));
+                let figures = LocalFigures { ratios: map.ratios(input, index), terms, odds, amount: 0.0 };
+                *point = LocalPoint::new(unexplained[pixel], &figures);
             }
         }
     });

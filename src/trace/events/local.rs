@@ -23,10 +23,10 @@ pub struct LocalBegan {
     pub origin: [f64; 3],
     /// The limits of the local split.
     pub limits: LocalLimits,
-    /// Whether texture is tested (refinement `texture_test`).
-    pub texture_test: bool,
-    /// Whether whole blobs are judged, or single pixels (refinement `hysteresis`).
-    pub hysteresis: bool,
+    /// Whether highlights are told from print (refinement `highlight_evidence`).
+    pub highlight_evidence: bool,
+    /// Whether the amounts follow the edges of the picture (refinement `guided_amount`).
+    pub guided_amount: bool,
     /// Whether clipped blobs are filled (refinement `clip_repair`).
     pub clip_repair: bool,
 }
@@ -53,27 +53,29 @@ pub struct LocalLimits {
     pub mean: f32,
     /// Least chromatic part of J that has a hue, counts.
     pub chroma: f32,
-    /// How the weight of surface reflection falls with texture.
-    pub texture: TextureFade,
-    /// Texture below which a pixel can be of a strong core.
-    pub core_texture: f32,
+    /// Log odds of a highlight over which the weight of surface reflection rises from 0 to 1.
+    pub odds: Ramp,
+    /// κ over which the weight of surface reflection falls from 1 to 0: colors that are nearly gray have no reliable hue.
+    pub ratio: Ramp,
     /// Standard deviation of a band's noise, counts.
     pub sigma: f32,
 }
 
-/// The range of texture, 0…1, over which the weight of surface reflection falls from 1 to 0.
+/// A range over which a weight changes smoothly.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct TextureFade {
-    /// Texture up to which all of a pixel's surface reflection counts.
+pub struct Ramp {
+    /// The value up to which the weight does not change.
     pub start: f32,
-    /// How far texture rises from `start` until no surface reflection counts.
-    pub width: f32,
+    /// The value from which on the weight does not change any more.
+    pub end: f32,
 }
 
-impl TextureFade {
-    /// Texture up to which all of a pixel's surface reflection counts, and texture from which on none does.
-    pub fn ends(&self) -> [f32; 2] {
-        [self.start, self.start + self.width]
+impl Ramp {
+    /// 0 up to the start, 1 from the end on, and a smooth step between.
+    #[inline]
+    pub fn step(&self, value: f32) -> f32 {
+        let share = ((value - self.start) / (self.end - self.start)).clamp(0.0, 1.0);
+        share * share * (3.0 - 2.0 * share)
     }
 }
 
@@ -95,85 +97,62 @@ impl LocalLimits {
         }
     }
 
-    /// The share of a pixel's surface reflection that counts, 0…1, by texture.
+    /// The share of a pixel's excess ms that is surface reflection, 0…1, by the log odds of a highlight and by κ. A color that cannot be
+    /// judged has none.
     #[inline]
-    pub fn weight(&self, texture: f32) -> f32 {
-        1.0 - ((texture - self.texture.start) / self.texture.width).clamp(0.0, 1.0)
+    pub fn weight(&self, found: &Desaturation, ratio: f32, odds: f32) -> f32 {
+        if !found.is_judged() {
+            return 0.0;
+        }
+        let above_noise = Ramp { start: found.noise_limit, end: 2.0 * found.noise_limit };
+        self.odds.step(odds) * above_noise.step(found.surface) * (1.0 - self.ratio.step(ratio))
     }
 }
 
-/// A candidate highlight was judged (refinement `hysteresis`).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct BlobJudged {
-    /// Number of the blob, from 1; the numbers of clipped blobs follow.
-    pub blob: u16,
-    /// The first pixel of the blob.
-    pub pixel: PixelIndex,
-    /// Number of pixels, without the clipped ones.
-    pub pixels: u32,
-    /// Number of clipped pixels that are connected with the blob.
-    pub clipped: u32,
-    /// Number of pixels with surface reflection above the variation of their hue.
-    pub strong: u32,
-    /// Number of these pixels that do not look like texture.
-    pub calm: u32,
-    /// Number of these pixels in squares of 3 × 3 such pixels: the core.
-    pub core: u32,
-    /// Whether the blob is a highlight: whether there is a core, or clipped pixels.
-    pub kept: bool,
+/// What speaks for and against a highlight in one pixel, log odds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HighlightTerms {
+    /// The chromatic part is as large as around.
+    pub chroma: f32,
+    /// Body and surface reflection do not vary against each other.
+    pub independence: f32,
+    /// The pixel is brighter than the body around.
+    pub brightness: f32,
+    /// Surface reflection has edges where body reflection has none.
+    pub edges: f32,
 }
 
-/// The plausibility of the highlights under this light was tested (refinement `belief`). The first test that fails ends the
-/// tests: later figures are none.
+impl HighlightTerms {
+    /// The sum of the terms.
+    pub fn sum(&self) -> f32 {
+        self.chroma + self.independence + self.brightness + self.edges
+    }
+}
+
+/// The odds of the picture were found (refinement `highlight_evidence`): how much of what is paler than its hue is highlight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PictureOddsFound {
+    /// Number of unexplained pixels that are paler than their hue beyond the noise.
+    pub pixels: u32,
+    /// Log odds that are added to those of each pixel: positive where most of the excess is of highlights.
+    pub log_odds: f32,
+}
+
+/// The plausibility of highlights under this light was tested (refinement `belief`).
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PlausibilityTested {
     /// Share of the votes for the light, 0…1; none where explained regions support the light, the light was given, or votes are off.
     pub share: Option<f64>,
-    /// Share of the light of the unexplained pixels that would be surface reflection, 0…1.
-    pub surface: Option<f64>,
-    /// Share of the strong highlight pixels whose surface reflection exceeds the body reflection, 0…1, and the number of strong
-    /// pixels.
-    pub outshining: Option<(f64, u32)>,
-    /// The limits of these figures.
-    pub limits: PlausibilityLimits,
-    /// Why no pixel is split locally; none: the highlights are plausible.
-    pub reject_reason: Option<RejectReason>,
-}
-
-/// The limits of a [`PlausibilityTested`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct PlausibilityLimits {
     /// Least share of the votes, 0…1.
-    pub share: f64,
-    /// Largest share of surface reflection, 0…1.
-    pub surface: f64,
-    /// Largest share of strong pixels whose surface reflection exceeds the body reflection, 0…1.
-    pub outshining: f64,
+    pub least_share: f64,
 }
 
-/// Why the highlights are not plausible.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum RejectReason {
-    /// Too small a share of the votes is for the light.
-    NoVote,
-    /// Too much would be surface reflection.
-    TooMuch,
-    /// Surface reflection exceeds body reflection in too many pixels: the highlights are white objects.
-    Outshining,
-}
-
-impl RejectReason {
-    /// The name in trace lines.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::NoVote => "no_vote",
-            Self::TooMuch => "too_much",
-            Self::Outshining => "outshining",
-        }
+impl PlausibilityTested {
+    /// Whether highlights under this light are plausible; where not, no pixel is split locally.
+    pub fn plausible(&self) -> bool {
+        self.share.is_none_or(|share| share >= self.least_share)
     }
 }
 
@@ -181,18 +160,22 @@ impl RejectReason {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RepairTried {
-    /// Number of the blob, after those of the candidate highlights.
+    /// Number of the blob, from 1.
     pub blob: u16,
     /// The first pixel of the blob.
     pub pixel: PixelIndex,
     /// Number of pixels.
     pub pixels: u32,
-    /// Share of the ring of 2 px around the blob that is highlight, 0…1, and the least share at which it is filled.
+    /// Share of the ring of 2 px around the blob that is highlight, 0…1, and the least share at which the blob is filled.
     pub ring: Measured<f32>,
     /// Mean surface reflection of the ring's inner pixels, counts a band.
     pub inner: f32,
     /// Mean surface reflection of the ring's outer pixels, counts a band.
     pub outer: f32,
+    /// Standard deviation of the body reflection of the ring as a share of its mean, and the largest share at which the blob is filled.
+    pub spread: Measured<f32>,
+    /// Number of highlight pixels around the blob, and the least number at which the blob is filled.
+    pub around: Measured<f32>,
     /// Whether the blob was filled, or why not.
     pub verdict: RepairVerdict,
 }
@@ -211,6 +194,10 @@ pub enum RepairVerdict {
     NoHighlight,
     /// Surface reflection does not rise towards the blob.
     NoRise,
+    /// The body reflection of the ring is of several materials.
+    Uneven,
+    /// The highlight around the blob is too small for the blob.
+    TooSmall,
 }
 
 impl RepairVerdict {
@@ -221,6 +208,8 @@ impl RepairVerdict {
             Self::TooLarge => "too_large",
             Self::NoRing => "no_ring",
             Self::NoHighlight => "no_highlight",
+            Self::Uneven => "uneven",
+            Self::TooSmall => "too_small",
             Self::NoRise => "no_rise",
         }
     }
@@ -250,19 +239,9 @@ impl EventData for LocalBegan {
     }
 }
 
-impl EventData for BlobsCounted {
+impl EventData for PictureOddsFound {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [None, None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
-
-impl EventData for BlobJudged {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [Some(Subject::Blob(self.blob)), None]
     }
 
     fn heap_bytes(&self) -> usize {

@@ -216,14 +216,12 @@ events! { $
     Borders "borders" { boxed BordersLimited(BordersLimited) }
     /// The local split begins, or does not.
     LocalSplit "local split" { boxed LocalBegan(LocalBegan) }
-    /// Candidate highlights were counted.
-    Blobs "blobs" { inline BlobsCounted(BlobsCounted) }
-    /// A candidate highlight was judged.
-    Blob "blob" { inline BlobJudged(BlobJudged) }
+    /// The odds of the picture were found.
+    PictureOdds "picture odds" { inline PictureOddsFound(PictureOddsFound) }
     /// The plausibility of the highlights was tested.
     Plausibility "belief" { boxed PlausibilityTested(PlausibilityTested) }
     /// A clipped blob was filled, or not.
-    Repair "clip repair" { inline RepairTried(RepairTried) }
+    Repair "clip repair" { boxed RepairTried(RepairTried) }
     /// A pixel changed its owner.
     Claim "claim" {}
     /// A change of owner was refused in a contest.

@@ -6,7 +6,8 @@ use crate::reflection::{Desaturation, WhitenedColor, WhiteningGain};
 use crate::trace::replay_state::ReplayState;
 use crate::trace::timeline::EventId;
 use crate::trace::{
-    BlobsCounted, Event, LocalBegan, LocalPoint, LocalStart, PlausibilityTested, RepairVerdict, Stage, Trace,
+    Event, LocalBegan, LocalPoint, LocalStart, PictureOddsFound, PlausibilityTested, RepairVerdict, Stage,
+    Trace,
 };
 
 /// The decisions about a pixel that no region explains, and their outcome.
@@ -63,12 +64,10 @@ struct Decisions<'a> {
     point: Option<LocalPoint>,
     light: Option<(usize, &'a Event)>,
     began: Option<(usize, &'a LocalBegan)>,
-    /// Fewest pixels of a blob that may be a highlight.
-    least_px: u32,
-    /// The judgment of the pixel's blob, and other decisions that the pixel depends on.
+    /// Log odds of the picture.
+    picture_odds: f32,
+    /// The decisions that the pixel depends on.
     decided: Vec<(usize, &'a Event)>,
-    /// Whether the pixel's blob is a highlight.
-    kept: bool,
     /// Whether the pixel was filled from the pixels around it.
     filled: bool,
     plausibility: Option<(usize, &'a Event, &'a PlausibilityTested)>,
@@ -76,7 +75,7 @@ struct Decisions<'a> {
 
 impl<'a> Decisions<'a> {
     fn take(&mut self, step: usize, event: &'a Event) {
-        let number = self.point.map_or(0, |point| point.blob);
+        let number = self.point.map_or(0, |point| point.blob());
         match event {
             Event::LocalBegan(began) => {
                 self.began = Some((step, began));
@@ -84,9 +83,8 @@ impl<'a> Decisions<'a> {
                     self.decided.push((step, event));
                 }
             }
-            Event::BlobsCounted(BlobsCounted { least, .. }) => self.least_px = *least,
-            Event::BlobJudged(judged) if judged.blob == number => {
-                self.kept = judged.kept;
+            Event::PictureOddsFound(PictureOddsFound { log_odds, .. }) => {
+                self.picture_odds = *log_odds;
                 self.decided.push((step, event));
             }
             Event::RepairTried(tried) if tried.blob == number => {
@@ -99,12 +97,10 @@ impl<'a> Decisions<'a> {
     }
 
     fn outside(mut self) -> Outside {
-        let doubted = self.plausibility.is_some_and(|(.., tested)| tested.reject_reason.is_some());
-        let story = self.began.filter(|_| self.point.is_some()).map(|(step, began)| {
-            let story = self.story(began, doubted);
-            (step, story)
-        });
-        let surface = story.as_ref().map_or(0.0, |(_, story)| if doubted { 0.0 } else { story.surface() });
+        let doubted = self.plausibility.is_some_and(|(.., tested)| !tested.plausible());
+        let story =
+            self.began.filter(|_| self.point.is_some()).map(|(step, began)| (step, self.story(began)));
+        let surface = story.as_ref().map_or(0.0, |(_, story)| story.surface);
         if let Some((step, event, _)) = self.plausibility.filter(|_| doubted || surface > 0.0 || self.filled)
         {
             self.decided.push((step, event));
@@ -121,59 +117,58 @@ impl<'a> Decisions<'a> {
         Outside { entries, surface: (!self.filled).then_some(surface) }
     }
 
-    fn story(&self, began: &LocalBegan, doubted: bool) -> LocalStory {
-        let point = self.point.unwrap_or_default();
+    fn story(&self, began: &LocalBegan) -> LocalStory {
+        let figures = self.point.unwrap_or_default().figures();
         let gain = began.light.and_then(|light| WhiteningGain::new(&light.into()));
         let color = gain.map_or(WhitenedColor::default(), |gain| {
             gain.whitened(std::array::from_fn(|band| self.color[band] - began.origin[band] as f32))
         });
-        let ratios = point.ratios();
         let limits = began.limits;
-        let found =
-            ratios.map_or(Desaturation::default(), |ratios| limits.desaturation(color, ratios, self.clipped));
+        let found = figures
+            .ratios
+            .map_or(Desaturation::default(), |ratios| limits.desaturation(color, ratios, self.clipped));
+        let odds = figures.odds + self.picture_odds;
+        let ratio = figures.ratios.map_or(1.0, |[ratio, _]| ratio);
+        let weight = match (began.highlight_evidence, found.is_strong()) {
+            (true, _) => limits.weight(&found, ratio, odds),
+            (false, strong) => f32::from(u8::from(strong)),
+        };
         LocalStory {
             mean: color.mean,
             chroma: color.chroma,
-            ratios,
+            ratios: figures.ratios,
             body: found.body,
             excess: found.surface,
             noise: found.noise_limit,
             variation: found.variation_limit,
-            texture: point.texture(),
-            weight: limits.weight(point.texture()),
+            terms: began.highlight_evidence.then_some(figures.terms),
+            odds,
+            picture_odds: self.picture_odds,
+            weight,
             limits,
-            least_px: self.least_px,
-            fate: self.fate(began, point, color, &found),
-            doubted,
+            surface: 3f32.sqrt() * figures.amount,
+            fate: self.fate(began, &found, weight, odds),
         }
     }
 
-    fn fate(
-        &self,
-        began: &LocalBegan,
-        point: LocalPoint,
-        color: WhitenedColor,
-        found: &Desaturation,
-    ) -> LocalFate {
+    fn fate(&self, began: &LocalBegan, found: &Desaturation, weight: f32, odds: f32) -> LocalFate {
+        let has_ratio = self.point.is_some_and(|point| point.figures().ratios.is_some());
         if self.clipped {
-            return LocalFate::Clipped;
-        }
-        if !began.limits.has_hue(color) {
-            return LocalFate::Gray;
-        }
-        if point.ratios().is_none() {
-            return LocalFate::Alone;
-        }
-        if !began.hysteresis {
-            return if found.is_strong() { LocalFate::Taken } else { LocalFate::Weak };
-        }
-        match point.blob {
-            0 if !found.exceeds_noise() => LocalFate::Faint,
-            0 if began.limits.weight(point.texture()) <= 0.0 => LocalFate::Texture,
-            0 => LocalFate::Thin,
-            LocalPoint::SMALL => LocalFate::Small,
-            _ if self.kept => LocalFate::Taken,
-            _ => LocalFate::NoHighlight,
+            LocalFate::Clipped
+        } else if !has_ratio {
+            LocalFate::Alone
+        } else if !found.is_judged() {
+            LocalFate::Gray
+        } else if weight > 0.0 {
+            LocalFate::Taken
+        } else if !found.exceeds_noise() {
+            LocalFate::Faint
+        } else if !began.highlight_evidence {
+            LocalFate::Weak
+        } else if odds <= began.limits.odds.start {
+            LocalFate::Print
+        } else {
+            LocalFate::Pale
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::raster::RegionId;
 use crate::reflection::Components;
-use crate::trace::{FitLimits, LocalLimits, PixelKind};
+use crate::trace::{FitLimits, HighlightTerms, LocalLimits, PixelKind};
 
 /// How a pixel was split.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,25 +77,20 @@ pub struct LocalStory {
     pub noise: f32,
     /// Variation of the hue around the pixel, counts: larger values of ms are strong.
     pub variation: f32,
-    /// Anticorrelation of surface and body reflection around the pixel, 0…1.
-    pub texture: f32,
-    /// The share of ms that counts, 0…1, by texture.
+    /// The observations that speak for and against a highlight, log odds; none where highlights are not told from print.
+    pub terms: Option<HighlightTerms>,
+    /// Log odds of a highlight: the observations of the pixels around, averaged, and the odds of the picture.
+    pub odds: f32,
+    /// The part of `odds` that is the same for the whole picture.
+    pub picture_odds: f32,
+    /// The share of ms that counts, 0…1.
     pub weight: f32,
     /// The limits.
     pub limits: LocalLimits,
-    /// Fewest pixels of a blob that may be a highlight.
-    pub least_px: u32,
-    /// The outcome.
+    /// Amount of surface reflection m_s that was found, after it was made to follow the edges of the picture, counts.
+    pub surface: f32,
+    /// Why the pixel itself has surface reflection, or why it has none.
     pub fate: LocalFate,
-    /// Whether the highlights of the picture are not plausible.
-    pub doubted: bool,
-}
-
-impl LocalStory {
-    /// Amount of surface reflection m_s if the highlights of the picture are plausible, counts.
-    pub fn surface(&self) -> f32 {
-        if self.fate == LocalFate::Taken { 3f32.sqrt() * self.weight * self.excess } else { 0.0 }
-    }
 }
 
 /// The outcome of the local split for a pixel.
@@ -110,16 +105,12 @@ pub enum LocalFate {
     Alone,
     /// The excess is no larger than the noise.
     Faint,
-    /// The pixel looks like texture.
-    Texture,
-    /// The pixel is in no square of 3 × 3 pixels with such an excess.
-    Thin,
-    /// The blob of the pixel has too few pixels.
-    Small,
-    /// The blob of the pixel is no highlight.
-    NoHighlight,
-    /// The excess is no larger than the variation of the hue, and blobs are not judged.
+    /// The observations speak for white print.
+    Print,
+    /// The hue is so pale that κ is not reliable.
+    Pale,
+    /// The excess is no larger than the variation of the hue, and highlights are not told from print.
     Weak,
-    /// The excess is surface reflection.
+    /// The excess, or a part of it, is surface reflection.
     Taken,
 }

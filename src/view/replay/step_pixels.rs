@@ -83,11 +83,9 @@ fn groups(
     }
 }
 
-/// The pixels of the blob that the step taken last judged, and whether the blob is a highlight; of a clipped blob,
-/// whether it is filled.
+/// The pixels of the clipped blob that the step taken last judged, and whether the blob is filled.
 pub fn blob_at_cursor(replay: &Replay) -> Option<(Vec<u32>, bool)> {
     let (blob, kept) = match replay.last()? {
-        Step::Event(Event::BlobJudged(judged)) => (judged.blob, judged.kept),
         Step::Event(Event::RepairTried(tried)) => (tried.blob, tried.verdict == RepairVerdict::Filled),
         _ => return None,
     };
@@ -112,8 +110,7 @@ mod tests {
     use super::*;
     use crate::raster::{PixelIndex, Roi};
     use crate::trace::{
-        BlobJudged, LocalPoint, LocalPoints, LocalRecord, Measured, Recorder, RepairTried, Trace,
-        TraceRecorder,
+        LocalPoint, LocalPoints, LocalRecord, Measured, Recorder, RepairTried, Trace, TraceRecorder,
     };
     use std::sync::Arc;
 
@@ -121,28 +118,23 @@ mod tests {
     fn a_step_about_a_blob_is_about_its_pixels() {
         let window = Roi::around((4, 2), 0, |_| true).unwrap();
         let mut of = Raster::filled(4, 2, LocalPoint::default());
-        (of[1].blob, of[2].blob, of[7].blob) = (1, 1, 2);
+        of[1].set_blob(1);
+        of[2].set_blob(1);
+        of[7].set_blob(2);
         let mut recorder = TraceRecorder::default();
-        let judged = BlobJudged {
-            blob: 1,
-            pixel: PixelIndex::new(1),
-            pixels: 2,
-            clipped: 0,
-            strong: 0,
-            calm: 0,
-            core: 0,
-            kept: false,
-        };
-        recorder.record(judged);
-        recorder.record(RepairTried {
-            blob: 2,
-            pixel: PixelIndex::new(7),
-            pixels: 1,
-            ring: Measured::new(0.5, 0.4),
-            inner: 2.0,
-            outer: 1.0,
-            verdict: RepairVerdict::Filled,
-        });
+        for (blob, pixel, verdict) in [(1, 1, RepairVerdict::NoRise), (2, 7, RepairVerdict::Filled)] {
+            recorder.record(RepairTried {
+                blob,
+                pixel: PixelIndex::new(pixel),
+                pixels: 2,
+                ring: Measured::new(0.5, 0.4),
+                inner: 2.0,
+                outer: 1.0,
+                spread: Measured::new(0.1, 0.5),
+                around: Measured::new(2.0, 1.0),
+                verdict,
+            });
+        }
         recorder.local(LocalRecord::Points(LocalPoints { roi: window, of }));
         let stage_trace = Arc::new(recorder.finish(Stage::Split).unwrap());
         let mut replay = Replay::new(Arc::new(Trace::new(4, 2, vec![stage_trace])));

@@ -1,0 +1,205 @@
+//! Rule `highlight_evidence`: the odds that what is paler than its hue is a highlight, and no white print.
+//!
+//! Chromaticity alone cannot tell a highlight from white print: both add to the mean of J and leave its chromatic part. Four
+//! observations can; each adds to the log odds of a pixel.
+//! - Chroma: a highlight leaves the chromatic part c as it is, print lowers it. 3·clip(ln c − μ + d/2, −2.3, 1), μ and d the mean and the
+//!   standard deviation of ln c of the pixels without strong surface reflection within 24 px.
+//! - Independence: the body reflection under a highlight does not vary against the surface reflection. 4ρ, ρ the correlation of both
+//!   after their means within 5 px are subtracted, within 7 px.
+//! - Brightness: a highlight is brighter than the body around. 2·ln clip(m / M, .5, 5), m the largest band of J, M its mean over the pixels
+//!   without strong surface reflection within 24 px.
+//! - Edges: a highlight has edges where the body has none. ln clip(gradient of ms / gradient of κc, .2, 20), both means within 5 px.
+//!
+//! The sum and a constant of .8 are averaged within 3 px, weighted by ms². The odds of the picture are added: among prints a doubtful blob
+//! is print, among fruit a highlight.
+
+use super::desaturation_map::DesaturationMap;
+use crate::raster::{Mask, Raster, blur};
+use crate::segment::AnalysisInput;
+use crate::trace::{HighlightTerms, LocalLimits, PictureOddsFound};
+
+/// Widths of the Gaussians, pixels: surroundings of a highlight, shading, products, edges, and the average of the odds.
+const SURROUNDINGS_PX: f64 = 24.0;
+const SHADING_PX: f64 = 5.0;
+const PRODUCTS_PX: f64 = 7.0;
+const EDGE_PX: f64 = 1.0;
+const EDGES_PX: f64 = 5.0;
+const AVERAGE_PX: f64 = 3.0;
+/// Log odds before any observation.
+const PRIOR: f32 = 0.8;
+/// Share of the variance of the noise that is added to the variances of body and surface reflection.
+const NOISE: f32 = 0.3;
+/// Number of times that the odds of the picture are added.
+const ROUNDS: usize = 3;
+/// Least and largest share of highlights in the surface reflection of a picture.
+const PICTURE_SHARE: (f64, f64) = (0.02, 0.98);
+
+/// What speaks for and against a highlight in each pixel of a window.
+pub struct Evidence {
+    /// The four observations of each pixel, log odds.
+    pub terms: Raster<HighlightTerms>,
+    /// Log odds of each pixel: the observations around, averaged, without the odds of the picture.
+    pub odds: Raster<f32>,
+    /// The log odds of the picture.
+    pub picture: PictureOddsFound,
+}
+
+/// Per pixel of the window: what the observations are computed from.
+struct Source<'a> {
+    map: &'a DesaturationMap,
+    /// 1 for a pixel that is neither dark nor clipped, else 0.
+    usable: Raster<f32>,
+}
+
+impl Evidence {
+    /// The evidence in the window of `map`. `unexplained`: the lit pixels of the picture that no region explains.
+    pub fn new(
+        input: &AnalysisInput,
+        limits: &LocalLimits,
+        map: &DesaturationMap,
+        unexplained: &Mask,
+    ) -> Self {
+        let roi = map.roi;
+        let usable =
+            roi.raster(|pixel| if input.masks.dark(pixel) || input.masks.clipped(pixel) { 0.0 } else { 1.0 });
+        let source = Source { map, usable };
+        let (chroma, brightness) = source.against_surroundings(limits.sigma);
+        let independence = source.independence(limits.sigma);
+        let edges = source.edges();
+        let data = (0..map.points.len())
+            .map(|index| HighlightTerms {
+                chroma: chroma[index],
+                independence: independence[index],
+                brightness: brightness[index],
+                edges: edges[index],
+            })
+            .collect();
+        let terms = Raster::from_vec(roi.width, roi.height, data).unwrap_or_default();
+        let odds = source.averaged(&terms);
+        let picture = source.picture_odds(&odds, |index| unexplained[roi.pixel(index)]);
+        Self { terms, odds, picture }
+    }
+}
+
+impl Source<'_> {
+    /// The observations of chroma and of brightness.
+    fn against_surroundings(&self, sigma: f32) -> (Raster<f32>, Raster<f32>) {
+        let log_chroma = |index: usize| self.map.colors[index].chroma.max(1.5 * sigma).max(1e-3).ln();
+        let largest = |index: usize| self.map.colors[index].largest;
+        let sums = blur(
+            &self.map.raster(|index| {
+                let point = &self.map.points[index];
+                let quiet = point.is_judged() && !point.is_strong() && self.usable[index] > 0.0;
+                let weight = if quiet { 1.0 } else { 0.0 };
+                let l = log_chroma(index);
+                [weight, weight * l, weight * l * l, weight * largest(index)]
+            }),
+            SURROUNDINGS_PX,
+        );
+        let chroma = self.map.raster(|index| {
+            let [weight, first, second, _] = sums[index];
+            if weight < 1e-4 {
+                return 0.0;
+            }
+            let mean = first / weight;
+            let deviation = (second / weight - mean * mean).max(0.0).sqrt();
+            3.0 * (log_chroma(index) - mean + deviation / 2.0).clamp(-2.3, 1.0)
+        });
+        let brightness = self.map.raster(|index| {
+            let [weight, .., around] = sums[index];
+            if weight < 1e-4 {
+                return 0.0;
+            }
+            2.0 * (largest(index) / (around / weight).max(0.5)).clamp(0.5, 5.0).ln()
+        });
+        (chroma, brightness)
+    }
+
+    /// The observation of independence.
+    fn independence(&self, sigma: f32) -> Raster<f32> {
+        let amounts = |index: usize| [self.map.points[index].surface, self.map.points[index].body];
+        let smooth = blur(
+            &self.map.raster(|index| {
+                let (weight, [surface, body]) = (self.usable[index], amounts(index));
+                [weight, weight * surface, weight * body]
+            }),
+            SHADING_PX,
+        );
+        let products = blur(
+            &self.map.raster(|index| {
+                let [weight, surface, body] = smooth[index];
+                if weight < 1e-4 || self.usable[index] == 0.0 {
+                    return [0.0; 4];
+                }
+                let [s, b] = amounts(index);
+                let (s, b) = (s - surface / weight, b - body / weight);
+                [1.0, s * b, s * s, b * b]
+            }),
+            PRODUCTS_PX,
+        );
+        let floor = NOISE * sigma * sigma;
+        self.map.raster(|index| {
+            let [weight, both, surface, body] = products[index];
+            if weight < 1e-4 {
+                return 0.0;
+            }
+            let scale = ((surface / weight).max(0.0) + floor) * ((body / weight).max(0.0) + floor);
+            4.0 * (both / weight) / scale.sqrt().max(1e-6)
+        })
+    }
+
+    /// The observation of edges.
+    fn edges(&self) -> Raster<f32> {
+        let smooth = blur(
+            &self.map.raster(|index| [self.map.points[index].surface, self.map.points[index].body]),
+            EDGE_PX,
+        );
+        let (width, height) = (smooth.width(), smooth.height());
+        let gradient = |x: usize, y: usize| -> [f32; 2] {
+            let at = |x: usize, y: usize| smooth[y * width + x];
+            let across = [at((x + 1).min(width - 1), y), at(x.saturating_sub(1), y)];
+            let down = [at(x, (y + 1).min(height - 1)), at(x, y.saturating_sub(1))];
+            std::array::from_fn(|k| (across[0][k] - across[1][k]).hypot(down[0][k] - down[1][k]) / 2.0)
+        };
+        let gradients = blur(&self.map.raster(|index| gradient(index % width, index / width)), EDGES_PX);
+        self.map.raster(|index| {
+            let [surface, body] = gradients[index];
+            (surface / body.max(0.0255)).clamp(0.2, 20.0).ln()
+        })
+    }
+
+    /// The mean of the log odds of near pixels, weighted by the square of the surface reflection.
+    fn averaged(&self, terms: &Raster<HighlightTerms>) -> Raster<f32> {
+        let sums = blur(
+            &self.map.raster(|index| {
+                let amount = self.map.points[index].surface.max(0.0255);
+                let weight = self.usable[index] * amount * amount;
+                [weight, weight * (PRIOR + terms[index].sum())]
+            }),
+            AVERAGE_PX,
+        );
+        self.map.raster(|index| {
+            let [weight, sum] = sums[index];
+            if weight > 1e-9 { sum / weight } else { 0.0 }
+        })
+    }
+
+    /// The log odds of the picture, from the share of highlights in the squared surface reflection of the pixels that `takes_part`. The share and the
+    /// odds depend on each other, so that both are found by repetition.
+    fn picture_odds(&self, odds: &Raster<f32>, takes_part: impl Fn(usize) -> bool) -> PictureOddsFound {
+        let is_pale = |index: &usize| self.map.points[*index].exceeds_noise() && self.usable[*index] > 0.0;
+        let members: Vec<(f64, f64)> = (0..odds.len())
+            .filter(|index| is_pale(index) && takes_part(*index))
+            .map(|index| (f64::from(self.map.points[index].surface).powi(2), f64::from(odds[index])))
+            .collect();
+        let total: f64 = members.iter().map(|(weight, _)| weight).sum();
+        let mut log_odds = 0.0f64;
+        for _ in 0..if total > 0.0 { ROUNDS } else { 0 } {
+            let probable = |&(weight, odds): &(f64, f64)| weight / (1.0 + (-(odds + log_odds)).exp());
+            let share =
+                (members.iter().map(probable).sum::<f64>() / total).clamp(PICTURE_SHARE.0, PICTURE_SHARE.1);
+            log_odds = 0.5 * (share / (1.0 - share)).ln();
+        }
+        PictureOddsFound { pixels: members.len() as u32, log_odds: log_odds as f32 }
+    }
+}

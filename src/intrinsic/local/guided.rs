@@ -1,0 +1,96 @@
+//! Rule `guided_amount`: the amount of surface reflection follows the picture's own edges, and no others.
+//!
+//! A guided filter (He, Sun & Tang 2010): around each pixel the amount is a line of a, the mean of J: p·a + q with 0 ≤ p ≤ 1, fitted by
+//! least squares under a Gaussian of 2.5 px. So the body reflection has no edge that the photograph does not have, and no amount exceeds a.
+//! Where the picture is a working picture, the lines of its pixels give the amounts of the photograph's pixels (the fast guided filter,
+//! He & Sun 2015).
+
+use super::desaturation_map::DesaturationMap;
+use crate::raster::{Raster, Roi, blur};
+
+/// Width of the Gaussian, pixels.
+const WINDOW_PX: f64 = 2.5;
+/// Variance of a below which the amount is a mean, variances of the noise of a band.
+const LEAST_VARIANCE: f32 = 4.0;
+/// Share of usable pixels in the window below which there is no line.
+const LEAST_SHARE: f32 = 1e-4;
+
+/// The amount of surface reflection around a pixel as a line of a, counts of J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AmountLine {
+    /// p: amount per count of a, 0…1.
+    pub slope: f32,
+    /// q: amount at a = 0, counts of J.
+    pub offset: f32,
+}
+
+impl AmountLine {
+    /// The amount of a color whose mean is `a`, counts of J.
+    #[inline]
+    pub fn amount(self, a: f32) -> f32 {
+        (self.slope * a + self.offset).clamp(0.0, a.max(0.0))
+    }
+}
+
+/// The lines of a window.
+pub struct AmountLines {
+    /// The window.
+    pub roi: Roi,
+    /// The line of each pixel; none far from usable pixels.
+    of: Raster<Option<AmountLine>>,
+}
+
+impl AmountLines {
+    /// The lines of `amounts`, counts of J. `usable`: 1 for a pixel that takes part, else 0. `sigma`: standard deviation of the noise
+    /// of a band, counts.
+    pub fn guided(map: &DesaturationMap, amounts: &Raster<f32>, usable: &Raster<f32>, sigma: f32) -> Self {
+        let sums = blur(
+            &map.raster(|index| {
+                let (weight, a, amount) = (usable[index], map.colors[index].mean, amounts[index]);
+                [weight, weight * a, weight * amount, weight * a * amount, weight * a * a]
+            }),
+            WINDOW_PX,
+        );
+        let fitted = map.raster(|index| {
+            let [weight, a, amount, both, square] = sums[index];
+            if weight < LEAST_SHARE {
+                return [0.0; 3];
+            }
+            let (a, amount) = (a / weight, amount / weight);
+            let covariance = both / weight - a * amount;
+            let variance = (square / weight - a * a).max(0.0) + LEAST_VARIANCE * sigma * sigma;
+            let slope = (covariance / variance.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+            [1.0, slope, amount - slope * a]
+        });
+        let smooth = blur(&fitted, WINDOW_PX);
+        let of = map.raster(|index| {
+            let [weight, slope, offset] = smooth[index];
+            (weight > LEAST_SHARE).then(|| AmountLine { slope: slope / weight, offset: offset / weight })
+        });
+        Self { roi: map.roi, of }
+    }
+
+    /// Lines that give each pixel of the window the amount that it has, whatever its color.
+    pub fn constant(map: &DesaturationMap, amounts: &Raster<f32>) -> Self {
+        let of = map.raster(|index| Some(AmountLine { slope: 0.0, offset: amounts[index] }));
+        Self { roi: map.roi, of }
+    }
+
+    /// The line of the pixel at `index` of the window.
+    pub fn line(&self, index: usize) -> Option<AmountLine> {
+        self.of.as_slice().get(index).copied().flatten()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_amount_is_not_negative_and_no_more_than_the_light() {
+        let line = AmountLine { slope: 0.5, offset: -10.0 };
+        let is = |line: AmountLine, a: f32, amount: f32| (line.amount(a) - amount).abs() < 1e-6;
+        assert!(is(line, 10.0, 0.0) && is(line, 40.0, 10.0) && is(line, -3.0, 0.0));
+        assert!(is(AmountLine { slope: 1.0, offset: 5.0 }, 20.0, 20.0));
+    }
+}
