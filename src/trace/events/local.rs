@@ -215,20 +215,6 @@ impl RepairVerdict {
     }
 }
 
-/// Candidate highlights outside of the explained regions were counted; a [`BlobJudged`] follows for each large enough one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct BlobsCounted {
-    /// Number of candidate highlights.
-    pub found: u32,
-    /// Candidate highlights of too few pixels.
-    pub small: u32,
-    /// Pixels in those.
-    pub small_pixels: u32,
-    /// Fewest pixels of a candidate highlight that may count.
-    pub least: u32,
-}
-
 impl EventData for LocalBegan {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [None, None]
