@@ -191,7 +191,7 @@ switches! {
     border_mixtures BorderMixtures {
         first_stage: Split,
         meaning: "A pixel near another region has no more surface reflection than the pixels further inside its own: its color is mixed (5.6).",
-        worth: "Compressed pictures of objects before walls: body +5.6 to +8.8 dB; plain objects +.03 to +.6 dB.",
+        worth: "Compressed pictures of objects before walls: body +5.6 to +8.8 dB; plain objects +.03 to +1 dB.",
     }
     region_holds RegionHolds {
         first_stage: Split,
