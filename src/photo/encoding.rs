@@ -128,11 +128,24 @@ fn said(source: &Source) -> Option<Result<Encoding, String>> {
         let curves = icc::tone_curves(profile, source.layout.is_gray());
         return Some(curves.map(|curves| Encoding { curves, reason: "ICC profile".into() }));
     }
+    if let Some(curves) = &source.transfer {
+        return Some(if curves.iter().all(ToneCurve::is_usable) {
+            Ok(Encoding { curves: curves.clone(), reason: format!("{} tone curve", source.format) })
+        } else {
+            Err(format!("the {} tone curve cannot be undone", source.format))
+        });
+    }
+    if source.is_adobe_rgb {
+        return Some(Ok(Encoding::new(ToneCurve::Gamma(ADOBE_RGB_EXPONENT), "EXIF says Adobe RGB")));
+    }
     if source.png.srgb.is_some() {
         return Some(Ok(Encoding::new(ToneCurve::Srgb, "PNG sRGB chunk")));
     }
     source.png.gama.map(of_gama)
 }
+
+/// Exponent of Adobe RGB (1998), 4.3.4.2.
+const ADOBE_RGB_EXPONENT: f64 = 563.0 / 256.0;
 
 /// Tone curve of the transfer characteristics of ITU-T H.273, table 3; `None` for "unspecified".
 fn of_cicp([_, transfer, _, full_range]: [u8; 4]) -> Option<Result<Encoding, String>> {

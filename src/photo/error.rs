@@ -29,7 +29,7 @@ pub enum ReadError {
         found: String,
     },
     /// The format is supported, but not the way in which the file uses it.
-    #[error("{file}: this {format} file holds {found}; {hint}")]
+    #[error("{file}: not supported: this {format} file holds {found}; {hint}")]
     Unsupported {
         /// Name of the file as given by the caller.
         file: String,
@@ -48,6 +48,18 @@ pub enum ReadError {
         /// Format according to the first bytes.
         format: Format,
         /// Message of the decoder.
+        found: String,
+    },
+    /// A decoding library failed with a panic.
+    #[error(
+        "{file}: the decoder of {format} files failed on it: {found}; report the file, and convert it to another format"
+    )]
+    Crashed {
+        /// Name of the file as given by the caller.
+        file: String,
+        /// Format according to the first bytes.
+        format: Format,
+        /// Message of the panic.
         found: String,
     },
     /// The file declares a width or a height of zero.
@@ -98,6 +110,7 @@ pub enum ReadError {
 #[derive(Debug)]
 pub(super) enum Fault {
     Damaged(String),
+    Crashed(String),
     Unsupported { found: String, hint: &'static str },
     NoPixels { width: u64, height: u64 },
     TooLarge { width: u64, height: u64, limit_megapixels: f64 },
@@ -118,6 +131,7 @@ impl Fault {
         let file = file.to_owned();
         match self {
             Self::Damaged(found) => ReadError::Damaged { file, format, found },
+            Self::Crashed(found) => ReadError::Crashed { file, format, found: one_line(&found) },
             Self::Unsupported { found, hint } => ReadError::Unsupported { file, format, found, hint },
             Self::NoPixels { width, height } => ReadError::NoPixels { file, format, width, height },
             Self::TooLarge { width, height, limit_megapixels } => {
@@ -131,15 +145,6 @@ impl From<image::ImageError> for Fault {
     fn from(error: image::ImageError) -> Self {
         match error {
             image::ImageError::Unsupported(what) => Self::unsupported(what, CONVERT),
-            other => Self::damaged(other),
-        }
-    }
-}
-
-impl From<tiff::TiffError> for Fault {
-    fn from(error: tiff::TiffError) -> Self {
-        match error {
-            tiff::TiffError::UnsupportedError(what) => Self::unsupported(what, CONVERT),
             other => Self::damaged(other),
         }
     }

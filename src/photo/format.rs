@@ -115,6 +115,22 @@ impl Format {
             Err("a camera raw file".into())
         } else if starts(b"\xff\x0a") || starts(b"\0\0\0\x0cJXL ") {
             Err("a JPEG XL".into())
+        } else if starts(b"\0\0\0\x0cjP  ") || starts(b"\xff\x4f\xff\x51") {
+            Err("a JPEG 2000".into())
+        } else if starts(b"qoif") {
+            Err("a QOI".into())
+        } else if starts(b"II\xbc\x01") {
+            Err("a JPEG XR".into())
+        } else if matches!(bytes, [b'P', b'F' | b'f', space, ..] if space.is_ascii_whitespace()) {
+            Err("a PFM".into())
+        } else if starts(b"\x8aMNG") || starts(b"\x8bJNG") {
+            Err("an MNG or JNG".into())
+        } else if starts(b"SIMPLE  =") {
+            Err("a FITS".into())
+        } else if starts(b"%PDF") {
+            Err("a PDF".into())
+        } else if starts(b"\0\0\x01\0") {
+            Err("an icon".into())
         } else {
             let first = &bytes[..bytes.len().min(8)];
             Err(format!("a file that starts with \u{201c}{}\u{201d}", first.escape_ascii()))

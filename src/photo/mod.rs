@@ -33,7 +33,7 @@ pub use linear::LinearImage;
 pub use masks::{MaskLimits, Masks};
 pub use noise::{NoiseEstimate, ShotNoise};
 pub use noise_correlation::NoiseCorrelation;
-pub use source::{AlphaKind, Layout, PngColor, Samples, Source};
+pub use source::{AlphaKind, Density, DensityUnit, Layout, PngColor, Samples, Source, TiffColor};
 pub use working::WorkingPicture;
 
 use crate::raster::{Mask, Raster};
@@ -120,13 +120,37 @@ pub fn read_mask(path: &Path, options: &ReadOptions) -> Result<Mask, ReadError> 
 pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Photo, ReadError> {
     check(options)?;
     let format = identify(bytes, name_hint)?;
-    let budget = decode::Budget { max_megapixels: options.max_megapixels };
+    let budget = decode::Budget { max_megapixels: options.max_megapixels, file_bytes: bytes.len() };
     let decoded = decode::decode(format, bytes, budget).map_err(|fault| fault.of(name_hint, format))?;
 
     let mut warnings: Vec<String> = format.extension_warning(name_hint).into_iter().collect();
-    warnings.extend(decoded.warnings);
-    let (samples, (width, height)) =
+    warnings.extend_from_slice(&decoded.warnings);
+    let compression = decoded.compression;
+    let negative = decoded.upright_negative();
+    let (source, (width, height)) = source(format, decoded);
+    let encoding = Encoding::of(options.encoding, &source, &mut warnings);
+    let full_scale = options.full_scale.unwrap_or(FULL_SCALE_COUNTS);
+    let mut pixels = linearize::linear_pixels(&source, &encoding.curves, full_scale);
+    for (pixel, _) in pixels.iter_mut().zip(negative.into_iter().flatten()).filter(|(_, negative)| *negative)
+    {
+        // A linear image recognizes a pixel without a value by a number that is none.
+        *pixel = [f32::NAN; 3];
+    }
+    let pixels = Raster::from_vec(width, height, pixels)
+        .ok_or_else(|| error::Fault::damaged("its size does not fit its pixels").of(name_hint, format))?;
+    let saturation = source.max.map(|_| full_scale as f32);
+    let coding =
+        source.max.and_then(|max| CodingError::of_samples(compression, max, &encoding.curves[1], full_scale));
+    let image = LinearImage::new(pixels, saturation).with_coding(coding);
+    warnings.extend(pixel_warnings(&source, &image));
+    Ok(Photo { name: name_hint.to_owned(), image, source, encoding, full_scale, warnings })
+}
+
+/// The upright content of a file, and its width and height.
+fn source(format: Format, decoded: decode::Decoded) -> (Source, (usize, usize)) {
+    let (samples, size) =
         orient::upright(decoded.samples, decoded.size, decoded.layout.channels(), decoded.orientation);
+    let is_turned = orient::turns_by_a_quarter(decoded.orientation);
     let source = Source {
         format,
         layout: decoded.layout,
@@ -135,19 +159,12 @@ pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Ph
         alpha: decoded.alpha,
         icc: decoded.icc,
         png: decoded.png,
+        tiff_color: decoded.tiff_color,
+        transfer: decoded.transfer,
+        is_adobe_rgb: decoded.is_adobe_rgb,
+        density: decoded.density.map(|density| if is_turned { density.turned() } else { density }),
     };
-    let encoding = Encoding::of(options.encoding, &source, &mut warnings);
-    let full_scale = options.full_scale.unwrap_or(FULL_SCALE_COUNTS);
-    let pixels = linearize::linear_pixels(&source, &encoding.curves, full_scale);
-    let pixels = Raster::from_vec(width, height, pixels)
-        .ok_or_else(|| error::Fault::damaged("its size does not fit its pixels").of(name_hint, format))?;
-    let saturation = source.max.map(|_| full_scale as f32);
-    let coding = source
-        .max
-        .and_then(|max| CodingError::of_samples(decoded.compression, max, &encoding.curves[1], full_scale));
-    let image = LinearImage::new(pixels, saturation).with_coding(coding);
-    warnings.extend(pixel_warnings(&source, &image));
-    Ok(Photo { name: name_hint.to_owned(), image, source, encoding, full_scale, warnings })
+    (source, size)
 }
 
 fn check(options: &ReadOptions) -> Result<(), ReadError> {
@@ -175,6 +192,12 @@ fn identify(bytes: &[u8], name: &str) -> Result<Format, ReadError> {
 fn pixel_warnings(source: &Source, image: &LinearImage) -> Vec<String> {
     let mut warnings = Vec::new();
     let pixels = image.pixels.len();
+    let aspect = source.density.map_or(1.0, |density| density.pixel_aspect());
+    if !(0.99..=1.01).contains(&aspect) {
+        warnings.push(format!(
+            "the file says that its pixels are {aspect:.2} times as wide as high: they are taken for squares"
+        ));
+    }
     let transparent = linearize::count_transparent(source);
     if transparent > 0 {
         warnings.push(format!(

@@ -24,6 +24,29 @@ pub(super) fn upright(
     (samples, turn.size())
 }
 
+/// Marks of the pixels of the upright picture, from those of the stored one.
+pub(super) fn upright_marks(
+    marks: &[bool],
+    (width, height): (usize, usize),
+    orientation: Orientation,
+) -> Vec<bool> {
+    Turn { width, height, channels: 1, orientation }.apply(marks)
+}
+
+/// Whether the upright picture is as wide as the stored one is high.
+pub(super) const fn turns_by_a_quarter(orientation: Orientation) -> bool {
+    match orientation {
+        Orientation::NoTransforms
+        | Orientation::FlipHorizontal
+        | Orientation::FlipVertical
+        | Orientation::Rotate180 => false,
+        Orientation::Rotate90
+        | Orientation::Rotate270
+        | Orientation::Rotate90FlipH
+        | Orientation::Rotate270FlipH => true,
+    }
+}
+
 /// The orientation and the size of a stored picture of `width × height` pixels.
 struct Turn {
     width: usize,
@@ -35,15 +58,10 @@ struct Turn {
 impl Turn {
     /// Width and height of the upright picture.
     fn size(&self) -> (usize, usize) {
-        match self.orientation {
-            Orientation::NoTransforms
-            | Orientation::FlipHorizontal
-            | Orientation::FlipVertical
-            | Orientation::Rotate180 => (self.width, self.height),
-            Orientation::Rotate90
-            | Orientation::Rotate270
-            | Orientation::Rotate90FlipH
-            | Orientation::Rotate270FlipH => (self.height, self.width),
+        if turns_by_a_quarter(self.orientation) {
+            (self.height, self.width)
+        } else {
+            (self.width, self.height)
         }
     }
 

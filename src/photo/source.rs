@@ -1,5 +1,6 @@
 //! The content of a photograph's file, stored so that pictures can be written in the way of the original file.
 
+use super::curve::ToneCurve;
 use super::format::Format;
 
 /// Samples of a photograph's file in the upright orientation, with the file's statements about their meaning.
@@ -20,6 +21,14 @@ pub struct Source {
     pub icc: Option<Vec<u8>>,
     /// Color chunks of a PNG file, without the profile.
     pub png: PngColor,
+    /// White point and primaries of a TIFF or `OpenEXR` file.
+    pub tiff_color: TiffColor,
+    /// Tone curves of the bands that a TIFF or BMP states in its header.
+    pub transfer: Option<[ToneCurve; 3]>,
+    /// Whether EXIF says that the colors are those of Adobe RGB, as cameras do instead of embedding a profile.
+    pub is_adobe_rgb: bool,
+    /// Pixels per unit of length of the upright picture.
+    pub density: Option<Density>,
 }
 
 /// The channels of a pixel, in their order.
@@ -128,4 +137,64 @@ pub struct PngColor {
     pub srgb: Option<u8>,
     /// Chunk gAMA: exponent of the file's encoding × 100 000.
     pub gama: Option<u32>,
+    /// Chunk cHRM: chromaticities x and y of white, red, green and blue × 100 000.
+    pub chrm: Option<[u32; 8]>,
+}
+
+/// White point and primaries as TIFF states them: numerators and denominators of chromaticities. They are written again and
+/// not used.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TiffColor {
+    /// Tag 318: x and y of the white point; empty where the file does not state it.
+    pub white_point: Vec<(u32, u32)>,
+    /// Tag 319: x and y of red, green and blue; empty where the file does not state them.
+    pub primaries: Vec<(u32, u32)>,
+}
+
+/// Pixels per unit of length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Density {
+    /// Across and down, each as numerator and denominator above 0.
+    pub axes: [(u32, u32); 2],
+    /// The unit of length.
+    pub unit: DensityUnit,
+}
+
+/// Unit of a density.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the units name themselves")]
+pub enum DensityUnit {
+    /// No unit: only the ratio of both axes is known.
+    Ratio,
+    Inch,
+    Centimeter,
+    Meter,
+}
+
+impl Density {
+    /// A density; `None` where an axis is 0 or no number.
+    pub(super) fn new(axes: [(u32, u32); 2], unit: DensityUnit) -> Option<Self> {
+        axes.iter().all(|&(over, under)| over > 0 && under > 0).then_some(Self { axes, unit })
+    }
+
+    /// The density of pixels `aspect` times as wide as high, of an unknown size.
+    pub(super) fn of_pixel_aspect(aspect: f32) -> Option<Self> {
+        Self::new([(10_000, 1), ((aspect * 1e4).round() as u32, 1)], DensityUnit::Ratio)
+    }
+
+    /// The density of the picture turned by a quarter.
+    pub(super) fn turned(self) -> Self {
+        Self { axes: [self.axes[1], self.axes[0]], ..self }
+    }
+
+    /// Pixels per unit of length across and down.
+    pub fn per_unit(&self) -> [f64; 2] {
+        self.axes.map(|(over, under)| f64::from(over) / f64::from(under))
+    }
+
+    /// Width of a pixel as a multiple of its height.
+    pub fn pixel_aspect(&self) -> f64 {
+        let [across, down] = self.per_unit();
+        down / across
+    }
 }

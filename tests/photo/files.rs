@@ -168,6 +168,11 @@ pub fn exif(orientation: u8) -> Vec<u8> {
     bytes
 }
 
+/// An EXIF block that says Adobe RGB: "uncalibrated" and the interoperability index R03.
+pub const ADOBE_RGB_EXIF: &[u8] = b"MM\0*\0\0\0\x08\0\x01\x87\x69\0\x04\0\0\0\x01\0\0\0\x1A\0\0\0\0\
+    \0\x02\xA0\x01\0\x03\0\0\0\x01\xFF\xFF\0\0\xA0\x05\0\x04\0\0\0\x01\0\0\0\x38\0\0\0\0\
+    \0\x01\0\x01\0\x02\0\0\0\x04R03\0\0\0\0\0";
+
 /// An ICC profile with a header and these tags only; `space` is `RGB ` or `GRAY`.
 pub fn icc(space: [u8; 4], tags: &[([u8; 4], Vec<u8>)]) -> Vec<u8> {
     let mut bytes = vec![0u8; 128];

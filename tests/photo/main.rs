@@ -4,11 +4,13 @@
 #![allow(clippy::float_cmp, reason = "exactness is what is tested")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 
+mod arrangements;
 mod broken;
 mod encodings;
 mod files;
 mod formats;
 mod matte;
+mod tiffs;
 
 use dichroscope::photo::{EncodingChoice, Photo, ReadOptions, decode};
 

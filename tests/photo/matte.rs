@@ -1,6 +1,7 @@
 //! Writing matte pictures and reading them: unchanged pixels keep their bytes.
 
 use crate::files::{self, Png, curv, rgb_icc};
+use crate::tiffs::{self, Page};
 use crate::{pixels, read_with};
 use dichroscope::export::write_matte;
 use dichroscope::intrinsic::{Ambient, Intrinsic, PixelKind, Reason};
@@ -142,6 +143,69 @@ fn changed_pixels_are_read_within_half_a_code() {
             assert!((found - wanted).abs() < 1.5, "{name}: {found} instead of {wanted}");
         }
     }
+}
+
+#[test]
+fn what_says_how_to_show_the_picture_is_kept() {
+    let written_again = |bytes: &[u8]| {
+        let photo = read_with(bytes, &ReadOptions::default());
+        let (reread, _) = written(&photo, &photo.image.pixels.clone(), &ReadOptions::default());
+        assert_eq!(reread.encoding.curves, photo.encoding.curves);
+        assert_eq!(values(&reread.image), values(&photo.image));
+        (photo.source, reread.source)
+    };
+    let chrm: Vec<u8> = (1..=8u32).flat_map(|value| (value * 1000).to_be_bytes()).collect();
+    let density = [&2000u32.to_be_bytes()[..], &1000u32.to_be_bytes(), &[1]].concat();
+    let chunks: &[([u8; 4], &[u8])] =
+        &[(*b"cHRM", &chrm), (*b"gAMA", &50_000u32.to_be_bytes()), (*b"pHYs", &density)];
+    let exif = files::exif(6);
+    let png = Png { size: (2, 1), bits: 8, data: &bytes(6), chunks, exif: Some(&exif), ..Png::default() };
+    let (before, after) = written_again(&png.bytes());
+    assert_eq!((after.png.chrm.unwrap()[7], after.png), (8000, before.png));
+    assert_eq!(after.density.unwrap().axes, [(1000, 1), (2000, 1)], "turned with the picture");
+
+    let squares: Vec<u16> = (0..256u32).map(|code| (code * code) as u16).collect();
+    let page = Page::new((2, 1), 8, 2, &bytes(6)).with(301, &squares).with(296, &[3]);
+    let page = Page {
+        fractions: vec![(282, vec![118, 1]), (283, vec![118, 1]), (318, vec![31, 100, 32, 100])],
+        ..page
+    };
+    let (before, after) = written_again(&tiffs::file(&[page], false));
+    assert_eq!((&after.tiff_color, after.density), (&before.tiff_color, before.density));
+    assert_eq!(after.tiff_color.white_point, [(31, 100), (32, 100)]);
+    assert!(after.transfer.is_some());
+}
+
+#[test]
+fn a_tiff_of_twelve_bits_becomes_one_of_sixteen() {
+    let photo = read_with(
+        &tiffs::file(&[Page::new((1, 1), 12, 2, &[0x52, 0xAA, 0x43, 0x5D, 0x20])], false),
+        &crate::linear(),
+    );
+    let (reread, _) = written(&photo, &photo.image.pixels.clone(), &crate::linear());
+    assert_eq!(reread.source.max, Some(65535));
+    for (found, wanted) in pixels(&reread)[0].iter().zip(pixels(&photo)[0]) {
+        assert!((found - wanted).abs() < 0.005, "{found} instead of {wanted}");
+    }
+}
+
+/// A JPEG of Adobe RGB without a profile, as cameras write it, has a matte picture of the same color space and density.
+#[test]
+fn a_matte_jpeg_keeps_adobe_rgb_and_density() {
+    let mut jpeg = files::jpeg((8, 8), Rgb8, &[100; 192], None);
+    let mut segment = vec![0xFF, 0xE1, 0, 80];
+    segment.extend_from_slice(b"Exif\0\0");
+    segment.extend_from_slice(files::ADOBE_RGB_EXIF);
+    segment.resize(82, 0);
+    let jfif = jpeg.windows(5).position(|window| window == b"JFIF\0").unwrap();
+    jpeg[jfif + 7..jfif + 12].copy_from_slice(&[1, 0, 72, 0, 72]);
+    jpeg.splice(2..2, segment);
+    let photo = read_with(&jpeg, &ReadOptions::default());
+    assert!(photo.source.is_adobe_rgb);
+    let (reread, file) = written(&photo, &photo.image.pixels.clone(), &ReadOptions::default());
+    assert_eq!((file.as_str(), reread.source.is_adobe_rgb), ("matte.jpg", true));
+    assert_eq!(reread.source.density, photo.source.density);
+    assert_eq!(reread.source.density.unwrap().axes, [(72, 1), (72, 1)]);
 }
 
 #[test]

@@ -2,10 +2,11 @@
 //! channels are converted to 32-bit floats.
 
 use super::{Budget, Decoded};
-use crate::photo::error::Fault;
-use crate::photo::source::{AlphaKind, Layout, Samples};
+use crate::photo::error::{CONVERT, Fault};
+use crate::photo::source::{AlphaKind, Density, Layout, Samples, TiffColor};
 use exr::image::read::specific_channels::ReadSpecificChannel as _;
 use exr::math::Vec2;
+use exr::meta::attribute::{ChannelDescription, Chromaticities};
 use exr::meta::header::Header;
 use exr::prelude::{ReadChannels as _, ReadLayers as _, read};
 use std::io::Cursor;
@@ -31,7 +32,19 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     };
     let size = (header.layer_size.x(), header.layer_size.y());
     let with_alpha = has(header, "A");
+    let picture: Vec<_> = header.channels.list.iter().filter(|channel| is_read(channel, gray)).collect();
+    if picture.iter().any(|channel| channel.sampling != Vec2(1, 1)) {
+        return Err(Fault::unsupported("channels with fewer samples than pixels", CONVERT));
+    }
     let mut warnings = Vec::new();
+    if header.channels.list.len() > picture.len() {
+        let (all, names) = (header.channels.list.len(), if gray { "Y" } else { "R, G and B" });
+        warnings.push(format!(
+            "the OpenEXR file holds {all} channels: only {names} are read, and A where present"
+        ));
+    }
+    let color = TiffColor::of_chromaticities(header.shared_attributes.chromaticities);
+    let density = Density::of_pixel_aspect(header.shared_attributes.pixel_aspect);
     if chunks.headers().len() > 1 {
         let layers = chunks.headers().len();
         warnings
@@ -52,7 +65,24 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     }
     // "Technical Introduction to OpenEXR", premultiplied vs. un-premultiplied: the color is multiplied by alpha.
     let alpha = AlphaKind::Associated;
-    Ok(Decoded { alpha, warnings, ..Decoded::plain(size, layout, Samples::F32(data)) })
+    let plain = Decoded::plain(size, layout, Samples::F32(data));
+    Ok(Decoded { alpha, warnings, tiff_color: color, density, ..plain })
+}
+
+/// Whether a channel is one of the picture.
+fn is_read(channel: &ChannelDescription, gray: bool) -> bool {
+    let names: &[&str] = if gray { &["Y", "A"] } else { &["R", "G", "B", "A"] };
+    names.iter().any(|name| channel.name.eq(name))
+}
+
+impl TiffColor {
+    /// The chromaticities of an `OpenEXR` file, in units of 1/100 000.
+    fn of_chromaticities(points: Option<Chromaticities>) -> Self {
+        let Some(Chromaticities { red, green, blue, white }) = points else { return Self::default() };
+        let fraction = |value: f32| ((f64::from(value) * 1e5).round() as u32, 100_000);
+        let pair = |point: Vec2<f32>| [fraction(point.x()), fraction(point.y())];
+        Self { white_point: pair(white).to_vec(), primaries: [red, green, blue].map(pair).concat() }
+    }
 }
 
 fn has(header: &Header, name: &str) -> bool {

@@ -1,15 +1,22 @@
 //! Decoders, one per format: from the bytes of a file to its samples as stored, with the file's statements about them.
 
+mod bmp;
+mod exif;
 mod exr;
+mod guard;
+mod hdr;
+mod ifd;
 mod jpeg;
 mod png;
 mod simple;
 mod tiff;
 
 use super::coding::Compression;
+use super::curve::ToneCurve;
 use super::error::Fault;
 use super::format::Format;
-use super::source::{AlphaKind, Layout, PngColor, Samples};
+use super::orient;
+use super::source::{AlphaKind, Density, Layout, PngColor, Samples, TiffColor};
 use image::metadata::Orientation;
 
 /// Samples of a decoded file, with the file's statements about them.
@@ -25,7 +32,15 @@ pub(super) struct Decoded {
     pub alpha: AlphaKind,
     pub icc: Option<Vec<u8>>,
     pub png: PngColor,
+    pub tiff_color: TiffColor,
+    /// Tone curves of the bands that the file states otherwise than by a profile.
+    pub transfer: Option<[ToneCurve; 3]>,
+    /// Whether EXIF says that the colors are those of Adobe RGB.
+    pub is_adobe_rgb: bool,
+    pub density: Option<Density>,
     pub compression: Compression,
+    /// Pixels with a sample below zero, which `samples` holds as 0; `None`: there are none.
+    pub negative: Option<Vec<bool>>,
     /// Transformation that turns the stored picture upright.
     pub orientation: Orientation,
     pub warnings: Vec<String>,
@@ -42,10 +57,28 @@ impl Decoded {
             alpha: AlphaKind::Straight,
             icc: None,
             png: PngColor::default(),
+            tiff_color: TiffColor::default(),
+            transfer: None,
+            is_adobe_rgb: false,
+            density: None,
             compression: Compression::Lossless,
+            negative: None,
             orientation: Orientation::NoTransforms,
             warnings: Vec::new(),
         }
+    }
+
+    /// The marks of pixels with a sample below zero, in the upright orientation.
+    pub(super) fn upright_negative(&self) -> Option<Vec<bool>> {
+        let marks = self.negative.as_ref()?;
+        Some(orient::upright_marks(marks, self.size, self.orientation))
+    }
+
+    /// Takes over what EXIF says; the file's own statements go before.
+    fn take_exif(&mut self, exif: &exif::Exif) {
+        self.orientation = exif.orientation.unwrap_or(Orientation::NoTransforms);
+        self.density = self.density.or(exif.density);
+        self.is_adobe_rgb = exif.is_adobe_rgb;
     }
 }
 
@@ -53,6 +86,8 @@ impl Decoded {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Budget {
     pub max_megapixels: f64,
+    /// Number of bytes of the file.
+    pub file_bytes: usize,
 }
 
 impl Budget {
@@ -69,6 +104,12 @@ impl Budget {
         if !fits || width as f64 * height as f64 > self.max_megapixels * 1e6 {
             return Err(too_large);
         }
+        let believed = SMALL_PICTURE.saturating_add(PIXELS_PER_BYTE.saturating_mul(self.file_bytes as u64));
+        if width * height > believed {
+            let megapixels = width as f64 * height as f64 / 1e6;
+            let bytes = self.file_bytes;
+            return Err(Fault::damaged(format!("it declares {megapixels:.1} megapixels in {bytes} bytes")));
+        }
         Ok((width as usize, height as usize))
     }
 
@@ -79,19 +120,29 @@ impl Budget {
     }
 }
 
+/// Number of pixels that are believed to be in a byte of a file, besides those of a small picture: more than any photograph's
+/// file holds, so that a short file cannot make the program take much memory.
+const PIXELS_PER_BYTE: u64 = 4096;
+/// Number of pixels that any file may declare.
+const SMALL_PICTURE: u64 = 2_000_000;
+
 /// Number of bytes of the widest pixel: four samples of 64 bits.
 const BYTES_PER_PIXEL: u64 = 32;
 
-/// Decodes the picture in `bytes`, whose first bytes are those of `format`.
+/// Decodes the picture in `bytes`, whose first bytes are those of `format`. A panic of a decoding library becomes an error.
 pub(super) fn decode(format: Format, bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
+    guard::caught(|| of_format(format, bytes, budget)).unwrap_or_else(|message| Err(Fault::Crashed(message)))
+}
+
+fn of_format(format: Format, bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     match format {
         Format::Png => png::decode(bytes, budget),
         Format::Jpeg => jpeg::decode(bytes, budget),
         Format::Tiff => tiff::decode(bytes, budget),
         Format::Exr => exr::decode(bytes, budget),
-        Format::Bmp => simple::bmp(bytes, budget),
+        Format::Bmp => bmp::decode(bytes, budget),
         Format::Pnm => simple::pnm(bytes, budget),
         Format::WebP => simple::webp(bytes, budget),
-        Format::Hdr => simple::hdr(bytes, budget),
+        Format::Hdr => hdr::decode(bytes, budget),
     }
 }

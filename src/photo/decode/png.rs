@@ -1,13 +1,16 @@
 //! Decoder of PNG (3rd edition), based on the `png` crate, because the `image` crate does not return the color chunks.
 
 use super::{Budget, Decoded};
-use crate::photo::error::Fault;
-use crate::photo::source::{Layout, PngColor, Samples};
+use crate::photo::error::{CONVERT, Fault};
+use crate::photo::source::{Density, DensityUnit, Layout, PngColor, Samples};
 use image::metadata::Orientation;
 use png::{BitDepth, ColorType, Decoder, Info, Limits, Transformations};
 use std::io::Cursor;
 
 pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
+    if bytes.get(12..16) == Some(b"CgBI") {
+        return Err(Fault::unsupported("Apple's variant of PNG (CgBI)", CONVERT));
+    }
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: budget.working_bytes() });
     decoder.set_ignore_text_chunk(true);
     // The crate replaces palette indices by colors, converts tRNS to alpha, and scales 1, 2 and 4 bits to 8, which is
@@ -43,6 +46,13 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
         .as_ref()
         .and_then(|exif| Orientation::from_exif_chunk(exif))
         .unwrap_or(Orientation::NoTransforms);
+    decoded.density = info.pixel_dims.and_then(|dimensions| {
+        let unit = match dimensions.unit {
+            png::Unit::Meter => DensityUnit::Meter,
+            png::Unit::Unspecified => DensityUnit::Ratio,
+        };
+        Density::new([(dimensions.xppu, 1), (dimensions.yppu, 1)], unit)
+    });
     if info.animation_control.is_some() {
         decoded.warnings.push("the PNG is animated: only its still picture is read".into());
     }
@@ -57,5 +67,11 @@ fn color_chunks(info: &Info) -> PngColor {
         }),
         srgb: info.srgb.map(|intent| intent as u8),
         gama: info.gama_chunk.map(png::ScaledFloat::into_scaled),
+        chrm: info.chrm_chunk.map(|chunk| {
+            let points = [chunk.white, chunk.red, chunk.green, chunk.blue];
+            let [[wx, wy], [rx, ry], [gx, gy], [bx, by]] =
+                points.map(|(x, y)| [x.into_scaled(), y.into_scaled()]);
+            [wx, wy, rx, ry, gx, gy, bx, by]
+        }),
     }
 }

@@ -1,19 +1,13 @@
-//! Decoders of the formats that the `image` crate reads sufficiently: BMP, PNM, WebP and Radiance HDR.
+//! Decoders of the formats that the `image` crate reads sufficiently: PNM and WebP; and the reading of its decoders.
 
 use super::{Budget, Decoded};
 use crate::photo::coding::{Compression, LossyCompression};
 use crate::photo::error::{CONVERT, Fault};
 use crate::photo::source::{Layout, Samples};
-use image::codecs::bmp::BmpDecoder;
-use image::codecs::hdr::HdrDecoder;
 use image::codecs::pnm::{ArbitraryHeader, GraymapHeader, PixmapHeader, PnmDecoder, PnmHeader};
 use image::codecs::webp::WebPDecoder;
 use image::{ColorType, ImageDecoder};
 use std::io::Cursor;
-
-pub(super) fn bmp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
-    read(BmpDecoder::new(Cursor::new(bytes))?, budget)
-}
 
 /// Decodes WebP; of an animation the first frame.
 pub(super) fn webp(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
@@ -52,21 +46,17 @@ fn webp_compression(bytes: &[u8]) -> Compression {
     lossy
 }
 
-pub(super) fn hdr(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
-    // The signature `#?RGBE` is as common as the signature of the specification. Only the lenient reader accepts it.
-    let decoder = if bytes.starts_with(b"#?RADIANCE") {
-        HdrDecoder::new(Cursor::new(bytes))
-    } else {
-        HdrDecoder::new_nonstrict(Cursor::new(bytes))
-    };
-    read(decoder?, budget)
-}
-
 /// Decodes PNM. Samples keep the range 0 to the file's own maximum.
 pub(super) fn pnm(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
-    let decoder = PnmDecoder::new(Cursor::new(bytes))?;
-    let max = pnm_max(decoder.header());
-    let decoded = read(decoder, budget)?;
+    if bytes.starts_with(b"P7") {
+        expect_known_tuple(bytes)?;
+    }
+    let (picture, header) = PnmDecoder::new(Cursor::new(bytes))?.into_inner();
+    let (max, pixels_at) = (pnm_max(&header), picture.position() as usize);
+    let mut decoded = read(PnmDecoder::new(Cursor::new(bytes))?, budget)?;
+    if is_followed_by_another(bytes, pixels_at, max, &decoded) {
+        decoded.warnings.push("the PNM file holds several pictures: only the first is read".into());
+    }
     let samples = match decoded.samples {
         Samples::U8(samples) => {
             let codes = codes_before_spreading(255, max);
@@ -79,6 +69,30 @@ pub(super) fn pnm(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
         floats_or_wider => floats_or_wider,
     };
     Ok(Decoded { max: Some(max), samples, ..decoded })
+}
+
+/// Fails for a PAM whose tuples have a type that is not gray, RGB or one of them with alpha.
+fn expect_known_tuple(bytes: &[u8]) -> Result<(), Fault> {
+    let header = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]).into_owned();
+    let kind = header
+        .lines()
+        .take_while(|line| line.trim() != "ENDHDR")
+        .find_map(|line| line.trim().strip_prefix("TUPLTYPE"));
+    let known = ["BLACKANDWHITE", "GRAYSCALE", "RGB", "BLACKANDWHITE_ALPHA", "GRAYSCALE_ALPHA", "RGB_ALPHA"];
+    match kind.map(str::trim) {
+        Some(kind) if !known.contains(&kind) => {
+            Err(Fault::unsupported(format!("tuples of the type {kind}"), CONVERT))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether another picture follows the binary samples of a PNM, which begin at `pixels_at`.
+fn is_followed_by_another(bytes: &[u8], pixels_at: usize, max: u32, decoded: &Decoded) -> bool {
+    let is_binary = bytes.get(1).is_some_and(|kind| (b'5'..=b'7').contains(kind));
+    let length = decoded.samples.len() * if max > 255 { 2 } else { 1 };
+    let rest = bytes.get(pixels_at + length..).unwrap_or_default();
+    is_binary && matches!(rest, [b'P', b'1'..=b'7', space, ..] if space.is_ascii_whitespace())
 }
 
 /// Table that undoes the scaling of the `image` crate: it scales samples of `0..=max` to `0..=spread`, rounded. The
@@ -107,7 +121,8 @@ fn pnm_max(header: &PnmHeader) -> u32 {
     }
 }
 
-fn read(mut decoder: impl ImageDecoder, budget: Budget) -> Result<Decoded, Fault> {
+/// Reads the samples of a decoder of the `image` crate, with profile and orientation.
+pub(super) fn read(mut decoder: impl ImageDecoder, budget: Budget) -> Result<Decoded, Fault> {
     let (width, height) = decoder.dimensions();
     let size = budget.admit(width, height)?;
     let icc = decoder.icc_profile()?;

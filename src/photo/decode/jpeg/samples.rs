@@ -1,0 +1,156 @@
+//! Decodes the samples of a JPEG with the library that decodes its arrangement of scans and samples rightly.
+//!
+//! zune-jpeg 0.5.15 is the fast one. It decodes wrong pixels, without an error, where components come in scans of their own and
+//! are subsampled, and where luminance has fewer samples than a color difference; it refuses horizontal factors of 3.
+//! jpeg-decoder 0.3.2 decodes these, but counts the blocks of a component wrongly in a scan of its own where the component's
+//! factor lies between 1 and the largest one. Both were compared with libjpeg on 112 arrangements. A file that neither
+//! library decodes rightly is refused.
+
+use super::header::{Component, Header};
+use crate::photo::error::{CONVERT, Fault};
+use jpeg_decoder::ColorTransform;
+use zune_core::bytestream::ZCursor;
+use zune_core::colorspace::ColorSpace;
+use zune_core::options::DecoderOptions;
+
+/// Meaning of three components.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::photo::decode) enum Color {
+    /// The components are the bands.
+    AsStored,
+    /// The components are luminance and color differences, to be converted to red, green and blue.
+    FromYcbcr,
+}
+
+/// The samples of all components in full resolution, pixel by pixel. `header` is the one of `bytes`.
+pub(in crate::photo::decode) fn samples(
+    bytes: &[u8],
+    header: &Header,
+    color: Color,
+) -> Result<Vec<u8>, Fault> {
+    let data = match with_zune(bytes, header, color) {
+        Some(data) => data?,
+        None if is_right_in_jpeg_decoder(header) => with_jpeg_decoder(bytes, color)?,
+        None => {
+            return Err(Fault::unsupported(
+                "color components in scans of their own, unusually sampled",
+                CONVERT,
+            ));
+        }
+    };
+    if data.len() != header.width as usize * header.height as usize * header.components.len() {
+        return Err(Fault::damaged("its pixels do not fill its size"));
+    }
+    Ok(data)
+}
+
+/// Decodes with zune-jpeg; `None` where its pixels would be wrong.
+fn with_zune(bytes: &[u8], header: &Header, color: Color) -> Option<Result<Vec<u8>, Fault>> {
+    if !is_right_in_zune(header) {
+        return None;
+    }
+    // The sizes were checked before. Without the strict mode, harmless deviations from the standard are accepted.
+    let options =
+        DecoderOptions::default().set_strict_mode(false).set_max_width(usize::MAX).set_max_height(usize::MAX);
+    let mut decoder = zune_jpeg::JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+    if let Err(error) = decoder.decode_headers() {
+        return Some(Err(Fault::damaged(error)));
+    }
+    let stored = decoder.input_colorspace()?;
+    let out = match (color, stored) {
+        (Color::FromYcbcr, ColorSpace::YCbCr) => ColorSpace::RGB,
+        (Color::AsStored, ColorSpace::Luma | ColorSpace::RGB | ColorSpace::YCbCr) => stored,
+        _ => return None,
+    };
+    decoder.set_options(options.jpeg_set_out_colorspace(out));
+    Some(decoder.decode().map_err(Fault::damaged))
+}
+
+fn with_jpeg_decoder(bytes: &[u8], color: Color) -> Result<Vec<u8>, Fault> {
+    let mut decoder = jpeg_decoder::Decoder::new(bytes);
+    decoder.read_info().map_err(fault)?;
+    let gray = decoder.info().is_some_and(|info| info.pixel_format == jpeg_decoder::PixelFormat::L8);
+    if !gray {
+        decoder.set_color_transform(match color {
+            Color::AsStored => ColorTransform::RGB,
+            Color::FromYcbcr => ColorTransform::YCbCr,
+        });
+    }
+    decoder.decode().map_err(fault)
+}
+
+fn fault(error: jpeg_decoder::Error) -> Fault {
+    match error {
+        jpeg_decoder::Error::Unsupported(feature) => Fault::unsupported(format!("{feature:?}"), CONVERT),
+        other => Fault::damaged(other),
+    }
+}
+
+/// The largest factors of all components, across and down.
+fn largest(header: &Header) -> (u32, u32) {
+    let of = |factor: fn(&Component) -> u32| header.components.iter().map(factor).max().unwrap_or(1);
+    (of(|component| component.across), of(|component| component.down))
+}
+
+fn is_right_in_zune(header: &Header) -> bool {
+    let Some(first) = header.components.first() else { return false };
+    if header.components.len() == 1 {
+        return true;
+    }
+    let (across, down) = largest(header);
+    let powers_of_two = header.components.iter().all(|component| component.across.is_power_of_two());
+    let luminance_is_largest = (first.across, first.down) == (across, down);
+    let one_scan = header.scans.iter().all(|scan| scan.len() == header.components.len());
+    let single_rows = down == 1 && header.scans.iter().all(|scan| scan.len() == 1);
+    let full = (across, down) == (1, 1);
+    let scans = header.is_progressive() || one_scan || single_rows || full;
+    powers_of_two && luminance_is_largest && scans
+}
+
+/// Whether jpeg-decoder counts the blocks rightly of all components that have a scan of their own.
+fn is_right_in_jpeg_decoder(header: &Header) -> bool {
+    let (across, down) = largest(header);
+    let alone = |component: &&Component| {
+        header.is_progressive() || header.scans.iter().any(|scan| *scan == [component.id])
+    };
+    header.components.iter().filter(alone).all(|component| {
+        let right = |size: u32, factor: u32, largest: u32| {
+            let blocks = (size * factor).div_ceil(largest).div_ceil(8);
+            blocks == (size.div_ceil(8 * largest) * factor).min(size.div_ceil(8))
+        };
+        right(header.width, component.across, across) && right(header.height, component.down, down)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A header with these factors of three components and these scans.
+    fn header(factors: [(u32, u32); 3], scans: &[&[u8]]) -> Header {
+        let components = factors.iter().zip(1..).map(|(&(across, down), id)| Component { id, across, down });
+        let mut header = Header::default();
+        (header.width, header.height) = (163, 110);
+        header.components = components.collect();
+        header.scans = scans.iter().map(|scan| scan.to_vec()).collect();
+        header
+    }
+
+    #[test]
+    fn the_usual_arrangements_are_for_zune_and_others_for_jpeg_decoder() {
+        let one: &[&[u8]] = &[&[1, 2, 3]];
+        let each: &[&[u8]] = &[&[1], &[2], &[3]];
+        for factors in [[(1, 1); 3], [(2, 2), (1, 1), (1, 1)], [(4, 1), (1, 1), (1, 1)]] {
+            assert!(is_right_in_zune(&header(factors, one)), "{factors:?}");
+        }
+        assert!(is_right_in_zune(&header([(2, 1), (1, 1), (1, 1)], each)));
+        let below = [(1, 1), (2, 1), (2, 1)];
+        assert!(!is_right_in_zune(&header(below, one)) && is_right_in_jpeg_decoder(&header(below, one)));
+        let halved = [(2, 2), (1, 1), (1, 1)];
+        assert!(!is_right_in_zune(&header(halved, each)) && is_right_in_jpeg_decoder(&header(halved, each)));
+        let between = [(4, 2), (2, 1), (2, 1)];
+        assert!(
+            !is_right_in_zune(&header(between, each)) && !is_right_in_jpeg_decoder(&header(between, each))
+        );
+    }
+}
