@@ -2,29 +2,34 @@
 
 mod cli;
 
-use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let arguments = cli::Arguments::parse();
+    let arguments = match cli::parse() {
+        Ok(arguments) => arguments,
+        Err(ended) => return ended,
+    };
     cli::start_log();
     #[cfg(feature = "gui")]
     match arguments.command {
         None => return ended(dichroscope::gui::open(arguments.image)),
-        Some(cli::Command::Screenshot(wish)) => return ended(screenshot(wish)),
+        Some(cli::Command::Screenshot(wish)) => return screenshot(wish),
         Some(_) => {}
     }
     cli::run(arguments)
 }
 
 #[cfg(feature = "gui")]
-fn screenshot(wish: cli::ScreenshotArguments) -> Result<(), dichroscope::gui::ScreenshotError> {
+fn screenshot(wish: cli::ScreenshotArguments) -> ExitCode {
     use dichroscope::view::Origin;
     let origin = wish.image.map_or(Origin::Sample(wish.scene), Origin::File);
-    for path in dichroscope::gui::screenshot(&wish.out, wish.size, origin)? {
-        cli::print(&format!("{}\n", path.display()));
+    match dichroscope::gui::screenshot(&wish.out, wish.size, origin) {
+        Ok(paths) => {
+            let lines: String = paths.iter().map(|path| format!("{}\n", path.display())).collect();
+            cli::print_and_end(&lines)
+        }
+        Err(error) => ended(Err(error)),
     }
-    Ok(())
 }
 
 #[cfg(feature = "gui")]

@@ -37,13 +37,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
             Err(error) => note(&format!("{}: {error:#}", folder.display())),
         }
     }
-    let outcome = if scored.len() == count { Outcome::Done } else { Outcome::SomeFailed };
+    let mut text = String::new();
     if arguments.json {
-        print(&table::json(&scored)?);
+        text = table::json(&scored)?;
     } else if !scored.is_empty() {
-        print(&table::aligned(&scored));
+        text = table::aligned(&scored);
     }
-    Ok(outcome)
+    let printed = print(&text);
+    Ok(if scored.len() == count { printed } else { Outcome::SomeFailed })
 }
 
 struct Found {

@@ -1,10 +1,11 @@
 //! Which photographs to analyze, and what their results are called.
 
-use anyhow::{Context, Result, bail};
+use super::{names, place};
+use anyhow::{Result, bail};
 use dichroscope::export::is_result_folder;
 use dichroscope::photo::Format;
 use globset::{GlobBuilder, GlobMatcher};
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use walkdir::{DirEntry, WalkDir};
 
@@ -15,6 +16,28 @@ pub(super) struct Job {
     pub(super) name: PathBuf,
 }
 
+/// The photographs of a call.
+#[derive(Debug, Default)]
+pub(super) struct Jobs {
+    /// In the order of the arguments, folders in the order of their names.
+    pub(super) jobs: Vec<Job>,
+    /// What could not be looked at, a line each.
+    pub(super) troubles: Vec<String>,
+    /// Whether a folder was searched.
+    pub(super) has_folders: bool,
+    /// All inputs of `jobs`.
+    seen: BTreeSet<PathBuf>,
+}
+
+impl Jobs {
+    /// Adds a photograph; one that is named twice is analyzed once.
+    fn add(&mut self, input: &Path, name: PathBuf) {
+        if self.seen.insert(input.to_owned()) {
+            self.jobs.push(Job { input: input.to_owned(), name });
+        }
+    }
+}
+
 /// The pattern of `--match`; `*` stays within a folder's name, `**` crosses folders.
 pub(super) fn parse_pattern(text: &str) -> Result<GlobMatcher, globset::Error> {
     Ok(GlobBuilder::new(text).literal_separator(true).build()?.compile_matcher())
@@ -22,44 +45,64 @@ pub(super) fn parse_pattern(text: &str) -> Result<GlobMatcher, globset::Error> {
 
 /// The jobs for files and folders as given, folders in the order of their names.
 ///
-/// Hidden files, earlier results and the output folder are passed over. Fails where a folder cannot be read, where there
-/// is no photograph, and where two results would have the same folder.
-pub(super) fn plan(inputs: &[PathBuf], pattern: Option<&GlobMatcher>, out: &Path) -> Result<Vec<Job>> {
-    let mut jobs = Vec::new();
+/// Hidden files, earlier results and the output folder are passed over. An entry of a folder that cannot be read is a line
+/// of trouble. Fails where there is no photograph at all.
+pub(super) fn plan(inputs: &[PathBuf], pattern: Option<&GlobMatcher>, out: &Path) -> Result<Jobs> {
+    let mut found = Jobs::default();
     for input in inputs {
-        if input.is_dir() {
-            jobs.extend(walk(input, pattern, out)?);
-        } else if let Some(stem) = input.file_stem() {
-            jobs.push(Job { input: input.clone(), name: stem.into() });
+        if !place::is_standard_input(input) && input.is_dir() {
+            found.has_folders = true;
+            walk(input, pattern, out, &mut found);
+        } else if let Some(stem) = place::stem_of(input) {
+            found.add(input, stem);
         } else {
             bail!("{} is not the name of a file", input.display());
         }
     }
-    if jobs.is_empty() {
+    if found.jobs.is_empty() && found.troubles.is_empty() {
         let folders: Vec<String> = inputs.iter().map(|input| input.display().to_string()).collect();
         let which =
             if pattern.is_some() { "no photograph that --match lets through" } else { "no photograph" };
         bail!("{which} in {}", folders.join(", "));
     }
-    name_apart(&mut jobs);
-    expect_apart(&jobs, out)?;
-    Ok(jobs)
+    let pairs: Vec<(&Path, &Path)> =
+        found.jobs.iter().map(|job| (job.input.as_path(), job.name.as_path())).collect();
+    for (name, job) in names::apart(&pairs).into_iter().zip(&mut found.jobs) {
+        job.name = name;
+    }
+    Ok(found)
 }
 
-fn walk(folder: &Path, pattern: Option<&GlobMatcher>, out: &Path) -> Result<Vec<Job>> {
+fn walk(folder: &Path, pattern: Option<&GlobMatcher>, out: &Path, found: &mut Jobs) {
     let out = out.canonicalize().ok();
     let wanted = |entry: &DirEntry| entry.depth() == 0 || !is_passed_over(entry, out.as_deref());
-    let mut jobs = Vec::new();
     for entry in WalkDir::new(folder).follow_links(true).sort_by_file_name().into_iter().filter_entry(wanted)
     {
-        let entry = entry.with_context(|| format!("cannot walk {}", folder.display()))?;
+        let entry = match entry {
+            Ok(entry) => entry,
+            Err(error) => {
+                found.troubles.push(trouble(folder, &error));
+                continue;
+            }
+        };
         let relative = entry.path().strip_prefix(folder).unwrap_or(entry.path());
         let matches = pattern.is_none_or(|glob| glob.is_match(entry.file_name()) || glob.is_match(relative));
         if entry.file_type().is_file() && Format::known_extension(entry.path()) && matches {
-            jobs.push(Job { input: entry.path().to_owned(), name: relative.with_extension("") });
+            found.add(entry.path(), relative.with_extension(""));
         }
     }
-    Ok(jobs)
+}
+
+/// What is wrong with an entry of a folder, in one line that names the entry.
+fn trouble(folder: &Path, error: &walkdir::Error) -> String {
+    let path = error.path().unwrap_or(folder).display();
+    if error.loop_ancestor().is_some() {
+        return format!("{path}: cannot be read: it leads back to a folder that it lies in");
+    }
+    match error.io_error() {
+        Some(cause) => format!("{path}: cannot be read: {cause}"),
+        None => format!("{path}: cannot be read"),
+    }
 }
 
 fn is_passed_over(entry: &DirEntry, out: Option<&Path>) -> bool {
@@ -68,40 +111,9 @@ fn is_passed_over(entry: &DirEntry, out: Option<&Path>) -> bool {
     hidden || (entry.file_type().is_dir() && (is_result_folder(entry.path()) || is_out()))
 }
 
-/// Replaces names that occur more than once by the names of the photographs' folders.
-fn name_apart(jobs: &mut [Job]) {
-    let mut uses = BTreeMap::new();
-    for job in jobs.iter() {
-        *uses.entry(job.name.clone()).or_insert(0) += 1;
-    }
-    for job in jobs.iter_mut().filter(|job| uses[&job.name] > 1) {
-        if let Some(parent) = parent_name(&job.input) {
-            job.name = parent;
-        }
-    }
-}
-
 /// Name of the folder that a file lies in.
 pub(super) fn parent_name(file: &Path) -> Option<PathBuf> {
     std::path::absolute(file).ok()?.parent()?.file_name().map(PathBuf::from)
-}
-
-/// Fails where two results would have the same folder, or one result would lie inside another.
-fn expect_apart(jobs: &[Job], out: &Path) -> Result<()> {
-    let mut sorted: Vec<&Job> = jobs.iter().collect();
-    sorted.sort_by(|a, b| a.name.cmp(&b.name));
-    for pair in sorted.windows(2) {
-        let [a, b] = pair else { continue };
-        let (first, second) = (a.input.display(), b.input.display());
-        if a.name == b.name {
-            bail!("{first} and {second} would both be written to {}", out.join(&a.name).display());
-        }
-        if b.name.starts_with(&a.name) {
-            let (outer, inner) = (out.join(&a.name), out.join(&b.name));
-            bail!("{first} and {second}: {} would lie inside {}", inner.display(), outer.display());
-        }
-    }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -121,7 +133,7 @@ mod tests {
         let inputs: Vec<PathBuf> = inputs.iter().map(|input| root.path().join(input)).collect();
         let pattern = pattern.map(|text| parse_pattern(text).unwrap());
         let jobs = plan(&inputs, pattern.as_ref(), &root.path().join("out"))?;
-        Ok(jobs.iter().map(|job| job.name.display().to_string()).collect())
+        Ok(jobs.jobs.iter().map(|job| job.name.display().to_string()).collect())
     }
 
     #[test]
@@ -150,16 +162,27 @@ mod tests {
     }
 
     #[test]
-    fn colliding_stems_take_their_folders_names() {
+    fn colliding_names_take_what_tells_them_apart() {
         let files = ["p/x.png", "q/x.png", "q/y.png"];
-        assert_eq!(names(&files, &["p/x.png", "q/x.png", "q/y.png"], None).unwrap(), ["p", "q", "y"]);
+        assert_eq!(names(&files, &files, None).unwrap(), ["p/x", "q/x", "y"]);
+        let files = ["p/x.png", "p/x.jpg"];
+        assert_eq!(names(&files, &files, None).unwrap(), ["x.png", "x.jpg"]);
+        assert_eq!(names(&["d/a.png", "d/a/b.png"], &["d"], None).unwrap(), ["a/b", "a.png"]);
+        assert_eq!(names(&["a/1.png", "b/1.png"], &["a", "b"], None).unwrap(), ["a/1", "b/1"]);
+        assert_eq!(names(&["a/1.png"], &["a/1.png", "a/1.png"], None).unwrap(), ["1"]);
     }
 
+    #[cfg(unix)]
     #[test]
-    fn what_stays_ambiguous_is_refused() {
-        let error = names(&["p/x.png", "p/x.jpg"], &["p/x.png", "p/x.jpg"], None).unwrap_err().to_string();
-        assert!(error.contains("would both be written to"), "{error}");
-        let error = names(&["d/a.png", "d/a/b.png"], &["d"], None).unwrap_err().to_string();
-        assert!(error.contains("would lie inside"), "{error}");
+    fn a_bad_entry_is_a_line_and_the_others_are_found() {
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join("a.png"), "").unwrap();
+        std::os::unix::fs::symlink(root.path().join("gone.png"), root.path().join("b.png")).unwrap();
+        std::os::unix::fs::symlink(root.path(), root.path().join("loop")).unwrap();
+        let found = plan(&[root.path().to_owned()], None, &root.path().join("out")).unwrap();
+        assert_eq!(found.jobs.len(), 1);
+        assert_eq!(found.troubles.len(), 2, "{:?}", found.troubles);
+        assert!(found.troubles[0].contains("b.png: cannot be read"), "{:?}", found.troubles);
+        assert!(found.troubles[1].contains("loop: cannot be read: it leads back"), "{:?}", found.troubles);
     }
 }

@@ -4,9 +4,14 @@
 //! is reported on one line of stderr each, and the [`Outcome`] says so (exit 1).
 
 mod analyze;
+mod batch;
 mod evaluate;
 mod inputs;
+mod interrupt;
+mod lines;
+mod names;
 mod one;
+mod place;
 mod reading;
 mod sample;
 mod settings;
@@ -20,6 +25,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Parser, Subcommand};
 use dichroscope::truth::sample::SAMPLES;
 use std::io::{self, Write};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use tracing_subscriber::EnvFilter;
@@ -32,6 +38,7 @@ use tracing_subscriber::EnvFilter;
 #[command(name = "dichroscope", version, args_conflicts_with_subcommands = true)]
 pub struct Arguments {
     /// Photograph to open in the window; none: a sample scene
+    #[arg(value_parser = place::parser())]
     pub image: Option<PathBuf>,
     /// What to do instead
     #[command(subcommand)]
@@ -52,6 +59,7 @@ pub enum Command {
 #[derive(Debug, clap::Args)]
 pub struct ScreenshotArguments {
     /// Photograph to show; none: a sample scene
+    #[arg(value_parser = place::parser())]
     pub image: Option<PathBuf>,
     /// Folder to write the pictures to
     #[arg(long, value_name = "DIR")]
@@ -83,6 +91,7 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
 enum Outcome {
     Done,
     SomeFailed,
+    Interrupted,
 }
 
 /// Starts logging to stderr at the level that the environment variable `DICHROSCOPE_LOG` names.
@@ -103,8 +112,7 @@ pub fn run(arguments: Arguments) -> ExitCode {
         (None, Some(image)) => no_window(&image),
     };
     match result {
-        Ok(Outcome::Done) => ExitCode::SUCCESS,
-        Ok(Outcome::SomeFailed) => ExitCode::from(1),
+        Ok(outcome) => end_of(outcome),
         Err(error) => {
             note(&format!("error: {error:#}"));
             ExitCode::from(2)
@@ -128,7 +136,57 @@ pub fn note(line: &str) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
-/// Writes text to stdout; a closed stdout is ignored.
-pub fn print(text: &str) {
-    let _ = io::stdout().lock().write_all(text.as_bytes());
+/// Writes text to stdout. A stdout that nobody reads any more (`| head`) is no failure; one that cannot be written, as a full
+/// disk, is reported and fails.
+fn print(text: &str) -> Outcome {
+    let mut stdout = io::stdout().lock();
+    written(stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()))
+}
+
+/// Reports an error of writing to stdout.
+fn written(result: io::Result<()>) -> Outcome {
+    match result {
+        Ok(()) => Outcome::Done,
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Outcome::Done,
+        Err(error) => {
+            note(&format!("standard output: cannot be written: {error}"));
+            Outcome::SomeFailed
+        }
+    }
+}
+
+/// Writes text to stdout; the exit code of a program that does nothing else.
+pub fn print_and_end(text: &str) -> ExitCode {
+    end_of(print(text))
+}
+
+fn end_of(outcome: Outcome) -> ExitCode {
+    match outcome {
+        Outcome::Done => ExitCode::SUCCESS,
+        Outcome::SomeFailed => ExitCode::from(1),
+        Outcome::Interrupted => ExitCode::from(interrupt::EXIT_CODE),
+    }
+}
+
+/// Parses the arguments. Help and version go to stdout, a wrong call to stderr; both end the program with the code returned.
+///
+/// # Errors
+/// The exit code where there is nothing to run.
+pub fn parse() -> Result<Arguments, ExitCode> {
+    Arguments::try_parse().map_err(|error| {
+        if error.use_stderr() {
+            let _ = error.print();
+            return ExitCode::from(2);
+        }
+        end_of(written(error.print().and_then(|()| io::stdout().flush())))
+    })
+}
+
+/// A number of threads.
+fn parse_threads(text: &str) -> Result<NonZeroUsize, String> {
+    const MOST: usize = 1024;
+    match text.parse::<NonZeroUsize>() {
+        Ok(number) if number.get() <= MOST => Ok(number),
+        _ => Err(format!("expected a whole number from 1 to {MOST}")),
+    }
 }

@@ -1,9 +1,11 @@
 //! One photograph, from its file to its result.
 
+use super::interrupt::Interrupt;
+use super::place;
 use anyhow::{Context, Result};
 use dichroscope::analysis::{Analysis, Observer, Session, Stage};
 use dichroscope::describe::{AreaFacts, Report, Timings};
-use dichroscope::export::WholeResult;
+use dichroscope::export::{FileChoice, WholeResult};
 use dichroscope::params::Params;
 use dichroscope::photo::{self, Photo, ReadOptions};
 use dichroscope::raster::{Mask, Raster, UNASSIGNED};
@@ -23,23 +25,36 @@ pub(super) struct Shot {
 }
 
 impl Shot {
-    /// Reads a file. Errors name the file.
-    pub(super) fn read(path: &Path, options: &ReadOptions) -> Result<Self> {
-        // Pixels and hash come from the same bytes: a pipe cannot be read a second time.
-        let begin = Instant::now();
-        let bytes = photo::read_bytes(path)?;
-        Self::decoded(&bytes, &path.display().to_string(), options, begin)
-    }
-
     /// Decodes a file that is already in memory.
     pub(super) fn decode(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Self> {
-        Self::decoded(bytes, name, options, Instant::now())
+        RawFile { bytes: bytes.to_vec(), name: name.to_owned(), begin: Instant::now() }.decode(options)
+    }
+}
+
+/// The bytes of a photograph's file. Pixels and hash come from the same bytes: a pipe cannot be read a second time.
+pub(super) struct RawFile {
+    bytes: Vec<u8>,
+    name: String,
+    begin: Instant,
+}
+
+impl RawFile {
+    /// Reads a file. Errors name the file.
+    pub(super) fn read(path: &Path) -> Result<Self> {
+        let begin = Instant::now();
+        Ok(Self { bytes: place::read_bytes(path)?, name: place::name_of(path), begin })
     }
 
-    fn decoded(bytes: &[u8], name: &str, options: &ReadOptions, begin: Instant) -> Result<Self> {
-        let photo = photo::decode(bytes, name, options)?;
-        let read_ms = ms_since(begin);
-        Ok(Self { photo, sha256: photo::sha256_hex(bytes), read_ms })
+    /// SHA-256 of the bytes.
+    pub(super) fn sha256(&self) -> String {
+        photo::sha256_hex(&self.bytes)
+    }
+
+    /// Decodes the photograph. Errors name the file.
+    pub(super) fn decode(self, options: &ReadOptions) -> Result<Shot> {
+        let photo = photo::decode(&self.bytes, &self.name, options)?;
+        let read_ms = ms_since(self.begin);
+        Ok(Shot { photo, sha256: self.sha256(), read_ms })
     }
 }
 
@@ -73,6 +88,12 @@ impl Area {
         Ok(Self { name, mask: Arc::new(photo::read_mask(path, options)?) })
     }
 
+    /// SHA-256 of the mask's pixels, a byte each.
+    pub(super) fn sha256(&self) -> String {
+        let pixels: Vec<u8> = self.mask.as_slice().iter().map(|&inside| u8::from(inside)).collect();
+        photo::sha256_hex(&pixels)
+    }
+
     /// The mask, true inside.
     pub(super) fn mask(&self) -> Arc<Mask> {
         Arc::clone(&self.mask)
@@ -88,6 +109,10 @@ pub(super) struct Plan<'a> {
     pub(super) keep_surface: f64,
     /// Whether a folder that is no earlier result may be replaced.
     pub(super) force: bool,
+    /// The files to write.
+    pub(super) files: &'a FileChoice,
+    /// What ends the analysis and the writing early.
+    pub(super) interrupt: &'a Interrupt,
 }
 
 /// The outcome of one photograph.
@@ -99,7 +124,8 @@ pub(super) struct Finished {
 
 /// Analyzes a photograph and writes its result to `target`.
 pub(super) fn analyze(shot: &Shot, plan: &Plan, target: &Path) -> Result<Finished> {
-    let mut clock = StageClock::default();
+    let mut clock =
+        StageClock { begin: None, timings: Timings::default(), interrupt: plan.interrupt.clone() };
     let image = Arc::new(shot.photo.image.clone());
     let mut session = Session::new(image);
     if let Some(area) = plan.area {
@@ -118,7 +144,8 @@ pub(super) fn analyze(shot: &Shot, plan: &Plan, target: &Path) -> Result<Finishe
             .map(|reference| truth::Reference { truth: &reference.truth, camera: &reference.camera }),
     })?;
     let whole = WholeResult { photo: &shot.photo, analysis: &analysis, keep_surface: plan.keep_surface };
-    let report = whole.write(report, target, plan.force, &|_, _| true)?;
+    let goes_on = |_, _| !plan.interrupt.came();
+    let report = whole.write_files(plan.files, report, target, plan.force, &goes_on)?;
     Ok(Finished { lit_share: lit_share(&analysis), report })
 }
 
@@ -133,11 +160,11 @@ fn lit_share(analysis: &Analysis) -> Option<f64> {
     (lit > 0).then(|| assigned as f64 / lit as f64)
 }
 
-/// Measures the duration of each stage. The library itself reads no clock.
-#[derive(Default)]
+/// Measures the duration of each stage, and ends an interrupted run. The library itself reads no clock.
 struct StageClock {
     begin: Option<Instant>,
     timings: Timings,
+    interrupt: Interrupt,
 }
 
 impl Observer for StageClock {
@@ -149,6 +176,10 @@ impl Observer for StageClock {
         let took_ms = self.begin.take().map(ms_since);
         tracing::debug!(stage = stage.name(), took_ms, "finished");
         *self.timings.slot(stage) = took_ms;
+    }
+
+    fn cancelled(&self) -> bool {
+        self.interrupt.came()
     }
 }
 

@@ -1,10 +1,11 @@
 //! `dichroscope` alone: the embedded sample scene, analyzed and compared with its ground truth.
 
-use super::analyze::in_short;
+use super::batch::in_short;
+use super::interrupt::Interrupt;
 use super::one::{self, Plan, Reference, Shot};
 use super::{Outcome, note, print, table};
 use anyhow::{Context, Result};
-use dichroscope::export::check_target;
+use dichroscope::export::{FileChoice, check_target};
 use dichroscope::params::Params;
 use dichroscope::photo::ReadOptions;
 use dichroscope::truth::sample::{NAME, SAMPLES};
@@ -17,10 +18,7 @@ pub(super) fn run() -> Result<Outcome> {
     // This command has no `--force`.
     check_target(target, false).context("the sample's result needs a place: run this in another folder")?;
     match analyze(target) {
-        Ok(text) => {
-            print(&text);
-            Ok(Outcome::Done)
-        }
+        Ok(text) => Ok(print(&text)),
         Err(error) => {
             note(&format!("{NAME}: {error:#}"));
             Ok(Outcome::SomeFailed)
@@ -38,6 +36,8 @@ fn analyze(target: &Path) -> Result<String> {
         reference: Some(&reference),
         keep_surface: 0.0,
         force: false,
+        files: &FileChoice::default(),
+        interrupt: &Interrupt::default(),
     };
     let finished = one::analyze(&shot, &plan, target)?;
     let place = std::path::absolute(target)?;

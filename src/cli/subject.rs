@@ -1,6 +1,7 @@
 //! One photograph, analyzed with a record of every decision, for `trace` and `why`.
 
 use super::one::Area;
+use super::place;
 use super::reading::Reading;
 use super::settings::Settings;
 use anyhow::{Context, Result, bail};
@@ -16,14 +17,14 @@ use std::sync::Arc;
 /// A photograph and how to analyze it.
 #[derive(Debug, Args)]
 pub(super) struct Subject {
-    /// Photograph to analyze
-    #[arg(index = 1)]
+    /// Photograph to analyze; - for standard input
+    #[arg(index = 1, value_parser = place::parser())]
     pub(super) image: PathBuf,
     /// Analyze only the pixels of the photograph that this picture of the same size shows as not black
-    #[arg(long, value_name = "MASK")]
+    #[arg(long, value_name = "MASK", value_parser = place::parser())]
     area: Option<PathBuf>,
-    /// Number of threads [default: one per core]
-    #[arg(long, value_name = "N")]
+    /// Number of threads, up to 1024 [default: one per core]
+    #[arg(long, value_name = "N", value_parser = super::parse_threads)]
     threads: Option<NonZeroUsize>,
     #[command(flatten)]
     settings: Settings,
@@ -56,8 +57,10 @@ impl Subject {
         let reading = self.reading.options();
         let area = self.area.as_deref().map(|path| Area::read(path, &reading)).transpose();
         let area = area.map_err(AnalyzeError::Usage)?;
-        // The error of `read` names the file already.
-        let photo = photo::read(&self.image, &reading).map_err(|error| AnalyzeError::File(error.into()))?;
+        // The errors of reading name the file already.
+        let bytes = place::read_bytes(&self.image).map_err(|error| AnalyzeError::File(error.into()))?;
+        let photo = photo::decode(&bytes, &place::name_of(&self.image), &reading);
+        let photo = photo.map_err(|error| AnalyzeError::File(error.into()))?;
         let image = Arc::new(photo.image);
         check(&image).with_context(|| self.image.display().to_string()).map_err(AnalyzeError::Usage)?;
         let mut session = Session::new(Arc::clone(&image));

@@ -41,11 +41,11 @@ fn why(arguments: &Arguments) -> Result<Outcome> {
         }
     };
     let pixel = pixel_inside(&traced.image, arguments.pixel)?;
-    print(&history(&traced, pixel));
-    if arguments.what_if {
-        print(&changes(&mut traced, pixel)?);
+    let mut outcome = print(&history(&traced, pixel));
+    if arguments.what_if && outcome == Outcome::Done {
+        outcome = print(&changes(&mut traced, pixel)?);
     }
-    Ok(Outcome::Done)
+    Ok(outcome)
 }
 
 /// The text for the parameter values at which the pixel's fate changes.

@@ -1,9 +1,13 @@
 //! Results as files.
 //!
-//! A result is a folder. `Staging` collects the files in a hidden folder beside the target and renames the hidden folder, so
+//! A result is a folder. `FileChoice` says which files the folder holds. `Staging` collects the files in a hidden folder beside the target and renames the hidden folder, so
 //! that a target folder is always complete. Floats are linear, 1.0 = 255 counts; `noise.exr` has the one channel `Y`.
 
+mod arrays;
+mod choice;
+mod exchange;
 mod floats;
+mod leftovers;
 mod matte;
 mod palette;
 mod pictures;
@@ -14,12 +18,14 @@ mod stages;
 mod staging;
 mod whole;
 
+pub use choice::{FileChoice, UnknownFile};
+pub use leftovers::remove_leftovers;
 pub use matte::{MatteError, matte_bytes, write_matte};
 pub(crate) use palette::Palette;
 pub use pictures::write_pictures;
 pub(crate) use png::{png_of_gray, png_of_rgba};
 pub use result::{ResultError, is_result_folder, read_report};
-pub(crate) use single::write_file;
+pub use single::write_file;
 pub(crate) use stages::colored;
 use staging::Staging;
 pub use staging::check_target;

@@ -1,7 +1,7 @@
 //! Writes the pictures of a result folder.
 
 use super::png::code_from_linear;
-use super::{ExportError, floats, png, stages};
+use super::{ExportError, arrays, floats, png, stages};
 use crate::analysis::Analysis;
 use crate::photo::LinearImage;
 use crate::raster::{LabelMap, Raster};
@@ -9,18 +9,18 @@ use rayon::prelude::*;
 use std::path::Path;
 
 /// The data from which the pictures are made.
-struct PictureInput<'a> {
+pub(super) struct PictureInput<'a> {
     image: &'a LinearImage,
     analysis: &'a Analysis,
 }
 
-type Writer = fn(&PictureInput, &Path) -> Result<(), ExportError>;
+pub(super) type Writer = fn(&PictureInput, &Path) -> Result<(), ExportError>;
 
-/// Number of pictures in a result folder, without the matte photograph.
-pub(super) const PICTURE_COUNT: usize = 14;
+/// Number of pictures in a usual result folder, without the matte photograph.
+const PICTURE_COUNT: usize = 14;
 
 /// Name and writer of every picture. The largest pictures come first, so that no large picture is started last.
-const PICTURES: [(&str, Writer); PICTURE_COUNT] = [
+pub(super) const PICTURES: [(&str, Writer); PICTURE_COUNT] = [
     ("body.exr", |s, path| floats::write_rgb(path, &s.analysis.intrinsic.body)),
     ("residual.exr", |s, path| floats::write_rgb(path, &residual(s))),
     ("surface.exr", |s, path| floats::write_rgb(path, &s.analysis.intrinsic.surface)),
@@ -37,23 +37,34 @@ const PICTURES: [(&str, Writer); PICTURE_COUNT] = [
     ("stage-5-clipping.png", |s, path| png::write_rgb(path, &stages::colored(&s.analysis.finals.labels))),
 ];
 
+/// Name and writer of the arrays, which a result folder holds where they are asked for.
+pub(super) const ARRAYS: [(&str, Writer); 4] = [
+    ("body.npy", |s, path| arrays::write_rgb(path, &s.analysis.intrinsic.body)),
+    ("residual.npy", |s, path| arrays::write_rgb(path, &residual(s))),
+    ("surface.npy", |s, path| arrays::write_rgb(path, &s.analysis.intrinsic.surface)),
+    ("noise.npy", |s, path| arrays::write_single(path, &s.analysis.intrinsic.noise)),
+];
+
 /// Writes the pictures of a result into `folder`, in parallel: all files but the report and the matte photograph.
 ///
 /// # Errors
 /// The first file that could not be written.
 pub fn write_pictures(folder: &Path, image: &LinearImage, analysis: &Analysis) -> Result<(), ExportError> {
-    write_pictures_watched(folder, image, analysis, &|| Ok(()))
+    let is_array = |name: &str| ARRAYS.iter().any(|(array, _)| *array == name);
+    write_pictures_watched(folder, image, analysis, &|name| !is_array(name), &|| Ok(()))
 }
 
-/// As [`write_pictures`]; an error of `file_done`, which is called after each file, ends the writing.
+/// As [`write_pictures`], the pictures and arrays that `is_wanted` names; an error of `file_done`, which is called after each file, ends the writing.
 pub(super) fn write_pictures_watched(
     folder: &Path,
     image: &LinearImage,
     analysis: &Analysis,
+    is_wanted: &(dyn Fn(&str) -> bool + Sync),
     file_done: &(dyn Fn() -> Result<(), ExportError> + Sync),
 ) -> Result<(), ExportError> {
     let input = PictureInput { image, analysis };
-    PICTURES.par_iter().with_max_len(1).try_for_each(|(name, write)| {
+    let wanted: Vec<_> = PICTURES.iter().chain(&ARRAYS).filter(|(name, _)| is_wanted(name)).collect();
+    wanted.par_iter().with_max_len(1).try_for_each(|(name, write)| {
         write(&input, &folder.join(name))?;
         file_done()
     })

@@ -1,8 +1,9 @@
 //! Writes a file so that the target is always complete.
 
 use super::ExportError;
-use super::staging::hidden_sibling;
+use super::leftovers::{create_part, sync_entries};
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 
 /// Writes `bytes` to a hidden file beside `path` and renames the hidden file to `path`. Missing parent folders are made.
@@ -19,8 +20,12 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         fs::create_dir_all(folder).map_err(failed)?;
     }
-    let hidden = hidden_sibling(path, "new");
-    let written = fs::write(&hidden, bytes).and_then(|()| fs::rename(&hidden, path));
+    let (hidden, mut file) = create_part(path).map_err(failed)?;
+    let written =
+        file.write_all(bytes).and_then(|()| file.sync_all()).and_then(|()| fs::rename(&hidden, path));
+    if let Some(folder) = path.parent().filter(|_| written.is_ok()) {
+        sync_entries(folder);
+    }
     written.map_err(|source| {
         // An error of the cleanup is ignored, because it would hide the first error.
         let _ = fs::remove_file(&hidden);

@@ -1,21 +1,18 @@
 //! Writes a result folder so that the target is always complete.
 
+use super::exchange::replace;
+use super::leftovers::{HiddenFolder, sync_entries, sync_folder};
 use super::{ExportError, is_result_folder};
 use crate::describe::{self, Report};
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
-
-/// Serial number of the next hidden folder of this process.
-static SERIAL: AtomicU32 = AtomicU32::new(0);
 
 /// An unfinished result in a hidden folder beside its target.
 ///
 /// A drop without [`Staging::publish`] deletes the hidden folder.
 #[derive(Debug)]
 pub struct Staging {
-    folder: PathBuf,
+    hidden: HiddenFolder,
     target: PathBuf,
     force: bool,
 }
@@ -50,60 +47,40 @@ impl Staging {
         check_target(target, force)?;
         // A link is followed, so that the folder behind the link is replaced and not the link.
         let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
-        let folder = hidden_sibling(&target, "new");
-        fs::create_dir_all(&folder).map_err(|source| ExportError::Io { path: folder.clone(), source })?;
-        Ok(Self { folder, target, force })
+        let hidden = HiddenFolder::beside(&target)
+            .map_err(|source| ExportError::Io { path: target.clone(), source })?;
+        Ok(Self { hidden, target, force })
     }
 
     /// The hidden folder, for the files of the result.
     pub fn folder(&self) -> &Path {
-        &self.folder
+        self.hidden.path()
     }
 
-    /// Adds the report and renames the hidden folder to the target. An earlier result is replaced as a whole.
+    /// Adds the report, if there is one, and gives the hidden folder the name of the target. An earlier result is replaced as a
+    /// whole: at every moment there is a whole result at the target, the earlier or the new one, also after a loss of power.
     ///
     /// # Errors
     /// When the report cannot be written or the folder cannot be renamed; the earlier result then remains.
-    pub fn publish(self, report: &Report) -> Result<(), ExportError> {
-        let path = self.folder.join(describe::FILE_NAME);
-        match report.to_json() {
-            Ok(text) => fs::write(&path, text).map_err(|source| ExportError::Io { path, source })?,
-            Err(source) => return Err(ExportError::Json { path, source }),
+    pub fn publish(self, report: Option<&Report>) -> Result<(), ExportError> {
+        if let Some(report) = report {
+            let path = self.folder().join(describe::FILE_NAME);
+            match report.to_json() {
+                Ok(text) => fs::write(&path, text).map_err(|source| ExportError::Io { path, source })?,
+                Err(source) => return Err(ExportError::Json { path, source }),
+            }
         }
+        let failed = |source| ExportError::Io { path: self.target.clone(), source };
+        sync_folder(self.folder()).map_err(failed)?;
         // Another process may have created the target since `begin`.
         check_target(&self.target, self.force)?;
-        let failed = |source| ExportError::Io { path: self.target.clone(), source };
-        let old = hidden_sibling(&self.target, "old");
-        let replaced = match fs::rename(&self.target, &old) {
-            Ok(()) => true,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => false,
-            Err(error) => return Err(failed(error)),
-        };
-        if let Err(error) = fs::rename(&self.folder, &self.target) {
-            if replaced {
-                fs::rename(&old, &self.target).map_err(failed)?;
-            }
-            return Err(failed(error));
-        }
-        if replaced {
-            fs::remove_dir_all(&old).map_err(|source| ExportError::Io { path: old.clone(), source })?;
+        // Afterwards the hidden folder is the earlier result, which the drop deletes.
+        replace(self.folder(), &self.target).map_err(failed)?;
+        if let Some(parent) = self.target.parent() {
+            sync_entries(parent);
         }
         Ok(())
     }
-}
-
-impl Drop for Staging {
-    fn drop(&mut self) {
-        // The folder was renamed, or an earlier error is the one to report.
-        let _ = fs::remove_dir_all(&self.folder);
-    }
-}
-
-/// The path `.NAME.PURPOSE-PROCESS-SERIAL` beside `target`, on the same file system.
-pub(super) fn hidden_sibling(target: &Path, purpose: &str) -> PathBuf {
-    let name = target.file_name().unwrap_or_default().to_string_lossy();
-    let serial = SERIAL.fetch_add(1, Ordering::Relaxed);
-    target.with_file_name(format!(".{name}.{purpose}-{}-{serial}", std::process::id()))
 }
 
 #[cfg(test)]

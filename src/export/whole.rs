@@ -1,9 +1,10 @@
 //! Writing a whole result folder, for the command line and the window.
 
-use super::pictures::{PICTURE_COUNT, write_pictures_watched};
+use super::choice::{FileChoice, MATTE};
+use super::pictures::write_pictures_watched;
 use super::{ExportError, Staging, write_matte};
 use crate::analysis::Analysis;
-use crate::describe::Report;
+use crate::describe::{self, Report};
 use crate::photo::Photo;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -33,6 +34,21 @@ impl WholeResult<'_> {
     /// ([`ExportError::Stopped`]); `target` is then unchanged.
     pub fn write(
         &self,
+        report: Report,
+        target: &Path,
+        force: bool,
+        watch: Watch,
+    ) -> Result<Report, ExportError> {
+        self.write_files(&FileChoice::default(), report, target, force, watch)
+    }
+
+    /// As [`WholeResult::write`], only the files of `choice`. A folder without a report is replaced only with `force`.
+    ///
+    /// # Errors
+    /// The errors of [`WholeResult::write`].
+    pub fn write_files(
+        &self,
+        choice: &FileChoice,
         mut report: Report,
         target: &Path,
         force: bool,
@@ -40,23 +56,30 @@ impl WholeResult<'_> {
     ) -> Result<Report, ExportError> {
         let begin = Instant::now();
         let staging = Staging::begin(target, force)?;
+        // The report, which is written last, does not count.
+        let total = choice.len() - usize::from(choice.has(describe::FILE_NAME));
         let written = AtomicUsize::new(0);
         let file_done = || {
             let done = written.fetch_add(1, Ordering::Relaxed) + 1;
-            if watch(done, PICTURE_COUNT + 1) { Ok(()) } else { Err(ExportError::Stopped) }
+            if watch(done, total) { Ok(()) } else { Err(ExportError::Stopped) }
         };
+        let is_wanted = |name: &str| choice.has(name);
+        let (image, folder) = (&self.photo.image, staging.folder());
         let (pictures, matte) = rayon::join(
-            || write_pictures_watched(staging.folder(), &self.photo.image, self.analysis, &file_done),
+            || write_pictures_watched(folder, image, self.analysis, &is_wanted, &file_done),
             || {
-                write_matte(self.photo, &self.analysis.intrinsic, self.keep_surface, staging.folder())?;
-                file_done()
+                if choice.has(MATTE) {
+                    write_matte(self.photo, &self.analysis.intrinsic, self.keep_surface, folder)?;
+                    file_done()?;
+                }
+                Ok::<(), ExportError>(())
             },
         );
         pictures?;
         matte?;
         // The duration is in milliseconds with a resolution of one microsecond.
         report.timings_ms.write = Some(begin.elapsed().as_micros() as f64 / 1e3);
-        staging.publish(&report)?;
+        staging.publish(choice.has(describe::FILE_NAME).then_some(&report))?;
         Ok(report)
     }
 }

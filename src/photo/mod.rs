@@ -93,13 +93,21 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Photo, ReadError> {
 /// [`ReadError`] where the file cannot be read, is empty, or does not begin like a picture.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     let name = path.display().to_string();
-    let io = |cause| ReadError::Io { file: name.clone(), cause };
-    let mut file = File::open(path).map_err(io)?;
+    let file = File::open(path).map_err(|cause| ReadError::Io { file: name.clone(), cause })?;
+    read_stream(file, &name)
+}
+
+/// The bytes of a picture from a stream, for example standard input. `name` is used in messages.
+///
+/// # Errors
+/// The errors of [`read_bytes`].
+pub fn read_stream(mut stream: impl Read, name: &str) -> Result<Vec<u8>, ReadError> {
+    let io = |cause| ReadError::Io { file: name.to_owned(), cause };
     // The first bytes are read alone, so that an unsupported file is rejected quickly, however large or endless it is.
     let mut bytes = Vec::new();
-    (&mut file).take(Format::MAGIC_BYTES as u64).read_to_end(&mut bytes).map_err(io)?;
-    identify(&bytes, &name)?;
-    file.read_to_end(&mut bytes).map_err(io)?;
+    (&mut stream).take(Format::MAGIC_BYTES as u64).read_to_end(&mut bytes).map_err(io)?;
+    identify(&bytes, name)?;
+    stream.read_to_end(&mut bytes).map_err(io)?;
     Ok(bytes)
 }
 

@@ -55,7 +55,7 @@ impl Header {
                 // Height of a pixel divided by its width.
                 "PIXASPECT" => {
                     density =
-                        value.parse().ok().and_then(|height: f32| Density::of_pixel_aspect(1.0 / height))
+                        value.parse().ok().and_then(|height: f32| Density::of_pixel_aspect(1.0 / height));
                 }
                 _ => {}
             }

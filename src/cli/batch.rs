@@ -1,0 +1,234 @@
+//! Many photographs: some at a time, each whole or not at all, and a line for each.
+
+use super::analyze::Arguments;
+use super::inputs::{Job, parent_name};
+use super::interrupt::Interrupt;
+use super::lines::{Line, Lines, Status};
+use super::one::{self, Area, Finished, Plan, RawFile, Reference};
+use super::{Outcome, note, place};
+use anyhow::{Context, Result, anyhow};
+use dichroscope::export::{FileChoice, read_report};
+use dichroscope::params::Params;
+use dichroscope::photo::ReadOptions;
+use dichroscope::truth::find_truth;
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::ThreadPool;
+use std::io::IsTerminal;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// What all photographs of one call have in common.
+pub(super) struct Work<'a> {
+    pub(super) arguments: &'a Arguments,
+    pub(super) params: Params,
+    pub(super) area: Option<Area>,
+    pub(super) reading: ReadOptions,
+    pub(super) files: FileChoice,
+    /// SHA-256 of all that a result depends on besides its photograph.
+    pub(super) settings: String,
+    /// The file of lines; `None` for a single photograph.
+    pub(super) lines: Option<Lines>,
+    pub(super) interrupt: Interrupt,
+}
+
+/// What became of a photograph.
+enum Ended {
+    Done(Box<Finished>),
+    /// The result of an earlier call is there.
+    Unchanged,
+    Interrupted,
+    /// The error, which names the photograph.
+    Failed(String),
+}
+
+/// Numbers of photographs, and the names of those that failed.
+#[derive(Default)]
+struct Tally {
+    done: usize,
+    failed: Vec<String>,
+}
+
+impl Work<'_> {
+    /// Analyzes the photographs, `at_once` at a time, in the threads of `pool`.
+    pub(super) fn run(self, jobs: &[Job], at_once: usize, pool: &ThreadPool) -> Result<Outcome> {
+        let bar = self.progress_bar(jobs.len());
+        let (next, tally) = (AtomicUsize::new(0), Mutex::new(Tally::default()));
+        std::thread::scope(|scope| {
+            for _ in 0..at_once.min(jobs.len()) {
+                scope.spawn(|| {
+                    while !self.interrupt.came()
+                        && let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed))
+                    {
+                        let ended = pool.install(|| self.analyze(job));
+                        self.take_down(job, ended, &bar, &tally);
+                    }
+                });
+            }
+        });
+        bar.finish_and_clear();
+        let tally = tally.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let interrupted = self.interrupt.came() && tally.done + tally.failed.len() < jobs.len();
+        if let Some(lines) = self.lines {
+            lines.finish()?;
+        }
+        if !tally.failed.is_empty() && jobs.len() > 1 {
+            let (failed, all) = (tally.failed.len(), jobs.len());
+            note(&format!("{failed} of {all} photographs failed: {}", tally.failed.join(", ")));
+        }
+        if interrupted {
+            let (done, all) = (tally.done, jobs.len());
+            note(&format!(
+                "interrupted: {done} of {all} photographs are done; the same call goes on with the others"
+            ));
+            return Ok(Outcome::Interrupted);
+        }
+        Ok(if tally.failed.is_empty() { Outcome::Done } else { Outcome::SomeFailed })
+    }
+
+    /// Writes the line of a photograph, says what became of it and counts it.
+    fn take_down(&self, job: &Job, ended: Ended, bar: &ProgressBar, tally: &Mutex<Tally>) {
+        let (name, file) = (&job.name, place::name_of(&job.input));
+        let line = match &ended {
+            Ended::Done(finished) => Some(Line::done(name, &file, &self.settings, finished)),
+            Ended::Failed(error) => Some(Line::failed(name, &file, error)),
+            Ended::Unchanged | Ended::Interrupted => None,
+        };
+        let mut ended = ended;
+        if let (Some(lines), Some(line)) = (&self.lines, line)
+            && let Err(error) = lines.append(&line)
+        {
+            ended = Ended::Failed(format!("{file}: {error:#}"));
+        }
+        let quiet = self.arguments.quiet;
+        let text = match &ended {
+            Ended::Done(finished) if !quiet => Some(self.summary(job, finished)),
+            Ended::Unchanged if !quiet => {
+                Some(format!("{}: unchanged \u{2192} {}", name.display(), self.target(job).display()))
+            }
+            Ended::Failed(error) => Some(error.clone()),
+            _ => None,
+        };
+        if let Some(text) = text {
+            bar.suspend(|| note(&text));
+        }
+        let mut tally = tally.lock().unwrap_or_else(PoisonError::into_inner);
+        match ended {
+            Ended::Done(_) | Ended::Unchanged => tally.done += 1,
+            Ended::Failed(_) => tally.failed.push(file),
+            Ended::Interrupted => return,
+        }
+        bar.inc(1);
+    }
+
+    fn progress_bar(&self, jobs: usize) -> ProgressBar {
+        if self.arguments.quiet || jobs < 2 || !std::io::stderr().is_terminal() {
+            return ProgressBar::hidden();
+        }
+        let style = ProgressStyle::with_template("{bar:40} {pos}/{len}  {eta} left");
+        ProgressBar::new(jobs as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    }
+
+    pub(super) fn target(&self, job: &Job) -> PathBuf {
+        self.arguments.out.join(&job.name)
+    }
+
+    /// Whether whatever is in the place of a result may be replaced: as asked for, or because an earlier call wrote it.
+    pub(super) fn may_replace(&self, job: &Job) -> bool {
+        let earlier = self.lines.as_ref().and_then(|lines| lines.earlier(&job.name));
+        self.arguments.force || earlier.is_some_and(|line| line.status == Status::Done)
+    }
+
+    fn analyze(&self, job: &Job) -> Ended {
+        let file = place::name_of(&job.input);
+        // A photograph on which the program fails does not end the others. Its half-changed values are dropped.
+        let result = catch_unwind(AssertUnwindSafe(|| self.read_and_write(job)));
+        match result {
+            Ok(Ok(ended)) => ended,
+            Ok(Err(_)) if self.interrupt.came() => Ended::Interrupted,
+            Ok(Err(error)) => Ended::Failed(format!("{error:#}")),
+            Err(_) => Ended::Failed(format!("{file}: the analysis failed on it: report the photograph")),
+        }
+    }
+
+    /// Errors begin with the name of the photograph.
+    fn read_and_write(&self, job: &Job) -> Result<Ended> {
+        // The errors of reading name the file already.
+        let file = RawFile::read(&job.input)?;
+        if !self.arguments.again && self.is_done(job, &file.sha256()) {
+            return Ok(Ended::Unchanged);
+        }
+        let shot = file.decode(&self.reading)?;
+        let compared = || -> Result<Finished> {
+            let reference =
+                self.arguments.truth.as_deref().map(|root| self.reference(root, job)).transpose()?;
+            let plan = Plan {
+                params: &self.params,
+                area: self.area.as_ref(),
+                reference: reference.as_ref(),
+                keep_surface: self.arguments.keep_surface,
+                force: self.may_replace(job),
+                files: &self.files,
+                interrupt: &self.interrupt,
+            };
+            one::analyze(&shot, &plan, &self.target(job))
+        };
+        Ok(Ended::Done(Box::new(compared().with_context(|| place::name_of(&job.input))?)))
+    }
+
+    /// Whether an earlier call wrote the result of the same photograph with the same settings, and the result is still there.
+    fn is_done(&self, job: &Job, sha256: &str) -> bool {
+        let Some(line) = self.lines.as_ref().and_then(|lines| lines.earlier(&job.name)) else { return false };
+        let target = self.target(job);
+        let is_there = if self.files.has("report.json") {
+            read_report(&target).is_ok_and(|report| report.image.sha256 == sha256)
+        } else {
+            target.is_dir()
+        };
+        line.status == Status::Done
+            && line.sha256.as_deref() == Some(sha256)
+            && line.settings.as_deref() == Some(&self.settings)
+            && is_there
+    }
+
+    fn reference(&self, root: &Path, job: &Job) -> Result<Reference> {
+        let parent = parent_name(&job.input);
+        let names = [Some(job.name.as_path()), job.name.file_name().map(Path::new), parent.as_deref()];
+        let folder = find_truth(root, names.into_iter().flatten())
+            .ok_or_else(|| anyhow!("no ground truth for {} in {}", job.name.display(), root.display()))?;
+        let file = job.input.file_name().unwrap_or_default().to_string_lossy();
+        Reference::read(&folder, &file, &self.reading)
+    }
+
+    /// `plastic8_white: 8 regions, 99.8 % of the lit pixels, light (0.58, 0.57, 0.58), 11 ms → out/plastic8_white`
+    fn summary(&self, job: &Job, finished: &Finished) -> String {
+        let target = self.target(job);
+        format!("{}: {} \u{2192} {}", job.name.display(), in_short(finished), target.display())
+    }
+}
+
+/// The numbers of regions, share of lit pixels and light for the line of a finished photograph.
+pub(super) fn in_short(finished: &Finished) -> String {
+    let Finished { report, lit_share } = finished;
+    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let share = lit_share
+        .map_or("no lit pixels".to_owned(), |share| format!("{:.1} % of the lit pixels", 100.0 * share));
+    let light = report
+        .illuminant
+        .direction
+        .map_or("light unknown".to_owned(), |[r, g, b]| format!("light ({r:.2}, {g:.2}, {b:.2})"));
+    let ambient = report
+        .ambient
+        .subtracted
+        .map_or_else(String::new, |[r, g, b]| format!(", less ambient ({r:.1}, {g:.1}, {b:.1}) counts"));
+    let regions = count(report.regions.len(), "region");
+    let poor = |region: &&dichroscope::describe::RegionFacts| region.fit_rms_counts > region.fit_limit_counts;
+    let poor = report.regions.iter().filter(poor).count();
+    let poor = if poor == 0 { String::new() } else { format!(" ({poor} of poor fit)") };
+    let warnings = match report.warnings.len() {
+        0 => String::new(),
+        n => format!(", {}", count(n, "warning")),
+    };
+    format!("{regions}{poor}, {share}, {light}{ambient}{warnings}, {:.0} ms", report.timings_ms.analysis_ms())
+}

@@ -1,0 +1,196 @@
+//! `results.jsonl`: a JSON object a line for each photograph of a folder, by which a later call knows what is done.
+
+use super::one::Finished;
+use anyhow::{Context, Result};
+use dichroscope::export::write_file;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// What became of a photograph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Status {
+    Done,
+    Failed,
+}
+
+/// The line of a photograph.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Line {
+    /// Path of the result below the output folder.
+    pub(super) name: String,
+    pub(super) status: Status,
+    /// The photograph as the call named it.
+    pub(super) file: String,
+    /// SHA-256 of the photograph's bytes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) sha256: Option<String>,
+    /// SHA-256 of everything else that the result depends on: parameters, reading, area, files, version of the program.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) settings: Option<String>,
+    /// What failed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) error: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) regions: Option<usize>,
+    /// Share of the lit pixels that are in a region.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) lit_share: Option<f64>,
+    /// Color of the light, a unit vector.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) light: Option<[f64; 3]>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) warnings: Vec<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) analysis_ms: Option<f64>,
+}
+
+impl Line {
+    pub(super) fn done(name: &Path, file: &str, settings: &str, finished: &Finished) -> Self {
+        let Finished { report, lit_share } = finished;
+        Self {
+            name: name.display().to_string(),
+            status: Status::Done,
+            file: file.to_owned(),
+            sha256: Some(report.image.sha256.clone()),
+            settings: Some(settings.to_owned()),
+            error: None,
+            regions: Some(report.regions.len()),
+            lit_share: *lit_share,
+            light: report.illuminant.direction,
+            warnings: report.warnings.clone(),
+            analysis_ms: Some(report.timings_ms.analysis_ms()),
+        }
+    }
+
+    pub(super) fn failed(name: &Path, file: &str, error: &str) -> Self {
+        Self {
+            name: name.display().to_string(),
+            status: Status::Failed,
+            file: file.to_owned(),
+            sha256: None,
+            settings: None,
+            error: Some(error.to_owned()),
+            regions: None,
+            lit_share: None,
+            light: None,
+            warnings: Vec::new(),
+            analysis_ms: None,
+        }
+    }
+}
+
+/// The lines of an output folder.
+#[derive(Debug)]
+pub(super) struct Lines {
+    path: PathBuf,
+    /// The file, to which lines are appended; `None` before the first.
+    file: Mutex<Option<File>>,
+    /// The last line of each name in all files of lines in the folder, as far as earlier calls wrote them.
+    earlier: BTreeMap<String, Line>,
+}
+
+/// What the names of files of lines begin with and end with.
+const STEM: &str = "results";
+const EXTENSION: &str = "jsonl";
+
+impl Lines {
+    /// The lines in the folder `out`; new ones go to the file of `shard` (its number and their count) or to that of all.
+    pub(super) fn in_folder(out: &Path, shard: Option<[usize; 2]>) -> Self {
+        let name = shard.map_or_else(String::new, |[number, count]| format!(".{number}-of-{count}"));
+        let mut earlier = BTreeMap::new();
+        for path in files_of_lines(out) {
+            earlier.extend(read(&path).into_iter().map(|line| (line.name.clone(), line)));
+        }
+        Self { path: out.join(format!("{STEM}{name}.{EXTENSION}")), file: Mutex::new(None), earlier }
+    }
+
+    /// The line that an earlier call wrote for a name.
+    pub(super) fn earlier(&self, name: &Path) -> Option<&Line> {
+        self.earlier.get(&name.display().to_string())
+    }
+
+    /// Appends a line, whole.
+    pub(super) fn append(&self, line: &Line) -> Result<()> {
+        let mut text = serde_json::to_string(line)?;
+        text.push('\n');
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let failed = || format!("cannot write {}", self.path.display());
+        if file.is_none() {
+            if let Some(folder) = self.path.parent() {
+                fs::create_dir_all(folder).with_context(failed)?;
+            }
+            *file = Some(File::options().create(true).append(true).open(&self.path).with_context(failed)?);
+        }
+        match file.as_mut() {
+            Some(file) => file.write_all(text.as_bytes()).with_context(failed),
+            None => Ok(()),
+        }
+    }
+
+    /// Replaces the file by one with the last line of each name, in the order of the names.
+    pub(super) fn finish(self) -> Result<()> {
+        if !self.path.exists() {
+            return Ok(());
+        }
+        let lines: BTreeMap<String, Line> =
+            read(&self.path).into_iter().map(|line| (line.name.clone(), line)).collect();
+        let mut text = String::new();
+        for line in lines.values() {
+            text.push_str(&serde_json::to_string(line)?);
+            text.push('\n');
+        }
+        // Windows replaces no open file.
+        drop(self.file);
+        Ok(write_file(&self.path, text.as_bytes())?)
+    }
+}
+
+/// The files of lines of all shards, and that of all photographs first.
+fn files_of_lines(out: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(out).into_iter().flatten().filter_map(|entry| entry.ok());
+    let is_lines = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.starts_with(&format!("{STEM}.")) && name.ends_with(EXTENSION)
+    };
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(is_lines).collect();
+    paths
+        .sort_by_key(|path| (path.file_name() != Some(format!("{STEM}.{EXTENSION}").as_ref()), path.clone()));
+    paths
+}
+
+/// The whole lines of a file. A line that a killed program did not finish is passed over.
+fn read(path: &Path) -> Vec<Line> {
+    let text = fs::read(path).unwrap_or_default();
+    text.split(|&byte| byte == b'\n').filter_map(|line| serde_json::from_slice(line).ok()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_line_of_a_name_counts_and_a_half_line_does_not() {
+        let out = tempfile::tempdir().unwrap();
+        let lines = Lines::in_folder(out.path(), None);
+        lines.append(&Line::failed(Path::new("b"), "b.png", "no")).unwrap();
+        lines.append(&Line::failed(Path::new("a"), "a.png", "first")).unwrap();
+        lines.append(&Line::failed(Path::new("a"), "a.png", "second")).unwrap();
+        let path = out.path().join("results.jsonl");
+        File::options().append(true).open(&path).unwrap().write_all(b"{\"name\": \"c\", \"sta").unwrap();
+        let again = Lines::in_folder(out.path(), Some([2, 3]));
+        assert_eq!(again.earlier(Path::new("a")).unwrap().error.as_deref(), Some("second"));
+        assert!(again.earlier(Path::new("c")).is_none());
+        again.append(&Line::failed(Path::new("d"), "d.png", "no")).unwrap();
+        assert!(out.path().join("results.2-of-3.jsonl").exists());
+        lines.finish().unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        let names: Vec<&str> = text.lines().map(|line| &line[..11]).collect();
+        assert_eq!(names, ["{\"name\":\"a\"", "{\"name\":\"b\""].map(|name| &name[..11]));
+        assert!(text.contains("second") && !text.contains("first"));
+    }
+}
