@@ -25,8 +25,8 @@ fn screenshot(wish: cli::ScreenshotArguments) -> ExitCode {
     let origin = wish.image.map_or(Origin::Sample(wish.scene), Origin::File);
     match dichroscope::gui::screenshot(&wish.out, wish.size, origin) {
         Ok(paths) => {
-            let lines: String = paths.iter().map(|path| format!("{}\n", path.display())).collect();
-            cli::print_and_end(&lines)
+            let lines: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+            cli::print_and_end(&(lines.join("\n") + "\n"))
         }
         Err(error) => ended(Err(error)),
     }

@@ -18,6 +18,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Analyze photographs: regions, illuminant, body, surface and noise images, and a report of each
+#[allow(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// Photographs, or folders that are searched for them; - for standard input
@@ -76,9 +77,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
     let params = arguments.settings.params()?;
     let area = arguments.area.as_deref().map(|path| Area::read(path, &reading)).transpose()?;
     let mut found = inputs::plan(&arguments.inputs, arguments.pattern.as_ref(), &arguments.out)?;
-    let is_batch = found.has_folders || found.jobs.len() > 1 || arguments.shard.is_some();
+    let is_batch = found.has_folders || found.list.len() > 1 || arguments.shard.is_some();
     if let Some([number, count]) = arguments.shard {
-        found.jobs = part(found.jobs, number, count);
+        found.list = part(found.list, number, count);
     }
     if let Some(root) = arguments.truth.as_deref().filter(|root| !root.is_dir()) {
         bail!("--truth {}: no such folder", root.display());
@@ -91,14 +92,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
     let lines = is_batch.then(|| Lines::in_folder(&arguments.out, arguments.shard));
     let work =
         Work { arguments, params, area, reading, files, settings, lines, interrupt: Interrupt::listen()? };
-    for job in &found.jobs {
+    for job in &found.list {
         check_target(&work.target(job), work.may_replace(job))?;
     }
     for trouble in &found.troubles {
         note(trouble);
     }
     let jobs = arguments.jobs.map_or_else(|| JOBS.min(pool.current_num_threads()), NonZeroUsize::get);
-    let outcome = work.run(&found.jobs, jobs, &pool)?;
+    let outcome = work.run(&found.list, jobs, &pool)?;
     Ok(if outcome == Outcome::Done && !found.troubles.is_empty() { Outcome::SomeFailed } else { outcome })
 }
 

@@ -20,12 +20,12 @@ pub(super) struct Job {
 #[derive(Debug, Default)]
 pub(super) struct Jobs {
     /// In the order of the arguments, folders in the order of their names.
-    pub(super) jobs: Vec<Job>,
+    pub(super) list: Vec<Job>,
     /// What could not be looked at, a line each.
     pub(super) troubles: Vec<String>,
     /// Whether a folder was searched.
     pub(super) has_folders: bool,
-    /// All inputs of `jobs`.
+    /// All inputs of `list`.
     seen: BTreeSet<PathBuf>,
 }
 
@@ -33,7 +33,7 @@ impl Jobs {
     /// Adds a photograph; one that is named twice is analyzed once.
     fn add(&mut self, input: &Path, name: PathBuf) {
         if self.seen.insert(input.to_owned()) {
-            self.jobs.push(Job { input: input.to_owned(), name });
+            self.list.push(Job { input: input.to_owned(), name });
         }
     }
 }
@@ -59,15 +59,15 @@ pub(super) fn plan(inputs: &[PathBuf], pattern: Option<&GlobMatcher>, out: &Path
             bail!("{} is not the name of a file", input.display());
         }
     }
-    if found.jobs.is_empty() && found.troubles.is_empty() {
+    if found.list.is_empty() && found.troubles.is_empty() {
         let folders: Vec<String> = inputs.iter().map(|input| input.display().to_string()).collect();
         let which =
             if pattern.is_some() { "no photograph that --match lets through" } else { "no photograph" };
         bail!("{which} in {}", folders.join(", "));
     }
     let pairs: Vec<(&Path, &Path)> =
-        found.jobs.iter().map(|job| (job.input.as_path(), job.name.as_path())).collect();
-    for (name, job) in names::apart(&pairs).into_iter().zip(&mut found.jobs) {
+        found.list.iter().map(|job| (job.input.as_path(), job.name.as_path())).collect();
+    for (name, job) in names::apart(&pairs).into_iter().zip(&mut found.list) {
         job.name = name;
     }
     Ok(found)
@@ -133,7 +133,7 @@ mod tests {
         let inputs: Vec<PathBuf> = inputs.iter().map(|input| root.path().join(input)).collect();
         let pattern = pattern.map(|text| parse_pattern(text).unwrap());
         let jobs = plan(&inputs, pattern.as_ref(), &root.path().join("out"))?;
-        Ok(jobs.jobs.iter().map(|job| job.name.display().to_string()).collect())
+        Ok(jobs.list.iter().map(|job| job.name.display().to_string()).collect())
     }
 
     #[test]
@@ -180,7 +180,7 @@ mod tests {
         std::os::unix::fs::symlink(root.path().join("gone.png"), root.path().join("b.png")).unwrap();
         std::os::unix::fs::symlink(root.path(), root.path().join("loop")).unwrap();
         let found = plan(&[root.path().to_owned()], None, &root.path().join("out")).unwrap();
-        assert_eq!(found.jobs.len(), 1);
+        assert_eq!(found.list.len(), 1);
         assert_eq!(found.troubles.len(), 2, "{:?}", found.troubles);
         assert!(found.troubles[0].contains("b.png: cannot be read"), "{:?}", found.troubles);
         assert!(found.troubles[1].contains("loop: cannot be read: it leads back"), "{:?}", found.troubles);

@@ -152,7 +152,7 @@ impl Lines {
 
 /// The files of lines of all shards, and that of all photographs first.
 fn files_of_lines(out: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(out).into_iter().flatten().filter_map(|entry| entry.ok());
+    let entries = fs::read_dir(out).into_iter().flatten().filter_map(Result::ok);
     let is_lines = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         name.starts_with(&format!("{STEM}.")) && name.ends_with(EXTENSION)

@@ -12,7 +12,7 @@ const STANDARD_INPUT_NAME: &str = "stdin";
 
 /// Parser of arguments that name a photograph.
 pub(super) fn parser() -> impl TypedValueParser<Value = PathBuf> {
-    OsStringValueParser::new().map(|text| path_of(text))
+    OsStringValueParser::new().map(path_of)
 }
 
 /// The path that an argument names.
