@@ -8,7 +8,7 @@ use image::ExtendedColorType::{L8, Rgb8, Rgba8};
 use tiff::encoder::colortype;
 
 /// One intact file of each format, with a header that is not trivial.
-fn intact() -> Vec<(&'static str, Vec<u8>)> {
+pub fn intact() -> Vec<(&'static str, Vec<u8>)> {
     let noise = |n: u32| (0..n).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect::<Vec<u8>>();
     let floats: Vec<f32> = noise(17 * 13).iter().map(|&v| f32::from(v) / 255.0).collect();
     let profile = rgb_icc(&curv(&[0, 20000, 65535]));
@@ -44,10 +44,11 @@ fn intact() -> Vec<(&'static str, Vec<u8>)> {
 }
 
 /// Reads the bytes, and checks that an error is one line that names the file.
-fn error_of(bytes: &[u8], name: &str) -> Option<String> {
+pub fn error_of(bytes: &[u8], name: &str) -> Option<String> {
     let options = ReadOptions { max_megapixels: 1.0, ..ReadOptions::default() };
     let message = decode(bytes, name, &options).err()?.to_string();
     assert!(message.starts_with(name) && !message.contains('\n'), "{message:?}");
+    assert!(!message.contains("failed on it"), "a panic of a decoder: {message:?}");
     Some(message)
 }
 

@@ -9,6 +9,7 @@ mod broken;
 mod encodings;
 mod files;
 mod formats;
+mod hostile;
 mod matte;
 mod tiffs;
 

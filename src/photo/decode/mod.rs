@@ -122,7 +122,7 @@ impl Budget {
 
 /// Number of pixels that are believed to be in a byte of a file, besides those of a small picture: more than any photograph's
 /// file holds, so that a short file cannot make the program take much memory.
-const PIXELS_PER_BYTE: u64 = 4096;
+const PIXELS_PER_BYTE: u64 = 2048;
 /// Number of pixels that any file may declare.
 const SMALL_PICTURE: u64 = 2_000_000;
 

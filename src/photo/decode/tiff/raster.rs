@@ -12,6 +12,8 @@ use crate::photo::source::{Layout, Samples};
 pub(super) fn of_channels(page: &Page, channels: &[usize], layout: Layout) -> Result<Decoded, Fault> {
     match (page.kind, page.bits) {
         (Kind::Float, 16 | 24 | 32 | 64) => floats(page, channels, layout),
+        // A sign alone is no number.
+        (Kind::Signed, 1) => Err(Fault::unsupported("signed integers of 1 bit", CONVERT)),
         (Kind::Unsigned | Kind::Signed, 1..=8) => integers(page, channels, layout, Samples::U8),
         (Kind::Unsigned | Kind::Signed, 9..=16) => integers(page, channels, layout, Samples::U16),
         (Kind::Unsigned | Kind::Signed, 17..=32) => integers(page, channels, layout, Samples::U32),
