@@ -46,6 +46,7 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, TruthError> {
 
 /// An RGB picture in counts, whatever the depth of the file's samples.
 pub(super) fn decode_rgb_exr(bytes: &[u8], path: &Path) -> Result<Raster<[f32; 3]>, TruthError> {
+    expect_plausible(bytes, path)?;
     let picture = read()
         .no_deep_data()
         .largest_resolution_level()
@@ -62,6 +63,25 @@ pub(super) fn decode_rgb_exr(bytes: &[u8], path: &Path) -> Result<Raster<[f32; 3
         .map_err(|source| TruthError::Exr { path: path.to_owned(), source })?;
     Ok(picture.layer_data.channel_data.pixels)
 }
+
+/// Fails where a file declares more pixels than its bytes can hold, before memory is taken for them.
+fn expect_plausible(bytes: &[u8], path: &Path) -> Result<(), TruthError> {
+    let header = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false);
+    let header = header.map_err(|source| TruthError::Exr { path: path.to_owned(), source })?;
+    let believed = SMALL_PICTURE + PIXELS_PER_BYTE * bytes.len();
+    let fits = |size: exr::math::Vec2<usize>| {
+        size.width().checked_mul(size.height()).is_some_and(|pixels| pixels <= believed)
+    };
+    if header.headers.iter().all(|header| fits(header.layer_size)) {
+        return Ok(());
+    }
+    let source = exr::error::Error::Invalid("size: more pixels than its bytes can hold".into());
+    Err(TruthError::Exr { path: path.to_owned(), source })
+}
+
+/// Number of pixels that any file may declare, and number that each of its bytes may add.
+const SMALL_PICTURE: usize = 2_000_000;
+const PIXELS_PER_BYTE: usize = 2048;
 
 /// Integer labels of a gray picture, or of the red band of a color picture.
 pub(super) fn decode_labels(bytes: &[u8], path: &Path) -> Result<LabelMap, TruthError> {

@@ -311,3 +311,35 @@ fn what_cannot_be_written_leaves_the_earlier_result() {
         (vec!["a".to_owned()], before)
     );
 }
+
+/// Files of less than a kilobyte that declare as much as their formats allow, read with a gigabyte of address space.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_short_file_never_takes_a_gigabyte() {
+    let work = WorkFolder::new();
+    work.put("a.pgm", b"P5\n9999 9999\n255\n");
+    work.put("a.hdr", b"#?RADIANCE\n\n-Y 9999 +X 9999\n");
+    work.put(
+        "a.jpg",
+        b"\xff\xd8\xff\xc0\0\x11\x08\x27\x0f\x27\x0f\x03\x01\x22\0\x02\x11\0\x03\x11\0\xff\xd9",
+    );
+    let mut bmp = b"BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0".to_vec();
+    bmp.extend([9999u32.to_le_bytes(), 9999u32.to_le_bytes()].concat());
+    bmp.extend([1, 0, 24, 0].iter().chain(&[0; 24]).chain(&[7; 90]));
+    work.put("a.bmp", &bmp);
+    // 4 megapixels of one color, which is as much as is believed.
+    let mut webp = Vec::new();
+    let encoder = image::codecs::webp::WebPEncoder::new_lossless(&mut webp);
+    encoder.encode(&vec![90; 2000 * 1000 * 3], 2000, 1000, image::ExtendedColorType::Rgb8).unwrap();
+    assert!(webp.len() < 1000);
+    work.put("a.webp", &webp);
+    let program = env!("CARGO_BIN_EXE_dichroscope");
+    for name in ["a.pgm", "a.hdr", "a.jpg", "a.bmp", "a.webp"] {
+        let call = format!("ulimit -v 1000000; {program} analyze {name} --out out --threads 2 --quiet");
+        let output = Command::new("sh").args(["-c", &call]).current_dir(work.path("")).output().unwrap();
+        let err = String::from_utf8_lossy(&output.stderr).into_owned();
+        let expected = i32::from(name != "a.webp");
+        assert_eq!(output.status.code(), Some(expected), "{name}: {err}");
+        assert_eq!(err.lines().count(), expected as usize, "{err}");
+    }
+}

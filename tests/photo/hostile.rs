@@ -2,10 +2,16 @@
 
 use crate::broken::{error_of, intact};
 use crate::tiffs::{self, Page};
+use dichroscope::analysis::Session;
+use dichroscope::app::{Application, Executor, ExportKind, JobCommand, Workspace};
+use dichroscope::describe::{ImageFacts, Report};
+use dichroscope::params::Params;
 use dichroscope::photo::{ReadOptions, decode};
+use dichroscope::view::Origin;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
+use std::sync::{Arc, OnceLock};
 
 /// What files of the formats begin with.
 const MAGICS: [&[u8]; 12] = [
@@ -90,6 +96,96 @@ proptest! {
             ..Page::new((17, 13), 8, 1, &[])
         };
         error_of(&tiffs::file(&[page.clone(), page], big_endian), "x.tif");
+    }
+}
+
+/// A file with some bytes replaced.
+fn changed(bytes: &[u8], changes: &[(prop::sample::Index, u8)]) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    for (at, value) in changes {
+        // Half of the changes are in the header.
+        let reach = if value % 2 == 0 { bytes.len().min(400) } else { bytes.len() };
+        bytes[at.index(reach)] = *value;
+    }
+    bytes
+}
+
+const TRUTH: [&str; 4] = ["body.exr", "surface.exr", "labels.png", "truth.json"];
+const PARAMETERS: &str = "method = \"refined\"\ncamera_noise = 2.5\nwindow_size = \"auto\"\nilluminant = [1, 2, 3]\n\
+    ambient = \"off\"\n[refine]\nsecond_look = false\n";
+
+proptest! {
+    #![proptest_config(cases(100))]
+
+    #[test]
+    fn any_change_of_a_truth_folder(
+        which in 0..4usize,
+        changes in vec((any::<prop::sample::Index>(), any::<u8>()), 1..5),
+    ) {
+        let tiny = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/tiny");
+        let folder = tempfile::tempdir().unwrap();
+        for (index, name) in TRUTH.into_iter().enumerate() {
+            let bytes = std::fs::read(tiny.join(name)).unwrap();
+            let bytes = if index == which { changed(&bytes, &changes) } else { bytes };
+            std::fs::write(folder.path().join(name), bytes).unwrap();
+        }
+        let _ = dichroscope::truth::GroundTruth::read(folder.path());
+    }
+}
+
+/// The workspace of a sample scene.
+fn intact_workspace() -> &'static str {
+    static TEXT: OnceLock<String> = OnceLock::new();
+    TEXT.get_or_init(|| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.dichroscope");
+        let mut application = Application::new(Executor::Inline, || ()).unwrap();
+        application.apply(JobCommand::Open(Origin::Sample("cups3_yellow".to_owned())));
+        application.apply(JobCommand::Export(ExportKind::Workspace.to(path.clone())));
+        assert!(Workspace::load(&path).is_ok());
+        std::fs::read_to_string(path).unwrap()
+    })
+}
+
+/// The report of a small picture.
+fn intact_report() -> &'static str {
+    static TEXT: OnceLock<String> = OnceLock::new();
+    TEXT.get_or_init(|| {
+        let tiny = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/tiny/camera8.png");
+        let photo = dichroscope::photo::read(&tiny, &ReadOptions::default()).unwrap();
+        let params = Params::default();
+        let analysis = Session::new(Arc::new(photo.image.clone())).run(&params, &mut ()).unwrap();
+        let report = Report::new(ImageFacts::of(&photo, &"0".repeat(64)), &params, &analysis, &[]);
+        report.to_json().unwrap()
+    })
+}
+
+proptest! {
+    #![proptest_config(cases(1000))]
+
+    #[test]
+    fn any_change_of_parameters(changes in vec((any::<prop::sample::Index>(), any::<u8>()), 1..8)) {
+        let text = String::from_utf8_lossy(&changed(PARAMETERS.as_bytes(), &changes)).into_owned();
+        if let Ok(params) = toml::from_str::<Params>(&text) {
+            let _ = params.validate();
+        }
+    }
+
+    #[test]
+    fn any_change_of_a_workspace_or_report(
+        changes in vec((any::<prop::sample::Index>(), any::<u8>()), 0..8),
+        report in any::<bool>(),
+    ) {
+        let text = if report { intact_report() } else { intact_workspace() };
+        let bytes = changed(text.as_bytes(), &changes);
+        if report {
+            let _ = Report::from_json(&bytes);
+        } else {
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("a.dichroscope");
+            std::fs::write(&path, bytes).unwrap();
+            let _ = Workspace::load(&path);
+        }
     }
 }
 

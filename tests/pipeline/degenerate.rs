@@ -2,9 +2,13 @@
 
 use crate::common::{METHODS, analyze, assert_valid, faults, picture};
 use crate::synthetic::{Random, Scene};
+use dichroscope::analysis::{Analysis, Session};
 use dichroscope::params::{Method, Parameter, Params, Setting, Switch};
 use dichroscope::photo::LinearImage;
+use dichroscope::raster::{HypothesisId, RegionId};
+use dichroscope::trace::Replay;
 use proptest::prelude::*;
+use std::sync::Arc;
 
 fn noise(width: usize, height: usize, seed: u64) -> LinearImage {
     let mut random = Random::new(seed);
@@ -179,13 +183,41 @@ fn any_params() -> impl Strategy<Value = Params> {
     )
 }
 
+/// More cases where a whole night is free.
+fn cases() -> u32 {
+    if std::env::var_os("DICHROSCOPE_LONG_TESTS").is_some() { 100_000 } else { 512 }
+}
+
+/// The fault of a recorded run, if there is one: another result than without a record, or a replay that ends in another.
+fn fault_of_record(image: &LinearImage, params: &Params, plain: &Analysis) -> Option<&'static str> {
+    let (analysis, trace) = Session::new(Arc::new(image.clone())).run_traced(params, &mut ()).ok()?;
+    if analysis.finals.labels != plain.finals.labels || analysis.intrinsic.body != plain.intrinsic.body {
+        return Some("recording changes the result");
+    }
+    let mut replay = Replay::new(Arc::new(trace));
+    let end = replay.trace().len();
+    replay.seek(end);
+    let finals = replay.labels().map(|&label| {
+        RegionId::label(HypothesisId::from_label(label).and_then(|hypothesis| replay.region_of(hypothesis)))
+    });
+    (finals != analysis.working_finals.labels).then_some("the replay ends in another result")
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(512))]
+    #![proptest_config(ProptestConfig::with_cases(cases()))]
 
     #[test]
-    fn any_small_picture_with_any_parameters_gives_a_valid_result(image in small_picture(), params in any_params()) {
+    fn any_small_picture_with_any_parameters_gives_a_valid_result(
+        image in small_picture(),
+        params in any_params(),
+        recorded in any::<bool>(),
+    ) {
         prop_assert!(params.validate().is_ok());
-        let faults = faults(&image, &analyze(&image, &params));
+        let analysis = analyze(&image, &params);
+        let faults = faults(&image, &analysis);
         prop_assert!(faults.is_empty(), "{:?}", faults);
+        if recorded {
+            prop_assert_eq!(fault_of_record(&image, &params, &analysis), None);
+        }
     }
 }
