@@ -6,11 +6,11 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dichroscope::describe::{Names, schema_line, trace_line};
+use dichroscope::export::PartFile;
 use dichroscope::raster::{HypothesisId, PixelIndex, RegionId};
 use dichroscope::segment::FinalRegions;
 use dichroscope::trace::{Stage, Step, lineage};
 use std::collections::BTreeSet;
-use std::fs::File;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -63,15 +63,32 @@ fn trace(arguments: &Arguments) -> Result<Outcome> {
         // A closed pipe (`| head`) is no failure.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(Outcome::Done),
         Err(error) => {
-            note(&format!("{}: {error}", arguments.out.display()));
+            let name = if is_standard_output(&arguments.out) {
+                "standard output".to_owned()
+            } else {
+                arguments.out.display().to_string()
+            };
+            note(&format!("{name}: cannot be written: {error}"));
             Ok(Outcome::SomeFailed)
         }
     }
 }
 
+/// Writes the lines to standard output, or to a file that appears as a whole.
 fn write(traced: &Traced, wanted: &StepFilter, path: &Path) -> io::Result<()> {
-    let target: Box<dyn Write> =
-        if path == Path::new("-") { Box::new(io::stdout().lock()) } else { Box::new(File::create(path)?) };
+    if is_standard_output(path) {
+        return write_lines(traced, wanted, io::stdout().lock());
+    }
+    let mut file = PartFile::begin(path)?;
+    write_lines(traced, wanted, &mut file)?;
+    file.publish()
+}
+
+fn is_standard_output(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+fn write_lines(traced: &Traced, wanted: &StepFilter, target: impl Write) -> io::Result<()> {
     let mut target = BufWriter::with_capacity(1 << 16, target);
     let trace = &traced.trace;
     let names = Names::of(trace);

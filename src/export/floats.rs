@@ -31,9 +31,9 @@ fn write<const N: usize>(
     let channels = AnyChannels::sort(channels.into_iter().collect());
     let layer = Layer::new(size, LayerAttributes::default(), Encoding::SMALL_LOSSLESS, channels);
     // The files of a result are written in parallel already, so that more threads within a file would gain nothing.
-    Image::from_layer(layer)
-        .write()
-        .non_parallel()
-        .to_file(path)
-        .map_err(|source| ExportError::Exr { path: path.to_owned(), source })
+    Image::from_layer(layer).write().non_parallel().to_file(path).map_err(|source| match source {
+        // An error of the system is reported as that of any other file.
+        exr::error::Error::Io(source) => ExportError::Io { path: path.to_owned(), source },
+        source => ExportError::Exr { path: path.to_owned(), source },
+    })
 }

@@ -25,13 +25,13 @@ pub(crate) use palette::Palette;
 pub use pictures::write_pictures;
 pub(crate) use png::{png_of_gray, png_of_rgba};
 pub use result::{ResultError, is_result_folder, read_report};
-pub use single::write_file;
+pub use single::{PartFile, write_file};
 pub(crate) use stages::colored;
 use staging::Staging;
 pub use staging::check_target;
 pub use whole::{Watch, WholeResult};
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why a result could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -81,4 +81,23 @@ pub enum ExportError {
     /// The target exists and is a file.
     #[error("{} is a file: a result needs a folder", .0.display())]
     NotAFolder(PathBuf),
+}
+
+impl ExportError {
+    /// The error with the files of the folder `hidden` named as files of `target`, which they would have become.
+    fn named_in(mut self, hidden: &Path, target: &Path) -> Self {
+        match &mut self {
+            Self::Io { path, .. }
+            | Self::Png { path, .. }
+            | Self::Exr { path, .. }
+            | Self::Json { path, .. }
+            | Self::Matte(MatteError::Encode { path, .. } | MatteError::Write { path, .. }) => {
+                if let Ok(rest) = path.strip_prefix(hidden) {
+                    *path = target.join(rest);
+                }
+            }
+            _ => {}
+        }
+        self
+    }
 }

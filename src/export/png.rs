@@ -68,8 +68,11 @@ fn write(
     bytes: &[u8],
 ) -> Result<(), ExportError> {
     let file = File::create(path).map_err(|source| ExportError::Io { path: path.to_owned(), source })?;
-    encode(BufWriter::new(file), size, sample_type, bytes)
-        .map_err(|source| ExportError::Png { path: path.to_owned(), source })
+    encode(BufWriter::new(file), size, sample_type, bytes).map_err(|source| match source {
+        // An error of the system is reported as that of any other file.
+        EncodingError::IoError(source) => ExportError::Io { path: path.to_owned(), source },
+        source => ExportError::Png { path: path.to_owned(), source },
+    })
 }
 
 fn encode(

@@ -75,8 +75,7 @@ impl WholeResult<'_> {
                 Ok::<(), ExportError>(())
             },
         );
-        pictures?;
-        matte?;
+        pictures.and(matte).map_err(|error| error.named_in(folder, target))?;
         // The duration is in milliseconds with a resolution of one microsecond.
         report.timings_ms.write = Some(begin.elapsed().as_micros() as f64 / 1e3);
         staging.publish(choice.has(describe::FILE_NAME).then_some(&report))?;

@@ -305,7 +305,8 @@ fn what_cannot_be_written_leaves_the_earlier_result() {
     let output = Command::new("sh").args(["-c", &call]).current_dir(work.path("")).output().unwrap();
     let err = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(1), "{err}");
-    assert!(err.starts_with("a.png: cannot write "), "{err}");
+    assert!(err.starts_with("a.png: cannot write out/a/"), "{err}");
+    assert_eq!(err.matches("File too large").count(), 1, "{err}");
     assert_eq!(
         (work.list("out"), fs::read(work.path("out/a/report.json")).unwrap()),
         (vec!["a".to_owned()], before)
