@@ -1,6 +1,9 @@
-//! Interruption by Ctrl-C, or by the signals that ask a program to end (SIGINT, SIGTERM, SIGHUP).
+//! Interruption by the signals that ask a program to end: SIGINT (Ctrl-C) and SIGTERM. SIGHUP is left alone, so that `nohup`
+//! works.
 
 use anyhow::{Context, Result};
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -15,13 +18,12 @@ impl Interrupt {
     /// Listens to the signals from now on. The second signal ends the program at once.
     pub(super) fn listen() -> Result<Self> {
         let interrupt = Self::default();
-        let heard = interrupt.clone();
-        let handler = move || {
-            if heard.0.swap(true, Ordering::Relaxed) {
-                std::process::exit(i32::from(EXIT_CODE));
-            }
-        };
-        ctrlc::set_handler(handler).context("cannot listen to signals")?;
+        for signal in [SIGINT, SIGTERM] {
+            // In this order the first signal finds the flag unset, and the second one ends the program.
+            flag::register_conditional_shutdown(signal, i32::from(EXIT_CODE), Arc::clone(&interrupt.0))
+                .and_then(|_| flag::register(signal, Arc::clone(&interrupt.0)))
+                .context("cannot listen to signals")?;
+        }
         Ok(interrupt)
     }
 

@@ -22,14 +22,30 @@ pub(in crate::photo::decode) enum Color {
     FromYcbcr,
 }
 
-/// The samples of all components in full resolution, pixel by pixel. `header` is the one of `bytes`.
+/// The decoded samples of a JPEG.
+#[derive(Debug)]
+pub(in crate::photo::decode) struct JpegSamples {
+    /// The samples of all components in full resolution, pixel by pixel.
+    pub data: Vec<u8>,
+    /// Whether the library filled in what it could not decode.
+    pub is_patched: bool,
+}
+
+/// The samples of the JPEG `bytes`, whose markers say `header`.
 pub(in crate::photo::decode) fn samples(
     bytes: &[u8],
     header: &Header,
     color: Color,
-) -> Result<Vec<u8>, Fault> {
-    let data = match with_zune(bytes, header, color) {
-        Some(data) => data?,
+) -> Result<JpegSamples, Fault> {
+    let mut is_patched = false;
+    let data = match with_zune(bytes, header, color, true) {
+        Some(Ok(data)) => data,
+        Some(Err(_)) => {
+            // Without the strict mode, the library accepts deviations from the standard, and fills in missing data.
+            is_patched = true;
+            let patched = with_zune(bytes, header, color, false);
+            patched.unwrap_or_else(|| Err(Fault::damaged("it cannot be decoded")))?
+        }
         None if is_right_in_jpeg_decoder(header) => with_jpeg_decoder(bytes, color)?,
         None => {
             return Err(Fault::unsupported(
@@ -41,17 +57,19 @@ pub(in crate::photo::decode) fn samples(
     if data.len() != header.width as usize * header.height as usize * header.components.len() {
         return Err(Fault::damaged("its pixels do not fill its size"));
     }
-    Ok(data)
+    Ok(JpegSamples { data, is_patched })
 }
 
 /// Decodes with zune-jpeg; `None` where its pixels would be wrong.
-fn with_zune(bytes: &[u8], header: &Header, color: Color) -> Option<Result<Vec<u8>, Fault>> {
+fn with_zune(bytes: &[u8], header: &Header, color: Color, strict: bool) -> Option<Result<Vec<u8>, Fault>> {
     if !is_right_in_zune(header) {
         return None;
     }
-    // The sizes were checked before. Without the strict mode, harmless deviations from the standard are accepted.
-    let options =
-        DecoderOptions::default().set_strict_mode(false).set_max_width(usize::MAX).set_max_height(usize::MAX);
+    // The sizes were checked before.
+    let options = DecoderOptions::default()
+        .set_strict_mode(strict)
+        .set_max_width(usize::MAX)
+        .set_max_height(usize::MAX);
     let mut decoder = zune_jpeg::JpegDecoder::new_with_options(ZCursor::new(bytes), options);
     if let Err(error) = decoder.decode_headers() {
         return Some(Err(Fault::damaged(error)));

@@ -207,7 +207,11 @@ fn jpeg_samples(page: &Page, stored: &[u8], rows: usize) -> Result<Vec<u8>, Faul
         return Err(Fault::damaged("its JPEG data do not fit its strips or tiles"));
     }
     let is_ycbcr = page.photometric == photometric::YCBCR;
-    jpeg::samples(&stream, &header, if is_ycbcr { Color::FromYcbcr } else { Color::AsStored })
+    let samples = jpeg::samples(&stream, &header, if is_ycbcr { Color::FromYcbcr } else { Color::AsStored })?;
+    if samples.is_patched {
+        return Err(Fault::damaged("its JPEG data are broken"));
+    }
+    Ok(samples.data)
 }
 
 #[cfg(test)]
