@@ -1,6 +1,6 @@
 //! `dichroscope analyze`: photographs to result folders.
 
-use super::batch::Work;
+use super::batch::{Options, Work};
 use super::inputs::{self, Job};
 use super::interrupt::Interrupt;
 use super::lines::Lines;
@@ -26,19 +26,19 @@ pub struct Arguments {
     inputs: Vec<PathBuf>,
     /// Folder for the results, one folder per photograph
     #[arg(long, value_name = "DIR")]
-    pub(super) out: PathBuf,
+    out: PathBuf,
     /// Of searched folders, only files whose name or relative path matches
     #[arg(long = "match", value_name = "GLOB", value_parser = inputs::parse_pattern)]
     pattern: Option<GlobMatcher>,
     /// Compare with a ground truth folder, or with those found under it by the results' names
     #[arg(long, value_name = "DIR")]
-    pub(super) truth: Option<PathBuf>,
+    truth: Option<PathBuf>,
     /// Analyze only the pixels of the photographs that this picture of the same size shows as not black
     #[arg(long, value_name = "MASK", value_parser = place::parser())]
     area: Option<PathBuf>,
     /// Share of the surface reflection that the matte picture keeps: 0 none of it, 1 all
     #[arg(long, value_name = "SHARE", value_parser = share, default_value_t = 0.0)]
-    pub(super) keep_surface: f64,
+    keep_surface: f64,
     /// Write only these files of each result, separated by commas, as in body.exr,matte,report.json
     #[arg(long, value_name = "NAMES", value_parser = files)]
     files: Option<FileChoice>,
@@ -47,10 +47,10 @@ pub struct Arguments {
     npy: bool,
     /// Replace existing folders even if they are no earlier results
     #[arg(long)]
-    pub(super) force: bool,
+    force: bool,
     /// Analyze photographs again whose results are there already
     #[arg(long)]
-    pub(super) again: bool,
+    again: bool,
     /// Number of photographs that are analyzed at the same time: more need more memory [default: 4, or one per thread]
     #[arg(long, value_name = "N", value_parser = super::parse_threads)]
     jobs: Option<NonZeroUsize>,
@@ -62,7 +62,7 @@ pub struct Arguments {
     threads: Option<NonZeroUsize>,
     /// Say nothing but errors
     #[arg(long, short)]
-    pub(super) quiet: bool,
+    quiet: bool,
     #[command(flatten)]
     settings: Settings,
     #[command(flatten)]
@@ -90,8 +90,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
     let files = arguments.files();
     let settings = settings_of(arguments, &params, area.as_ref(), &files)?;
     let lines = is_batch.then(|| Lines::in_folder(&arguments.out, arguments.shard));
-    let work =
-        Work { arguments, params, area, reading, files, settings, lines, interrupt: Interrupt::listen()? };
+    let (options, interrupt) = (arguments.options(), Interrupt::listen()?);
+    let work = Work { options, params, area, reading, files, settings, lines, interrupt };
     for job in &found.list {
         check_target(&work.target(job), work.may_replace(job))?;
     }
@@ -104,6 +104,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
 }
 
 impl Arguments {
+    fn options(&self) -> Options {
+        Options {
+            out: self.out.clone(),
+            truth: self.truth.clone(),
+            keep_surface: self.keep_surface,
+            force: self.force,
+            again: self.again,
+            quiet: self.quiet,
+        }
+    }
+
     fn files(&self) -> FileChoice {
         let chosen = self.files.clone().unwrap_or_default();
         if self.npy { chosen.with_arrays() } else { chosen }

@@ -1,6 +1,5 @@
 //! Many photographs: some at a time, each whole or not at all, and a line for each.
 
-use super::analyze::Arguments;
 use super::inputs::{Job, parent_name};
 use super::interrupt::Interrupt;
 use super::lines::{Line, Lines, Status};
@@ -19,9 +18,24 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+/// Where the results of a call go, and how the call treats what is there.
+pub(super) struct Options {
+    pub(super) out: PathBuf,
+    /// Folder of ground truth.
+    pub(super) truth: Option<PathBuf>,
+    /// Share of the surface reflection that the matte picture keeps, 0…1.
+    pub(super) keep_surface: f64,
+    /// Whether folders that are no earlier results may be replaced.
+    pub(super) force: bool,
+    /// Whether photographs are analyzed again whose results are there.
+    pub(super) again: bool,
+    /// Whether nothing but errors is said.
+    pub(super) quiet: bool,
+}
+
 /// What all photographs of one call have in common.
-pub(super) struct Work<'a> {
-    pub(super) arguments: &'a Arguments,
+pub(super) struct Work {
+    pub(super) options: Options,
     pub(super) params: Params,
     pub(super) area: Option<Area>,
     pub(super) reading: ReadOptions,
@@ -50,7 +64,7 @@ struct Tally {
     failed: Vec<String>,
 }
 
-impl Work<'_> {
+impl Work {
     /// Analyzes the photographs, `at_once` at a time, in the threads of `pool`.
     pub(super) fn run(self, jobs: &[Job], at_once: usize, pool: &ThreadPool) -> Result<Outcome> {
         let bar = self.progress_bar(jobs.len());
@@ -101,7 +115,7 @@ impl Work<'_> {
         {
             ended = Ended::Failed(format!("{file}: {error:#}"));
         }
-        let quiet = self.arguments.quiet;
+        let quiet = self.options.quiet;
         let text = match &ended {
             Ended::Done(finished) if !quiet => Some(self.summary(job, finished)),
             Ended::Unchanged if !quiet => {
@@ -123,7 +137,7 @@ impl Work<'_> {
     }
 
     fn progress_bar(&self, jobs: usize) -> ProgressBar {
-        if self.arguments.quiet || jobs < 2 || !std::io::stderr().is_terminal() {
+        if self.options.quiet || jobs < 2 || !std::io::stderr().is_terminal() {
             return ProgressBar::hidden();
         }
         let style = ProgressStyle::with_template("{bar:40} {pos}/{len}  {eta} left");
@@ -131,13 +145,13 @@ impl Work<'_> {
     }
 
     pub(super) fn target(&self, job: &Job) -> PathBuf {
-        self.arguments.out.join(&job.name)
+        self.options.out.join(&job.name)
     }
 
     /// Whether whatever is in the place of a result may be replaced: as asked for, or because an earlier call wrote it.
     pub(super) fn may_replace(&self, job: &Job) -> bool {
         let earlier = self.lines.as_ref().and_then(|lines| lines.earlier(&job.name));
-        self.arguments.force || earlier.is_some_and(|line| line.status == Status::Done)
+        self.options.force || earlier.is_some_and(|line| line.status == Status::Done)
     }
 
     fn analyze(&self, job: &Job) -> Ended {
@@ -156,18 +170,18 @@ impl Work<'_> {
     fn read_and_write(&self, job: &Job) -> Result<Ended> {
         // The errors of reading name the file already.
         let file = RawFile::read(&job.input)?;
-        if !self.arguments.again && self.is_done(job, &file.sha256()) {
+        if !self.options.again && self.is_done(job, &file.sha256()) {
             return Ok(Ended::Unchanged);
         }
         let shot = file.decode(&self.reading)?;
         let compared = || -> Result<Finished> {
             let reference =
-                self.arguments.truth.as_deref().map(|root| self.reference(root, job)).transpose()?;
+                self.options.truth.as_deref().map(|root| self.reference(root, job)).transpose()?;
             let plan = Plan {
                 params: &self.params,
                 area: self.area.as_ref(),
                 reference: reference.as_ref(),
-                keep_surface: self.arguments.keep_surface,
+                keep_surface: self.options.keep_surface,
                 force: self.may_replace(job),
                 files: &self.files,
                 interrupt: &self.interrupt,
