@@ -102,7 +102,7 @@ fn bands_that_are_not_colors_are_left_out_with_a_warning() {
     };
     let five = read_page(&bands(vec![8; 5], 1, &[82, 1, 2, 3, 4]));
     assert_eq!(pixels(&five), gray(&[82.0]));
-    assert_eq!(five.warnings, ["the TIFF holds 5 bands: only the first are read"]);
+    assert_eq!(five.warnings, ["the TIFF holds 5 bands: only the first is read"]);
     let infrared = read_page(&bands(vec![8; 4], 2, &[1, 2, 3, 99]));
     assert_eq!((pixels(&infrared)[0], infrared.source.layout), ([1.0, 2.0, 3.0], Layout::Rgb));
     assert_eq!(infrared.warnings, ["the TIFF holds 4 bands: only red, green and blue are read"]);

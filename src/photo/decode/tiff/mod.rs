@@ -58,7 +58,7 @@ fn picture(page: &Page, warnings: &mut Vec<String>) -> Result<Decoded, Fault> {
     let size = (page.width, page.height);
     let mut decoded = match page.photometric {
         photometric::PALETTE => {
-            warn_of_bands(page, 1, "the index of its palette", warnings);
+            warn_of_bands(page, 1, "the index of its palette is", warnings);
             let (samples, eight_bits) = palette::look_up(page)?;
             if eight_bits {
                 warnings.push("the TIFF's color map ends at 255 instead of 65535: read as 8 bits".into());
@@ -66,7 +66,7 @@ fn picture(page: &Page, warnings: &mut Vec<String>) -> Result<Decoded, Fault> {
             Decoded::plain(size, Layout::Rgb, samples)
         }
         photometric::YCBCR if page.compression != compression::JPEG => {
-            warn_of_bands(page, 3, "red, green and blue", warnings);
+            warn_of_bands(page, 3, "red, green and blue are", warnings);
             Decoded::plain(size, Layout::Rgb, Samples::U8(ycbcr::samples(page)?))
         }
         _ => of_bands(page, warnings)?,
@@ -88,10 +88,10 @@ fn of_bands(page: &Page, warnings: &mut Vec<String>) -> Result<Decoded, Fault> {
     let mut channels: Vec<usize> = (0..colors).collect();
     channels.extend(alpha.map(|at| colors + at));
     let names = match (is_gray, alpha.is_some()) {
-        (true, false) => "the first",
-        (true, true) => "the first and alpha",
-        (false, false) => "red, green and blue",
-        (false, true) => "red, green, blue and alpha",
+        (true, false) => "the first is",
+        (true, true) => "the first and alpha are",
+        (false, false) => "red, green and blue are",
+        (false, true) => "red, green, blue and alpha are",
     };
     warn_of_bands(page, channels.len(), names, warnings);
     let layout = match (is_gray, alpha.is_some()) {
@@ -114,7 +114,7 @@ fn joined<T: Copy>(bands: [&[T]; 3]) -> Vec<T> {
 
 fn warn_of_bands(page: &Page, read: usize, names: &str, warnings: &mut Vec<String>) {
     if page.bands > read {
-        warnings.push(format!("the TIFF holds {} bands: only {names} are read", page.bands));
+        warnings.push(format!("the TIFF holds {} bands: only {names} read", page.bands));
     }
 }
 
