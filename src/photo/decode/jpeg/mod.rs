@@ -1,7 +1,7 @@
 //! Decoder of JPEG (ITU-T T.81): baseline and progressive, gray and RGB, of 8 bits and any sampling.
 //!
 //! The decoding libraries fill missing data with gray, so this decoder first checks that the file is complete. The markers
-//! also say which of two libraries decodes the file rightly, see [`samples`].
+//! also say which of two libraries decodes the file rightly, see the module `samples`.
 
 mod header;
 mod samples;
