@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// Options of an export. Each kind of export reads the options that it needs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ExportOptions {
-    /// Share of the surface reflection that stays in the photograph without highlights, 0…1.
+    /// Share of the surface reflection that stays in the photograph without highlights, also in the folder of a result, 0…1.
     pub keep_surface: f64,
     /// Whether a folder that is no earlier result may be replaced.
     pub force: bool,
@@ -31,6 +31,8 @@ pub(super) struct ExportInput {
     pub(super) picture: Option<Arc<Picture>>,
     pub(super) shown: Option<Arc<ResultSnapshot>>,
     pub(super) pinned: Option<Arc<ResultSnapshot>>,
+    /// Whether an analysis is under way.
+    pub(super) is_analyzing: bool,
     pub(super) document: Document,
     /// The settings of the image view.
     pub(super) image: ImageSettings,
@@ -47,6 +49,7 @@ impl ExportInput {
             picture: state.picture.clone(),
             shown: state.shown().cloned(),
             pinned: state.pinned.clone(),
+            is_analyzing: state.jobs.analysis.is_some(),
             document: state.document.clone(),
             image: state.view.image.clone(),
             selected_region: state.selected_region(),

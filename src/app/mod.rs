@@ -33,7 +33,7 @@ pub use command::{Combine, Command, Edit, JobCommand, ViewCommand};
 pub use command_line::analyze_call;
 pub use debugger::{
     Breakpoint, CandidateCheck, Condition, DebugCommand, DebugSettings, Debugger, Difference, Direction,
-    Goal, Grain, SavedClass,
+    Goal, SavedClass, StepUnit,
 };
 pub use document::{Document, Gesture, History};
 pub use effect::Effect;

@@ -77,11 +77,13 @@ pub(super) fn layer(path: &Path, _: &ExportOptions, input: &ExportInput) -> Resu
 
 /// A picture that a view has drawn.
 pub(super) fn drawn(path: &Path, options: &ExportOptions, _: &ExportInput) -> Result<Contents, String> {
-    let empty = || format!("{}: the picture is empty", path.display());
-    let DrawnPicture { size, rgba } = options.drawn.as_ref().ok_or_else(empty)?;
+    let DrawnPicture { size, rgba } = options
+        .drawn
+        .as_ref()
+        .ok_or_else(|| format!("{}: no view was drawn; export the view again", path.display()))?;
     let bytes = png_of_rgba(*size, rgba);
     if bytes.is_empty() {
-        return Err(empty());
+        return Err(format!("{}: the drawn picture has no pixels; choose a larger size", path.display()));
     }
     Ok(file(path, bytes, &format!("a picture of {} \u{d7} {} pixels", size[0], size[1])))
 }
@@ -109,32 +111,65 @@ fn shown(input: &ExportInput) -> Result<&ResultSnapshot, String> {
     picture(input)?;
     match input.shown.as_deref() {
         Some(shown) if shown.stale_from.is_none() => Ok(shown),
-        _ => {
+        _ if input.is_analyzing => {
             Err("nothing to export yet: the analysis is still under way; try again when it has ended".into())
         }
+        _ => Err("nothing to export: the analysis gave no result; change a parameter to run it again".into()),
     }
 }
 
 /// The photograph without its highlights, or with a share of them.
-pub(super) fn matte(path: &Path, options: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
+pub(super) fn matte(
+    given_path: &Path,
+    options: &ExportOptions,
+    input: &ExportInput,
+) -> Result<Contents, String> {
     let (shown, keep_surface) = (shown(input)?, options.keep_surface);
     let (extension, bytes) = matte_bytes(&shown.picture.photo, &shown.analysis.intrinsic, keep_surface)
         .map_err(|error| error_chain(&error))?;
     // The format is the photograph's own, or a format that can hold the photograph's values.
-    let fits = |given: &str| match extension {
-        "jpg" => ["jpg", "jpeg"].contains(&given),
-        "tif" => ["tif", "tiff"].contains(&given),
-        other => other == given,
-    };
-    let given = extension_of(path);
-    let path = if fits(&given) { path.to_owned() } else { path.with_extension(extension) };
-    let kept = (keep_surface.clamp(0.0, 1.0) * 100.0).round();
-    let what = if kept > 0.0 {
-        format!("the photograph with {kept} % of its surface reflection")
-    } else {
-        "the photograph without highlights".to_owned()
+    let path = with_fitting_extension(given_path, extension);
+    if path != given_path && path.exists() {
+        return Err(format!(
+            "{}: exists, and the picture would be written there because its format is {extension}; choose another name",
+            path.display()
+        ));
+    }
+    let what = match percent_kept(keep_surface) {
+        None => "the photograph without highlights".to_owned(),
+        Some(percent) => format!("the photograph with {percent} % of its surface reflection"),
     };
     Ok(Contents { path, bytes, what })
+}
+
+/// The share of the surface reflection that is kept, percent with at most three decimals; none where nothing is kept.
+fn percent_kept(keep_surface: f64) -> Option<f64> {
+    let share = keep_surface.clamp(0.0, 1.0);
+    // A share above 0 is never named 0 %.
+    (share > 0.0).then(|| ((share * 1e5).round() / 1e3).max(1e-3))
+}
+
+/// `path` with an extension that names the format `format` (`jpg`, `tif` or `png`). The extension of another picture format is
+/// replaced. Any other extension belongs to the name, and the format's extension is appended.
+fn with_fitting_extension(path: &Path, format: &str) -> PathBuf {
+    const PICTURES: [&str; 14] =
+        ["bmp", "exr", "hdr", "jpeg", "jpg", "pbm", "pgm", "png", "pnm", "ppm", "qoi", "tif", "tiff", "webp"];
+    let given = extension_of(path);
+    let fits = match format {
+        "jpg" => ["jpg", "jpeg"].contains(&given.as_str()),
+        "tif" => ["tif", "tiff"].contains(&given.as_str()),
+        other => other == given,
+    };
+    if fits {
+        path.to_owned()
+    } else if PICTURES.contains(&given.as_str()) {
+        path.with_extension(format)
+    } else {
+        let mut name = path.as_os_str().to_owned();
+        name.push(".");
+        name.push(format);
+        PathBuf::from(name)
+    }
 }
 
 /// The selected pixels: a mask (`.png`), a table (`.csv`) or points (`.ply`).
@@ -170,14 +205,19 @@ pub(super) fn result(
     report_progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<String, String> {
     let shown = shown(input)?;
-    let report = report(shown)?;
-    let whole = WholeResult { photo: &shown.picture.photo, analysis: &shown.analysis, keep_surface: 0.0 };
+    let (report, keep_surface) = (report(shown)?, options.keep_surface);
+    let whole = WholeResult { photo: &shown.picture.photo, analysis: &shown.analysis, keep_surface };
     let goes_on = |done, total| {
         report_progress(done, total);
         !stop.stopped()
     };
     match whole.write(report, folder, options.force, &goes_on) {
-        Ok(_) => Ok(format!("wrote the result to {}", folder.display())),
+        Ok(_) => {
+            let kept = percent_kept(keep_surface).map_or_else(String::new, |percent| {
+                format!(", its matte picture with {percent} % of the surface reflection")
+            });
+            Ok(format!("wrote the result to {}{kept}", folder.display()))
+        }
         Err(ExportError::Stopped) => Ok(stopped(folder)),
         Err(ExportError::Occupied(folder)) => Err(format!(
             "{} holds something else than an earlier result: choose another folder, or let it be replaced",

@@ -1,6 +1,6 @@
 //! What keys, menus and buttons do: the vocabulary that shortcuts, menus, toolbars and panels share.
 
-use crate::app::{Direction, Grain};
+use crate::app::{Direction, StepUnit};
 use crate::view::{Layer, Tool};
 
 /// What a key or a menu does.
@@ -52,7 +52,7 @@ pub enum DebugAction {
     /// Play in this direction, or stop playing.
     Play(Direction),
     /// Move the cursor by one unit.
-    Step(Grain, Direction),
+    Step(StepUnit, Direction),
     /// Move the cursor before the first step.
     Start,
     /// Move the cursor to the end, the result.

@@ -128,18 +128,9 @@ impl Dialogs {
         }
         ui.add_space(4.0);
         match self.kind {
-            ExportKind::Matte => {
-                ui.spacing_mut().slider_width = 200.0;
-                let slider = egui::Slider::new(&mut self.options.keep_surface, 0.0..=1.0)
-                    .text("surface reflection kept");
-                ui.add(slider.custom_formatter(|v, _| format!("{:.0} %", v * 100.0)).custom_parser(|text| {
-                    text.trim_end_matches(['%', ' ']).parse::<f64>().ok().map(|percent| percent / 100.0)
-                }))
-                .on_hover_text(
-                    "0 %: no highlights. 100 %: the photograph as it was, but for restored pixels.",
-                );
-            }
+            ExportKind::Matte => self.surface_slider(ui),
             ExportKind::Result => {
+                self.surface_slider(ui);
                 ui.checkbox(&mut self.options.force, "replace the folder whatever it holds").on_hover_text(
                     "An earlier result is replaced anyway; this replaces any other folder too.",
                 );
@@ -160,6 +151,17 @@ impl Dialogs {
             _ => {}
         }
         ui.add_space(4.0);
+    }
+
+    /// Shows the slider of the share of surface reflection that stays in the photograph without highlights.
+    fn surface_slider(&mut self, ui: &mut Ui) {
+        ui.spacing_mut().slider_width = 200.0;
+        let slider =
+            egui::Slider::new(&mut self.options.keep_surface, 0.0..=1.0).text("surface reflection kept");
+        ui.add(slider.custom_formatter(|v, _| format!("{:.0} %", v * 100.0)).custom_parser(|text| {
+            text.trim_end_matches(['%', ' ']).parse::<f64>().ok().map(|percent| percent / 100.0)
+        }))
+        .on_hover_text("0 %: no highlights. 100 %: the photograph as it was, but for restored pixels.");
     }
 
     /// Shows the path's field and the buttons. Returns whether the dialog was confirmed.

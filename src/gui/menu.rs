@@ -6,7 +6,7 @@ use super::files::{Dialog, Dialogs};
 use super::move_cursor::{move_cursor, selected_goal};
 use super::shortcuts::keys_of;
 use super::{PanelContext, status};
-use crate::app::{Edit, Grain, JobCommand, ViewCommand, analyze_call};
+use crate::app::{Edit, JobCommand, StepUnit, ViewCommand, analyze_call};
 use crate::params::{Method, Preset};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::truth::sample::SAMPLES;
@@ -183,10 +183,10 @@ fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
     row(ui, back, DebugAction::Play(Back), traced);
     row(ui, "Into the next hypothesis", DebugAction::Into, traced);
     ui.separator();
-    for grain in [Grain::Stage, Grain::Hypothesis, Grain::Event, Grain::Claim] {
+    for unit in [StepUnit::Stage, StepUnit::Hypothesis, StepUnit::Event, StepUnit::Step] {
         for (direction, text) in [(Forward, "forward"), (Back, "back")] {
-            let text = format!("{} {text}", capitalized(grain.name()));
-            row(ui, &text, DebugAction::Step(grain, direction), traced);
+            let text = format!("{} {text}", capitalized(unit.name()));
+            row(ui, &text, DebugAction::Step(unit, direction), traced);
         }
     }
     row(ui, "To the beginning", DebugAction::Start, traced);

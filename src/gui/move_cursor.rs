@@ -15,7 +15,7 @@ pub fn move_cursor(action: DebugAction, cx: &mut PanelContext) {
                 state.debugger.playing.is_some_and(|playing| playing == direction || direction == Forward);
             DebugCommand::Play((!stops).then_some(direction))
         }
-        DebugAction::Step(grain, direction) => DebugCommand::Step(grain, direction),
+        DebugAction::Step(unit, direction) => DebugCommand::Step(unit, direction),
         DebugAction::Start => DebugCommand::Seek(0),
         DebugAction::End => DebugCommand::Seek(usize::MAX),
         DebugAction::Into => DebugCommand::Into,

@@ -13,17 +13,18 @@ pub enum Direction {
     Back,
 }
 
-/// The unit of a move of the cursor.
+/// The unit of a move of the cursor. The variants stand in the order of their lengths, the shortest first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Grain {
-    /// A single step: a pixel's claim, a window's class.
-    Claim,
-    /// To the next decision that is more than a pixel.
+pub enum StepUnit {
+    /// One step of the trace: a change of a pixel's owner, or an event such as the class of a window.
+    #[serde(rename = "Claim")]
+    Step,
+    /// All steps up to the next event, that is the next decision about more than one pixel.
     Event,
-    /// A ring of a region's growth.
+    /// All pixels at the same distance, in claims, from the pixels with which the region of a block began to grow.
     #[default]
     Ring,
-    /// A hypothesis, a slice, a region's candidates.
+    /// A block of the trace: a hypothesis, a slice, or the highlight candidates of a region.
     Hypothesis,
     /// A pass: a part of a stage.
     Pass,
@@ -31,15 +32,15 @@ pub enum Grain {
     Stage,
 }
 
-impl Grain {
+impl StepUnit {
     /// All units, finest first.
     pub const ALL: [Self; 6] =
-        [Self::Claim, Self::Event, Self::Ring, Self::Hypothesis, Self::Pass, Self::Stage];
+        [Self::Step, Self::Event, Self::Ring, Self::Hypothesis, Self::Pass, Self::Stage];
 
     /// The unit's name in menus.
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Claim => "claim",
+            Self::Step => "claim",
             Self::Event => "event",
             Self::Ring => "ring",
             Self::Hypothesis => "hypothesis",
@@ -60,28 +61,28 @@ pub enum Goal {
     Hypothesis(HypothesisId),
     /// The next breakpoint.
     Breakpoint,
-    /// After this many steps, or a breakpoint on the way.
-    Step(usize),
+    /// The position after this many steps of the trace, or a breakpoint before that position.
+    StepCount(usize),
 }
 
 /// The place after one unit from `at`. Rings are resolved by the caller.
-pub fn place_after_unit(trace: &Trace, at: usize, grain: Grain, direction: Direction) -> usize {
+pub fn place_after_unit(trace: &Trace, at: usize, unit: StepUnit, direction: Direction) -> usize {
     let len = trace.len();
-    match (grain, direction) {
-        (Grain::Claim | Grain::Ring, Direction::Forward) => (at + 1).min(len),
-        (Grain::Claim | Grain::Ring, Direction::Back) => at.saturating_sub(1),
-        (Grain::Event, direction) => next_event(trace, at, direction),
-        (Grain::Hypothesis, direction) => {
+    match (unit, direction) {
+        (StepUnit::Step | StepUnit::Ring, Direction::Forward) => (at + 1).min(len),
+        (StepUnit::Step | StepUnit::Ring, Direction::Back) => at.saturating_sub(1),
+        (StepUnit::Event, direction) => next_event(trace, at, direction),
+        (StepUnit::Hypothesis, direction) => {
             let spans = trace.blocks().map(|block| block.steps);
             nearest_edge(spans, at, direction)
-                .unwrap_or_else(|| place_after_unit(trace, at, Grain::Stage, direction))
+                .unwrap_or_else(|| place_after_unit(trace, at, StepUnit::Stage, direction))
         }
-        (Grain::Pass, direction) => {
+        (StepUnit::Pass, direction) => {
             let passes = trace.passes().map(|span| span.steps);
             let stages = trace.stages().map(|(_, steps)| steps);
             nearest_edge(passes.chain(stages), at, direction).unwrap_or(at)
         }
-        (Grain::Stage, direction) => {
+        (StepUnit::Stage, direction) => {
             nearest_edge(trace.stages().map(|(_, steps)| steps), at, direction).unwrap_or(at)
         }
     }
@@ -101,7 +102,7 @@ fn nearest_edge(
 
 /// The place after the next event in a direction; the end of the trace where there is none.
 fn next_event(trace: &Trace, at: usize, direction: Direction) -> usize {
-    let found = match direction {
+    let next = match direction {
         Direction::Forward => {
             place_after_first(trace.steps_in(at..trace.len()), |_, step| matches!(step, Step::Event(_)))
         }
@@ -109,7 +110,7 @@ fn next_event(trace: &Trace, at: usize, direction: Direction) -> usize {
             matches!(step, Step::Event(_))
         }),
     };
-    found.unwrap_or(match direction {
+    next.unwrap_or(match direction {
         Direction::Forward => trace.len(),
         Direction::Back => 0,
     })
@@ -130,7 +131,7 @@ pub fn next_place(trace: &Trace, at: usize, goal: Goal, direction: Direction) ->
         Goal::Pixel(pixel) => Goal::Pixel(trace.working_pixel(pixel)),
         other => other,
     };
-    let windows = match goal {
+    let judgments = match goal {
         Goal::Pixel(pixel) => steps_about_pixel(trace, pixel),
         _ => Vec::new(),
     };
@@ -140,9 +141,9 @@ pub fn next_place(trace: &Trace, at: usize, goal: Goal, direction: Direction) ->
     };
     let fits_goal = |n: usize, step: &Step| match goal {
         Goal::Kind(kind) => step.kind() == kind,
-        Goal::Pixel(pixel) => step.pixel() == Some(pixel) || windows.binary_search(&n).is_ok(),
+        Goal::Pixel(pixel) => step.pixel() == Some(pixel) || judgments.binary_search(&n).is_ok(),
         Goal::Hypothesis(hypothesis) => step.concerns(hypothesis, region),
-        Goal::Breakpoint | Goal::Step(_) => false,
+        Goal::Breakpoint | Goal::StepCount(_) => false,
     };
     match direction {
         Direction::Forward => place_after_first(trace.steps_in(at..trace.len()), fits_goal),
@@ -152,23 +153,21 @@ pub fn next_place(trace: &Trace, at: usize, goal: Goal, direction: Direction) ->
 
 /// The steps at which windows and blobs that hold a working pixel were judged, ascending.
 fn steps_about_pixel(trace: &Trace, pixel: PixelIndex) -> Vec<usize> {
-    let [x, y] = pixel.position(trace.width());
     let mut window_of_pixel = None;
     let local = trace.stage_trace(Stage::Split).and_then(|stage_trace| stage_trace.local());
     let own_blob = local.and_then(|local| local.point(pixel.index())).map(LocalPoint::blob);
-    let mut found = Vec::new();
+    let mut steps = Vec::new();
     for (n, event) in trace.events() {
         match event {
             Event::WindowsLaid(laid) => {
-                let size = (laid.size_px as usize).max(1);
-                window_of_pixel = Some((y / size * laid.columns as usize + x / size) as u32);
+                window_of_pixel = Some(laid.window_of(pixel.index(), trace.width()) as u32);
             }
             Event::WindowClassified(WindowClassified { window, .. }) if window_of_pixel == Some(*window) => {
-                found.push(n);
+                steps.push(n);
             }
-            event if event.blob().is_some_and(|blob| Some(blob) == own_blob) => found.push(n),
+            event if event.blob().is_some_and(|blob| Some(blob) == own_blob) => steps.push(n),
             _ => {}
         }
     }
-    found
+    steps
 }

@@ -10,7 +10,7 @@ mod moves;
 mod tests;
 
 pub use breakpoint::{Breakpoint, CandidateCheck, Condition, SavedClass};
-pub use cursor::{Direction, Goal, Grain};
+pub use cursor::{Direction, Goal, StepUnit};
 
 use anchor::{Anchor, best_overlaps};
 
@@ -102,7 +102,8 @@ pub struct DebugSettings {
     /// The breakpoints.
     pub breakpoints: Vec<Breakpoint>,
     /// The unit by which playing advances.
-    pub grain: Grain,
+    #[serde(rename = "grain")]
+    pub unit: StepUnit,
     /// Speed of playing, units per second.
     pub per_second: f64,
     /// Whether playing starts again from the beginning at the end.
@@ -116,7 +117,7 @@ impl Default for DebugSettings {
         Self {
             open: true,
             breakpoints: Vec::new(),
-            grain: Grain::Ring,
+            unit: StepUnit::Ring,
             per_second: 30.0,
             looped: false,
             follow: true,
@@ -132,7 +133,7 @@ pub enum DebugCommand {
     /// Move the cursor behind this many steps.
     Seek(usize),
     /// Move by one unit.
-    Step(Grain, Direction),
+    Step(StepUnit, Direction),
     /// Move into the next block and play it ring by ring.
     Into,
     /// Move to the next step that fits a goal; to the end of the trace where none does.

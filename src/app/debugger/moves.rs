@@ -2,7 +2,7 @@
 
 use super::breakpoint::next_stop;
 use super::cursor::{next_place, place_after_unit};
-use super::{Breakpoint, DebugSettings, Debugger, Direction, Goal, Grain};
+use super::{Breakpoint, DebugSettings, Debugger, Direction, Goal, StepUnit};
 use crate::trace::Replay;
 use crate::view::rings;
 use std::sync::Arc;
@@ -40,11 +40,11 @@ impl Debugger {
     }
 
     /// The place one unit from `at`.
-    fn place_after_unit(&mut self, at: usize, grain: Grain, direction: Direction) -> usize {
-        if grain == Grain::Ring {
+    fn place_after_unit(&mut self, at: usize, unit: StepUnit, direction: Direction) -> usize {
+        if unit == StepUnit::Ring {
             return self.end_of_ring(at, direction);
         }
-        self.replay.as_ref().map_or(at, |replay| place_after_unit(replay.trace(), at, grain, direction))
+        self.replay.as_ref().map_or(at, |replay| place_after_unit(replay.trace(), at, unit, direction))
     }
 
     /// The nearest end of a ring; outside of growths, of an event.
@@ -55,7 +55,7 @@ impl Debugger {
             Direction::Back => at.checked_sub(1),
         };
         let Some(block) = inside.and_then(|n| replay.trace().block_at(n)) else {
-            return place_after_unit(replay.trace(), at, Grain::Event, direction);
+            return place_after_unit(replay.trace(), at, StepUnit::Event, direction);
         };
         let ends = match &self.rings {
             Some((steps, ends)) if *steps == block.steps => Arc::clone(ends),
@@ -91,7 +91,7 @@ impl Debugger {
         };
         let last = match goal {
             Goal::Breakpoint => Some(end),
-            Goal::Step(n) => Some(n.min(self.len())),
+            Goal::StepCount(n) => Some(n.min(self.len())),
             _ => None,
         };
         if let Some(end) = last {
@@ -114,8 +114,8 @@ impl Debugger {
     }
 
     /// Moves the cursor by one unit and ends playing.
-    pub(in crate::app) fn step(&mut self, grain: Grain, direction: Direction) {
-        let n = self.place_after_unit(self.at(), grain, direction);
+    pub(in crate::app) fn step(&mut self, unit: StepUnit, direction: Direction) {
+        let n = self.place_after_unit(self.at(), unit, direction);
         self.stop_and_seek(n);
     }
 
@@ -136,12 +136,12 @@ impl Debugger {
         self.unit_fraction -= units;
         let (at, units) = (self.at(), units as usize);
         let mut n = at;
-        match (settings.grain, direction) {
-            (Grain::Claim, Direction::Forward) => n = (n + units).min(self.len()),
-            (Grain::Claim, Direction::Back) => n = n.saturating_sub(units),
-            (grain, direction) => {
+        match (settings.unit, direction) {
+            (StepUnit::Step, Direction::Forward) => n = (n + units).min(self.len()),
+            (StepUnit::Step, Direction::Back) => n = n.saturating_sub(units),
+            (unit, direction) => {
                 for _ in 0..units {
-                    n = self.place_after_unit(n, grain, direction);
+                    n = self.place_after_unit(n, unit, direction);
                 }
             }
         }

@@ -89,22 +89,22 @@ fn each_grain_goes_from_edge_to_edge_and_back() {
     let trace = trace(&application);
     debug(&mut application, DebugCommand::Seek(0));
     for (stage, steps) in trace.stages() {
-        debug(&mut application, DebugCommand::Step(Grain::Stage, Direction::Forward));
+        debug(&mut application, DebugCommand::Step(StepUnit::Stage, Direction::Forward));
         assert_eq!(at(&application), steps.end, "{stage:?}");
     }
     for (stage, steps) in trace.stages().collect::<Vec<_>>().into_iter().rev() {
-        debug(&mut application, DebugCommand::Step(Grain::Stage, Direction::Back));
+        debug(&mut application, DebugCommand::Step(StepUnit::Stage, Direction::Back));
         assert_eq!(at(&application), steps.start, "{stage:?}");
     }
     let first = block(&trace, grows);
     debug(&mut application, DebugCommand::Seek(first.steps.start));
-    debug(&mut application, DebugCommand::Step(Grain::Hypothesis, Direction::Forward));
+    debug(&mut application, DebugCommand::Step(StepUnit::Hypothesis, Direction::Forward));
     assert_eq!(at(&application), first.steps.end);
-    debug(&mut application, DebugCommand::Step(Grain::Hypothesis, Direction::Back));
+    debug(&mut application, DebugCommand::Step(StepUnit::Hypothesis, Direction::Back));
     assert_eq!(at(&application), first.steps.start);
-    debug(&mut application, DebugCommand::Step(Grain::Event, Direction::Forward));
+    debug(&mut application, DebugCommand::Step(StepUnit::Event, Direction::Forward));
     assert!(matches!(replay(application.state()).last(), Some(Step::Event(Event::HypothesisChosen(_)))));
-    debug(&mut application, DebugCommand::Step(Grain::Claim, Direction::Back));
+    debug(&mut application, DebugCommand::Step(StepUnit::Step, Direction::Back));
     assert_eq!(at(&application), first.steps.start);
 }
 
@@ -112,21 +112,21 @@ fn each_grain_goes_from_edge_to_edge_and_back() {
 fn every_grain_ends_at_both_ends() {
     let mut application = application();
     let len = trace(&application).len();
-    for grain in Grain::ALL {
+    for unit in StepUnit::ALL {
         let mut turns = 0;
         debug(&mut application, DebugCommand::Seek(0));
         while at(&application) < len {
             let before = at(&application);
-            debug(&mut application, DebugCommand::Step(grain, Direction::Forward));
-            assert!(at(&application) > before, "{grain:?} stands still at {before}");
+            debug(&mut application, DebugCommand::Step(unit, Direction::Forward));
+            assert!(at(&application) > before, "{unit:?} stands still at {before}");
             turns += 1;
         }
         while at(&application) > 0 {
             let before = at(&application);
-            debug(&mut application, DebugCommand::Step(grain, Direction::Back));
-            assert!(at(&application) < before, "{grain:?} stands still at {before}");
+            debug(&mut application, DebugCommand::Step(unit, Direction::Back));
+            assert!(at(&application) < before, "{unit:?} stands still at {before}");
         }
-        assert!(turns >= 7, "{grain:?}");
+        assert!(turns >= 7, "{unit:?}");
     }
 }
 
@@ -159,10 +159,10 @@ fn rings_are_what_one_more_step_from_the_region_reaches() {
         }
     }
     debug(&mut application, DebugCommand::Seek(block(&trace, grows).steps.start + 1));
-    debug(&mut application, DebugCommand::Step(Grain::Ring, Direction::Forward));
+    debug(&mut application, DebugCommand::Step(StepUnit::Ring, Direction::Forward));
     let ring = at(&application);
-    debug(&mut application, DebugCommand::Step(Grain::Ring, Direction::Forward));
-    debug(&mut application, DebugCommand::Step(Grain::Ring, Direction::Back));
+    debug(&mut application, DebugCommand::Step(StepUnit::Ring, Direction::Forward));
+    debug(&mut application, DebugCommand::Step(StepUnit::Ring, Direction::Back));
     assert_eq!(at(&application), ring);
 }
 
@@ -170,7 +170,7 @@ fn rings_are_what_one_more_step_from_the_region_reaches() {
 fn playing_goes_on_with_time_stops_at_the_end_and_may_begin_anew() {
     let mut application = application();
     let len = trace(&application).len();
-    settings(&mut application, |settings| (settings.grain, settings.per_second) = (Grain::Claim, 100.0));
+    settings(&mut application, |settings| (settings.unit, settings.per_second) = (StepUnit::Step, 100.0));
     debug(&mut application, DebugCommand::Play(Some(Direction::Forward)));
     assert_eq!(at(&application), 0, "from the end it plays from the beginning");
     debug(&mut application, DebugCommand::Tick(0.015));
@@ -179,7 +179,7 @@ fn playing_goes_on_with_time_stops_at_the_end_and_may_begin_anew() {
     debug(&mut application, DebugCommand::Play(None));
     debug(&mut application, DebugCommand::Tick(0.1));
     assert_eq!(at(&application), 3);
-    settings(&mut application, |settings| (settings.grain, settings.per_second) = (Grain::Stage, 100.0));
+    settings(&mut application, |settings| (settings.unit, settings.per_second) = (StepUnit::Stage, 100.0));
     debug(&mut application, DebugCommand::Play(Some(Direction::Forward)));
     debug(&mut application, DebugCommand::Tick(0.2));
     assert_eq!((at(&application), application.state().debugger.playing), (len, None));
@@ -260,7 +260,7 @@ fn breakpoints_stop_playing_and_running_in_both_directions() {
             Breakpoint { enabled: false, condition: Condition::HypothesisRejected },
             Breakpoint { enabled: true, condition },
         ];
-        (settings.grain, settings.per_second) = (Grain::Stage, 100.0);
+        (settings.unit, settings.per_second) = (StepUnit::Stage, 100.0);
     });
     debug(&mut application, DebugCommand::Play(Some(Direction::Forward)));
     debug(&mut application, DebugCommand::Tick(0.2));
@@ -270,7 +270,7 @@ fn breakpoints_stop_playing_and_running_in_both_directions() {
     let stopped = at(&application);
     for (place, arrives) in [(stopped - 5, stopped - 5), (first.steps.end, stopped)] {
         debug(&mut application, DebugCommand::Seek(0));
-        debug(&mut application, DebugCommand::RunTo(Goal::Step(place), Direction::Forward));
+        debug(&mut application, DebugCommand::RunTo(Goal::StepCount(place), Direction::Forward));
         assert_eq!(at(&application), arrives, "a breakpoint on the way stops it, one beyond does not");
     }
     debug(&mut application, DebugCommand::Seek(first.steps.end));
@@ -478,12 +478,12 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
-    fn no_step_leads_out_of_the_trace(place in 0f64..1.0, grain in 0usize..6, forward in any::<bool>()) {
+    fn no_step_leads_out_of_the_trace(place in 0f64..1.0, unit in 0usize..6, forward in any::<bool>()) {
         let application = application();
         let trace = trace(&application);
         let from = (place * trace.len() as f64) as usize;
         let direction = if forward { Direction::Forward } else { Direction::Back };
-        let to = place_after_unit(&trace, from, Grain::ALL[grain], direction);
+        let to = place_after_unit(&trace, from, StepUnit::ALL[unit], direction);
         prop_assert!(to <= trace.len());
         let moved = if forward { to > from } else { to < from || from == 0 };
         prop_assert!(moved, "{} leads to {}", from, to);

@@ -76,8 +76,16 @@ fn an_export_that_fails_says_why_and_what_to_do() {
     fails(ExportKind::Selection.to(root.path().join("x.txt")), &input(), ".png (mask), .csv (table)");
     let unselected = ExportInput { document: crate::app::Document::default(), ..input() };
     fails(ExportKind::Selection.to(path.clone()), &unselected, "nothing is selected");
-    let analyzing = ExportInput { shown: None, ..input() };
+    let failed = ExportInput { shown: None, ..input() };
+    fails(ExportKind::Matte.to(path.clone()), &failed, "gave no result");
+    let analyzing = ExportInput { is_analyzing: true, ..failed };
     fails(ExportKind::Matte.to(path.clone()), &analyzing, "still under way");
+    fails(ExportKind::View.to(path.clone()), &input(), "no view was drawn");
+    let options = ExportOptions {
+        drawn: Some(DrawnPicture { size: [0, 0], rgba: Vec::new().into() }),
+        ..ExportOptions::default()
+    };
+    fails(Export { options, ..ExportKind::View.to(path.clone()) }, &input(), "has no pixels");
     fs::write(&path, "a file").unwrap();
     let options = ExportOptions { force: true, ..ExportOptions::default() };
     let forced = Export { options, ..ExportKind::Result.to(path.clone()) };
@@ -93,6 +101,32 @@ fn the_matte_file_has_an_extension_that_fits() {
     let export = ExportKind::Matte.to(root.path().join("m.jpg"));
     let text = write_one(&export, &input()).unwrap();
     assert!(text.ends_with("m.png"), "a PNM becomes a PNG: {text}");
+    let text = write_one(&ExportKind::Matte.to(root.path().join("photo.v2")), &input()).unwrap();
+    assert!(text.ends_with("photo.v2.png"), "{text}");
+    fs::write(root.path().join("b.png"), "a file").unwrap();
+    let error = write_one(&ExportKind::Matte.to(root.path().join("b.jpg")), &input()).unwrap_err();
+    assert!(error.contains("b.png: exists"), "{error}");
+    assert_eq!(fs::read(root.path().join("b.png")).unwrap(), b"a file");
+    write_one(&ExportKind::Matte.to(root.path().join("b.png")), &input()).unwrap();
+}
+
+#[test]
+fn a_small_share_of_surface_reflection_is_named_in_both_kinds() {
+    let root = tempfile::tempdir().unwrap();
+    let text = write_one(&matte_with_surface(0.004, &root.path().join("m.png")), &input()).unwrap();
+    assert!(text.contains("with 0.4 % of its surface"), "{text}");
+    let text = write_one(&matte_with_surface(1e-9, &root.path().join("n.png")), &input()).unwrap();
+    assert!(text.contains("with 0.001 %"), "{text}");
+    let options = ExportOptions { keep_surface: 1.0, ..ExportOptions::default() };
+    let folder = Export { options, ..ExportKind::Result.to(root.path().join("r")) };
+    let text = write_one(&folder, &input()).unwrap();
+    assert!(text.ends_with("with 100 % of the surface reflection"), "{text}");
+    let whole = matte_with_surface(1.0, &root.path().join("w.png"));
+    write_one(&whole, &input()).unwrap();
+    assert_eq!(
+        fs::read(root.path().join("r/matte.png")).unwrap(),
+        fs::read(root.path().join("w.png")).unwrap()
+    );
 }
 
 #[test]

@@ -14,7 +14,7 @@ pub(super) fn reduce(state: &mut State, command: DebugCommand) -> Vec<Effect> {
     match command {
         DebugCommand::Settings(settings) => return change_settings(state, settings),
         DebugCommand::Seek(n) => debugger.stop_and_seek(n),
-        DebugCommand::Step(grain, direction) => debugger.step(grain, direction),
+        DebugCommand::Step(unit, direction) => debugger.step(unit, direction),
         DebugCommand::Into => debugger.enter_block(),
         DebugCommand::RunTo(goal, direction) => debugger.run_to(goal, direction, &view.debug.breakpoints),
         DebugCommand::Play(direction) => debugger.play(direction),

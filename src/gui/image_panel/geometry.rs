@@ -7,10 +7,10 @@ use egui::{Pos2, Rect, Vec2, pos2, vec2};
 
 /// Margin around a fitted picture, screen points.
 const MARGIN_PT: f32 = 6.0;
-/// Largest zoom, screen points per pixel.
-const LARGEST_ZOOM: f32 = 192.0;
-/// Smallest length of a picture's longer side, screen points.
-const SMALLEST_PT: f32 = 32.0;
+/// Largest zoom, screen points per image pixel. A picture that is fitted into its view may exceed the limit.
+const MAX_ZOOM: f32 = 192.0;
+/// Length of the picture's longer side at the smallest zoom, screen points. A smaller view lowers the smallest zoom.
+const MIN_SIDE_PT: f32 = 32.0;
 
 /// Position and zoom of a picture in a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,8 +86,8 @@ impl Placement {
     #[must_use]
     pub fn zoomed(mut self, factor: f32, anchor: Pos2) -> Self {
         let fixed = self.image_from_screen(anchor);
-        let [least, most] = zoom_limits(self.view, self.size);
-        self.zoom = (self.zoom * factor).clamp(least, most);
+        self.zoom =
+            (self.zoom * factor).clamp(min_zoom(self.view, self.size), max_zoom(self.view, self.size));
         self.center = fixed - (anchor - self.view.center()) / self.zoom;
         self.clamped()
     }
@@ -101,8 +101,7 @@ impl Placement {
 
     /// This placement with zoom and center limited: a point of the picture is always in the middle of the view.
     fn clamped(mut self) -> Self {
-        let [least, most] = zoom_limits(self.view, self.size);
-        self.zoom = self.zoom.clamp(least, most);
+        self.zoom = self.zoom.clamp(min_zoom(self.view, self.size), max_zoom(self.view, self.size));
         self.center = self.center.clamp(Pos2::ZERO, self.size.to_pos2());
         self
     }
@@ -114,17 +113,22 @@ fn fitting_zoom(view: Rect, size: Vec2) -> f32 {
     (free / size.max(Vec2::splat(1.0))).min_elem()
 }
 
-/// Smallest and largest zoom, screen points per pixel.
-fn zoom_limits(view: Rect, size: Vec2) -> [f32; 2] {
-    let fit = fitting_zoom(view, size);
-    let least = (SMALLEST_PT / size.max_elem().max(1.0)).min(fit);
-    [least, LARGEST_ZOOM.max(fit)]
+/// Smallest zoom, screen points per image pixel: the zoom at which the longer side has [`MIN_SIDE_PT`], or the zoom at which
+/// the picture fits into a view that is smaller.
+fn min_zoom(view: Rect, size: Vec2) -> f32 {
+    (MIN_SIDE_PT / size.max_elem().max(1.0)).min(fitting_zoom(view, size))
 }
 
-/// Level of the smaller copy of a picture to show: 0 is the picture, each further level half as large. The copy has at
-/// least one and less than two texels per screen pixel, as far as there are copies.
-pub fn level_for(screen_px_per_pixel: f32, levels: usize) -> usize {
-    let level = (1.0 / screen_px_per_pixel.max(f32::MIN_POSITIVE)).log2().floor();
+/// Largest zoom, screen points per image pixel: [`MAX_ZOOM`], or the zoom at which a tiny picture fits into its view.
+fn max_zoom(view: Rect, size: Vec2) -> f32 {
+    MAX_ZOOM.max(fitting_zoom(view, size))
+}
+
+/// Index of the copy to draw among `levels` copies of a picture: copy 0 is the picture itself, and each further copy has half
+/// the columns and rows of the copy before. The chosen copy has at least one and less than two texels per screen pixel,
+/// unless the last copy still has more. `screen_pixels_per_image_pixel` is the zoom, screen pixels per image pixel.
+pub fn level_for(screen_pixels_per_image_pixel: f32, levels: usize) -> usize {
+    let level = (1.0 / screen_pixels_per_image_pixel.max(f32::MIN_POSITIVE)).log2().floor();
     (level.max(0.0) as usize).min(levels.saturating_sub(1))
 }
 
@@ -185,19 +189,19 @@ mod tests {
     }
 
     #[test]
-    fn the_picture_cannot_be_panned_or_zoomed_out_of_sight() {
+    fn panning_and_zooming_leave_a_part_of_the_picture_in_the_view() {
         let place = placement(&ImageSettings::default());
         for by in [vec2(1e6, -1e6), vec2(-1e6, 0.0)] {
             let moved = place.panned(by);
             assert!(moved.view.intersects(moved.screen_rect()));
         }
         let far = place.zoomed(1e-9, place.view.min);
-        assert!(far.screen_rect().size().max_elem() >= SMALLEST_PT - 1e-3);
-        assert!((place.zoomed(1e9, place.view.min).zoom - LARGEST_ZOOM).abs() < 1e-3);
+        assert!(far.screen_rect().size().max_elem() >= MIN_SIDE_PT - 1e-3);
+        assert!((place.zoomed(1e9, place.view.min).zoom - MAX_ZOOM).abs() < 1e-3);
     }
 
     #[test]
-    fn a_smaller_copy_has_one_to_two_texels_a_screen_pixel() {
+    fn the_copy_drawn_has_at_least_one_and_less_than_two_texels_per_screen_pixel() {
         for (scale, level) in [(8.0, 0), (1.0, 0), (0.51, 0), (0.5, 1), (0.26, 1), (0.1, 3), (0.001, 4)] {
             assert_eq!(level_for(scale, 5), level, "{scale}");
         }

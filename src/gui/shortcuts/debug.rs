@@ -1,7 +1,7 @@
 //! The debugger's keys, and the widgets that take these keys before the debugger does.
 
 use super::shortcut::Shortcut;
-use crate::app::{Direction, Grain, State};
+use crate::app::{Direction, State, StepUnit};
 use crate::gui::action::{Action, DebugAction};
 use crate::view::Tool;
 use Direction::{Back, Forward};
@@ -16,21 +16,21 @@ const fn key(modifiers: Modifiers, key: Key, action: DebugAction, description: &
 pub const KEYS: &[Shortcut] = &[
     key(Modifiers::SHIFT, Key::Space, DebugAction::Play(Back), "Play backwards, or rest"),
     key(Modifiers::NONE, Key::Space, DebugAction::Play(Forward), "Play, or rest"),
-    key(Modifiers::COMMAND, Key::ArrowLeft, DebugAction::Step(Grain::Stage, Back), "A stage back"),
-    key(Modifiers::COMMAND, Key::ArrowRight, DebugAction::Step(Grain::Stage, Forward), "A stage forward"),
-    key(Modifiers::SHIFT, Key::ArrowLeft, DebugAction::Step(Grain::Hypothesis, Back), "A hypothesis back"),
+    key(Modifiers::COMMAND, Key::ArrowLeft, DebugAction::Step(StepUnit::Stage, Back), "A stage back"),
+    key(Modifiers::COMMAND, Key::ArrowRight, DebugAction::Step(StepUnit::Stage, Forward), "A stage forward"),
+    key(Modifiers::SHIFT, Key::ArrowLeft, DebugAction::Step(StepUnit::Hypothesis, Back), "A hypothesis back"),
     key(
         Modifiers::SHIFT,
         Key::ArrowRight,
-        DebugAction::Step(Grain::Hypothesis, Forward),
+        DebugAction::Step(StepUnit::Hypothesis, Forward),
         "A hypothesis forward",
     ),
-    key(Modifiers::NONE, Key::Comma, DebugAction::Step(Grain::Claim, Back), "A claim back"),
-    key(Modifiers::NONE, Key::Period, DebugAction::Step(Grain::Claim, Forward), "A claim forward"),
-    key(Modifiers::ALT, Key::ArrowLeft, DebugAction::Step(Grain::Claim, Back), "A claim back"),
-    key(Modifiers::ALT, Key::ArrowRight, DebugAction::Step(Grain::Claim, Forward), "A claim forward"),
-    key(Modifiers::NONE, Key::ArrowLeft, DebugAction::Step(Grain::Event, Back), "An event back"),
-    key(Modifiers::NONE, Key::ArrowRight, DebugAction::Step(Grain::Event, Forward), "An event forward"),
+    key(Modifiers::NONE, Key::Comma, DebugAction::Step(StepUnit::Step, Back), "A claim back"),
+    key(Modifiers::NONE, Key::Period, DebugAction::Step(StepUnit::Step, Forward), "A claim forward"),
+    key(Modifiers::ALT, Key::ArrowLeft, DebugAction::Step(StepUnit::Step, Back), "A claim back"),
+    key(Modifiers::ALT, Key::ArrowRight, DebugAction::Step(StepUnit::Step, Forward), "A claim forward"),
+    key(Modifiers::NONE, Key::ArrowLeft, DebugAction::Step(StepUnit::Event, Back), "An event back"),
+    key(Modifiers::NONE, Key::ArrowRight, DebugAction::Step(StepUnit::Event, Forward), "An event forward"),
     key(Modifiers::NONE, Key::Enter, DebugAction::Into, "Into the next hypothesis"),
     key(Modifiers::NONE, Key::Home, DebugAction::Start, "To the beginning"),
     key(Modifiers::NONE, Key::End, DebugAction::End, "To the result"),

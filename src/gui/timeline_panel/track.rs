@@ -138,7 +138,7 @@ impl Track {
             let n = scale.axis.taken_at(scale.place_at(pointer.x));
             let direction = if n < replay.at() { Direction::Back } else { Direction::Forward };
             if runs_to {
-                cx.send(Command::Debug(DebugCommand::RunTo(Goal::Step(n), direction)));
+                cx.send(Command::Debug(DebugCommand::RunTo(Goal::StepCount(n), direction)));
             } else if n != replay.at() {
                 cx.send(Command::Debug(DebugCommand::Seek(n)));
             }

@@ -2,7 +2,7 @@
 
 use super::icons::{self, PlaybackIcon};
 use super::run_to;
-use crate::app::{Command, DebugCommand, DebugSettings, Direction, Grain};
+use crate::app::{Command, DebugCommand, DebugSettings, Direction, StepUnit};
 use crate::describe::Names;
 use crate::gui::action::{Action, DebugAction};
 use crate::gui::move_cursor::move_cursor;
@@ -27,19 +27,19 @@ const LEFT: [Control; 4] = [
     (
         PlaybackIcon::Stage(Back),
         "Stage back",
-        DebugAction::Step(Grain::Stage, Back),
+        DebugAction::Step(StepUnit::Stage, Back),
         "Back to where a stage begins (5.2 to 6)",
     ),
     (
         PlaybackIcon::Hypothesis(Back),
         "Hypothesis back",
-        DebugAction::Step(Grain::Hypothesis, Back),
+        DebugAction::Step(StepUnit::Hypothesis, Back),
         "Back to where a hypothesis, slice or hole begins (5.3 to 5.5)",
     ),
     (
         PlaybackIcon::Event(Back),
         "Event back",
-        DebugAction::Step(Grain::Event, Back),
+        DebugAction::Step(StepUnit::Event, Back),
         "Back by a decision that is more than a pixel's claim",
     ),
 ];
@@ -48,19 +48,19 @@ const RIGHT: [Control; 5] = [
     (
         PlaybackIcon::Event(Forward),
         "Event forward",
-        DebugAction::Step(Grain::Event, Forward),
+        DebugAction::Step(StepUnit::Event, Forward),
         "On by a decision that is more than a pixel's claim",
     ),
     (
         PlaybackIcon::Hypothesis(Forward),
         "Hypothesis forward",
-        DebugAction::Step(Grain::Hypothesis, Forward),
+        DebugAction::Step(StepUnit::Hypothesis, Forward),
         "On to where a hypothesis, slice or hole ends (5.3 to 5.5)",
     ),
     (
         PlaybackIcon::Stage(Forward),
         "Stage forward",
-        DebugAction::Step(Grain::Stage, Forward),
+        DebugAction::Step(StepUnit::Stage, Forward),
         "On to where a stage ends (5.2 to 6)",
     ),
     (PlaybackIcon::Limit(Forward), "To the result", DebugAction::End, "After the last decision: the result"),
@@ -127,38 +127,38 @@ fn play_buttons(ui: &mut Ui, cx: &mut PanelContext) {
     ui.add_space(4.0);
 }
 
-/// Smallest, largest and default rate of a grain, units per second.
-fn rates(grain: Grain) -> [f64; 3] {
-    match grain {
-        Grain::Claim => [1.0, 1e6, 5e3],
-        Grain::Event => [1.0, 1e4, 50.0],
-        Grain::Ring => [1.0, 1e3, 30.0],
-        Grain::Hypothesis => [0.5, 60.0, 4.0],
-        Grain::Pass | Grain::Stage => [0.2, 20.0, 1.0],
+/// Smallest, largest and default rate of a unit, units per second.
+fn rates(unit: StepUnit) -> [f64; 3] {
+    match unit {
+        StepUnit::Step => [1.0, 1e6, 5e3],
+        StepUnit::Event => [1.0, 1e4, 50.0],
+        StepUnit::Ring => [1.0, 1e3, 30.0],
+        StepUnit::Hypothesis => [0.5, 60.0, 4.0],
+        StepUnit::Pass | StepUnit::Stage => [0.2, 20.0, 1.0],
     }
 }
 
 /// The plural of a unit.
-fn plural(grain: Grain) -> &'static str {
-    match grain {
-        Grain::Claim => "claims",
-        Grain::Event => "events",
-        Grain::Ring => "rings",
-        Grain::Hypothesis => "hypotheses",
-        Grain::Pass => "passes",
-        Grain::Stage => "stages",
+fn plural(unit: StepUnit) -> &'static str {
+    match unit {
+        StepUnit::Step => "claims",
+        StepUnit::Event => "events",
+        StepUnit::Ring => "rings",
+        StepUnit::Hypothesis => "hypotheses",
+        StepUnit::Pass => "passes",
+        StepUnit::Stage => "stages",
     }
 }
 
 /// The tooltip of a unit.
-fn grain_tip(grain: Grain) -> &'static str {
-    match grain {
-        Grain::Claim => "Each single step: a pixel's claim, a window's class.",
-        Grain::Event => "Each decision that is more than a pixel's claim.",
-        Grain::Ring => "Each ring of pixels around what a region has claimed (5.3.2).",
-        Grain::Hypothesis => "Each hypothesis, slice or hole as a whole (5.3 to 5.5).",
-        Grain::Pass => "Each part of a stage.",
-        Grain::Stage => "Each stage (5.2 to 6).",
+fn unit_tip(unit: StepUnit) -> &'static str {
+    match unit {
+        StepUnit::Step => "Each single step: a pixel's claim, a window's class.",
+        StepUnit::Event => "Each decision that is more than a pixel's claim.",
+        StepUnit::Ring => "Each ring of pixels around what a region has claimed (5.3.2).",
+        StepUnit::Hypothesis => "Each hypothesis, slice or hole as a whole (5.3 to 5.5).",
+        StepUnit::Pass => "Each part of a stage.",
+        StepUnit::Stage => "Each stage (5.2 to 6).",
     }
 }
 
@@ -166,18 +166,18 @@ fn grain_tip(grain: Grain) -> &'static str {
 fn playback_settings(ui: &mut Ui, cx: &mut PanelContext) {
     let before = &cx.state.view.debug;
     let mut settings = before.clone();
-    let combo = ComboBox::from_id_salt("grain").width(78.0).selected_text(plural(settings.grain));
+    let combo = ComboBox::from_id_salt("grain").width(78.0).selected_text(plural(settings.unit));
     let combo = combo.show_ui(ui, |ui| {
-        for grain in Grain::ALL {
-            let choice = ui.selectable_label(settings.grain == grain, plural(grain));
-            if choice.on_hover_text(grain_tip(grain)).clicked() {
-                (settings.grain, settings.per_second) = (grain, rates(grain)[2]);
+        for unit in StepUnit::ALL {
+            let choice = ui.selectable_label(settings.unit == unit, plural(unit));
+            if choice.on_hover_text(unit_tip(unit)).clicked() {
+                (settings.unit, settings.per_second) = (unit, rates(unit)[2]);
             }
         }
     });
     combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Grain"));
-    combo.response.on_hover_text(format!("What playing advances by. {}", grain_tip(before.grain)));
-    let [least, most, _] = rates(settings.grain);
+    combo.response.on_hover_text(format!("What playing advances by. {}", unit_tip(before.unit)));
+    let [least, most, _] = rates(settings.unit);
     ui.spacing_mut().slider_width = 64.0;
     let slider = Slider::new(&mut settings.per_second, least..=most).logarithmic(true).suffix(" /s");
     let slider = ui.add(slider.custom_formatter(|rate, _| rate_text(rate)));

@@ -4,7 +4,7 @@ use crate::window::{
     Window, apply, at, choose, click, drag, item, named, press, says, state, tiny_window, with_gpu, zoom_in,
 };
 use dichroscope::app::{
-    Breakpoint, Command, Condition, DebugCommand, DebugSettings, Direction, Edit, Goal, Grain, ViewCommand,
+    Breakpoint, Command, Condition, DebugCommand, DebugSettings, Direction, Edit, Goal, StepUnit, ViewCommand,
 };
 use dichroscope::gui::Pane;
 use dichroscope::raster::HypothesisId;
@@ -146,7 +146,7 @@ fn a_tap_on_space_plays_and_space_held_pans() {
 #[test]
 fn playing_goes_by_the_clock_and_turns_or_ends_at_the_end() {
     let mut window = tiny_window();
-    settings(&mut window, |debug| (debug.grain, debug.per_second) = (Grain::Claim, 100.0));
+    settings(&mut window, |debug| (debug.unit, debug.per_second) = (StepUnit::Step, 100.0));
     let len = trace(&window).len();
     seek(&mut window, len - 60);
     let play = Command::Debug(DebugCommand::Play(Some(Direction::Forward)));
@@ -263,7 +263,7 @@ fn a_breakpoint_made_with_the_controls_stops_playing() {
     let condition = Condition::RegionExceeds { hypothesis: None, pixels: 1000 };
     assert_eq!(made, [Breakpoint { enabled: true, condition }]);
     window.state_mut().show_alone(None);
-    settings(&mut window, |debug| (debug.grain, debug.per_second) = (Grain::Hypothesis, 60.0));
+    settings(&mut window, |debug| (debug.unit, debug.per_second) = (StepUnit::Hypothesis, 60.0));
     plain(&mut window, Key::Home);
     plain(&mut window, Key::Space);
     window.run_steps(4);
