@@ -1,6 +1,7 @@
 //! The worker that analyzes. A newer request replaces a waiting request and cancels the request under way.
 
-use super::report::Report;
+use super::panics::catch_panic;
+use super::report::{Report, Work};
 use crate::analysis::{Analysis, Observer, Session, Stage, StageOutput};
 use crate::params::Params;
 use crate::raster::Mask;
@@ -102,27 +103,45 @@ const REST_TIME: Duration = Duration::from_millis(200);
 pub(super) fn work(latest_request: &LatestRequest, outbox: &Sender<Report>, wake: &(dyn Fn() + Send + Sync)) {
     let mut analysis_worker = AnalysisWorker::default();
     while let Some(request) = latest_request.take() {
+        let outbox = Mutex::new(outbox.clone());
         let send = |report| {
             // A closed window has dropped the receiver, and needs no report.
-            let _ = outbox.send(report);
+            let _ = outbox.lock().unwrap_or_else(PoisonError::into_inner).send(report);
             wake();
         };
-        if let Some(shown) = analysis_worker.analyze(&request, &send, &|| latest_request.is_superseded()) {
-            send(Report::Analyzed(Arc::clone(&shown)));
-            if request.tracing == Tracing::AtOnce {
-                analysis_worker.trace(&request, &shown, &send, &|| latest_request.is_superseded());
-            }
-            // Scoring and recording take as long as the analysis: they wait until no slider moves.
-            let records = request.tracing == Tracing::AtRest;
-            if (records || shown.picture.truth.is_some()) && latest_request.is_quiet_for(REST_TIME) {
-                if records {
-                    analysis_worker.trace(&request, &shown, &send, &|| latest_request.is_superseded());
-                }
-                if shown.picture.truth.is_some() {
-                    shown.measure();
-                    wake();
-                }
-            }
+        let run =
+            catch_panic(|| analyze_request(&mut analysis_worker, &request, latest_request, &send, wake));
+        if let Err(reason) = run {
+            // The stages of the session may be incomplete.
+            analysis_worker = AnalysisWorker::default();
+            send(Report::Panicked { work: Work::Analysis, reason });
+        }
+    }
+}
+
+/// Analyzes one request, records its decisions and measures its scores.
+fn analyze_request(
+    analysis_worker: &mut AnalysisWorker,
+    request: &AnalysisRequest,
+    latest_request: &LatestRequest,
+    send: &(dyn Fn(Report) + Sync),
+    wake: &(dyn Fn() + Send + Sync),
+) {
+    let superseded = || latest_request.is_superseded();
+    let Some(shown) = analysis_worker.analyze(request, send, &superseded) else { return };
+    send(Report::Analyzed(Arc::clone(&shown)));
+    if request.tracing == Tracing::AtOnce {
+        analysis_worker.trace(request, &shown, send, &superseded);
+    }
+    // Scoring and recording take as long as the analysis: they wait until no slider moves.
+    let records = request.tracing == Tracing::AtRest;
+    if (records || shown.picture.truth.is_some()) && latest_request.is_quiet_for(REST_TIME) {
+        if records {
+            analysis_worker.trace(request, &shown, send, &superseded);
+        }
+        if shown.picture.truth.is_some() {
+            shown.measure();
+            wake();
         }
     }
 }

@@ -3,10 +3,11 @@
 use super::analysis_worker::{self, AnalysisWorker, LatestRequest, Tracing};
 use super::export_input::ExportInput;
 use super::exports::write_export;
+use super::panics::catch_panic;
 use super::reduce::reduce_report;
-use super::report::Report;
+use super::report::{Report, Work};
 use super::{
-    AnalysisRequest, Command, Effect, Job, State, WhatIfProgress, WhatIfRequest, jobs, read, reduce,
+    AnalysisRequest, Command, Effect, Job, State, WhatIfProgress, WhatIfRequest, jobs, read, reduce, rescue,
 };
 use crate::analysis::{Session, WhatIfObserver, what_if};
 use std::sync::mpsc::{self, Receiver, Sender};
@@ -117,6 +118,14 @@ impl Application {
         (self.state.view, self.state.recent) = (view, recent);
     }
 
+    /// Writes the workspace beside the photograph before the program ends by a panic, and returns its path.
+    ///
+    /// # Errors
+    /// A sentence that says why the workspace was not written.
+    pub fn rescue_workspace(&self) -> Result<std::path::PathBuf, String> {
+        rescue::write_workspace(&ExportInput::of(&self.state))
+    }
+
     /// Starts or stops the work of an effect.
     fn carry_out(&mut self, effect: Effect) {
         match effect {
@@ -124,13 +133,15 @@ impl Application {
             Effect::Trace => self.analyze(Tracing::AtOnce),
             Effect::Read(origin, options) => {
                 self.state.jobs.reading = Some(Job::now());
-                self.run("reader", move || match read::picture(origin, options) {
+                self.run("reader", Work::Photograph, move || match read::picture(origin, options) {
                     Ok(picture) => Report::Opened(Arc::new(picture)),
                     Err(reason) => Report::OpenFailed(reason),
                 });
             }
-            Effect::ReadParams(path) => self.run("reader", move || read::params(&path)),
-            Effect::ReadWorkspace(path) => self.run("reader", move || read::workspace(&path)),
+            Effect::ReadParams(path) => self.run("reader", Work::File, move || read::params(&path)),
+            Effect::ReadWorkspace(path) => {
+                self.run("reader", Work::File, move || read::workspace(&path));
+            }
             Effect::Write(export) => {
                 self.state.jobs.export = Some(Job::now());
                 let input = ExportInput::of(&self.state);
@@ -141,11 +152,16 @@ impl Application {
                     let _ = outbox.send(Report::Exporting { done, total });
                     wake();
                 };
-                self.run("writer", move || Report::Exported(write_export(&export, &input, &stop, &send)));
+                let write = move || Report::Exported(write_export(&export, &input, &stop, &send));
+                self.run("writer", Work::Export, write);
             }
             Effect::StopWriting => self.stop_writing.stop(),
             Effect::FindWhatIf(request) => self.find_what_if(request),
             Effect::StopWhatIf => self.stop_what_if.stop(),
+            Effect::Rescue => {
+                let input = ExportInput::of(&self.state);
+                self.run("rescue", Work::Rescue, move || Report::Rescued(rescue::write_workspace(&input)));
+            }
         }
     }
 
@@ -179,10 +195,17 @@ impl Application {
                 let send = |report| {
                     let _ = outbox.lock().unwrap_or_else(PoisonError::into_inner).send(report);
                 };
-                if let Some(shown) = analysis_worker.analyze(&request, &send, &|| false) {
-                    shown.measure();
-                    send(Report::Analyzed(Arc::clone(&shown)));
-                    analysis_worker.trace(&request, &shown, &send, &|| false);
+                let run = catch_panic(|| {
+                    if let Some(shown) = analysis_worker.analyze(&request, &send, &|| false) {
+                        shown.measure();
+                        send(Report::Analyzed(Arc::clone(&shown)));
+                        analysis_worker.trace(&request, &shown, &send, &|| false);
+                    }
+                });
+                if let Err(reason) = run {
+                    // The stages of the session may be incomplete.
+                    **analysis_worker = AnalysisWorker::default();
+                    send(Report::Panicked { work: Work::Analysis, reason });
                 }
             }
         }
@@ -195,7 +218,7 @@ impl Application {
         self.stop_what_if = Arc::default();
         let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
         let mut observer = ProgressReporter { request, stop: Arc::clone(&self.stop_what_if), outbox, wake };
-        self.run("what if", move || {
+        self.run("what if", Work::WhatIf, move || {
             let mut session = Session::new(Arc::new(picture.photo.image.clone()));
             // An area of another picture restricts nothing.
             let _ = session.restrict(area);
@@ -204,16 +227,17 @@ impl Application {
         });
     }
 
-    /// Runs `job` on a thread or inline; its report arrives by the inbox.
-    fn run(&self, name: &str, job: impl FnOnce() -> Report + Send + 'static) {
+    /// Runs `job` on a thread or inline; its report, or the report of its panic, arrives by the inbox.
+    fn run(&self, name: &str, work: Work, job: impl FnOnce() -> Report + Send + 'static) {
         let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
-        let work = move || {
-            let _ = outbox.send(job());
+        let run = move || {
+            let report = catch_panic(job).unwrap_or_else(|reason| Report::Panicked { work, reason });
+            let _ = outbox.send(report);
             wake();
         };
         if matches!(self.workers, Workers::Inline(_)) {
-            work();
-        } else if let Err(error) = thread::Builder::new().name(name.to_owned()).spawn(work) {
+            run();
+        } else if let Err(error) = thread::Builder::new().name(name.to_owned()).spawn(run) {
             let reason = format!("the system gives no thread to work on: {error}; close other programs");
             let _ = self.outbox.send(Report::Failed(reason));
         }
@@ -248,6 +272,66 @@ impl Drop for Application {
             if let Some(worker) = worker.take() {
                 let _ = worker.join();
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::{JobCommand, Severity};
+    use crate::view::Origin;
+    use std::panic::resume_unwind;
+
+    const TINY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
+
+    #[test]
+    fn a_panic_of_each_worker_ends_its_work_with_a_notice_and_saves_the_workspace() {
+        let root = tempfile::tempdir().unwrap();
+        let photo = root.path().join("cups.png");
+        std::fs::copy(TINY, &photo).unwrap();
+        let mut application = Application::new(Executor::Inline, || ()).unwrap();
+        application.apply(JobCommand::Open(Origin::File(photo)));
+        for work in [Work::Photograph, Work::File, Work::Analysis, Work::Export, Work::WhatIf] {
+            let state = &mut application.state;
+            state.notices.clear();
+            (state.jobs.reading, state.jobs.analysis) = (Some(Job::now()), Some(Job::now()));
+            state.jobs.export = Some(Job::now());
+            application.run("test", work, || resume_unwind(Box::new("an odd number")));
+            application.poll();
+            let state = application.state();
+            let jobs = [state.jobs.reading, state.jobs.analysis, state.jobs.export];
+            let ended = match work {
+                Work::Photograph => jobs[0].is_none(),
+                Work::Analysis => jobs[1].is_none(),
+                Work::Export => jobs[2].is_none(),
+                _ => true,
+            };
+            assert!(ended, "{work:?}");
+            let error = state.notices.iter().find(|notice| notice.severity == Severity::Error).unwrap();
+            assert!(error.text.contains("an odd number") && error.text.contains(work.name()), "{error:?}");
+            let saved = root.path().join("cups-rescued.dichroscope");
+            assert!(state.notices.iter().any(|notice| notice.text.contains(&saved.display().to_string())));
+            crate::app::Workspace::load(&saved).unwrap();
+            std::fs::remove_file(saved).unwrap();
+        }
+    }
+
+    #[test]
+    fn the_analysis_goes_on_after_a_panic_of_a_thread() {
+        let (send, receive) = mpsc::channel();
+        let wake = move || {
+            let _ = send.send(());
+        };
+        let mut application = Application::new(Executor::Threads, wake).unwrap();
+        application.run("test", Work::Photograph, || resume_unwind(Box::new("broken decoder")));
+        receive.recv().unwrap();
+        application.poll();
+        assert!(application.state().notices[0].text.contains("broken decoder"));
+        application.apply(JobCommand::Open(Origin::File(TINY.into())));
+        while !application.state().is_current() {
+            receive.recv_timeout(std::time::Duration::from_secs(60)).unwrap();
+            application.poll();
         }
     }
 }

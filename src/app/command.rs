@@ -105,6 +105,8 @@ pub enum JobCommand {
     Export(Export),
     /// Stop the export under way.
     CancelExport,
+    /// Show the sentence about a panic of the window, and save the workspace beside the photograph.
+    Rescue(String),
 }
 
 impl From<Edit> for Command {

@@ -16,6 +16,8 @@ pub enum Effect {
     FindWhatIf(WhatIfRequest),
     /// Stop that search.
     StopWhatIf,
+    /// Write the workspace beside the photograph, after a panic.
+    Rescue,
     /// Read a photograph with these options.
     Read(Origin, ReadOptions),
     /// Read a parameter file.

@@ -5,6 +5,7 @@ use crate::analysis::Stage;
 use crate::params::Params;
 use crate::trace::Replay;
 use crate::view::{Picture, ResultSnapshot};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A report of a worker.
@@ -20,6 +21,15 @@ pub(super) enum Report {
     WorkspaceRead(Box<Workspace>),
     /// Work could not be done: the sentence to show.
     Failed(String),
+    /// Work ended by a panic, an error of the program.
+    Panicked {
+        /// The work that ended.
+        work: Work,
+        /// The text of the panic.
+        reason: String,
+    },
+    /// The workspace was written after a panic: its path, or the sentence that says why the workspace was not written.
+    Rescued(Result<PathBuf, String>),
     /// The analysis began a stage.
     Progress {
         /// Number of the request.
@@ -47,4 +57,35 @@ pub(super) enum Report {
     Exported(Result<String, String>),
     /// A what-if job made progress or ended.
     WhatIf(WhatIfRequest, WhatIfProgress),
+}
+
+/// The work of a worker.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Work {
+    /// Reading a photograph.
+    Photograph,
+    /// Reading a parameter file or a workspace file.
+    File,
+    /// Analyzing, recording decisions, and scoring.
+    Analysis,
+    /// Writing an export.
+    Export,
+    /// The search for parameters that change a pixel's region.
+    WhatIf,
+    /// Writing the workspace after a panic.
+    Rescue,
+}
+
+impl Work {
+    /// The name of the work, as the subject of a sentence.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Photograph => "reading the photograph",
+            Self::File => "reading the file",
+            Self::Analysis => "the analysis",
+            Self::Export => "the export",
+            Self::WhatIf => "the search for what would change the pixel",
+            Self::Rescue => "saving the workspace",
+        }
+    }
 }

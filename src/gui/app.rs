@@ -3,9 +3,12 @@
 use super::dock::{Dock, Pane, Panels};
 use super::files::{Dialogs, is_workspace};
 use super::theme::{self, ThemeColors};
+use super::typed_path::typed_paths;
 use super::view_export::ViewExporter;
 use super::{PanelContext, menu, notices, perform, shortcuts, timeline_panel};
-use crate::app::{Application, Command, DebugCommand, Executor, JobCommand, Settings, State, ViewCommand};
+use crate::app::{
+    Application, Command, DebugCommand, Executor, JobCommand, Settings, State, ViewCommand, catch_panic,
+};
 use crate::view::{Origin, Theme};
 use egui::{Event, Ui};
 use std::path::PathBuf;
@@ -96,6 +99,14 @@ impl App {
         self.content.single_pane = pane;
     }
 
+    /// Writes the workspace beside the photograph, before the program ends by a panic, and returns its path.
+    ///
+    /// # Errors
+    /// A sentence that says why the workspace was not written.
+    pub fn rescue_workspace(&self) -> Result<PathBuf, String> {
+        self.application.rescue_workspace()
+    }
+
     /// The state that the panels show.
     pub fn state(&self) -> &State {
         self.application.state()
@@ -124,7 +135,15 @@ impl App {
             is_export: false,
             commands: &mut commands,
         };
-        self.content.show(ui, &mut cx);
+        if let Err(reason) = catch_panic(|| self.content.show(ui, &mut cx)) {
+            // Dialogs and help may be what failed. The panels catch their own panics.
+            (self.content.dialogs, self.content.help) = (Dialogs::default(), false);
+            let text = format!(
+                "the window was drawn incompletely because of an error of the program ({reason}); please report the \
+                 error, and go on"
+            );
+            cx.send(JobCommand::Rescue(text));
+        }
         self.content.sync_layout(&mut cx);
         self.content.sync_camera(&mut cx);
         if !commands.is_empty() {
@@ -185,7 +204,10 @@ impl WindowContent {
     }
 
     fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
-        open_dropped_and_pasted(ui, cx);
+        // A dialog has a field for what is pasted.
+        if !self.dialogs.is_open() {
+            open_dropped_and_pasted(ui, cx);
+        }
         self.dialogs.close_on_escape(ui.ctx());
         self.panels.image.cancel_on_escape(ui.ctx());
         self.panels.cube.cancel_on_escape(ui.ctx());
@@ -197,6 +219,7 @@ impl WindowContent {
             self.panels.color_space_rect.take(),
             timeline_panel::track_id(),
         );
+        let held_keys = self.dialogs.is_open().then(|| take_keys(ui.ctx()));
         for action in shortcuts::pressed(ui.ctx(), escape_is_action, listeners, &mut self.space_tap) {
             // A dialog is invisible in its first frame, in which egui measures the dialog.
             ui.ctx().request_repaint();
@@ -214,6 +237,9 @@ impl WindowContent {
         });
         let frame = egui::Frame::new().fill(cx.palette.line);
         egui::CentralPanel::default().frame(frame).show(ui, |ui| self.dock.show(ui, &mut self.panels, cx));
+        if let Some(keys) = held_keys {
+            ui.ctx().input_mut(|input| input.events.extend(keys));
+        }
         if let Some(view_export) = self.dialogs.show(ui, cx) {
             self.view_exporter.begin(ui.ctx(), view_export, cx, &self.panels.cube);
         }
@@ -230,6 +256,21 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.show(ui);
     }
+}
+
+/// Takes the keys, the typed text and the clipboard's events out of the input of this frame.
+fn take_keys(ctx: &egui::Context) -> Vec<Event> {
+    let is_key = |event: &Event| {
+        matches!(
+            event,
+            Event::Key { .. } | Event::Text(_) | Event::Ime(_) | Event::Copy | Event::Cut | Event::Paste(_)
+        )
+    };
+    ctx.input_mut(|input| {
+        let (keys, others) = std::mem::take(&mut input.events).into_iter().partition(is_key);
+        input.events = others;
+        keys
+    })
 }
 
 /// Opens files that were dropped on the window, and pasted paths and pictures.
@@ -262,10 +303,18 @@ fn open_dropped_and_pasted(ui: &Ui, cx: &mut PanelContext) {
     for event in pasted {
         match event {
             Event::Paste(text) => {
-                let text = text.trim().trim_start_matches("file://").to_owned();
-                if !text.is_empty() && !text.contains('\n') {
-                    open_path(cx, PathBuf::from(text));
+                let mut paths = typed_paths(&text).into_iter();
+                let Some(first) = paths.next() else { continue };
+                let others = paths.count();
+                if others > 0 {
+                    let text = format!(
+                        "{} files were pasted, and one is open at a time: {} was opened",
+                        others + 1,
+                        first.display()
+                    );
+                    cx.send(ViewCommand::Notify(crate::app::Severity::Done, text));
                 }
+                open_path(cx, first);
             }
             Event::PasteImage(image) => {
                 let size = [image.size[0] as u32, image.size[1] as u32];

@@ -61,6 +61,8 @@ macro_rules! panes {
             $($(#[doc = concat!("The panel ", stringify!($pane), ".")] pub $field: $panel,)?)+
             /// The rectangle of the color space in the last frame; none if the color space was not shown.
             pub color_space_rect: Option<Rect>,
+            /// The panels that a panic ended: not drawn again until their size changes.
+            pub failed: Vec<FailedPane>,
         }
     };
 }
@@ -163,12 +165,37 @@ impl Pane {
     }
 }
 
+/// A panel whose drawing ended by a panic.
+pub struct FailedPane {
+    pane: Pane,
+    /// The size of the panel at the panic, points.
+    size: egui::Vec2,
+}
+
 impl Panels {
-    /// Shows one panel in all of `ui`.
+    /// Shows one panel in all of `ui`. A panic of the panel ends the panel alone: the panel says so until its size changes
+    /// or a person tries again, and the workspace is saved.
     pub fn show(&mut self, pane: Pane, ui: &mut Ui, cx: &mut PanelContext) {
         let row = pane.row();
+        let size = ui.max_rect().size();
         ui.painter().rect_filled(ui.max_rect(), 0.0, (row.background)(cx.palette));
-        (row.show)(self, ui, cx);
+        self.failed.retain(|failed| failed.pane != pane || (failed.size - size).length() < 1.0);
+        if self.failed.iter().any(|failed| failed.pane == pane) {
+            let text = "This panel was ended by an error of the program.";
+            ui.label(egui::RichText::new(text).color(cx.palette.error));
+            if ui.button("Try again").clicked() {
+                self.failed.retain(|failed| failed.pane != pane);
+            }
+            return;
+        }
+        if let Err(reason) = crate::app::catch_panic(|| (row.show)(self, ui, cx)) {
+            self.failed.push(FailedPane { pane, size });
+            let text = format!(
+                "the panel {} was ended by an error of the program ({reason}); please report the error, and go on",
+                row.title
+            );
+            cx.send(crate::app::JobCommand::Rescue(text));
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 use super::PanelContext;
 use super::dock::Pane;
 use super::task::Task;
+use super::typed_path::{typed_path, unique_names};
 use super::view_export::ViewExport;
 use crate::app::{Export, ExportKind, ExportOptions, JobCommand};
 use crate::truth::sample::SAMPLES;
@@ -29,6 +30,9 @@ pub enum Dialog {
     Export,
 }
 
+/// A system's dialog that answers within this time was never shown, seconds.
+const NO_DIALOG_SECONDS: f64 = 0.3;
+
 /// Views that can be drawn at any size.
 const VIEWS: [Pane; 3] = [Pane::Colors, Pane::Plane, Pane::Profile];
 
@@ -43,6 +47,12 @@ pub struct Dialogs {
     view_export: Option<ViewExport>,
     system_dialog: Option<Task<Option<PathBuf>>>,
     focus: bool,
+    /// The widget that had the focus before the dialog opened, and has it again afterwards.
+    focus_before: Option<egui::Id>,
+    /// What is wrong with the path, until the path is changed.
+    problem: String,
+    /// The time at which the system's dialog was asked for, seconds.
+    asked_at: f64,
 }
 
 impl Default for Dialogs {
@@ -57,6 +67,9 @@ impl Default for Dialogs {
             view_export: None,
             system_dialog: None,
             focus: false,
+            focus_before: None,
+            problem: String::new(),
+            asked_at: 0.0,
         }
     }
 }
@@ -65,6 +78,7 @@ impl Dialogs {
     /// Opens a dialog.
     pub fn open(&mut self, dialog: Dialog) {
         (self.dialog, self.focus, self.options.force) = (Some(dialog), true, false);
+        self.problem.clear();
         match dialog {
             Dialog::Export | Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace => {
                 self.path.clear();
@@ -74,10 +88,34 @@ impl Dialogs {
         }
     }
 
+    /// Whether a dialog is open. An open dialog owns the keyboard: no key reaches the panels.
+    pub fn is_open(&self) -> bool {
+        self.dialog.is_some()
+    }
+
+    /// Keeps the focus inside the dialog on `layer`, and remembers the widget outside that had the focus.
+    fn own_focus(&mut self, ctx: &egui::Context, layer: egui::LayerId) {
+        let focused = ctx.memory(egui::Memory::focused);
+        let is_outside = |id| ctx.read_response(id).is_some_and(|widget| widget.layer_id != layer);
+        if self.focus && self.focus_before.is_none() {
+            self.focus_before = focused.filter(|&id| is_outside(id));
+        }
+        ctx.memory_mut(|memory| memory.set_modal_layer(layer));
+    }
+
+    /// Closes the dialog, and gives the focus back.
+    fn close(&mut self, ctx: &egui::Context) {
+        self.dialog = None;
+        self.problem.clear();
+        if let Some(id) = self.focus_before.take() {
+            ctx.memory_mut(|memory| memory.request_focus(id));
+        }
+    }
+
     /// Closes the open dialog on Escape, before Escape clears the selection.
     pub fn close_on_escape(&mut self, ctx: &egui::Context) {
         if self.dialog.is_some() && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
-            self.dialog = None;
+            self.close(ctx);
         }
     }
 
@@ -95,20 +133,21 @@ impl Dialogs {
         };
         let mut open = true;
         let window = egui::Window::new(title).open(&mut open).collapsible(false).resizable(false);
-        let is_done = window
-            .default_width(480.0)
-            .anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 64.0))
-            .show(ui.ctx(), |ui| {
+        let shown = window.default_width(480.0).anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 64.0)).show(
+            ui.ctx(),
+            |ui| {
                 if dialog == Dialog::Export {
                     self.export_kinds(ui, cx);
                 }
                 let is_done = self.path_row(ui, dialog, cx);
                 if dialog == Dialog::Open { Self::samples_and_recent(ui, cx) || is_done } else { is_done }
-            })
-            .and_then(|shown| shown.inner)
-            .unwrap_or(false);
-        if is_done || !open {
-            self.dialog = None;
+            },
+        );
+        if let Some(shown) = &shown {
+            self.own_focus(ui.ctx(), shown.response.layer_id);
+        }
+        if !open || shown.and_then(|shown| shown.inner).unwrap_or(false) {
+            self.close(ui.ctx());
         }
         self.view_export.take()
     }
@@ -124,6 +163,7 @@ impl Dialogs {
             if radio.on_hover_text(kind.tip()).on_disabled_hover_text(kind.tip()).clicked() {
                 self.kind = kind;
                 self.path = proposed_path(kind, cx).display().to_string();
+                self.focus = true;
             }
         }
         ui.add_space(4.0);
@@ -177,6 +217,9 @@ impl Dialogs {
             let label = ui.label("Path");
             let field = egui::TextEdit::singleline(&mut self.path).desired_width(300.0);
             let response = ui.add(field.hint_text("path of a file")).labelled_by(label.id);
+            if response.changed() {
+                self.problem.clear();
+            }
             if std::mem::take(&mut self.focus) {
                 response.request_focus();
             }
@@ -191,8 +234,16 @@ impl Dialogs {
                 .clicked();
             confirmed &= ready;
         });
+        if !self.problem.is_empty() {
+            ui.label(RichText::new(&self.problem).color(cx.palette.error));
+        }
         if confirmed {
-            let path = expanded(self.path.trim());
+            let path = typed_path(&self.path).unwrap_or_default();
+            if let Some(problem) = problem_of(dialog, &path) {
+                // The dialog stays open, with the text, so that the text can be corrected.
+                (self.problem, self.focus) = (problem, true);
+                return false;
+            }
             if dialog == Dialog::Export && self.kind == ExportKind::View {
                 self.view_export = Some(ViewExport { pane: self.view, size_px: self.size_px, path });
                 return confirmed;
@@ -203,7 +254,7 @@ impl Dialogs {
                 Dialog::LoadParameters => JobCommand::LoadParams(path),
                 Dialog::OpenWorkspace => JobCommand::OpenWorkspace(path),
                 Dialog::SaveParameters => JobCommand::Export(ExportKind::Parameters.to(path)),
-                Dialog::SaveWorkspace => JobCommand::Export(ExportKind::Workspace.to(path)),
+                Dialog::SaveWorkspace => JobCommand::Export(ExportKind::Workspace.to(workspace_path(path))),
                 Dialog::Export => {
                     JobCommand::Export(Export { kind: self.kind, path, options: self.options.clone() })
                 }
@@ -225,8 +276,7 @@ impl Dialogs {
         }
         if !cx.state.recent.is_empty() {
             super::widgets::heading(ui, cx.palette, "Recent");
-            for path in &cx.state.recent {
-                let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+            for (path, name) in cx.state.recent.iter().zip(unique_names(&cx.state.recent)) {
                 if ui.link(name).on_hover_text(path.display().to_string()).clicked() {
                     chosen = Some(Origin::File(path.clone()));
                 }
@@ -243,7 +293,9 @@ impl Dialogs {
     fn browse(&mut self, ctx: &egui::Context, dialog: Dialog) {
         let folder = dialog == Dialog::Export && self.kind.is_folder();
         let writes = matches!(dialog, Dialog::SaveParameters | Dialog::SaveWorkspace | Dialog::Export);
-        let start = expanded(&self.path);
+        let start = typed_path(&self.path).unwrap_or_default();
+        self.problem.clear();
+        self.asked_at = ctx.input(|input| input.time);
         let ask = move || {
             let mut dialog = rfd::AsyncFileDialog::new();
             if let Some(parent) = start.parent().filter(|parent| parent.is_dir()) {
@@ -269,9 +321,16 @@ impl Dialogs {
     /// Takes the path that was chosen in the system's dialog.
     fn take_chosen_path(&mut self, ui: &Ui) {
         if let Some(answer) = Task::take(&mut self.system_dialog) {
-            if let Some(path) = answer {
-                self.path = path.display().to_string();
-                self.focus = true;
+            self.focus = true;
+            let waited = ui.input(|input| input.time) - self.asked_at;
+            match answer {
+                Some(path) => self.path = path.display().to_string(),
+                // Without a portal, the answer comes at once and is the same as that of a canceled dialog.
+                None if waited < NO_DIALOG_SECONDS => {
+                    "This system shows no file dialog. Type or paste a path, or drop a file on the window."
+                        .clone_into(&mut self.problem);
+                }
+                None => {}
             }
             ui.ctx().request_repaint();
         }
@@ -299,8 +358,50 @@ pub fn is_workspace(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "dichroscope")
 }
 
-/// A typed path, with `~/` expanded.
-fn expanded(text: &str) -> PathBuf {
-    let home = || directories::BaseDirs::new().map(|dirs| dirs.home_dir().to_path_buf());
-    text.strip_prefix("~/").and_then(|rest| Some(home()?.join(rest))).unwrap_or_else(|| PathBuf::from(text))
+/// A workspace's path, with the extension of workspaces appended where the path has another extension or none.
+fn workspace_path(path: PathBuf) -> PathBuf {
+    if is_workspace(&path) {
+        return path;
+    }
+    let mut name = path.into_os_string();
+    name.push(".dichroscope");
+    PathBuf::from(name)
+}
+
+/// What is wrong with a path that is to be read; none where the path is a file, or is to be written.
+fn problem_of(dialog: Dialog, path: &Path) -> Option<String> {
+    let reads = matches!(dialog, Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace);
+    if !reads || path.is_file() {
+        return None;
+    }
+    let what = if path.is_dir() { "is a folder, not a file" } else { "there is no such file" };
+    Some(format!("{}: {what}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_workspace_gets_its_extension() {
+        for (typed, path) in [
+            ("a", "a.dichroscope"),
+            ("a.v2", "a.v2.dichroscope"),
+            ("/b/a.dichroscope", "/b/a.dichroscope"),
+            ("a.json", "a.json.dichroscope"),
+        ] {
+            assert_eq!(workspace_path(typed.into()), Path::new(path));
+        }
+    }
+
+    #[test]
+    fn a_path_that_cannot_be_read_has_a_problem_and_a_path_to_be_written_has_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let missing = folder.path().join("x.png");
+        assert!(problem_of(Dialog::Open, &missing).unwrap().contains("no such file"));
+        assert!(problem_of(Dialog::OpenWorkspace, folder.path()).unwrap().contains("is a folder"));
+        assert_eq!(problem_of(Dialog::Export, &missing), None);
+        std::fs::write(&missing, "").unwrap();
+        assert_eq!(problem_of(Dialog::Open, &missing), None);
+    }
 }

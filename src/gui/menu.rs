@@ -5,6 +5,7 @@ use super::dock::{Dock, Pane};
 use super::files::{Dialog, Dialogs};
 use super::move_cursor::{move_cursor, selected_goal};
 use super::shortcuts::keys_of;
+use super::typed_path::unique_names;
 use super::{PanelContext, status};
 use crate::app::{Edit, JobCommand, StepUnit, ViewCommand, analyze_call};
 use crate::params::{Method, Preset};
@@ -45,8 +46,7 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
         dialogs.open(Dialog::Open);
     }
     ui.menu_button("Open recent", |ui| {
-        for path in &cx.state.recent {
-            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        for (path, name) in cx.state.recent.iter().zip(unique_names(&cx.state.recent)) {
             if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
                 cx.send(JobCommand::Open(Origin::File(path.clone())));
             }

@@ -35,6 +35,7 @@ mod task;
 pub mod testing;
 mod theme;
 mod timeline_panel;
+mod typed_path;
 mod view_export;
 mod watch_panel;
 mod why_panel;

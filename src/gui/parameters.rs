@@ -144,7 +144,13 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
         // The slider has no tooltip, which would hide the rows below while a person drags.
         let slider = widgets::clickable(&columns.slider.show(ui, slider));
         slider.widget_info(|| egui::WidgetInfo::slider(true, value, spec.title));
-        let field = ui.put(columns.value.0, field(&spec, &mut value)).on_hover_text(&tip);
+        let before = value;
+        let mut field = ui.put(columns.value.0, field(&spec, &mut value)).on_hover_text(&tip);
+        if !slider.changed() {
+            widgets::keep_unless_edited(&mut field, before, &mut value, |v| {
+                format!("{v:.*}", decimals(&spec))
+            });
+        }
         field.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, spec.name));
         let unit = RichText::new(spec.unit).size(SMALL_PT).color(cx.palette.secondary);
         if columns.unit.0.width() > 0.0 {
@@ -181,11 +187,16 @@ fn slider<'a>(spec: &ParameterSpec, value: &'a mut f64) -> Slider<'a> {
 
 /// The field in which a parameter's value is typed.
 fn field<'a>(spec: &ParameterSpec, value: &'a mut f64) -> DragValue<'a> {
-    let decimals = usize::from(spec.slider.step < 1.0) * 2;
     DragValue::new(value)
         .speed(spec.slider.step)
         .range(spec.range[0]..=spec.range[1])
-        .fixed_decimals(decimals)
+        .clamp_existing_to_range(false)
+        .fixed_decimals(decimals(spec))
+}
+
+/// The number of decimals that a parameter's field shows.
+fn decimals(spec: &ParameterSpec) -> usize {
+    usize::from(spec.slider.step < 1.0) * 2
 }
 
 /// Shows the button that sets a parameter to `auto`, or to the value that was used.
@@ -325,11 +336,15 @@ impl Bands {
                 label(ui, self.name, self.tip);
             }
             for (value, band) in values.iter_mut().zip(["red", "green", "blue"]) {
+                let before = *value;
                 let field = DragValue::new(value)
                     .range(0.0..=self.most)
+                    .clamp_existing_to_range(false)
                     .speed(self.speed)
                     .fixed_decimals(self.decimals);
-                let field = ui.add_sized(vec2(VALUE_PT, ROW_PT), field);
+                let mut field = ui.add_sized(vec2(VALUE_PT, ROW_PT), field);
+                let text = |v: f64| format!("{v:.*}", self.decimals);
+                widgets::keep_unless_edited(&mut field, before, value, text);
                 field.widget_info(|| {
                     let name = format!("{} {band}", self.name);
                     egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, name)

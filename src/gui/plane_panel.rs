@@ -28,6 +28,8 @@ pub struct PlanePanel {
     plane_instant: Option<cursor::PlaneInstant>,
     plane: Option<RegionPlane>,
     chart: Option<Chart>,
+    /// Whether a person has panned or zoomed. Until then, the chart is fitted to the plane at every change.
+    is_moved: bool,
     point_mesh: Option<PointMesh>,
     is_hovering: bool,
 }
@@ -74,7 +76,8 @@ impl PlanePanel {
             let name = format!("Dichromatic plane of region {region}");
             egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, name)
         });
-        let chart = navigate(ui, &response, plane, self.chart, rect);
+        let moved = self.chart.filter(|_| self.is_moved);
+        let chart = navigate(ui, &response, plane, moved, rect, &mut self.is_moved);
         self.chart = Some(chart);
         let painter = ui.painter_at(rect);
         chart.axes(&painter, plane, rect, cx.palette);
@@ -89,15 +92,15 @@ impl PlanePanel {
     /// Computes the plane of a region, where result or region have changed.
     fn update(&mut self, shown: &Arc<ResultSnapshot>, region: RegionId) {
         if self.plane_instant.take().is_some() {
-            (self.of, self.chart) = (None, None);
+            (self.of, self.is_moved) = (None, false);
         }
         let known = self.of.as_ref().map(|(shown, region)| (Arc::as_ptr(shown), *region));
         if known == Some((Arc::as_ptr(shown), region)) {
             return;
         }
-        // Scale and center are kept when the same region of a newer result is shown.
+        // A chart that a person moved is kept when the same region of a newer result is shown.
         if known.is_none_or(|(_, known)| known != region) {
-            self.chart = None;
+            self.is_moved = false;
         }
         self.plane = region_plane(shown, region);
         self.point_mesh = None;
@@ -122,14 +125,26 @@ impl PlanePanel {
     }
 }
 
-/// The chart after this frame's input: a drag pans, the wheel zooms at the pointer, a double click fits the plane.
-fn navigate(ui: &Ui, response: &Response, plane: &RegionPlane, chart: Option<Chart>, rect: Rect) -> Chart {
-    let mut chart = chart.filter(|_| !response.double_clicked()).unwrap_or_else(|| Chart::fit(plane, rect));
+/// The chart after this frame's input: a drag pans, the wheel zooms at the pointer, a double click fits the plane. `chart` is the
+/// chart that a person moved; without such a chart, the plane is fitted into the view. `is_moved` is whether a person has
+/// moved the chart.
+fn navigate(
+    ui: &Ui,
+    response: &Response,
+    plane: &RegionPlane,
+    chart: Option<Chart>,
+    rect: Rect,
+    is_moved: &mut bool,
+) -> Chart {
+    let fitted = chart.filter(|_| !response.double_clicked());
+    let mut chart = fitted.unwrap_or_else(|| Chart::fit(plane, rect));
+    let before = chart;
     chart.pan(response.drag_delta());
     if let Some(pointer) = response.hover_pos() {
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
         chart.zoom((scroll / SCROLL_PT).exp() * pinch, pointer, rect);
     }
+    *is_moved = (*is_moved && !response.double_clicked()) || chart != before;
     chart
 }
 

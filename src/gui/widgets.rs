@@ -23,6 +23,20 @@ pub fn clickable(slider: &Response) -> Response {
     slider.union(clicks)
 }
 
+/// Takes back the change that egui makes when a field loses the focus: egui then writes the shown text, which is rounded, into
+/// the value. `text` gives the text that the field shows for a value. Typed and dragged changes stay.
+pub fn keep_unless_edited<N: Copy>(
+    field: &mut Response,
+    before: N,
+    value: &mut N,
+    text: impl Fn(N) -> String,
+) {
+    if field.lost_focus() && text(before) == text(*value) {
+        *value = before;
+        field.flags.remove(egui::response::Flags::CHANGED);
+    }
+}
+
 /// A number, and its unit in the secondary color, right-aligned in `width` points.
 pub fn number(ui: &mut Ui, palette: &ThemeColors, width: f32, value: &str, unit: &str) {
     ui.allocate_ui_with_layout(vec2(width, 18.0), Layout::right_to_left(Align::Center), |ui| {

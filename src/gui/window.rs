@@ -1,7 +1,8 @@
 //! The application's window on the desktop.
 
 use super::App;
-use crate::app::{Executor, JobCommand, Settings, Severity, ViewCommand};
+use super::files::is_workspace;
+use crate::app::{Executor, JobCommand, Settings, Severity, ViewCommand, catch_panic};
 use crate::truth::sample;
 use crate::view::Origin;
 use egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
@@ -14,38 +15,85 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[error("no window can be opened here ({0}); `dichroscope analyze PHOTO --out DIR` needs none")]
 pub struct WindowError(String);
 
-/// Opens the window on `photograph`, or on the sample scene, and returns when it is closed.
+/// Opens the window on `file` (a photograph or a workspace), or on the sample scene, and returns when it is closed.
 ///
 /// When the graphics device is lost (a driver restarts, a card is unplugged), the window closes, and another window
-/// with a new device opens with the same application in it.
+/// with a new device opens with the same application in it. The same happens after a panic outside of the panels.
 ///
 /// # Errors
-/// When there is no display or no graphics adapter.
-pub fn open(photograph: Option<PathBuf>) -> Result<(), WindowError> {
-    let mut origin = Some(photograph.map_or_else(|| Origin::Sample(sample::NAME.to_owned()), Origin::File));
+/// When there is no display or no graphics adapter, and when panics repeat.
+pub fn open(file: Option<PathBuf>) -> Result<(), WindowError> {
+    let mut first_job = Some(first_job(file));
     let handover: Handover = Arc::default();
+    let mut panics = 0;
     loop {
-        let (origin, handed_over) = (origin.take(), Arc::clone(&handover));
+        let (job, handed_over) = (first_job.take(), Arc::clone(&handover));
         let create = move |cc: &eframe::CreationContext<'_>| {
             let app = lock(&handed_over).take();
-            let app = match (app, origin) {
+            let app = match (app, job) {
                 (Some(mut app), _) => {
                     app.move_to(&cc.egui_ctx, cc.wgpu_render_state.clone());
                     app
                 }
-                (None, origin) => first_app(cc, origin)?,
+                (None, job) => first_app(cc, job)?,
             };
             let lost = cc
                 .wgpu_render_state
                 .as_ref()
                 .map_or_else(Arc::default, |gpu| device_lost_flag(gpu, &cc.egui_ctx));
-            Ok(Box::new(WindowApp { app: Some(app), lost, handover: handed_over }) as Box<dyn eframe::App>)
+            let device_error = cc.wgpu_render_state.as_ref().map_or_else(Arc::default, device_error);
+            let window = WindowApp { app: Some(app), lost, device_error, handover: handed_over };
+            Ok(Box::new(window) as Box<dyn eframe::App>)
         };
-        let result = eframe::run_native("dichroscope", options(), Box::new(create));
-        if lock(&handover).is_none() {
-            return result.map_err(|error| WindowError(short_reason(&error.to_string()).to_owned()));
+        let run = || eframe::run_native("dichroscope", options(), Box::new(create));
+        match catch_panic(run) {
+            // A lost device leaves the application in the handover: another window opens.
+            Ok(Ok(())) if lock(&handover).is_some() => {}
+            Ok(result) => {
+                return result.map_err(|error| WindowError(short_reason(&error.to_string()).to_owned()));
+            }
+            Err(reason) => {
+                panics += 1;
+                reopen_after_panic(&handover, &reason, panics)?;
+            }
         }
     }
+}
+
+/// The first job of the window: opens a workspace, a photograph, or the sample scene where no file is given.
+fn first_job(file: Option<PathBuf>) -> JobCommand {
+    match file {
+        Some(path) if is_workspace(&path) => JobCommand::OpenWorkspace(path),
+        Some(path) => JobCommand::Open(Origin::File(path)),
+        None => JobCommand::Open(Origin::Sample(sample::NAME.to_owned())),
+    }
+}
+
+/// Largest number of panics after which another window is opened.
+const MOST_PANICS: usize = 3;
+
+/// Prepares the application for another window after a panic outside of the panels, and saves the workspace.
+///
+/// # Errors
+/// When the application was lost with the window, or the panics repeat.
+fn reopen_after_panic(handover: &Handover, reason: &str, panics: usize) -> Result<(), WindowError> {
+    let mut handed_over = lock(handover);
+    let failed = |saved: &str| {
+        WindowError(format!("the window was ended by an error of the program: {reason}{saved}"))
+    };
+    let Some(app) = handed_over.as_mut() else { return Err(failed("")) };
+    if panics > MOST_PANICS {
+        let saved = app.rescue_workspace().map_or_else(
+            |_| String::new(),
+            |path| format!("; the workspace was saved to {}", path.display()),
+        );
+        return Err(failed(&saved));
+    }
+    let text = format!(
+        "the window was ended by an error of the program ({reason}) and opened again; please report the error, and go on"
+    );
+    app.apply(JobCommand::Rescue(text));
+    Ok(())
 }
 
 /// Holds the application after a window with a lost device has closed, until the next window opens.
@@ -69,11 +117,25 @@ fn options() -> eframe::NativeOptions {
         viewport,
         renderer: eframe::Renderer::Wgpu,
         wgpu_options: WgpuConfiguration {
-            wgpu_setup: WgpuSetup::CreateNew(WgpuSetupCreateNew::without_display_handle()),
+            wgpu_setup: WgpuSetup::CreateNew(wgpu_setup()),
             ..WgpuConfiguration::default()
         },
         ..eframe::NativeOptions::default()
     }
+}
+
+/// The setup of the graphics device: egui's own, with textures as large as the adapter can have, so that a window of more than
+/// 8192 pixels can be drawn.
+fn wgpu_setup() -> WgpuSetupCreateNew {
+    let setup = WgpuSetupCreateNew::without_display_handle();
+    let egui_descriptor = Arc::clone(&setup.device_descriptor);
+    let device_descriptor = move |adapter: &wgpu::Adapter| {
+        let mut descriptor = egui_descriptor(adapter);
+        let limit = &mut descriptor.required_limits.max_texture_dimension_2d;
+        *limit = (*limit).max(adapter.limits().max_texture_dimension_2d);
+        descriptor
+    };
+    WgpuSetupCreateNew { device_descriptor: Arc::new(device_descriptor), ..setup }
 }
 
 /// The window's icon: a skewed T in a color cube; egui's default icon if the image cannot be decoded.
@@ -82,7 +144,7 @@ fn icon() -> egui::IconData {
 }
 
 /// The application of the first window, with the settings stored by the previous run.
-fn first_app(cc: &eframe::CreationContext<'_>, origin: Option<Origin>) -> std::io::Result<App> {
+fn first_app(cc: &eframe::CreationContext<'_>, job: Option<JobCommand>) -> std::io::Result<App> {
     let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.clone(), Executor::Threads)?;
     if let Some(path) = Settings::path() {
         let (settings, warning) = Settings::load(&path);
@@ -91,8 +153,8 @@ fn first_app(cc: &eframe::CreationContext<'_>, origin: Option<Origin>) -> std::i
             app.apply(ViewCommand::Notify(Severity::Warning, text));
         }
     }
-    if let Some(origin) = origin {
-        app.apply(JobCommand::Open(origin));
+    if let Some(job) = job {
+        app.apply(job);
     }
     Ok(app)
 }
@@ -109,10 +171,24 @@ fn device_lost_flag(gpu: &RenderState, ctx: &egui::Context) -> Arc<AtomicBool> {
     lost
 }
 
+/// The last error of the graphics device that nobody handled. Without this handler such an error ends the process: a window
+/// that is larger than the device's largest texture is such an error.
+fn device_error(gpu: &RenderState) -> Arc<Mutex<Option<String>>> {
+    let last = Arc::new(Mutex::new(None));
+    let slot = Arc::clone(&last);
+    gpu.device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+        tracing::warn!("the graphics device: {error}");
+        *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(error.to_string());
+    }));
+    last
+}
+
 /// The contents of one window.
 struct WindowApp {
     app: Option<App>,
     lost: Arc<AtomicBool>,
+    /// The last error of the graphics device, until a notice shows the error.
+    device_error: Arc<Mutex<Option<String>>>,
     handover: Handover,
 }
 
@@ -126,6 +202,11 @@ impl eframe::App for WindowApp {
         if self.lost.load(Ordering::Relaxed) {
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
         } else if let Some(app) = &mut self.app {
+            if self.device_error.lock().unwrap_or_else(PoisonError::into_inner).take().is_some() {
+                // The text of the error is in the log: it is long, and names what only the program knows.
+                let text = "the graphics device could not draw this window: make the window smaller";
+                app.apply(ViewCommand::Notify(Severity::Error, text.to_owned()));
+            }
             app.show(ui);
         }
     }
@@ -138,6 +219,17 @@ impl eframe::App for WindowApp {
             && let Err(reason) = Settings::of(app.state()).save(&path)
         {
             tracing::warn!("{reason}");
+        }
+    }
+}
+
+impl Drop for WindowApp {
+    /// Hands the application over when a panic ends the window.
+    fn drop(&mut self) {
+        if std::thread::panicking()
+            && let Some(app) = self.app.take()
+        {
+            *lock(&self.handover) = Some(app);
         }
     }
 }
@@ -156,6 +248,13 @@ mod tests {
     fn the_icon_is_square() {
         let icon = icon();
         assert_eq!((icon.width, icon.height, icon.rgba.len()), (256, 256, 4 * 256 * 256));
+    }
+
+    #[test]
+    fn a_workspace_is_opened_as_a_workspace_and_anything_else_as_a_photograph() {
+        assert!(matches!(first_job(Some("a.dichroscope".into())), JobCommand::OpenWorkspace(_)));
+        assert!(matches!(first_job(Some("a.png".into())), JobCommand::Open(Origin::File(_))));
+        assert!(matches!(first_job(None), JobCommand::Open(Origin::Sample(_))));
     }
 
     #[test]

@@ -22,6 +22,10 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
             Vec::new()
         }
         JobCommand::Export(export) => vec![Effect::Write(export)],
+        JobCommand::Rescue(text) => {
+            state.notify(Severity::Error, text);
+            vec![Effect::Rescue]
+        }
         JobCommand::CancelExport => vec![Effect::StopWriting],
     }
 }

@@ -3,7 +3,7 @@
 use super::debugger::take_trace;
 use super::edits::{analyze, edit_params};
 use super::questions::take_progress;
-use crate::app::report::Report;
+use crate::app::report::{Report, Work};
 use crate::app::state::AfterPin;
 use crate::app::{Debugger, Document, Effect, Severity, State, ViewSettings, Workspace};
 use crate::view::{Item, MaskRuns, Picture, ProfileLine, ResultSnapshot};
@@ -23,6 +23,14 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
         Report::ParamsRead(params) => return edit_params(state, None, |old| *old = *params),
         Report::WorkspaceRead(workspace) => return read_photograph_of(state, workspace),
         Report::Failed(reason) => state.notify(Severity::Error, reason),
+        Report::Panicked { work, reason } => return end_panicked(state, work, &reason),
+        Report::Rescued(Ok(path)) => {
+            let text = format!("the workspace was saved to {}", path.display());
+            state.notify(Severity::Warning, text);
+        }
+        Report::Rescued(Err(reason)) => {
+            state.notify(Severity::Warning, format!("the workspace was not saved: {reason}"));
+        }
         Report::Progress { generation, stage } => {
             if let Some(job) = state.jobs.analysis.as_mut().filter(|_| generation == state.generation) {
                 job.stage = Some(stage);
@@ -45,6 +53,25 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
         Report::WhatIf(request, progress) => take_progress(state, request, progress),
     }
     Vec::new()
+}
+
+/// Ends the job of a worker that panicked, and asks for the workspace to be saved.
+fn end_panicked(state: &mut State, work: Work, reason: &str) -> Vec<Effect> {
+    match work {
+        Work::Photograph => (state.jobs.reading, state.restoring) = (None, None),
+        Work::File => state.restoring = None,
+        Work::Analysis => (state.jobs.analysis, state.after_pin) = (None, None),
+        Work::Export => state.jobs.export = None,
+        Work::WhatIf => state.what_if_job = None,
+        Work::Rescue => {}
+    }
+    let text = format!(
+        "{} was ended by an error of the program ({reason}); please report the error, and go on",
+        work.name()
+    );
+    state.notify(Severity::Error, text);
+    let is_work_lost = state.picture.is_some() && work != Work::Rescue;
+    if is_work_lost { vec![Effect::Rescue] } else { Vec::new() }
 }
 
 /// Asks for the photograph of a workspace; the rest of the workspace is restored when the photograph is open.

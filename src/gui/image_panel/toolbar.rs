@@ -5,7 +5,7 @@ use crate::app::{DebugSettings, State};
 use crate::gui::action::Action;
 use crate::gui::shortcuts::keys_of;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
-use crate::gui::widgets::clickable;
+use crate::gui::widgets::{clickable, keep_unless_edited};
 use crate::view::{Arrangement, Fill, ImageSettings, Layer, Tool};
 use egui::accesskit::Role;
 use egui::{
@@ -125,9 +125,10 @@ fn zoom_controls(ui: &mut Ui, settings: &mut ImageSettings, zoom: f32) {
         settings.zoom = Some(1.0);
     }
     let mut percent = zoom * 100.0;
-    let speed = percent / 100.0;
+    let (speed, before) = (percent / 100.0, percent);
     let field = DragValue::new(&mut percent).range(0.0..=f32::MAX).speed(speed).max_decimals(0).suffix(" %");
-    let field = ui.add_sized(vec2(48.0, ui.spacing().interact_size.y), field);
+    let mut field = ui.add_sized(vec2(48.0, ui.spacing().interact_size.y), field);
+    keep_unless_edited(&mut field, before, &mut percent, |v| format!("{v:.0}"));
     set_accessible_name(&field, "Zoom", f64::from(percent));
     if field.changed() && percent > 0.0 {
         settings.zoom = Some(percent / 100.0);
@@ -195,9 +196,11 @@ pub fn column(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings) 
         ui.spacing_mut().interact_size.x = icons::SIDE_PT;
         ui.style_mut().drag_value_text_style = egui::TextStyle::Small;
         let decimals = usize::from(settings.brush_px < 10.0);
+        let before = settings.brush_px;
         let radius = DragValue::new(&mut settings.brush_px).range(0.5..=500.0).speed(0.25);
         let radius = radius.max_decimals(decimals);
-        let radius = ui.add_sized(vec2(icons::SIDE_PT, 18.0), radius);
+        let mut radius = ui.add_sized(vec2(icons::SIDE_PT, 18.0), radius);
+        keep_unless_edited(&mut radius, before, &mut settings.brush_px, |v| format!("{v:.decimals$}"));
         set_accessible_name(&radius, "Brush radius", f64::from(settings.brush_px));
         radius.on_hover_text("Radius of the brush, pixels of the picture");
     }

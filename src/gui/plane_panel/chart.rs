@@ -86,7 +86,8 @@ impl Chart {
             painter.line_segment([at(value, surface[0]), at(value, surface[1])], stroke);
             let foot = at(value, 0.0);
             if value != 0.0 && rect.shrink2(vec2(12.0, 0.0)).x_range().contains(foot.x) {
-                let y = foot.y.clamp(rect.top() + 16.0, rect.bottom() - 34.0);
+                // In a view that is lower than both margins, the upper margin wins.
+                let y = foot.y.min(rect.bottom() - 34.0).max(rect.top() + 16.0);
                 painter.text(
                     pos2(foot.x, y + 3.0),
                     Align2::CENTER_TOP,
@@ -100,7 +101,8 @@ impl Chart {
             painter.line_segment([at(body[0], value), at(body[1], value)], line(value, palette));
             let foot = at(0.0, value);
             if value != 0.0 && rect.shrink2(vec2(0.0, 20.0)).y_range().contains(foot.y) {
-                let x = foot.x.clamp(rect.left() + 28.0, rect.right() - 6.0);
+                // In a view that is narrower than both margins, the left margin wins.
+                let x = foot.x.min(rect.right() - 6.0).max(rect.left() + 28.0);
                 painter.text(
                     pos2(x - 4.0, foot.y),
                     Align2::RIGHT_CENTER,

@@ -88,7 +88,8 @@ impl PlanePanel {
             let name = format!("{what} of hypothesis {}", plane_instant.2);
             egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, name)
         });
-        let chart = navigate(ui, &response, plane, self.chart, rect);
+        let moved = self.chart.filter(|_| self.is_moved);
+        let chart = navigate(ui, &response, plane, moved, rect, &mut self.is_moved);
         self.chart = Some(chart);
         let painter = ui.painter_at(rect);
         chart.axes(&painter, plane, rect, cx.palette);
@@ -120,9 +121,9 @@ impl PlanePanel {
             Some(test) => test_plane(replay, test, region, working),
             None => growing_plane(replay, plane_instant.2, region, working),
         };
-        // Scale and center are kept while the same region grows.
+        // A chart that a person moved is kept while the same region grows.
         if test.is_some() || self.plane_instant.is_none_or(|(_, _, before)| before != plane_instant.2) {
-            self.chart = None;
+            self.is_moved = false;
         }
         (self.plane_instant, self.point_mesh) = (Some(plane_instant), None);
     }

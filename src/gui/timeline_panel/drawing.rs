@@ -161,7 +161,7 @@ fn cursor(painter: &Painter, palette: &ThemeColors, scale: &Scale, lanes: &Lanes
     painter.rect_filled(ahead, 0.0, palette.panel.gamma_multiply(0.4));
     // At either end of the track, half of the cursor's line would be cut off.
     let x = if (rect.left()..=rect.right()).contains(&x) {
-        x.clamp(rect.left() + 1.0, rect.right() - 1.0)
+        x.min(rect.right() - 1.0).max(rect.left() + 1.0)
     } else {
         return;
     };

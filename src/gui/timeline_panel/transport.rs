@@ -7,7 +7,7 @@ use crate::describe::Names;
 use crate::gui::action::{Action, DebugAction};
 use crate::gui::move_cursor::move_cursor;
 use crate::gui::shortcuts::keys_of;
-use crate::gui::widgets::grouped;
+use crate::gui::widgets::{grouped, keep_unless_edited};
 use crate::gui::{PanelContext, theme::SMALL_PT};
 use crate::trace::Replay;
 use Direction::{Back, Forward};
@@ -180,7 +180,8 @@ fn playback_settings(ui: &mut Ui, cx: &mut PanelContext) {
     let [least, most, _] = rates(settings.unit);
     ui.spacing_mut().slider_width = 64.0;
     let slider = Slider::new(&mut settings.per_second, least..=most).logarithmic(true).suffix(" /s");
-    let slider = ui.add(slider.custom_formatter(|rate, _| rate_text(rate)));
+    let mut slider = ui.add(slider.custom_formatter(|rate, _| rate_text(rate)));
+    keep_unless_edited(&mut slider, before.per_second, &mut settings.per_second, rate_text);
     slider.widget_info(|| WidgetInfo::slider(true, before.per_second, "Rate"));
     slider.on_hover_text("How many of these a second while playing.");
     let tip = "Begin anew when the end is reached.";

@@ -5,7 +5,7 @@ use dichroscope::app::{Severity, ViewCommand};
 use dichroscope::view::{Theme, Tool};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 const LISTED: &str = "Mark the pixels of the selected region";
 
@@ -49,6 +49,36 @@ fn keys_are_letters_while_somebody_types() {
     assert_eq!((view.theme, view.image.tool), (Theme::Dark, Tool::Pointer));
     assert!(state(&window).pinned.is_none());
     assert_eq!(window.get_by_role(Role::TextInput).value().as_deref(), Some("tkr3"));
+}
+
+#[test]
+fn a_dialog_owns_the_keyboard_and_gives_the_focus_back() {
+    let mut window = tiny_window();
+    crate::window::click(&mut window, Role::SpinButton, "camera_noise");
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    crate::window::click(&mut window, Role::RadioButton, "Regions table");
+    assert!(window.get_by_role_and_label(Role::TextInput, "Path").is_focused(), "the field has the focus");
+    crate::window::click(&mut window, Role::RadioButton, "Everything, as a folder");
+    crate::window::click(&mut window, Role::CheckBox, "replace the folder whatever it holds");
+    let before = state(&window).clone();
+    for (key, letter) in
+        [(Key::T, "t"), (Key::K, "k"), (Key::CloseBracket, "]"), (Key::Num3, "3"), (Key::D, "d")]
+    {
+        window.event(Event::Text(letter.to_owned()));
+        press(&mut window, Modifiers::NONE, key);
+        press(&mut window, Modifiers::COMMAND, key);
+    }
+    for _ in 0..30 {
+        press(&mut window, Modifiers::NONE, Key::Tab);
+        let focused = window.root().children_recursive().find(|node| node.is_focused());
+        if let Some(name) = focused.as_ref().and_then(crate::window::words) {
+            assert!(!name.contains("camera") && name != "Picture" && name != "Timeline", "{name}");
+        }
+    }
+    assert_eq!(state(&window).view, before.view);
+    assert!(state(&window).document == before.document && state(&window).pinned.is_none());
 }
 
 fn is_asked(window: &Window) -> bool {

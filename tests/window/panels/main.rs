@@ -19,6 +19,7 @@ mod opening;
 mod pictures;
 mod plane_panel;
 mod regions;
+mod sizes;
 mod sliders;
 mod why;
 mod window;

@@ -10,6 +10,7 @@ use dichroscope::truth::sample;
 use dichroscope::view::Origin;
 use egui::accesskit::Role;
 use egui::{Color32, ColorImage, Event, Key, Modifiers};
+use egui_kittest::kittest::Queryable;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -56,8 +57,15 @@ fn a_typed_path_opens_and_a_bad_one_leaves_the_picture() {
     let result = shown(&window);
     press(&mut window, Modifiers::COMMAND, Key::O);
     answer(&mut window, &folder.path().join("gone.png"));
+    assert!(says(&window, "gone.png: there is no such file"), "the dialog says so and stays");
+    let typed = window.get_by_role_and_label(Role::TextInput, "Path").value();
+    assert!(typed.is_some_and(|text| text.ends_with("gone.png")), "the text stays");
+    assert!(state(&window).notices.is_empty());
+    let letter = folder.path().join("letter.png");
+    std::fs::write(&letter, "dear all").unwrap();
+    answer(&mut window, &letter);
     assert_eq!(state(&window).notices[0].severity, Severity::Error);
-    assert!(notice(&window).contains("gone.png") && says(&window, "gone.png"));
+    assert!(notice(&window).contains("letter.png") && says(&window, "letter.png"));
     assert!(Arc::ptr_eq(&result, &shown(&window)));
     click(&mut window, Role::Button, "Dismiss");
     assert!(state(&window).notices.is_empty());
@@ -125,6 +133,13 @@ fn a_pasted_path_and_a_pasted_picture_open() {
     window.event(Event::Paste(format!("file://{}\n", tiny().display())));
     window.run_steps(3);
     assert_eq!(state(&window).picture.as_ref().unwrap().origin, Origin::File(tiny()));
+    let copied = format!("x-special/nautilus-clipboard\ncopy\nfile://localhost{}", tiny().display());
+    for pasted in [copied, format!("\"{}\"", tiny().display())] {
+        open_sample(&mut window, sample::NAME);
+        window.event(Event::Paste(pasted));
+        window.run_steps(3);
+        assert_eq!(state(&window).picture.as_ref().unwrap().origin, Origin::File(tiny()));
+    }
     let pixels =
         (0..64 * 48).map(|i| Color32::from_rgb((i % 64) as u8 * 4, (i / 64) as u8 * 5, 90)).collect();
     let picture = ColorImage::new([64, 48], pixels);

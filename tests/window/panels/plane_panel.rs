@@ -1,7 +1,7 @@
 //! Tests of the plane panel on the sample scene.
 
 use crate::window::{Fixture, SIZE, Window, region, with_gpu};
-use dichroscope::app::Edit;
+use dichroscope::app::{Command, DebugCommand, Edit};
 use dichroscope::gui::testing::PlaneDrawing;
 use dichroscope::view::Item;
 use egui::accesskit::Role;
@@ -29,6 +29,29 @@ fn a_region_is_asked_for_and_shown() {
     let [start, end] = plane.highlight_lines().next().unwrap().map(|amounts| drawing.screen(amounts, rect));
     let seen_deg = (start.y - end.y).atan2(end.x - start.x).to_degrees();
     assert!((seen_deg - plane.angle_deg).abs() < 0.1, "{seen_deg} {}", plane.angle_deg);
+}
+
+#[test]
+fn the_plane_stays_fitted_until_a_person_pans() {
+    let Some(mut harness) = opened() else { return };
+    let trace = harness.state().state().debugger.trace().unwrap().clone();
+    let block = trace.blocks().find(|block| block.steps.len() > 200).expect("a hypothesis grows");
+    let all_are_inside = |harness: &Window| {
+        let canvas = harness
+            .query_all_by_role(Role::Canvas)
+            .find(|node| crate::window::words(node).is_some_and(|name| name.contains("of hypothesis")));
+        let rect = canvas.expect("the plane is shown").rect();
+        let drawing = PlaneDrawing::of(harness.state()).unwrap();
+        let at = |point: &dichroscope::view::PlanePixel| drawing.screen([point.body, point.surface], rect);
+        assert!(!drawing.plane.points.is_empty());
+        drawing.plane.points.iter().all(|point| rect.contains(at(point)))
+    };
+    for share in [0.02, 0.3, 0.99] {
+        let n = block.steps.start + (block.steps.len() as f64 * share) as usize;
+        harness.state_mut().apply(Command::Debug(DebugCommand::Seek(n)));
+        harness.run_steps(3);
+        assert!(all_are_inside(&harness), "after {share} of the growth");
+    }
 }
 
 #[test]

@@ -77,6 +77,36 @@ fn a_value_is_typed_and_one_out_of_range_goes_as_far_as_it_can() {
 }
 
 #[test]
+fn a_field_that_is_only_looked_at_changes_nothing() {
+    let mut window = tiny_window();
+    let (before, generation) = (state(&window).document.clone(), state(&window).generation);
+    let names = ["camera_noise", "illuminant red", "illuminant blue", "ambient green"];
+    for leave in [None, Some(Key::Tab), Some(Key::Enter), Some(Key::Escape)] {
+        for name in names {
+            click(&mut window, Role::SpinButton, name);
+            match leave {
+                Some(key) => press(&mut window, Modifiers::NONE, key),
+                None => {
+                    let elsewhere =
+                        named(&window, Role::Image, "Picture").rect().left_top() + egui::vec2(3.0, 3.0);
+                    drag(&mut window, &[elsewhere], Modifiers::NONE);
+                }
+            }
+            window.run_steps(2);
+            assert!(state(&window).document.params == before.params, "{name} left by {leave:?}");
+            assert_eq!(state(&window).generation, generation, "{name} left by {leave:?}");
+        }
+    }
+    for _ in 0..60 {
+        press(&mut window, Modifiers::NONE, Key::Tab);
+    }
+    assert!(state(&window).document.params == before.params, "Tab through the window");
+    assert_eq!(state(&window).view.image.zoom, None, "the whole picture stays fitted");
+    typed(&mut window, "illuminant red", "0.9");
+    assert!(state(&window).document.params.illuminant.direction().is_some(), "what is typed is taken");
+}
+
+#[test]
 fn two_clicks_bring_the_default_back() {
     let mut window = tiny_window();
     let default = sigma(&window);
