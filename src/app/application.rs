@@ -7,7 +7,8 @@ use super::panics::catch_panic;
 use super::reduce::reduce_report;
 use super::report::{Report, Work};
 use super::{
-    AnalysisRequest, Command, Effect, Job, State, WhatIfProgress, WhatIfRequest, jobs, read, reduce, rescue,
+    AnalysisRequest, Command, Effect, ExportKind, Job, State, WhatIfProgress, WhatIfRequest, jobs, read,
+    reduce, rescue,
 };
 use crate::analysis::{Session, WhatIfObserver, what_if};
 use std::sync::mpsc::{self, Receiver, Sender};
@@ -115,6 +116,8 @@ impl Application {
 
     /// Restores the settings of an earlier session.
     pub fn restore_settings(&mut self, view: super::ViewSettings, recent: Vec<std::path::PathBuf>) {
+        // A relative path of an earlier version names nothing in another working directory.
+        let recent = recent.into_iter().filter(|path| path.is_absolute()).collect();
         (self.state.view, self.state.recent) = (view, recent);
     }
 
@@ -152,7 +155,11 @@ impl Application {
                     let _ = outbox.send(Report::Exporting { done, total });
                     wake();
                 };
-                let write = move || Report::Exported(write_export(&export, &input, &stop, &send));
+                let write = move || {
+                    let outcome = write_export(&export, &input, &stop, &send);
+                    let workspace = (export.kind == ExportKind::Workspace).then_some(export.path);
+                    Report::Exported { outcome, workspace }
+                };
                 self.run("writer", Work::Export, write);
             }
             Effect::StopWriting => self.stop_writing.stop(),

@@ -15,6 +15,7 @@ use std::time::Instant;
 /// A sentence that names the file.
 pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, String> {
     let began_at = Instant::now();
+    let origin = with_absolute_path(origin);
     let (photo, sha256) = match &origin {
         Origin::File(path) => {
             let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
@@ -33,6 +34,15 @@ pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, S
     let truth = truth(&origin);
     let histogram = Histogram::of(&photo.image);
     Ok(Picture { origin, reading: options, photo, sha256, read_ms, histogram, truth })
+}
+
+/// The origin with an absolute path, so that the list of recent photographs is valid in every working directory and names each
+/// file once.
+fn with_absolute_path(origin: Origin) -> Origin {
+    match origin {
+        Origin::File(path) => Origin::File(super::workspace::absolute_path(&path)),
+        other => other,
+    }
 }
 
 /// The ground truth in the folder of the photograph, or that of a sample scene.
@@ -65,7 +75,7 @@ pub(super) fn params(path: &Path) -> Report {
 /// Reads a workspace file.
 pub(super) fn workspace(path: &Path) -> Report {
     match Workspace::load(path) {
-        Ok(workspace) => Report::WorkspaceRead(Box::new(workspace)),
+        Ok(workspace) => Report::WorkspaceRead { workspace: Box::new(workspace), path: path.to_owned() },
         Err(reason) => Report::Failed(reason),
     }
 }

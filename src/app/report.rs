@@ -18,7 +18,12 @@ pub(super) enum Report {
     /// A parameter file was read.
     ParamsRead(Box<Params>),
     /// A workspace file was read; its photograph is still to be read.
-    WorkspaceRead(Box<Workspace>),
+    WorkspaceRead {
+        /// The contents of the file.
+        workspace: Box<Workspace>,
+        /// The file.
+        path: PathBuf,
+    },
     /// Work could not be done: the sentence to show.
     Failed(String),
     /// Work ended by a panic, an error of the program.
@@ -53,8 +58,13 @@ pub(super) enum Report {
         /// Number of all files.
         total: usize,
     },
-    /// An export ended: the sentence to show.
-    Exported(Result<String, String>),
+    /// An export ended.
+    Exported {
+        /// The sentence to show.
+        outcome: Result<String, String>,
+        /// The file of the export, if the export is a workspace.
+        workspace: Option<PathBuf>,
+    },
     /// A what-if job made progress or ended.
     WhatIf(WhatIfRequest, WhatIfProgress),
 }

@@ -19,6 +19,10 @@ pub struct State {
     pub history: History,
     /// The newest result.
     pub newest: Option<Arc<ResultSnapshot>>,
+    /// Unit direction of the light that the analysis last found in the open photograph by itself, without a given light.
+    pub found_light: Option<[f64; 3]>,
+    /// The workspace file that was opened or saved last, for the open photograph.
+    pub workspace_path: Option<PathBuf>,
     /// The result that was pinned to be compared with.
     pub pinned: Option<Arc<ResultSnapshot>>,
     /// The item under the pointer, in any panel.
@@ -42,9 +46,18 @@ pub struct State {
     /// Number of notices so far, those dismissed included.
     pub(super) notices_so_far: u64,
     /// The workspace whose photograph is being read.
-    pub(super) restoring: Option<Box<Workspace>>,
+    pub(super) restoring: Option<Restoring>,
     /// The rest of a restored workspace, which is applied when its pinned result has been computed.
     pub(super) after_pin: Option<AfterPin>,
+}
+
+/// A workspace whose photograph is being read.
+#[derive(Clone, Debug)]
+pub(super) struct Restoring {
+    /// The contents of the workspace file.
+    pub(super) workspace: Box<Workspace>,
+    /// The workspace file.
+    pub(super) path: PathBuf,
 }
 
 /// The part of a restored workspace that is applied after its pinned result has been computed.
@@ -118,7 +131,8 @@ impl State {
             return;
         }
         self.notices_so_far += 1;
-        self.notices.push(Notice { id: self.notices_so_far, severity, text });
+        let of_photograph = self.picture.is_some();
+        self.notices.push(Notice { id: self.notices_so_far, severity, text, of_photograph });
     }
 
     /// The workspace that would be saved now.
@@ -148,7 +162,8 @@ pub enum Severity {
     Error,
 }
 
-/// A sentence for the person at the screen, shown until it is dismissed.
+/// A sentence for the person at the screen. Panels show a warning and an error until the notice is dismissed, and a success for
+/// some seconds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
     /// Identifies the notice when it is dismissed.
@@ -157,4 +172,6 @@ pub struct Notice {
     pub severity: Severity,
     /// What happened, to what, and what to do.
     pub text: String,
+    /// Whether a photograph was open: such a notice ends when another photograph is opened.
+    pub of_photograph: bool,
 }

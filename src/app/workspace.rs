@@ -108,7 +108,7 @@ impl Workspace {
             .map_err(|error| format!("{}: cannot be written: {error}", path.display()))
     }
 
-    /// Reads the file at `path`, and makes the photograph's path absolute or relative to the working directory.
+    /// Reads the file at `path`, and makes the photograph's path absolute.
     ///
     /// # Errors
     /// A sentence that names the file, what is wrong with it and what to do.
@@ -139,11 +139,16 @@ impl Workspace {
                     photo.display()
                 ));
             }
-            // Without `..` components, so that `scenes/../photo.png` becomes `photo.png`.
-            workspace.origin = Origin::File(without_dot_components(&photo));
+            workspace.origin = Origin::File(absolute_path(&photo));
         }
         Ok(workspace)
     }
+}
+
+/// The absolute path of a file, without `.` and `..` components: `scenes/../photo.png` becomes `/…/photo.png`. A path stays as it is
+/// where the working directory is unknown.
+pub(super) fn absolute_path(path: &Path) -> PathBuf {
+    without_dot_components(&std::path::absolute(path).unwrap_or_else(|_| path.to_owned()))
 }
 
 /// A path without `.` and `..` components; a relative path stays relative.

@@ -10,8 +10,10 @@ pub enum Action {
     Open,
     /// Open the export dialog.
     Export,
-    /// Open the dialog that saves the workspace.
+    /// Save the workspace: to its file, or where the dialog says when it has none.
     Save,
+    /// Close the window.
+    Quit,
     /// Take back the last step.
     Undo,
     /// Take back the last undo.

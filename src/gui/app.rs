@@ -1,5 +1,6 @@
 //! The window's content: the application, the panels, and input from keyboard and desktop.
 
+use super::action::Action;
 use super::dock::{Dock, Pane, Panels};
 use super::files::{Dialogs, is_workspace};
 use super::theme::{self, ThemeColors};
@@ -9,7 +10,7 @@ use super::{PanelContext, menu, notices, perform, shortcuts, timeline_panel};
 use crate::app::{
     Application, Command, DebugCommand, Executor, JobCommand, Settings, State, ViewCommand, catch_panic,
 };
-use crate::view::{Origin, Theme};
+use crate::view::{Origin, ProfileLine, Theme, Tool};
 use egui::{Event, Ui};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -35,6 +36,15 @@ struct WindowContent {
     panels: Panels,
     dialogs: Dialogs,
     view_exporter: ViewExporter,
+    notices: notices::Notices,
+    /// Whether the focus came by a key: then the focused widget has a ring.
+    is_focus_by_key: bool,
+    /// Whether the last Tab was pressed with Shift.
+    is_focus_moving_back: bool,
+    /// The line of the profile in the last frame.
+    profile: ProfileLine,
+    /// Whether a font for further scripts was looked for.
+    has_further_fonts: bool,
     /// Whether the list of keys is shown.
     help: bool,
     space_tap: shortcuts::SpaceTap,
@@ -79,6 +89,7 @@ impl App {
     pub fn move_to(&mut self, ctx: &egui::Context, gpu: Option<egui_wgpu::RenderState>) {
         theme::load_fonts(ctx);
         *self.repaint_context.lock().unwrap_or_else(PoisonError::into_inner) = ctx.clone();
+        self.content.has_further_fonts = false;
         let cube = self.content.panels.cube.clone_with_camera();
         self.content.panels = Panels { cube, ..Panels::default() };
         (self.gpu, self.applied_theme) = (gpu, None);
@@ -126,6 +137,7 @@ impl App {
             theme::apply(ui.ctx(), theme);
             self.applied_theme = Some(theme);
         }
+        self.content.load_further_fonts(ui.ctx(), self.application.state());
         let palette = ThemeColors::of(theme);
         let mut commands = Vec::new();
         let mut cx = PanelContext {
@@ -204,6 +216,7 @@ impl WindowContent {
     }
 
     fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
+        self.skip_splitters(ui.ctx());
         // A dialog has a field for what is pasted.
         if !self.dialogs.is_open() {
             open_dropped_and_pasted(ui, cx);
@@ -223,6 +236,9 @@ impl WindowContent {
         for action in shortcuts::pressed(ui.ctx(), escape_is_action, listeners, &mut self.space_tap) {
             // A dialog is invisible in its first frame, in which egui measures the dialog.
             ui.ctx().request_repaint();
+            if action == Action::Quit {
+                ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+            }
             perform::carry_out(action, cx, &mut self.dialogs, &mut self.help);
         }
         if let Some(pane) = self.single_pane {
@@ -235,6 +251,8 @@ impl WindowContent {
         egui::Panel::top("menu").frame(menu_frame).show(ui, |ui| {
             menu::show(ui, cx, &mut self.dock, &mut self.dialogs, &mut self.help);
         });
+        self.notices.show(ui, cx);
+        self.raise_drawn_profile(cx);
         let frame = egui::Frame::new().fill(cx.palette.line);
         egui::CentralPanel::default().frame(frame).show(ui, |ui| self.dock.show(ui, &mut self.panels, cx));
         if let Some(keys) = held_keys {
@@ -246,9 +264,69 @@ impl WindowContent {
         if let Some(command) = self.view_exporter.take_command() {
             cx.send(command);
         }
-        notices::show(ui, cx);
         shortcuts::show_help(ui, cx, &mut self.help);
         self.is_text_edited = ui.ctx().text_edit_focused();
+        self.show_focus(ui.ctx(), cx);
+    }
+
+    /// Brings the profile to the front when a person draws its line.
+    fn raise_drawn_profile(&mut self, cx: &PanelContext) {
+        let line = cx.state.view.profile;
+        let is_drawn = matches!(line, ProfileLine::Between(..)) && cx.state.view.image.tool == Tool::Profile;
+        if std::mem::replace(&mut self.profile, line) != line && is_drawn {
+            self.dock.activate(Pane::Profile);
+        }
+    }
+
+    /// Moves the focus on from a handle between two panels, which no key can move.
+    fn skip_splitters(&self, ctx: &egui::Context) {
+        // Reading the response of the focused widget takes the focus away while the pointer is pressed elsewhere.
+        if !self.is_focus_by_key || ctx.input(|input| input.pointer.any_pressed()) {
+            return;
+        }
+        let focused = ctx.memory(egui::Memory::focused).and_then(|id| ctx.read_response(id));
+        let grab_pt = ctx.global_style().interaction.resize_grab_radius_side * 2.0;
+        let is_splitter = |widget: &egui::Response| {
+            let size = widget.rect.size();
+            widget.sense.senses_drag() && size.min_elem() <= grab_pt + 0.5 && size.max_elem() > 4.0 * grab_pt
+        };
+        if focused.is_some_and(|widget| is_splitter(&widget)) {
+            let back = self.is_focus_moving_back;
+            let direction = if back { egui::FocusDirection::Previous } else { egui::FocusDirection::Next };
+            ctx.memory_mut(|memory| memory.move_focus(direction));
+            ctx.request_repaint();
+        }
+    }
+
+    /// Paints a ring around the focused widget, when the focus came by a key. A selection has a fill and no ring.
+    fn show_focus(&mut self, ctx: &egui::Context, cx: &PanelContext) {
+        let (by_key, by_pointer, shift) = ctx.input(|input| {
+            (input.key_pressed(egui::Key::Tab), input.pointer.any_pressed(), input.modifiers.shift)
+        });
+        if by_key {
+            self.is_focus_moving_back = shift;
+        }
+        self.is_focus_by_key = (self.is_focus_by_key || by_key) && !by_pointer;
+        let focused = ctx.memory(egui::Memory::focused).filter(|_| self.is_focus_by_key);
+        if let Some(widget) = focused.and_then(|id| ctx.read_response(id)) {
+            let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("focus ring"));
+            let rect = widget.rect.intersect(widget.interact_rect.expand(1.0)).expand(2.0);
+            let stroke = egui::Stroke::new(2.0, cx.palette.text);
+            ctx.layer_painter(layer).rect_stroke(rect, 4.0, stroke, egui::StrokeKind::Inside);
+        }
+    }
+
+    /// Loads fonts of the system for other scripts, once a name that is shown has characters of such a script.
+    fn load_further_fonts(&mut self, ctx: &egui::Context, state: &State) {
+        if self.has_further_fonts {
+            return;
+        }
+        let name = state.picture.as_ref().map(|picture| picture.origin.name());
+        let recent = state.recent.iter().map(|path| path.to_string_lossy().into_owned());
+        if name.into_iter().chain(recent).any(|name| theme::needs_further_fonts(&name)) {
+            theme::load_further_fonts(ctx);
+            self.has_further_fonts = true;
+        }
     }
 }
 

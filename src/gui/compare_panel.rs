@@ -150,7 +150,8 @@ fn figures(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
             let text = |value: Option<f64>| value.map_or("\u{2013}".to_owned(), shortened);
             ui.label(text(figure.pinned));
             ui.label(text(figure.newest));
-            let difference = figure.pinned.zip(figure.newest).map(|(a, b)| b - a).filter(|d| d.abs() > 1e-9);
+            let difference =
+                figure.pinned.zip(figure.newest).map(|(a, b)| b - a).filter(|d| !is_zero(&shortened(*d)));
             let tone = if difference.is_some() { cx.palette.accent } else { cx.palette.secondary };
             ui.label(
                 RichText::new(difference.map_or("=".to_owned(), |d| {
@@ -173,6 +174,11 @@ fn figures(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
 /// A number with three decimals, or none for whole and large numbers.
 fn shortened(value: f64) -> String {
     if value.abs() >= 1000.0 || value.fract() == 0.0 { format!("{value:.0}") } else { format!("{value:.3}") }
+}
+
+/// Whether a number in text is zero, with or without a sign.
+fn is_zero(text: &str) -> bool {
+    text.chars().all(|letter| matches!(letter, '0' | '.' | '-'))
 }
 
 /// Shows the numbers of changed pixels, and the regions that differ.
@@ -215,5 +221,16 @@ fn regions(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
         {
             cx.send(Edit::Select(Some(Item::Region(region))));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_difference_that_is_shown_as_zero_is_none() {
+        assert!(is_zero(&shortened(-0.0004)) && is_zero(&shortened(0.0)));
+        assert!(!is_zero(&shortened(-0.0006)) && !is_zero(&shortened(1000.0)));
     }
 }

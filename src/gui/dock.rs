@@ -360,6 +360,11 @@ impl Behavior<Pane> for DockBehavior<'_, '_> {
         Stroke::new(1.0, self.cx.palette.line)
     }
 
+    fn is_tile_draggable(&self, tiles: &Tiles<Pane>, tile_id: TileId) -> bool {
+        // Single panels are dragged by their tabs. A bar of tabs that could be dragged would be a stop of Tab without a name.
+        matches!(tiles.get(tile_id), Some(Tile::Pane(_)))
+    }
+
     fn gap_width(&self, _style: &egui::Style) -> f32 {
         2.0
     }

@@ -47,6 +47,8 @@ pub struct Dialogs {
     view_export: Option<ViewExport>,
     system_dialog: Option<Task<Option<PathBuf>>>,
     focus: bool,
+    /// Whether the dialog was opened after the last frame.
+    is_new: bool,
     /// The widget that had the focus before the dialog opened, and has it again afterwards.
     focus_before: Option<egui::Id>,
     /// What is wrong with the path, until the path is changed.
@@ -67,6 +69,7 @@ impl Default for Dialogs {
             view_export: None,
             system_dialog: None,
             focus: false,
+            is_new: false,
             focus_before: None,
             problem: String::new(),
             asked_at: 0.0,
@@ -79,6 +82,7 @@ impl Dialogs {
     pub fn open(&mut self, dialog: Dialog) {
         (self.dialog, self.focus, self.options.force) = (Some(dialog), true, false);
         self.problem.clear();
+        self.is_new = true;
         match dialog {
             Dialog::Export | Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace => {
                 self.path.clear();
@@ -91,16 +95,6 @@ impl Dialogs {
     /// Whether a dialog is open. An open dialog owns the keyboard: no key reaches the panels.
     pub fn is_open(&self) -> bool {
         self.dialog.is_some()
-    }
-
-    /// Keeps the focus inside the dialog on `layer`, and remembers the widget outside that had the focus.
-    fn own_focus(&mut self, ctx: &egui::Context, layer: egui::LayerId) {
-        let focused = ctx.memory(egui::Memory::focused);
-        let is_outside = |id| ctx.read_response(id).is_some_and(|widget| widget.layer_id != layer);
-        if self.focus && self.focus_before.is_none() {
-            self.focus_before = focused.filter(|&id| is_outside(id));
-        }
-        ctx.memory_mut(|memory| memory.set_modal_layer(layer));
     }
 
     /// Closes the dialog, and gives the focus back.
@@ -123,6 +117,9 @@ impl Dialogs {
     pub fn show(&mut self, ui: &Ui, cx: &mut PanelContext) -> Option<ViewExport> {
         self.take_chosen_path(ui);
         let dialog = self.dialog?;
+        if std::mem::take(&mut self.is_new) {
+            self.focus_before = ui.memory(egui::Memory::focused);
+        }
         let title = match dialog {
             Dialog::Open => "Open",
             Dialog::LoadParameters => "Load parameters",
@@ -144,7 +141,8 @@ impl Dialogs {
             },
         );
         if let Some(shown) = &shown {
-            self.own_focus(ui.ctx(), shown.response.layer_id);
+            // Tab stays inside the dialog.
+            ui.ctx().memory_mut(|memory| memory.set_modal_layer(shown.response.layer_id));
         }
         if !open || shown.and_then(|shown| shown.inner).unwrap_or(false) {
             self.close(ui.ctx());
@@ -216,6 +214,8 @@ impl Dialogs {
         ui.horizontal(|ui| {
             let label = ui.label("Path");
             let field = egui::TextEdit::singleline(&mut self.path).desired_width(300.0);
+            // The id does not depend on the rows above, which differ between kinds of export.
+            let field = field.id(egui::Id::unique("path of the dialog"));
             let response = ui.add(field.hint_text("path of a file")).labelled_by(label.id);
             if response.changed() {
                 self.problem.clear();

@@ -6,8 +6,8 @@ use super::files::{Dialog, Dialogs};
 use super::move_cursor::{move_cursor, selected_goal};
 use super::shortcuts::keys_of;
 use super::typed_path::unique_names;
-use super::{PanelContext, status};
-use crate::app::{Edit, JobCommand, StepUnit, ViewCommand, analyze_call};
+use super::{PanelContext, perform, status};
+use crate::app::{Edit, JobCommand, Severity, StepUnit, ViewCommand, analyze_call};
 use crate::params::{Method, Preset};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::truth::sample::SAMPLES;
@@ -69,14 +69,19 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
         dialogs.open(Dialog::OpenWorkspace);
     }
     let open = cx.state.picture.is_some();
-    if item(ui, "Save workspace\u{2026}", Action::Save, open) {
+    // Without a file, saving asks for one.
+    let save = if cx.state.workspace_path.is_some() { "Save workspace" } else { "Save workspace\u{2026}" };
+    if item(ui, save, Action::Save, open) {
+        perform::carry_out(Action::Save, cx, dialogs, &mut false);
+    }
+    if ui.add_enabled(open, Button::new("Save workspace as\u{2026}")).clicked() {
         dialogs.open(Dialog::SaveWorkspace);
     }
     if item(ui, "Export\u{2026}", Action::Export, cx.state.shown().is_some()) {
         dialogs.open(Dialog::Export);
     }
     ui.separator();
-    if ui.button("Quit").clicked() {
+    if item(ui, "Quit", Action::Quit, true) {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
     }
 }
@@ -246,5 +251,7 @@ fn analyze(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
     let copy = ui.add_enabled(cx.state.picture.is_some(), Button::new("Copy as command line"));
     if copy.on_hover_text("The `dichroscope analyze` call that reproduces what is on the screen.").clicked() {
         ui.ctx().copy_text(analyze_call(cx.state));
+        let text = "the command line is in the clipboard".to_owned();
+        cx.send(ViewCommand::Notify(Severity::Done, text));
     }
 }

@@ -20,6 +20,8 @@ const AUTO_PT: f32 = 38.0;
 const ROW_PT: f32 = 20.0;
 /// Width below which a panel is narrow, points.
 const NARROW_PT: f32 = 272.0;
+/// Width below which a row has two lines, points.
+const STACKED_PT: f32 = 248.0;
 /// Width of the labels' column in a narrow panel, points.
 const NARROW_LABEL_PT: f32 = 78.0;
 /// Distance between two columns, points.
@@ -102,6 +104,9 @@ impl Cell {
 
 impl Columns {
     fn of(ui: &mut Ui) -> Self {
+        if ui.available_width() < STACKED_PT {
+            return Self::stacked(ui);
+        }
         let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_PT), egui::Sense::hover());
         let mut left = row.left();
         // In a narrow panel only the tooltips show the units.
@@ -123,6 +128,29 @@ impl Columns {
     }
 }
 
+impl Columns {
+    /// The cells in two lines, for a panel in which one line leaves no room for the slider.
+    fn stacked(ui: &mut Ui) -> Self {
+        let size = vec2(ui.available_width(), 2.0 * ROW_PT);
+        let (area, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+        let cell = |from: f32, to: f32, line: f32| {
+            let top = area.top() + line * ROW_PT;
+            let (left, right) = (area.left() + from, area.left() + to.max(from));
+            Cell(egui::Rect::from_min_max(egui::pos2(left, top), egui::pos2(right, top + ROW_PT)))
+        };
+        let width = area.width();
+        let auto = (width - AUTO_PT).max(0.0);
+        let value = (auto - GAP_PT - VALUE_PT).max(0.0);
+        Self {
+            label: cell(0.0, value - GAP_PT, 0.0),
+            slider: cell(0.0, width, 1.0),
+            value: cell(value, value + VALUE_PT, 0.0),
+            unit: cell(width, width, 0.0),
+            auto: cell(auto, auto + AUTO_PT, 0.0),
+        }
+    }
+}
+
 /// Shows a parameter: name, slider, field, unit and the button `auto`.
 fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
     let spec = parameter.spec();
@@ -137,6 +165,8 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
     );
     let columns = Columns::of(ui);
     ui.scope(|ui| {
+        // The button `auto` is as narrow as its cell and stays in one line.
+        ui.spacing_mut().button_padding.x = 4.0;
         let name = egui::Label::new(spec.title).truncate().selectable(false).sense(Sense::click());
         let name = columns.label.show(ui, name).on_hover_text(&tip);
         ui.spacing_mut().slider_width = columns.slider.0.width();
@@ -169,11 +199,33 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
             let setting = if automatic { Setting::Value(value) } else { Setting::Auto };
             cx.send(Edit::SetParameter(parameter, setting, None));
         }
+        in_photograph_pixels(ui, cx, parameter, value);
         let is_released = slider.drag_stopped() || slider.clicked() || slider.lost_focus();
         if is_released || field.drag_stopped() || field.lost_focus() {
             cx.send(Edit::EndGesture);
         }
     });
+}
+
+/// Shows what a parameter of working pixels is in pixels of the photograph, where the two differ.
+fn in_photograph_pixels(ui: &mut Ui, cx: &PanelContext, parameter: Parameter, value: f64) {
+    let side = cx.state.newest.as_ref().map_or(1, |shown| shown.analysis.working.blocks.side());
+    let Some(pixels) = photograph_pixels(parameter, value, side) else { return };
+    let pixels = widgets::grouped(pixels as usize);
+    let text = format!("of working pixels of {side} \u{d7} {side}; in the photograph {pixels} px");
+    ui.add(egui::Label::new(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary)).wrap());
+}
+
+/// A length or an area of working pixels in pixels of the photograph; none for other parameters, and where a working pixel is a
+/// pixel of the photograph. `side` is the side of a working pixel, pixels of the photograph.
+fn photograph_pixels(parameter: Parameter, value: f64, side: usize) -> Option<f64> {
+    let side = side as f64;
+    match parameter {
+        _ if side <= 1.0 => None,
+        Parameter::WindowSize => Some(value * side),
+        Parameter::MinArea => Some(value * side * side),
+        _ => None,
+    }
 }
 
 /// The slider of a parameter, without the number.
@@ -202,6 +254,7 @@ fn decimals(spec: &ParameterSpec) -> usize {
 /// Shows the button that sets a parameter to `auto`, or to the value that was used.
 fn auto_button(ui: &mut Ui, cell: &Cell, spec: &ParameterSpec, automatic: bool) -> egui::Response {
     let auto = Button::selectable(automatic, RichText::new("auto").size(SMALL_PT));
+    let auto = auto.wrap_mode(egui::TextWrapMode::Extend);
     let auto = ui.put(cell.0, auto);
     auto.widget_info(|| {
         let name = format!("{} auto", spec.title);
@@ -376,4 +429,17 @@ fn switches(ui: &mut Ui, cx: &mut PanelContext) {
             }
         });
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_and_areas_of_working_pixels_are_shown_in_pixels_of_the_photograph() {
+        assert_eq!(photograph_pixels(Parameter::WindowSize, 10.0, 3), Some(30.0));
+        assert_eq!(photograph_pixels(Parameter::MinArea, 500.0, 3), Some(4500.0));
+        assert_eq!(photograph_pixels(Parameter::MinArea, 500.0, 1), None);
+        assert_eq!(photograph_pixels(Parameter::CameraNoise, 2.0, 3), None);
+    }
 }

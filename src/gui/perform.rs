@@ -3,7 +3,7 @@
 use super::action::Action;
 use super::move_cursor::move_cursor;
 use super::{PanelContext, files};
-use crate::app::{Combine, Edit, ViewCommand};
+use crate::app::{Combine, Edit, ExportKind, JobCommand, ViewCommand};
 use crate::raster::RegionId;
 use crate::view::{Item, Tool};
 
@@ -12,7 +12,12 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
     match action {
         Action::Open => dialogs.open(files::Dialog::Open),
         Action::Export => dialogs.open(files::Dialog::Export),
-        Action::Save => dialogs.open(files::Dialog::SaveWorkspace),
+        Action::Save => match cx.state.workspace_path.clone() {
+            Some(path) => cx.send(JobCommand::Export(ExportKind::Workspace.to(path))),
+            None => dialogs.open(files::Dialog::SaveWorkspace),
+        },
+        // The window closes itself: an action has no window.
+        Action::Quit => {}
         Action::Help => *help = !*help,
         Action::Undo => cx.send(Edit::Undo),
         Action::Redo => cx.send(Edit::Redo),

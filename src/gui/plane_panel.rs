@@ -245,7 +245,7 @@ fn paint_hovered(
     let other = if inside { "" } else { "   not in this region" };
     let [body, surface, noise] =
         [amounts.body, amounts.surface, amounts.noise].map(|v| format!("{v:.1}").replace('-', "\u{2212}"));
-    let text = format!("m_b {body}   m_s {surface}   \u{3b5} {noise}{other}");
+    let text = format!("measured  m_b {body}   m_s {surface}   \u{3b5} {noise}{other}");
     let corner = rect.right_top() + vec2(-8.0, 4.0);
     painter.text(corner, Align2::RIGHT_TOP, text, FontId::proportional(SMALL_PT), cx.palette.text);
 }

@@ -13,6 +13,10 @@ use egui_extras::{Column, TableBuilder, TableRow};
 
 /// Free width from which the accuracy is shown beside the light, points.
 const ACCURACY_PT: f32 = 290.0;
+/// Half the interval of the light's direction from which the light counts as uncertain, degrees.
+const WIDE_INTERVAL_DEG: f64 = 10.0;
+/// Angle between a given light and the light found in the picture from which the given light counts as far away, degrees.
+const FAR_LIGHT_DEG: f64 = 10.0;
 /// Height of a row, points.
 const ROW_PT: f32 = 18.0;
 
@@ -64,7 +68,7 @@ const COLUMNS: [(SortKey, &str, f32, &str); 8] = [
         44.0,
         "Root mean square distance of its undistorted pixels from its dichromatic plane, counts (section 6).",
     ),
-    (SortKey::Warnings, "notes", 60.0, "What to beware of in this region."),
+    (SortKey::Warnings, "notes", 150.0, "What to beware of in this region."),
 ];
 
 /// The regions panel.
@@ -106,7 +110,8 @@ impl RegionsPanel {
         let selected = cx.state.selected_region();
         let order = self.order(&shown.analysis.intrinsic.regions);
         let mut hovered = None;
-        let mut table = TableBuilder::new(ui).striped(false).sense(Sense::click()).resizable(false);
+        // The cells take no keyboard focus: each would be a stop of Tab. The keys [ and ] select regions.
+        let mut table = TableBuilder::new(ui).striped(false).sense(Sense::CLICK).resizable(false);
         for (key, _, width, _) in COLUMNS {
             let last = key == SortKey::Warnings;
             table =
@@ -220,13 +225,19 @@ fn cells(row: &mut TableRow, palette: &ThemeColors, region: &RegionReflection, s
     let rms = RichText::new(format!("{:.2}", region.fit_rms_counts));
     row.col(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let rms = if region.model_fits { rms } else { rms.color(palette.accent) };
+            let is_bad = !region.model_fits || region.fit_rms_counts > region.fit_limit_counts;
+            let rms = if is_bad { rms.color(palette.warning) } else { rms };
             let label = ui.add(Label::new(rms).selectable(false));
             if !region.model_fits {
                 label.on_hover_text(format!(
                     "Does not hold: its pixels lie {:.1} counts from the plane (rms), or are texture ({:.2} of at most {TEXTURE_CORRELATION}). \
                      Its plane is not used.",
                     region.fit_rms_counts, region.texture
+                ));
+            } else if is_bad {
+                label.on_hover_text(format!(
+                    "Beyond its limit of {:.1} counts (section 6).",
+                    region.fit_limit_counts
                 ));
             }
         });
@@ -291,8 +302,11 @@ fn light(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
         ui.label(RichText::new("light").color(cx.palette.secondary)).on_hover_text(tip);
         if let Some(light) = &shown.analysis.illuminant {
             vector(ui, cx.palette, Some(light.direction));
-            let from = RichText::new(basis_text(light, findings)).size(SMALL_PT).color(cx.palette.secondary);
+            let is_wide = findings.interval_deg.is_some_and(|degrees| degrees >= WIDE_INTERVAL_DEG);
+            let tone = if is_wide { cx.palette.warning } else { cx.palette.secondary };
+            let from = RichText::new(basis_text(light, findings)).size(SMALL_PT).color(tone);
             ui.label(from).on_hover_text(findings.reason());
+            distance_from_found(ui, cx, light, findings);
         } else {
             let text = format!("unknown: {}", findings.reason());
             ui.add(Label::new(&text).truncate()).on_hover_text(text);
@@ -309,6 +323,22 @@ fn light(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
             }
         });
     });
+}
+
+/// Shows how far a given light lies from the light that was found in the picture before, if the light found is known.
+fn distance_from_found(ui: &mut Ui, cx: &PanelContext, light: &Illuminant, findings: &LightFindings) {
+    let Some(found) = cx.state.found_light.filter(|_| findings.basis == LightBasis::Given) else { return };
+    let angle_deg = angle_between_deg(light.direction, found);
+    let tone = if angle_deg >= FAR_LIGHT_DEG { cx.palette.warning } else { cx.palette.secondary };
+    let text = format!("{angle_deg:.1}\u{b0} from the light found");
+    ui.label(RichText::new(text).size(SMALL_PT).color(tone))
+        .on_hover_text("Angle between the given light and the light that the picture itself gave.");
+}
+
+/// The angle between two unit vectors, degrees.
+fn angle_between_deg(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let cosine: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    cosine.clamp(-1.0, 1.0).acos().to_degrees()
 }
 
 /// Shows the counts subtracted as ambient light (section 7.5), if any.
@@ -366,7 +396,14 @@ fn accuracy(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
         fact(ui, "body", format!("{angle:.3}\u{b0}"), tip);
     }
     if let (Some(body), Some(nothing)) = (scores.psnr_body, scores.psnr_nothing) {
-        let tip = "Peak signal to noise ratio of the body image inside objects; in parentheses that of doing nothing.";
-        fact(ui, "", format!("{body:.1} dB ({nothing:.1})"), tip);
+        let text = format!("{body:.1} dB ({nothing:.1})");
+        if body < nothing {
+            let tip = "Worse than the unchanged photograph, whose peak signal to noise ratio stands in parentheses.";
+            let text = RichText::new(format!("{text}, worse than doing nothing")).color(cx.palette.warning);
+            ui.label(text).on_hover_text(tip);
+        } else {
+            let tip = "Peak signal to noise ratio of the body image inside objects; in parentheses that of doing nothing.";
+            fact(ui, "", text, tip);
+        }
     }
 }

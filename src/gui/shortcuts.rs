@@ -41,6 +41,7 @@ const GENERAL: &[Shortcut] = &[
     key_with_command("File", Key::O, Action::Open, "Open a photograph"),
     key_with_command("File", Key::E, Action::Export, "Export"),
     key_with_command("File", Key::S, Action::Save, "Save the workspace"),
+    key_with_command("File", Key::Q, Action::Quit, "Quit"),
     key_with_command("Edit", Key::Z, Action::Undo, "Undo"),
     key_with_command("Edit", Key::Y, Action::Redo, "Redo"),
     key_with_command("Edit", Key::I, Action::Invert, "Invert the marked pixels"),
@@ -77,6 +78,9 @@ const GENERAL: &[Shortcut] = &[
 
 /// A window of this width has room for four columns of keys, points.
 const FOUR_COLUMNS_PT: f32 = 1200.0;
+
+/// A window of this width has room for three columns of keys, points.
+const THREE_COLUMNS_PT: f32 = 1000.0;
 
 /// The effects of the pointer, which the help lists beside the keys.
 const POINTER_HELP: &[(&str, &str)] = &[
@@ -135,24 +139,46 @@ pub fn pressed(
             .map(|shortcut| shortcut.action)
             .collect()
     });
+    actions.extend(ctx.input_mut(|input| actions_of_physical_digits(&mut input.events, &keys)));
     actions.extend(released.map(|direction| Action::Debug(DebugAction::Play(direction))));
+    actions
+}
+
+/// Takes the events of digit keys whose key cap shows something else, as the keys 4 and 6 of a French keyboard do, out of
+/// `events`, and returns their actions. The keys that the keyboard's layout names were consumed before.
+fn actions_of_physical_digits(events: &mut Vec<egui::Event>, shortcuts: &[&Shortcut]) -> Vec<Action> {
+    let mut actions = Vec::new();
+    events.retain(|event| {
+        let egui::Event::Key { physical_key: Some(key), pressed: true, modifiers, .. } = event else {
+            return true;
+        };
+        let is_digit = (Key::Num0..=Key::Num9).contains(key) && modifiers.is_none();
+        let shortcut = shortcuts.iter().find(|shortcut| {
+            is_digit && shortcut.keys.logical_key == *key && shortcut.keys.modifiers.is_none()
+        });
+        actions.extend(shortcut.map(|shortcut| shortcut.action));
+        shortcut.is_none()
+    });
     actions
 }
 
 /// Shows the list of keys in a window of its own, until a person closes the window.
 pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
     let ctx = ui.ctx().clone();
-    let columns: &[&[&str]] = if ctx.content_rect().width() >= FOUR_COLUMNS_PT {
+    let room = ctx.content_rect().size();
+    let columns: &[&[&str]] = if room.x >= FOUR_COLUMNS_PT {
         &[&["File", "Edit", "Compare", "Window"], &["Image"], &["Decisions"], &["Tools", "Pointer"]]
-    } else {
+    } else if room.x >= THREE_COLUMNS_PT {
         &[&["File", "Edit", "Compare", "Window"], &["Image", "Decisions"], &["Tools", "Pointer"]]
+    } else {
+        &[&["File", "Edit", "Image", "Compare"], &["Window", "Decisions", "Tools", "Pointer"]]
     };
     egui::Window::new("Keyboard and pointer")
         .open(open)
         .collapsible(false)
         .resizable(false)
-        .scroll(true)
-        .min_width(880.0)
+        .scroll([false, true])
+        .max_height((room.y - 120.0).max(80.0))
         .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
         .show(&ctx, |ui| {
             ui.horizontal_top(|ui| {

@@ -16,28 +16,60 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         progress(ui, cx);
-        let quiet = |text: String| RichText::new(text).size(SMALL_PT).color(cx.palette.secondary);
-        for part in parts(cx).into_iter().rev() {
-            ui.add(egui::Label::new(quiet(part)).truncate());
+        for StatusPart { text, is_bad } in parts(cx).into_iter().rev() {
+            let color = if is_bad { cx.palette.warning } else { cx.palette.secondary };
+            ui.add(egui::Label::new(RichText::new(text).size(SMALL_PT).color(color)).truncate());
         }
     });
 }
 
+/// A part of the line.
+struct StatusPart {
+    text: String,
+    /// Whether the part says that something is bad or unusual.
+    is_bad: bool,
+}
+
 /// The parts of the line, from left to right.
-fn parts(cx: &PanelContext) -> Vec<String> {
+fn parts(cx: &PanelContext) -> Vec<StatusPart> {
     let Some(picture) = &cx.state.picture else { return Vec::new() };
     let (width, height) = picture.size();
-    let mut parts =
-        vec![picture.origin.name(), format!("{width} \u{d7} {height}"), picture.photo.encoding.to_string()];
+    let quiet = |text: String| StatusPart { text, is_bad: false };
+    let mut parts = vec![
+        quiet(picture.origin.name()),
+        quiet(format!("{width} \u{d7} {height}")),
+        quiet(picture.photo.encoding.to_string()),
+    ];
     if let Some(shown) = cx.state.shown() {
         let used = &shown.analysis.used;
         let auto = if shown.params.get(Parameter::CameraNoise).value().is_none() { " auto" } else { "" };
-        let regions = shown.analysis.intrinsic.regions.len();
-        parts.push(format!("\u{3c3}0 {:.2}{auto}", used.camera_noise));
-        parts.push(format!("{regions} regions, {:.1} %", 100.0 * shown.coverage));
-        parts.push(format!("{:.1} ms", shown.total_ms()));
+        if cx.state.view.show_pinned {
+            parts.insert(0, StatusPart { text: "A: the pinned result".to_owned(), is_bad: true });
+        }
+        parts.push(quiet(format!("\u{3c3}0 {:.2}{auto}", used.camera_noise)));
+        let regions = &shown.analysis.intrinsic.regions;
+        let misfits = regions.iter().filter(|region| !region.model_fits).count();
+        let text = regions_and_coverage(regions.len(), misfits, shown.coverage);
+        parts.push(StatusPart { text, is_bad: misfits > 0 });
+        parts.push(quiet(duration_text(shown.total_ms())));
     }
     parts
+}
+
+/// The number of regions, of those the number that the model does not fit, and the share of the lit pixels in regions, 0…1.
+fn regions_and_coverage(regions: usize, misfits: usize, coverage: f64) -> String {
+    let misfits = match misfits {
+        0 => String::new(),
+        1 => ", 1 does not fit".to_owned(),
+        some => format!(", {some} do not fit"),
+    };
+    let s = if regions == 1 { "" } else { "s" };
+    format!("{regions} region{s}{misfits}, {:.1} %", 100.0 * coverage)
+}
+
+/// A duration of `ms` milliseconds: in seconds from one second on.
+fn duration_text(ms: f64) -> String {
+    if ms >= 1000.0 { format!("{:.1} s", ms / 1000.0) } else { format!("{ms:.1} ms") }
 }
 
 /// Shows the progress of work that takes longer than `PROGRESS_DELAY`.
@@ -68,4 +100,17 @@ fn progress(ui: &mut Ui, cx: &mut PanelContext) {
     ui.add(bar.fill(cx.palette.accent));
     ui.label(RichText::new(words).size(SMALL_PT).color(cx.palette.accent));
     ui.add(egui::Spinner::new().size(12.0).color(cx.palette.accent));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regions_that_do_not_fit_are_named_before_the_coverage() {
+        assert_eq!(regions_and_coverage(7, 6, 0.991), "7 regions, 6 do not fit, 99.1 %");
+        assert_eq!(regions_and_coverage(7, 1, 1.0), "7 regions, 1 does not fit, 100.0 %");
+        assert_eq!(regions_and_coverage(1, 0, 0.5), "1 region, 50.0 %");
+        assert_eq!([duration_text(47434.9), duration_text(32.71)], ["47.4 s", "32.7 ms"]);
+    }
 }

@@ -1,7 +1,9 @@
 //! The look of the window: neutral grays, so that colors in images are not misjudged, one accent color, two font sizes.
 
 use crate::view::Theme;
+use egui::epaint::text::{FontInsert, FontPriority, InsertFontFamily};
 use egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, Style, TextStyle, Visuals, vec2};
+use std::path::Path;
 
 /// The colors of a theme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +22,8 @@ pub struct ThemeColors {
     pub secondary: Color32,
     /// Cursor, selection and primary action.
     pub accent: Color32,
+    /// Values that are bad: a region that does not fit, a result that is worse than the photograph.
+    pub warning: Color32,
     /// Messages about errors.
     pub error: Color32,
 }
@@ -36,6 +40,7 @@ impl ThemeColors {
                 text: Color32::from_rgb(0xD6, 0xD8, 0xDC),
                 secondary: Color32::from_rgb(0x8C, 0x90, 0x96),
                 accent: Color32::from_rgb(0xE8, 0xA3, 0x3D),
+                warning: Color32::from_rgb(0xFF, 0x8A, 0x65),
                 error: Color32::from_rgb(0xF0, 0x6A, 0x5E),
             },
             Theme::Light => Self {
@@ -46,6 +51,7 @@ impl ThemeColors {
                 text: Color32::from_rgb(0x1E, 0x1F, 0x22),
                 secondary: Color32::from_rgb(0x60, 0x63, 0x68),
                 accent: Color32::from_rgb(0xA8, 0x62, 0x00),
+                warning: Color32::from_rgb(0xB4, 0x3C, 0x00),
                 error: Color32::from_rgb(0xB8, 0x2A, 0x1E),
             },
         }
@@ -56,6 +62,49 @@ impl ThemeColors {
 pub const BODY_PT: f32 = 12.5;
 /// Font size of headers and notes, points.
 pub const SMALL_PT: f32 = 11.0;
+
+/// Files with fonts for scripts that the bundled fonts lack, on Linux, macOS and Windows. The first of each group that exists is
+/// loaded.
+const FURTHER_FONTS: [&[&str]; 2] = [
+    &[
+        "/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc",
+        "/usr/share/fonts/noto-cjk/NotoSansCJK-Regular.ttc",
+        "/usr/share/fonts/google-noto-cjk/NotoSansCJK-Regular.ttc",
+        "/usr/share/fonts/google-noto-sans-cjk-fonts/NotoSansCJK-Regular.ttc",
+        "/usr/share/fonts/truetype/wqy/wqy-microhei.ttc",
+        "/usr/share/fonts/truetype/wqy/wqy-zenhei.ttc",
+        "/usr/share/fonts/truetype/droid/DroidSansFallbackFull.ttf",
+        "/System/Library/Fonts/Hiragino Sans GB.ttc",
+        "/System/Library/Fonts/PingFang.ttc",
+        "C:\\Windows\\Fonts\\msyh.ttc",
+    ],
+    &[
+        "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+        "/usr/share/fonts/dejavu/DejaVuSans.ttf",
+        "/usr/share/fonts/TTF/DejaVuSans.ttf",
+        "/System/Library/Fonts/Supplemental/Arial Unicode.ttf",
+        "C:\\Windows\\Fonts\\segoeui.ttf",
+    ],
+];
+
+/// Whether a text has characters that the bundled fonts may lack: characters beyond Latin, Greek, Cyrillic and punctuation.
+pub fn needs_further_fonts(text: &str) -> bool {
+    text.chars().any(|letter| letter > '\u{52f}' && !('\u{1e00}'..='\u{206f}').contains(&letter))
+}
+
+/// Adds fonts of the system behind the bundled fonts, so that names in other scripts are readable. Without such a font, egui
+/// shows boxes.
+pub fn load_further_fonts(ctx: &egui::Context) {
+    for file in
+        FURTHER_FONTS.into_iter().filter_map(|group| group.iter().find(|file| Path::new(file).is_file()))
+    {
+        let Ok(bytes) = std::fs::read(file) else { continue };
+        let families = [FontFamily::Proportional, FontFamily::Monospace]
+            .map(|family| InsertFontFamily { family, priority: FontPriority::Lowest });
+        ctx.add_font(FontInsert::new(file, egui::FontData::from_owned(bytes), families.to_vec()));
+    }
+}
 
 /// Loads the bundled fonts. Arrows and mathematical signs, which the proportional font lacks, come from
 /// the monospaced font.
@@ -139,4 +188,40 @@ fn visuals(theme: Theme, palette: &ThemeColors) -> Visuals {
     // Keyboard focus is drawn with the stroke of `hovered`.
     widgets.hovered.bg_stroke = Stroke::new(1.0, palette.secondary);
     visuals
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_in_other_scripts_need_further_fonts() {
+        for name in
+            ["cups.png", "caf\u{e9} \u{2013} \u{201c}a\u{201d}.png", "\u{447}\u{430}\u{448}\u{43a}\u{430}"]
+        {
+            assert!(!needs_further_fonts(name), "{name}");
+        }
+        for name in ["\u{8336}\u{676f}.png", "\u{5db}\u{5d5}\u{5e1}", "\u{ceb5}"] {
+            assert!(needs_further_fonts(name), "{name}");
+        }
+    }
+
+    /// Relative luminance of a color by WCAG 2.
+    fn luminance(color: Color32) -> f32 {
+        let [r, g, b] = [color.r(), color.g(), color.b()].map(egui::ecolor::linear_f32_from_gamma_u8);
+        0.2126 * r + 0.7152 * g + 0.0722 * b
+    }
+
+    #[test]
+    fn text_has_enough_contrast_on_panels_in_both_themes() {
+        for theme in [Theme::Dark, Theme::Light] {
+            let colors = ThemeColors::of(theme);
+            let texts = [colors.text, colors.secondary, colors.accent, colors.warning, colors.error];
+            for (index, text) in texts.into_iter().enumerate() {
+                let (a, b) = (luminance(text), luminance(colors.panel));
+                let contrast = (a.max(b) + 0.05) / (a.min(b) + 0.05);
+                assert!(contrast >= 4.2, "{theme:?} {index}: {contrast}");
+            }
+        }
+    }
 }

@@ -104,7 +104,7 @@ fn about_pixel(ui: &mut Ui, cx: &PanelContext, pixel: PixelIndex) {
     let [x, y] = pixel.position(picture.size().0);
     let color = picture.photo.image.pixels[pixel.index()];
     let region = RegionId::from_label(shown.labels()[pixel.index()]);
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         widgets::chip(ui, widgets::own_color(color), "the pixel's color");
         ui.label(format!("Pixel {x}, {y}"));
         let [r, g, b] = color;

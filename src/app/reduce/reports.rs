@@ -4,9 +4,11 @@ use super::debugger::take_trace;
 use super::edits::{analyze, edit_params};
 use super::questions::take_progress;
 use crate::app::report::{Report, Work};
-use crate::app::state::AfterPin;
+use crate::app::state::{AfterPin, Restoring};
 use crate::app::{Debugger, Document, Effect, Severity, State, ViewSettings, Workspace};
+use crate::params::{IlluminantSetting, Params};
 use crate::view::{Item, MaskRuns, Picture, ProfileLine, ResultSnapshot};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Number of photographs remembered.
@@ -21,7 +23,7 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
             state.notify(Severity::Error, reason);
         }
         Report::ParamsRead(params) => return edit_params(state, None, |old| *old = *params),
-        Report::WorkspaceRead(workspace) => return read_photograph_of(state, workspace),
+        Report::WorkspaceRead { workspace, path } => return read_photograph_of(state, workspace, path),
         Report::Failed(reason) => state.notify(Severity::Error, reason),
         Report::Panicked { work, reason } => return end_panicked(state, work, &reason),
         Report::Rescued(Ok(path)) => {
@@ -43,10 +45,13 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
                 job.files = Some((done, total));
             }
         }
-        Report::Exported(outcome) => {
+        Report::Exported { outcome, workspace } => {
             state.jobs.export = None;
             match outcome {
-                Ok(text) => state.notify(Severity::Done, text),
+                Ok(text) => {
+                    state.workspace_path = workspace.or(state.workspace_path.take());
+                    state.notify(Severity::Done, text);
+                }
                 Err(reason) => state.notify(Severity::Error, reason),
             }
         }
@@ -75,11 +80,11 @@ fn end_panicked(state: &mut State, work: Work, reason: &str) -> Vec<Effect> {
 }
 
 /// Asks for the photograph of a workspace; the rest of the workspace is restored when the photograph is open.
-fn read_photograph_of(state: &mut State, workspace: Box<Workspace>) -> Vec<Effect> {
+fn read_photograph_of(state: &mut State, workspace: Box<Workspace>, path: PathBuf) -> Vec<Effect> {
     match workspace.reading() {
         Ok(options) => {
             let origin = workspace.origin.clone();
-            state.restoring = Some(workspace);
+            state.restoring = Some(Restoring { workspace, path });
             vec![Effect::Read(origin, options)]
         }
         Err(reason) => {
@@ -100,7 +105,10 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     let warnings =
         picture.photo.warnings.iter().map(|warning| format!("{}: {warning}", picture.origin.name()));
     let warnings: Vec<String> = warnings.collect();
-    let restored = state.restoring.take().filter(|workspace| workspace.origin == picture.origin);
+    let restored = state.restoring.take().filter(|restoring| restoring.workspace.origin == picture.origin);
+    let had_picture = state.picture.is_some();
+    // What was said about the photograph before does not concern this one.
+    state.notices.retain(|notice| !notice.of_photograph);
     state.picture = Some(picture);
     state.debugger = Debugger::default();
     // Masks belong to one picture; parameters stay.
@@ -110,11 +118,17 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     state.view.show_pinned = false;
     (state.view.image.center_px, state.view.image.zoom) = (None, None);
     (state.view.profile, state.after_pin) = (ProfileLine::Row, None);
+    (state.found_light, state.workspace_path) = (None, None);
     for warning in warnings {
         state.notify(Severity::Warning, warning);
     }
-    if let Some(workspace) = restored {
+    if let Some(Restoring { workspace, path }) = restored {
         restore_workspace(state, *workspace);
+        state.workspace_path = Some(path);
+    } else if had_picture && state.document.params != Params::of(state.document.params.method) {
+        let text =
+            "parameters that were changed for the photograph before stay in force; Reset takes the defaults";
+        state.notify(Severity::Warning, text.to_owned());
     }
     analyze(state)
 }
@@ -158,6 +172,9 @@ fn show_result(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
     let is_last = shown.generation == state.generation && shown.stale_from.is_none();
     if is_last {
         state.jobs.analysis = None;
+        if shown.params.illuminant == IlluminantSetting::Auto {
+            state.found_light = shown.analysis.illuminant.map(|light| light.direction);
+        }
     }
     follow_region(state, &shown);
     state.newest = Some(shown);

@@ -50,6 +50,17 @@ fn a_sample_opens_and_is_analyzed() {
 }
 
 #[test]
+fn recent_photographs_are_absolute_and_listed_once() {
+    let mut application = opened_tiny();
+    let relative = PathBuf::from("assets/tiny/../tiny/./camera8.png");
+    application.apply(JobCommand::Open(Origin::File(relative)));
+    assert_eq!(application.state().recent, [PathBuf::from(TINY)]);
+    let old = vec![PathBuf::from("a.png"), PathBuf::from("/b.png")];
+    application.restore_settings(crate::app::ViewSettings::default(), old);
+    assert_eq!(application.state().recent, [PathBuf::from("/b.png")]);
+}
+
+#[test]
 fn a_drag_is_one_step() {
     let mut application = opened_tiny();
     let before = sigma(&application);
@@ -250,7 +261,8 @@ fn a_mask_of_another_size_is_left_out_of_a_workspace() {
     let mut application = opened_tiny();
     let mut workspace = application.state().workspace().unwrap();
     workspace.marked = Some(MaskRuns::of(&Raster::filled(3, 3, true)));
-    application.take_report(Report::WorkspaceRead(Box::new(workspace)));
+    application
+        .take_report(Report::WorkspaceRead { workspace: Box::new(workspace), path: "w.dichroscope".into() });
     application.poll();
     assert_eq!(application.state().document.selection.marked, None);
     assert!(application.state().notices[0].text.contains("another size"));
@@ -264,7 +276,7 @@ fn one_export_at_a_time() {
     assert!(effects.is_empty() && state.notices[0].text.contains("under way"));
     reduce_report(&mut state, Report::Exporting { done: 2, total: 5 });
     assert_eq!(state.jobs.export.unwrap().files, Some((2, 5)));
-    reduce_report(&mut state, Report::Exported(Ok("wrote it".into())));
+    reduce_report(&mut state, Report::Exported { outcome: Ok("wrote it".into()), workspace: None });
     assert!(state.jobs.export.is_none());
 }
 

@@ -40,8 +40,16 @@ const CELLS: [Cell; 11] = [
         26.0,
         "Its region; at the debugger's cursor the hypothesis that holds it, by its number of birth",
     ),
-    cell("m_b", 40.0, "Amount of body reflection, counts (section 6)"),
-    cell("m_s", 40.0, "Amount of surface reflection, counts (section 6)"),
+    cell(
+        "m_b",
+        40.0,
+        "Amount of body reflection in the result, counts: surface reflection below the noise counts as none. The plane shows the amount measured (section 6)",
+    ),
+    cell(
+        "m_s",
+        40.0,
+        "Amount of surface reflection in the result, counts: 0 where it is below the noise. The plane shows the amount measured (section 6)",
+    ),
     cell("\u{3b5}", 32.0, "Distance from the dichromatic plane, counts (section 6)"),
     cell("", 50.0, "What the pixel is to its region (section 6)"),
 ];

@@ -89,6 +89,10 @@ fn arrangement_buttons(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageS
                 .clicked()
             {
                 settings.arrangement = choice;
+                if choice != Arrangement::Single && settings.other == settings.layer {
+                    // Two views of one layer show nothing that one view does not show.
+                    settings.other = if settings.layer == Layer::Input { Layer::Body } else { Layer::Input };
+                }
             }
         }
     });

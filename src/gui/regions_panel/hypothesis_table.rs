@@ -76,7 +76,7 @@ impl HypothesisTable {
         let focus = cx.state.debugger.focus();
         let order = self.order(rows);
         let mut hovered = None;
-        let mut table = TableBuilder::new(ui).striped(false).sense(Sense::click()).resizable(false);
+        let mut table = TableBuilder::new(ui).striped(false).sense(Sense::CLICK).resizable(false);
         for (key, _, width, _) in COLUMNS {
             let last = key == SortKey::Becomes;
             table =
