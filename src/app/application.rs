@@ -337,7 +337,7 @@ mod tests {
         assert!(application.state().notices[0].text.contains("broken decoder"));
         application.apply(JobCommand::Open(Origin::File(TINY.into())));
         while !application.state().is_current() {
-            receive.recv_timeout(std::time::Duration::from_secs(60)).unwrap();
+            receive.recv_timeout(std::time::Duration::from_mins(1)).unwrap();
             application.poll();
         }
     }

@@ -64,6 +64,8 @@ pub enum Edit {
 pub enum ViewCommand {
     /// The pointer is over this item, or over none.
     Hover(Option<Item>),
+    /// The pointer is near these color bins in the color space view.
+    HoverBins(Vec<u32>),
     /// Keep the newest result to compare with (true), or drop the kept one (false).
     Pin(bool),
     /// Show the pinned result (true) or the newest (false).

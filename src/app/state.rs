@@ -27,6 +27,8 @@ pub struct State {
     pub pinned: Option<Arc<ResultSnapshot>>,
     /// The item under the pointer, in any panel.
     pub hover: Option<Item>,
+    /// The pixels of the color bins near the pointer in the color space view, ascending; none unless the hovered item is a bin.
+    pub hover_pixels: Arc<[u32]>,
     /// The settings of the views.
     pub view: ViewSettings,
     /// The step debugger.

@@ -38,6 +38,17 @@ pub fn nearest(points: &[Point], projector: &Projector, cursor: [f32; 2], radius
     best
 }
 
+/// Indices of the points whose centers are projected to within `radius_px` of the cursor, ascending.
+pub fn within(points: &[Point], projector: &Projector, cursor: [f32; 2], radius_px: f32) -> Vec<usize> {
+    let is_near = |point: &Point| {
+        projector.screen_from_world(point.position).is_some_and(|screen| {
+            let [dx, dy] = [screen.at[0] - cursor[0], screen.at[1] - cursor[1]];
+            dx * dx + dy * dy <= radius_px * radius_px
+        })
+    };
+    (0..points.len()).filter(|&index| is_near(&points[index])).collect()
+}
+
 /// Indices of the points whose centers are projected into the polygon (see [`encloses`]), ascending.
 pub fn inside_polygon(points: &[Point], projector: &Projector, polygon: &[[f32; 2]]) -> Vec<usize> {
     let low = [0, 1].map(|axis| polygon.iter().map(|p| p[axis]).fold(f32::INFINITY, f32::min));
@@ -117,6 +128,15 @@ mod tests {
         let [x, y] = at([0.5; 3]);
         assert!(nearest(&points, &front().projector(SIZE), [x + 14.0, y], 3.0).is_some());
         assert!(nearest(&points, &front().projector(SIZE), [x + 16.0, y], 3.0).is_none());
+    }
+
+    #[test]
+    fn all_points_within_the_radius_are_found() {
+        let points = [dot([0.5, 0.9, 0.5], 2.0), dot([0.5, 0.1, 0.5], 2.0), dot([0.9, 0.5, 0.5], 2.0)];
+        let projector = front().projector(SIZE);
+        assert_eq!(within(&points, &projector, at([0.5; 3]), 3.0), [0, 1]);
+        assert_eq!(within(&points, &projector, at([0.5; 3]), 1e4), [0, 1, 2]);
+        assert_eq!(within(&points, &projector, at([0.1, 0.5, 0.1]), 3.0), [0_usize; 0]);
     }
 
     #[test]

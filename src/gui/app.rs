@@ -3,6 +3,7 @@
 use super::action::Action;
 use super::dock::{Dock, Pane, Panels};
 use super::files::{Dialogs, is_workspace};
+use super::keyboard_focus::KeyboardFocus;
 use super::theme::{self, ThemeColors};
 use super::typed_path::typed_paths;
 use super::view_export::ViewExporter;
@@ -37,10 +38,7 @@ struct WindowContent {
     dialogs: Dialogs,
     view_exporter: ViewExporter,
     notices: notices::Notices,
-    /// Whether the focus came by a key: then the focused widget has a ring.
-    is_focus_by_key: bool,
-    /// Whether the last Tab was pressed with Shift.
-    is_focus_moving_back: bool,
+    keyboard_focus: KeyboardFocus,
     /// The line of the profile in the last frame.
     profile: ProfileLine,
     /// Whether a font for further scripts was looked for.
@@ -216,7 +214,7 @@ impl WindowContent {
     }
 
     fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
-        self.skip_splitters(ui.ctx());
+        self.keyboard_focus.skip_splitters(ui.ctx());
         // A dialog has a field for what is pasted.
         if !self.dialogs.is_open() {
             open_dropped_and_pasted(ui, cx);
@@ -266,7 +264,7 @@ impl WindowContent {
         }
         shortcuts::show_help(ui, cx, &mut self.help);
         self.is_text_edited = ui.ctx().text_edit_focused();
-        self.show_focus(ui.ctx(), cx);
+        self.keyboard_focus.show(ui.ctx(), cx.palette);
     }
 
     /// Brings the profile to the front when a person draws its line.
@@ -275,44 +273,6 @@ impl WindowContent {
         let is_drawn = matches!(line, ProfileLine::Between(..)) && cx.state.view.image.tool == Tool::Profile;
         if std::mem::replace(&mut self.profile, line) != line && is_drawn {
             self.dock.activate(Pane::Profile);
-        }
-    }
-
-    /// Moves the focus on from a handle between two panels, which no key can move.
-    fn skip_splitters(&self, ctx: &egui::Context) {
-        // Reading the response of the focused widget takes the focus away while the pointer is pressed elsewhere.
-        if !self.is_focus_by_key || ctx.input(|input| input.pointer.any_pressed()) {
-            return;
-        }
-        let focused = ctx.memory(egui::Memory::focused).and_then(|id| ctx.read_response(id));
-        let grab_pt = ctx.global_style().interaction.resize_grab_radius_side * 2.0;
-        let is_splitter = |widget: &egui::Response| {
-            let size = widget.rect.size();
-            widget.sense.senses_drag() && size.min_elem() <= grab_pt + 0.5 && size.max_elem() > 4.0 * grab_pt
-        };
-        if focused.is_some_and(|widget| is_splitter(&widget)) {
-            let back = self.is_focus_moving_back;
-            let direction = if back { egui::FocusDirection::Previous } else { egui::FocusDirection::Next };
-            ctx.memory_mut(|memory| memory.move_focus(direction));
-            ctx.request_repaint();
-        }
-    }
-
-    /// Paints a ring around the focused widget, when the focus came by a key. A selection has a fill and no ring.
-    fn show_focus(&mut self, ctx: &egui::Context, cx: &PanelContext) {
-        let (by_key, by_pointer, shift) = ctx.input(|input| {
-            (input.key_pressed(egui::Key::Tab), input.pointer.any_pressed(), input.modifiers.shift)
-        });
-        if by_key {
-            self.is_focus_moving_back = shift;
-        }
-        self.is_focus_by_key = (self.is_focus_by_key || by_key) && !by_pointer;
-        let focused = ctx.memory(egui::Memory::focused).filter(|_| self.is_focus_by_key);
-        if let Some(widget) = focused.and_then(|id| ctx.read_response(id)) {
-            let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("focus ring"));
-            let rect = widget.rect.intersect(widget.interact_rect.expand(1.0)).expand(2.0);
-            let stroke = egui::Stroke::new(2.0, cx.palette.text);
-            ctx.layer_painter(layer).rect_stroke(rect, 4.0, stroke, egui::StrokeKind::Inside);
         }
     }
 

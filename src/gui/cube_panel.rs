@@ -280,6 +280,11 @@ impl CubePanel {
         let was_hovering = std::mem::replace(&mut self.is_hovering, pointer.is_some());
         if (self.is_hovering || was_hovering) && cx.state.hover != hover {
             cx.send(ViewCommand::Hover(hover));
+            // One bin is one to three pixels of the picture, hardly to be seen: all bins near the pointer are shown.
+            let bins = pointer.filter(|_| hover.is_some()).map_or_else(Vec::new, |at| {
+                pick::within(&self.cloud.bins, projector, (at - rect.min).into(), HOVER_RADIUS_PT)
+            });
+            cx.send(ViewCommand::HoverBins(bins.into_iter().map(|bin| bin as u32).collect()));
         }
         if response.clicked() && !response.double_clicked() && cx.state.view.cube.tool == Tool::Pointer {
             let alt = response.ctx.input(|input| input.modifiers.alt);

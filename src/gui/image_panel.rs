@@ -215,6 +215,7 @@ impl ImagePanel {
         {
             texture.draw(&painter, place, Color32::WHITE);
         }
+        overlay::hovered_colors(&painter, place, state);
         overlay::profile(&painter, place, state);
         overlay::pixels(&painter, place, state, context.response.contains_pointer());
         let brush = (settings.tool == Tool::Brush && context.response.contains_pointer())

@@ -14,6 +14,7 @@ mod files;
 mod icons;
 mod image_panel;
 mod instant_key;
+mod keyboard_focus;
 mod menu;
 mod move_cursor;
 mod notices;

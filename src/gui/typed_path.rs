@@ -18,7 +18,7 @@ pub fn typed_paths(text: &str) -> Vec<PathBuf> {
     let has_header = lines.len() > 1 && lines.iter().any(|line| line.starts_with("file:"));
     lines
         .into_iter()
-        .filter(|line| !(has_header && is_header(line)) && !line.starts_with('#'))
+        .filter(|line| !(line.starts_with('#') || has_header && is_header(line)))
         .map(path_of_line)
         .collect()
 }
@@ -52,15 +52,13 @@ fn path_from_percent_encoded(text: &str) -> PathBuf {
     let mut at = 0;
     while at < bytes.len() {
         let digits = bytes.get(at + 1..at + 3).and_then(|digits| std::str::from_utf8(digits).ok());
-        match digits.filter(|_| bytes[at] == b'%').and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
-            Some(byte) => {
-                decoded.push(byte);
-                at += 3;
-            }
-            None => {
-                decoded.push(bytes[at]);
-                at += 1;
-            }
+        let digits = digits.filter(|_| bytes[at] == b'%');
+        if let Some(byte) = digits.and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
+            decoded.push(byte);
+            at += 3;
+        } else {
+            decoded.push(bytes[at]);
+            at += 1;
         }
     }
     path_from_bytes(decoded)

@@ -122,6 +122,16 @@ impl Histogram {
         cells.filter(|(_, cell)| **cell == bin.cell).map(|(pixel, _)| pixel as u32).collect()
     }
 
+    /// The pixels of several bins, ascending; bins that do not exist have none.
+    pub fn pixels_of_all(&self, bins: &[u32]) -> Vec<u32> {
+        let mut is_wanted = vec![false; CELLS];
+        for bin in bins.iter().filter_map(|&bin| self.bins.get(bin as usize)) {
+            is_wanted[bin.cell as usize] = true;
+        }
+        let cells = self.of_pixel.par_iter().with_min_len(PIXELS_PER_TASK).enumerate();
+        cells.filter(|(_, cell)| is_wanted[**cell as usize]).map(|(pixel, _)| pixel as u32).collect()
+    }
+
     /// Number of pixels of a mask in each bin; 0 for all bins where the mask is of another size.
     pub fn bins_of(&self, mask: &Mask) -> Vec<u32> {
         let mut counts = vec![0; CELLS];

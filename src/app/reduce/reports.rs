@@ -118,7 +118,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     state.view.show_pinned = false;
     (state.view.image.center_px, state.view.image.zoom) = (None, None);
     (state.view.profile, state.after_pin) = (ProfileLine::Row, None);
-    (state.found_light, state.workspace_path) = (None, None);
+    (state.found_light, state.workspace_path, state.hover_pixels) = (None, None, Arc::default());
     for warning in warnings {
         state.notify(Severity::Warning, warning);
     }

@@ -1,11 +1,22 @@
 //! The reducer of the commands that change how things are shown.
 
 use crate::app::{State, ViewCommand};
+use crate::view::Item;
+use std::sync::Arc;
 
 /// Changes how things are shown.
 pub(super) fn reduce(state: &mut State, command: ViewCommand) {
     match command {
-        ViewCommand::Hover(item) => state.hover = item,
+        ViewCommand::Hover(item) => {
+            state.hover = item;
+            if !matches!(item, Some(Item::Bin(_))) {
+                state.hover_pixels = Arc::default();
+            }
+        }
+        ViewCommand::HoverBins(bins) => {
+            let pixels = state.picture.as_ref().map(|picture| picture.histogram.pixels_of_all(&bins));
+            state.hover_pixels = pixels.unwrap_or_default().into();
+        }
         ViewCommand::Pin(keep) => {
             state.pinned = if keep { state.newest.clone() } else { None };
             state.view.show_pinned = false;

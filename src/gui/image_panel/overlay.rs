@@ -5,8 +5,9 @@ use super::icons::{corners, cross};
 use super::textures::LayerTexture;
 use crate::app::State;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
+use crate::raster::PixelIndex;
 use crate::view::{ACCENT, Item, Layer, LegendEntry, ProfileLine, Tool, legend};
-use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
 /// The accent color over pictures, the same in both themes, because a picture is equally dark in both.
 pub const MARK_COLOR: Color32 = Color32::from_rgb(ACCENT[0], ACCENT[1], ACCENT[2]);
@@ -104,6 +105,37 @@ pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
                 fill(painter, place, color.gamma_multiply(0.8), of_bin);
             }
             _ => {}
+        }
+    }
+}
+
+/// Largest number of pixels of hovered colors that have a ring each.
+const MOST_RINGS: usize = 150;
+/// Largest number of pixels of hovered colors that are painted; of more, evenly spread ones.
+const MOST_HOVERED: usize = 20_000;
+
+/// Paints the pixels whose colors are near the pointer in the color space view: white over the dimmed picture, and with a ring
+/// each where they are few.
+pub fn hovered_colors(painter: &Painter, place: &Placement, state: &State) {
+    let pixels = &*state.hover_pixels;
+    if pixels.is_empty() {
+        return;
+    }
+    painter.rect_filled(place.screen_rect().intersect(place.view), 0.0, Color32::from_black_alpha(120));
+    let mut mesh = egui::Mesh::default();
+    for &pixel in pixels.iter().step_by(pixels.len().div_ceil(MOST_HOVERED)) {
+        let square = place.screen_rect_of(place.square_of(PixelIndex::new(pixel)));
+        let side = square.size().max(Vec2::splat(2.0));
+        mesh.add_colored_rect(Rect::from_center_size(square.center(), side), Color32::WHITE);
+    }
+    painter.add(Shape::mesh(mesh));
+    if pixels.len() <= MOST_RINGS {
+        for &pixel in pixels {
+            let square = place.screen_rect_of(place.square_of(PixelIndex::new(pixel)));
+            let radius = 5.0 + 0.5 * square.width();
+            for stroke in [Stroke::new(3.0, Color32::from_black_alpha(140)), Stroke::new(1.4, MARK_COLOR)] {
+                painter.circle_stroke(square.center(), radius, stroke);
+            }
         }
     }
 }

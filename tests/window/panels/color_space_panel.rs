@@ -56,6 +56,25 @@ fn hover(harness: &mut Window, at: Pos2) {
     harness.run_steps(2);
 }
 
+#[test]
+fn all_colors_near_the_pointer_are_shown_in_the_picture() {
+    let Some(mut harness) = opened() else { return };
+    let places = places(&harness);
+    let near = |bin: usize| places.iter().filter(|place| place.distance(places[bin]) < 6.0).count();
+    let crowded = (0..places.len()).max_by_key(|&bin| near(bin)).unwrap();
+    assert!(near(crowded) > 3);
+    hover(&mut harness, places[crowded]);
+    let state = harness.state().state();
+    let Some(Item::Bin(bin)) = state.hover else { panic!("a color is hovered") };
+    let histogram = &state.picture.as_ref().unwrap().histogram;
+    let of_one = histogram.pixels_of(bin);
+    assert!(state.hover_pixels.len() > of_one.len());
+    assert!(of_one.iter().all(|pixel| state.hover_pixels.contains(pixel)));
+    harness.hover_at(egui::pos2(5.0, 5.0));
+    harness.run_steps(3);
+    assert!(harness.state().state().hover_pixels.is_empty());
+}
+
 fn press(harness: &mut Window, pos: Pos2, pressed: bool, modifiers: Modifiers) {
     let button = PointerButton::Primary;
     harness.event_modifiers(Event::PointerButton { pos, button, pressed, modifiers }, modifiers);

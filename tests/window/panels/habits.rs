@@ -77,7 +77,9 @@ fn every_stop_of_tab_is_visible_and_named() {
     let mut names = Vec::new();
     for _ in 0..150 {
         press(&mut window, Modifiers::NONE, Key::Tab);
-        let Some(node) = window.root().children_recursive().find(|node| node.is_focused()) else { continue };
+        let Some(node) = window.root().children_recursive().find(egui_kittest::Node::is_focused) else {
+            continue;
+        };
         let rect = node.rect();
         let name = crate::window::words(&node).unwrap_or_default();
         assert!(!name.trim().is_empty(), "{:?} at {rect}", node.accesskit_node().role());

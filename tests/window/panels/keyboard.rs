@@ -72,7 +72,7 @@ fn a_dialog_owns_the_keyboard_and_gives_the_focus_back() {
     }
     for _ in 0..30 {
         press(&mut window, Modifiers::NONE, Key::Tab);
-        let focused = window.root().children_recursive().find(|node| node.is_focused());
+        let focused = window.root().children_recursive().find(egui_kittest::Node::is_focused);
         if let Some(name) = focused.as_ref().and_then(crate::window::words) {
             assert!(!name.contains("camera") && name != "Picture" && name != "Timeline", "{name}");
         }

@@ -84,13 +84,11 @@ fn a_field_that_is_only_looked_at_changes_nothing() {
     for leave in [None, Some(Key::Tab), Some(Key::Enter), Some(Key::Escape)] {
         for name in names {
             click(&mut window, Role::SpinButton, name);
-            match leave {
-                Some(key) => press(&mut window, Modifiers::NONE, key),
-                None => {
-                    let elsewhere =
-                        named(&window, Role::Image, "Picture").rect().left_top() + egui::vec2(3.0, 3.0);
-                    drag(&mut window, &[elsewhere], Modifiers::NONE);
-                }
+            if let Some(key) = leave {
+                press(&mut window, Modifiers::NONE, key);
+            } else {
+                let corner = named(&window, Role::Image, "Picture").rect().left_top();
+                drag(&mut window, &[corner + egui::vec2(3.0, 3.0)], Modifiers::NONE);
             }
             window.run_steps(2);
             assert!(state(&window).document.params == before.params, "{name} left by {leave:?}");
