@@ -128,9 +128,13 @@ proptest! {
                         });
                         let intrinsic = &traced.analysis.intrinsic;
                         let length = |c: [f32; 3]| c.iter().map(|v| v * v).sum::<f32>().sqrt();
-                        nearer && story.amounts.is_none_or(|amounts| {
-                            (amounts.body.abs() - length(intrinsic.body[pixel])).abs() < 0.05
-                                && (amounts.surface.abs() - length(intrinsic.surface[pixel])).abs() < 0.05
+                        // Near another region only a part of the surface reflection stays, and the rest is body reflection.
+                        let kept = story.border.map_or(1.0, |border| border.kept);
+                        (nearer || kept <= 0.0) && story.amounts.is_none_or(|amounts| {
+                            let body = length(intrinsic.body[pixel]);
+                            let is_body = (amounts.body.abs() - body).abs() < 0.05;
+                            (if story.border.is_none() { is_body } else { body >= amounts.body - 0.05 })
+                                && (kept * amounts.surface.abs() - length(intrinsic.surface[pixel])).abs() < 0.05
                                 && (amounts.noise - intrinsic.noise[pixel]).abs() < 0.05
                         })
                     }
