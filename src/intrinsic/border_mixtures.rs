@@ -28,20 +28,23 @@ pub(super) fn limit_surface_at_borders(
     images: &mut Images,
 ) -> BordersLimited {
     let reach_px = input.mixing_reach_px();
+    if !input.refine.border_mixtures {
+        return BordersLimited { reach_px: reach_px as u32, pixels: Vec::new() };
+    }
     let borders = Borders { labels, masks: input.masks, reach: reach_px as isize };
     let (width, height) = (labels.width(), labels.height());
     let limited_pixel = |images: &Images, pixel: usize| {
         let plan = plans.get(RegionId::from_label(labels[pixel])?.index())?;
         let amount = sum_of_bands(images.surface[pixel]);
         let can_be_mixed = plan.model_fits && amount > 0.0 && !input.masks.distorted(pixel);
-        if !can_be_mixed || borders.is_inside(pixel, Kinds::All) {
+        if !can_be_mixed || borders.is_inside(pixel, BorderKinds::All) {
             return None;
         }
         let limit = borders.surface_inside(pixel, images)?;
         let pixel = PixelIndex::from_index(pixel);
         (limit < amount).then(|| LimitedPixel { pixel, kept: limit / amount })
     };
-    let found: Vec<LimitedPixel> = (0..if input.refine.border_mixtures { height } else { 0 })
+    let found: Vec<LimitedPixel> = (0..height)
         .into_par_iter()
         .flat_map_iter(|y| {
             let (images, limited_pixel) = (&*images, &limited_pixel);
@@ -88,28 +91,30 @@ impl Borders<'_> {
     }
 
     /// Whether no border of a kind is within reach of the pixel.
-    fn is_inside(&self, pixel: usize, borders: Kinds) -> bool {
+    fn is_inside(&self, pixel: usize, kinds: BorderKinds) -> bool {
         let own = self.labels[pixel];
         self.within(pixel, self.reach).all(|(near, _)| {
             let label = self.labels[near];
             let is_dark = self.masks.dark(near);
             label == own
                 || (label == UNASSIGNED && !is_dark && self.masks.distorted(near))
-                || (is_dark && borders == Kinds::Lit)
+                || (is_dark && kinds == BorderKinds::Lit)
         })
     }
 
     /// The mean surface reflection of the nearest pixels of the region of `pixel` that are out of reach of any border, sum of the bands; where
     /// there are none within twice the reach, of those that are out of reach of lit pixels; else none.
     fn surface_inside(&self, pixel: usize, images: &Images) -> Option<f32> {
-        [Kinds::All, Kinds::Lit].into_iter().find_map(|borders| self.nearest_mean(pixel, images, borders))
+        [BorderKinds::All, BorderKinds::Lit]
+            .into_iter()
+            .find_map(|kinds| self.nearest_mean(pixel, images, kinds))
     }
 
-    fn nearest_mean(&self, pixel: usize, images: &Images, borders: Kinds) -> Option<f32> {
+    fn nearest_mean(&self, pixel: usize, images: &Images, kinds: BorderKinds) -> Option<f32> {
         let own = self.labels[pixel];
         let (mut nearest, mut sum, mut count) = (isize::MAX, 0.0, 0.0);
         for (near, distance) in self.within(pixel, 2 * self.reach + 1) {
-            if self.labels[near] != own || distance > nearest || !self.is_inside(near, borders) {
+            if self.labels[near] != own || distance > nearest || !self.is_inside(near, kinds) {
                 continue;
             }
             if distance < nearest {
@@ -122,9 +127,9 @@ impl Borders<'_> {
     }
 }
 
-/// Kinds of borders of a region.
+/// BorderKinds of borders of a region.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kinds {
+enum BorderKinds {
     /// Against other regions, lit pixels without a region, and dark pixels.
     All,
     /// Against other regions and lit pixels without a region.
@@ -156,7 +161,9 @@ mod tests {
         let masks = Masks::new(&image, &limits);
         let labels = LabelMap::from_vec(width, 1, labels.to_vec()).unwrap();
         let borders = Borders { labels: &labels, masks: &masks, reach: 1 };
-        (!borders.is_inside(pixel, Kinds::All)).then(|| borders.surface_inside(pixel, &images)).flatten()
+        (!borders.is_inside(pixel, BorderKinds::All))
+            .then(|| borders.surface_inside(pixel, &images))
+            .flatten()
     }
 
     #[test]

@@ -269,6 +269,8 @@ mod tests {
             let text = toml::to_string(&refine).unwrap();
             assert!(text.contains(&format!("{} = true", switch.name())), "{text}");
         }
+        let former: Refine = toml::from_str("texture_test = false\nhysteresis = true").unwrap();
+        assert!(!former.highlight_evidence && former.guided_amount, "names of earlier versions");
         let error = Switch::from_name("second-look").unwrap_err();
         assert_eq!(error.to_string(), "\"second-look\" is the name of no refinement");
     }

@@ -14,6 +14,8 @@ pub struct DesaturationMap {
     pub roi: Roi,
     /// The desaturation of each pixel; zeros for dark pixels.
     pub points: Raster<Desaturation>,
+    /// 1 for a pixel that is neither dark nor clipped, else 0.
+    pub usable: Raster<f32>,
     /// The whitened color of each pixel.
     pub colors: Raster<WhitenedColor>,
     /// The factor that makes the light white.
@@ -50,7 +52,9 @@ impl DesaturationMap {
                 };
             }
         });
-        Some(Self { roi, points, colors, gain, ratios })
+        let usable =
+            roi.raster(|pixel| if input.masks.dark(pixel) || input.masks.clipped(pixel) { 0.0 } else { 1.0 });
+        Some(Self { roi, points, usable, colors, gain, ratios })
     }
 
     /// A raster of the window whose values are `of` the indices of the pixels, computed in parallel.

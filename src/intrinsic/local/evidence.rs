@@ -15,7 +15,6 @@
 
 use super::desaturation_map::DesaturationMap;
 use crate::raster::{Mask, Raster, blur};
-use crate::segment::AnalysisInput;
 use crate::trace::{HighlightTerms, LocalLimits, PictureOddsFound};
 
 /// Widths of the Gaussians, pixels: surroundings of a highlight, shading, products, edges, and the average of the odds.
@@ -47,22 +46,13 @@ pub struct Evidence {
 /// Per pixel of the window: what the observations are computed from.
 struct Source<'a> {
     map: &'a DesaturationMap,
-    /// 1 for a pixel that is neither dark nor clipped, else 0.
-    usable: Raster<f32>,
 }
 
 impl Evidence {
     /// The evidence in the window of `map`. `unexplained`: the lit pixels of the picture that no region explains.
-    pub fn new(
-        input: &AnalysisInput,
-        limits: &LocalLimits,
-        map: &DesaturationMap,
-        unexplained: &Mask,
-    ) -> Self {
+    pub fn new(limits: &LocalLimits, map: &DesaturationMap, unexplained: &Mask) -> Self {
         let roi = map.roi;
-        let usable =
-            roi.raster(|pixel| if input.masks.dark(pixel) || input.masks.clipped(pixel) { 0.0 } else { 1.0 });
-        let source = Source { map, usable };
+        let source = Source { map };
         let (chroma, brightness) = source.against_surroundings(limits.sigma);
         let independence = source.independence(limits.sigma);
         let edges = source.edges();
@@ -89,7 +79,7 @@ impl Source<'_> {
         let sums = blur(
             &self.map.raster(|index| {
                 let point = &self.map.points[index];
-                let quiet = point.is_judged() && !point.is_strong() && self.usable[index] > 0.0;
+                let quiet = point.is_judged() && !point.is_strong() && self.map.usable[index] > 0.0;
                 let weight = if quiet { 1.0 } else { 0.0 };
                 let l = log_chroma(index);
                 [weight, weight * l, weight * l * l, weight * largest(index)]
@@ -120,7 +110,7 @@ impl Source<'_> {
         let amounts = |index: usize| [self.map.points[index].surface, self.map.points[index].body];
         let smooth = blur(
             &self.map.raster(|index| {
-                let (weight, [surface, body]) = (self.usable[index], amounts(index));
+                let (weight, [surface, body]) = (self.map.usable[index], amounts(index));
                 [weight, weight * surface, weight * body]
             }),
             SHADING_PX,
@@ -128,7 +118,7 @@ impl Source<'_> {
         let products = blur(
             &self.map.raster(|index| {
                 let [weight, surface, body] = smooth[index];
-                if weight < 1e-4 || self.usable[index] == 0.0 {
+                if weight < 1e-4 || self.map.usable[index] == 0.0 {
                     return [0.0; 4];
                 }
                 let [s, b] = amounts(index);
@@ -173,7 +163,7 @@ impl Source<'_> {
         let sums = blur(
             &self.map.raster(|index| {
                 let amount = self.map.points[index].surface.max(0.0255);
-                let weight = self.usable[index] * amount * amount;
+                let weight = self.map.usable[index] * amount * amount;
                 [weight, weight * (PRIOR + terms[index].sum())]
             }),
             AVERAGE_PX,
@@ -187,7 +177,8 @@ impl Source<'_> {
     /// The log odds of the picture, from the share of highlights in the squared surface reflection of the pixels that `takes_part`. The share and the
     /// odds depend on each other, so that both are found by repetition.
     fn picture_odds(&self, odds: &Raster<f32>, takes_part: impl Fn(usize) -> bool) -> PictureOddsFound {
-        let is_pale = |index: &usize| self.map.points[*index].exceeds_noise() && self.usable[*index] > 0.0;
+        let is_pale =
+            |index: &usize| self.map.points[*index].exceeds_noise() && self.map.usable[*index] > 0.0;
         let members: Vec<(f64, f64)> = (0..odds.len())
             .filter(|index| is_pale(index) && takes_part(*index))
             .map(|index| (f64::from(self.map.points[index].surface).powi(2), f64::from(odds[index])))

@@ -7,7 +7,6 @@
 
 use super::repair::CONFIDENCE;
 use super::{LocalSplit, undo_unexplained};
-use crate::intrinsic::confidence::LOCAL;
 use crate::intrinsic::detail::{Detail, WorkingSplit};
 use crate::intrinsic::images::Images;
 use crate::raster::{Blocks, Mask, Raster};
@@ -81,18 +80,17 @@ struct ByWorkingPicture<'a> {
 impl ByWorkingPicture<'_> {
     /// The split of an unclipped pixel by the lines of the nearest working pixels; none where there is no surface reflection.
     fn split(&self, color: [f32; 3], nearest: &Nearest) -> Option<Found> {
-        let LocalSplit { lines, gain, per_amount, confidence, .. } = self.local;
+        let LocalSplit { lines, gain, per_amount, confidence: of_working, .. } = self.local;
         let a = gain.mean(color);
         let line = |pixel: usize| lines.line(lines.roi.index(pixel)?);
-        let [amount, weight] =
-            nearest.mean(|pixel| Some([line(pixel)?.amount(a), confidence[pixel].min(LOCAL) / LOCAL]))?;
+        let [amount, confidence] = nearest.mean(|pixel| Some([line(pixel)?.amount(a), of_working[pixel]]))?;
         if amount <= 0.0 {
             return None;
         }
         let surface: [f32; 3] =
             std::array::from_fn(|band| (amount * per_amount[band]).min(color[band].max(0.0)));
         let body = std::array::from_fn(|band| color[band] - surface[band]);
-        Some(Found { body, surface, confidence: LOCAL * weight })
+        Some(Found { body, surface, confidence })
     }
 
     /// The split of a clipped pixel by the body reflection with which the working picture was filled; none where it was not filled.

@@ -41,12 +41,11 @@ pub struct AmountLines {
 }
 
 impl AmountLines {
-    /// The lines of `amounts`, counts of J. `usable`: 1 for a pixel that takes part, else 0. `sigma`: standard deviation of the noise
-    /// of a band, counts.
-    pub fn guided(map: &DesaturationMap, amounts: &Raster<f32>, usable: &Raster<f32>, sigma: f32) -> Self {
+    /// The lines of `amounts`, counts of J, by the usable pixels. `sigma`: standard deviation of the noise of a band, counts.
+    pub fn guided(map: &DesaturationMap, amounts: &Raster<f32>, sigma: f32) -> Self {
         let sums = blur(
             &map.raster(|index| {
-                let (weight, a, amount) = (usable[index], map.colors[index].mean, amounts[index]);
+                let (weight, a, amount) = (map.usable[index], map.colors[index].mean, amounts[index]);
                 [weight, weight * a, weight * amount, weight * a * amount, weight * a * a]
             }),
             WINDOW_PX,

@@ -106,7 +106,7 @@ fn split_unexplained<R: Recorder>(
     trace_writer.began(input, &limits, start, pixels, lit, findings.direction);
     let (light, map) = map?;
     let wanted = input.refine.highlight_evidence;
-    let evidence = wanted.then(|| Evidence::new(input, &limits, &map, unexplained));
+    let evidence = wanted.then(|| Evidence::new(&limits, &map, unexplained));
     trace_writer.judged(input, &map, evidence.as_ref(), unexplained);
     if input.refine.belief {
         let tested = plausibility::test(input, findings);
@@ -126,11 +126,7 @@ fn split_unexplained<R: Recorder>(
         amounts = repair::faded(input, unexplained, &map, &fills, amounts);
     }
     let lines = if input.refine.guided_amount {
-        let usable = map.raster(|index| {
-            let pixel = map.roi.pixel(index);
-            if input.masks.dark(pixel) || input.masks.clipped(pixel) { 0.0 } else { 1.0 }
-        });
-        AmountLines::guided(&map, &amounts, &usable, limits.sigma)
+        AmountLines::guided(&map, &amounts, limits.sigma)
     } else {
         AmountLines::constant(&map, &amounts)
     };
@@ -146,8 +142,7 @@ fn split_unexplained<R: Recorder>(
     Some(LocalSplit { lines, gain: map.gain, per_amount, confidence, filled })
 }
 
-/// The share of the excess ms of each pixel of the window that is surface reflection, 0…1; 0 for pixels that a region explains. Without
-/// `evidence`: all of it where ms exceeds the variation of the hue.
+/// The share of the excess ms of each pixel of the window that is surface reflection, 0…1; 0 for pixels that a region explains.
 fn weights(
     limits: &LocalLimits,
     map: &DesaturationMap,
@@ -159,13 +154,9 @@ fn weights(
         if !unexplained[map.roi.pixel(index)] {
             return 0.0;
         }
-        match evidence {
-            Some(evidence) => {
-                let ratio = found.body / map.colors[index].chroma.max(f32::MIN_POSITIVE);
-                limits.weight(found, ratio, evidence.odds[index] + evidence.picture.log_odds)
-            }
-            None => f32::from(u8::from(found.is_strong())),
-        }
+        let ratio = found.body / map.colors[index].chroma.max(f32::MIN_POSITIVE);
+        let odds = evidence.map(|evidence| evidence.odds[index] + evidence.picture.log_odds);
+        limits.weight(found, ratio, odds)
     })
 }
 

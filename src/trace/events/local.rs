@@ -98,9 +98,10 @@ impl LocalLimits {
     }
 
     /// The share of a pixel's excess ms that is surface reflection, 0…1, by the log odds of a highlight and by κ. A color that cannot be
-    /// judged has none.
+    /// judged has none. Where highlights are not told from print (no `odds`), all counts that exceeds the variation of the hue.
     #[inline]
-    pub fn weight(&self, found: &Desaturation, ratio: f32, odds: f32) -> f32 {
+    pub fn weight(&self, found: &Desaturation, ratio: f32, odds: Option<f32>) -> f32 {
+        let Some(odds) = odds else { return f32::from(u8::from(found.is_strong())) };
         if !found.is_judged() {
             return 0.0;
         }

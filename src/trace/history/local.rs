@@ -129,10 +129,7 @@ impl<'a> Decisions<'a> {
             .map_or(Desaturation::default(), |ratios| limits.desaturation(color, ratios, self.clipped));
         let odds = figures.odds + self.picture_odds;
         let ratio = figures.ratios.map_or(1.0, |[ratio, _]| ratio);
-        let weight = match (began.highlight_evidence, found.is_strong()) {
-            (true, _) => limits.weight(&found, ratio, odds),
-            (false, strong) => f32::from(u8::from(strong)),
-        };
+        let weight = limits.weight(&found, ratio, began.highlight_evidence.then_some(odds));
         LocalStory {
             mean: color.mean,
             chroma: color.chroma,

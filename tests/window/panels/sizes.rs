@@ -114,7 +114,7 @@ fn the_color_space_at_every_size() {
 }
 
 #[test]
-fn a_panel_that_fails_says_so_and_the_others_work() {
+fn an_ended_panel_is_told_with_where_the_workspace_was_saved() {
     let mut window = tiny_window();
     open_sample(&mut window, dichroscope::truth::sample::NAME);
     apply(&mut window, JobCommand::Rescue("the panel Plane was ended".to_owned()));
