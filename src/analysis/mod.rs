@@ -5,11 +5,17 @@
 //! [`Observer`] receives the progress, can measure times and may cancel; [`Session::run_traced`] also keeps the record of every
 //! decision.
 
+mod full_resolution;
 mod output;
+mod prepared;
 mod resolve;
+mod slot;
 mod stages;
 mod stale;
+mod subject;
+mod warnings;
 mod what_if;
+mod working_outputs;
 
 pub use crate::params::Stage;
 pub use crate::segment::Illuminant;
@@ -20,11 +26,12 @@ pub use what_if::{Direction, Fate, Home, WhatIf, WhatIfObserver, what_if};
 use crate::intrinsic::Intrinsic;
 use crate::params::{Params, UsedParams};
 use crate::photo::{LinearImage, Masks, WorkingPicture};
-use crate::raster::{Mask, PixelIndex, Raster};
+use crate::raster::{Blocks, Mask, PixelIndex, Raster};
 use crate::segment::{FinalRegions, MatteRegions, PixelPlace, PlanarRegions, Windows};
 use crate::trace::{HistoryEntry, NoopRecorder, Trace, TraceRecorder, pixel_history};
-use stages::{Stages, Subject};
+use stages::Stages;
 use std::sync::Arc;
+use subject::Subject;
 
 /// Receives the progress of a run, and may stop the run.
 pub trait Observer: Sync {
@@ -34,6 +41,10 @@ pub trait Observer: Sync {
     fn finished(&mut self, _stage: Stage, _reused: bool) {}
     /// Receives the output of a stage right after the stage ended, before later stages begin; reused outputs too.
     fn made(&mut self, _output: StageOutput) {}
+    /// Receives the analysis of the working picture, where its pixels are larger than those of the photograph, before the pass at full
+    /// resolution. Everything in it is in working pixels, which are the `blocks` of the photograph, and it has no warnings. Where there is such a pass, the stages' outputs from
+    /// the windows on come after this function.
+    fn working_made(&mut self, _analysis: &Analysis, _blocks: &Blocks) {}
     /// Whether to stop the run. The function is called before each stage, once per hypothesis, and within long loops about
     /// every millisecond, from any thread. The run stops soon after the function returns true.
     fn cancelled(&self) -> bool {

@@ -1,10 +1,11 @@
 //! The worker that analyzes. A newer request replaces a waiting request and cancels the request under way.
 
+use super::Preview;
 use super::panics::catch_panic;
 use super::report::{Report, Work};
 use crate::analysis::{Analysis, Observer, Session, Stage, StageOutput};
 use crate::params::Params;
-use crate::raster::Mask;
+use crate::raster::{Blocks, Mask};
 use crate::trace::Replay;
 use crate::view::{Picture, ResultSnapshot};
 use std::sync::mpsc::Sender;
@@ -151,6 +152,8 @@ fn analyze_request(
 pub(super) struct AnalysisWorker {
     session: Option<(Arc<Picture>, Session)>,
     last: Option<Arc<ResultSnapshot>>,
+    /// The last result for the working picture; none where the working picture is the photograph.
+    last_preview: Option<Preview>,
 }
 
 impl AnalysisWorker {
@@ -165,7 +168,7 @@ impl AnalysisWorker {
         if !self.session.as_ref().is_some_and(same) {
             let image = Arc::new(request.picture.photo.image.clone());
             self.session = Some((Arc::clone(&request.picture), Session::new(image)));
-            self.last = None;
+            (self.last, self.last_preview) = (None, None);
         }
         let (_, session) = self.session.as_mut()?;
         if session.restrict(request.area.clone()).is_err() {
@@ -180,17 +183,31 @@ impl AnalysisWorker {
             partial: self.last.as_deref().map(|last| last.analysis.clone()),
             last_result: self.last.as_deref(),
             must_show: self.last.is_some(),
+            last_preview: self.last_preview.as_ref(),
+            preview: None,
             send,
             superseded,
         };
-        let (analysis, trace) = if request.tracing == Tracing::AtOnce {
-            let (analysis, trace) = session.run_traced(&request.params, &mut observer).ok()?;
-            (analysis, Some(Arc::new(trace)))
+        let run = if request.tracing == Tracing::AtOnce {
+            let run = session.run_traced(&request.params, &mut observer);
+            run.map(|(analysis, trace)| (analysis, Some(Arc::new(trace))))
         } else {
-            (session.run(&request.params, &mut observer).ok()?, None)
+            session.run(&request.params, &mut observer).map(|analysis| (analysis, None))
         };
-        let took_ms = observer.took_ms;
-        let shown = Arc::new(result_snapshot(request, analysis, took_ms, self.last.as_deref()));
+        let (took_ms, preview) = (observer.took_ms, observer.preview);
+        if run.is_err() {
+            // The result for the working picture is kept although the pass at full resolution was cancelled.
+            self.last_preview = preview.or(self.last_preview.take());
+            return None;
+        }
+        let (analysis, trace) = run.ok()?;
+        let region_colors = match &preview {
+            // The regions of the working picture have the same numbers.
+            Some(preview) => preview.shown.region_colors.clone(),
+            None => region_colors(&analysis, self.last.as_deref()),
+        };
+        let shown = Arc::new(result_snapshot(request, analysis, took_ms, region_colors));
+        self.last_preview = preview;
         if let Some(trace) = trace {
             shown.trace.get_or_init(|| trace);
         }
@@ -231,15 +248,23 @@ impl Observer for CancelOnly<'_> {
     }
 }
 
-/// The snapshot of a complete result, in which regions keep the colors of the regions of `last` that they continue.
+/// Colors of the regions of a result; regions that continue regions of `last` keep their colors.
+fn region_colors(analysis: &Analysis, last: Option<&ResultSnapshot>) -> Vec<[u8; 3]> {
+    let labels = &analysis.finals.labels;
+    let same_size = |last: &&ResultSnapshot| {
+        (last.labels().width(), last.labels().height()) == (labels.width(), labels.height())
+    };
+    let before = last.filter(same_size).map(|last| (last.labels(), last.region_colors.as_slice()));
+    crate::view::region_colors(analysis, before)
+}
+
+/// The snapshot of a complete result.
 fn result_snapshot(
     request: &AnalysisRequest,
     analysis: Analysis,
     took_ms: [Option<f64>; 7],
-    last: Option<&ResultSnapshot>,
+    region_colors: Vec<[u8; 3]>,
 ) -> ResultSnapshot {
-    let before = last.map(|last| (last.labels(), last.region_colors.as_slice()));
-    let region_colors = crate::view::region_colors(&analysis, before);
     let coverage = coverage(&analysis);
     ResultSnapshot {
         generation: request.generation,
@@ -280,6 +305,10 @@ struct RunObserver<'a> {
     /// Whether the run has shown no stage yet. Such a run goes on although a newer request waits: otherwise a slider in
     /// steady motion over a large picture would never show a result.
     must_show: bool,
+    /// The result for the working picture of the run before.
+    last_preview: Option<&'a Preview>,
+    /// The result for the working picture of this run; none where the working picture is the photograph.
+    preview: Option<Preview>,
     send: &'a (dyn Fn(Report) + Sync),
     superseded: &'a (dyn Fn() -> bool + Sync),
 }
@@ -295,8 +324,22 @@ impl Observer for RunObserver<'_> {
         self.took_ms[stage as usize] = took.filter(|_| !reused);
     }
 
+    fn working_made(&mut self, analysis: &Analysis, blocks: &Blocks) {
+        let last = self.last_preview.map(|last| &*last.shown);
+        let region_colors = region_colors(analysis, last);
+        let shown = result_snapshot(self.request, analysis.clone(), self.took_ms, region_colors);
+        let preview = Preview { shown: Arc::new(shown), blocks: *blocks };
+        self.preview = Some(preview.clone());
+        (self.send)(Report::Preview(preview));
+        self.must_show = false;
+    }
+
     fn made(&mut self, output: StageOutput) {
         let stage = output.stage();
+        if self.preview.is_some() {
+            // The result for the working picture is shown until the whole result is there.
+            return;
+        }
         let Some(partial) = &mut self.partial else { return };
         match output {
             StageOutput::Masks { masks, used } => (partial.masks, partial.used) = (masks, used),

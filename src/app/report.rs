@@ -1,6 +1,6 @@
 //! The reports of workers. Only [`super::Application`] applies reports to the state.
 
-use super::{WhatIfProgress, WhatIfRequest, Workspace};
+use super::{Preview, WhatIfProgress, WhatIfRequest, Workspace};
 use crate::analysis::Stage;
 use crate::params::Params;
 use crate::trace::Replay;
@@ -44,6 +44,8 @@ pub(super) enum Report {
     },
     /// A result, or a part of one.
     Analyzed(Arc<ResultSnapshot>),
+    /// The result for the working picture, before the pass at full resolution.
+    Preview(Preview),
     /// The decisions of a result were recorded.
     Traced {
         /// Number of the result.

@@ -1,6 +1,6 @@
 //! The state of the application.
 
-use super::{Debugger, Document, History, JobState, ViewSettings, WhatIfJob, Workspace};
+use super::{Debugger, Document, History, JobState, Preview, ViewSettings, WhatIfJob, Workspace};
 use crate::params::Params;
 use crate::raster::{PixelIndex, RegionId};
 use crate::trace::Replay;
@@ -19,6 +19,8 @@ pub struct State {
     pub history: History,
     /// The newest result.
     pub newest: Option<Arc<ResultSnapshot>>,
+    /// The result for the working picture of a large photograph, while the pass at full resolution runs.
+    pub preview: Option<Preview>,
     /// Unit direction of the light that the analysis last found in the open photograph by itself, without a given light.
     pub found_light: Option<[f64; 3]>,
     /// The workspace file that was opened or saved last, for the open photograph.
@@ -87,6 +89,20 @@ impl State {
         self.newest
             .as_ref()
             .is_some_and(|shown| shown.generation == self.generation && shown.stale_from.is_none())
+    }
+
+    /// The result for the working picture that views show in place of the result, and the selected region in it; none where the
+    /// result itself or the pinned result is to be shown.
+    pub fn shown_preview(&self) -> Option<(&Preview, Option<RegionId>)> {
+        let preview = self.preview.as_ref().filter(|_| self.pinned.is_none() || !self.view.show_pinned)?;
+        // A region keeps its color from result to result, not its number.
+        let color_of = |region: RegionId| self.shown()?.region_colors.get(region.index());
+        let selected_color = self.selected_region().and_then(color_of);
+        let selected = selected_color.and_then(|color| {
+            let index = preview.shown.region_colors.iter().position(|other| other == color)?;
+            Some(RegionId::from_index(index))
+        });
+        Some((preview, selected))
     }
 
     /// The region of the result shown that an item is or lies in.

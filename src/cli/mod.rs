@@ -158,6 +158,7 @@ fn written(result: io::Result<()>) -> Outcome {
 }
 
 /// Writes text to stdout; the exit code of a program that does nothing else.
+#[cfg(feature = "gui")]
 pub fn print_and_end(text: &str) -> ExitCode {
     end_of(print(text))
 }

@@ -10,44 +10,52 @@
 
 use super::Intrinsic;
 use super::border_mixtures::limit_surface_at_borders;
-use super::detail::{Detail, WorkingSplit};
+use super::detail::Detail;
 use super::finish::Finish;
 use super::images::Images;
-use super::local::{LocalSplit, split_locally_at_full_resolution};
+use super::local::split_locally_at_full_resolution;
 use super::region::RegionReports;
 use super::region_plan::RegionPlan;
-use crate::raster::{Mask, RegionId};
+use super::split::{WorkingSplit, add_ambient, without_light};
+use crate::raster::{LabelMap, Mask, RegionId};
 use crate::segment::Members;
 use rayon::prelude::*;
 
-/// Splits the photograph `detail` by the split of its working picture. `local`: what the local split found there; none where it
-/// did not run. `touching`: the neighbors of each region, by [`RegionId::index`].
-pub(super) fn split_photograph(
-    detail: &Detail,
-    working: &WorkingSplit,
-    local: Option<&LocalSplit>,
-    touching: Vec<Vec<RegionId>>,
-) -> Intrinsic {
-    let input = &detail.input;
+/// Splits the photograph `detail` by the split of its working picture. The ambient light that was subtracted from the working picture
+/// is subtracted before, and added to the body reflection afterwards.
+pub fn split_photograph(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
+    let ambient = working.intrinsic.ambient;
+    let mut intrinsic = match ambient.subtracted {
+        None => split_from(detail, working),
+        Some(counts) => {
+            let pixels = without_light(detail.input.pixels, &counts);
+            split_from(&Detail { input: detail.input.with_pixels(&pixels), ..*detail }, working)
+        }
+    };
+    add_ambient(&mut intrinsic, ambient);
+    intrinsic
+}
+
+/// Splits a photograph whose colors are measured from the ambient light.
+fn split_from(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
+    let (input, found) = (&detail.input, &working.found);
     let plans: Vec<RegionPlan> =
-        working.plans.iter().map(|plan| plan.at_full_resolution(input, detail.blocks.side())).collect();
+        found.plans.iter().map(|plan| plan.at_full_resolution(input, detail.blocks.side())).collect();
     let members = Members::of(detail.labels, plans.len());
     let mut images = Images::split_undistorted(input, detail.labels, &plans);
     if input.stopped() {
         return images.unfinished();
     }
-    images.restore(&working.origin, input, detail.labels, &plans, &members);
+    images.restore(&found.origin, input, detail.labels, &plans, &members);
     limit_surface_at_borders(input, detail.labels, &plans, &mut images);
     let explained_mask = explained_mask(detail, working);
-    let local_confidence =
-        split_locally_at_full_resolution(detail, working, local, &explained_mask, &mut images);
-    let reports =
-        RegionReports { input, members: &members, kinds: &images.kinds, fit_sigma: working.input.sigma() }
-            .of(&plans, touching);
+    let local_confidence = split_locally_at_full_resolution(detail, working, &explained_mask, &mut images);
+    let reports = RegionReports { input, members: &members, kinds: &images.kinds, fit_sigma: found.sigma }
+        .of(&plans, found.touching.clone());
     let finish = Finish {
         input,
         labels: detail.labels,
-        light: working.regions.light.direction,
+        light: detail.working_regions.light.direction,
         explained_mask: &explained_mask,
         pixel_sigmas: plans.iter().map(|plan| input.fit_sigma(&plan.vectors.matte_mean) as f32).collect(),
     };
@@ -62,23 +70,23 @@ fn explained_mask(detail: &Detail, working: &WorkingSplit) -> Mask {
     mask.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
         for (x, explained) in row.iter_mut().enumerate() {
             let label = detail.labels[y * width + x];
-            let plan = RegionId::from_label(label).and_then(|id| working.plans.get(id.index()));
+            let plan = RegionId::from_label(label).and_then(|id| working.found.plans.get(id.index()));
             if plan.is_none_or(|plan| !plan.model_fits) {
                 continue;
             }
             let place = detail.blocks.block_of(y * width + x);
-            *explained =
-                working_pixel_of(working, place, label).is_some_and(|near| working.explained_mask[near]);
+            let working_pixel = working_pixel_of(&detail.working_regions.labels, place, label);
+            *explained = working_pixel.is_some_and(|near| working.found.explained_mask[near]);
         }
     });
     mask
 }
 
-/// The working pixel with a label: the one at `place`, or else the first of the eight around.
-fn working_pixel_of(working: &WorkingSplit, place: usize, label: u16) -> Option<usize> {
-    let labels = &working.regions.labels;
-    if labels[place] == label {
+/// The working pixel with a label: the one at `place`, or else the first of the eight around. `working`: the labels of the working
+/// pixels.
+fn working_pixel_of(working: &LabelMap, place: usize, label: u16) -> Option<usize> {
+    if working[place] == label {
         return Some(place);
     }
-    labels.around(place).find(|&near| labels[near] == label)
+    working.around(place).find(|&near| working[near] == label)
 }

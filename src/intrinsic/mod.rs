@@ -18,8 +18,9 @@ mod split;
 mod vectors;
 
 pub use detail::Detail;
+pub use full_resolution::split_photograph;
 pub use reason::Reason;
-pub use split::split;
+pub use split::{WorkingSplit, split};
 
 use crate::raster::{Raster, RegionId};
 pub use crate::trace::{Ambient, AmbientVerdict, Meeting, PixelKind};

@@ -3,67 +3,87 @@
 use super::Intrinsic;
 use super::ambient::ambient;
 use super::border_mixtures::limit_surface_at_borders;
-use super::detail::{Detail, WorkingSplit};
 use super::explained_mask::explained_mask;
 use super::finish::Finish;
-use super::full_resolution::split_photograph;
 use super::images::Images;
-use super::local::{LocalInput, split_locally};
+use super::local::{LocalInput, LocalSplit, split_locally};
 use super::region::RegionReports;
 use super::region_plan::RegionPlan;
-use crate::raster::RegionId;
-use crate::segment::{AnalysisInput, Branches, FinalRegions, Members, members, neighbors};
-use crate::trace::{BranchesSought, Pass, PassBegan, Recorder};
+use crate::raster::{Mask, Raster, RegionId};
+use crate::segment::{AnalysisInput, Branches, FinalRegions, Members, PlanarHypothesis, members, neighbors};
+use crate::trace::{Ambient, BranchesSought, Pass, PassBegan, Recorder};
 use rayon::prelude::*;
+use std::sync::Arc;
+
+/// The split of the working picture, and what the photograph is split by.
+pub struct WorkingSplit {
+    /// The intrinsic images of the working picture, and the reports of the regions.
+    pub intrinsic: Arc<Intrinsic>,
+    /// What [`split_photograph`](super::split_photograph) needs beside the images.
+    pub(super) found: Found,
+}
+
+/// What the split of the working picture found.
+pub(super) struct Found {
+    /// The ambient light that was subtracted, counts.
+    pub(super) origin: [f64; 3],
+    /// Standard deviation of the noise of a working pixel, counts.
+    pub(super) sigma: f64,
+    /// How each region is split, by [`RegionId::index`].
+    pub(super) plans: Vec<RegionPlan>,
+    /// The working pixels that the skewed T of their region explains.
+    pub(super) explained_mask: Mask,
+    /// What the local split found; none where it did not run.
+    pub(super) local: Option<LocalSplit>,
+    /// The neighbors of each region, by [`RegionId::index`].
+    pub(super) touching: Vec<Vec<RegionId>>,
+}
 
 /// Splits every pixel of the picture into body reflection, surface reflection and noise. The ambient light is subtracted before
-/// and added to the body reflection afterwards. `detail`: the photograph, where `input` is a working picture with larger
-/// pixels; the photograph is split by what was found in the working picture. Only the decisions about the working picture
-/// are recorded.
-pub fn split<R: Recorder>(
-    input: &AnalysisInput,
-    regions: &FinalRegions,
-    detail: Option<&Detail>,
-    recorder: &mut R,
-) -> Intrinsic {
+/// and added to the body reflection afterwards.
+pub fn split<R: Recorder>(input: &AnalysisInput, regions: &FinalRegions, recorder: &mut R) -> WorkingSplit {
     let members = members(regions);
     let ambient = ambient(input, regions, &members);
     if R::KEEPS {
         recorder.record(PassBegan { pass: Pass::Ambient });
         recorder.record(ambient);
     }
-    let Some(counts) = ambient.subtracted else {
-        return Intrinsic { ambient, ..split_from(&[0.0; 3], input, regions, &members, detail, recorder) };
+    let (mut intrinsic, found) = match ambient.subtracted {
+        None => split_from(&[0.0; 3], input, regions, &members, recorder),
+        Some(counts) => {
+            let pixels = without_light(input.pixels, &counts);
+            let from_light = |hypothesis: &PlanarHypothesis| hypothesis.from_origin(&counts.into());
+            let shifted = FinalRegions {
+                labels: regions.labels.clone(),
+                hypotheses: regions.hypotheses.iter().map(from_light).collect(),
+                light: regions.light,
+            };
+            split_from(&counts, &input.with_pixels(&pixels), &shifted, &members, recorder)
+        }
     };
+    add_ambient(&mut intrinsic, ambient);
+    WorkingSplit { intrinsic: Arc::new(intrinsic), found }
+}
+
+/// The colors without the ambient light `counts`.
+pub(super) fn without_light(pixels: &Raster<[f32; 3]>, counts: &[f64; 3]) -> Raster<[f32; 3]> {
     let light = counts.map(|band| band as f32);
-    let without_light = |&color: &[f32; 3]| std::array::from_fn(|band| color[band] - light[band]);
-    let pixels = input.pixels.map(without_light);
-    let detail_pixels = detail.map(|detail| detail.input.pixels.map(without_light));
-    let shifted_detail = detail
-        .zip(detail_pixels.as_ref())
-        .map(|(detail, pixels)| Detail { input: detail.input.with_pixels(pixels), ..*detail });
-    let shifted = FinalRegions {
-        labels: regions.labels.clone(),
-        hypotheses: regions
-            .hypotheses
-            .iter()
-            .map(|hypothesis| hypothesis.from_origin(&counts.into()))
-            .collect(),
-        light: regions.light,
-    };
-    let shifted_input = input.with_pixels(&pixels);
-    let mut result =
-        split_from(&counts, &shifted_input, &shifted, &members, shifted_detail.as_ref(), recorder);
-    result.ambient = ambient;
-    for color in result.body.as_mut_slice() {
+    pixels.map(|color| std::array::from_fn(|band| color[band] - light[band]))
+}
+
+/// Adds the ambient light that was subtracted to the body reflection and to the colors of the reports.
+pub(super) fn add_ambient(intrinsic: &mut Intrinsic, ambient: Ambient) {
+    intrinsic.ambient = ambient;
+    let Some(counts) = ambient.subtracted else { return };
+    let light = counts.map(|band| band as f32);
+    for color in intrinsic.body.as_mut_slice() {
         *color = std::array::from_fn(|band| color[band] + light[band]);
     }
-    for region in &mut result.regions {
+    for region in &mut intrinsic.regions {
         let starts = region.highlight_branches.iter_mut().map(|branch| &mut branch.start);
         let moved = std::iter::once(&mut region.matte_mean).chain(&mut region.highlight_start).chain(starts);
         moved.for_each(|color| *color = std::array::from_fn(|band| color[band] + counts[band]));
     }
-    result
 }
 
 /// Splits a picture whose colors are measured from `origin`, the ambient light in counts.
@@ -72,59 +92,58 @@ fn split_from<R: Recorder>(
     input: &AnalysisInput,
     regions: &FinalRegions,
     members: &Members,
-    detail: Option<&Detail>,
     recorder: &mut R,
-) -> Intrinsic {
-    let plans: Vec<RegionPlan> = regions
-        .hypotheses
-        .par_iter()
-        .enumerate()
-        .map(|(index, hypothesis)| {
-            let id = RegionId::from_index(index);
-            RegionPlan::new(input, regions, id, hypothesis, members.region(id))
-        })
-        .collect();
-    let mut images = Images::split_undistorted(input, &regions.labels, &plans);
+) -> (Intrinsic, Found) {
+    let plans = plans(input, regions, members);
+    let mut found = Found {
+        origin: *origin,
+        sigma: input.sigma(),
+        plans,
+        explained_mask: Mask::default(),
+        local: None,
+        touching: Vec::new(),
+    };
+    let plans = &found.plans;
+    let mut images = Images::split_undistorted(input, &regions.labels, plans);
     if input.stopped() {
-        return images.unfinished();
+        return (images.unfinished(), found);
     }
-    images.restore(origin, input, &regions.labels, &plans, members);
-    record_plans(origin, &plans, recorder);
-    let limited = limit_surface_at_borders(input, &regions.labels, &plans, &mut images);
+    images.restore(origin, input, &regions.labels, plans, members);
+    record_plans(origin, plans, recorder);
+    let limited = limit_surface_at_borders(input, &regions.labels, plans, &mut images);
     if R::KEEPS && input.refine.border_mixtures {
         recorder.record(limited);
     }
     let model_fits: Vec<bool> = plans.iter().map(|plan| plan.model_fits).collect();
-    let explained_mask = explained_mask(input, regions, members, &model_fits, &images.kinds);
-    let local_input = LocalInput { input, light: regions.light, explained_mask: &explained_mask };
-    let local = split_locally(&local_input, origin, &mut images, recorder);
+    found.explained_mask = explained_mask(input, regions, members, &model_fits, &images.kinds);
+    let local_input = LocalInput { input, light: regions.light, explained_mask: &found.explained_mask };
+    found.local = split_locally(&local_input, origin, &mut images, recorder);
     if R::KEEPS {
         recorder.record(PassBegan { pass: Pass::Labels });
         recorder.labels(&images.kinds);
     }
-    let touching = neighbors(&regions.labels, regions.hypotheses.len());
-    if let Some(detail) = detail {
-        let working = WorkingSplit {
-            origin: *origin,
-            input,
-            regions,
-            plans: &plans,
-            explained_mask: &explained_mask,
-            images: &images,
-        };
-        return split_photograph(detail, &working, local.as_ref(), touching);
-    }
-    let reports =
-        RegionReports { input, members, kinds: &images.kinds, fit_sigma: input.sigma() }.of(&plans, touching);
-    let local_confidence = local.map(|local| local.confidence);
+    found.touching = neighbors(&regions.labels, regions.hypotheses.len());
+    let reports = RegionReports { input, members, kinds: &images.kinds, fit_sigma: found.sigma }
+        .of(plans, found.touching.clone());
     let finish = Finish {
         input,
         labels: &regions.labels,
         light: regions.light.direction,
-        explained_mask: &explained_mask,
+        explained_mask: &found.explained_mask,
         pixel_sigmas: plans.iter().map(|plan| plan.fit.sigma_counts as f32).collect(),
     };
-    finish.intrinsic(images, reports, local_confidence.as_ref())
+    let local_confidence = found.local.as_ref().map(|local| &local.confidence);
+    (finish.intrinsic(images, reports, local_confidence), found)
+}
+
+/// How each region is split, by [`RegionId::index`].
+fn plans(input: &AnalysisInput, regions: &FinalRegions, members: &Members) -> Vec<RegionPlan> {
+    let hypotheses = regions.hypotheses.par_iter().enumerate();
+    let plan = |(index, hypothesis)| {
+        let id = RegionId::from_index(index);
+        RegionPlan::new(input, regions, id, hypothesis, members.region(id))
+    };
+    hypotheses.map(plan).collect()
 }
 
 /// Records how each region is split. `origin`: the ambient light, counts.

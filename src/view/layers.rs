@@ -69,7 +69,7 @@ impl Layer {
     }
 }
 
-/// Draws `layer` at the size of the photograph, opaque.
+/// Draws `layer` at the size of the photograph, opaque; of the result for a working picture, at the size of the working picture.
 ///
 /// A layer that needs a result is the photograph itself while `shown` has none of the photograph's size.
 /// [`Layer::Difference`] is gray where there is no `pinned` result to compare with.
@@ -81,7 +81,11 @@ pub fn paint(
     look: &Look,
 ) -> Raster<[u8; 4]> {
     let fits = |shown: &&ResultSnapshot| shown.picture.size() == picture.size();
-    let base = Base { photo: &picture.photo.image.pixels, curve: Curve::new(look.exposure_ev, look.gamma) };
+    let photo = match shown.filter(fits) {
+        Some(shown) if shown.is_of_working_picture() => &shown.analysis.working.image.pixels,
+        _ => &picture.photo.image.pixels,
+    };
+    let base = Base { photo, curve: Curve::new(look.exposure_ev, look.gamma) };
     match shown.filter(fits) {
         None => base.light(base.photo),
         Some(shown) => (layer.row().paint)(&PaintInput { base, shown, pinned: pinned.filter(fits), look }),

@@ -37,6 +37,11 @@ pub struct ResultSnapshot {
 }
 
 impl ResultSnapshot {
+    /// Whether the result is that of a working picture, whose pixels are larger than those of the photograph.
+    pub fn is_of_working_picture(&self) -> bool {
+        (self.labels().width(), self.labels().height()) != self.picture.size()
+    }
+
     /// The final regions.
     pub fn labels(&self) -> &LabelMap {
         &self.analysis.finals.labels

@@ -3,9 +3,10 @@
 
 use crate::common::{analyze, fingerprint};
 use crate::synthetic::Scene;
-use dichroscope::analysis::{Cancelled, Observer, Session, Stage, StageOutput};
+use dichroscope::analysis::{Analysis, Cancelled, Observer, Session, Stage, StageOutput};
 use dichroscope::params::{IlluminantSetting, Params, Refine, Setting};
 use dichroscope::photo::LinearImage;
+use dichroscope::raster::Blocks;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -166,21 +167,76 @@ impl Observer for CancelsAfter {
 
 #[test]
 fn a_run_cancelled_within_a_stage_keeps_no_incomplete_output() {
+    never_keeps_incomplete_output(&Params::default());
+}
+
+#[test]
+fn a_run_cancelled_at_full_resolution_keeps_no_incomplete_output() {
+    never_keeps_incomplete_output(&Params { scale: value(2.0), ..Params::default() });
+}
+
+fn never_keeps_incomplete_output(params: &Params) {
     let image = balls();
-    let params = Params::default();
-    let fresh = fingerprint(&analyze(&image, &params));
+    let fresh = fingerprint(&analyze(&image, params));
     let mut cancelled = 0;
     for queries in (0..400).step_by(7) {
         let mut session = Session::new(Arc::new(image.clone()));
         let mut observer = CancelsAfter { queries_left: AtomicUsize::new(queries) };
-        match session.run(&params, &mut observer) {
+        match session.run(params, &mut observer) {
             Ok(analysis) => assert!(fingerprint(&analysis) == fresh, "after {queries} queries"),
             Err(Cancelled) => cancelled += 1,
         }
-        let analysis = session.run(&params, &mut ()).unwrap();
+        let analysis = session.run(params, &mut ()).unwrap();
         assert!(fingerprint(&analysis) == fresh, "cancelled after {queries} queries");
     }
     assert!(cancelled > 10, "the observer is queried within stages, not only between stages");
+}
+
+/// An observer of the working picture that cancels the run once the analysis of the working picture is there.
+#[derive(Default)]
+struct OfWorkingPicture {
+    made: Option<(Analysis, Blocks)>,
+    cancels: bool,
+}
+
+impl Observer for OfWorkingPicture {
+    fn working_made(&mut self, analysis: &Analysis, blocks: &Blocks) {
+        self.made = Some((analysis.clone(), *blocks));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.cancels && self.made.is_some()
+    }
+}
+
+#[test]
+fn the_analysis_of_the_working_picture_comes_before_full_resolution() {
+    let image = balls();
+    let params = Params { scale: value(2.0), ..Params::default() };
+    let mut session = Session::new(Arc::new(image.clone()));
+    let mut observer = OfWorkingPicture { cancels: true, ..OfWorkingPicture::default() };
+    assert_eq!(session.run(&params, &mut observer).unwrap_err(), Cancelled);
+    let (working, blocks) = observer.made.unwrap();
+    assert_eq!(blocks.side(), 2);
+    let size = |analysis: &Analysis| {
+        let body = &analysis.intrinsic.body;
+        assert_eq!(body.len(), analysis.finals.labels.len());
+        assert_eq!(body.len(), analysis.areas.len());
+        (body.width(), body.height())
+    };
+    assert_eq!(size(&working), (image.width().div_ceil(2), image.height().div_ceil(2)));
+    // The stages are done: only the pass at full resolution is left.
+    let mut journal = Journal::default();
+    let whole = session.run(&params, &mut journal).unwrap();
+    assert_eq!(journal.ran, [Stage::Split]);
+    assert_eq!(size(&whole), (image.width(), image.height()));
+    assert_eq!(whole.illuminant, working.illuminant);
+    assert_eq!(whole.working_finals, working.finals);
+    assert!(fingerprint(&whole) == fingerprint(&analyze(&image, &params)));
+    // A picture of its own working pixels has no such analysis.
+    let mut observer = OfWorkingPicture::default();
+    session.run(&Params { scale: value(1.0), ..params }, &mut observer).unwrap();
+    assert!(observer.made.is_none());
 }
 
 #[test]

@@ -5,7 +5,7 @@ use super::edits::{analyze, edit_params};
 use super::questions::take_progress;
 use crate::app::report::{Report, Work};
 use crate::app::state::{AfterPin, Restoring};
-use crate::app::{Debugger, Document, Effect, Severity, State, ViewSettings, Workspace};
+use crate::app::{Debugger, Document, Effect, Preview, Severity, State, ViewSettings, Workspace};
 use crate::params::{IlluminantSetting, Params};
 use crate::view::{Item, MaskRuns, Picture, ProfileLine, ResultSnapshot};
 use std::path::PathBuf;
@@ -39,6 +39,7 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
             }
         }
         Report::Analyzed(shown) => return show_result(state, shown),
+        Report::Preview(preview) => show_preview(state, preview),
         Report::Traced { generation, replay } => take_trace(state, generation, *replay),
         Report::Exporting { done, total } => {
             if let Some(job) = &mut state.jobs.export {
@@ -65,7 +66,7 @@ fn end_panicked(state: &mut State, work: Work, reason: &str) -> Vec<Effect> {
     match work {
         Work::Photograph => (state.jobs.reading, state.restoring) = (None, None),
         Work::File => state.restoring = None,
-        Work::Analysis => (state.jobs.analysis, state.after_pin) = (None, None),
+        Work::Analysis => (state.jobs.analysis, state.after_pin, state.preview) = (None, None, None),
         Work::Export => state.jobs.export = None,
         Work::WhatIf => state.what_if_job = None,
         Work::Rescue => {}
@@ -119,6 +120,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     (state.view.image.center_px, state.view.image.zoom) = (None, None);
     (state.view.profile, state.after_pin) = (ProfileLine::Row, None);
     (state.found_light, state.workspace_path, state.hover_pixels) = (None, None, Arc::default());
+    state.preview = None;
     for warning in warnings {
         state.notify(Severity::Warning, warning);
     }
@@ -169,6 +171,9 @@ fn show_result(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
     if !same_picture || !newer {
         return Vec::new();
     }
+    if shown.stale_from.is_none() {
+        state.preview = state.preview.take().filter(|preview| preview.shown.generation > shown.generation);
+    }
     let is_last = shown.generation == state.generation && shown.stale_from.is_none();
     if is_last {
         state.jobs.analysis = None;
@@ -183,6 +188,19 @@ fn show_result(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
     state.view.show_pinned = after.show_pinned;
     (state.document.params, state.document.selection.item) = (after.params, after.item);
     analyze(state)
+}
+
+/// Shows the result for the working picture, unless the whole result or a newer one is there.
+fn show_preview(state: &mut State, preview: Preview) {
+    let same_picture =
+        state.picture.as_ref().is_some_and(|picture| Arc::ptr_eq(picture, &preview.shown.picture));
+    let generation = preview.shown.generation;
+    let newest = state.newest.as_ref().filter(|newest| newest.stale_from.is_none());
+    let is_newer = newest.is_none_or(|newest| newest.generation < generation)
+        && state.preview.as_ref().is_none_or(|shown| shown.shown.generation < generation);
+    if same_picture && is_newer {
+        state.preview = Some(preview);
+    }
 }
 
 /// Selects the region of the new result that overlaps the selected region most.

@@ -1,16 +1,17 @@
 use super::*;
-use crate::app::report::Report;
+use crate::app::report::{Report, Work};
 use crate::app::{
-    Application, Combine, Edit, Executor, ExportKind, Gesture, JobCommand, Question, Severity, ViewCommand,
+    Application, Combine, Edit, Executor, ExportKind, Gesture, JobCommand, Preview, Question, Severity,
+    ViewCommand,
 };
 use crate::params::{IlluminantSetting, Method, Parameter, Params, Setting};
 use crate::photo::ReadOptions;
 use crate::raster::{Mask, PixelIndex, Raster, RegionId};
 use crate::truth::sample;
-use crate::view::{Item, MaskRuns, Origin};
+use crate::view::{Item, MaskRuns, Origin, ResultSnapshot};
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 const TINY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
@@ -312,6 +313,46 @@ fn on_threads_the_newest_request_wins() {
     assert!(application.state().is_current());
     // The scores come after the result, without holding it up.
     wait(&mut application, &woken, |state| state.shown().is_some_and(|shown| shown.accuracy().is_some()));
+}
+
+#[test]
+fn a_preview_is_shown_until_the_result_is_there() {
+    let mut application = opened_tiny();
+    application.apply(Edit::SetParameter(Parameter::Scale, Setting::Value(2.0), None));
+    assert!(application.state().preview.is_none(), "the result has replaced the preview");
+    let shown = Arc::clone(application.state().shown().unwrap());
+    assert!(!shown.is_of_working_picture());
+    let preview_of = |generation: u64| {
+        let working = ResultSnapshot {
+            generation,
+            picture: Arc::clone(&shown.picture),
+            params: shown.params,
+            area: None,
+            analysis: shown.analysis.clone(),
+            stale_from: None,
+            coverage: 0.0,
+            region_colors: shown.region_colors.clone(),
+            took_ms: shown.took_ms,
+            trace: OnceLock::new(),
+            accuracy: OnceLock::new(),
+        };
+        Report::Preview(Preview { shown: Arc::new(working), blocks: shown.analysis.working.blocks })
+    };
+    application.take_report(preview_of(shown.generation));
+    assert!(application.state().preview.is_none(), "late: its result is shown");
+    application.take_report(preview_of(shown.generation + 1));
+    let selected = |application: &Application| {
+        application.state().shown_preview().map(|(preview, region)| (preview.shown.generation, region))
+    };
+    assert_eq!(selected(&application), Some((shown.generation + 1, None)));
+    let region = RegionId::from_index(1);
+    application.apply(Edit::Select(Some(Item::Region(region))));
+    assert_eq!(selected(&application), Some((shown.generation + 1, Some(region))), "found by its color");
+    application.apply(ViewCommand::Pin(true));
+    application.apply(ViewCommand::ShowPinned(true));
+    assert_eq!(selected(&application), None, "the pinned result is shown");
+    application.take_report(Report::Panicked { work: Work::Analysis, reason: "a test".to_owned() });
+    assert!(application.state().preview.is_none());
 }
 
 #[test]

@@ -39,6 +39,8 @@ pub struct PaintRequest {
     shown: Option<Arc<ResultSnapshot>>,
     pinned: Option<Arc<ResultSnapshot>>,
     subject: Subject,
+    /// Side of a texel of the painted picture, pixels of the photograph.
+    texel_px: usize,
 }
 
 #[derive(Clone)]
@@ -52,13 +54,17 @@ impl PaintRequest {
     /// The request of a layer. Settings that do not change the picture are left out, so that the picture is not painted again.
     pub fn layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
         let picture = Arc::clone(state.picture.as_ref()?);
-        let mut look = settings.look(state.selected_region().filter(|_| layer.dims_regions()));
+        let preview = state.shown_preview().filter(|_| layer.needs_result() && !layer.needs_pinned());
+        let selected = preview.map_or_else(|| state.selected_region(), |(_, selected)| selected);
+        let mut look = settings.look(selected.filter(|_| layer.dims_regions()));
         if !layer.is_overlay() {
             (look.fill, look.opacity) = (Fill::Fill, 1.0);
         }
-        let shown = state.shown().filter(|_| layer.needs_result()).cloned();
+        let newest = || state.shown().filter(|_| layer.needs_result());
+        let shown = preview.map_or_else(newest, |(preview, _)| Some(&preview.shown)).cloned();
+        let texel_px = preview.map_or(1, |(preview, _)| preview.blocks.side());
         let pinned = state.pinned.as_ref().filter(|_| layer.needs_pinned()).cloned();
-        Some(Self { picture, shown, pinned, subject: Subject::Layer(layer, look) })
+        Some(Self { picture, shown, pinned, subject: Subject::Layer(layer, look), texel_px })
     }
 
     /// The request of the marks: marked, selected and hovered pixels; none where none of these is larger than a pixel.
@@ -78,7 +84,7 @@ impl PaintRequest {
         }
         let picture = Arc::clone(state.picture.as_ref()?);
         let shown = state.shown().cloned();
-        Some(Self { picture, shown, pinned: None, subject: Subject::Marks(selection, hover) })
+        Some(Self { picture, shown, pinned: None, subject: Subject::Marks(selection, hover), texel_px: 1 })
     }
 
     /// The request of the instant at the cursor.
@@ -90,6 +96,7 @@ impl PaintRequest {
             shown: None,
             pinned: None,
             subject: Subject::Instant(Arc::clone(instant), look),
+            texel_px: 1,
         })
     }
 
@@ -179,7 +186,8 @@ impl TextureCache {
         self.uses += 1;
         let key = request.key();
         if !self.textures.iter().any(|texture| texture.key == key) {
-            if request.picture.photo.image.pixels.len() <= LARGE_PX {
+            let texels = request.picture.photo.image.pixels.len() / request.texel_px.pow(2);
+            if texels <= LARGE_PX {
                 let texture = LayerTexture::painted(request);
                 self.add_texture(texture);
             } else if self.painting.is_none() {
@@ -257,6 +265,8 @@ impl TextureCache {
 /// A painted picture, smaller copies of it, and textures of the parts that were visible.
 pub struct LayerTexture {
     key: TextureKey,
+    /// Side of a texel of the painted picture, pixels of the photograph.
+    texel_px: usize,
     levels: Vec<Raster<[u8; 4]>>,
     tiles: HashMap<[usize; 3], TextureHandle>,
     /// Textures of the same size with an older picture.
@@ -268,6 +278,7 @@ impl LayerTexture {
     fn painted(request: &PaintRequest) -> Self {
         Self {
             key: request.key(),
+            texel_px: request.texel_px,
             levels: vec![request.paint()],
             tiles: HashMap::new(),
             spare: HashMap::new(),
@@ -282,8 +293,11 @@ impl LayerTexture {
         self.key.picture.strong_count() == 0 || is_gone(&self.key.shown) || is_gone(&self.key.pinned)
     }
 
-    /// The color shown for a pixel.
+    /// The color shown for a pixel; transparent where a texel has several pixels.
     pub fn color(&self, pixel: usize) -> [u8; 4] {
+        if self.texel_px > 1 {
+            return [0; 4];
+        }
         self.levels[0].as_slice().get(pixel).copied().unwrap_or_default()
     }
 
@@ -300,7 +314,7 @@ impl LayerTexture {
 
     /// Draws the visible part, multiplied by `tint`.
     pub fn draw(&mut self, painter: &Painter, place: &Placement, tint: Color32) {
-        let mut scale = place.zoom * painter.ctx().pixels_per_point();
+        let mut scale = place.zoom * painter.ctx().pixels_per_point() * self.texel_px as f32;
         if let SubjectKey::Marks(..) = self.key.subject {
             // A thin line must not fall between screen pixels, nor become a thick one: about one texel each.
             scale *= 0.7;
@@ -310,9 +324,9 @@ impl LayerTexture {
         }
         let level = level_for(scale, self.levels.len());
         let texels = &self.levels[level];
-        let texels_per_copy = (1usize << level) as f32;
+        let pixels_per_texel = self.texel_px << level;
         let [columns, rows] = place.visible().map(|visible_range| {
-            let tile = TILE << level;
+            let tile = TILE * pixels_per_texel;
             visible_range.start / tile..visible_range.end.div_ceil(tile)
         });
         for row in rows {
@@ -327,12 +341,13 @@ impl LayerTexture {
                     }
                     painter.ctx().load_texture("picture", image, texture_options())
                 });
+                let pixels_per_texel = pixels_per_texel as f32;
                 let part = Rect::from_min_max(
-                    tile.inner.min * texels_per_copy,
-                    (tile.inner.max * texels_per_copy).min(place.size.to_pos2()),
+                    tile.inner.min * pixels_per_texel,
+                    (tile.inner.max * pixels_per_texel).min(place.size.to_pos2()),
                 );
                 let uv = |texel: egui::Pos2| ((texel - tile.outer.min) / tile.outer.size()).to_pos2();
-                let uv = Rect::from_min_max(uv(part.min / texels_per_copy), uv(part.max / texels_per_copy));
+                let uv = Rect::from_min_max(uv(part.min / pixels_per_texel), uv(part.max / pixels_per_texel));
                 let mut mesh = Mesh::with_texture(texture.id());
                 mesh.add_rect_with_uv(place.screen_rect_of(part), uv, tint);
                 painter.add(Shape::mesh(mesh));

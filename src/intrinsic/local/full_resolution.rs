@@ -7,8 +7,9 @@
 
 use super::repair::CONFIDENCE;
 use super::{LocalSplit, undo_unexplained};
-use crate::intrinsic::detail::{Detail, WorkingSplit};
+use crate::intrinsic::detail::Detail;
 use crate::intrinsic::images::Images;
+use crate::intrinsic::split::WorkingSplit;
 use crate::raster::{Blocks, Mask, Raster};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
@@ -19,12 +20,11 @@ use rayon::prelude::*;
 pub fn split_locally_at_full_resolution(
     detail: &Detail,
     working: &WorkingSplit,
-    local: Option<&LocalSplit>,
     explained_mask: &Mask,
     images: &mut Images,
 ) -> Option<Raster<f32>> {
     let unexplained = undo_unexplained(&detail.input, explained_mask, images);
-    let local = local?;
+    let local = working.found.local.as_ref()?;
     let (width, height) = (unexplained.width(), unexplained.height());
     let mut confidence = Raster::filled(width, height, 0.0);
     let rows = (
@@ -73,7 +73,7 @@ struct Found {
 
 /// What the working picture tells of the pixels of the photograph.
 struct ByWorkingPicture<'a> {
-    working: &'a WorkingSplit<'a>,
+    working: &'a WorkingSplit,
     local: &'a LocalSplit,
 }
 
@@ -96,7 +96,11 @@ impl ByWorkingPicture<'_> {
     /// The split of a clipped pixel by the body reflection with which the working picture was filled; none where it was not filled.
     fn filled(&self, color: [f32; 3], nearest: &Nearest) -> Option<Found> {
         let is_filled = |pixel: usize| self.local.filled.as_slice().get(pixel) == Some(&true);
-        let fill = nearest.mean(|pixel| is_filled(pixel).then(|| self.working.images.body[pixel]))?;
+        let WorkingSplit { intrinsic, found } = self.working;
+        let body = |pixel: usize| {
+            std::array::from_fn(|band| intrinsic.body[pixel][band] - found.origin[band] as f32)
+        };
+        let fill: [f32; 3] = nearest.mean(|pixel| is_filled(pixel).then(|| body(pixel)))?;
         let body: [f32; 3] = std::array::from_fn(|band| fill[band].clamp(0.0, color[band].max(0.0)));
         let surface = std::array::from_fn(|band| color[band] - body[band]);
         Some(Found { body, surface, confidence: CONFIDENCE })

@@ -280,7 +280,8 @@ mod tests {
         };
         let labels = LabelMap::filled(SIDE_PX, SIDE_PX, 0);
         let regions = FinalRegions { labels, hypotheses: Vec::new(), light };
-        let result = split(&input, &regions, None, &mut NoopRecorder);
+        let result =
+            crate::intrinsic::Intrinsic::clone(&split(&input, &regions, &mut NoopRecorder).intrinsic);
         (image, result)
     }
 

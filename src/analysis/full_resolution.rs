@@ -1,0 +1,118 @@
+//! The outputs of the stages in pixels of the photograph, where the working picture has larger pixels.
+
+use super::prepared::Prepared;
+use super::working_outputs::WorkingOutputs;
+use super::{Analysis, Cancelled, Observer, StageOutput};
+use crate::intrinsic::{Detail, Intrinsic, split_photograph};
+use crate::raster::Raster;
+use crate::segment::{
+    AnalysisInput, FinalRegions, MatteRegions, PlanarRegions, Windows, full_resolution_labels,
+};
+use std::sync::Arc;
+
+/// The last outputs in pixels of the photograph.
+#[derive(Default)]
+pub(super) struct FullResolution {
+    windows: Enlarged<Windows>,
+    areas: Enlarged<Raster<u32>>,
+    matte: Enlarged<MatteRegions>,
+    planar: Enlarged<PlanarRegions>,
+    finals: Enlarged<FinalRegions>,
+    intrinsic: Enlarged<Intrinsic>,
+}
+
+/// The photograph, as the stages read it.
+pub(super) struct Photograph<'a> {
+    pub(super) prepared: &'a Prepared,
+    /// The photograph; its noise is that of a single pixel.
+    pub(super) input: AnalysisInput<'a>,
+}
+
+impl FullResolution {
+    /// Replaces the outputs of an `analysis` of the working picture by those in pixels of the photograph. The observer receives the
+    /// outputs but the last. Returns whether the earlier split of the photograph was still valid.
+    pub(super) fn enlarge(
+        &mut self,
+        photograph: &Photograph,
+        working: &WorkingOutputs,
+        observer: &mut impl Observer,
+        analysis: &mut Analysis,
+    ) -> Result<bool, Cancelled> {
+        let Photograph { prepared, input } = photograph;
+        let blocks = &prepared.working.blocks;
+        analysis.masks = Arc::clone(&prepared.masks);
+        analysis.working = Arc::clone(&prepared.working);
+        analysis.windows = self.windows.get(working.windows.number, observer, || {
+            let made = &working.windows.value;
+            Windows { size_px: made.size_px * blocks.side(), ..Windows::clone(made) }
+        })?;
+        observer.made(StageOutput::Windows(Arc::clone(&analysis.windows)));
+        analysis.areas =
+            self.areas.get(working.merged.number, observer, || blocks.enlarged(&working.merged.value.map))?;
+        observer.made(StageOutput::Areas(Arc::clone(&analysis.areas)));
+        analysis.matte = self.matte.get(working.matte.number, observer, || {
+            let made = &*working.matte.value;
+            MatteRegions { labels: blocks.enlarged(&made.labels), ..made.clone() }
+        })?;
+        observer.made(StageOutput::Matte(Arc::clone(&analysis.matte)));
+        analysis.planar = self.planar.get(working.planar.number, observer, || {
+            let made = &*working.planar.value;
+            PlanarRegions { labels: blocks.enlarged(&made.labels), ..made.clone() }
+        })?;
+        observer.made(StageOutput::Planar(Arc::clone(&analysis.planar)));
+        let working_regions = &*working.finals.value;
+        let stopping: &_ = observer;
+        analysis.finals = self.finals.get(working.finals.number, stopping, || {
+            let stop = || stopping.cancelled();
+            let labels = full_resolution_labels(&input.stopped_by(&stop), working_regions, blocks);
+            FinalRegions { labels, ..working_regions.clone() }
+        })?;
+        observer.made(StageOutput::Finals(Arc::clone(&analysis.finals)));
+        let reused = self.intrinsic.is_made_from(working.split.number);
+        let stopping: &_ = observer;
+        analysis.intrinsic = self.intrinsic.get(working.split.number, stopping, || {
+            let stop = || stopping.cancelled();
+            let detail = Detail {
+                input: input.stopped_by(&stop),
+                labels: &analysis.finals.labels,
+                blocks: *blocks,
+                working_regions,
+            };
+            split_photograph(&detail, &working.split.value)
+        })?;
+        Ok(reused)
+    }
+}
+
+/// The last output in pixels of the photograph, and the number of the output in working pixels that it was made from.
+struct Enlarged<T>(Option<(u64, Arc<T>)>);
+
+impl<T> Default for Enlarged<T> {
+    fn default() -> Self {
+        Self(None)
+    }
+}
+
+impl<T> Enlarged<T> {
+    fn is_made_from(&self, number: u64) -> bool {
+        self.0.as_ref().is_some_and(|(made_from, _)| *made_from == number)
+    }
+
+    /// The last output, or a new one if it was made from another than `number`. The result of a cancelled `make` is discarded.
+    fn get(
+        &mut self,
+        number: u64,
+        observer: &impl Observer,
+        make: impl FnOnce() -> T,
+    ) -> Result<Arc<T>, Cancelled> {
+        if let Some((_, made)) = self.0.as_ref().filter(|(made_from, _)| *made_from == number) {
+            return Ok(Arc::clone(made));
+        }
+        let made = Arc::new(make());
+        if observer.cancelled() {
+            return Err(Cancelled);
+        }
+        self.0 = Some((number, Arc::clone(&made)));
+        Ok(made)
+    }
+}

@@ -1,0 +1,66 @@
+//! The warnings of a run, a sentence each.
+
+use super::prepared::Prepared;
+use crate::photo::{CodingError, Masks};
+use crate::raster::LabelMap;
+use crate::segment::{LightFindings, PlanarRegions};
+
+/// Error of the values, in steps of 1/255 of the coded range, above which compression makes results doubtful.
+const DOUBTFUL_CODE_VALUES: f64 = 1.3;
+/// Number of pixels below which results are doubtful.
+const DOUBTFUL_PIXELS: usize = 10_000;
+
+fn compression_warning(coding: &CodingError) -> Option<String> {
+    (coding.is_extended() && coding.code_values > DOUBTFUL_CODE_VALUES).then(|| {
+        format!(
+            "the picture is compressed so strongly that its values are off by {:.1} code values (standard deviation): the \
+             light and faint highlights are not exact",
+            coding.code_values
+        )
+    })
+}
+
+fn size_warning(labels: &LabelMap) -> Option<String> {
+    let pixels = labels.len();
+    (0 < pixels && pixels < DOUBTFUL_PIXELS).then(|| {
+        format!(
+            "the picture has only {pixels} pixels: windows and regions hold too few of them to be exact, {DOUBTFUL_PIXELS} \
+             are enough"
+        )
+    })
+}
+
+/// The warnings about the regions, then about the file's values, then about the size of the regions.
+pub(super) fn all_warnings(
+    labels: &LabelMap,
+    planar: &PlanarRegions,
+    prepared: &Prepared,
+    restricted: bool,
+) -> Vec<String> {
+    let mut all = warnings(labels, planar, &prepared.masks, restricted);
+    all.extend(prepared.noise.coding.as_ref().and_then(compression_warning));
+    all.extend(size_warning(labels));
+    all
+}
+
+/// The warnings about the regions, a sentence each. `restricted`: the analysis is restricted to an area.
+fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks, restricted: bool) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let lit = (0..labels.len()).filter(|&pixel| !masks.dark(pixel)).count();
+    let assigned = labels.as_slice().iter().filter(|&&label| label != 0).count();
+    if labels.is_empty() || lit == 0 {
+        let which = if restricted { "every pixel of the area" } else { "every pixel" };
+        warnings.push(format!("{which} is darker than the minimal intensity: nothing was analyzed"));
+    } else if assigned == 0 {
+        warnings.push(
+            "no linear area was found: no window varies along one direction beyond the noise".to_owned(),
+        );
+    } else if planar.illuminant.is_none() {
+        let why = match planar.light {
+            LightFindings { planes: None, votes: None, .. } => "no highlight was found".to_owned(),
+            light => light.reason(),
+        };
+        warnings.push(format!("{why}: the light's color is unknown and all is body reflection"));
+    }
+    warnings
+}
