@@ -345,9 +345,8 @@ fn pointer_is_right_of(ui: &Ui, x: f32) -> bool {
 fn tint(cx: &PanelContext, layer: Layer) -> Color32 {
     let state = cx.state;
     let is_late = state.jobs.analysis.is_some_and(|job| job.since.elapsed() >= PROGRESS_DELAY);
-    let is_preview_current =
-        state.shown_preview().is_some_and(|(preview, _)| preview.shown.generation == state.generation);
-    let is_current = state.is_current() || is_preview_current;
+    // A preview is made anew several times a second while a slider moves.
+    let is_current = state.is_current() || state.shown_preview().is_some();
     let is_stale = is_late && layer.needs_result() && !is_current && !state.view.show_pinned;
     if is_stale { Color32::from_gray(140) } else { Color32::WHITE }
 }
