@@ -1,16 +1,19 @@
 //! Surface reflection at the borders between regions (refinement `border_mixtures`, beyond section 5.6).
 //!
-//! Optics, demosaicing and compression mix the colors on both sides of a border; section 5.6 names such pixels among those that the
-//! model does not explain. A mixture with a neutral background is paler than the object, as a highlight is, so that the object would
-//! be outlined by false highlights. A true highlight continues into the region. Therefore the surface reflection of a pixel near
-//! another region, or near pixels that are dark or in no region, is at most the mean of the nearest pixels of its own region that are out
-//! of reach of any border; the rest is body reflection. A border reaches 1 px, in demosaiced or compressed pictures 2 px, and 3 px where the color differences were
-//! stored with fewer samples.
+//! Optics, demosaicing and compression mix the colors on both sides of a border; section 5.6 names such pixels among
+//! those that the model does not explain. A mixture with a neutral background is paler than the object, as a highlight
+//! is, so that the object would be outlined by false highlights. A true highlight continues into the region. Therefore
+//! the surface reflection of a pixel near another region, or near pixels that are dark or in no region, is at most the
+//! mean of the nearest pixels of its own region that are out of reach of any border; where there is no such pixel, of
+//! the nearest pixels that are out of reach of borders with lit pixels of other labels; where there is no such pixel
+//! either, the pixel is not limited. The rest is body reflection. A border reaches 1 px, in demosaiced or compressed
+//! pictures 2 px, and 3 px where the color differences were stored with fewer samples.
 //!
-//! Measured on rendered scenes, body before → after: objects before walls of the lamp's color 36.4 → 43.9 dB at JPEG 95, 33.8 → 42.6 at
-//! JPEG 92, 32.5 → 38.1 demosaiced and compressed (doing nothing: 30); 25 scenes of plain objects 44.43 → 44.50 dB as they are, 41.33 →
-//! 41.36, 38.11 → 38.40 and 37.46 → 38.06 dB (doing nothing: 22.7). Dark pixels count as a border since: plain objects demosaiced and compressed 38.21 → 38.60 dB, and fewer specks at
-//! the shadows of photographs.
+//! Measured on rendered scenes, body before → after: objects before walls of the color of the light 36.4 → 43.9 dB at
+//! JPEG 95, 33.8 → 42.6 at JPEG 92, 32.5 → 38.1 demosaiced and compressed (doing nothing: 30); 25 scenes of plain
+//! objects 44.43 → 44.50 dB as they are, 41.33 → 41.36 dB at JPEG 95, 38.11 → 38.40 dB at JPEG 92, and 37.46 → 38.06 dB
+//! demosaiced and compressed (doing nothing: 22.7). Dark pixels as borders: plain objects demosaiced and compressed
+//! 38.21 → 38.60 dB, and fewer specks at shadows in photographs.
 
 use super::images::Images;
 use super::region_plan::RegionPlan;
@@ -102,8 +105,9 @@ impl Borders<'_> {
         })
     }
 
-    /// The mean surface reflection of the nearest pixels of the region of `pixel` that are out of reach of any border, sum of the bands; where
-    /// there are none within twice the reach, of those that are out of reach of lit pixels; else none.
+    /// The mean surface reflection, sum of the bands, of the nearest pixels of the region of `pixel` that are out of
+    /// reach of any border. Where no such pixel lies within `2 * reach + 1` pixels: of the nearest pixels out of reach
+    /// of the borders [`BorderKinds::Lit`]. `None` where neither exists.
     fn surface_inside(&self, pixel: usize, images: &Images) -> Option<f32> {
         [BorderKinds::All, BorderKinds::Lit]
             .into_iter()
@@ -127,7 +131,7 @@ impl Borders<'_> {
     }
 }
 
-/// BorderKinds of borders of a region.
+/// The kinds of borders of a region.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum BorderKinds {
     /// Against other regions, lit pixels without a region, and dark pixels.

@@ -3,13 +3,13 @@
 //! The paper measures the noise from repeated photographs of a white board (section 7.3). A single image suffices,
 //! because within a small window on one material the colors spread along at most two directions (shading, highlight),
 //! so that only noise remains along the third. The smallest eigenvalue of a window of n×n pixels is biased low, and
-//! textured windows are biased high. A low quantile over all windows and the factor 1 − 1.63/n (from a simulation of
+//! textured windows are biased high. A low quantile over all windows and division by 1 − 1.63/n (from a simulation of
 //! pure noise) correct both biases.
 //!
-//! The variance of a real sensor's noise grows with the light, because photons are counted (shot noise). The windows show this too:
-//! the same quantile of windows of like intensity lies on a line of the intensity. On 48 rendered scenes whose noise has the variance
-//! .72 + .0245 I (counts², I in counts) the line found is .62–.97 + (.0178–.0299) I; on 25 demosaiced scenes whose noise does not
-//! grow, 2 lines rise by more than a third.
+//! The variance of a real sensor's noise grows with the light, because photons are counted (shot noise). The windows
+//! show this too: the same quantile of windows of like intensity lies on a line of the intensity. On 48 rendered scenes
+//! whose noise has the variance .72 + .0245 I (counts², I in counts) the line found is .62–.97 + (.0178–.0299) I; on 25
+//! demosaiced scenes whose noise does not grow, 2 are wrongly given a line.
 
 use super::{LinearImage, Masks};
 use crate::color::{Moments, principal_axes};
@@ -20,18 +20,18 @@ const WINDOW_PX: usize = 10;
 /// The quantile of the smallest eigenvalues that is taken for noise.
 const QUANTILE: f64 = 0.4;
 /// Share of the variance that the smallest eigenvalue of a window has in pure noise.
-const UNBIASED: f64 = 1.0 - 1.63 / WINDOW_PX as f64;
-/// Fewest windows that are enough.
+const SMALLEST_EIGENVALUE_SHARE: f64 = 1.0 - 1.63 / WINDOW_PX as f64;
+/// Fewest windows for an estimate.
 const MIN_WINDOWS: usize = 8;
-/// Largest number of groups of windows of like intensity …
+/// Largest number of groups of windows of similar intensity.
 const MAX_GROUPS: usize = 8;
-/// … the fewest windows of a group …
+/// Fewest windows of a group.
 const MIN_GROUP_WINDOWS: usize = 15;
-/// … and the fewest groups that show a line.
+/// Fewest groups for a line.
 const MIN_GROUPS: usize = 3;
 /// Least ratio of the variances at both ends of the line.
 const MIN_RISE: f64 = 1.4;
-/// Largest median deviation of a group from the line, as a share of the variance.
+/// Largest median over the groups of the relative deviation of a group's variance from the line.
 const MAX_DEVIATION: f64 = 0.12;
 
 /// The noise of a band of an image.
@@ -61,7 +61,7 @@ impl ShotNoise {
 
 /// The noise of one window.
 struct WindowNoise {
-    /// Intensity of the bands that the variance belongs to, counts.
+    /// Mean of the bands, weighted by the squared components of the axis of least variance, counts.
     intensity: f64,
     /// Smallest eigenvalue of the covariance of the colors, counts².
     variance: f64,
@@ -89,7 +89,7 @@ impl NoiseEstimate {
             return None;
         }
         let shot = shot_noise(&mut windows);
-        Some(Self { sigma: quantile(&mut windows).sqrt(), shot })
+        Some(Self { sigma: noise_variance(&mut windows).sqrt(), shot })
     }
 }
 
@@ -112,11 +112,12 @@ impl WindowNoise {
     }
 }
 
-/// The variance of the noise that windows show together, counts².
-fn quantile(windows: &mut [WindowNoise]) -> f64 {
+/// The variance of the noise of a band in `windows`, counts²: the quantile [`QUANTILE`] of the smallest eigenvalues,
+/// corrected for their bias.
+fn noise_variance(windows: &mut [WindowNoise]) -> f64 {
     let rank = (windows.len() as f64 * QUANTILE) as usize;
     let (_, window, _) = windows.select_nth_unstable_by(rank, |a, b| a.variance.total_cmp(&b.variance));
-    window.variance.max(0.0) / UNBIASED
+    window.variance.max(0.0) / SMALLEST_EIGENVALUE_SHARE
 }
 
 /// The line on which the variances of groups of windows of like intensity lie; `None` where there are too few windows, or the
@@ -130,11 +131,12 @@ fn shot_noise(windows: &mut [WindowNoise]) -> Option<ShotNoise> {
         a.intensity.total_cmp(&b.intensity).then(a.variance.total_cmp(&b.variance))
     };
     windows.sort_unstable_by(order);
-    let points: Vec<(f64, f64)> = windows
-        .chunks_mut(windows.len().div_ceil(groups))
+    let count = windows.len();
+    let points: Vec<(f64, f64)> = (0..groups)
         .map(|group| {
+            let group = &mut windows[count * group / groups..count * (group + 1) / groups];
             let intensity = group.iter().map(|window| window.intensity).sum::<f64>() / group.len() as f64;
-            (intensity, quantile(group))
+            (intensity, noise_variance(group))
         })
         .collect();
     let line = rising_line(&points)?;
@@ -148,8 +150,8 @@ fn shot_noise(windows: &mut [WindowNoise]) -> Option<ShotNoise> {
     (rises && deviation <= MAX_DEVIATION).then_some(line)
 }
 
-/// The line through points of intensity and variance by least squares of relative errors, which neither falls nor becomes
-/// negative in the dark; `None` where a variance is 0.
+/// The rising line through points of (intensity, variance), by least squares of relative errors; the variance at
+/// intensity 0 is at least 0. `None` where the line does not rise or a variance is 0.
 fn rising_line(points: &[(f64, f64)]) -> Option<ShotNoise> {
     let mut weights: Vec<f64> = points.iter().map(|&(_, variance)| variance.powi(-2)).collect();
     let mut line = ShotNoise { dark_variance: 0.0, variance_per_count: 0.0 };
@@ -205,9 +207,9 @@ mod tests {
     #[test]
     fn shot_noise_is_found_where_the_variance_rises_and_only_there() {
         let found = shot_noise(&mut windows(|intensity| 0.6 + 0.03 * intensity)).unwrap();
-        assert!((found.sigma_at(100.0).powi(2) * UNBIASED - 3.6).abs() < 0.4, "{found:?}");
+        assert!((found.sigma_at(100.0).powi(2) * SMALLEST_EIGENVALUE_SHARE - 3.6).abs() < 0.4, "{found:?}");
         assert_eq!(shot_noise(&mut windows(|_| 2.0)), None);
-        // A bright pattern is no shot noise: its group lies off the line of the others.
+        // Variances that jump between 1 and 20 from group to group are no shot noise: the groups lie off any line.
         let pattern =
             |intensity: f64| if ((intensity / 40.0) as usize).is_multiple_of(2) { 1.0 } else { 20.0 };
         assert_eq!(shot_noise(&mut windows(pattern)), None);

@@ -1,9 +1,10 @@
-//! Correlation of the noise between neighboring pixels, which shows what a picture went through before it was stored.
+//! Correlation of the noise between neighboring pixels, from which demosaicing and lossy compression are recognized.
 //!
-//! In a window on one material the color along the smallest principal axis is noise, but for slow shading that a quadratic
-//! polynomial in the position takes away. The correlation of the residuals at distances of one and two pixels, over the flatter
-//! half of all windows, is −.06…−.05 for white noise at distance one (the polynomial takes a part). A Bayer mosaic gives .36
-//! and −.12…−.09, JPEG without chroma subsampling .31–.39 and .00–.03, JPEG with it .30–.43 and .04–.20.
+//! In a window on one material the component of the color along the axis of least variance is noise and slow shading; a
+//! polynomial of second degree in the position is fitted and subtracted. The correlation of the residuals at distances
+//! of one and two pixels, over the half of the windows with the smaller largest variance, is −.06…−.05 for white noise
+//! at distance one (the polynomial takes a part). A Bayer mosaic gives .36 and −.12…−.09, JPEG without chroma
+//! subsampling .31–.39 and .00–.03, JPEG with it .30–.43 and .04–.20.
 
 use super::{LinearImage, Masks};
 use crate::color::{Moments, principal_axes, rgb};
@@ -12,13 +13,13 @@ use rayon::prelude::*;
 /// Side of a window, pixels.
 const WINDOW_PX: usize = 10;
 const WINDOW_PIXELS: usize = WINDOW_PX * WINDOW_PX;
-/// Fewest windows that are enough.
+/// Fewest windows for a measurement.
 const MIN_WINDOWS: usize = 16;
 /// Largest number of windows that are looked at, evenly chosen.
 const MAX_WINDOWS: usize = 4000;
-/// Least correlation at a distance of one pixel of an error that extends over neighboring pixels …
+/// Least correlation at a distance of one pixel of noise that extends over neighboring pixels.
 const EXTENDED_NEXT: f64 = 0.15;
-/// … and at a distance of two pixels, which tells lossy compression from a mosaic.
+/// Correlation at a distance of two pixels above which extended noise is that of lossy compression, not of a mosaic.
 const COMPRESSED_SECOND: f64 = -0.03;
 
 /// Correlation of the noise of neighboring pixels of a row or a column.
@@ -31,7 +32,8 @@ pub struct NoiseCorrelation {
 }
 
 impl NoiseCorrelation {
-    /// Measures an image; `None` where fewer than 16 windows have usable pixels only, or where these have no noise.
+    /// Measures an image; `None` where fewer than 16 windows consist of usable pixels, or the residuals of the chosen
+    /// half are 0.
     pub fn measure(image: &LinearImage, masks: &Masks) -> Option<Self> {
         let (columns, rows) = (image.width() / WINDOW_PX, image.height() / WINDOW_PX);
         let step = (columns * rows).div_ceil(MAX_WINDOWS).max(1);

@@ -99,7 +99,7 @@ impl Recorder for TraceRecorder {
     }
 
     fn labels(&mut self, kinds: &Raster<PixelKind>) {
-        self.0.set_labels(kinds.clone());
+        self.0.set_kinds(kinds.clone());
     }
 
     fn local(&mut self, record: LocalRecord) {

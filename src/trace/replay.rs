@@ -137,13 +137,13 @@ impl Replay {
         };
         let kind =
             stage_trace.kinds().and_then(|kinds| kinds.as_slice().get(pixel)).copied().unwrap_or_default();
-        if pixel < stage_trace.labeled_pixel(self.state.labeled) { kind } else { PixelKind::Unassigned }
+        if pixel < stage_trace.pixel_of_kind_step(self.state.labeled) { kind } else { PixelKind::Unassigned }
     }
 
     /// Number of leading pixels whose kind is decided.
     pub fn labeled_up_to(&self) -> usize {
         let stage_trace = self.trace.stage_trace(Stage::Split).filter(|_| self.state.labeled > 0);
-        stage_trace.map_or(0, |stage_trace| stage_trace.labeled_pixel(self.state.labeled))
+        stage_trace.map_or(0, |stage_trace| stage_trace.pixel_of_kind_step(self.state.labeled))
     }
 
     /// Takes one step; false at the end.

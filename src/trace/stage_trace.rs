@@ -56,7 +56,7 @@ impl Move {
 pub struct StageTrace {
     stage: Option<Stage>,
     events: Vec<Event>,
-    /// Step of each event, ascending. All other steps are moves, and after the moves the labels.
+    /// Step of each event, ascending. All other steps are moves, and after the moves the kinds of the pixels.
     event_steps: Vec<u32>,
     moves: Vec<Move>,
     /// Moves that were contested, ascending.
@@ -65,14 +65,14 @@ pub struct StageTrace {
     contest_values: Vec<[f32; 2]>,
     /// Measure of each contest.
     measures: Vec<Measure>,
-    labels: Option<Labels>,
+    pixel_kinds: Option<PixelKinds>,
     local: Option<Box<LocalRecord>>,
     contents: Contents,
 }
 
 /// The kinds of all pixels; pixels without a kind are no steps.
 #[derive(Clone, Debug, PartialEq)]
-struct Labels {
+struct PixelKinds {
     kinds: Raster<PixelKind>,
     /// Number of pixels with a kind before each row, and in all.
     before_row: Vec<u32>,
@@ -95,6 +95,8 @@ impl StageTrace {
         self.moves.push(Move { pixel: pixel.get(), owners: Owners { before, after } });
     }
 
+    /// Records a contest. A refused contest is a move of its own; a granted contest belongs to the move that the next
+    /// [`StageTrace::push_claim`] appends.
     pub(super) fn push_contest(
         &mut self,
         pixel: PixelIndex,
@@ -112,14 +114,14 @@ impl StageTrace {
         }
     }
 
-    pub(super) fn set_labels(&mut self, kinds: Raster<PixelKind>) {
+    pub(super) fn set_kinds(&mut self, kinds: Raster<PixelKind>) {
         let mut sum = 0;
         let mut before_row = vec![0];
         for y in 0..kinds.height() {
             sum += kinds.row(y).iter().filter(|&&kind| kind != PixelKind::Unassigned).count() as u32;
             before_row.push(sum);
         }
-        self.labels = Some(Labels { kinds, before_row });
+        self.pixel_kinds = Some(PixelKinds { kinds, before_row });
     }
 
     pub(super) fn set_local(&mut self, record: LocalRecord) {
@@ -139,7 +141,7 @@ impl StageTrace {
 
     /// Number of steps.
     pub fn len(&self) -> usize {
-        self.events.len() + self.moves.len() + self.labeled()
+        self.events.len() + self.moves.len() + self.kind_steps()
     }
 
     /// Whether nothing was decided.
@@ -178,14 +180,17 @@ impl StageTrace {
             + boxed
             + self.moves.len() * size_of::<Move>()
             + self.contested.len() * (size_of::<u32>() + size_of::<[f32; 2]>() + size_of::<Measure>())
-            + self.labels.as_ref().map_or(0, |labels| labels.kinds.len() + 4 * labels.before_row.len())
+            + self
+                .pixel_kinds
+                .as_ref()
+                .map_or(0, |pixel_kinds| pixel_kinds.kinds.len() + 4 * pixel_kinds.before_row.len())
             + self.local.as_ref().map_or(0, |local| local.bytes())
     }
 
     /// Plays all changes of owners on `labels`, which hold hypotheses.
     ///
-    /// # Errors
-    /// The number of the first change that contradicts the changes before: of a pixel with another owner, or outside the picture.
+    /// # Errors The index, among all moves, of the first move that contradicts the moves before: its pixel has another
+    /// owner, or lies outside the picture.
     pub fn play(&self, labels: &mut LabelMap) -> Result<(), usize> {
         for (index, change) in self.moves.iter().enumerate() {
             let label = labels.as_mut_slice().get_mut(change.pixel()).ok_or(index)?;
@@ -252,7 +257,7 @@ impl StageTrace {
 
     /// The kinds of all pixels, of the last stage.
     pub fn kinds(&self) -> Option<&Raster<PixelKind>> {
-        self.labels.as_ref().map(|labels| &labels.kinds)
+        self.pixel_kinds.as_ref().map(|pixel_kinds| &pixel_kinds.kinds)
     }
 
     /// The record of the local split, of the last stage.
@@ -261,36 +266,41 @@ impl StageTrace {
     }
 
     /// The step at which a pixel got its kind; none for a pixel without a kind.
-    pub fn step_of_label(&self, pixel: usize) -> Option<usize> {
-        let labels = self.labels.as_ref()?;
-        let kind = labels.kinds.as_slice().get(pixel)?;
-        let (row, column) = (pixel / labels.kinds.width(), pixel % labels.kinds.width());
-        let in_row = labels.kinds.row(row)[..column].iter().filter(|&&k| k != PixelKind::Unassigned).count();
-        let before = self.events.len() + self.moves.len() + labels.before_row[row] as usize;
+    pub fn step_of_kind(&self, pixel: usize) -> Option<usize> {
+        let pixel_kinds = self.pixel_kinds.as_ref()?;
+        let kind = pixel_kinds.kinds.as_slice().get(pixel)?;
+        let (row, column) = (pixel / pixel_kinds.kinds.width(), pixel % pixel_kinds.kinds.width());
+        let in_row =
+            pixel_kinds.kinds.row(row)[..column].iter().filter(|&&k| k != PixelKind::Unassigned).count();
+        let before = self.events.len() + self.moves.len() + pixel_kinds.before_row[row] as usize;
         (*kind != PixelKind::Unassigned).then_some(before + in_row)
     }
 
-    /// The pixel that gets its kind as the `n`-th, from 0; the number of all pixels where fewer pixels have a kind.
-    pub(super) fn labeled_pixel(&self, n: usize) -> usize {
-        let Some(labels) = &self.labels else { return 0 };
-        let row = labels.before_row.partition_point(|&before| before as usize <= n).saturating_sub(1);
-        if row >= labels.kinds.height() {
-            return labels.kinds.len();
+    /// The pixel of the `n`-th step that gives a pixel its kind, from 0; the number of all pixels where no such step
+    /// exists; 0 without kinds.
+    pub(super) fn pixel_of_kind_step(&self, n: usize) -> usize {
+        let Some(pixel_kinds) = &self.pixel_kinds else { return 0 };
+        let row = pixel_kinds.before_row.partition_point(|&before| before as usize <= n).saturating_sub(1);
+        if row >= pixel_kinds.kinds.height() {
+            return pixel_kinds.kinds.len();
         }
-        let left = n - labels.before_row[row] as usize;
-        let mut labeled = labels.kinds.row(row).iter().enumerate();
+        let left = n - pixel_kinds.before_row[row] as usize;
+        let mut labeled = pixel_kinds.kinds.row(row).iter().enumerate();
         let at = labeled.by_ref().filter(|&(_, &kind)| kind != PixelKind::Unassigned).nth(left);
-        at.map_or(labels.kinds.len(), |(column, _)| row * labels.kinds.width() + column)
+        at.map_or(pixel_kinds.kinds.len(), |(column, _)| row * pixel_kinds.kinds.width() + column)
     }
 
-    fn labeled(&self) -> usize {
-        self.labels.as_ref().and_then(|labels| labels.before_row.last()).map_or(0, |&all| all as usize)
+    fn kind_steps(&self) -> usize {
+        self.pixel_kinds
+            .as_ref()
+            .and_then(|pixel_kinds| pixel_kinds.before_row.last())
+            .map_or(0, |&all| all as usize)
     }
 
     fn label(&self, n: usize) -> Option<Step<'_>> {
-        let labels = self.labels.as_ref()?;
-        let pixel = self.labeled_pixel(n);
-        let kind = *labels.kinds.as_slice().get(pixel)?;
+        let pixel_kinds = self.pixel_kinds.as_ref()?;
+        let pixel = self.pixel_of_kind_step(n);
+        let kind = *pixel_kinds.kinds.as_slice().get(pixel)?;
         Some(Step::Label { pixel: PixelIndex::from_index(pixel), kind })
     }
 
@@ -391,8 +401,8 @@ mod tests {
         }
         assert_eq!(stage_trace.step(expected.len()), None);
         assert_eq!([0, 1, 2].map(|index| stage_trace.step_of_move(index)), [1, 2, 4]);
-        assert_eq!([0, 1, 3].map(|pixel| stage_trace.step_of_label(pixel)), [None, Some(5), Some(6)]);
-        assert_eq!([0, 1, 2].map(|n| stage_trace.labeled_pixel(n)), [1, 3, 4]);
+        assert_eq!([0, 1, 3].map(|pixel| stage_trace.step_of_kind(pixel)), [None, Some(5), Some(6)]);
+        assert_eq!([0, 1, 2].map(|n| stage_trace.pixel_of_kind_step(n)), [1, 3, 4]);
     }
 
     #[test]

@@ -16,7 +16,7 @@ pub struct DesaturationMap {
     pub points: Raster<Desaturation>,
     /// 1 for a pixel that is neither dark nor clipped, else 0.
     pub usable: Raster<f32>,
-    /// The whitened color of each pixel.
+    /// The whitened color of each pixel; zeros for dark pixels.
     pub colors: Raster<WhitenedColor>,
     /// The factor that makes the light white.
     pub gain: WhiteningGain,
@@ -64,7 +64,8 @@ impl DesaturationMap {
         Raster::from_vec(self.roi.width, self.roi.height, data).unwrap_or_default()
     }
 
-    /// κ and the median of a/c around the pixel at `index` of the window; none where no pixel around has the pixel's hue.
+    /// κ and the median of a/c around the pixel at `index` of the window; `None` where no counted pixel of the picture
+    /// has the hue or a neighboring hue.
     pub fn ratios(&self, input: &AnalysisInput, index: usize) -> Option<[f32; 2]> {
         let (x, y) = (self.roi.left + index % self.roi.width, self.roi.top + index / self.roi.width);
         let color = self.gain.whitened(input.pixels[self.roi.pixel(index)]);

@@ -2,43 +2,54 @@
 //!
 //! Chromaticity alone cannot tell a highlight from white print: both add to the mean of J and leave its chromatic part. Four
 //! observations can; each adds to the log odds of a pixel.
-//! - Chroma: a highlight leaves the chromatic part c as it is, print lowers it. 3·clip(ln c − μ + d/2, −2.3, 1), μ and d the mean and the
-//!   standard deviation of ln c of the pixels without strong surface reflection within 24 px.
-//! - Independence: the body reflection under a highlight does not vary against the surface reflection. 4ρ, ρ the correlation of both
-//!   after their means within 5 px are subtracted, within 7 px.
-//! - Brightness: a highlight is brighter than the body around. 2·ln clip(m / M, .5, 5), m the largest band of J, M its mean over the pixels
-//!   without strong surface reflection within 24 px.
-//! - Edges: a highlight has edges where the body has none. ln clip(gradient of ms / gradient of κc, .2, 20), both means within 5 px.
+//! - Chroma: a highlight leaves the chromatic part c as it is, print lowers it. 3·clip(ln c − μ + d/2, −2.3, 1), μ and
+//! d the mean and the standard deviation of ln c of the pixels without strong surface reflection under a Gaussian of 24
+//! px.
+//! - Independence: the body reflection under a highlight does not vary against the surface reflection. 4ρ, ρ the
+//! correlation of m_s and κc under a Gaussian of 7 px, after their means under a Gaussian of 5 px are subtracted.
+//! - Brightness: a highlight is brighter than the body around. 2·ln clip(m / M, .5, 5), m the largest band of J, M its
+//! mean over the pixels without strong surface reflection under a Gaussian of 24 px.
+//! - Edges: a highlight has edges where the body has none. ln clip(gradient of m_s / gradient of κc, .2, 20), both
+//! means under a Gaussian of 5 px.
 //!
-//! The sum and a constant of .8 are averaged within 3 px, weighted by ms². The odds of the picture are added: among prints a doubtful blob
-//! is print, among fruit a highlight.
+//! The sum and a constant of .8 are averaged under a Gaussian of 3 px, weighted by m_s². The odds of the picture are
+//! added: among prints a doubtful blob is print, among fruit a highlight.
 
 use super::desaturation_map::DesaturationMap;
 use crate::raster::{Mask, Raster, blur};
 use crate::trace::{HighlightTerms, LocalLimits, PictureOddsFound};
 
-/// Widths of the Gaussians, pixels: surroundings of a highlight, shading, products, edges, and the average of the odds.
+/// Width of the Gaussian of a pixel's surroundings, pixels.
 const SURROUNDINGS_PX: f64 = 24.0;
+/// Width of the Gaussian of the means that the observation of independence subtracts, pixels.
 const SHADING_PX: f64 = 5.0;
+/// Width of the Gaussian under which the correlation is computed, pixels.
 const PRODUCTS_PX: f64 = 7.0;
-const EDGE_PX: f64 = 1.0;
-const EDGES_PX: f64 = 5.0;
+/// Width of the Gaussian before the gradient is taken, pixels.
+const GRADIENT_SMOOTHING_PX: f64 = 1.0;
+/// Width of the Gaussian of the mean gradient, pixels.
+const GRADIENT_MEAN_PX: f64 = 5.0;
+/// Width of the Gaussian that averages the log odds, pixels.
 const AVERAGE_PX: f64 = 3.0;
+/// Least amount or gradient that is divided by or weighted with, counts.
+const LEAST_AMOUNT: f32 = 0.0255;
+/// Sum of weights below which there is no mean.
+const LEAST_WEIGHT: f32 = 1e-4;
 /// Log odds before any observation.
 const PRIOR: f32 = 0.8;
 /// Share of the variance of the noise that is added to the variances of body and surface reflection.
 const NOISE: f32 = 0.3;
-/// Number of times that the odds of the picture are added.
+/// Number of iterations by which the share of highlights and the odds of the picture are found.
 const ROUNDS: usize = 3;
 /// Least and largest share of highlights in the surface reflection of a picture.
 const PICTURE_SHARE: (f64, f64) = (0.02, 0.98);
 
-/// What speaks for and against a highlight in each pixel of a window.
+/// The log odds of a highlight in each pixel of a window.
 pub struct Evidence {
     /// The four observations of each pixel, log odds.
     pub terms: Raster<HighlightTerms>,
     /// Log odds of each pixel: the observations around, averaged, without the odds of the picture.
-    pub odds: Raster<f32>,
+    pub log_odds: Raster<f32>,
     /// The log odds of the picture.
     pub picture: PictureOddsFound,
 }
@@ -65,9 +76,9 @@ impl Evidence {
             })
             .collect();
         let terms = Raster::from_vec(roi.width, roi.height, data).unwrap_or_default();
-        let odds = source.averaged(&terms);
-        let picture = source.picture_odds(&odds, |index| unexplained[roi.pixel(index)]);
-        Self { terms, odds, picture }
+        let log_odds = source.averaged(&terms);
+        let picture = source.picture_odds(&log_odds, |index| unexplained[roi.pixel(index)]);
+        Self { terms, log_odds, picture }
     }
 }
 
@@ -88,7 +99,7 @@ impl Source<'_> {
         );
         let chroma = self.map.raster(|index| {
             let [weight, first, second, _] = sums[index];
-            if weight < 1e-4 {
+            if weight < LEAST_WEIGHT {
                 return 0.0;
             }
             let mean = first / weight;
@@ -97,7 +108,7 @@ impl Source<'_> {
         });
         let brightness = self.map.raster(|index| {
             let [weight, .., around] = sums[index];
-            if weight < 1e-4 {
+            if weight < LEAST_WEIGHT {
                 return 0.0;
             }
             2.0 * (largest(index) / (around / weight).max(0.5)).clamp(0.5, 5.0).ln()
@@ -118,7 +129,7 @@ impl Source<'_> {
         let products = blur(
             &self.map.raster(|index| {
                 let [weight, surface, body] = smooth[index];
-                if weight < 1e-4 || self.map.usable[index] == 0.0 {
+                if weight < LEAST_WEIGHT || self.map.usable[index] == 0.0 {
                     return [0.0; 4];
                 }
                 let [s, b] = amounts(index);
@@ -130,7 +141,7 @@ impl Source<'_> {
         let floor = NOISE * sigma * sigma;
         self.map.raster(|index| {
             let [weight, both, surface, body] = products[index];
-            if weight < 1e-4 {
+            if weight < LEAST_WEIGHT {
                 return 0.0;
             }
             let scale = ((surface / weight).max(0.0) + floor) * ((body / weight).max(0.0) + floor);
@@ -142,7 +153,7 @@ impl Source<'_> {
     fn edges(&self) -> Raster<f32> {
         let smooth = blur(
             &self.map.raster(|index| [self.map.points[index].surface, self.map.points[index].body]),
-            EDGE_PX,
+            GRADIENT_SMOOTHING_PX,
         );
         let (width, height) = (smooth.width(), smooth.height());
         let gradient = |x: usize, y: usize| -> [f32; 2] {
@@ -151,10 +162,11 @@ impl Source<'_> {
             let down = [at(x, (y + 1).min(height - 1)), at(x, y.saturating_sub(1))];
             std::array::from_fn(|k| (across[0][k] - across[1][k]).hypot(down[0][k] - down[1][k]) / 2.0)
         };
-        let gradients = blur(&self.map.raster(|index| gradient(index % width, index / width)), EDGES_PX);
+        let gradients =
+            blur(&self.map.raster(|index| gradient(index % width, index / width)), GRADIENT_MEAN_PX);
         self.map.raster(|index| {
             let [surface, body] = gradients[index];
-            (surface / body.max(0.0255)).clamp(0.2, 20.0).ln()
+            (surface / body.max(LEAST_AMOUNT)).clamp(0.2, 20.0).ln()
         })
     }
 
@@ -162,7 +174,7 @@ impl Source<'_> {
     fn averaged(&self, terms: &Raster<HighlightTerms>) -> Raster<f32> {
         let sums = blur(
             &self.map.raster(|index| {
-                let amount = self.map.points[index].surface.max(0.0255);
+                let amount = self.map.points[index].surface.max(LEAST_AMOUNT);
                 let weight = self.map.usable[index] * amount * amount;
                 [weight, weight * (PRIOR + terms[index].sum())]
             }),
@@ -174,8 +186,9 @@ impl Source<'_> {
         })
     }
 
-    /// The log odds of the picture, from the share of highlights in the squared surface reflection of the pixels that `takes_part`. The share and the
-    /// odds depend on each other, so that both are found by repetition.
+    /// The log odds of the picture: half the log odds of the share of highlights in the squared surface reflection,
+    /// over the usable pixels whose excess is above the noise and for which `takes_part` is true. Share and odds depend
+    /// on each other and are found by [`ROUNDS`] iterations.
     fn picture_odds(&self, odds: &Raster<f32>, takes_part: impl Fn(usize) -> bool) -> PictureOddsFound {
         let is_pale =
             |index: &usize| self.map.points[*index].exceeds_noise() && self.map.usable[*index] > 0.0;

@@ -1,10 +1,12 @@
 //! The local split of the photograph by the local split of its working picture (no counterpart in the paper).
 //!
-//! What is a highlight is decided in the working picture, whose colors are less noisy. There the amount of surface reflection around each working
-//! pixel is a line of the brightness (rule `guided_amount`). The lines, interpolated between the working pixels, give the amounts of the
-//! photograph's pixels, so that the edges of the photograph's highlights are where the photograph has them. A clipped pixel takes the body
-//! reflection with which the working picture was filled, interpolated likewise.
+//! What is a highlight is decided in the working picture, whose colors are less noisy. There the amount of surface
+//! reflection around each working pixel is a linear function p·a + q of a, the mean of J (rule `guided_amount`). The
+//! functions, interpolated between the working pixels, give the amounts of the photograph's pixels, so that the edges
+//! of the photograph's highlights are where the photograph has them. A clipped pixel takes the body reflection with
+//! which the working picture was filled, interpolated likewise.
 
+use super::linear_weights::linear_weights;
 use super::repair::CONFIDENCE;
 use super::{LocalSplit, undo_unexplained};
 use crate::intrinsic::detail::Detail;
@@ -14,9 +16,10 @@ use crate::raster::{Blocks, Mask, Raster};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
-/// Undoes the split of the pixels of the photograph that their region does not explain, and splits these pixels by what the working picture
-/// found. Returns the confidence of each pixel, 0 for those that were not split locally; none where `local` is none. `local` is what the
-/// local split of the working picture found. `explained_mask` has the pixels that the skewed T of their region explains.
+/// Undoes the split of the pixels of the photograph that their region does not explain, and splits these pixels by what
+/// the working picture found. Returns the confidence of each pixel, 0 for those that were not split locally; `None`
+/// where the working picture was not split locally: then the split by regions is undone all the same. `explained_mask`
+/// has the pixels that the skewed T of their region explains.
 pub fn split_locally_at_full_resolution(
     detail: &Detail,
     working: &WorkingSplit,
@@ -62,7 +65,7 @@ pub fn split_locally_at_full_resolution(
 }
 
 /// The split of a pixel of the photograph.
-struct Found {
+struct PixelSplit {
     /// Body reflection, counts.
     body: [f32; 3],
     /// Surface reflection, counts.
@@ -79,7 +82,7 @@ struct ByWorkingPicture<'a> {
 
 impl ByWorkingPicture<'_> {
     /// The split of an unclipped pixel by the lines of the nearest working pixels; none where there is no surface reflection.
-    fn split(&self, color: [f32; 3], nearest: &Nearest) -> Option<Found> {
+    fn split(&self, color: [f32; 3], nearest: &Nearest) -> Option<PixelSplit> {
         let LocalSplit { lines, gain, per_amount, confidence: of_working, .. } = self.local;
         let a = gain.mean(color);
         let line = |pixel: usize| lines.line(lines.roi.index(pixel)?);
@@ -90,11 +93,11 @@ impl ByWorkingPicture<'_> {
         let surface: [f32; 3] =
             std::array::from_fn(|band| (amount * per_amount[band]).min(color[band].max(0.0)));
         let body = std::array::from_fn(|band| color[band] - surface[band]);
-        Some(Found { body, surface, confidence })
+        Some(PixelSplit { body, surface, confidence })
     }
 
     /// The split of a clipped pixel by the body reflection with which the working picture was filled; none where it was not filled.
-    fn filled(&self, color: [f32; 3], nearest: &Nearest) -> Option<Found> {
+    fn filled(&self, color: [f32; 3], nearest: &Nearest) -> Option<PixelSplit> {
         let is_filled = |pixel: usize| self.local.filled.as_slice().get(pixel) == Some(&true);
         let WorkingSplit { intrinsic, found } = self.working;
         let body = |pixel: usize| {
@@ -103,7 +106,7 @@ impl ByWorkingPicture<'_> {
         let fill: [f32; 3] = nearest.mean(|pixel| is_filled(pixel).then(|| body(pixel)))?;
         let body: [f32; 3] = std::array::from_fn(|band| fill[band].clamp(0.0, color[band].max(0.0)));
         let surface = std::array::from_fn(|band| color[band] - body[band]);
-        Some(Found { body, surface, confidence: CONFIDENCE })
+        Some(PixelSplit { body, surface, confidence: CONFIDENCE })
     }
 }
 
@@ -121,15 +124,9 @@ struct Nearest {
 
 impl Nearest {
     fn new(blocks: &Blocks, x: usize, y: usize) -> Self {
-        let side = blocks.side() as f32;
-        let place = [(x as f32 + 0.5) / side, (y as f32 + 0.5) / side];
-        let between = |at: f32, count: usize| {
-            let at = (at - 0.5).clamp(0.0, count.saturating_sub(1) as f32);
-            let first = at as usize;
-            [(first, 1.0 - at.fract()), ((first + 1).min(count.saturating_sub(1)), at.fract())]
-        };
-        let [left, right] = between(place[0], blocks.columns());
-        let [top, bottom] = between(place[1], blocks.rows());
+        let position = |at: usize| (at as f32 + 0.5) / blocks.side() as f32;
+        let [left, right] = linear_weights(position(x), blocks.columns());
+        let [top, bottom] = linear_weights(position(y), blocks.rows());
         let share = |column: (usize, f32), row: (usize, f32)| Share {
             working_pixel: row.0 * blocks.columns() + column.0,
             weight: row.1 * column.1,

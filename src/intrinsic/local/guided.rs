@@ -1,21 +1,22 @@
 //! Rule `guided_amount`: the amount of surface reflection follows the picture's own edges, and no others.
 //!
-//! A guided filter (He, Sun & Tang 2010): around each pixel the amount is a line of a, the mean of J: p·a + q with 0 ≤ p ≤ 1, fitted by
-//! least squares under a Gaussian of 2.5 px. So the body reflection has no edge that the photograph does not have, and no amount exceeds a.
-//! Where the picture is a working picture, the lines of its pixels give the amounts of the photograph's pixels (the fast guided filter,
-//! He & Sun 2015).
+//! A guided filter (He, Sun & Tang 2010): around each pixel the amount is a linear function of a, the mean of J: p·a +
+//! q with 0 ≤ p ≤ 1, fitted by least squares under a Gaussian of 2.5 px; p and q are then averaged under the same
+//! Gaussian. So the body reflection has no edge that the photograph does not have, and no amount exceeds a. Where the
+//! picture is a working picture, the lines of its pixels give the amounts of the photograph's pixels (the fast guided
+//! filter, He & Sun 2015).
 
 use super::desaturation_map::DesaturationMap;
 use crate::raster::{Raster, Roi, blur};
 
 /// Width of the Gaussian, pixels.
-const WINDOW_PX: f64 = 2.5;
-/// Variance of a below which the amount is a mean, variances of the noise of a band.
-const LEAST_VARIANCE: f32 = 4.0;
+const GAUSSIAN_PX: f64 = 2.5;
+/// The ε of the guided filter, which is added to the variance of a; variances of the noise of a band.
+const REGULARIZATION: f32 = 4.0;
 /// Share of usable pixels in the window below which there is no line.
 const LEAST_SHARE: f32 = 1e-4;
 
-/// The amount of surface reflection around a pixel as a line of a, counts of J.
+/// The amount of surface reflection around a pixel as a linear function of a, counts of J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AmountLine {
     /// p: amount per count of a, 0…1.
@@ -48,7 +49,7 @@ impl AmountLines {
                 let (weight, a, amount) = (map.usable[index], map.colors[index].mean, amounts[index]);
                 [weight, weight * a, weight * amount, weight * a * amount, weight * a * a]
             }),
-            WINDOW_PX,
+            GAUSSIAN_PX,
         );
         let fitted = map.raster(|index| {
             let [weight, a, amount, both, square] = sums[index];
@@ -57,11 +58,11 @@ impl AmountLines {
             }
             let (a, amount) = (a / weight, amount / weight);
             let covariance = both / weight - a * amount;
-            let variance = (square / weight - a * a).max(0.0) + LEAST_VARIANCE * sigma * sigma;
+            let variance = (square / weight - a * a).max(0.0) + REGULARIZATION * sigma * sigma;
             let slope = (covariance / variance.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
             [1.0, slope, amount - slope * a]
         });
-        let smooth = blur(&fitted, WINDOW_PX);
+        let smooth = blur(&fitted, GAUSSIAN_PX);
         let of = map.raster(|index| {
             let [weight, slope, offset] = smooth[index];
             (weight > LEAST_SHARE).then(|| AmountLine { slope: slope / weight, offset: offset / weight })
@@ -86,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_amount_is_not_negative_and_no_more_than_the_light() {
+    fn an_amount_is_not_negative_and_at_most_the_mean_of_the_color() {
         let line = AmountLine { slope: 0.5, offset: -10.0 };
         let is = |line: AmountLine, a: f32, amount: f32| (line.amount(a) - amount).abs() < 1e-6;
         assert!(is(line, 10.0, 0.0) && is(line, 40.0, 10.0) && is(line, -3.0, 0.0));

@@ -1,14 +1,15 @@
 //! Rule `local_split`: the ratio of mean to chromatic part that body reflection has, by place and hue.
 //!
-//! J = I / (√3 s) makes the light s white. a is the mean of J, c the length of the chromatic part of J, and the angle of that part
-//! is the hue. Surface reflection adds to a alone. A histogram of ln(a/c) over (cells × hues), smoothed over neighboring cells
-//! and hues, gives the ratio a/c of body reflection: κ, the 30 % quantile. Then ms = max(a − κc, 0), and m_b = κc. The difference
-//! of the median from κ is the variation of a/c without any highlight.
+//! J = I / (√3 s) makes the light s white. a is the mean of J, c the length of the chromatic part of J, and the angle
+//! of that part is the hue. Surface reflection adds to a alone. A histogram of ln(a/c) over (cells × hues), smoothed
+//! over neighboring cells and hues, gives the ratio a/c of body reflection: κ, the 30 % quantile. Then m_s = max(a −
+//! κc, 0), and m_b = κc. The difference of the median from κ is the variation of a/c without any highlight.
 //!
 //! Cells are 20 px wide (in pictures beyond a megapixel proportionally wider) and smoothed by 1.4 cells. There are 72 hues, of
 //! which nearly all are empty in any one cell: only the others take time. Without the local split, printed scenes lose 8 dB
 //! and more; with one κ for all hues of a cell 10 dB.
 
+use super::linear_weights::linear_weights;
 use crate::photo::Masks;
 use crate::reflection::{WhitenedColor, WhiteningGain};
 use crate::segment::AnalysisInput;
@@ -63,16 +64,11 @@ impl HueRatios {
         histogram.smoothed().ratios(&picture)
     }
 
-    /// κ and the median of a/c at the pixel (x, y) for a hue in turns, interpolated between the nearest cells and hues; none where
-    /// no pixel around has the hue.
+    /// κ and the median of a/c at the pixel (x, y) for a hue in turns, interpolated between the nearest cells and hues;
+    /// `None` where no counted pixel of the picture has the hue or a neighboring hue.
     pub fn at(&self, x: usize, y: usize, hue_turns: f32) -> Option<[f32; 2]> {
-        let place = |at: f32, last: usize| {
-            let at = at.clamp(0.0, (last - 1) as f32);
-            let first = (at as usize).min(last.saturating_sub(2));
-            [(first, 1.0 - (at - first as f32)), ((first + 1).min(last - 1), at - first as f32)]
-        };
-        let columns = place((x as f32 + 0.5) / self.cell_px - 0.5, self.columns);
-        let rows = place((y as f32 + 0.5) / self.cell_px - 0.5, self.rows);
+        let columns = linear_weights((x as f32 + 0.5) / self.cell_px, self.columns);
+        let rows = linear_weights((y as f32 + 0.5) / self.cell_px, self.rows);
         let turned = hue_place(hue_turns) - 0.5 + HUES as f32;
         let (first, rest) = (turned as usize, turned.fract());
         let hues = [(first % HUES, 1.0 - rest), ((first + 1) % HUES, rest)];
@@ -151,18 +147,14 @@ impl HistogramRow {
 }
 
 impl Histogram {
-    /// Counts the pixels that have a hue and are neither dark nor clipped.
+    /// Counts the pixels that have a hue, are not dark, and are neither clipped nor next to a clipped pixel.
     fn new(input: &AnalysisInput, limits: &LocalLimits, gain: &WhiteningGain) -> Self {
         let (width, height) = (input.pixels.width(), input.pixels.height());
         let scale = ((width * height) as f64 / MEGAPIXEL).sqrt().max(1.0);
         let cell_px = (CELL_PX * scale).round() as usize;
         let columns = width.div_ceil(cell_px);
         // A pixel counts in the two nearest cells of a row, and in the two nearest rows of cells, by its distance.
-        let shares = |at: usize, count: usize| {
-            let place = ((at as f32 + 0.5) / cell_px as f32 - 0.5).clamp(0.0, (count - 1) as f32);
-            let first = place as usize;
-            [(first, 1.0 - place.fract()), ((first + 1).min(count - 1), place.fract())]
-        };
+        let shares = |at: usize, count: usize| linear_weights((at as f32 + 0.5) / cell_px as f32, count);
         let row_count = height.div_ceil(cell_px);
         let near_clipped = NearClipped { masks: input.masks, width, height };
         let counted = |row: usize| {

@@ -1,10 +1,13 @@
 //! The local split: surface reflection of pixels that no region explains, from their surroundings (beyond the paper).
 //!
-//! In real photographs, printed cups, fruit and skin break "one object, one skewed T", and a plane fitted to such a region makes
-//! the body image worse than the input. The dichromatic model still applies to each pixel: surface reflection adds the light's
-//! color, and so lowers a pixel's saturation below the saturation of the same hue around the pixel. `desaturation_map` measures
-//! that, `evidence` tells highlights from white print, `plausibility` whether the light is known well enough, `guided` makes the
-//! amounts follow the edges of the picture, and `repair` fills clipped pixels.
+//! In real photographs, printed cups, fruit and skin break "one object, one skewed T", and a plane fitted to such a
+//! region makes the body image worse than the input. The dichromatic model still applies to each pixel: surface
+//! reflection adds the light's color, and so lowers a pixel's saturation below the saturation of the same hue around
+//! the pixel. J = I / (√3 s) is the color under a white light, with the unit vector s of the light; a is the mean of J,
+//! c the length of its chromatic part, κ the ratio a/c of body reflection, and m_s = max(a − κc, 0) the excess
+//! (`hue_ratios`). `desaturation_map` measures the excess, `evidence` tells highlights from white print, `plausibility`
+//! whether the light is known well enough, `guided` makes the amounts follow the edges of the picture, and `repair`
+//! fills clipped pixels.
 //!
 //! Body reflection is the input minus the surface reflection found, so that input = body + surface and body ≤ input. On a
 //! rendered scene of printed objects the body image goes from 19.6 dB (planes alone; doing nothing: 30.2 dB) to 41 dB.
@@ -15,6 +18,7 @@ mod full_resolution;
 mod guided;
 mod hue_ratios;
 mod limits;
+mod linear_weights;
 mod plausibility;
 mod repair;
 mod trace_writer;
@@ -53,7 +57,7 @@ pub struct LocalInput<'a> {
 
 /// What the local split found.
 pub struct LocalSplit {
-    /// The amounts of surface reflection, as lines of the mean of J.
+    /// The amounts of surface reflection, as linear functions of a, the mean of J.
     lines: AmountLines,
     /// The factor that makes the light white.
     gain: WhiteningGain,
@@ -65,8 +69,9 @@ pub struct LocalSplit {
     filled: Mask,
 }
 
-/// Undoes the split of pixels that their region does not explain, and splits these pixels locally. Returns what was found; none where
-/// no pixel was split. `origin`: the ambient light that was subtracted, counts.
+/// Undoes the split of pixels that their region does not explain, and splits these pixels locally. Returns what was
+/// found; `None` where the local split did not begin or highlights are not plausible under the light. `origin`: the
+/// ambient light that was subtracted, counts.
 pub fn split_locally<R: Recorder>(
     local: &LocalInput,
     origin: &[f64; 3],
@@ -80,6 +85,11 @@ pub fn split_locally<R: Recorder>(
     found
 }
 
+/// Fewest unexplained pixels for which the local split begins, in a picture with `lit` lit pixels.
+fn least_pixels(lit: usize) -> usize {
+    LEAST_PIXELS.max((LEAST_SHARE * lit as f64).ceil() as usize)
+}
+
 /// Splits the lit pixels that no region explains. Returns what [`split_locally`] returns.
 fn split_unexplained<R: Recorder>(
     LocalInput { input, light: findings, .. }: &LocalInput,
@@ -89,7 +99,7 @@ fn split_unexplained<R: Recorder>(
 ) -> Option<LocalSplit> {
     let pixels = unexplained.as_slice().iter().filter(|&&unexplained| unexplained).count();
     let lit = (0..unexplained.len()).filter(|&pixel| !input.masks.dark(pixel)).count();
-    let few = pixels < LEAST_PIXELS || (pixels as f64) < LEAST_SHARE * lit as f64;
+    let few = pixels < least_pixels(lit);
     let limits = limits::limits(input);
     let light = findings.direction.map(Vec3::from);
     let map = light.filter(|_| input.refine.local_split && !few && !input.stopped()).and_then(|light| {
@@ -121,7 +131,7 @@ fn split_unexplained<R: Recorder>(
     let mut fills = Vec::new();
     if input.refine.clip_repair {
         trace_writer.repairs_began();
-        let found = repair::Found { map: &map, weights: &weights, amounts: &amounts };
+        let found = repair::LocalAmounts { map: &map, weights: &weights, amounts: &amounts };
         fills = repair::fills(input, unexplained, &found, |tried, blob| trace_writer.repair(tried, blob));
         amounts = repair::faded(input, unexplained, &map, &fills, amounts);
     }
@@ -142,7 +152,8 @@ fn split_unexplained<R: Recorder>(
     Some(LocalSplit { lines, gain: map.gain, per_amount, confidence, filled })
 }
 
-/// The share of the excess ms of each pixel of the window that is surface reflection, 0…1; 0 for pixels that a region explains.
+/// The share of the excess m_s of each pixel of the window that is surface reflection, 0…1; 0 for pixels that a region
+/// explains.
 fn weights(
     limits: &LocalLimits,
     map: &DesaturationMap,
@@ -155,7 +166,7 @@ fn weights(
             return 0.0;
         }
         let ratio = found.body / map.colors[index].chroma.max(f32::MIN_POSITIVE);
-        let odds = evidence.map(|evidence| evidence.odds[index] + evidence.picture.log_odds);
+        let odds = evidence.map(|evidence| evidence.log_odds[index] + evidence.picture.log_odds);
         limits.weight(found, ratio, odds)
     })
 }
@@ -183,7 +194,8 @@ fn undo_unexplained(input: &AnalysisInput, explained_mask: &Mask, images: &mut I
                 continue;
             }
             (body[x], surface[x], noise[x]) = (input.pixels[pixel], [0.0; 3], 0.0);
-            // The restored components are gone.
+            // The kind of an undistorted pixel says which line of its region is nearer, also after its split is undone. Restored
+            // components are gone.
             if kinds[x] == PixelKind::Restored {
                 kinds[x] = PixelKind::Lost;
             }

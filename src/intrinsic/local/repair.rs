@@ -1,10 +1,11 @@
 //! Rule `clip_repair`: the clipped core of a highlight takes the body reflection of the pixels around it.
 //!
-//! A blob of clipped pixels is filled where at least 40 % of the ring of 2 px around the blob are highlight, surface reflection rises
-//! towards the blob, the body reflection of the ring is that of one material (its standard deviation is at most half its mean), and the
-//! highlight around the blob is half as large as the blob at least. The fill is harmonic: the smoothest that is continuous with the ring.
-//! Other clipped pixels (white paper, the sky) do not change, and the surface reflection around them fades out towards them, so that
-//! no hole is left in the middle of what may be a highlight.
+//! A blob of clipped pixels is filled where at least 40 % of the ring of 2 px around the blob are highlight, surface
+//! reflection rises towards the blob, the body reflection of the ring is that of one material (its standard deviation
+//! is at most half its mean), and the highlight around the blob is at least half as large as the blob. Blobs of more
+//! than 40,000 pixels are not filled. The fill is harmonic: the smoothest that is continuous with the ring. Other
+//! clipped pixels (white paper, the sky) do not change, and the surface reflection around them fades out towards them,
+//! so that no hole is left in the middle of what may be a highlight.
 
 use super::desaturation_map::DesaturationMap;
 use crate::intrinsic::images::Images;
@@ -20,19 +21,20 @@ const HIGHLIGHT_WEIGHT: f32 = 0.5;
 const MOST_SPREAD: f32 = 0.5;
 /// Least number of highlight pixels around a blob, as a share of the pixels of the blob.
 const LEAST_AROUND: f32 = 0.5;
-/// How far around a blob highlight pixels are counted: this many pixels, and at least half the square root of the blob's pixels.
+/// Distance around a blob within which highlight pixels are counted: the larger of this value and half the square root
+/// of the blob's pixels, pixels.
 const AROUND_PX: f32 = 3.0;
-/// Most pixels of a blob that is filled: larger blobs are windows and skies.
-const MOST_PX: usize = 40_000;
+/// Most pixels of a blob that is filled. Larger blobs are usually windows or the sky.
+const MOST_PIXELS: usize = 40_000;
 /// Width of the Gaussian by which surface reflection fades out towards clipped pixels that are not filled, pixels.
 const FADE_PX: f64 = 6.0;
-/// Share of such pixels around a pixel over which its surface reflection fades.
+/// Share of unfilled clipped pixels around a pixel over which its surface reflection fades from all to none.
 const FADE: Ramp = Ramp { start: 0.0, end: 0.3 };
 /// Confidence of a repaired pixel.
 pub(super) const CONFIDENCE: f32 = 0.3;
 
 /// The surface reflection around the clipped blobs of a window, by which the blobs are judged.
-pub struct Found<'a> {
+pub struct LocalAmounts<'a> {
     /// The desaturation of the pixels.
     pub map: &'a DesaturationMap,
     /// The share of each pixel's excess that is surface reflection, 0…1.
@@ -52,7 +54,7 @@ pub struct Fill {
 pub fn fills(
     input: &AnalysisInput,
     unexplained: &Mask,
-    found: &Found,
+    found: &LocalAmounts,
     mut record: impl FnMut(RepairTried, &[usize]),
 ) -> Vec<Fill> {
     let mut search = ComponentSearch::new(unexplained.width(), unexplained.height(), Connectivity::Eight);
@@ -122,7 +124,7 @@ pub fn fill(
     all_filled
 }
 
-impl Found<'_> {
+impl LocalAmounts<'_> {
     fn is_highlight(&self, pixel: usize) -> bool {
         self.map.roi.index(pixel).is_some_and(|index| self.weights[index] > HIGHLIGHT_WEIGHT)
     }
@@ -134,24 +136,24 @@ impl Found<'_> {
     /// The verdict on a blob by the pixels around it.
     fn tried(&self, input: &AnalysisInput, blob: &[usize], around: &Around) -> RepairTried {
         let [inner, outer] = &around.rings;
-        let ring = || inner.iter().chain(outer).copied();
-        let count = ring().count().max(1) as f32;
-        let mean = |ring: &[usize]| {
-            ring.iter().map(|&pixel| self.amount(pixel)).sum::<f32>() / ring.len().max(1) as f32
+        let ring_pixels = || inner.iter().chain(outer).copied();
+        let count = ring_pixels().count().max(1) as f32;
+        let mean = |pixels: &[usize]| {
+            pixels.iter().map(|&pixel| self.amount(pixel)).sum::<f32>() / pixels.len().max(1) as f32
         };
-        let body = |pixel: usize| input.pixels[pixel].iter().sum::<f32>() / 3.0 - self.amount(pixel);
-        let body_mean = ring().map(body).sum::<f32>() / count;
-        let variance = ring().map(|pixel| (body(pixel) - body_mean).powi(2)).sum::<f32>() / count;
-        let share = ring().filter(|&pixel| self.is_highlight(pixel)).count() as f32 / count;
-        let ring = Measured::new(share, LEAST_HIGHLIGHT);
+        let body = |pixel: usize| self.map.gain.mean(input.pixels[pixel]) - self.amount(pixel);
+        let body_mean = ring_pixels().map(body).sum::<f32>() / count;
+        let variance = ring_pixels().map(|pixel| (body(pixel) - body_mean).powi(2)).sum::<f32>() / count;
+        let share = ring_pixels().filter(|&pixel| self.is_highlight(pixel)).count() as f32 / count;
+        let highlight_share = Measured::new(share, LEAST_HIGHLIGHT);
         let spread = Measured::new(variance.sqrt() / body_mean.abs().max(1e-3), MOST_SPREAD);
         let highlights = Measured::new(around.highlights as f32, LEAST_AROUND * blob.len() as f32);
         let rise = [mean(inner), mean(outer)];
-        let verdict = if blob.len() > MOST_PX {
+        let verdict = if blob.len() > MOST_PIXELS {
             RepairVerdict::TooLarge
         } else if inner.is_empty() || outer.is_empty() {
             RepairVerdict::NoRing
-        } else if ring.value < ring.limit {
+        } else if highlight_share.value < highlight_share.limit {
             RepairVerdict::NoHighlight
         } else if rise[0] <= rise[1] {
             RepairVerdict::NoRise
@@ -168,7 +170,7 @@ impl Found<'_> {
             blob: 0,
             pixel,
             pixels: blob.len() as u32,
-            ring,
+            ring: highlight_share,
             inner,
             outer,
             spread,
@@ -197,21 +199,21 @@ impl Surroundings<'_> {
     /// The pixels around a blob.
     fn around(&mut self, blob: &[usize], is_highlight: impl Fn(usize) -> bool) -> Around {
         let reach_px = AROUND_PX.max(0.5 * (blob.len() as f32).sqrt()) as usize;
-        let enough = blob.len().div_ceil(2);
+        let enough = (LEAST_AROUND * blob.len() as f32).ceil() as usize;
         let count = |ring: &[usize]| ring.iter().filter(|&&pixel| is_highlight(pixel)).count();
         let inner = self.ring(blob);
         let outer = self.ring(&inner);
         let mut highlights = count(&inner) + count(&outer);
-        let mut visited = vec![outer.clone()];
-        while visited.len() + 1 < reach_px && highlights < enough {
-            let next = self.ring(visited.last().map_or(&[], Vec::as_slice));
+        let mut outer_rings = vec![outer.clone()];
+        while outer_rings.len() + 1 < reach_px && highlights < enough {
+            let next = self.ring(outer_rings.last().map_or(&[], Vec::as_slice));
             if next.is_empty() {
                 break;
             }
             highlights += count(&next);
-            visited.push(next);
+            outer_rings.push(next);
         }
-        inner.iter().chain(visited.iter().flatten()).for_each(|&pixel| self.in_ring[pixel] = false);
+        inner.iter().chain(outer_rings.iter().flatten()).for_each(|&pixel| self.in_ring[pixel] = false);
         Around { rings: [inner, outer], highlights }
     }
 
@@ -221,7 +223,7 @@ impl Surroundings<'_> {
         !masks.clipped(pixel) && !masks.invalid(pixel) && !masks.outside(pixel)
     }
 
-    /// The usable pixels next to the pixels `from` that are in no ring yet.
+    /// The known pixels next to the pixels `from` that are in no ring yet; see [`Self::known`].
     fn ring(&mut self, from: &[usize]) -> Vec<usize> {
         let mut ring = Vec::new();
         for &pixel in from {
@@ -247,7 +249,8 @@ impl Surroundings<'_> {
             let found = order.binary_search_by_key(&pixel, |&index| blob[index]);
             found.ok().map(|at| order[at])
         };
-        // Of each pixel: the neighbors inside the blob, and the sum and number of the usable neighbors outside.
+        // Of each pixel: the neighbors inside the blob; the sum of the colors of the known neighbors outside; the
+        // number of all these neighbors.
         let mut near = vec![[usize::MAX; 4]; blob.len()];
         let mut fixed = vec![([0.0f32; 3], 0.0f32); blob.len()];
         for (index, &pixel) in blob.iter().enumerate() {

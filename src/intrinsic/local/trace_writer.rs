@@ -2,7 +2,7 @@
 
 use super::desaturation_map::DesaturationMap;
 use super::evidence::Evidence;
-use super::{LEAST_PIXELS, LEAST_SHARE};
+use super::least_pixels;
 use crate::raster::{Mask, Raster};
 use crate::segment::AnalysisInput;
 use crate::trace::{
@@ -51,7 +51,7 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
             start,
             pixels: pixels as u32,
             lit: lit as u32,
-            least: LEAST_PIXELS.max((LEAST_SHARE * lit as f64).ceil() as usize) as u32,
+            least: least_pixels(lit) as u32,
             light,
             origin: self.origin,
             limits: *limits,
@@ -102,7 +102,8 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         }
     }
 
-    /// Records that a clipped blob with the pixels `blob` was filled, or why not, and gives the blob a number.
+    /// Records that a clipped blob with the pixels `blob` was filled, or why not, and numbers the blob from 1. Blobs
+    /// after the first `LocalPoint::MOST_BLOBS` are not recorded.
     pub fn repair(&mut self, tried: RepairTried, blob: &[usize]) {
         if !R::KEEPS || self.numbered >= LocalPoint::MOST_BLOBS {
             return;
@@ -138,8 +139,9 @@ fn points(
             let index = row * width + column;
             let pixel = map.roi.pixel(index);
             if !input.masks.dark(pixel) {
-                let (terms, odds) = evidence
-                    .map_or_else(Default::default, |evidence| (evidence.terms[index], evidence.odds[index]));
+                let (terms, odds) = evidence.map_or_else(Default::default, |evidence| {
+                    (evidence.terms[index], evidence.log_odds[index])
+                });
                 let figures = LocalFigures { ratios: map.ratios(input, index), terms, odds, amount: 0.0 };
                 *point = LocalPoint::new(unexplained[pixel], &figures);
             }

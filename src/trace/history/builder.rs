@@ -130,7 +130,7 @@ impl<'a> HistoryBuilder<'a> {
         for (at, index, change) in moves {
             self.take_move(start + at, change, stage_trace.contest_of_move(index));
         }
-        if let Some(step) = stage_trace.step_of_label(self.pixel) {
+        if let Some(step) = stage_trace.step_of_kind(self.pixel) {
             self.take_kind(start + step, stage_trace);
         }
     }
