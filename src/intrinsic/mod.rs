@@ -1,6 +1,7 @@
 //! Section 6: every pixel split into body reflection, surface reflection and noise.
 
 mod ambient;
+mod border_edges;
 mod border_mixtures;
 mod confidence;
 mod detail;
@@ -101,6 +102,8 @@ pub struct RegionReflection {
     pub confidence: f64,
     /// How much surface and body reflection vary against each other from pixel to pixel: 1 for a print, about 0 for highlights.
     pub texture: f64,
+    /// Whether the split would make edges at the border of the region that the photograph does not have, as of a part of an object.
+    pub has_new_edges: bool,
     /// Whether body and surface reflection can be separated.
     pub separable: bool,
     /// The adjacent regions, ascending.

@@ -34,6 +34,8 @@ pub enum Reason {
     InterReflection,
     /// Body and surface reflection of the pixel's region vary against each other: a print or a grain.
     Texture,
+    /// The pixel's region is only a part of an object: its surface reflection ends where the photograph has no edge.
+    PartOfObject,
     /// The pixel is the clipped highlight of another object than the object of its region.
     OtherObject,
     /// The body reflection of the pixel's region has the light's color: gray, white and metal.
@@ -44,13 +46,14 @@ pub enum Reason {
 
 impl Reason {
     /// All reasons, in the order of their definition.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Explained,
         Self::Shadow,
         Self::NoMatteLine,
         Self::MixedBoundary,
         Self::InterReflection,
         Self::Texture,
+        Self::PartOfObject,
         Self::OtherObject,
         Self::Collinear,
         Self::ClippedAllBands,
@@ -65,6 +68,7 @@ impl Reason {
             Self::MixedBoundary => "mixed_boundary",
             Self::InterReflection => "inter_reflection",
             Self::Texture => "texture",
+            Self::PartOfObject => "part_of_object",
             Self::OtherObject => "other_object",
             Self::Collinear => "collinear",
             Self::ClippedAllBands => "clipped_all_bands",
@@ -115,9 +119,11 @@ impl ReasonInput<'_> {
     fn of_region(&self, region: &RegionReflection) -> Reason {
         let collinear =
             |light: [f64; 3]| axis_angle_deg(&Vec3::from(region.body), &Vec3::from(light)) < COLLINEAR_DEG;
-        let only_textured = region.fit_limit_counts >= region.fit_rms_counts;
+        let is_near_plane = region.fit_limit_counts >= region.fit_rms_counts;
         // A print of several colors lies off its plane as well; texture is the more specific reason.
-        if !region.model_fits && (only_textured || region.texture > TEXTURE_CORRELATION) {
+        if !region.model_fits && region.has_new_edges && is_near_plane {
+            Reason::PartOfObject
+        } else if !region.model_fits && (is_near_plane || region.texture > TEXTURE_CORRELATION) {
             Reason::Texture
         } else if !region.model_fits {
             Reason::InterReflection

@@ -81,6 +81,7 @@ impl RegionSummary<'_> {
             model_fits: plan.model_fits,
             confidence: of_region(fit, plan.model_fits, angle_deg.filter(|_| separable)),
             texture: fit.texture,
+            has_new_edges: fit.has_new_edges(),
             separable,
             neighbors,
             warnings: self.warnings(plan, angle_deg),
@@ -143,6 +144,12 @@ impl RegionSummary<'_> {
             warnings.push(format!(
                 "texture: surface and body vary against each other (correlation \u{2212}{:.2})",
                 fit.texture.min(1.0)
+            ));
+        }
+        if fit.has_new_edges() {
+            warnings.push(format!(
+                "part of an object: the split would make new edges at {:.0} % of the border",
+                100.0 * fit.new_edges.share()
             ));
         }
         if !plan.model_fits {

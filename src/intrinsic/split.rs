@@ -2,6 +2,7 @@
 
 use super::Intrinsic;
 use super::ambient::ambient;
+use super::border_edges::reject_regions_with_new_edges;
 use super::border_mixtures::limit_surface_at_borders;
 use super::explained_mask::explained_mask;
 use super::finish::Finish;
@@ -103,15 +104,18 @@ fn split_from<R: Recorder>(
         local: None,
         touching: Vec::new(),
     };
-    let plans = &found.plans;
-    let mut images = Images::split_undistorted(input, &regions.labels, plans);
+    let mut images = Images::split_undistorted(input, &regions.labels, &found.plans);
     if input.stopped() {
         return (images.unfinished(), found);
     }
-    images.restore(origin, input, &regions.labels, plans, members);
+    images.restore(origin, input, &regions.labels, &found.plans, members);
+    let mut limited = limit_surface_at_borders(input, &regions.labels, &found.plans, &mut images);
+    reject_regions_with_new_edges(input, &regions.labels, members, &images, &mut found.plans);
+    let plans = &found.plans;
     record_plans(origin, plans, recorder);
-    let limited = limit_surface_at_borders(input, &regions.labels, plans, &mut images);
     if R::KEEPS && input.refine.border_mixtures {
+        let fits = |label: u16| RegionId::from_label(label).is_some_and(|id| plans[id.index()].model_fits);
+        limited.pixels.retain(|limited| fits(regions.labels[limited.pixel.index()]));
         recorder.record(limited);
     }
     let model_fits: Vec<bool> = plans.iter().map(|plan| plan.model_fits).collect();

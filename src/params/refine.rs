@@ -198,6 +198,11 @@ switches! {
         meaning: "Where a region's pixels do not fit its plane, or vary like a print, the plane is not used (3).",
         worth: "Body 23.2 → 32.0 dB (doing nothing: 27.4), the whole picture 27.3 → 32.0 dB.",
     }
+    border_edges BorderEdges {
+        first_stage: Split,
+        meaning: "Where the split of a region makes edges at its border that the photograph does not have, the region is only a part of an object, and its plane is not used (3).",
+        worth: "WORTH",
+    }
     local_split LocalSplit {
         first_stage: Split,
         meaning: "Where no region holds, what is paler than its hue around it is taken for a highlight (6).",

@@ -4,7 +4,7 @@ use super::{Describe, LineObjects, line, vector};
 use crate::describe::Names;
 use crate::describe::names::direction;
 use crate::describe::names::short;
-use crate::trace::{FitLimits, VectorsFitted};
+use crate::trace::{FitFigures, FitLimits, VectorsFitted};
 use serde_json::json;
 
 impl Describe for VectorsFitted {
@@ -27,9 +27,10 @@ impl Describe for VectorsFitted {
                 "matte": line(&self.matte),
                 "start": vector(&self.start),
                 "starts": self.starts.iter().map(vector).collect::<Vec<_>>(),
-                "fit_rms_counts": self.rms_counts,
-                "texture": self.texture,
-                "texture_slope": self.texture_slope,
+                "fit_rms_counts": self.figures.rms_counts,
+                "texture": self.figures.texture,
+                "texture_slope": self.figures.texture_slope,
+                "new_edges": self.figures.new_edges,
                 "holds": self.model_fits,
             }),
             json!({
@@ -37,6 +38,7 @@ impl Describe for VectorsFitted {
                 "fit_rms_counts": self.limits.rms_counts,
                 "texture": self.limits.texture,
                 "texture_slope": self.limits.texture_slope,
+                "new_edges": self.limits.new_edges,
             }),
         )
     }
@@ -53,10 +55,19 @@ impl Describe for VectorsFitted {
             starts: vec![matte.mean],
             highlight: None,
             least_offset: 2.5,
-            rms_counts: 1.25,
-            texture: 0.125,
-            texture_slope: 0.0625,
-            limits: FitLimits { rms_counts: 1.875, rms_sigmas: 1.5, texture: 0.25, texture_slope: 0.2 },
+            figures: FitFigures {
+                rms_counts: 1.25,
+                texture: 0.125,
+                texture_slope: 0.0625,
+                new_edges: 0.03125,
+            },
+            limits: FitLimits {
+                rms_counts: 1.875,
+                rms_sigmas: 1.5,
+                texture: 0.25,
+                texture_slope: 0.2,
+                new_edges: 0.12,
+            },
             model_fits: true,
             origin: [0.0; 3],
         }
@@ -65,9 +76,10 @@ impl Describe for VectorsFitted {
 
 /// Whether the skewed T explains a region, by the figures of the region.
 fn verdict(fitted: &VectorsFitted) -> String {
-    let VectorsFitted { rms_counts, texture, texture_slope, limits, .. } = fitted;
+    let VectorsFitted { figures, limits, .. } = fitted;
+    let FitFigures { rms_counts, texture, texture_slope, .. } = figures;
     let has_plane = fitted.surface.is_some();
-    let failed = failed_limits([*rms_counts, *texture, *texture_slope], limits, has_plane);
+    let failed = failed_limits(figures, limits, has_plane);
     match (fitted.model_fits, failed.as_str()) {
         (false, _) => format!("it does not hold and its plane is not used: {failed}"),
         (true, "") => {
@@ -87,10 +99,11 @@ fn verdict(fitted: &VectorsFitted) -> String {
 
 /// The limits that the figures of a region exceed, as phrases.
 pub(in crate::describe) fn failed_limits(
-    [rms, texture, slope]: [f64; 3],
+    figures: &FitFigures,
     limits: &FitLimits,
     has_plane: bool,
 ) -> String {
+    let FitFigures { rms_counts: rms, texture, texture_slope: slope, new_edges } = *figures;
     let far = (rms > limits.rms_counts).then(|| distance(rms, limits, has_plane));
     let textured = (texture > limits.texture && slope > limits.texture_slope).then(|| {
         format!(
@@ -99,7 +112,14 @@ pub(in crate::describe) fn failed_limits(
             limits.texture, limits.texture_slope
         )
     });
-    far.into_iter().chain(textured).collect::<Vec<_>>().join(", and ")
+    let has_new_edges = (new_edges > limits.new_edges).then(|| {
+        format!(
+            "the split would make new edges at {:.0} % of its border (at most {:.0} %), so that it is only a part of an object",
+            100.0 * new_edges,
+            100.0 * limits.new_edges
+        )
+    });
+    far.into_iter().chain(textured).chain(has_new_edges).collect::<Vec<_>>().join(", and ")
 }
 
 /// `2.2 counts rms from its plane (at most 1.9 = 1.5 σ)`

@@ -70,7 +70,7 @@ pub(super) fn unfit(region: RegionId, story: &Unfit) -> String {
              other regions"
         )
     } else {
-        let failed = failed_limits(story.fit, &story.limits, story.has_plane);
+        let failed = failed_limits(&story.fit, &story.limits, story.has_plane);
         format!("region {region} does not hold: {failed}")
     };
     let instead = match story.surface {

@@ -25,18 +25,27 @@ pub struct VectorsFitted {
     pub highlight: Option<Vec3>,
     /// Least distance from the body line of a color with surface reflection, counts; negative infinity: there is no limit.
     pub least_offset: f32,
-    /// Root mean square distance of the pixels from the plane, counts.
-    pub rms_counts: f64,
-    /// Anticorrelation of surface and body reflection from pixel to pixel: 1 for a print.
-    pub texture: f64,
-    /// Body reflection lost per surface reflection gained from pixel to pixel.
-    pub texture_slope: f64,
-    /// The limits of the last three figures.
+    /// The figures by which the region was judged.
+    pub figures: FitFigures,
+    /// The limits of the figures.
     pub limits: FitLimits,
     /// Whether the skewed T explains the region; where not, the plane is not used.
     pub model_fits: bool,
     /// The color from which body and surface reflection are measured: black, or the ambient light, counts.
     pub origin: [f64; 3],
+}
+
+/// The figures by which a region is judged.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FitFigures {
+    /// Root mean square distance of the pixels from the plane, counts; without a plane from the line.
+    pub rms_counts: f64,
+    /// Anticorrelation of surface and body reflection from pixel to pixel: 1 for a print.
+    pub texture: f64,
+    /// Body reflection lost per surface reflection gained from pixel to pixel.
+    pub texture_slope: f64,
+    /// Share of the border at which the split makes an edge that the photograph does not have, 0…1.
+    pub new_edges: f64,
 }
 
 /// The largest figures of a region that its skewed T explains.
@@ -51,6 +60,8 @@ pub struct FitLimits {
     pub texture: f64,
     /// Body reflection lost per surface reflection gained.
     pub texture_slope: f64,
+    /// Share of the border with a new edge, 0…1.
+    pub new_edges: f64,
 }
 
 impl EventData for VectorsFitted {

@@ -422,7 +422,7 @@ impl<'a> HistoryBuilder<'a> {
                 least_offset: fitted.least_offset,
                 ambient: fitted.origin,
                 unfit: self.outside.as_ref().map(|outside| Unfit {
-                    fit: [fitted.rms_counts, fitted.texture, fitted.texture_slope],
+                    fit: fitted.figures,
                     limits: fitted.limits,
                     has_plane: fitted.surface.is_some(),
                     model_fits: fitted.model_fits,

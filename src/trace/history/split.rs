@@ -2,7 +2,7 @@
 
 use crate::raster::RegionId;
 use crate::reflection::Components;
-use crate::trace::{FitLimits, HighlightTerms, LocalLimits, PixelKind};
+use crate::trace::{FitFigures, FitLimits, HighlightTerms, LocalLimits, PixelKind};
 
 /// How a pixel was split.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,10 +45,9 @@ pub struct BorderLimit {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Unfit {
-    /// Root mean square distance of the pixels of the region from the plane (without a plane, from the line), counts; correlation and
-    /// slope of the texture.
-    pub fit: [f64; 3],
-    /// The limits of these figures.
+    /// The figures by which the region was judged.
+    pub fit: FitFigures,
+    /// The limits of the figures.
     pub limits: FitLimits,
     /// Whether the region has a plane.
     pub has_plane: bool,

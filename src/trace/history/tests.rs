@@ -6,9 +6,9 @@ use crate::photo::MaskLimits;
 use crate::raster::{PixelIndex, Raster};
 use crate::reflection::{Components, DichromaticPlane, Slice, SliceBound};
 use crate::trace::{
-    FitLimits, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted, MasksMade, Measure, Pass,
-    PassBegan, PixelKind, Recorder, Renumbered, SeedsPlaced, SliceMade, StageBegan, TraceRecorder,
-    VectorsFitted, WindowsLaid,
+    FitFigures, FitLimits, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted, MasksMade,
+    Measure, Pass, PassBegan, PixelKind, Recorder, Renumbered, SeedsPlaced, SliceMade, StageBegan,
+    TraceRecorder, VectorsFitted, WindowsLaid,
 };
 use std::sync::Arc;
 
@@ -261,9 +261,7 @@ fn the_end_is_a_number_a_role_and_amounts() {
                 starts: vec![Vec3::x() * 97.0],
                 highlight: Some(Vec3::y()),
                 least_offset: 2.5,
-                rms_counts: 1.0,
-                texture: 0.0,
-                texture_slope: 0.0,
+                figures: FitFigures { rms_counts: 1.0, ..FitFigures::default() },
                 limits: FitLimits::default(),
                 model_fits: true,
                 origin: [0.0; 3],
