@@ -13,7 +13,7 @@ use super::border_mixtures::limit_surface_at_borders;
 use super::detail::Detail;
 use super::finish::Finish;
 use super::images::Images;
-use super::local::split_locally_at_full_resolution;
+use super::local::{LocalWorkingSplit, split_locally_at_full_resolution};
 use super::region::RegionReports;
 use super::region_plan::RegionPlan;
 use super::split::{WorkingSplit, add_ambient, without_light};
@@ -49,7 +49,12 @@ fn split_from(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
     images.restore(&found.origin, input, detail.labels, &plans, &members);
     limit_surface_at_borders(input, detail.labels, &plans, &mut images);
     let explained_mask = explained_mask(detail, working);
-    let local_confidence = split_locally_at_full_resolution(detail, working, &explained_mask, &mut images);
+    let local = LocalWorkingSplit {
+        local: found.local.as_ref(),
+        body: &working.intrinsic.body,
+        origin: found.origin,
+    };
+    let local_confidence = split_locally_at_full_resolution(detail, &local, &explained_mask, &mut images);
     let reports = RegionReports { input, members: &members, kinds: &images.kinds, fit_sigma: found.sigma }
         .of(&plans, found.touching.clone());
     let finish = Finish {

@@ -50,9 +50,8 @@ impl RegionPlan {
         hypothesis: &PlanarHypothesis,
         pixels: Pixels,
     ) -> Self {
-        let least_offset =
-            if input.refine.no_negative_surface { input.used.camera_noise as f32 } else { f32::NEG_INFINITY };
         let vectors = fit_vectors(input, hypothesis, pixels);
+        let least_offset = least_offset(input, &vectors);
         let rule = AmountRule::new(&vectors.body, vectors.surface.as_ref(), least_offset);
         let through_black =
             FittedPlane { origin: &Vec3::zeros(), body: &vectors.body, surface: vectors.surface.as_ref() };
@@ -126,7 +125,7 @@ impl RegionPlan {
         plan.block_side = block_side;
         if input.refine.no_negative_surface {
             let Vectors { body, surface, .. } = &self.vectors;
-            plan.splitter.rule = AmountRule::new(body, surface.as_ref(), input.used.camera_noise as f32);
+            plan.splitter.rule = AmountRule::new(body, surface.as_ref(), least_offset(input, &self.vectors));
         }
         plan
     }
@@ -149,4 +148,14 @@ impl RegionPlan {
             origin: *origin,
         }
     }
+}
+
+/// Distance off the body line below which surface reflection is taken for none, counts (refinement `no_negative_surface`): two standard
+/// deviations of the noise, and where compression has an error of its own, of that error at the intensity of the region.
+fn least_offset(input: &AnalysisInput, vectors: &Vectors) -> f32 {
+    if !input.refine.no_negative_surface {
+        return f32::NEG_INFINITY;
+    }
+    let fit_sigma = if input.has_extended_coding() { input.fit_sigma(&vectors.matte_mean) } else { 0.0 };
+    input.used.camera_noise.max(2.0 * fit_sigma) as f32
 }

@@ -1,19 +1,20 @@
 //! Body, surface and noise add up to the input.
 
-use crate::common::{METHODS, analyze, largest_gap};
+use crate::common::{METHODS, analyze, largest_gap, may_be_cut};
 use crate::synthetic::Scene;
 use dichroscope::analysis::Analysis;
 use dichroscope::params::{Params, Refine};
 use dichroscope::raster::RegionId;
 use dichroscope::trace::PixelKind;
 
-/// Whether an undistorted pixel lies in a region with a plane; with `unclamped`, and has surface reflection.
+/// Whether an undistorted pixel lies in a region with a plane; with `unclamped`, and has surface reflection so far off the body line
+/// that nothing of it was cut or fades.
 fn is_whole(analysis: &Analysis, pixel: usize, unclamped: bool) -> bool {
     let intrinsic = &analysis.intrinsic;
     let region = RegionId::from_label(analysis.finals.labels[pixel]);
     let has_plane = region.is_some_and(|region| intrinsic.regions[region.index()].plane_normal.is_some());
     let undistorted = matches!(intrinsic.kinds[pixel], PixelKind::Matte | PixelKind::Highlight);
-    has_plane && undistorted && !(unclamped && intrinsic.surface[pixel] == [0.0; 3])
+    has_plane && undistorted && !(unclamped && may_be_cut(analysis, pixel))
 }
 
 #[test]

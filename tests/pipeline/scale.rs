@@ -1,6 +1,6 @@
 //! The working picture: a large photograph is averaged, and split at full resolution by what its mean tells.
 
-use crate::common::{analyze, faults, fingerprint, largest_gap, report, scores_of, truth_of};
+use crate::common::{analyze, faults, fingerprint, largest_gap, may_be_cut, report, scores_of, truth_of};
 use crate::synthetic::{Scene, dot};
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::params::{Method, Params, Setting};
@@ -31,7 +31,8 @@ fn enlarged(scene: &Scene, times: usize) -> Scene {
 /// Whether a pixel was not restored, and has surface reflection or is in no region: then nothing of its color was cut off.
 fn is_whole(analysis: &Analysis, pixel: usize) -> bool {
     let intrinsic = &analysis.intrinsic;
-    let is_cut = analysis.finals.labels[pixel] != UNASSIGNED && intrinsic.surface[pixel] == [0.0; 3];
+    let is_cut = analysis.finals.labels[pixel] != UNASSIGNED
+        && (intrinsic.surface[pixel] == [0.0; 3] || may_be_cut(analysis, pixel));
     !is_cut && !matches!(intrinsic.kinds[pixel], PixelKind::Restored | PixelKind::Lost)
 }
 

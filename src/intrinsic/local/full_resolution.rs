@@ -11,10 +11,19 @@ use super::repair::CONFIDENCE;
 use super::{LocalSplit, undo_unexplained};
 use crate::intrinsic::detail::Detail;
 use crate::intrinsic::images::Images;
-use crate::intrinsic::split::WorkingSplit;
 use crate::raster::{Blocks, Mask, Raster};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
+
+/// What the local split found in the working picture.
+pub struct LocalWorkingSplit<'a> {
+    /// What the local split found; none where it did not run.
+    pub local: Option<&'a LocalSplit>,
+    /// Body reflection of the working pixels with the ambient light, counts.
+    pub body: &'a Raster<[f32; 3]>,
+    /// The ambient light, counts.
+    pub origin: [f64; 3],
+}
 
 /// Undoes the split of the pixels of the photograph that their region does not explain, and splits these pixels by what
 /// the working picture found. Returns the confidence of each pixel, 0 for those that were not split locally; `None`
@@ -22,12 +31,12 @@ use rayon::prelude::*;
 /// has the pixels that the skewed T of their region explains.
 pub fn split_locally_at_full_resolution(
     detail: &Detail,
-    working: &WorkingSplit,
+    working: &LocalWorkingSplit,
     explained_mask: &Mask,
     images: &mut Images,
 ) -> Option<Raster<f32>> {
     let unexplained = undo_unexplained(&detail.input, explained_mask, images);
-    let local = working.found.local.as_ref()?;
+    let local = working.local?;
     let (width, height) = (unexplained.width(), unexplained.height());
     let mut confidence = Raster::filled(width, height, 0.0);
     let rows = (
@@ -76,7 +85,7 @@ struct PixelSplit {
 
 /// What the working picture tells of the pixels of the photograph.
 struct ByWorkingPicture<'a> {
-    working: &'a WorkingSplit,
+    working: &'a LocalWorkingSplit<'a>,
     local: &'a LocalSplit,
 }
 
@@ -99,10 +108,8 @@ impl ByWorkingPicture<'_> {
     /// The split of a clipped pixel by the body reflection with which the working picture was filled; none where it was not filled.
     fn filled(&self, color: [f32; 3], nearest: &Nearest) -> Option<PixelSplit> {
         let is_filled = |pixel: usize| self.local.filled.as_slice().get(pixel) == Some(&true);
-        let WorkingSplit { intrinsic, found } = self.working;
-        let body = |pixel: usize| {
-            std::array::from_fn(|band| intrinsic.body[pixel][band] - found.origin[band] as f32)
-        };
+        let LocalWorkingSplit { body, origin, .. } = self.working;
+        let body = |pixel: usize| std::array::from_fn(|band| body[pixel][band] - origin[band] as f32);
         let fill: [f32; 3] = nearest.mean(|pixel| is_filled(pixel).then(|| body(pixel)))?;
         let body: [f32; 3] = std::array::from_fn(|band| fill[band].clamp(0.0, color[band].max(0.0)));
         let surface = std::array::from_fn(|band| color[band] - body[band]);

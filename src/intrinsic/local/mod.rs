@@ -23,7 +23,7 @@ mod plausibility;
 mod repair;
 mod trace_writer;
 
-pub use full_resolution::split_locally_at_full_resolution;
+pub use full_resolution::{LocalWorkingSplit, split_locally_at_full_resolution};
 
 use super::confidence::LOCAL;
 use super::images::Images;

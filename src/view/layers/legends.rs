@@ -67,7 +67,7 @@ pub(super) const CONFIDENCE: [LegendEntry; 2] = [
 ];
 
 /// The reasons why pixels are not explained, in the order of [`crate::intrinsic::Reason::ALL`] from its second entry on.
-pub(super) const REASONS: [LegendEntry; 8] = [
+pub(super) const REASONS: [LegendEntry; 9] = [
     LegendEntry::new("shadow", [74, 111, 212], "5.6: too dark to be analyzed, shadow or background"),
     LegendEntry::new("no matte line", [160, 120, 220], "5.3: lit, but on no matte line that was found"),
     LegendEntry::new("mixed boundary", [120, 190, 200], "5.6: between two objects, a mixture of both"),
@@ -80,6 +80,11 @@ pub(super) const REASONS: [LegendEntry; 8] = [
         "texture",
         [232, 120, 90],
         "7.5: body and surface reflection vary against each other, a print",
+    ),
+    LegendEntry::new(
+        "part of an object",
+        [200, 170, 90],
+        "3: its region is only a part of an object, the surface reflection ends where the photograph has no edge",
     ),
     LegendEntry::new(
         "other object",
