@@ -4,10 +4,14 @@ use super::export_input::ExportInput;
 use crate::export::write_file;
 use std::path::{Path, PathBuf};
 
+/// Largest number in the name of a rescued workspace.
+const MOST_RESCUED: usize = 999;
+
 /// Writes the workspace beside the photograph, or to the folder of temporary files where that cannot be done, and returns
 /// its path.
 ///
-/// # Errors A message, where there is no workspace to write, or neither folder can be written to.
+/// # Errors
+/// A message, where there is no workspace to write, or neither folder can be written to.
 pub(super) fn write_workspace(input: &ExportInput) -> Result<PathBuf, String> {
     let workspace = input.workspace.as_ref().map_err(String::clone)?;
     let origin = input.picture.as_ref().map(|picture| &picture.origin);
@@ -21,7 +25,7 @@ pub(super) fn write_workspace(input: &ExportInput) -> Result<PathBuf, String> {
     let mut reason = String::new();
     for folder in beside.into_iter().chain([std::env::temp_dir()]) {
         // A workspace that an earlier panic rescued stays.
-        let free = (1..).map(|number| folder.join(name(number))).find(|path| !path.exists());
+        let free = (1..=MOST_RESCUED).map(|number| folder.join(name(number))).find(|path| !path.exists());
         let Some(path) = free else { continue };
         match write_file(&path, workspace.to_json(&path)?.as_bytes()) {
             Ok(()) => return Ok(path),

@@ -189,7 +189,8 @@ impl StageTrace {
 
     /// Plays all changes of owners on `labels`, which hold hypotheses.
     ///
-    /// # Errors The index, among all moves, of the first move that contradicts the moves before: its pixel has another
+    /// # Errors
+    /// The index, among all moves, of the first move that contradicts the moves before: its pixel has another
     /// owner, or lies outside the picture.
     pub fn play(&self, labels: &mut LabelMap) -> Result<(), usize> {
         for (index, change) in self.moves.iter().enumerate() {

@@ -3,14 +3,14 @@
 //! Chromaticity alone cannot tell a highlight from white print: both add to the mean of J and leave its chromatic part. Four
 //! observations can; each adds to the log odds of a pixel.
 //! - Chroma: a highlight leaves the chromatic part c as it is, print lowers it. 3·clip(ln c − μ + d/2, −2.3, 1), μ and
-//! d the mean and the standard deviation of ln c of the pixels without strong surface reflection under a Gaussian of 24
-//! px.
+//!   d the mean and the standard deviation of ln c of the pixels without strong surface reflection under a Gaussian of 24
+//!   px.
 //! - Independence: the body reflection under a highlight does not vary against the surface reflection. 4ρ, ρ the
-//! correlation of m_s and κc under a Gaussian of 7 px, after their means under a Gaussian of 5 px are subtracted.
+//!   correlation of m_s and κc under a Gaussian of 7 px, after their means under a Gaussian of 5 px are subtracted.
 //! - Brightness: a highlight is brighter than the body around. 2·ln clip(m / M, .5, 5), m the largest band of J, M its
-//! mean over the pixels without strong surface reflection under a Gaussian of 24 px.
+//!   mean over the pixels without strong surface reflection under a Gaussian of 24 px.
 //! - Edges: a highlight has edges where the body has none. ln clip(gradient of m_s / gradient of κc, .2, 20), both
-//! means under a Gaussian of 5 px.
+//!   means under a Gaussian of 5 px.
 //!
 //! The sum and a constant of .8 are averaged under a Gaussian of 3 px, weighted by m_s². The odds of the picture are
 //! added: among prints a doubtful blob is print, among fruit a highlight.
