@@ -130,7 +130,7 @@ fn under_chosen_light<R: Recorder>(
         let support = highlight_support(state.input, &state.recorded_labels.labels, &hypotheses);
         let evidence = LightEvidence {
             planes,
-            votes: votes.as_ref().map(Votes::elect),
+            votes: votes.as_ref().map(|votes| votes.elect(state.input)),
             planes_share: votes
                 .as_ref()
                 .zip(planes.direction)

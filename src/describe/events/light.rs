@@ -154,6 +154,8 @@ impl Describe for LightChosen {
                 "share": limits.share,
                 "share_without_planes": limits.share_without_planes,
                 "offsets_deg": limits.offsets_deg,
+                "body_share": limits.body_share,
+                "body_offset_deg": limits.body_offset_deg,
                 "planes_offsets_deg": limits.planes_offsets_deg,
                 "planes_interval_deg": limits.planes_interval_deg,
             }),
@@ -227,6 +229,14 @@ fn no_use(votes: Option<&VoteResult>, limits: &LightLimits) -> String {
         |votes: &VoteResult| (0..2).all(|axis| votes.offsets_deg[axis].abs() <= limits.offsets_deg[axis]);
     match votes {
         None => "too few pixels of small highlights vote".to_owned(),
+        Some(votes) if usual(votes) && votes.has_color_of_a_body(limits) => format!(
+            "small highlights vote for a light of the color of a body, {}: {} of the lit pixels have that color (at most {} \
+             farther than {:.0}\u{b0} from white)",
+            white(votes.offsets_deg),
+            tenths(votes.body_share),
+            tenths(limits.body_share),
+            limits.body_offset_deg
+        ),
         Some(votes) if usual(votes) => format!(
             "small highlights do not agree: {} of their votes are for one light, at least {} are needed",
             tenths(votes.share),
@@ -262,6 +272,7 @@ fn elected(elected: &VoteResult) -> Value {
         "blobs": elected.blobs,
         "share": elected.share,
         "offsets_deg": elected.offsets_deg,
+        "body_share": elected.body_share,
     })
 }
 
@@ -278,5 +289,12 @@ fn outshone(outshone: TwoLightTest) -> Value {
 
 #[cfg(test)]
 fn example_votes() -> VoteResult {
-    VoteResult { direction: [0.6, 0.0, 0.8], voters: 300, blobs: 5, share: 0.25, offsets_deg: [2.0, -1.0] }
+    VoteResult {
+        direction: [0.6, 0.0, 0.8],
+        voters: 300,
+        blobs: 5,
+        share: 0.25,
+        offsets_deg: [2.0, -1.0],
+        body_share: 0.0625,
+    }
 }

@@ -232,8 +232,14 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
 fn a_light_is_told_with_what_it_rests_on_and_why_the_other_one_is_not_used() {
     use crate::segment::LIGHT_LIMITS;
     use crate::trace::{LightBasis, LightChosen, LightOdds, VoteResult};
-    let votes =
-        VoteResult { direction: [0.6; 3], voters: 300, blobs: 9, share: 0.06, offsets_deg: [4.0, -1.0] };
+    let votes = VoteResult {
+        direction: [0.6; 3],
+        voters: 300,
+        blobs: 9,
+        share: 0.06,
+        offsets_deg: [4.0, -1.0],
+        body_share: 0.0,
+    };
     let by_votes = LightChosen {
         basis: LightBasis::Votes,
         direction: Some([0.6; 3]),
@@ -246,6 +252,7 @@ fn a_light_is_told_with_what_it_rests_on_and_why_the_other_one_is_not_used() {
     let alone = LightChosen { odds: None, ..by_votes };
     let weak = Some(VoteResult { share: 0.005, ..votes });
     let odd = Some(VoteResult { offsets_deg: [-25.0, 1.0], ..votes });
+    let of_body = Some(VoteResult { offsets_deg: [15.0, 1.0], body_share: 0.125, ..votes });
     let by_planes = LightChosen { basis: LightBasis::Planes, ..by_votes };
     let unknown = LightChosen { basis: LightBasis::Nothing, direction: None, ..alone };
     let told = [
@@ -270,6 +277,11 @@ fn a_light_is_told_with_what_it_rests_on_and_why_the_other_one_is_not_used() {
         (
             LightChosen { votes: weak, odds: None, ..by_planes },
             "0.5 % of their votes are for one light, at least 2.0 % are needed",
+        ),
+        (
+            LightChosen { votes: of_body, odds: None, ..by_planes },
+            "a light of the color of a body, 15.0\u{b0} to yellow and 1.0\u{b0} to magenta of white: 12.5 % of the lit pixels have that \
+             color (at most 10.0 % farther than 9\u{b0} from white)",
         ),
         (LightChosen { votes: odd, odds: None, ..by_planes }, "an unusual light, 25.0\u{b0} to blue"),
         (

@@ -76,6 +76,16 @@ pub struct VoteResult {
     pub share: f64,
     /// Angles from white, degrees: from blue (negative) to yellow, and from green (negative) to magenta.
     pub offsets_deg: [f64; 2],
+    /// Share of the lit pixels whose color is that of the light, 0…1.
+    pub body_share: f64,
+}
+
+impl VoteResult {
+    /// Whether the light has the unusual color of a body of the picture, which spots of that body would vote for.
+    pub fn has_color_of_a_body(&self, limits: &LightLimits) -> bool {
+        let from_white_deg = self.offsets_deg[0].hypot(self.offsets_deg[1]);
+        from_white_deg > limits.body_offset_deg && self.body_share > limits.body_share
+    }
 }
 
 /// Small highlights voted for a light (refines section 5.4.1).
@@ -138,6 +148,11 @@ pub struct LightLimits {
     pub share_without_planes: f64,
     /// Largest distance from white of a light by votes: blue to yellow, green to magenta, degrees.
     pub offsets_deg: [f64; 2],
+    /// A light by votes whose color is that of a larger share of the lit pixels, 0…1, and farther from white than the next limit is that of
+    /// a second body.
+    pub body_share: f64,
+    /// Angle from white up to which a light by votes may have the color of a body, degrees.
+    pub body_offset_deg: f64,
     /// Largest distance from white of a light by planes, likewise, degrees.
     pub planes_offsets_deg: [f64; 2],
     /// Widest interval of a light by planes, degrees.
