@@ -10,6 +10,10 @@ fn main() -> ExitCode {
         Err(ended) => return ended,
     };
     cli::start_log();
+    if let Err(error) = cli::expect_a_file_to_show(&arguments) {
+        cli::note(&format!("error: {error}"));
+        return ExitCode::from(2);
+    }
     #[cfg(feature = "gui")]
     match arguments.command {
         None => return ended(dichroscope::gui::open(arguments.image)),

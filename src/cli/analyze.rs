@@ -33,7 +33,7 @@ pub struct Arguments {
     /// Compare with a ground truth folder, or with those found under it by the results' names
     #[arg(long, value_name = "DIR")]
     truth: Option<PathBuf>,
-    /// Analyze only the pixels of the photographs that this picture of the same size shows as not black
+    /// Analyze only the pixels of the photographs that this picture of the same size shows as not black; - for standard input
     #[arg(long, value_name = "MASK", value_parser = place::parser())]
     area: Option<PathBuf>,
     /// Share of the surface reflection that the matte picture keeps: 0 none of it, 1 all
@@ -75,6 +75,7 @@ const JOBS: usize = 4;
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
     let reading = arguments.reading.options();
     let params = arguments.settings.params()?;
+    place::expect_one_standard_input(arguments.area.as_deref(), &arguments.inputs)?;
     let area = arguments.area.as_deref().map(|path| Area::read(path, &reading)).transpose()?;
     let mut found = inputs::plan(&arguments.inputs, arguments.pattern.as_ref(), &arguments.out)?;
     let is_batch = found.has_folders || found.list.len() > 1 || arguments.shard.is_some();

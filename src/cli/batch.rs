@@ -105,8 +105,8 @@ impl Work {
     fn take_down(&self, job: &Job, ended: Ended, bar: &ProgressBar, tally: &Mutex<Tally>) {
         let (name, file) = (&job.name, place::name_of(&job.input));
         let line = match &ended {
-            Ended::Done(finished) => Some(Line::done(name, &file, &self.settings, finished)),
-            Ended::Failed(error) => Some(Line::failed(name, &file, error)),
+            Ended::Done(finished) => Some(Line::done(job, &self.settings, finished)),
+            Ended::Failed(error) => Some(Line::failed(job, error)),
             Ended::Unchanged | Ended::Interrupted => None,
         };
         let mut ended = ended;

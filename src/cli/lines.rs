@@ -1,6 +1,8 @@
 //! `results.jsonl`: a JSON object a line for each photograph of a folder, by which a later call knows what is done.
 
+use super::inputs::Job;
 use super::one::Finished;
+use super::place;
 use anyhow::{Context, Result};
 use dichroscope::export::write_file;
 use serde::{Deserialize, Serialize};
@@ -21,11 +23,17 @@ pub(super) enum Status {
 /// The line of a photograph.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Line {
-    /// Path of the result below the output folder.
+    /// Path of the result below the output folder; what is not UTF-8 is replaced.
     pub(super) name: String,
+    /// All bytes of the path of the result, percent-encoded (RFC 3986), where the path is not UTF-8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) name_encoded: Option<String>,
     pub(super) status: Status,
-    /// The photograph as the call named it.
+    /// The photograph as the call named it; what is not UTF-8 is replaced.
     pub(super) file: String,
+    /// All bytes of the photograph's path, percent-encoded (RFC 3986), where the path is not UTF-8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) file_encoded: Option<String>,
     /// SHA-256 of the photograph's bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) sha256: Option<String>,
@@ -50,12 +58,10 @@ pub(super) struct Line {
 }
 
 impl Line {
-    pub(super) fn done(name: &Path, file: &str, settings: &str, finished: &Finished) -> Self {
+    pub(super) fn done(job: &Job, settings: &str, finished: &Finished) -> Self {
         let Finished { report, lit_share } = finished;
         Self {
-            name: name.display().to_string(),
             status: Status::Done,
-            file: file.to_owned(),
             sha256: Some(report.image.sha256.clone()),
             settings: Some(settings.to_owned()),
             error: None,
@@ -64,14 +70,17 @@ impl Line {
             light: report.illuminant.direction,
             warnings: report.warnings.clone(),
             analysis_ms: Some(report.timings_ms.analysis_ms()),
+            ..Self::failed(job, "")
         }
     }
 
-    pub(super) fn failed(name: &Path, file: &str, error: &str) -> Self {
+    pub(super) fn failed(job: &Job, error: &str) -> Self {
         Self {
-            name: name.display().to_string(),
+            name: job.name.display().to_string(),
+            name_encoded: encoded(&job.name),
             status: Status::Failed,
-            file: file.to_owned(),
+            file: place::name_of(&job.input),
+            file_encoded: encoded(&job.input),
             sha256: None,
             settings: None,
             error: Some(error.to_owned()),
@@ -84,6 +93,31 @@ impl Line {
     }
 }
 
+/// What tells the results of lines apart: the name and the encoded name.
+type Key = (String, Option<String>);
+
+impl Line {
+    fn key(&self) -> Key {
+        (self.name.clone(), self.name_encoded.clone())
+    }
+}
+
+/// The bytes of a path that is not UTF-8, of which all but letters, digits and `-._~/` are written as `%FF`; `None` for UTF-8.
+fn encoded(path: &Path) -> Option<String> {
+    if path.to_str().is_some() {
+        return None;
+    }
+    let mut text = String::new();
+    for &byte in path.as_os_str().as_encoded_bytes() {
+        if byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte) {
+            text.push(char::from(byte));
+        } else {
+            text.push_str(&format!("%{byte:02X}"));
+        }
+    }
+    Some(text)
+}
+
 /// The lines of an output folder.
 #[derive(Debug)]
 pub(super) struct Lines {
@@ -91,7 +125,7 @@ pub(super) struct Lines {
     /// The file, to which lines are appended; `None` before the first.
     file: Mutex<Option<File>>,
     /// The last line of each name in all files of lines in the folder, as far as earlier calls wrote them.
-    earlier: BTreeMap<String, Line>,
+    earlier: BTreeMap<Key, Line>,
 }
 
 /// What the names of files of lines begin with and end with.
@@ -104,14 +138,14 @@ impl Lines {
         let name = shard.map_or_else(String::new, |[number, count]| format!(".{number}-of-{count}"));
         let mut earlier = BTreeMap::new();
         for path in files_of_lines(out) {
-            earlier.extend(read(&path).into_iter().map(|line| (line.name.clone(), line)));
+            earlier.extend(read(&path).into_iter().map(|line| (line.key(), line)));
         }
         Self { path: out.join(format!("{STEM}{name}.{EXTENSION}")), file: Mutex::new(None), earlier }
     }
 
     /// The line that an earlier call wrote for a name.
     pub(super) fn earlier(&self, name: &Path) -> Option<&Line> {
-        self.earlier.get(&name.display().to_string())
+        self.earlier.get(&(name.display().to_string(), encoded(name)))
     }
 
     /// Appends a line, whole.
@@ -137,8 +171,8 @@ impl Lines {
         if !self.path.exists() {
             return Ok(());
         }
-        let lines: BTreeMap<String, Line> =
-            read(&self.path).into_iter().map(|line| (line.name.clone(), line)).collect();
+        let lines: BTreeMap<Key, Line> =
+            read(&self.path).into_iter().map(|line| (line.key(), line)).collect();
         let mut text = String::new();
         for line in lines.values() {
             text.push_str(&serde_json::to_string(line)?);
@@ -173,19 +207,49 @@ fn read(path: &Path) -> Vec<Line> {
 mod tests {
     use super::*;
 
+    fn failed(name: &str, error: &str) -> Line {
+        Line::failed(&Job { input: format!("{name}.png").into(), name: name.into() }, error)
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn names_that_are_not_utf_8_are_told_apart() {
+        use std::os::unix::ffi::OsStringExt;
+        let job = |bytes: &[u8]| {
+            let name = PathBuf::from(std::ffi::OsString::from_vec(bytes.to_vec()));
+            Job { input: name.with_extension("png"), name }
+        };
+        let out = tempfile::tempdir().unwrap();
+        let lines = Lines::in_folder(out.path(), None);
+        let jobs = [job(b"d/a%\xFE"), job(b"d/a%\xFF"), job(b"d/a%25%FF")];
+        for (job, error) in jobs.iter().zip(["first", "second", "third"]) {
+            lines.append(&Line::failed(job, error)).unwrap();
+        }
+        lines.finish().unwrap();
+        let again = Lines::in_folder(out.path(), None);
+        for (job, error) in jobs.iter().zip(["first", "second", "third"]) {
+            assert_eq!(again.earlier(&job.name).unwrap().error.as_deref(), Some(error));
+        }
+        let line = again.earlier(&jobs[1].name).unwrap();
+        assert_eq!(line.name, "d/a%\u{fffd}");
+        assert_eq!(line.name_encoded.as_deref(), Some("d/a%25%FF"));
+        assert_eq!(line.file_encoded.as_deref(), Some("d/a%25%FF.png"));
+        assert_eq!(again.earlier(&jobs[2].name).unwrap().name_encoded, None);
+    }
+
     #[test]
     fn the_last_line_of_a_name_counts_and_a_half_line_does_not() {
         let out = tempfile::tempdir().unwrap();
         let lines = Lines::in_folder(out.path(), None);
-        lines.append(&Line::failed(Path::new("b"), "b.png", "no")).unwrap();
-        lines.append(&Line::failed(Path::new("a"), "a.png", "first")).unwrap();
-        lines.append(&Line::failed(Path::new("a"), "a.png", "second")).unwrap();
+        lines.append(&failed("b", "no")).unwrap();
+        lines.append(&failed("a", "first")).unwrap();
+        lines.append(&failed("a", "second")).unwrap();
         let path = out.path().join("results.jsonl");
         File::options().append(true).open(&path).unwrap().write_all(b"{\"name\": \"c\", \"sta").unwrap();
         let again = Lines::in_folder(out.path(), Some([2, 3]));
         assert_eq!(again.earlier(Path::new("a")).unwrap().error.as_deref(), Some("second"));
         assert!(again.earlier(Path::new("c")).is_none());
-        again.append(&Line::failed(Path::new("d"), "d.png", "no")).unwrap();
+        again.append(&failed("d", "no")).unwrap();
         assert!(out.path().join("results.2-of-3.jsonl").exists());
         lines.finish().unwrap();
         let text = fs::read_to_string(&path).unwrap();

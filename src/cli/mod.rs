@@ -120,6 +120,24 @@ pub fn run(arguments: Arguments) -> ExitCode {
     }
 }
 
+/// Fails where the window, or pictures of it, are to show standard input: they read a file again when its encoding is changed.
+///
+/// # Errors
+/// The command to use instead.
+pub fn expect_a_file_to_show(arguments: &Arguments) -> Result<()> {
+    let image = match &arguments.command {
+        None => arguments.image.as_deref(),
+        Some(Command::Screenshot(arguments)) => arguments.image.as_deref(),
+        Some(_) => None,
+    };
+    if image.is_some_and(place::is_standard_input) {
+        bail!(
+            "the window cannot show standard input: save the photograph to a file; `analyze`, `trace` and `why` read it"
+        );
+    }
+    Ok(())
+}
+
 fn no_window(image: &std::path::Path) -> Result<Outcome> {
     let image = image.display();
     bail!(

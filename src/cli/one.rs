@@ -84,8 +84,10 @@ pub(super) struct Area {
 impl Area {
     /// Reads a mask: what is not black is inside. Errors name the file.
     pub(super) fn read(path: &Path, options: &ReadOptions) -> Result<Self> {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self { name, mask: Arc::new(photo::read_mask(path, options)?) })
+        let whole_name = place::name_of(path);
+        let mask = photo::decode_mask(&place::read_bytes(path)?, &whole_name, options)?;
+        let name = Path::new(&whole_name).file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { name, mask: Arc::new(mask) })
     }
 
     /// SHA-256 of the mask's pixels, a byte each.

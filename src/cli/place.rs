@@ -1,5 +1,6 @@
 //! Where a photograph is: a path, a `file:` URI (RFC 8089), or standard input.
 
+use anyhow::{Result, bail};
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use dichroscope::photo::{self, ReadError};
 use std::ffi::OsString;
@@ -64,6 +65,14 @@ fn path_of_bytes(bytes: Vec<u8>) -> PathBuf {
 /// Whether a path stands for standard input.
 pub(super) fn is_standard_input(path: &Path) -> bool {
     path == Path::new(STANDARD_INPUT)
+}
+
+/// Fails where both the mask of `--area` and a photograph are standard input, which can be read only once.
+pub(super) fn expect_one_standard_input(area: Option<&Path>, photographs: &[PathBuf]) -> Result<()> {
+    if area.is_some_and(is_standard_input) && photographs.iter().any(|path| is_standard_input(path)) {
+        bail!("standard input cannot be both the photograph and the mask of --area");
+    }
+    Ok(())
 }
 
 /// The name of a photograph in messages.

@@ -20,7 +20,7 @@ pub(super) struct Subject {
     /// Photograph to analyze; - for standard input
     #[arg(index = 1, value_parser = place::parser())]
     pub(super) image: PathBuf,
-    /// Analyze only the pixels of the photograph that this picture of the same size shows as not black
+    /// Analyze only the pixels of the photograph that this picture of the same size shows as not black; - for standard input
     #[arg(long, value_name = "MASK", value_parser = place::parser())]
     area: Option<PathBuf>,
     /// Number of threads, up to 1024 [default: one per core]
@@ -55,6 +55,8 @@ impl Subject {
     ) -> Result<Traced, AnalyzeError> {
         let params = self.settings.params().map_err(AnalyzeError::Usage)?;
         let reading = self.reading.options();
+        let photographs = std::slice::from_ref(&self.image);
+        place::expect_one_standard_input(self.area.as_deref(), photographs).map_err(AnalyzeError::Usage)?;
         let area = self.area.as_deref().map(|path| Area::read(path, &reading)).transpose();
         let area = area.map_err(AnalyzeError::Usage)?;
         // The errors of reading name the file already.

@@ -4,12 +4,13 @@ use super::dock::Pane;
 use super::offscreen::OffscreenError;
 use super::offscreen_app::OffscreenApp;
 use crate::app::{Command, DebugCommand, Edit, JobCommand, Question, Severity, State, ViewCommand};
-use crate::export::png_of_rgba;
+use crate::export::{PartFile, png_of_rgba};
 use crate::raster::{PixelIndex, RegionId};
 use crate::trace::{Event, Step, Topic};
 use crate::view::{
     Arrangement, ColorBy, CubeSettings, Fill, ImageSettings, Item, Layer, Origin, ProfileLine, Theme,
 };
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// The reason why a gallery could not be made.
@@ -158,10 +159,17 @@ pub fn screenshot(folder: &Path, size_px: [u32; 2], origin: Origin) -> Result<Ve
         prepare(&mut offscreen, &gallery_picture, size);
         let rgba = offscreen.picture()?;
         let path = folder.join(format!("{}.png", gallery_picture.name));
-        std::fs::write(&path, png_of_rgba(size, &rgba)).map_err(|cause| write(&path, cause))?;
+        write_whole(&path, &png_of_rgba(size, &rgba)).map_err(|cause| write(&path, cause))?;
         written.push(path);
     }
     Ok(written)
+}
+
+/// Writes a picture so that an earlier one at its place is replaced by the whole new one, or remains.
+fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut file = PartFile::begin(path)?;
+    file.write_all(bytes)?;
+    file.publish()
 }
 
 /// The pixel of the last claim that two regions contested; `None` without such a claim.

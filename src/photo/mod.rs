@@ -117,7 +117,15 @@ pub fn read_stream(mut stream: impl Read, name: &str) -> Result<Vec<u8>, ReadErr
 /// # Errors
 /// The errors of [`read`].
 pub fn read_mask(path: &Path, options: &ReadOptions) -> Result<Mask, ReadError> {
-    let photo = read(path, &ReadOptions { encoding: EncodingChoice::Linear, ..*options })?;
+    decode_mask(&read_bytes(path)?, &path.display().to_string(), options)
+}
+
+/// As [`read_mask`], from the bytes of a file. `name_hint` is used in messages.
+///
+/// # Errors
+/// The errors of [`decode`].
+pub fn decode_mask(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Mask, ReadError> {
+    let photo = decode(bytes, name_hint, &ReadOptions { encoding: EncodingChoice::Linear, ..*options })?;
     Ok(photo.image.pixels.map(|color| color.iter().any(|&band| band > 0.0)))
 }
 

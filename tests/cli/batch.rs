@@ -156,6 +156,51 @@ fn standard_input_and_uris_are_photographs_too() {
 }
 
 #[test]
+fn the_mask_of_area_may_be_standard_input_too() {
+    let work = WorkFolder::new();
+    work.photo("a.png");
+    let mask = [&b"P5\n178 150\n255\n"[..], &[1; 178 * 75], &[0; 178 * 75]].concat();
+    work.put("mask.pgm", &mask);
+    let ended = work.run_piped("analyze a.png --out piped --area -", &mask);
+    assert_eq!(ended.code, 0, "{}", ended.err);
+    work.succeeds("analyze a.png --out named --area mask.pgm");
+    let area = |folder: &str| work.report(folder).area.unwrap();
+    assert_eq!((area("piped/a").file.as_str(), area("piped/a").pixels), ("stdin", area("named/a").pixels));
+    let ended = work.run_piped("why a.png 50,140 --area -", &mask);
+    assert!(ended.code == 0 && ended.out.contains("outside"), "{} {}", ended.out, ended.err);
+    for arguments in ["analyze - --out o --area -", "why - 1,1 --area -", "trace - --out t --area -"] {
+        work.fails(2, arguments, "standard input cannot be both the photograph and the mask of --area");
+    }
+    let ended = work.run_piped("analyze a.png --out o --area -", b"no picture");
+    assert_eq!((ended.code, ended.err.lines().count()), (2, 1), "{}", ended.err);
+    assert!(ended.err.starts_with("error: stdin: "), "{}", ended.err);
+    work.fails(2, "-", "the window cannot show standard input");
+    work.fails(2, "screenshot - --out o", "the window cannot show standard input");
+}
+
+/// The bytes of names that are not UTF-8 are in the lines, and tell the results of a later call apart.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_that_are_not_utf_8_are_kept_in_the_lines() {
+    use std::os::unix::ffi::OsStrExt;
+    let work = WorkFolder::new();
+    work.photo("x.png");
+    fs::create_dir(work.path("d")).unwrap();
+    for name in [&b"d/a\xFE.png"[..], b"d/a\xFF.png"] {
+        fs::copy(work.path("x.png"), work.path("").join(std::ffi::OsStr::from_bytes(name))).unwrap();
+    }
+    work.succeeds("analyze d --out out");
+    let encoded: Vec<_> = lines(&work, "out/results.jsonl")
+        .iter()
+        .map(|line| {
+            [&line["name_encoded"], &line["file_encoded"]].map(|text| text.as_str().unwrap().to_owned())
+        })
+        .collect();
+    assert_eq!(encoded, [["a%FE", "d/a%FE.png"], ["a%FF", "d/a%FF.png"]]);
+    assert_eq!(work.succeeds("analyze d --out out").err.matches(": unchanged").count(), 2);
+}
+
+#[test]
 fn names_may_be_as_long_as_the_file_system_allows() {
     let work = WorkFolder::new();
     let long = "n".repeat(251);
@@ -301,9 +346,18 @@ fn what_cannot_be_written_leaves_the_earlier_result() {
     let before = fs::read(work.path("out/a/report.json")).unwrap();
     let program = env!("CARGO_BIN_EXE_dichroscope");
     // A write beyond the limit fails instead of ending the program where the signal is ignored.
-    let call = format!("trap '' XFSZ; ulimit -f 8; {program} analyze a.png --out out --window-size 8");
-    let output = Command::new("sh").args(["-c", &call]).current_dir(work.path("")).output().unwrap();
-    let err = String::from_utf8_lossy(&output.stderr).into_owned();
+    let limited = |arguments: &str| {
+        let call = format!("trap '' XFSZ; ulimit -f 8; {program} {arguments}");
+        let output = Command::new("sh").args(["-c", &call]).current_dir(work.path("")).output().unwrap();
+        let err = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output, err)
+    };
+    work.put("t.jsonl", b"earlier");
+    let (output, err) = limited("trace a.png --out t.jsonl");
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(err.contains("t.jsonl") && err.lines().count() == 1, "{err}");
+    assert_eq!(fs::read(work.path("t.jsonl")).unwrap(), b"earlier");
+    let (output, err) = limited("analyze a.png --out out --window-size 8");
     assert_eq!(output.status.code(), Some(1), "{err}");
     assert!(err.starts_with("a.png: cannot write out/a/"), "{err}");
     assert_eq!(err.matches("File too large").count(), 1, "{err}");

@@ -5,7 +5,6 @@ use crate::tiffs::{self, Page};
 use dichroscope::analysis::Session;
 use dichroscope::app::{Application, Executor, ExportKind, JobCommand, Workspace};
 use dichroscope::describe::{ImageFacts, Report};
-use dichroscope::export::write_file;
 use dichroscope::params::Params;
 use dichroscope::photo::{ReadOptions, decode};
 use dichroscope::view::Origin;
@@ -212,42 +211,4 @@ fn sizes_that_short_files_declare_are_not_believed() {
         let message = declared(bytes);
         assert!(message.contains("damaged"), "{message:?}");
     }
-}
-
-/// A file of one letter, as long as a workspace with an area.
-const LENGTH: usize = 300_000;
-const PLACE: &str = "DICHROSCOPE_TEST_PLACE";
-
-/// Writes a file again and again, for the test below, which kills it.
-#[test]
-#[ignore = "runs until it is killed"]
-fn writes_until_killed() {
-    let Some(place) = std::env::var_os(PLACE) else { return };
-    for letter in (b'a'..=b'z').cycle() {
-        write_file(place.as_ref(), &vec![letter; LENGTH]).unwrap();
-    }
-}
-
-/// A workspace, an export or any other single file is the old one or the new one after a kill at any moment.
-#[test]
-fn a_single_file_is_whole_after_a_kill() {
-    let folder = tempfile::tempdir().unwrap();
-    let place = folder.path().join("a.dichroscope");
-    let rounds = if std::env::var_os("DICHROSCOPE_LONG_TESTS").is_some() { 200 } else { 8 };
-    for round in 0..rounds {
-        let mut writer = std::process::Command::new(std::env::current_exe().unwrap());
-        writer.args(["--exact", "hostile::writes_until_killed", "--ignored"]).env(PLACE, &place);
-        let mut writer = writer.stdout(std::process::Stdio::null()).spawn().unwrap();
-        std::thread::sleep(std::time::Duration::from_millis(20 + (round * 13) % 60));
-        let _ = writer.kill();
-        writer.wait().unwrap();
-        if let Ok(text) = std::fs::read(&place) {
-            assert_eq!(text.len(), LENGTH);
-            assert!(text.iter().all(|letter| *letter == text[0]));
-        }
-    }
-    write_file(&place, b"the last").unwrap();
-    dichroscope::export::remove_leftovers(folder.path());
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left");
-    assert_eq!(std::fs::read(place).unwrap(), b"the last");
 }

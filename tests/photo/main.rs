@@ -9,7 +9,9 @@ mod broken;
 mod encodings;
 mod files;
 mod formats;
+mod gaps;
 mod hostile;
+mod kills;
 mod matte;
 mod tiffs;
 

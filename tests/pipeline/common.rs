@@ -124,12 +124,19 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
         let origin = analysis.matte.hypotheses.get(hypothesis.origin.index());
         expect(origin.is_some(), "a region that comes from no linear hypothesis");
     }
+    // Regions are numbered by their size in the working picture.
+    let mut working_sizes = vec![0usize; regions.len() + 1];
+    for &label in analysis.working_finals.labels.as_slice() {
+        if let Some(size) = working_sizes.get_mut(usize::from(label)) {
+            *size += 1;
+        }
+    }
     for (index, region) in regions.iter().enumerate() {
         let reported = [region.pixels, region.matte_pixels, region.clipped_pixels];
         expect(region.id.index() == index, "region numbers have gaps");
         expect(reported == counts[index + 1], "the report counts other pixels than the map holds");
         expect(region.matte_pixels + region.highlight_pixels == region.pixels, "matte + highlight ≠ pixels");
-        expect(index == 0 || regions[index - 1].pixels >= region.pixels, "regions are not sorted by size");
+        expect(index == 0 || working_sizes[index] >= working_sizes[index + 1], "regions are not sorted by size");
         expect(is_unit(region.body), "a body vector is not of unit length");
         expect(region.surface.is_none_or(is_unit), "a surface vector is not of unit length");
         expect(region.plane_normal.is_none_or(is_unit), "a plane's normal is not of unit length");

@@ -185,7 +185,7 @@ fn any_params() -> impl Strategy<Value = Params> {
 
 /// More cases where a whole night is free.
 fn cases() -> u32 {
-    if std::env::var_os("DICHROSCOPE_LONG_TESTS").is_some() { 100_000 } else { 512 }
+    if std::env::var_os("DICHROSCOPE_LONG_TESTS").is_some() { 100_000 } else { 2048 }
 }
 
 /// The fault of a recorded run, if there is one: another result than without a record, or a replay that ends in another.

@@ -189,6 +189,12 @@ impl Header {
         Ok(())
     }
 
+    /// The largest sampling factors of all components, across and down.
+    pub(super) fn largest_factors(&self) -> (u32, u32) {
+        let of = |factor: fn(&Component) -> u32| self.components.iter().map(factor).max().unwrap_or(1);
+        (of(|component| component.across), of(|component| component.down))
+    }
+
     pub(in crate::photo::decode) fn is_progressive(&self) -> bool {
         self.process == 0xC2
     }

@@ -6,9 +6,11 @@
 //! factor lies between 1 and the largest one. Both were compared with libjpeg on 112 arrangements. A file that neither
 //! library decodes rightly is refused.
 
+use super::gaps::{Gap, first_gap};
 use super::header::{Component, Header};
 use crate::photo::error::{CONVERT, Fault};
 use jpeg_decoder::ColorTransform;
+use std::fmt;
 use zune_core::bytestream::ZCursor;
 use zune_core::colorspace::ColorSpace;
 use zune_core::options::DecoderOptions;
@@ -27,8 +29,28 @@ pub(in crate::photo::decode) enum Color {
 pub(in crate::photo::decode) struct JpegSamples {
     /// The samples of all components in full resolution, pixel by pixel.
     pub data: Vec<u8>,
-    /// Whether the library filled in what it could not decode.
-    pub is_patched: bool,
+    /// What is wrong with the file's data, so that a part of the samples is not what was stored.
+    pub flaw: Option<Flaw>,
+}
+
+/// What is wrong with the data of a file that was decoded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::photo::decode) enum Flaw {
+    /// Blocks are missing.
+    Gap(Gap),
+    /// The library decoded the file only by leaving the standard.
+    Patched,
+}
+
+impl fmt::Display for Flaw {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Gap(gap) => gap.fmt(f),
+            Self::Patched => f.write_str(
+                "the JPEG's data are damaged or deviate from the standard: a part of the picture may be wrong",
+            ),
+        }
+    }
 }
 
 /// The samples of the JPEG `bytes`, whose markers say `header`.
@@ -37,27 +59,37 @@ pub(in crate::photo::decode) fn samples(
     header: &Header,
     color: Color,
 ) -> Result<JpegSamples, Fault> {
-    let mut is_patched = false;
-    let data = match with_zune(bytes, header, color, true) {
-        Some(Ok(data)) => data,
-        Some(Err(_)) => {
-            // Without the strict mode, the library accepts deviations from the standard, and fills in missing data.
-            is_patched = true;
-            let patched = with_zune(bytes, header, color, false);
-            patched.unwrap_or_else(|| Err(Fault::damaged("it cannot be decoded")))?
-        }
-        None if is_right_in_jpeg_decoder(header) => with_jpeg_decoder(bytes, color)?,
-        None => {
-            return Err(Fault::unsupported(
-                "color components in scans of their own, unusually sampled",
-                CONVERT,
-            ));
-        }
-    };
+    let (decoded, gap) = std::thread::scope(|scope| {
+        let gap = scope.spawn(|| first_gap(bytes, header));
+        // The decoding stays on this thread, whose panics become errors.
+        (decoded(bytes, header, color), gap.join().unwrap_or(Some(Gap::Damaged(0))))
+    });
+    let (data, is_patched) = decoded?;
+    if gap == Some(Gap::EndsEarly(0)) {
+        return Err(Fault::damaged("its data end within the first blocks"));
+    }
     if data.len() != header.width as usize * header.height as usize * header.components.len() {
         return Err(Fault::damaged("its pixels do not fill its size"));
     }
-    Ok(JpegSamples { data, is_patched })
+    Ok(JpegSamples { data, flaw: gap.map(Flaw::Gap).or(is_patched.then_some(Flaw::Patched)) })
+}
+
+/// The samples of a JPEG, and whether the library filled in what it could not decode.
+fn decoded(bytes: &[u8], header: &Header, color: Color) -> Result<(Vec<u8>, bool), Fault> {
+    match with_zune(bytes, header, color, true) {
+        Some(Ok(data)) => Ok((data, false)),
+        Some(Err(_)) => {
+            // Without the strict mode, the library accepts deviations from the standard, and fills in missing data.
+            let patched = with_zune(bytes, header, color, false);
+            let data = patched.unwrap_or_else(|| Err(Fault::damaged("it cannot be decoded")))?;
+            Ok((data, true))
+        }
+        None if is_right_in_jpeg_decoder(header) => Ok((with_jpeg_decoder(bytes, color)?, false)),
+        None => {
+            let feature = "color components in scans of their own, unusually sampled";
+            Err(Fault::unsupported(feature, CONVERT))
+        }
+    }
 }
 
 /// Decodes with zune-jpeg; `None` where its pixels would be wrong.
@@ -104,18 +136,12 @@ fn fault(error: jpeg_decoder::Error) -> Fault {
     }
 }
 
-/// The largest factors of all components, across and down.
-fn largest(header: &Header) -> (u32, u32) {
-    let of = |factor: fn(&Component) -> u32| header.components.iter().map(factor).max().unwrap_or(1);
-    (of(|component| component.across), of(|component| component.down))
-}
-
 fn is_right_in_zune(header: &Header) -> bool {
     let Some(first) = header.components.first() else { return false };
     if header.components.len() == 1 {
         return true;
     }
-    let (across, down) = largest(header);
+    let (across, down) = header.largest_factors();
     let powers_of_two = header.components.iter().all(|component| component.across.is_power_of_two());
     let luminance_is_largest = (first.across, first.down) == (across, down);
     let one_scan = header.scans.iter().all(|scan| scan.len() == header.components.len());
@@ -127,7 +153,7 @@ fn is_right_in_zune(header: &Header) -> bool {
 
 /// Whether jpeg-decoder counts the blocks rightly of all components that have a scan of their own.
 fn is_right_in_jpeg_decoder(header: &Header) -> bool {
-    let (across, down) = largest(header);
+    let (across, down) = header.largest_factors();
     let alone = |component: &&Component| {
         header.is_progressive() || header.scans.iter().any(|scan| *scan == [component.id])
     };

@@ -208,7 +208,7 @@ fn jpeg_samples(page: &Page, stored: &[u8], rows: usize) -> Result<Vec<u8>, Faul
     }
     let is_ycbcr = page.photometric == photometric::YCBCR;
     let samples = jpeg::samples(&stream, &header, if is_ycbcr { Color::FromYcbcr } else { Color::AsStored })?;
-    if samples.is_patched {
+    if samples.flaw.is_some() {
         return Err(Fault::damaged("its JPEG data are broken"));
     }
     Ok(samples.data)
