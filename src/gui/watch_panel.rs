@@ -253,6 +253,7 @@ fn row(ui: &mut Ui, cx: &PanelContext, distance: &AxisDistance) {
         let hypothesis = distance.hypothesis;
         widgets::chip(
             ui,
+            cx.palette,
             widgets::color(names.color(hypothesis)),
             &format!("color of hypothesis {hypothesis}"),
         );

@@ -5,6 +5,7 @@ use super::run_to;
 use crate::app::{Command, DebugCommand, DebugSettings, Direction, StepUnit};
 use crate::describe::Names;
 use crate::gui::action::{Action, DebugAction};
+use crate::gui::glossary::Term;
 use crate::gui::move_cursor::move_cursor;
 use crate::gui::shortcuts::keys_of;
 use crate::gui::widgets::{grouped, keep_unless_edited};
@@ -170,7 +171,13 @@ fn playback_settings(ui: &mut Ui, cx: &mut PanelContext) {
     let combo = combo.show_ui(ui, |ui| {
         for unit in StepUnit::ALL {
             let choice = ui.selectable_label(settings.unit == unit, plural(unit));
-            if choice.on_hover_text(unit_tip(unit)).clicked() {
+            let is_clicked = choice.clicked();
+            if unit == StepUnit::Step {
+                Term::Claim.card(choice, cx.palette);
+            } else {
+                choice.on_hover_text(unit_tip(unit));
+            }
+            if is_clicked {
                 (settings.unit, settings.per_second) = (unit, rates(unit)[2]);
             }
         }

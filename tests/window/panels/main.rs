@@ -12,6 +12,7 @@ mod compare;
 mod cursor;
 mod debugger;
 mod exports;
+mod first_minute;
 mod habits;
 mod image_panel;
 mod images;
