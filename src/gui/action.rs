@@ -51,6 +51,8 @@ pub enum Action {
     Theme,
     /// Move the debugger's cursor, or start or stop recording.
     Debug(DebugAction),
+    /// Show every action by its name.
+    Palette,
     /// Show the list of keys.
     Help,
 }

@@ -1,6 +1,7 @@
 //! The window's content: the application, the panels, and input from keyboard and desktop.
 
 use super::action::Action;
+use super::command_palette::CommandPalette;
 use super::dock::{Dock, Panels};
 use super::files::{Dialogs, is_workspace};
 use super::keyboard_focus::KeyboardFocus;
@@ -37,6 +38,7 @@ struct WindowContent {
     camera: String,
     panels: Panels,
     dialogs: Dialogs,
+    command_palette: CommandPalette,
     view_exporter: ViewExporter,
     notices: notices::Notices,
     keyboard_focus: KeyboardFocus,
@@ -152,6 +154,7 @@ impl App {
         if !draw_frame(&mut cx, |cx| self.content.show(ui, cx)) {
             // Dialogs and help may be what failed. The panels catch their own panics.
             (self.content.dialogs, self.content.help) = (Dialogs::default(), false);
+            self.content.command_palette = CommandPalette::default();
         }
         for sentence in task::take_panics(ui.ctx()) {
             cx.send(JobCommand::Rescue(sentence));
@@ -219,10 +222,11 @@ impl WindowContent {
     fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         self.keyboard_focus.skip_splitters(ui.ctx());
         // A dialog has a field for what is pasted.
-        if !self.dialogs.is_open() {
+        if !self.dialogs.is_open() && !self.command_palette.is_open() {
             open_dropped_and_pasted(ui, cx);
         }
         self.dialogs.close_on_escape(ui.ctx());
+        self.command_palette.close_on_keys(ui.ctx());
         self.panels.image.cancel_on_escape(ui.ctx());
         self.panels.cube.cancel_on_escape(ui.ctx());
         // egui removes the focus from a text field on Escape, so the focus of the last frame decides.
@@ -233,7 +237,8 @@ impl WindowContent {
             self.panels.color_space_rect.take(),
             timeline_panel::track_id(),
         );
-        let held_keys = self.dialogs.is_open().then(|| take_keys(ui.ctx()));
+        let owns_keyboard = self.dialogs.is_open() || self.command_palette.is_open();
+        let held_keys = owns_keyboard.then(|| take_keys(ui.ctx()));
         let pressed = shortcuts::pressed(ui.ctx(), escape_is_action, listeners, &mut self.space_tap);
         for action in std::mem::take(&mut self.actions).into_iter().chain(pressed) {
             // A dialog is invisible in its first frame, in which egui measures the dialog.
@@ -242,6 +247,7 @@ impl WindowContent {
                 Action::Quit => ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close),
                 Action::Show(pane) => self.dock.set_visible(pane, true),
                 Action::ShowAll => self.dock.reset(),
+                Action::Palette => self.command_palette.toggle(ui.ctx()),
                 _ => perform::carry_out(action, cx, &mut self.dialogs, &mut self.help),
             }
         }
@@ -268,6 +274,7 @@ impl WindowContent {
         if let Some(keys) = held_keys {
             ui.ctx().input_mut(|input| input.events.extend(keys));
         }
+        self.command_palette.show(ui, cx);
         if let Some(view_export) = self.dialogs.show(ui, cx) {
             self.view_exporter.begin(ui.ctx(), view_export, cx, &self.panels.cube);
         }

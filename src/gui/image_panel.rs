@@ -12,7 +12,7 @@ mod tools;
 
 use super::status::PROGRESS_DELAY;
 use super::verdict_strip::StepSentence;
-use super::{PanelContext, start, verdict_strip, widgets};
+use super::{PanelContext, context_menu, start, verdict_strip, widgets};
 use crate::app::{DebugSettings, ViewCommand};
 use crate::raster::PixelIndex;
 use crate::view::{Arrangement, ImageSettings, Instant, Item, Layer, Tool};
@@ -49,6 +49,8 @@ pub struct ImagePanel {
     /// The height of the verdict when it was last shown, points.
     verdict_height_pt: f32,
     step_sentence: StepSentence,
+    /// The pixel that the context menu is about.
+    menu_pixel: Option<PixelIndex>,
     /// Whether the key is held that shows the photograph in place of the layer.
     is_compared: bool,
 }
@@ -136,28 +138,27 @@ impl ImagePanel {
         let state = cx.state;
         let Some(shown) = state.shown().filter(|_| !cx.is_export) else { return };
         let frame = bar.inner_margin(Margin { left: 8, right: 8, top: 4, bottom: 2 });
-        // The height of the verdict, or of the button "Follow", with the margins.
-        let height = self.verdict_height_pt.max(20.0) + 6.0;
-        let panel = Panel::bottom("verdict").frame(frame).resizable(false).exact_size(height);
-        panel.show(ui, |ui| {
-            if let Some(replay) = state.followed() {
-                return cursor::beside_follow_button(ui, state, debug, |ui| {
-                    self.step_sentence.show(ui, cx, replay);
-                });
-            }
-            let needed = if state.debugger.stopped().is_some() {
-                let mut needed = 0.0;
-                cursor::beside_follow_button(ui, state, debug, |ui| {
-                    needed = verdict_strip::show(ui, cx, shown);
-                });
-                needed
-            } else {
-                verdict_strip::show(ui, cx, shown)
-            };
+        let panel = Panel::bottom("verdict").frame(frame).resizable(false);
+        if state.debugger.stopped().is_none() {
+            let response = panel.show(ui, |ui| {
+                ui.set_min_height(20.0);
+                verdict_strip::show(ui, cx, shown);
+            });
             // The height of a verdict that wraps is known from the next frame on.
-            if (needed - std::mem::replace(&mut self.verdict_height_pt, needed)).abs() > 0.5 {
+            let height = response.response.rect.height();
+            if (height - std::mem::replace(&mut self.verdict_height_pt, height)).abs() > 0.5 {
                 ui.ctx().request_repaint();
             }
+            return;
+        }
+        // The line between the panels belongs to the height that was measured.
+        let height = self.verdict_height_pt.max(26.0) + 1.0;
+        panel.exact_size(height).show(ui, |ui| {
+            ui.set_min_height(height - 6.0);
+            cursor::beside_follow_button(ui, state, debug, |ui| match state.followed() {
+                Some(replay) => self.step_sentence.show(ui, cx, replay),
+                None => verdict_strip::show(ui, cx, shown),
+            });
         });
     }
 
@@ -208,6 +209,13 @@ impl ImagePanel {
         navigate(ui, &response, &place, settings);
         self.paint_view(ui, cx, &context, settings, slot, wipe_x);
         // A text over the picture does not hide the pixel below.
+        if response.secondary_clicked() {
+            let pointer = ui.ctx().pointer_latest_pos();
+            self.menu_pixel = pointer.and_then(|pointer| place.pixel_at(pointer));
+        }
+        if let Some(pixel) = self.menu_pixel {
+            response.context_menu(|ui| context_menu::of_pixel(ui, cx, pixel));
+        }
         let pointer = ui.ctx().pointer_hover_pos().filter(|_| ui.rect_contains_pointer(place.view));
         pointer.and_then(|pointer| place.pixel_at(pointer))
     }

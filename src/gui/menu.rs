@@ -25,6 +25,9 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock, dialogs: &mut D
         ui.menu_button("Analyze", |ui| analyze(ui, cx, dialogs));
         ui.menu_button("Decisions", |ui| decisions(ui, cx));
         ui.menu_button("Help", |ui| {
+            if item(ui, "All commands\u{2026}", Action::Palette, true) {
+                cx.act(Action::Palette);
+            }
             if item(ui, "Keyboard and pointer", Action::Help, true) {
                 *help = true;
             }

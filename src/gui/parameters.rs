@@ -76,7 +76,7 @@ fn label(ui: &mut Ui, text: &str, tip: &str) -> egui::Response {
     let layout = Layout::left_to_right(Align::Center);
     ui.allocate_ui_with_layout(size, layout, |ui| {
         ui.set_min_width(LABEL_PT);
-        ui.add(egui::Label::new(text).truncate())
+        ui.add(egui::Label::new(text).truncate().show_tooltip_when_elided(false))
     })
     .inner
     .on_hover_text(tip)
@@ -170,7 +170,11 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
         let color = ui.visuals().text_color();
         let size = if columns.label.0.width() < LABEL_PT { SMALL_PT } else { super::theme::BODY_PT };
         let title = widgets::with_subscripts(spec.title, size, color);
-        let name = egui::Label::new(title).truncate().selectable(false).sense(Sense::click());
+        let name = egui::Label::new(title)
+            .truncate()
+            .show_tooltip_when_elided(false)
+            .selectable(false)
+            .sense(Sense::click());
         let name = columns.label.show(ui, name).on_hover_text(&tip);
         ui.spacing_mut().slider_width = columns.slider.0.width();
         let slider = slider(&spec, &mut value);

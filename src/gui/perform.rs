@@ -18,7 +18,7 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
             None => dialogs.open(files::Dialog::SaveWorkspace),
         },
         // The window closes itself and arranges its panels: an action has no window.
-        Action::Quit | Action::Show(_) | Action::ShowAll => {}
+        Action::Quit | Action::Show(_) | Action::ShowAll | Action::Palette => {}
         Action::Help => *help = !*help,
         Action::Undo => cx.send(Edit::Undo),
         Action::Redo => cx.send(Edit::Redo),

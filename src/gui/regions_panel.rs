@@ -3,7 +3,7 @@
 mod hypothesis_table;
 
 use super::theme::{SMALL_PT, ThemeColors};
-use super::{PanelContext, widgets};
+use super::{PanelContext, context_menu, widgets};
 use crate::app::{Edit, ViewCommand};
 use crate::intrinsic::{HighlightBranch, RegionReflection};
 use crate::segment::{Illuminant, LightBasis, LightFindings, TEXTURE_CORRELATION};
@@ -159,6 +159,7 @@ impl RegionsPanel {
                     if response.hovered() {
                         hovered = Some(Item::Region(region.id));
                     }
+                    response.context_menu(|ui| context_menu::of_region(ui, cx, region.id));
                     if response.clicked() {
                         let chosen = (selected != Some(region.id)).then_some(Item::Region(region.id));
                         cx.send(Edit::Select(chosen));
@@ -278,7 +279,9 @@ fn cells(
         if let Some(first) = region.warnings.first() {
             let more = region.warnings.len() - 1;
             let text = if more > 0 { format!("{first} (+{more})") } else { first.clone() };
-            let label = Label::new(RichText::new(text).size(SMALL_PT).color(palette.secondary)).truncate();
+            let label = Label::new(RichText::new(text).size(SMALL_PT).color(palette.secondary))
+                .truncate()
+                .show_tooltip_when_elided(false);
             ui.add(label.selectable(false)).on_hover_text(region.warnings.join(
                 "
 ",
@@ -351,7 +354,7 @@ fn light(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
             distance_from_found(ui, cx, light, findings);
         } else {
             let text = format!("unknown: {}", findings.reason());
-            ui.add(Label::new(&text).truncate()).on_hover_text(text);
+            ui.add(Label::new(&text).truncate().show_tooltip_when_elided(false)).on_hover_text(text);
         }
         ambient(ui, cx, shown);
         accuracy(ui, cx, shown);

@@ -35,6 +35,11 @@ fn all_shortcuts() -> impl Iterator<Item = &'static Shortcut> {
     GENERAL.iter().chain(debug::KEYS)
 }
 
+/// The group, the description and the action of each key.
+pub fn named_actions() -> impl Iterator<Item = (&'static str, &'static str, Action)> {
+    all_shortcuts().map(|shortcut| (shortcut.group, shortcut.description, shortcut.action))
+}
+
 /// The keys that are not the debugger's. Those with more modifiers come first: egui lets `Ctrl+Shift+Z` pass for `Ctrl+Z`.
 const GENERAL: &[Shortcut] = &[
     Shortcut::new("Edit", SHIFT_COMMAND, Key::Z, Action::Redo, "Redo"),
@@ -71,6 +76,7 @@ const GENERAL: &[Shortcut] = &[
     key_alone("Tools", Key::W, Action::Tool(Tool::WhitePatch), "White patch: pin the light's color"),
     key_alone("Compare", Key::K, Action::Pin, "Pin the result, or unpin it"),
     key_alone("Compare", Key::A, Action::Swap, "A/B: pinned or newest result"),
+    key_with_command("Window", Key::P, Action::Palette, "All commands by name"),
     key_alone("Window", Key::T, Action::Theme, "Light or dark"),
     key_alone("Window", Key::Questionmark, Action::Help, "This list"),
     key_alone("Window", Key::F1, Action::Help, "This list"),

@@ -12,8 +12,8 @@ use crate::trace::Replay;
 use crate::view::{Clause, ClauseSubject, CubeSettings, ImageSettings, Item, Layer, ResultSnapshot, verdict};
 use egui::{Label, Link, RichText, ScrollArea, Ui};
 
-/// Shows the sentence about a result, in as many lines as needed; returns the height of the lines, points.
-pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) -> f32 {
+/// Shows the sentence about a result, in as many lines as needed.
+pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
     let clauses = verdict(shown);
     let last = clauses.len().saturating_sub(1);
     let texts: Vec<String> = clauses
@@ -37,8 +37,11 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) -> f32 {
             show_clause(ui, cx, clause, text);
         }
     };
-    let lines = if fits { ui.horizontal_wrapped(contents) } else { ui.vertical(contents) };
-    lines.response.rect.height()
+    if fits {
+        ui.horizontal_wrapped(contents)
+    } else {
+        ui.vertical(contents)
+    };
 }
 
 /// The sentence about the step at the debugger's cursor, computed once for each place of the cursor.

@@ -63,6 +63,12 @@ fn density(painter: &Painter, cx: &PanelContext, corner: egui::Pos2, fullest: u3
     let below = bar.left_bottom() + vec2(0.0, 1.0);
     let one = painter.text(below, Align2::LEFT_TOP, "1 px", font.clone(), cx.palette.secondary);
     let end = bar.right_bottom() + vec2(0.0, 1.0);
-    let most = painter.text(end, Align2::RIGHT_TOP, format!("{} px a color", widgets::grouped(fullest as usize)), font, cx.palette.secondary);
+    let most = painter.text(
+        end,
+        Align2::RIGHT_TOP,
+        format!("{} px a color", widgets::grouped(fullest as usize)),
+        font,
+        cx.palette.secondary,
+    );
     bar.union(one).union(most)
 }

@@ -10,9 +10,7 @@ use crate::gui::widgets::{color, grouped};
 use crate::raster::HypothesisId;
 use crate::view::{Instant, cursor_place, instant_legend};
 use egui::accesskit::Role;
-use egui::{
-    Align2, Button, Color32, Painter, Rect, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, vec2,
-};
+use egui::{Align2, Button, Color32, Painter, Rect, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, vec2};
 use std::sync::Arc;
 
 /// Smallest zoom at which a single pixel is framed, screen points per pixel; at a smaller zoom a cross marks the pixel.
@@ -72,10 +70,12 @@ pub fn beside_follow_button(
     contents: impl FnOnce(&mut Ui),
 ) {
     let full = ui.max_rect();
-    let corner = Rect::from_min_max(full.right_top() - vec2(FOLLOW_PT, 0.0), full.right_top() + vec2(0.0, 20.0));
+    let corner =
+        Rect::from_min_max(full.right_top() - vec2(FOLLOW_PT, 0.0), full.right_top() + vec2(0.0, 20.0));
     let rest = full.with_max_x(corner.left() - 8.0);
-    ui.scope_builder(UiBuilder::new().max_rect(rest), contents);
-    ui.scope_builder(UiBuilder::new().max_rect(corner), |ui| follow_button(ui, state, settings));
+    // Children do not change the size of the strip.
+    contents(&mut ui.new_child(UiBuilder::new().max_rect(rest)));
+    follow_button(&mut ui.new_child(UiBuilder::new().max_rect(corner)), state, settings);
 }
 
 /// Sends changed settings of the debugger.

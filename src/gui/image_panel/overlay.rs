@@ -297,7 +297,11 @@ fn color_bar(painter: &Painter, palette: &ThemeColors, view: Rect, texts: &[&str
     let end = galleys.last().map_or(0.0, |galley| galley.size().x);
     // The first two texts of three are centered below their places; the last begins below its place.
     let width = (BAR_PT.x + end + 12.0).min(view.width() - 12.0);
-    painter.rect_filled(Rect::from_min_size(corner, vec2(width, 32.0)), 3.0, palette.panel.gamma_multiply(0.86));
+    painter.rect_filled(
+        Rect::from_min_size(corner, vec2(width, 32.0)),
+        3.0,
+        palette.panel.gamma_multiply(0.86),
+    );
     let bar = Rect::from_min_size(corner + vec2(18.0, 4.0), vec2(BAR_PT.x - 24.0, BAR_PT.y));
     let mut mesh = egui::Mesh::default();
     for (x, gray) in [(bar.left(), 1), (bar.right(), 255)] {

@@ -268,6 +268,6 @@ fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names) {
     ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         ui.add(Label::new(RichText::new(status).size(SMALL_PT).color(tone)).truncate());
         ui.add_space(6.0);
-        ui.add(Label::new(&text).truncate()).on_hover_text(&text)
+        ui.add(Label::new(&text).truncate().show_tooltip_when_elided(false)).on_hover_text(&text)
     });
 }

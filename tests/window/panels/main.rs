@@ -8,6 +8,7 @@
 mod accessibility;
 mod color_space_panel;
 mod colors;
+mod commands;
 mod compare;
 mod cursor;
 mod debugger;
