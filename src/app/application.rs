@@ -141,8 +141,12 @@ impl Application {
                     Err(reason) => Report::OpenFailed(reason),
                 });
             }
-            Effect::ReadParams(path) => self.run("reader", Work::File, move || read::params(&path)),
+            Effect::ReadParams(path) => {
+                self.state.jobs.reading = Some(Job::now());
+                self.run("reader", Work::File, move || read::params(&path));
+            }
             Effect::ReadWorkspace(path) => {
+                self.state.jobs.reading = Some(Job::now());
                 self.run("reader", Work::File, move || read::workspace(&path));
             }
             Effect::Write(export) => {
@@ -309,7 +313,7 @@ mod tests {
             let state = application.state();
             let jobs = [state.jobs.reading, state.jobs.analysis, state.jobs.export];
             let ended = match work {
-                Work::Photograph => jobs[0].is_none(),
+                Work::Photograph | Work::File => jobs[0].is_none(),
                 Work::Analysis => jobs[1].is_none(),
                 Work::Export => jobs[2].is_none(),
                 _ => true,

@@ -9,7 +9,7 @@ use std::time::Instant;
 pub struct JobState {
     /// The analysis under way.
     pub analysis: Option<Job>,
-    /// The reading of a photograph.
+    /// The reading of a photograph, of parameters or of a workspace.
     pub reading: Option<Job>,
     /// The export under way.
     pub export: Option<Job>,

@@ -51,6 +51,9 @@ pub struct State {
     pub(super) notices_so_far: u64,
     /// The workspace whose photograph is being read.
     pub(super) restoring: Option<Restoring>,
+    /// Whether the largest region is to be selected when the first result of the photograph is complete: the plane, the color
+    /// space and the history then show something from the start.
+    pub(super) preselects: bool,
     /// The rest of a restored workspace, which is applied when its pinned result has been computed.
     pub(super) after_pin: Option<AfterPin>,
 }

@@ -6,8 +6,9 @@
 
 use super::png::code_from_linear;
 
-/// Levels of lightness, each with the largest chroma at which every hue lies inside sRGB; a test checks this.
-const LEVELS: [(f32, f32); 3] = [(0.74, 0.12), (0.50, 0.085), (0.88, 0.058)];
+/// Levels of lightness, close together, so that no region stands out or vanishes by its color, and each bright enough for a
+/// contrast of 4.5 on the window's dark panels. Each has a chroma at which every hue lies inside sRGB; a test checks this.
+const LEVELS: [(f32, f32); 3] = [(0.74, 0.12), (0.64, 0.105), (0.84, 0.075)];
 const HUES: usize = 8;
 /// Order of the hues: distant hues first, so that a picture of few regions uses the whole circle.
 const HUE_ORDER: [u8; HUES] = [0, 4, 2, 6, 1, 5, 3, 7];

@@ -1,5 +1,6 @@
 //! What keys, menus and buttons do: the vocabulary that shortcuts, menus, toolbars and panels share.
 
+use super::pane::Pane;
 use crate::app::{Direction, StepUnit};
 use crate::view::{Layer, Tool};
 
@@ -8,12 +9,18 @@ use crate::view::{Layer, Tool};
 pub enum Action {
     /// Open the dialog for a photograph.
     Open,
+    /// Open the dialog for a workspace.
+    OpenWorkspace,
     /// Open the export dialog.
     Export,
     /// Save the workspace: to its file, or where the dialog says when it has none.
     Save,
     /// Close the window.
     Quit,
+    /// Show a panel, in front of the other tabs.
+    Show(Pane),
+    /// Arrange all panels as at first.
+    ShowAll,
     /// Take back the last step.
     Undo,
     /// Take back the last undo.
@@ -44,6 +51,8 @@ pub enum Action {
     Theme,
     /// Move the debugger's cursor, or start or stop recording.
     Debug(DebugAction),
+    /// Show every action by its name.
+    Palette,
     /// Show the list of keys.
     Help,
 }

@@ -1,18 +1,20 @@
 //! The window's content: the application, the panels, and input from keyboard and desktop.
 
 use super::action::Action;
-use super::dock::{Dock, Pane, Panels};
+use super::command_palette::CommandPalette;
+use super::dock::{Dock, Panels};
 use super::files::{Dialogs, is_workspace};
 use super::keyboard_focus::KeyboardFocus;
+use super::pane::Pane;
 use super::theme::{self, ThemeColors};
 use super::typed_path::typed_paths;
 use super::view_export::ViewExporter;
-use super::{PanelContext, menu, notices, perform, shortcuts, timeline_panel};
+use super::{PanelContext, menu, notices, perform, shortcuts, task, timeline_panel, widgets};
 use crate::app::{
     Application, Command, DebugCommand, Executor, JobCommand, Settings, State, ViewCommand, catch_panic,
 };
 use crate::view::{Origin, ProfileLine, Theme, Tool};
-use egui::{Event, Ui};
+use egui::{Event, RichText, Ui};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -36,6 +38,7 @@ struct WindowContent {
     camera: String,
     panels: Panels,
     dialogs: Dialogs,
+    command_palette: CommandPalette,
     view_exporter: ViewExporter,
     notices: notices::Notices,
     keyboard_focus: KeyboardFocus,
@@ -48,6 +51,8 @@ struct WindowContent {
     space_tap: shortcuts::SpaceTap,
     /// Whether a text field had the focus in the last frame.
     is_text_edited: bool,
+    /// Actions that panels asked for in the last frame.
+    actions: Vec<Action>,
     /// The panel that is shown alone; none: all panels.
     single_pane: Option<Pane>,
 }
@@ -137,26 +142,27 @@ impl App {
         }
         self.content.load_further_fonts(ui.ctx(), self.application.state());
         let palette = ThemeColors::of(theme);
-        let mut commands = Vec::new();
+        let (mut commands, mut actions) = (Vec::new(), Vec::new());
         let mut cx = PanelContext {
             state: self.application.state(),
             palette: &palette,
             gpu: self.gpu.as_ref(),
             is_export: false,
             commands: &mut commands,
+            actions: &mut actions,
         };
-        if let Err(reason) = catch_panic(|| self.content.show(ui, &mut cx)) {
+        if !draw_frame(&mut cx, |cx| self.content.show(ui, cx)) {
             // Dialogs and help may be what failed. The panels catch their own panics.
             (self.content.dialogs, self.content.help) = (Dialogs::default(), false);
-            let text = format!(
-                "the window was drawn incompletely because of an error of the program ({reason}); please report the \
-                 error, and go on"
-            );
-            cx.send(JobCommand::Rescue(text));
+            self.content.command_palette = CommandPalette::default();
+        }
+        for sentence in task::take_panics(ui.ctx()) {
+            cx.send(JobCommand::Rescue(sentence));
         }
         self.content.sync_layout(&mut cx);
         self.content.sync_camera(&mut cx);
-        if !commands.is_empty() {
+        self.content.actions.append(&mut actions);
+        if !commands.is_empty() || !self.content.actions.is_empty() {
             // Without this request, the change would appear only when the pointer moves.
             ui.ctx().request_repaint();
         }
@@ -216,10 +222,11 @@ impl WindowContent {
     fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         self.keyboard_focus.skip_splitters(ui.ctx());
         // A dialog has a field for what is pasted.
-        if !self.dialogs.is_open() {
+        if !self.dialogs.is_open() && !self.command_palette.is_open() {
             open_dropped_and_pasted(ui, cx);
         }
         self.dialogs.close_on_escape(ui.ctx());
+        self.command_palette.close_on_keys(ui.ctx());
         self.panels.image.cancel_on_escape(ui.ctx());
         self.panels.cube.cancel_on_escape(ui.ctx());
         // egui removes the focus from a text field on Escape, so the focus of the last frame decides.
@@ -230,14 +237,19 @@ impl WindowContent {
             self.panels.color_space_rect.take(),
             timeline_panel::track_id(),
         );
-        let held_keys = self.dialogs.is_open().then(|| take_keys(ui.ctx()));
-        for action in shortcuts::pressed(ui.ctx(), escape_is_action, listeners, &mut self.space_tap) {
+        let owns_keyboard = self.dialogs.is_open() || self.command_palette.is_open();
+        let held_keys = owns_keyboard.then(|| take_keys(ui.ctx()));
+        let pressed = shortcuts::pressed(ui.ctx(), escape_is_action, listeners, &mut self.space_tap);
+        for action in std::mem::take(&mut self.actions).into_iter().chain(pressed) {
             // A dialog is invisible in its first frame, in which egui measures the dialog.
             ui.ctx().request_repaint();
-            if action == Action::Quit {
-                ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+            match action {
+                Action::Quit => ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close),
+                Action::Show(pane) => self.dock.set_visible(pane, true),
+                Action::ShowAll => self.dock.reset(),
+                Action::Palette => self.command_palette.toggle(ui.ctx()),
+                _ => perform::carry_out(action, cx, &mut self.dialogs, &mut self.help),
             }
-            perform::carry_out(action, cx, &mut self.dialogs, &mut self.help);
         }
         if let Some(pane) = self.single_pane {
             let frame = egui::Frame::new().fill(cx.palette.panel);
@@ -252,10 +264,17 @@ impl WindowContent {
         self.notices.show(ui, cx);
         self.raise_drawn_profile(cx);
         let frame = egui::Frame::new().fill(cx.palette.line);
-        egui::CentralPanel::default().frame(frame).show(ui, |ui| self.dock.show(ui, &mut self.panels, cx));
+        egui::CentralPanel::default().frame(frame).show(ui, |ui| {
+            if self.dock.is_empty() {
+                all_panels_hidden(ui, cx);
+            } else {
+                self.dock.show(ui, &mut self.panels, cx);
+            }
+        });
         if let Some(keys) = held_keys {
             ui.ctx().input_mut(|input| input.events.extend(keys));
         }
+        self.command_palette.show(ui, cx);
         if let Some(view_export) = self.dialogs.show(ui, cx) {
             self.view_exporter.begin(ui.ctx(), view_export, cx, &self.panels.cube);
         }
@@ -294,6 +313,39 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.show(ui);
     }
+}
+
+/// Shows, while every panel is hidden, the ways back.
+fn all_panels_hidden(ui: &mut Ui, cx: &mut PanelContext) {
+    egui::Frame::new().fill(cx.palette.panel).inner_margin(24).show(ui, |ui| {
+        ui.set_min_size(ui.available_size());
+        let title = RichText::new("All panels are hidden").font(theme::heading_font(theme::TITLE_PT));
+        ui.label(title);
+        ui.add_space(8.0);
+        if ui.button(RichText::new("Arrange as at first").color(cx.palette.accent)).clicked() {
+            cx.act(Action::ShowAll);
+        }
+        widgets::heading(ui, cx.palette, "Show one panel");
+        ui.horizontal_wrapped(|ui| {
+            for pane in Pane::ALL {
+                if ui.button(pane.title()).clicked() {
+                    cx.act(Action::Show(pane));
+                }
+            }
+        });
+    });
+}
+
+/// Draws a frame with `draw`. After a panic of `draw`, the result is false, and the panic becomes a notice with which the
+/// workspace is saved. Commands that were sent before the panic are kept.
+fn draw_frame(cx: &mut PanelContext, draw: impl FnOnce(&mut PanelContext)) -> bool {
+    let Err(reason) = catch_panic(|| draw(cx)) else { return true };
+    let text = format!(
+        "the window was drawn incompletely because of an error of the program ({reason}); please report the error, \
+         and go on"
+    );
+    cx.send(JobCommand::Rescue(text));
+    false
 }
 
 /// Takes the keys, the typed text and the clipboard's events out of the input of this frame.
@@ -386,5 +438,36 @@ fn update_title(ui: &Ui, state: &State) {
     if before.as_deref() != Some(title.as_str()) {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
         ui.data_mut(|data| data.insert_temp(id, title));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_in_a_frame_becomes_a_notice_and_keeps_the_commands_before() {
+        let (state, palette) = (State::default(), ThemeColors::of(Theme::Dark));
+        let (mut commands, mut actions) = (Vec::new(), Vec::new());
+        let mut cx = PanelContext {
+            state: &state,
+            palette: &palette,
+            gpu: None,
+            is_export: false,
+            commands: &mut commands,
+            actions: &mut actions,
+        };
+        assert!(draw_frame(&mut cx, |cx| cx.send(ViewCommand::ForgetRecent)));
+        let is_drawn = draw_frame(&mut cx, |cx| {
+            cx.send(ViewCommand::Theme(Theme::Light));
+            std::panic::resume_unwind(Box::new("an odd menu"));
+        });
+        assert!(!is_drawn);
+        let [_, Command::View(ViewCommand::Theme(Theme::Light)), Command::Job(JobCommand::Rescue(text))] =
+            &commands[..]
+        else {
+            panic!("{commands:?}");
+        };
+        assert!(text.contains("an odd menu") && text.contains("drawn incompletely"), "{text}");
     }
 }

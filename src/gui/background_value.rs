@@ -13,18 +13,21 @@ pub struct BackgroundValue<K, T> {
     value: Option<(K, T)>,
     /// The key of the value that `task` computes.
     pending_key: Option<K>,
+    /// The key whose value could not be computed because of a panic: the value is not tried again until the key changes.
+    failed_key: Option<K>,
     task: Option<Task<T>>,
 }
 
 impl<K, T> Default for BackgroundValue<K, T> {
     fn default() -> Self {
-        Self { value: None, pending_key: None, task: None }
+        Self { value: None, pending_key: None, failed_key: None, task: None }
     }
 }
 
 impl<K: PartialEq + Clone, T: Send + 'static> BackgroundValue<K, T> {
     /// The value of `key`; the value of an earlier key while the new value is being computed; `None` before the first
-    /// value. At most one value is computed at a time. With `synchronous`, the value is computed in this call.
+    /// value. At most one value is computed at a time. With `synchronous`, the value is computed in this call. A panic of `make`
+    /// on the thread becomes a notice (see [`super::task::take_panics`]), and the former value stays.
     pub fn get(
         &mut self,
         ctx: &Context,
@@ -32,18 +35,23 @@ impl<K: PartialEq + Clone, T: Send + 'static> BackgroundValue<K, T> {
         synchronous: bool,
         make: impl FnOnce() -> T + Send + 'static,
     ) -> Option<&T> {
-        if let Some(value) = Task::take(&mut self.task)
+        let result = Task::take(&mut self.task);
+        if self.task.is_none()
             && let Some(key) = self.pending_key.take()
         {
-            self.value = Some((key, value));
+            match result {
+                Some(value) => self.value = Some((key, value)),
+                None => self.failed_key = Some(key),
+            }
         }
+        self.failed_key.take_if(|failed| *failed != key);
         let stale = self.value.as_ref().is_none_or(|(value, _)| *value != key);
-        if stale && self.task.is_none() {
+        if stale && self.task.is_none() && self.failed_key.is_none() {
             if synchronous {
                 self.value = Some((key, make()));
             } else {
                 self.task = Task::start(ctx, "panel", make);
-                self.pending_key = Some(key);
+                self.pending_key = self.task.is_some().then_some(key);
             }
         }
         self.value.as_ref().map(|(_, value)| value)
@@ -71,5 +79,19 @@ mod tests {
             std::thread::yield_now();
         }
         assert_eq!(background_value.get(&ctx, 2, true, || "again"), Some(&"two"));
+    }
+
+    #[test]
+    fn a_panic_leaves_the_former_value_and_is_not_repeated_for_the_same_key() {
+        let (ctx, mut background_value) = (Context::default(), BackgroundValue::default());
+        assert_eq!(background_value.get(&ctx, 1, true, || "one"), Some(&"one"));
+        let fail = || std::panic::resume_unwind(Box::new("broken"));
+        while background_value.failed_key.is_none() {
+            assert_eq!(background_value.get(&ctx, 2, false, fail), Some(&"one"));
+        }
+        assert_eq!(crate::gui::task::take_panics(&ctx).len(), 1);
+        assert_eq!(background_value.get(&ctx, 2, true, || "two"), Some(&"one"), "key 2 is not tried again");
+        assert_eq!(background_value.get(&ctx, 3, true, || "three"), Some(&"three"));
+        assert_eq!(background_value.get(&ctx, 2, true, || "two"), Some(&"two"));
     }
 }

@@ -233,7 +233,7 @@ fn pixel_controls(ui: &mut Ui, state: &State, number: usize, pixel: &mut PixelIn
 fn hypothesis_control(ui: &mut Ui, cx: &PanelContext, name: &str, hypothesis: &mut Option<HypothesisId>) {
     if let Some(hypothesis) = *hypothesis {
         let color = widgets::color(cx.state.debugger.names.color(hypothesis));
-        widgets::chip(ui, color, &format!("color of hypothesis {hypothesis}"));
+        widgets::chip(ui, cx.palette, color, &format!("color of hypothesis {hypothesis}"));
     }
     let before = HypothesisId::label(*hypothesis);
     let mut number = before;

@@ -79,7 +79,7 @@ fn buttons(ui: &mut Ui, cx: &mut PanelContext) {
         if ui.button("Pin anew").on_hover_text("The newest result takes the pinned one's place.").clicked() {
             cx.send(ViewCommand::Pin(true));
         }
-        if ui.button("Let go").clicked() {
+        if ui.button("Unpin").on_hover_text("Compare with nothing.").clicked() {
             cx.send(ViewCommand::Pin(false));
         }
     });

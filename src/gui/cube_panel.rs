@@ -202,8 +202,7 @@ impl CubePanel {
         }
         let mut labels = self.figure.labels(ui, projector, rect, cx.palette);
         labels.extend(self.frame.labels(ui, projector, rect, cx.palette));
-        let halo = cx.palette.background.gamma_multiply(0.72);
-        labels::show(ui, response.id.with("labels"), &labels, rect, &occupied, halo);
+        labels::show(ui, response.id.with("labels"), &labels, rect, &occupied, cx.palette);
         self.paint_hover_ring(ui, cx, projector, rect, picture);
     }
 

@@ -3,17 +3,15 @@
 //! A new panel is a module with a function `show`, and a row of the table.
 
 use super::PanelContext;
+use super::pane::Pane;
 use super::theme::ThemeColors;
 use egui::{Color32, Rect, Stroke, Ui, Visuals, WidgetText};
 use egui_tiles::{
     Behavior, LinearDir, SimplificationOptions, TabState, Tile, TileId, Tiles, Tree, UiResponse,
 };
-use serde::{Deserialize, Serialize};
 
 /// A row of the table: one panel.
 struct PaneRow {
-    /// The name on the panel's tab.
-    title: &'static str,
     /// The background color of the panel.
     background: fn(&ThemeColors) -> Color32,
     /// The group of tabs that the panel belongs to in the first arrangement.
@@ -34,20 +32,11 @@ enum TabGroup {
     Timeline,
 }
 
-/// Makes [`Pane`], [`Pane::ALL`] and [`Panels`] from the table: for each panel its name in saved arrangements, the field
-/// of [`Panels`] with the panel's own data (braces are empty without such data), and the row.
+/// Makes the rows and [`Panels`] from the table: for each panel the field of [`Panels`] with the panel's own data (braces are
+/// empty without such data), and the row.
 macro_rules! panes {
-    ($($(#[$attribute:meta])* $pane:ident { $($field:ident: $panel:ty)? } $row:expr;)+) => {
-        /// A panel of the window.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-        pub enum Pane {
-            $($(#[$attribute])* $pane,)+
-        }
-
+    ($($pane:ident { $($field:ident: $panel:ty)? } $row:expr;)+) => {
         impl Pane {
-            /// All panels, in the order of the View menu.
-            pub const ALL: [Self; [$(stringify!($pane)),+].len()] = [$(Self::$pane),+];
-
             const fn row(self) -> &'static PaneRow {
                 match self {
                     $(Self::$pane => const { &$row },)+
@@ -68,17 +57,12 @@ macro_rules! panes {
 }
 
 panes! {
-    /// The photograph and its layers.
     Image { image: super::image_panel::ImagePanel } PaneRow {
-        title: "Image",
         background: |palette| palette.background,
         tabs: TabGroup::Image,
         show: |panels, ui, cx| panels.image.show(ui, cx),
     };
-    /// The color space.
-    #[serde(alias = "Colours")]
     Colors { cube: super::cube_panel::CubePanel } PaneRow {
-        title: "Color space",
         background: |palette| palette.background,
         tabs: TabGroup::Colors,
         show: |panels, ui, cx| {
@@ -86,83 +70,56 @@ panes! {
             panels.cube.show(ui, cx);
         },
     };
-    /// The dichromatic plane of one region.
     Plane { plane: super::plane_panel::PlanePanel } PaneRow {
-        title: "Plane",
         background: |palette| palette.panel,
         tabs: TabGroup::Plots,
         show: |panels, ui, cx| panels.plane.show(ui, cx),
     };
-    /// Body, surface and ε along a line.
     Profile { profile: super::profile_panel::ProfilePanel } PaneRow {
-        title: "Profile",
         background: |palette| palette.panel,
         tabs: TabGroup::Plots,
         show: |panels, ui, cx| panels.profile.show(ui, cx),
     };
-    /// Sliders and switches.
     Parameters {} PaneRow {
-        title: "Parameters",
         background: |palette| palette.panel,
         tabs: TabGroup::Parameters,
         show: |_, ui, cx| super::parameters::show(ui, cx),
     };
-    /// The regions as a table.
     Regions { regions: super::regions_panel::RegionsPanel } PaneRow {
-        title: "Regions",
         background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.regions.show(ui, cx),
     };
-    /// Statistics of the selection.
     Selection { selection: super::selection_panel::SelectionPanel } PaneRow {
-        title: "Selection",
         background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.selection.show(ui, cx),
     };
-    /// Pinned and newest result.
     Compare { compare: super::compare_panel::ComparePanel } PaneRow {
-        title: "Compare",
         background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.compare.show(ui, cx),
     };
-    /// The decisions in their order, and the cursor among them.
     Timeline { timeline: super::timeline_panel::TimelinePanel } PaneRow {
-        title: "Timeline",
         background: |palette| palette.panel,
         tabs: TabGroup::Timeline,
         show: |panels, ui, cx| panels.timeline.show(ui, cx),
     };
-    /// The decisions that gave a pixel its region, or made a region.
     Why { why: super::why_panel::WhyPanel } PaneRow {
-        title: "Why",
         background: |palette| palette.panel,
         tabs: TabGroup::Questions,
         show: |panels, ui, cx| panels.why.show(ui, cx),
     };
-    /// Values at the cursor.
     Watch { watch: super::watch_panel::WatchPanel } PaneRow {
-        title: "Watch",
         background: |palette| palette.panel,
         tabs: TabGroup::Questions,
         show: |panels, ui, cx| panels.watch.show(ui, cx),
     };
-    /// Conditions that stop the cursor.
     Breakpoints { breakpoints: super::breakpoints_panel::BreakpointsPanel } PaneRow {
-        title: "Breakpoints",
         background: |palette| palette.panel,
         tabs: TabGroup::Questions,
         show: |panels, ui, cx| panels.breakpoints.show(ui, cx),
     };
-}
-
-impl Pane {
-    /// The name on the panel's tab.
-    pub const fn title(self) -> &'static str {
-        self.row().title
-    }
 }
 
 /// A panel whose drawing ended by a panic.
@@ -192,7 +149,7 @@ impl Panels {
             self.failed.push(FailedPane { pane, size });
             let text = format!(
                 "the panel {} was ended by an error of the program ({reason}); please report the error, and go on",
-                row.title
+                pane.title()
             );
             cx.send(crate::app::JobCommand::Rescue(text));
         }
@@ -219,6 +176,11 @@ impl Dock {
     /// Whether a panel is in the window, in front or behind another tab.
     pub fn is_visible(&self, pane: Pane) -> bool {
         self.find(pane).is_some_and(|id| self.tree.is_visible(id))
+    }
+
+    /// Whether every panel is hidden.
+    pub fn is_empty(&self) -> bool {
+        !Pane::ALL.into_iter().any(|pane| self.is_visible(pane))
     }
 
     /// Shows or hides a panel.

@@ -3,11 +3,11 @@
 //! The system's dialog runs on a thread of its own, so that a dialog that hangs does not stop the window.
 
 use super::PanelContext;
-use super::dock::Pane;
+use super::pane::Pane;
 use super::task::Task;
 use super::typed_path::{typed_path, unique_names};
 use super::view_export::ViewExport;
-use crate::app::{Export, ExportKind, ExportOptions, JobCommand};
+use crate::app::{Export, ExportKind, ExportOptions, JobCommand, Notice, Severity, ViewCommand};
 use crate::truth::sample::SAMPLES;
 use crate::view::Origin;
 use egui::{Key, Modifiers, RichText, Ui};
@@ -55,6 +55,9 @@ pub struct Dialogs {
     problem: String,
     /// The time at which the system's dialog was asked for, seconds.
     asked_at: f64,
+    /// While a file that was confirmed is being read: the id of the newest notice before. The dialog stays open until the file
+    /// has been read, so that an error leaves dialog and text as they are.
+    reading_since: Option<u64>,
 }
 
 impl Default for Dialogs {
@@ -73,6 +76,7 @@ impl Default for Dialogs {
             focus_before: None,
             problem: String::new(),
             asked_at: 0.0,
+            reading_since: None,
         }
     }
 }
@@ -81,6 +85,7 @@ impl Dialogs {
     /// Opens a dialog.
     pub fn open(&mut self, dialog: Dialog) {
         (self.dialog, self.focus, self.options.force) = (Some(dialog), true, false);
+        self.reading_since = None;
         self.problem.clear();
         self.is_new = true;
         match dialog {
@@ -99,7 +104,7 @@ impl Dialogs {
 
     /// Closes the dialog, and gives the focus back.
     fn close(&mut self, ctx: &egui::Context) {
-        self.dialog = None;
+        (self.dialog, self.reading_since) = (None, None);
         self.problem.clear();
         if let Some(id) = self.focus_before.take() {
             ctx.memory_mut(|memory| memory.request_focus(id));
@@ -116,6 +121,7 @@ impl Dialogs {
     /// Shows the open dialog. Returns the view to draw, when the export of a view was confirmed.
     pub fn show(&mut self, ui: &Ui, cx: &mut PanelContext) -> Option<ViewExport> {
         self.take_chosen_path(ui);
+        self.take_outcome(ui, cx);
         let dialog = self.dialog?;
         if std::mem::take(&mut self.is_new) {
             self.focus_before = ui.memory(egui::Memory::focused);
@@ -228,14 +234,17 @@ impl Dialogs {
             if browse.on_hover_text("The system's own dialog, where it has one.").clicked() {
                 self.browse(ui.ctx(), dialog);
             }
-            let ready = !self.path.trim().is_empty();
+            let ready = !self.path.trim().is_empty() && self.reading_since.is_none();
             confirmed |= ui
                 .add_enabled(ready, egui::Button::new(RichText::new(button_text).color(cx.palette.accent)))
                 .clicked();
             confirmed &= ready;
         });
+        if self.reading_since.is_some() {
+            ui.label(RichText::new("Reading\u{2026}").color(cx.palette.secondary));
+        }
         if !self.problem.is_empty() {
-            ui.label(RichText::new(&self.problem).color(cx.palette.error));
+            ui.add(egui::Label::new(RichText::new(&self.problem).color(cx.palette.error)).wrap());
         }
         if confirmed {
             let path = typed_path(&self.path).unwrap_or_default();
@@ -243,6 +252,9 @@ impl Dialogs {
                 // The dialog stays open, with the text, so that the text can be corrected.
                 (self.problem, self.focus) = (problem, true);
                 return false;
+            }
+            if reads(dialog) {
+                self.reading_since = Some(newest_notice(cx));
             }
             if dialog == Dialog::Export && self.kind == ExportKind::View {
                 self.view_export = Some(ViewExport { pane: self.view, size_px: self.size_px, path });
@@ -260,7 +272,22 @@ impl Dialogs {
                 }
             });
         }
-        confirmed
+        confirmed && !reads(dialog)
+    }
+
+    /// Closes the dialog when the confirmed file has been read. Where the file could not be read, the dialog stays, and the
+    /// error moves from the notices into the dialog.
+    fn take_outcome(&mut self, ui: &Ui, cx: &mut PanelContext) {
+        let Some(before) = self.reading_since.filter(|_| cx.state.jobs.reading.is_none()) else { return };
+        self.reading_since = None;
+        let is_new_error = |notice: &&Notice| notice.severity == Severity::Error && notice.id > before;
+        match cx.state.notices.iter().find(is_new_error) {
+            Some(error) => {
+                (self.problem, self.focus) = (error.text.clone(), true);
+                cx.send(ViewCommand::Dismiss(error.id));
+            }
+            None => self.close(ui.ctx()),
+        }
     }
 
     /// Shows the sample scenes and the photographs opened before. Returns whether one was chosen.
@@ -368,10 +395,19 @@ fn workspace_path(path: PathBuf) -> PathBuf {
     PathBuf::from(name)
 }
 
+/// Whether a dialog reads a file; other dialogs write one.
+const fn reads(dialog: Dialog) -> bool {
+    matches!(dialog, Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace)
+}
+
+/// The id of the newest notice; 0 without a notice.
+fn newest_notice(cx: &PanelContext) -> u64 {
+    cx.state.notices.iter().map(|notice| notice.id).max().unwrap_or(0)
+}
+
 /// What is wrong with a path that is to be read; none where the path is a file, or is to be written.
 fn problem_of(dialog: Dialog, path: &Path) -> Option<String> {
-    let reads = matches!(dialog, Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace);
-    if !reads || path.is_file() {
+    if !reads(dialog) || path.is_file() {
         return None;
     }
     let what = if path.is_dir() { "is a folder, not a file" } else { "there is no such file" };

@@ -11,8 +11,9 @@ mod toolbar;
 mod tools;
 
 use super::status::PROGRESS_DELAY;
-use super::{PanelContext, widgets};
-use crate::app::ViewCommand;
+use super::verdict_strip::StepSentence;
+use super::{PanelContext, context_menu, start, verdict_strip, widgets};
+use crate::app::{DebugSettings, ViewCommand};
 use crate::raster::PixelIndex;
 use crate::view::{Arrangement, ImageSettings, Instant, Item, Layer, Tool};
 use cursor::InstantCache;
@@ -45,6 +46,13 @@ pub struct ImagePanel {
     zoom: f32,
     /// The toolbar's height in the last frame, points.
     toolbar_height_pt: f32,
+    /// The height of the verdict when it was last shown, points.
+    verdict_height_pt: f32,
+    step_sentence: StepSentence,
+    /// The pixel that the context menu is about.
+    menu_pixel: Option<PixelIndex>,
+    /// Whether the key is held that shows the photograph in place of the layer.
+    is_compared: bool,
 }
 
 impl ImagePanel {
@@ -58,7 +66,7 @@ impl ImagePanel {
 
     /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
-        let Some(picture) = &cx.state.picture else {
+        let Some(picture) = cx.state.picture.clone() else {
             nothing_open(ui, cx);
             return;
         };
@@ -85,17 +93,73 @@ impl ImagePanel {
         Panel::bottom("read-out").frame(frame).exact_size(readout_height + 4.0).show(ui, |ui| {
             readout::show(ui, state, palette);
         });
+        self.show_verdict(ui, cx, &mut debug, bar);
         let column = Panel::left("tools").resizable(false).exact_size(icons::SIDE_PT + 8.0);
         column.frame(bar.inner_margin(4)).show(ui, |ui| toolbar::column(ui, palette, &mut settings));
         let (width, height) = picture.size();
         let size = vec2(width as f32, height as f32);
         CentralPanel::default().frame(Frame::new().fill(palette.background)).show(ui, |ui| {
+            // The view before or after is no change of the settings.
+            let held = self.held_layer(ui, &settings);
+            let arrangement = settings.arrangement;
+            if let Some(layer) = held {
+                (settings.layer, settings.arrangement) = (layer, Arrangement::Single);
+            }
+            let chosen = before.layer;
             self.show_views(ui, cx, &mut settings, size);
+            if held.is_some() {
+                (settings.layer, settings.arrangement) = (chosen, arrangement);
+            }
         });
         if settings != cx.state.view.image {
             cx.send(ViewCommand::Image(settings));
         }
         cursor::send_settings(cx, debug);
+    }
+
+    /// The layer that is shown while the key C is held: the photograph in place of the layers shown, or the body reflection in
+    /// place of the photograph. None while the key is up, and while a text is edited.
+    fn held_layer(&mut self, ui: &Ui, settings: &ImageSettings) -> Option<Layer> {
+        let is_held = ui.input(|input| input.key_down(Key::C) && input.modifiers.is_none());
+        self.is_compared = is_held && !ui.ctx().text_edit_focused() && self.is_compared_or_pressed(ui);
+        let shows_photograph = settings.arrangement == Arrangement::Single && settings.layer == Layer::Input;
+        let other = if shows_photograph { Layer::Body } else { Layer::Input };
+        self.is_compared.then_some(other)
+    }
+
+    /// Whether the comparison goes on, or begins in this frame: keys that a dialog takes begin none.
+    fn is_compared_or_pressed(&self, ui: &Ui) -> bool {
+        self.is_compared || ui.input(|input| input.key_pressed(Key::C))
+    }
+
+    /// Shows the verdict on the result, or the sentence about the step at the debugger's cursor, which has the height of the
+    /// verdict, so that the picture does not move.
+    fn show_verdict(&mut self, ui: &mut Ui, cx: &mut PanelContext, debug: &mut DebugSettings, bar: Frame) {
+        let state = cx.state;
+        let Some(shown) = state.shown().filter(|_| !cx.is_export) else { return };
+        let frame = bar.inner_margin(Margin { left: 8, right: 8, top: 4, bottom: 2 });
+        let panel = Panel::bottom("verdict").frame(frame).resizable(false);
+        if state.debugger.stopped().is_none() {
+            let response = panel.show(ui, |ui| {
+                ui.set_min_height(20.0);
+                verdict_strip::show(ui, cx, shown);
+            });
+            // The height of a verdict that wraps is known from the next frame on.
+            let height = response.response.rect.height();
+            if (height - std::mem::replace(&mut self.verdict_height_pt, height)).abs() > 0.5 {
+                ui.ctx().request_repaint();
+            }
+            return;
+        }
+        // The line between the panels belongs to the height that was measured.
+        let height = self.verdict_height_pt.max(26.0) + 1.0;
+        panel.exact_size(height).show(ui, |ui| {
+            ui.set_min_height(height - 6.0);
+            cursor::beside_follow_button(ui, state, debug, |ui| match state.followed() {
+                Some(replay) => self.step_sentence.show(ui, cx, replay),
+                None => verdict_strip::show(ui, cx, shown),
+            });
+        });
     }
 
     /// Shows one or two views.
@@ -135,14 +199,24 @@ impl ImagePanel {
         let name = if slot == Slot::Layer { "Picture" } else { "Second picture" };
         let response = ui.interact(place.view, ui.scope_id().with(name), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
-        let wipe_x = self.show_wipe_handle(ui, settings, &place);
+        // The instant at the debugger's cursor takes the whole view.
+        let is_wiped = cx.state.followed().is_none();
+        let wipe_x = if is_wiped { self.show_wipe_handle(ui, settings, &place) } else { None };
         let layer = if slot == Slot::SecondLayer { settings.other } else { settings.layer };
         let layer = wipe_x.filter(|&x| pointer_is_right_of(ui, x)).map_or(layer, |_| settings.other);
         let context = PointerContext { response: &response, place, layer };
         self.tool_state.handle_pointer(ui, &context, cx, settings);
         navigate(ui, &response, &place, settings);
-        self.paint_view(ui, cx, &context, slot, wipe_x);
-        let pointer = response.hover_pos().filter(|_| response.contains_pointer());
+        self.paint_view(ui, cx, &context, settings, slot, wipe_x);
+        // A text over the picture does not hide the pixel below.
+        if response.secondary_clicked() {
+            let pointer = ui.ctx().pointer_latest_pos();
+            self.menu_pixel = pointer.and_then(|pointer| place.pixel_at(pointer));
+        }
+        if let Some(pixel) = self.menu_pixel {
+            response.context_menu(|ui| context_menu::of_pixel(ui, cx, pixel));
+        }
+        let pointer = ui.ctx().pointer_hover_pos().filter(|_| ui.rect_contains_pointer(place.view));
         pointer.and_then(|pointer| place.pixel_at(pointer))
     }
 
@@ -176,11 +250,11 @@ impl ImagePanel {
         ui: &Ui,
         cx: &PanelContext,
         context: &PointerContext,
+        settings: &ImageSettings,
         slot: Slot,
         wipe_x: Option<f32>,
     ) {
         let (place, state) = (&context.place, cx.state);
-        let settings = &state.view.image;
         let painter = ui.painter_at(place.view);
         let whole_view = if slot == Slot::SecondLayer { settings.other } else { settings.layer };
         let mut parts = vec![(whole_view, slot, place.view)];
@@ -224,7 +298,8 @@ impl ImagePanel {
         if let Some(x) = wipe_x {
             paint_wipe_line(&painter, cx, place.view, x);
         }
-        show_texts(ui, &painter, cx, &parts, instant.as_deref());
+        let shows_names = settings.arrangement != Arrangement::Single || self.is_compared;
+        show_texts(ui, &painter, cx, &parts, shows_names, instant.as_deref());
     }
 
     /// Paints the instant at the debugger's cursor over the photograph.
@@ -265,22 +340,22 @@ impl ImagePanel {
     }
 }
 
-/// Writes the names of two layers, the legends of their colors, and the warnings of the analysis.
+/// Writes the names of the layers (`shows_names`), the legends of their colors, and the warnings of the analysis.
 fn show_texts(
     ui: &Ui,
     painter: &egui::Painter,
     cx: &PanelContext,
     parts: &[(Layer, Slot, Rect)],
+    shows_names: bool,
     instant: Option<&Instant>,
 ) {
-    let has_two_layers = cx.state.view.image.arrangement != Arrangement::Single;
     for &(layer, slot, part) in parts {
         let painter = painter.with_clip_rect(part);
         if let Some(instant) = instant.filter(|_| slot == Slot::Layer) {
             cursor::show_texts(ui, &painter, cx.palette, part, cx.state, instant);
             continue;
         }
-        if has_two_layers {
+        if shows_names {
             let right = parts.len() == 2 && slot == Slot::SecondLayer;
             let (corner, align) = if right {
                 (part.right_top() + vec2(-6.0, 6.0), Align2::RIGHT_TOP)
@@ -289,13 +364,13 @@ fn show_texts(
             };
             overlay::text_box(&painter, cx.palette, corner, align, layer.name());
         }
-        overlay::layer_legend(&painter, cx.palette, part, layer);
+        overlay::layer_legend(&painter, cx.palette, part, layer, cx.state);
     }
     if instant.is_some() {
         return;
     }
     let view = painter.clip_rect();
-    let below = if has_two_layers { vec2(0.0, 22.0) } else { Vec2::ZERO };
+    let below = if shows_names { vec2(0.0, 22.0) } else { Vec2::ZERO };
     overlay::warnings(painter, cx.palette, view.translate(below), cx.state);
 }
 
@@ -367,14 +442,12 @@ fn paint_wipe_line(painter: &egui::Painter, cx: &PanelContext, view: Rect, x: f3
 }
 
 /// Shows, while no photograph is open, a hint or the progress of reading.
-fn nothing_open(ui: &mut Ui, cx: &PanelContext) {
+fn nothing_open(ui: &mut Ui, cx: &mut PanelContext) {
     match &cx.state.jobs.reading {
         Some(job) if job.since.elapsed() >= PROGRESS_DELAY => {
             widgets::placeholder(ui, cx.palette, "Reading the photograph\u{2026}");
         }
         Some(job) => ui.ctx().request_repaint_after(PROGRESS_DELAY.saturating_sub(job.since.elapsed())),
-        None => {
-            widgets::placeholder(ui, cx.palette, "Open a photograph: Ctrl+O, drop a file here, or paste");
-        }
+        None => start::show(ui, cx),
     }
 }

@@ -1,11 +1,13 @@
 //! The menu bar: every action by its name, and the status line.
 
 use super::action::{Action, DebugAction};
-use super::dock::{Dock, Pane};
+use super::dock::Dock;
 use super::files::{Dialog, Dialogs};
 use super::move_cursor::{move_cursor, selected_goal};
+use super::pane::Pane;
 use super::shortcuts::keys_of;
 use super::typed_path::unique_names;
+use super::widgets::capitalized;
 use super::{PanelContext, perform, status};
 use crate::app::{Edit, JobCommand, Severity, StepUnit, ViewCommand, analyze_call};
 use crate::params::{Method, Preset};
@@ -23,6 +25,9 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock, dialogs: &mut D
         ui.menu_button("Analyze", |ui| analyze(ui, cx, dialogs));
         ui.menu_button("Decisions", |ui| decisions(ui, cx));
         ui.menu_button("Help", |ui| {
+            if item(ui, "All commands\u{2026}", Action::Palette, true) {
+                cx.act(Action::Palette);
+            }
             if item(ui, "Keyboard and pointer", Action::Help, true) {
                 *help = true;
             }
@@ -201,12 +206,6 @@ fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
     row(ui, "Breakpoint before", DebugAction::Breakpoint(Back), traced && any_breakpoint);
     row(ui, "Next change of what is selected", DebugAction::Change(Forward), goal);
     row(ui, "Change before, of what is selected", DebugAction::Change(Back), goal);
-}
-
-/// A word with a capital first letter.
-fn capitalized(word: &str) -> String {
-    let mut letters = word.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// The menu of methods, presets, parameter files and pinning.

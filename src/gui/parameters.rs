@@ -9,7 +9,7 @@ use crate::params::{
 use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Sense, Slider, Ui, vec2};
 
 /// Width of the labels' column, points.
-const LABEL_PT: f32 = 100.0;
+const LABEL_PT: f32 = 108.0;
 /// Width of the field of a value, points.
 const VALUE_PT: f32 = 46.0;
 /// Width of a value's unit, points.
@@ -19,11 +19,11 @@ const AUTO_PT: f32 = 38.0;
 /// Height of a row, points.
 const ROW_PT: f32 = 20.0;
 /// Width below which a panel is narrow, points.
-const NARROW_PT: f32 = 272.0;
+const NARROW_PT: f32 = 284.0;
 /// Width below which a row has two lines, points.
-const STACKED_PT: f32 = 248.0;
+const STACKED_PT: f32 = 260.0;
 /// Width of the labels' column in a narrow panel, points.
-const NARROW_LABEL_PT: f32 = 78.0;
+const NARROW_LABEL_PT: f32 = 90.0;
 /// Distance between two columns, points.
 const GAP_PT: f32 = 4.0;
 
@@ -76,7 +76,7 @@ fn label(ui: &mut Ui, text: &str, tip: &str) -> egui::Response {
     let layout = Layout::left_to_right(Align::Center);
     ui.allocate_ui_with_layout(size, layout, |ui| {
         ui.set_min_width(LABEL_PT);
-        ui.add(egui::Label::new(text).truncate())
+        ui.add(egui::Label::new(text).truncate().show_tooltip_when_elided(false))
     })
     .inner
     .on_hover_text(tip)
@@ -167,7 +167,14 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
     ui.scope(|ui| {
         // The button `auto` is as narrow as its cell and stays in one line.
         ui.spacing_mut().button_padding.x = 4.0;
-        let name = egui::Label::new(spec.title).truncate().selectable(false).sense(Sense::click());
+        let color = ui.visuals().text_color();
+        let size = if columns.label.0.width() < LABEL_PT { SMALL_PT } else { super::theme::BODY_PT };
+        let title = widgets::with_subscripts(spec.title, size, color);
+        let name = egui::Label::new(title)
+            .truncate()
+            .show_tooltip_when_elided(false)
+            .selectable(false)
+            .sense(Sense::click());
         let name = columns.label.show(ui, name).on_hover_text(&tip);
         ui.spacing_mut().slider_width = columns.slider.0.width();
         let slider = slider(&spec, &mut value);
@@ -182,7 +189,7 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
             });
         }
         field.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, spec.name));
-        let unit = RichText::new(spec.unit).size(SMALL_PT).color(cx.palette.secondary);
+        let unit = widgets::with_subscripts(spec.unit, SMALL_PT, cx.palette.secondary);
         if columns.unit.0.width() > 0.0 {
             columns.unit.show(ui, egui::Label::new(unit).truncate());
         }

@@ -11,13 +11,14 @@ use crate::view::{Item, Tool};
 pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dialogs, help: &mut bool) {
     match action {
         Action::Open => dialogs.open(files::Dialog::Open),
+        Action::OpenWorkspace => dialogs.open(files::Dialog::OpenWorkspace),
         Action::Export => dialogs.open(files::Dialog::Export),
         Action::Save => match cx.state.workspace_path.clone() {
             Some(path) => cx.send(JobCommand::Export(ExportKind::Workspace.to(path))),
             None => dialogs.open(files::Dialog::SaveWorkspace),
         },
-        // The window closes itself: an action has no window.
-        Action::Quit => {}
+        // The window closes itself and arranges its panels: an action has no window.
+        Action::Quit | Action::Show(_) | Action::ShowAll | Action::Palette => {}
         Action::Help => *help = !*help,
         Action::Undo => cx.send(Edit::Undo),
         Action::Redo => cx.send(Edit::Redo),

@@ -9,14 +9,19 @@ use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::app::{Edit, ViewCommand};
 use crate::raster::RegionId;
-use crate::view::{Item, Picture, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, region_plane};
-use chart::Chart;
-use egui::{Align2, Color32, FontId, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
+use crate::view::{
+    Item, Picture, PixelAmounts, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, region_plane,
+};
+use chart::{Chart, Obstacles, PointDensity};
+use egui::{Align2, Color32, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
 use std::sync::Arc;
 
 /// Largest distance from the pointer at which a point counts as hovered, screen points.
 const HOVER_RADIUS_PT: f32 = 8.0;
+/// Radius of the ring around the hovered color, points.
 const RING_PT: f32 = 6.0;
+/// Width and height of the area kept for the amounts of the hovered color, points.
+const HOVERED_TEXT_PT: egui::Vec2 = vec2(300.0, 30.0);
 /// Scroll distance that zooms by the factor e, points.
 const SCROLL_PT: f32 = 260.0;
 
@@ -38,6 +43,8 @@ pub struct PlanePanel {
 struct PointMesh {
     inputs: (Chart, Rect, bool, Theme),
     mesh: Arc<egui::Mesh>,
+    /// Where the points lie, for labels that keep away from points.
+    density: PointDensity,
 }
 
 impl PlanePanel {
@@ -47,12 +54,11 @@ impl PlanePanel {
         if let Some(replay) = state.followed() {
             return match cursor::plane_instant(state) {
                 Some(frame) => self.show_instant(ui, cx, replay, frame),
-                None => widgets::placeholder(ui, cx.palette, "At the cursor no region is at work."),
+                None => widgets::placeholder(ui, cx.palette, "The step at the cursor concerns no region."),
             };
         }
         let Some((shown, region)) = cx.state.shown().cloned().zip(cx.state.selected_region()) else {
-            widgets::placeholder(ui, cx.palette, "Select a region to see its dichromatic plane.");
-            return;
+            return nothing_selected(ui, cx);
         };
         self.update(&shown, region);
         let Some(plane) = &self.plane else {
@@ -80,12 +86,16 @@ impl PlanePanel {
         let chart = navigate(ui, &response, plane, moved, rect, &mut self.is_moved);
         self.chart = Some(chart);
         let painter = ui.painter_at(rect);
-        chart.axes(&painter, plane, rect, cx.palette);
+        let numbers = chart.axes(&painter, plane, rect, cx.palette);
         let mesh = point_mesh(&mut self.point_mesh, cx, plane, chart, rect);
         painter.add(Shape::Mesh(mesh));
-        chart.skewed_t(ui, &response, plane, rect, cx.palette);
-        paint_facts(&painter, cx, plane, &shown, rect);
-        paint_hovered(&painter, cx, plane, chart, &shown.picture, rect);
+        let facts = paint_facts(&painter, cx, plane, &shown, rect);
+        let amounts = paint_hovered(&painter, cx, plane, chart, &shown.picture, rect);
+        let density = PointDensity::default();
+        let points = self.point_mesh.as_ref().map_or(&density, |point_mesh| &point_mesh.density);
+        let obstacles =
+            Obstacles { points, taken: facts.into_iter().chain([amounts]).chain(numbers).collect() };
+        chart.skewed_t(ui, &response, plane, rect, cx.palette, &obstacles);
         self.handle_pointer(cx, &response, chart, rect);
     }
 
@@ -125,6 +135,19 @@ impl PlanePanel {
     }
 }
 
+/// Shows, while no region is selected, a sentence and the button that selects the largest region.
+fn nothing_selected(ui: &mut Ui, cx: &mut PanelContext) {
+    let text = "Select a region to see its dichromatic plane.";
+    let regions = cx.state.shown().map(|shown| &shown.analysis.intrinsic.regions);
+    let largest = regions.and_then(|regions| regions.iter().rev().max_by_key(|region| region.pixels));
+    let button = largest.map(|_| "Select the largest region");
+    if widgets::placeholder_with_button(ui, cx.palette, text, button)
+        && let Some(largest) = largest
+    {
+        cx.send(Edit::Select(Some(Item::Region(largest.id))));
+    }
+}
+
 /// The chart after this frame's input: a drag pans, the wheel zooms at the pointer, a double click fits the plane. `chart` is the
 /// chart that a person moved; without such a chart, the plane is fitted into the view. `is_moved` is whether a person has
 /// moved the chart.
@@ -161,7 +184,7 @@ fn point_mesh(
     if let Some(point_mesh) = cached.as_ref().filter(|point_mesh| point_mesh.inputs == inputs) {
         return Arc::clone(&point_mesh.mesh);
     }
-    let mut mesh = egui::Mesh::default();
+    let (mut mesh, mut density) = (egui::Mesh::default(), PointDensity::new(rect));
     mesh.reserve_vertices(4 * plane.points.len());
     mesh.reserve_triangles(2 * plane.points.len());
     for point in &plane.points {
@@ -174,23 +197,25 @@ fn point_mesh(
             };
             let side = 1.7 + 0.5 * (point.count as f32).ln();
             mesh.add_colored_rect(Rect::from_center_size(at, vec2(side, side)), color);
+            density.add(at);
         }
     }
     let mesh = Arc::new(mesh);
-    *cached = Some(PointMesh { inputs, mesh: Arc::clone(&mesh) });
+    *cached = Some(PointMesh { inputs, mesh: Arc::clone(&mesh), density });
     mesh
 }
 
-/// Writes angle, slice width and noise into the upper left corner, or why the region has no plane.
+/// Writes angle, slice width and noise into the upper left corner, or why the region has no plane. Returns the rectangle of the
+/// text.
 fn paint_facts(
     painter: &egui::Painter,
     cx: &PanelContext,
     plane: &RegionPlane,
     shown: &ResultSnapshot,
     rect: Rect,
-) {
+) -> Option<Rect> {
     let regions = &shown.analysis.intrinsic.regions;
-    let Some(region) = plane.region.and_then(|region| regions.get(region.index())) else { return };
+    let region = plane.region.and_then(|region| regions.get(region.index()))?;
     let rms = region.fit_rms_counts;
     let text = if plane.has_plane {
         let (angle, slice) = (plane.angle_deg, plane.slice_half_width);
@@ -209,7 +234,26 @@ fn paint_facts(
         )
     };
     let corner = rect.left_top() + vec2(8.0, 4.0);
-    painter.text(corner, Align2::LEFT_TOP, text, FontId::proportional(SMALL_PT), cx.palette.secondary);
+    Some(paint_text(painter, cx, corner, Align2::LEFT_TOP, &text, cx.palette.secondary))
+}
+
+/// Writes a text with subscripts and a background, so that it is readable over lines; returns its rectangle.
+fn paint_text(
+    painter: &egui::Painter,
+    cx: &PanelContext,
+    at: egui::Pos2,
+    anchor: Align2,
+    text: &str,
+    color: Color32,
+) -> Rect {
+    let mut job = widgets::with_subscripts(text, SMALL_PT, color);
+    job.halign = anchor.x();
+    let galley = painter.layout_job(job);
+    let place = anchor.anchor_size(at, galley.size());
+    painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, cx.palette.panel.gamma_multiply(0.75));
+    let corner = if anchor.x() == egui::Align::RIGHT { place.right_top() } else { place.left_top() };
+    painter.galley(corner, galley, color);
+    place
 }
 
 /// A line of text that lists the highlights on different shades (section 7.4); empty for fewer than two.
@@ -221,7 +265,9 @@ fn several_highlights(branches: &[PlaneBranch]) -> String {
     format!("\n{} highlight lines from m_b {}", shades.len(), shades.join(", "))
 }
 
-/// Paints a ring around the color that is hovered in any panel, and writes its amounts of body, surface and noise.
+/// Paints a ring around the color that is hovered in any panel, and writes its amounts of body, surface and noise: as measured,
+/// and in the result where the result differs. Returns the rectangle that is kept for this text, also without a hovered color, so
+/// that no label moves when the pointer does.
 fn paint_hovered(
     painter: &egui::Painter,
     cx: &PanelContext,
@@ -229,13 +275,16 @@ fn paint_hovered(
     chart: Chart,
     picture: &Picture,
     rect: Rect,
-) {
+) -> Rect {
+    let corner = rect.right_top() + vec2(-8.0, 4.0);
+    let kept =
+        Rect::from_min_max(corner - vec2(HOVERED_TEXT_PT.x, 0.0), corner + vec2(0.0, HOVERED_TEXT_PT.y));
     let color: Option<Point> = match cx.state.hover {
         Some(Item::Pixel(pixel)) => picture.photo.image.pixels.as_slice().get(pixel.index()).copied(),
         Some(Item::Bin(bin)) => picture.histogram.bins.get(bin as usize).map(|bin| bin.mean),
         _ => None,
     };
-    let Some(amounts) = color.map(|color| plane.amounts(color)) else { return };
+    let Some(amounts) = color.map(|color| plane.amounts(color)) else { return kept };
     let at = chart.screen(plane.oblique(amounts.body, amounts.surface), rect);
     let elsewhere = |item| matches!(item, Item::Pixel(_)) && cx.state.region_of(item) != plane.region;
     let inside = !cx.state.hover.is_some_and(elsewhere);
@@ -243,11 +292,22 @@ fn paint_hovered(
     painter.circle_stroke(at, RING_PT, Stroke::new(3.5, Color32::from_black_alpha(140)));
     painter.circle_stroke(at, RING_PT, Stroke::new(1.6, color));
     let other = if inside { "" } else { "   not in this region" };
-    let [body, surface, noise] =
-        [amounts.body, amounts.surface, amounts.noise].map(|v| format!("{v:.1}").replace('-', "\u{2212}"));
-    let text = format!("measured  m_b {body}   m_s {surface}   \u{3b5} {noise}{other}");
-    let corner = rect.right_top() + vec2(-8.0, 4.0);
-    painter.text(corner, Align2::RIGHT_TOP, text, FontId::proportional(SMALL_PT), cx.palette.text);
+    let counts = |v: f32| widgets::signed(f64::from(v), 1);
+    let [body, surface, noise] = [amounts.body, amounts.surface, amounts.noise].map(counts);
+    let mut text = format!("measured  m_b {body}   m_s {surface}   \u{3b5} {noise}{other}");
+    let in_result = match (cx.state.hover, cx.state.shown()) {
+        (Some(Item::Pixel(pixel)), Some(shown)) if inside && cx.state.followed().is_none() => {
+            PixelAmounts::of(shown, pixel).filter(|amounts| amounts.different_measured().is_some())
+        }
+        _ => None,
+    };
+    if let Some(PixelAmounts { result, .. }) = in_result {
+        let surface = result.surface.map_or_else(|| "\u{2013}".to_owned(), counts);
+        let body = counts(result.body);
+        text += &format!("\nin the result, after the cut at noise  m_b {body}   m_s {surface}");
+    }
+    paint_text(painter, cx, corner, Align2::RIGHT_TOP, &text, cx.palette.text);
+    kept
 }
 
 /// Small text in the secondary color.

@@ -3,18 +3,16 @@
 mod hypothesis_table;
 
 use super::theme::{SMALL_PT, ThemeColors};
-use super::{PanelContext, widgets};
+use super::{PanelContext, context_menu, widgets};
 use crate::app::{Edit, ViewCommand};
 use crate::intrinsic::{HighlightBranch, RegionReflection};
 use crate::segment::{Illuminant, LightBasis, LightFindings, TEXTURE_CORRELATION};
-use crate::view::{Item, ResultSnapshot, regions_text};
+use crate::view::{Item, ResultSnapshot, WIDE_INTERVAL_DEG, regions_text};
 use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 
-/// Free width from which the accuracy is shown beside the light, points.
-const ACCURACY_PT: f32 = 290.0;
-/// Half the interval of the light's direction from which the light counts as uncertain, degrees.
-const WIDE_INTERVAL_DEG: f64 = 10.0;
+/// Width of the button "Copy" with its margin, points.
+const COPY_PT: f32 = 56.0;
 /// Angle between a given light and the light found in the picture from which the given light counts as far away, degrees.
 const FAR_LIGHT_DEG: f64 = 10.0;
 /// Height of a row, points.
@@ -71,6 +69,20 @@ const COLUMNS: [(SortKey, &str, f32, &str); 8] = [
     (SortKey::Warnings, "notes", 150.0, "What to beware of in this region."),
 ];
 
+/// Width of a column that shows a vector by its color alone, points.
+const CHIP_COLUMN_PT: f32 = 30.0;
+
+/// Whether a column holds vectors.
+const fn is_vector(key: SortKey) -> bool {
+    matches!(key, SortKey::Body | SortKey::Surface)
+}
+
+/// Width of the panel from which a column of vectors shows numbers, points: the surface vectors, which are all alike, lose their
+/// numbers first.
+const fn width_with_numbers_of(key: SortKey) -> f32 {
+    if matches!(key, SortKey::Surface) { 690.0 } else { 520.0 }
+}
+
 /// The regions panel.
 #[derive(Default)]
 pub struct RegionsPanel {
@@ -104,16 +116,24 @@ impl RegionsPanel {
         });
     }
 
-    /// Shows the table of the regions.
+    /// Shows the table of the regions. Where the panel is narrow, vectors are shown by their colors alone, so that the notes
+    /// have room.
     fn table(&mut self, ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
         ui.spacing_mut().item_spacing = egui::vec2(6.0, 1.0);
         let selected = cx.state.selected_region();
         let order = self.order(&shown.analysis.intrinsic.regions);
         let mut hovered = None;
+        let ui_width = ui.available_width();
         // The cells take no keyboard focus: each would be a stop of Tab. The keys [ and ] select regions.
         let mut table = TableBuilder::new(ui).striped(false).sense(Sense::CLICK).resizable(false);
+        let shows_numbers = |key: SortKey| ui_width >= width_with_numbers_of(key);
         for (key, _, width, _) in COLUMNS {
             let last = key == SortKey::Warnings;
+            let width = match key {
+                SortKey::Body | SortKey::Surface if !shows_numbers(key) => CHIP_COLUMN_PT,
+                SortKey::Warnings if !shows_numbers(SortKey::Surface) => 110.0,
+                _ => width,
+            };
             table =
                 table.column(if last { Column::remainder().at_least(width) } else { Column::exact(width) });
         }
@@ -123,18 +143,23 @@ impl RegionsPanel {
         table
             .header(ROW_PT, |mut header| {
                 for (key, title, _, tip) in COLUMNS {
-                    header.col(|ui| self.heading(ui, cx.palette, key, title, tip));
+                    // Of "body C_b", a narrow column shows the symbol.
+                    let symbol = title.rsplit(' ').next().unwrap_or(title);
+                    let shown_title = if is_vector(key) && !shows_numbers(key) { symbol } else { title };
+                    header.col(|ui| self.heading(ui, cx.palette, key, shown_title, tip));
                 }
             })
             .body(|body| {
                 body.rows(ROW_PT, order.len(), |mut row| {
                     let region = &shown.analysis.intrinsic.regions[order[row.index()]];
                     row.set_selected(selected == Some(region.id));
-                    cells(&mut row, cx.palette, region, shown);
+                    let vectors = [SortKey::Body, SortKey::Surface].map(shows_numbers);
+                    cells(&mut row, cx.palette, region, shown, vectors);
                     let response = row.response();
                     if response.hovered() {
                         hovered = Some(Item::Region(region.id));
                     }
+                    response.context_menu(|ui| context_menu::of_region(ui, cx, region.id));
                     if response.clicked() {
                         let chosen = (selected != Some(region.id)).then_some(Item::Region(region.id));
                         cx.send(Edit::Select(chosen));
@@ -196,12 +221,20 @@ fn layout_of(key: SortKey) -> Layout {
 }
 
 /// Shows the cells of a row.
-fn cells(row: &mut TableRow, palette: &ThemeColors, region: &RegionReflection, shown: &ResultSnapshot) {
+///
+/// `shows_numbers`: whether body and surface reflection vector are shown with their numbers.
+fn cells(
+    row: &mut TableRow,
+    palette: &ThemeColors,
+    region: &RegionReflection,
+    shown: &ResultSnapshot,
+    shows_numbers: [bool; 2],
+) {
     let dash = || RichText::new("\u{2013}").color(palette.secondary);
     let plain = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).selectable(false));
     cell(row, |ui| {
         let color = shown.region_colors.get(region.id.index()).copied().unwrap_or([128; 3]);
-        widgets::chip(ui, widgets::color(color), &format!("color of region {}", region.id));
+        widgets::chip(ui, palette, widgets::color(color), &format!("color of region {}", region.id));
         plain(ui, RichText::new(region.id.to_string()));
     });
     let number = |row: &mut TableRow, text: RichText| {
@@ -210,8 +243,8 @@ fn cells(row: &mut TableRow, palette: &ThemeColors, region: &RegionReflection, s
         });
     };
     number(row, RichText::new(widgets::grouped(region.pixels)));
-    cell(row, |ui| vector(ui, palette, Some(region.body)));
-    cell(row, |ui| vector(ui, palette, region.surface));
+    cell(row, |ui| vector(ui, palette, "body color", Some(region.body), shows_numbers[0]));
+    cell(row, |ui| vector(ui, palette, "color of the light on it", region.surface, shows_numbers[1]));
     number(row, region.angle_deg.map_or_else(dash, |angle| RichText::new(format!("{angle:.1}\u{b0}"))));
     let highlight = (region.highlight_pixels > 0).then(|| widgets::grouped(region.highlight_pixels));
     row.col(|ui| {
@@ -246,7 +279,9 @@ fn cells(row: &mut TableRow, palette: &ThemeColors, region: &RegionReflection, s
         if let Some(first) = region.warnings.first() {
             let more = region.warnings.len() - 1;
             let text = if more > 0 { format!("{first} (+{more})") } else { first.clone() };
-            let label = Label::new(RichText::new(text).size(SMALL_PT).color(palette.secondary)).truncate();
+            let label = Label::new(RichText::new(text).size(SMALL_PT).color(palette.secondary))
+                .truncate()
+                .show_tooltip_when_elided(false);
             ui.add(label.selectable(false)).on_hover_text(region.warnings.join(
                 "
 ",
@@ -272,15 +307,18 @@ fn cell(row: &mut TableRow, contents: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// Shows a square of a unit vector's color, then its three components in aligned columns.
-fn vector(ui: &mut Ui, palette: &ThemeColors, vector: Option<[f64; 3]>) {
+/// Shows a square of a unit vector's color, called `name`, then its three components in aligned columns; without numbers, the
+/// square's tooltip has the components.
+fn vector(ui: &mut Ui, palette: &ThemeColors, name: &str, vector: Option<[f64; 3]>, shows_numbers: bool) {
     ui.spacing_mut().item_spacing.x = 4.0;
     let Some(vector) = vector else {
         ui.label(RichText::new("\u{2013}").color(palette.secondary));
         return;
     };
-    widgets::chip(ui, brightest_color(vector), "its color");
-    for value in vector {
+    let [r, g, b] = vector;
+    let tip = format!("{}: {r:.3} {g:.3} {b:.3}", widgets::capitalized(name));
+    widgets::chip(ui, palette, brightest_color(vector), name).on_hover_text(tip);
+    for value in vector.into_iter().filter(|_| shows_numbers) {
         ui.add(Label::new(RichText::new(format!("{value:.2}").replace("0.", "."))).selectable(false));
     }
 }
@@ -295,13 +333,20 @@ fn brightest_color(direction: [f64; 3]) -> Color32 {
 /// Shows the light's color, what it was estimated from, and the accuracy against the ground truth.
 fn light(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
     let findings = &shown.analysis.finals.light;
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 6.0;
+    let copy = |ui: &mut Ui| {
+        if ui.small_button("Copy").on_hover_text("The table as text, separated by tabs.").clicked() {
+            ui.ctx().copy_text(regions_text(shown));
+        }
+    };
+    let contents = |ui: &mut Ui| {
+        ui.spacing_mut().item_spacing = egui::vec2(6.0, 2.0);
+        // A text that does not fit begins another line.
+        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
         let tip =
             "The color of the light: where the dichromatic planes of all objects intersect (section 5.4).";
         ui.label(RichText::new("light").color(cx.palette.secondary)).on_hover_text(tip);
         if let Some(light) = &shown.analysis.illuminant {
-            vector(ui, cx.palette, Some(light.direction));
+            vector(ui, cx.palette, "color of the light", Some(light.direction), true);
             let is_wide = findings.interval_deg.is_some_and(|degrees| degrees >= WIDE_INTERVAL_DEG);
             let tone = if is_wide { cx.palette.warning } else { cx.palette.secondary };
             let from = RichText::new(basis_text(light, findings)).size(SMALL_PT).color(tone);
@@ -309,19 +354,15 @@ fn light(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
             distance_from_found(ui, cx, light, findings);
         } else {
             let text = format!("unknown: {}", findings.reason());
-            ui.add(Label::new(&text).truncate()).on_hover_text(text);
+            ui.add(Label::new(&text).truncate().show_tooltip_when_elided(false)).on_hover_text(text);
         }
         ambient(ui, cx, shown);
-        // The rest of the row is for the button "Copy".
-        if ui.available_width() > ACCURACY_PT {
-            accuracy(ui, cx, shown);
-        }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let copy = ui.small_button("Copy").on_hover_text("The table as text, separated by tabs.");
-            if copy.clicked() {
-                ui.ctx().copy_text(regions_text(shown));
-            }
-        });
+        accuracy(ui, cx, shown);
+    };
+    ui.horizontal_top(|ui| {
+        let room = (ui.available_width() - COPY_PT).max(80.0);
+        ui.allocate_ui(egui::vec2(room, ui.spacing().interact_size.y), |ui| ui.horizontal_wrapped(contents));
+        ui.with_layout(Layout::right_to_left(Align::Min), copy);
     });
 }
 
@@ -364,7 +405,7 @@ fn sorted_by(ui: &mut Ui, palette: &ThemeColors, descending: Option<bool>, title
         Some(true) => " \u{2193}",
     };
     let tone = if descending.is_some() { palette.text } else { palette.secondary };
-    let text = RichText::new(format!("{title}{arrow}")).size(SMALL_PT).color(tone);
+    let text = widgets::with_subscripts(&format!("{title}{arrow}"), SMALL_PT, tone);
     ui.add(Button::new(text).frame(false)).on_hover_text(tip).clicked()
 }
 
@@ -386,7 +427,6 @@ fn accuracy(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
         ui.label(RichText::new(name).size(SMALL_PT).color(cx.palette.secondary)).on_hover_text(tip);
         ui.label(value).on_hover_text(tip);
     };
-    ui.separator();
     if shown.analysis.illuminant.is_some() {
         let tip = "Angle between the light found and the scene's true light.";
         fact(ui, "off by", format!("{:.2}\u{b0}", scores.illum_deg), tip);

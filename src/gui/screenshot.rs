@@ -1,8 +1,8 @@
 //! `dichroscope screenshot`: a gallery of pictures of the window, drawn without a window.
 
-use super::dock::Pane;
 use super::offscreen::OffscreenError;
 use super::offscreen_app::OffscreenApp;
+use super::pane::Pane;
 use crate::app::{Command, DebugCommand, Edit, JobCommand, Question, Severity, State, ViewCommand};
 use crate::export::{PartFile, png_of_rgba};
 use crate::raster::{PixelIndex, RegionId};

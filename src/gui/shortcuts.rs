@@ -35,6 +35,11 @@ fn all_shortcuts() -> impl Iterator<Item = &'static Shortcut> {
     GENERAL.iter().chain(debug::KEYS)
 }
 
+/// The group, the description and the action of each key.
+pub fn named_actions() -> impl Iterator<Item = (&'static str, &'static str, Action)> {
+    all_shortcuts().map(|shortcut| (shortcut.group, shortcut.description, shortcut.action))
+}
+
 /// The keys that are not the debugger's. Those with more modifiers come first: egui lets `Ctrl+Shift+Z` pass for `Ctrl+Z`.
 const GENERAL: &[Shortcut] = &[
     Shortcut::new("Edit", SHIFT_COMMAND, Key::Z, Action::Redo, "Redo"),
@@ -69,8 +74,9 @@ const GENERAL: &[Shortcut] = &[
     key_alone("Tools", Key::B, Action::Tool(Tool::Brush), "Brush"),
     key_alone("Tools", Key::P, Action::Tool(Tool::Profile), "Profile line"),
     key_alone("Tools", Key::W, Action::Tool(Tool::WhitePatch), "White patch: pin the light's color"),
-    key_alone("Compare", Key::K, Action::Pin, "Pin the result, or let it go"),
+    key_alone("Compare", Key::K, Action::Pin, "Pin the result, or unpin it"),
     key_alone("Compare", Key::A, Action::Swap, "A/B: pinned or newest result"),
+    key_with_command("Window", Key::P, Action::Palette, "All commands by name"),
     key_alone("Window", Key::T, Action::Theme, "Light or dark"),
     key_alone("Window", Key::Questionmark, Action::Help, "This list"),
     key_alone("Window", Key::F1, Action::Help, "This list"),
@@ -91,6 +97,7 @@ const POINTER_HELP: &[(&str, &str)] = &[
     ("Shift + click on the timeline", "run there, or to a breakpoint on the way"),
     ("Shift + mark", "add to what is marked"),
     ("Alt + mark", "take away from what is marked"),
+    ("C, held", "the photograph in place of the layers, or the body in place of the photograph"),
     ("Arrow keys on a slider", "one step"),
     ("Arrow keys, + \u{2212} on the cube", "orbit, zoom"),
     ("X Y U D S E M on the cube", "named views, see its menu"),

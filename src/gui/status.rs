@@ -18,7 +18,8 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
         progress(ui, cx);
         for StatusPart { text, is_bad } in parts(cx).into_iter().rev() {
             let color = if is_bad { cx.palette.warning } else { cx.palette.secondary };
-            ui.add(egui::Label::new(RichText::new(text).size(SMALL_PT).color(color)).truncate());
+            let text = super::widgets::with_subscripts(&text, SMALL_PT, color);
+            ui.add(egui::Label::new(text).truncate());
         }
     });
 }
@@ -67,9 +68,14 @@ fn regions_and_coverage(regions: usize, misfits: usize, coverage: f64) -> String
     format!("{regions} region{s}{misfits}, {:.1} %", 100.0 * coverage)
 }
 
-/// A duration of `ms` milliseconds: in seconds from one second on.
+/// A duration of `ms` milliseconds with two or three digits: in seconds from one second on.
 fn duration_text(ms: f64) -> String {
-    if ms >= 1000.0 { format!("{:.1} s", ms / 1000.0) } else { format!("{ms:.1} ms") }
+    match ms {
+        10_000.0.. => format!("{:.0} s", ms / 1000.0),
+        1000.0.. => format!("{:.1} s", ms / 1000.0),
+        100.0.. => format!("{ms:.0} ms"),
+        _ => format!("{ms:.1} ms"),
+    }
 }
 
 /// Shows the progress of work that takes longer than `PROGRESS_DELAY`.
@@ -111,6 +117,7 @@ mod tests {
         assert_eq!(regions_and_coverage(7, 6, 0.991), "7 regions, 6 do not fit, 99.1 %");
         assert_eq!(regions_and_coverage(7, 1, 1.0), "7 regions, 1 does not fit, 100.0 %");
         assert_eq!(regions_and_coverage(1, 0, 0.5), "1 region, 50.0 %");
-        assert_eq!([duration_text(47434.9), duration_text(32.71)], ["47.4 s", "32.7 ms"]);
+        let texts = [47434.9, 1234.0, 171.2, 32.71].map(duration_text);
+        assert_eq!(texts, ["47 s", "1.2 s", "171 ms", "32.7 ms"]);
     }
 }

@@ -1,9 +1,10 @@
-//! The look of the window: neutral grays, so that colors in images are not misjudged, one accent color, two font sizes.
+//! The look of the window: neutral grays, so that colors in images are not misjudged, one accent color, three font sizes.
 
 use crate::view::Theme;
 use egui::epaint::text::{FontInsert, FontPriority, InsertFontFamily};
 use egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, Style, TextStyle, Visuals, vec2};
 use std::path::Path;
+use std::sync::Arc;
 
 /// The colors of a theme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,11 +38,11 @@ impl ThemeColors {
                 panel: Color32::from_rgb(0x1F, 0x20, 0x22),
                 well: Color32::from_rgb(0x2A, 0x2B, 0x2E),
                 line: Color32::from_rgb(0x30, 0x32, 0x36),
-                text: Color32::from_rgb(0xD6, 0xD8, 0xDC),
-                secondary: Color32::from_rgb(0x8C, 0x90, 0x96),
+                text: Color32::from_rgb(0xE2, 0xE4, 0xE8),
+                secondary: Color32::from_rgb(0xA4, 0xA8, 0xAE),
                 accent: Color32::from_rgb(0xE8, 0xA3, 0x3D),
                 warning: Color32::from_rgb(0xFF, 0x8A, 0x65),
-                error: Color32::from_rgb(0xF0, 0x6A, 0x5E),
+                error: Color32::from_rgb(0xFF, 0x86, 0x7C),
             },
             Theme::Light => Self {
                 background: Color32::from_rgb(0xDC, 0xDC, 0xDC),
@@ -49,19 +50,41 @@ impl ThemeColors {
                 well: Color32::from_rgb(0xE2, 0xE2, 0xE2),
                 line: Color32::from_rgb(0xC4, 0xC4, 0xC6),
                 text: Color32::from_rgb(0x1E, 0x1F, 0x22),
-                secondary: Color32::from_rgb(0x60, 0x63, 0x68),
-                accent: Color32::from_rgb(0xA8, 0x62, 0x00),
-                warning: Color32::from_rgb(0xB4, 0x3C, 0x00),
-                error: Color32::from_rgb(0xB8, 0x2A, 0x1E),
+                secondary: Color32::from_rgb(0x56, 0x59, 0x5E),
+                accent: Color32::from_rgb(0x82, 0x4B, 0x00),
+                warning: Color32::from_rgb(0x9E, 0x34, 0x00),
+                error: Color32::from_rgb(0xA6, 0x20, 0x16),
             },
         }
     }
 }
 
+/// Opacity of the accent color behind what is selected: a row, a pressed button, the area of selected text.
+const SELECTED_OPACITY: f32 = 0.2;
+
 /// Font size in panels, points.
-pub const BODY_PT: f32 = 12.5;
-/// Font size of headers and notes, points.
-pub const SMALL_PT: f32 = 11.0;
+pub const BODY_PT: f32 = 13.0;
+/// Font size of notes, ticks and tables, points.
+pub const SMALL_PT: f32 = 11.5;
+/// Font size of the titles of dialogs and of the start screen, points.
+pub const TITLE_PT: f32 = 15.0;
+
+/// The semibold font of headings.
+pub fn heading_font(size: f32) -> FontId {
+    FontId::new(size, FontFamily::Name(SEMIBOLD.into()))
+}
+
+/// The font of subscripts: letters and digits of the interface's font, smaller and below the line. An underscore has no width.
+pub fn subscript_font(size: f32) -> FontId {
+    FontId::new(size, FontFamily::Name(SUBSCRIPT.into()))
+}
+
+/// Name of the interface's font: Inter with tabular figures, reduced to Latin, Greek, Cyrillic and signs.
+const REGULAR: &str = "Inter";
+/// Name of the font of headings.
+const SEMIBOLD: &str = "Inter SemiBold";
+/// Name of the font of subscripts.
+const SUBSCRIPT: &str = "Inter Subscript";
 
 /// Files with fonts for scripts that the bundled fonts lack, on Linux, macOS and Windows. The first of each group that exists is
 /// loaded.
@@ -106,12 +129,25 @@ pub fn load_further_fonts(ctx: &egui::Context) {
     }
 }
 
-/// Loads the bundled fonts. Arrows and mathematical signs, which the proportional font lacks, come from
-/// the monospaced font.
+/// Loads the bundled fonts. Signs that the interface's font lacks come from egui's own fonts.
 pub fn load_fonts(ctx: &egui::Context) {
     let mut fonts = egui::FontDefinitions::default();
-    if let Some(family) = fonts.families.get_mut(&FontFamily::Proportional) {
-        family.push("Hack".to_owned());
+    for (name, bytes) in [
+        (REGULAR, &include_bytes!("../../assets/fonts/Inter-Regular.ttf")[..]),
+        (SEMIBOLD, &include_bytes!("../../assets/fonts/Inter-SemiBold.ttf")[..]),
+        (SUBSCRIPT, &include_bytes!("../../assets/fonts/Inter-Subscript.ttf")[..]),
+    ] {
+        fonts.font_data.insert(name.to_owned(), Arc::new(egui::FontData::from_static(bytes)));
+    }
+    let mut fallbacks = fonts.families.get(&FontFamily::Proportional).cloned().unwrap_or_default();
+    fallbacks.push("Hack".to_owned());
+    for (family, names) in [
+        (FontFamily::Proportional, &[REGULAR][..]),
+        (FontFamily::Name(SEMIBOLD.into()), &[SEMIBOLD, REGULAR]),
+        (FontFamily::Name(SUBSCRIPT.into()), &[SUBSCRIPT, REGULAR]),
+    ] {
+        let names = names.iter().map(|&name| name.to_owned()).chain(fallbacks.clone());
+        fonts.families.insert(family, names.collect());
     }
     ctx.set_fonts(fonts);
 }
@@ -132,7 +168,7 @@ fn apply_to_style(style: &mut Style, theme: Theme, palette: &ThemeColors) {
         (TextStyle::Small, font(SMALL_PT)),
         (TextStyle::Body, font(BODY_PT)),
         (TextStyle::Button, font(BODY_PT)),
-        (TextStyle::Heading, font(BODY_PT)),
+        (TextStyle::Heading, heading_font(TITLE_PT)),
         (TextStyle::Monospace, FontId::new(BODY_PT - 0.5, FontFamily::Monospace)),
     ]
     .into();
@@ -164,7 +200,7 @@ fn visuals(theme: Theme, palette: &ThemeColors) -> Visuals {
     visuals.error_fg_color = palette.error;
     visuals.warn_fg_color = palette.accent;
     visuals.weak_text_color = Some(palette.secondary);
-    visuals.selection.bg_fill = palette.accent.gamma_multiply(0.35);
+    visuals.selection.bg_fill = palette.accent.gamma_multiply(SELECTED_OPACITY);
     visuals.selection.stroke = Stroke::new(1.0, palette.text);
     visuals.slider_trailing_fill = true;
     visuals.menu_corner_radius = CornerRadius::same(4);
@@ -175,7 +211,7 @@ fn visuals(theme: Theme, palette: &ThemeColors) -> Visuals {
     for (widget, fill, text) in [
         (&mut widgets.inactive, palette.well, palette.text),
         (&mut widgets.hovered, palette.line, palette.text),
-        (&mut widgets.active, palette.line, palette.accent),
+        (&mut widgets.active, palette.line, palette.text),
         (&mut widgets.open, palette.line, palette.text),
     ] {
         widget.bg_fill = fill;
@@ -212,16 +248,26 @@ mod tests {
         0.2126 * r + 0.7152 * g + 0.0722 * b
     }
 
+    /// Contrast of two colors by WCAG 2.
+    fn contrast_of(a: Color32, b: Color32) -> f32 {
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
     #[test]
-    fn text_has_enough_contrast_on_panels_in_both_themes() {
+    fn text_has_enough_contrast_on_every_ground_in_both_themes() {
         for theme in [Theme::Dark, Theme::Light] {
             let colors = ThemeColors::of(theme);
             let texts = [colors.text, colors.secondary, colors.accent, colors.warning, colors.error];
-            for (index, text) in texts.into_iter().enumerate() {
-                let (a, b) = (luminance(text), luminance(colors.panel));
-                let contrast = (a.max(b) + 0.05) / (a.min(b) + 0.05);
-                assert!(contrast >= 4.2, "{theme:?} {index}: {contrast}");
+            let selected = colors.panel.blend(visuals(theme, &colors).selection.bg_fill);
+            let grounds = [colors.panel, colors.background, colors.well, selected];
+            for (text, ground) in
+                (0..texts.len()).flat_map(|text| (0..grounds.len()).map(move |ground| (text, ground)))
+            {
+                let contrast = contrast_of(texts[text], grounds[ground]);
+                assert!(contrast >= 4.5, "{theme:?}: text {text} on ground {ground}: {contrast}");
             }
+            assert!(contrast_of(colors.text, colors.line) >= 4.5, "{theme:?}: text on a hovered button");
         }
     }
 }

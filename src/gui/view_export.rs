@@ -2,8 +2,9 @@
 
 use super::PanelContext;
 use super::cube_panel::CubePanel;
-use super::dock::{Pane, Panels};
+use super::dock::Panels;
 use super::offscreen::OffscreenContext;
+use super::pane::Pane;
 use super::task::Task;
 use super::theme::{self, ThemeColors};
 use crate::app::{
@@ -65,13 +66,14 @@ fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderSt
             let (palette, gpu) = (ThemeColors::of(state.view.theme), offscreen_context.gpu());
             let mut panels = Panels { cube, ..Panels::default() };
             offscreen_context.picture(|ui| {
-                let mut ignored = Vec::new();
+                let (mut ignored, mut ignored_actions) = (Vec::new(), Vec::new());
                 let mut cx = PanelContext {
                     state,
                     palette: &palette,
                     gpu: Some(&gpu),
                     is_export: true,
                     commands: &mut ignored,
+                    actions: &mut ignored_actions,
                 };
                 let frame = egui::Frame::new().fill(palette.background);
                 egui::CentralPanel::default()

@@ -207,7 +207,7 @@ fn name(ui: &mut Ui, palette: &ThemeColors, line: &Line, changed: bool) {
             ui.painter().rect_filled(rect, 1.0, palette.accent);
         }
         let text = RichText::new(line.name).color(palette.secondary);
-        ui.add(Label::new(text).truncate()).on_hover_text(line.tip);
+        ui.add(Label::new(text).truncate().show_tooltip_when_elided(false)).on_hover_text(line.tip);
     });
 }
 
@@ -253,6 +253,7 @@ fn row(ui: &mut Ui, cx: &PanelContext, distance: &AxisDistance) {
         let hypothesis = distance.hypothesis;
         widgets::chip(
             ui,
+            cx.palette,
             widgets::color(names.color(hypothesis)),
             &format!("color of hypothesis {hypothesis}"),
         );

@@ -2,6 +2,7 @@
 //! parameter would change the pixel's result.
 
 use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
+use super::glossary::Term;
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::analysis::WhatIf;
@@ -9,7 +10,7 @@ use crate::app::{Command, DebugCommand, Edit, Question, WhatIfJob};
 use crate::describe::what_if_sentence;
 use crate::params::Setting;
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
-use crate::view::{Why, WhySentence, why};
+use crate::view::{Amounts, PixelAmounts, ResultSnapshot, Why, WhySentence, why};
 use egui::{FontId, Response, RichText, ScrollArea, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
@@ -84,9 +85,7 @@ fn show_answers(ui: &mut Ui, cx: &mut PanelContext, found: &Why) {
     }
     if let Some((hypothesis, sentences)) = &found.hypothesis {
         let heading = widgets::heading(ui, cx.palette, &format!("Hypothesis {hypothesis}"));
-        heading.on_hover_text(
-            "5.3\u{2013}5.4: why it was chosen, which neighbors were tested as its highlight, how it ended.",
-        );
+        Term::Hypothesis.card(heading, cx.palette);
         show_sentences(ui, cx, sentences);
     }
     if let Some((number, sentences)) = &found.region {
@@ -105,7 +104,7 @@ fn about_pixel(ui: &mut Ui, cx: &PanelContext, pixel: PixelIndex) {
     let color = picture.photo.image.pixels[pixel.index()];
     let region = RegionId::from_label(shown.labels()[pixel.index()]);
     ui.horizontal_wrapped(|ui| {
-        widgets::chip(ui, widgets::own_color(color), "the pixel's color");
+        widgets::chip(ui, cx.palette, widgets::own_color(color), "the pixel's color");
         ui.label(format!("Pixel {x}, {y}"));
         let [r, g, b] = color;
         ui.label(RichText::new(format!("{r:.0} {g:.0} {b:.0} counts")).color(cx.palette.secondary));
@@ -113,6 +112,22 @@ fn about_pixel(ui: &mut Ui, cx: &PanelContext, pixel: PixelIndex) {
         let change = region.map_or_else(|| kind.to_owned(), |region| format!("region {region}, {kind}"));
         ui.label(change);
     });
+    amounts(ui, cx, shown, pixel);
+}
+
+/// Shows the pixel's amounts of body and surface reflection in the result, and as measured where the two differ.
+fn amounts(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot, pixel: PixelIndex) {
+    let Some(amounts) = PixelAmounts::of(shown, pixel) else { return };
+    let text = |of: &Amounts| {
+        let counts = |value: f32| widgets::signed(f64::from(value), 1);
+        let surface = of.surface.map_or_else(String::new, |surface| format!(", m_s {}", counts(surface)));
+        format!("m_b {}{surface}", counts(of.body))
+    };
+    let mut sentence = format!("result {}", text(&amounts.result));
+    if let Some(measured) = amounts.different_measured() {
+        sentence += &format!("; measured {}, before the cut at noise", text(&measured));
+    }
+    ui.label(widgets::with_subscripts(&sentence, SMALL_PT, cx.palette.secondary));
 }
 
 /// Shows sentences, each a link that moves the cursor to the sentence's step.

@@ -1,18 +1,67 @@
 //! Small widgets and formats that several panels share.
 
-use super::theme::{SMALL_PT, ThemeColors};
-use egui::{Align, Color32, Layout, Response, RichText, Sense, Ui, vec2};
+use super::theme::{BODY_PT, ThemeColors, heading_font, subscript_font};
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Align, Color32, FontId, Layout, Response, RichText, Sense, Ui, vec2};
 
-/// A heading in the secondary color over a group of controls.
+/// A semibold heading over a group of controls.
 pub fn heading(ui: &mut Ui, palette: &ThemeColors, text: &str) -> Response {
     ui.add_space(6.0);
-    ui.label(RichText::new(text).size(SMALL_PT).color(palette.secondary))
+    ui.label(RichText::new(text).font(heading_font(BODY_PT)).color(palette.text))
 }
 
-/// A square of 12 points filled with a color; `name` is its accessible name.
-pub fn chip(ui: &mut Ui, color: Color32, name: &str) -> Response {
+/// A text in which symbols of the paper have real subscripts: what follows an underscore in `m_b`, `m_s`, `C_b`, `C_s`, and the
+/// 0 in σ0. The characters stay as they are, underscores included, for screen readers and copies.
+pub fn with_subscripts(text: &str, size: f32, color: Color32) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    for (part, is_subscript) in parts_with_subscripts(text) {
+        let font_id = if is_subscript { subscript_font(size) } else { FontId::proportional(size) };
+        job.append(part, 0.0, TextFormat { font_id, color, ..TextFormat::default() });
+    }
+    job
+}
+
+/// The parts of a text, and whether each is a subscript.
+fn parts_with_subscripts(text: &str) -> Vec<(&str, bool)> {
+    let mut parts = Vec::new();
+    let mut rest = text;
+    while !rest.is_empty() {
+        let found =
+            ["m_b", "m_s", "C_b", "C_s", "\u{3c3}0"].into_iter().filter_map(|symbol| rest.find(symbol)).min();
+        let Some(at) = found else {
+            parts.push((rest, false));
+            break;
+        };
+        let letter = rest[at..].chars().next().map_or(0, char::len_utf8);
+        let end = at + if rest[at + letter..].starts_with('_') { letter + 2 } else { letter + 1 };
+        parts.extend([(&rest[..at + letter], false), (&rest[at + letter..end], true)]);
+        rest = &rest[end..];
+    }
+    parts
+}
+
+/// Paints a color as a square with an outline, so that a white square is seen on a light panel and a black one on a dark panel.
+pub fn paint_chip(painter: &egui::Painter, rect: egui::Rect, color: Color32, palette: &ThemeColors) {
+    painter.rect(rect, 2.0, color, egui::Stroke::new(1.0, palette.secondary), egui::StrokeKind::Inside);
+}
+
+/// A number with `decimals` decimals and the sign of typographers; zero has no sign.
+pub fn signed(value: f64, decimals: usize) -> String {
+    let text = format!("{:.decimals$}", value.abs());
+    let is_zero = text.chars().all(|letter| matches!(letter, '0' | '.'));
+    if value < 0.0 && !is_zero { format!("\u{2212}{text}") } else { text }
+}
+
+/// A word with a capital first letter.
+pub fn capitalized(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// A square of 12 points filled with a color, with an outline; `name` is its accessible name.
+pub fn chip(ui: &mut Ui, palette: &ThemeColors, color: Color32, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
-    ui.painter().rect_filled(rect, 2.0, color);
+    paint_chip(ui.painter(), rect, color, palette);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, name));
     response
 }
@@ -54,6 +103,17 @@ pub fn placeholder(ui: &mut Ui, palette: &ThemeColors, text: &str) {
     ui.centered_and_justified(|ui| ui.label(RichText::new(text).color(palette.secondary)));
 }
 
+/// A sentence in the middle of a panel that has nothing to show, over a button that changes that; returns whether the button
+/// was clicked.
+pub fn placeholder_with_button(ui: &mut Ui, palette: &ThemeColors, text: &str, button: Option<&str>) -> bool {
+    ui.vertical_centered(|ui| {
+        ui.add_space((0.5 * ui.available_height() - 24.0).max(8.0));
+        ui.label(RichText::new(text).color(palette.secondary));
+        button.is_some_and(|button| ui.button(button).clicked())
+    })
+    .inner
+}
+
 /// An opaque color from sRGB bytes.
 pub fn color([r, g, b]: [u8; 3]) -> Color32 {
     Color32::from_rgb(r, g, b)
@@ -76,4 +136,25 @@ pub fn grouped(number: usize) -> String {
 pub fn own_color(counts: [f32; 3]) -> Color32 {
     let [r, g, b] = counts.map(|v| egui::ecolor::gamma_u8_from_linear_f32((v / 255.0).clamp(0.0, 1.0)));
     Color32::from_rgb(r, g, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_a_sign_unless_they_are_shown_as_zero() {
+        let shown = [1.26, -1.26, -0.04, 0.0].map(|value| signed(value, 1));
+        assert_eq!(shown, ["1.3", "\u{2212}1.3", "0.0", "0.0"]);
+    }
+
+    #[test]
+    fn subscripts_are_found_and_no_character_is_lost() {
+        let parts = parts_with_subscripts("surface C_s, m_b at \u{d7}\u{3c3}0");
+        let subscripts: Vec<&str> = parts.iter().filter(|part| part.1).map(|part| part.0).collect();
+        assert_eq!(subscripts, ["_s", "_b", "0"]);
+        for text in ["", "m_b", "\u{3c3}", "a \u{3c3}0 b m_s", "m_", "x_y"] {
+            assert_eq!(with_subscripts(text, 13.0, Color32::WHITE).text, text);
+        }
+    }
 }

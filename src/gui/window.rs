@@ -4,7 +4,7 @@ use super::App;
 use super::files::is_workspace;
 use crate::app::{Executor, JobCommand, Settings, Severity, ViewCommand, catch_panic};
 use crate::truth::sample;
-use crate::view::Origin;
+use crate::view::{Arrangement, ImageSettings, Origin};
 use egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -147,8 +147,14 @@ fn icon() -> egui::IconData {
 fn first_app(cc: &eframe::CreationContext<'_>, job: Option<JobCommand>) -> std::io::Result<App> {
     let mut app = App::new(&cc.egui_ctx, cc.wgpu_render_state.clone(), Executor::Threads)?;
     if let Some(path) = Settings::path() {
+        let is_first_start = !path.exists();
         let (settings, warning) = Settings::load(&path);
         app.restore_settings(settings);
+        if is_first_start {
+            // The photograph beside the photograph without highlights says what the program is for.
+            let image = ImageSettings { arrangement: Arrangement::Wipe(0.5), ..ImageSettings::default() };
+            app.apply(ViewCommand::Image(image));
+        }
         if let Some(text) = warning {
             app.apply(ViewCommand::Notify(Severity::Warning, text));
         }

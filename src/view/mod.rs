@@ -13,6 +13,7 @@ mod item;
 mod layers;
 pub mod marking;
 mod picture;
+mod pixel_amounts;
 mod plane_points;
 mod profile;
 mod replay;
@@ -28,6 +29,7 @@ mod table;
 #[cfg(test)]
 pub(crate) mod testing;
 mod vector;
+mod verdict;
 
 pub use accuracy::{Accuracy, RegionAccuracy};
 pub use axes::{Axis, Tick};
@@ -42,6 +44,7 @@ pub use layers::{
     legend, marks, paint, paint_instant, pyramid,
 };
 pub use picture::{Origin, Picture};
+pub use pixel_amounts::{Amounts, PixelAmounts};
 pub use plane_points::{
     MOST_PLANE_POINTS, PlaneBranch, PlanePixel, RegionPlane, growing_plane, region_plane, test_plane,
 };
@@ -69,3 +72,4 @@ pub use solid::{Mesh, Solid};
 pub use statistics::{Band, Bounds, STATISTICS_BINS, Statistics, statistics, statistics_of};
 pub use table::regions_text;
 pub use vector::Point;
+pub use verdict::{Clause, ClauseSubject, WIDE_INTERVAL_DEG, verdict};

@@ -136,7 +136,10 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
         expect(region.id.index() == index, "region numbers have gaps");
         expect(reported == counts[index + 1], "the report counts other pixels than the map holds");
         expect(region.matte_pixels + region.highlight_pixels == region.pixels, "matte + highlight ≠ pixels");
-        expect(index == 0 || working_sizes[index] >= working_sizes[index + 1], "regions are not sorted by size");
+        expect(
+            index == 0 || working_sizes[index] >= working_sizes[index + 1],
+            "regions are not sorted by size",
+        );
         expect(is_unit(region.body), "a body vector is not of unit length");
         expect(region.surface.is_none_or(is_unit), "a surface vector is not of unit length");
         expect(region.plane_normal.is_none_or(is_unit), "a plane's normal is not of unit length");

@@ -235,8 +235,8 @@ fn rows_show_the_status_of_each_hypothesis_at_the_cursor() {
     let length: f64 = rows[0].direction.unwrap().iter().map(|v| v * v).sum();
     assert!((length - 1.0).abs() < 1e-9 && rows[0].radius > 0.0);
     let words = [
-        (Status::AtWork, "at work"),
-        (Status::Stands, "stands"),
+        (Status::AtWork, "growing now"),
+        (Status::Stands, "complete"),
         (Status::Absorbed(HypothesisId::from_index(2)), "absorbed by 3"),
         (Status::Merged(HypothesisId::from_index(3)), "merged into 4"),
         (Status::Barren, "barren"),

@@ -22,9 +22,18 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
             (state.jobs.reading, state.restoring) = (None, None);
             state.notify(Severity::Error, reason);
         }
-        Report::ParamsRead(params) => return edit_params(state, None, |old| *old = *params),
-        Report::WorkspaceRead { workspace, path } => return read_photograph_of(state, workspace, path),
-        Report::Failed(reason) => state.notify(Severity::Error, reason),
+        Report::ParamsRead(params) => {
+            state.jobs.reading = None;
+            return edit_params(state, None, |old| *old = *params);
+        }
+        Report::WorkspaceRead { workspace, path } => {
+            state.jobs.reading = None;
+            return read_photograph_of(state, workspace, path);
+        }
+        Report::Failed(reason) => {
+            state.jobs.reading = None;
+            state.notify(Severity::Error, reason);
+        }
         Report::Panicked { work, reason } => return end_panicked(state, work, &reason),
         Report::Rescued(Ok(path)) => {
             let text = format!("the workspace was saved to {}", path.display());
@@ -64,8 +73,7 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
 /// Ends the job of a worker that panicked, and asks for the workspace to be saved.
 fn end_panicked(state: &mut State, work: Work, reason: &str) -> Vec<Effect> {
     match work {
-        Work::Photograph => (state.jobs.reading, state.restoring) = (None, None),
-        Work::File => state.restoring = None,
+        Work::Photograph | Work::File => (state.jobs.reading, state.restoring) = (None, None),
         Work::Analysis => (state.jobs.analysis, state.after_pin, state.preview) = (None, None, None),
         Work::Export => state.jobs.export = None,
         Work::WhatIf => state.what_if_job = None,
@@ -124,6 +132,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     for warning in warnings {
         state.notify(Severity::Warning, warning);
     }
+    state.preselects = restored.is_none();
     if let Some(Restoring { workspace, path }) = restored {
         restore_workspace(state, *workspace);
         state.workspace_path = Some(path);
@@ -182,6 +191,9 @@ fn show_result(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
         }
     }
     follow_region(state, &shown);
+    if is_last && std::mem::take(&mut state.preselects) {
+        select_largest_region(state, &shown);
+    }
     state.newest = Some(shown);
     let Some(after) = state.after_pin.take_if(|_| is_last) else { return Vec::new() };
     state.pinned = state.newest.clone();
@@ -200,6 +212,16 @@ fn show_preview(state: &mut State, preview: Preview) {
         && state.preview.as_ref().is_none_or(|shown| shown.shown.generation < generation);
     if same_picture && is_newer {
         state.preview = Some(preview);
+    }
+}
+
+/// Selects the largest region, where a person has neither selected nor marked anything. The selection is no step of the history.
+fn select_largest_region(state: &mut State, shown: &ResultSnapshot) {
+    if state.document.selection.is_empty() {
+        let regions = shown.analysis.intrinsic.regions.iter();
+        // Of regions of one size, the first.
+        let largest = regions.rev().max_by_key(|region| region.pixels);
+        state.document.selection.item = largest.map(|region| Item::Region(region.id));
     }
 }
 

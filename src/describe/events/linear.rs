@@ -171,7 +171,7 @@ impl Describe for RegionsMerged {
 pub(in crate::describe) fn passed_over(reason: PassedOver, pixels: u32, least: u32) -> String {
     match reason {
         PassedOver::TooSmall => format!("{pixels} unclaimed pixels, it needs {least}"),
-        PassedOver::Consumed => format!("others claimed all but {pixels} of its pixels, it needs {least}"),
+        PassedOver::Consumed => format!("{pixels} of its pixels are still free, and it needs {least}"),
         PassedOver::FarFromBlack => "its line passes black outside the cylinder's radius".to_owned(),
         PassedOver::NoExtent => "its colors have no extent to fit a line to".to_owned(),
         PassedOver::Barren => format!("growing from it claimed fewer than {least} pixels"),

@@ -77,7 +77,7 @@ fn open_menu(text: &str) -> MenuButton<'_> {
 /// Shows the choice of the coloring.
 fn color_by(ui: &mut Ui, settings: &mut CubeSettings) {
     const CHOICES: [(ColorBy, &str, &str); 4] = [
-        (ColorBy::Own, "Own", "Each point in the color that it stands for."),
+        (ColorBy::Own, "Own color", "Each point in the color that it stands for."),
         (ColorBy::Region, "Region", "In the color of the region that most of its pixels are in."),
         (
             ColorBy::Class,

@@ -87,7 +87,7 @@ impl AxesFrame {
                     at,
                     sides: vec![side],
                     color: palette.secondary,
-                    size_pt: SMALL_PT - 1.0,
+                    size_pt: SMALL_PT,
                     tip: "",
                     leader: false,
                 });
@@ -147,7 +147,7 @@ pub fn gizmo(
             end + beyond * GIZMO_PT,
             egui::Align2::CENTER_CENTER,
             names[axis],
-            FontId::proportional(SMALL_PT - 1.0),
+            FontId::proportional(SMALL_PT),
             color,
         );
     }

@@ -1,5 +1,7 @@
 //! Text labels over the color space, placed so that they never overlap.
 
+use crate::gui::glossary::Term;
+use crate::gui::theme::ThemeColors;
 use egui::{Align2, Color32, FontId, Id, Pos2, Rect, Sense, Ui, Vec2, vec2};
 
 /// Distance between a label and its point, screen points.
@@ -61,9 +63,8 @@ fn rect_on_side(label: &Label, side: Vec2, size: Vec2) -> Rect {
     Rect::from_center_size(label.at + side * away, size)
 }
 
-/// Paints the labels that fit, in the order of importance, outside of the `occupied` rectangles, on a background of
-/// color `background`.
-pub fn show(ui: &Ui, id: Id, labels: &[Label], bounds: Rect, occupied: &[Rect], background: Color32) {
+/// Paints the labels that fit, in the order of importance, outside of the `occupied` rectangles. Words with a card show the card.
+pub fn show(ui: &Ui, id: Id, labels: &[Label], bounds: Rect, occupied: &[Rect], palette: &ThemeColors) {
     let painter = ui.painter_at(bounds);
     let galleys: Vec<_> = labels
         .iter()
@@ -80,14 +81,17 @@ pub fn show(ui: &Ui, id: Id, labels: &[Label], bounds: Rect, occupied: &[Rect], 
             let end = place.clamp(label.at);
             painter.line_segment([label.at, end], egui::Stroke::new(1.0, label.color.gamma_multiply(0.6)));
         }
-        painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, background);
+        painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, palette.background.gamma_multiply(0.7));
         painter.galley(Align2::LEFT_TOP.align_size_within_rect(place.size(), place).min, galley, label.color);
         if !label.tip.is_empty() {
             let response = ui.interact(place, id.with(index), Sense::hover());
             response.widget_info(|| {
                 egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, label.text.clone())
             });
-            response.on_hover_text(label.tip);
+            match Term::ALL.into_iter().find(|term| term.title() == label.text) {
+                Some(term) => drop(term.card(response, palette)),
+                None => drop(response.on_hover_text(label.tip)),
+            }
         }
     }
 }

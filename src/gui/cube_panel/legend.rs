@@ -4,6 +4,7 @@
 use super::cloud::{class_color, color_by, density_color};
 use crate::gui::PanelContext;
 use crate::gui::theme::SMALL_PT;
+use crate::gui::widgets;
 use crate::trace::Class;
 use crate::view::ColorBy;
 use egui::{Align2, FontId, Mesh, Painter, Rect, Ui, pos2, vec2};
@@ -58,10 +59,16 @@ fn density(painter: &Painter, cx: &PanelContext, corner: egui::Pos2, fullest: u3
         }
     }
     painter.add(ramp);
-    let font = FontId::proportional(SMALL_PT - 1.0);
+    let font = FontId::proportional(SMALL_PT);
     let below = bar.left_bottom() + vec2(0.0, 1.0);
     let one = painter.text(below, Align2::LEFT_TOP, "1 px", font.clone(), cx.palette.secondary);
     let end = bar.right_bottom() + vec2(0.0, 1.0);
-    let most = painter.text(end, Align2::RIGHT_TOP, format!("{fullest} px"), font, cx.palette.secondary);
+    let most = painter.text(
+        end,
+        Align2::RIGHT_TOP,
+        format!("{} px a color", widgets::grouped(fullest as usize)),
+        font,
+        cx.palette.secondary,
+    );
     bar.union(one).union(most)
 }

@@ -10,7 +10,7 @@ use crate::gui::widgets::{color, grouped};
 use crate::raster::HypothesisId;
 use crate::view::{Instant, cursor_place, instant_legend};
 use egui::accesskit::Role;
-use egui::{Align2, Button, Color32, Painter, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use egui::{Align2, Button, Color32, Painter, Rect, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, vec2};
 use std::sync::Arc;
 
 /// Smallest zoom at which a single pixel is framed, screen points per pixel; at a smaller zoom a cross marks the pixel.
@@ -48,7 +48,7 @@ impl InstantCache {
 }
 
 /// The button "Follow", shown while the cursor stands before the end of the trace.
-pub fn follow_button(ui: &mut Ui, state: &State, settings: &mut DebugSettings) {
+fn follow_button(ui: &mut Ui, state: &State, settings: &mut DebugSettings) {
     if state.debugger.stopped().is_none() {
         return;
     }
@@ -57,6 +57,25 @@ pub fn follow_button(ui: &mut Ui, state: &State, settings: &mut DebugSettings) {
     if ui.add(button).on_hover_text(tip).clicked() {
         settings.follow = !settings.follow;
     }
+}
+
+/// Width of the button "Follow", points.
+const FOLLOW_PT: f32 = 60.0;
+
+/// Shows the button "Follow" in the upper right corner, and `contents` in the rest of the width.
+pub fn beside_follow_button(
+    ui: &mut Ui,
+    state: &State,
+    settings: &mut DebugSettings,
+    contents: impl FnOnce(&mut Ui),
+) {
+    let full = ui.max_rect();
+    let corner =
+        Rect::from_min_max(full.right_top() - vec2(FOLLOW_PT, 0.0), full.right_top() + vec2(0.0, 20.0));
+    let rest = full.with_max_x(corner.left() - 8.0);
+    // Children do not change the size of the strip.
+    contents(&mut ui.new_child(UiBuilder::new().max_rect(rest)));
+    follow_button(&mut ui.new_child(UiBuilder::new().max_rect(corner)), state, settings);
 }
 
 /// Sends changed settings of the debugger.
@@ -105,9 +124,6 @@ pub fn show_texts(
     let area = overlay::text_box(painter, palette, corner, Align2::LEFT_TOP, &text);
     let label = ui.interact(area, ui.scope_id().with("cursor place"), Sense::hover());
     label.widget_info(|| WidgetInfo::labeled(Role::Label, true, text.clone()));
-    label.on_hover_text(
-        "The picture shows this instant of the analysis; \u{201c}Follow\u{201d} turns back to the result.",
-    );
     overlay::legend_box(painter, palette, view, &instant_legend(instant));
     show_focus(painter, palette, area, state);
 }

@@ -5,16 +5,21 @@ use super::icons::{corners, cross};
 use super::textures::LayerTexture;
 use crate::app::State;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
+use crate::gui::widgets;
 use crate::raster::PixelIndex;
-use crate::view::{ACCENT, Item, Layer, LegendEntry, ProfileLine, Tool, legend};
+use crate::view::{ACCENT, DIFFERENCE_COUNTS, Item, Layer, LegendEntry, ProfileLine, Tool, legend};
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
 /// The accent color over pictures, the same in both themes, because a picture is equally dark in both.
 pub const MARK_COLOR: Color32 = Color32::from_rgb(ACCENT[0], ACCENT[1], ACCENT[2]);
 /// Smallest zoom with a pixel grid, screen points per pixel.
 const GRID_ZOOM: f32 = 8.0;
-/// Smallest zoom with values in the pixels, screen points per pixel.
-const VALUES_ZOOM: f32 = 48.0;
+/// Smallest zoom with one number in each pixel, screen points per pixel.
+const NUMBER_ZOOM: f32 = 16.0;
+/// Smallest zoom with a number for each band, screen points per pixel.
+const BANDS_ZOOM: f32 = 32.0;
+/// Smallest zoom at which numbers have a decimal, screen points per pixel.
+const DECIMALS_ZOOM: f32 = 48.0;
 /// Smallest zoom at which outlines are lines between pixels, screen points per pixel; below, outlines are
 /// pixels of a texture.
 pub const OUTLINE_ZOOM: f32 = 4.0;
@@ -37,29 +42,35 @@ pub fn grid(painter: &Painter, place: &Placement) {
     }
 }
 
-/// Writes numbers into the pixels: the layer's numbers if the layer has numbers, otherwise the photograph's linear counts.
+/// Writes numbers into the pixels: the layer's numbers if the layer has numbers, otherwise the photograph's linear counts. At a
+/// small zoom a pixel has room for one number: the mean of the bands.
 pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer, texture: &LayerTexture) {
-    if place.zoom < VALUES_ZOOM {
+    if place.zoom < NUMBER_ZOOM {
         return;
     }
     let Some(picture) = &state.picture else { return };
     let intrinsic = state.shown().map(|shown| &shown.analysis.intrinsic);
-    let size = (place.zoom / 5.2).clamp(9.0, 13.0);
+    let is_mean = place.zoom < BANDS_ZOOM;
+    let size = if is_mean { place.zoom / 2.3 } else { place.zoom / 4.0 }.clamp(7.0, 13.0);
+    let decimals = usize::from(place.zoom >= DECIMALS_ZOOM);
     let [columns, rows] = place.visible();
     for y in rows {
         for x in columns.clone() {
             let pixel = y * place.size.x as usize + x;
             let numbers = intrinsic.and_then(|found| layer.numbers(found, pixel));
-            let lines = numbers.unwrap_or_else(|| picture.photo.image.pixels[pixel].to_vec());
+            let mut lines = numbers.unwrap_or_else(|| picture.photo.image.pixels[pixel].to_vec());
+            if is_mean {
+                lines = vec![lines.iter().sum::<f32>() / lines.len().max(1) as f32];
+            }
             let tone = readable_on(texture.color(pixel));
             let middle = place.screen_from_image(pos2(x as f32 + 0.5, y as f32 + 0.5));
             for (line, value) in lines.iter().enumerate() {
-                let down = (line as f32 - (lines.len() as f32 - 1.0) / 2.0) * size * 1.2;
+                let down = (line as f32 - (lines.len() as f32 - 1.0) / 2.0) * size * 1.15;
                 let font = FontId::proportional(size);
                 painter.text(
                     middle + vec2(0.0, down),
                     Align2::CENTER_CENTER,
-                    format!("{value:.1}"),
+                    widgets::signed(f64::from(*value), decimals),
                     font,
                     tone,
                 );
@@ -255,9 +266,57 @@ pub fn text_box(painter: &Painter, palette: &ThemeColors, at: Pos2, align: Align
     area
 }
 
-/// Paints the legend of a layer along the lower edge.
-pub fn layer_legend(painter: &Painter, palette: &ThemeColors, view: Rect, layer: Layer) {
-    legend_box(painter, palette, view, &legend(layer));
+/// Paints the legend of a layer along the lower edge: a bar with units where grays stand for numbers, otherwise colors and names.
+pub fn layer_legend(painter: &Painter, palette: &ThemeColors, view: Rect, layer: Layer, state: &State) {
+    let slice = state.shown().map(|shown| shown.analysis.used.slice_half_width_counts());
+    match (layer, slice) {
+        (Layer::Noise, Some(slice)) => {
+            let [low, high] = [-slice, slice].map(|counts| widgets::signed(counts, 1));
+            color_bar(painter, palette, view, &[&low, "0", &format!("{high} counts off the plane")]);
+        }
+        (Layer::Difference, _) => {
+            let [low, high] = [-1.0, 1.0].map(|sign| widgets::signed(sign * f64::from(DIFFERENCE_COUNTS), 0));
+            color_bar(painter, palette, view, &[&low, "0", &format!("{high} counts")]);
+        }
+        (Layer::Confidence, _) => color_bar(painter, palette, view, &["0 not at all", "fully 1"]),
+        _ => legend_box(painter, palette, view, &legend(layer)),
+    }
+}
+
+/// Width and height of a bar of grays, points.
+const BAR_PT: Vec2 = vec2(160.0, 8.0);
+
+/// Paints a bar from black to white along the lower edge, with texts at equal distances below.
+fn color_bar(painter: &Painter, palette: &ThemeColors, view: Rect, texts: &[&str]) {
+    let corner = view.left_bottom() + vec2(6.0, -38.0);
+    let galleys: Vec<_> = texts
+        .iter()
+        .map(|text| painter.layout_no_wrap((*text).to_owned(), FontId::proportional(SMALL_PT), palette.text))
+        .collect();
+    let last = galleys.len().saturating_sub(1).max(1) as f32;
+    let end = galleys.last().map_or(0.0, |galley| galley.size().x);
+    // The first two texts of three are centered below their places; the last begins below its place.
+    let width = (BAR_PT.x + end + 12.0).min(view.width() - 12.0);
+    painter.rect_filled(
+        Rect::from_min_size(corner, vec2(width, 32.0)),
+        3.0,
+        palette.panel.gamma_multiply(0.86),
+    );
+    let bar = Rect::from_min_size(corner + vec2(18.0, 4.0), vec2(BAR_PT.x - 24.0, BAR_PT.y));
+    let mut mesh = egui::Mesh::default();
+    for (x, gray) in [(bar.left(), 1), (bar.right(), 255)] {
+        mesh.colored_vertex(pos2(x, bar.top()), Color32::from_gray(gray));
+        mesh.colored_vertex(pos2(x, bar.bottom()), Color32::from_gray(gray));
+    }
+    mesh.add_triangle(0, 1, 2);
+    mesh.add_triangle(1, 2, 3);
+    painter.add(Shape::mesh(mesh));
+    painter.rect_stroke(bar, 0.0, Stroke::new(1.0, palette.secondary), egui::StrokeKind::Outside);
+    for (index, galley) in galleys.into_iter().enumerate() {
+        let x = bar.left() + bar.width() * index as f32 / last;
+        let shift = if index as f32 == last { 8.0 } else { galley.size().x / 2.0 };
+        painter.galley(pos2((x - shift).max(corner.x + 3.0), bar.bottom() + 2.0), galley, palette.text);
+    }
 }
 
 /// Paints a legend of colors and names along the lower edge, in as many lines as needed.

@@ -1,146 +1,233 @@
-//! The readout: values of one pixel in a strip of cells with fixed positions.
+//! The readout: values of one pixel in groups with fixed widths: place, color, region, amounts in the result, amounts measured.
 
 use crate::app::State;
+use crate::gui::glossary::Term;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
+use crate::gui::widgets::{self, with_subscripts};
 use crate::intrinsic::PixelKind;
 use crate::raster::{HypothesisId, PixelIndex};
 use crate::trace::{Class, Replay};
-use crate::view::{Item, Picture, RegionNames, ResultSnapshot};
+use crate::view::{Amounts, Item, Picture, PixelAmounts, RegionNames, ResultSnapshot};
 use egui::accesskit::Role;
-use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
 /// Height of a line, points.
 const LINE_PT: f32 = 18.0;
-/// Distance between two cells, points.
-const GAP_PT: f32 = 6.0;
+/// Distance between a name and its value, points.
+const NAME_GAP_PT: f32 = 4.0;
+/// Distance between two cells of a group, points.
+const CELL_GAP_PT: f32 = 8.0;
+/// Distance between two groups, points.
+const GROUP_GAP_PT: f32 = 20.0;
+/// Width of a swatch, points.
+const SWATCH_PT: f32 = 10.0;
 
-/// A cell of the strip: a name and space for a value.
+/// A cell: a name and space for a value.
 struct Cell {
+    /// The name before the value; empty for none.
     name: &'static str,
-    tip: &'static str,
-    /// Width of the value, points.
-    width: f32,
+    /// The widest text of the value.
+    widest: &'static str,
+    /// Whether the value ends at the right end of its space, as numbers do.
+    is_number: bool,
+    tip: Tip,
 }
 
-/// A cell of the strip.
-const fn cell(name: &'static str, width: f32, tip: &'static str) -> Cell {
-    Cell { name, tip, width }
+/// The tooltip of a cell.
+enum Tip {
+    Text(&'static str),
+    Card(Term),
 }
 
-/// The cells of the strip, in the order of the values.
-const CELLS: [Cell; 11] = [
-    cell("x", 28.0, "Column, from 0 at the left"),
-    cell("y", 28.0, "Row, from 0 at the top"),
-    cell("R", 34.0, "Red of the photograph, linear counts"),
-    cell("G", 34.0, "Green of the photograph, linear counts"),
-    cell("B", 34.0, "Blue of the photograph, linear counts"),
-    cell("", 38.0, "Class of its window: the shape of the color cluster (section 5.2.1)"),
-    cell(
-        "",
-        26.0,
-        "Its region; at the debugger's cursor the hypothesis that holds it, by its number of birth",
-    ),
-    cell(
-        "m_b",
-        40.0,
-        "Amount of body reflection in the result, counts: surface reflection below the noise counts as none. The plane shows the amount measured (section 6)",
-    ),
-    cell(
-        "m_s",
-        40.0,
-        "Amount of surface reflection in the result, counts: 0 where it is below the noise. The plane shows the amount measured (section 6)",
-    ),
-    cell("\u{3b5}", 32.0, "Distance from the dichromatic plane, counts (section 6)"),
-    cell("", 50.0, "What the pixel is to its region (section 6)"),
+/// A number's cell.
+const fn number(name: &'static str, widest: &'static str, tip: Tip) -> Cell {
+    Cell { name, widest, is_number: true, tip }
+}
+
+/// A word's cell.
+const fn word(name: &'static str, widest: &'static str, tip: &'static str) -> Cell {
+    Cell { name, widest, is_number: false, tip: Tip::Text(tip) }
+}
+
+/// The groups of cells. Values are lists of the same shape.
+const GROUPS: [&[Cell]; 5] = [
+    &[
+        number("x", "8888", Tip::Text("Column, from 0 at the left")),
+        number("y", "8888", Tip::Text("Row, from 0 at the top")),
+    ],
+    &[
+        number("R", "888.8", Tip::Card(Term::Counts)),
+        number("G", "888.8", Tip::Card(Term::Counts)),
+        number("B", "888.8", Tip::Card(Term::Counts)),
+    ],
+    &[
+        word(
+            "",
+            "888",
+            "Its region; at the debugger's cursor the hypothesis that holds it, by its number of birth",
+        ),
+        word("", "highlight", "What the pixel is to its region (section 6)"),
+        word("", "volume", "Class of its window: the shape of the color cluster (section 5.2.1)"),
+    ],
+    &[
+        word(
+            "result",
+            "",
+            "The amounts in the result, after surface reflection below the noise was counted as none (section 6)",
+        ),
+        number("m_b", "888.8", Tip::Card(Term::BodyAmount)),
+        number("m_s", "888.8", Tip::Card(Term::SurfaceAmount)),
+        number("\u{3b5}", "\u{2212}88.8", Tip::Card(Term::Epsilon)),
+    ],
+    &[
+        word(
+            "measured",
+            "",
+            "The amounts of the color as measured, which the plane shows, where they differ from those of the result (section 6)",
+        ),
+        number("m_b", "888.8", Tip::Card(Term::BodyAmount)),
+        number("m_s", "\u{2212}88.8", Tip::Card(Term::SurfaceAmount)),
+    ],
 ];
+
+/// Texts of the cells, by group and cell; empty for no value.
+type Values = [Vec<String>; 5];
+
+/// Width of the strip below which measured amounts are left to the plane and to *Why*, points.
+const NARROW_PT: f32 = 420.0;
+
+/// Number of groups that a strip of this width has.
+fn shown_groups(width: f32) -> usize {
+    if width < NARROW_PT { GROUPS.len() - 1 } else { GROUPS.len() }
+}
 
 /// Height of the strip, points.
 pub fn height(ui: &Ui, width: f32) -> f32 {
-    if needs_two_lines(ui, width) { 2.0 * LINE_PT } else { LINE_PT }
+    let last = places(ui, width)[shown_groups(width) - 1];
+    last.y + LINE_PT
 }
 
-/// Whether the cells need two lines.
-fn needs_two_lines(ui: &Ui, width: f32) -> bool {
-    let cell_width = |cell: &Cell| cell.width + name_width(ui, cell.name) + GAP_PT;
-    CELLS.iter().map(cell_width).sum::<f32>() - GAP_PT > width
+/// The upper left corner of each group, from the strip's upper left corner: groups that do not fit into a line begin another.
+fn places(ui: &Ui, width: f32) -> [Pos2; 5] {
+    let gap = if width < NARROW_PT { CELL_GAP_PT } else { GROUP_GAP_PT };
+    let mut at = Pos2::ZERO;
+    GROUPS.each_ref().map(|cells| {
+        let group = group_width(ui, cells);
+        if at.x > 0.0 && at.x + group > width {
+            at = pos2(0.0, at.y + LINE_PT);
+        }
+        let place = at;
+        at.x += group + gap;
+        place
+    })
 }
 
-/// Width of a cell's name with the space after the name, points.
-fn name_width(ui: &Ui, name: &str) -> f32 {
-    if name.is_empty() {
-        return 0.0;
-    }
-    let font = FontId::proportional(SMALL_PT);
-    ui.painter().layout_no_wrap(name.to_owned(), font, Color32::WHITE).size().x + 3.0
+/// Width of a group, points.
+fn group_width(ui: &Ui, cells: &[Cell]) -> f32 {
+    let widths = cells.iter().map(|cell| cell_width(ui, cell) + CELL_GAP_PT);
+    widths.sum::<f32>() - CELL_GAP_PT + swatch_width(cells)
 }
 
-/// Shows the strip for the pixel that is hovered in any panel, otherwise for the selected pixel.
+/// Width of the swatch before a group, with the gap after the swatch, points: color and region have swatches.
+fn swatch_width(cells: &[Cell]) -> f32 {
+    let has_swatch = cells.first().is_some_and(|cell| cell.name == "R" || cell.widest == "888");
+    if has_swatch { SWATCH_PT + NAME_GAP_PT } else { 0.0 }
+}
+
+/// Width of a cell, points.
+fn cell_width(ui: &Ui, cell: &Cell) -> f32 {
+    let gap = if cell.name.is_empty() || cell.widest.is_empty() { 0.0 } else { NAME_GAP_PT };
+    text_width(ui, cell.name) + gap + text_width(ui, cell.widest)
+}
+
+/// Width of a text, points.
+fn text_width(ui: &Ui, text: &str) -> f32 {
+    ui.painter().layout_job(with_subscripts(text, SMALL_PT, Color32::WHITE)).size().x
+}
+
+/// Shows the strip for the pixel that is hovered in any panel, otherwise for the pixel that was clicked last.
 pub fn show(ui: &mut Ui, state: &State, palette: &ThemeColors) {
     let full = ui.available_rect_before_wrap();
-    let pixel = [state.hover, state.document.selection.item].into_iter().find_map(|item| match item {
-        Some(Item::Pixel(pixel)) => Some(pixel.index()),
+    let hovered = match state.hover {
+        Some(Item::Pixel(pixel)) => Some(pixel),
         _ => None,
-    });
+    };
+    let pixel = hovered.or(state.explained_pixel()).map(PixelIndex::index);
     let readout = state.picture.as_ref().zip(pixel).and_then(|(picture, pixel)| match state.followed() {
         Some(replay) => PixelReadout::at_cursor(picture, replay, &state.debugger.names, pixel),
         None => PixelReadout::of(picture, state.shown().map(|shown| &**shown), pixel),
     });
     let values = readout.as_ref().map_or_else(Default::default, PixelReadout::values);
-    let chip = readout.as_ref().and_then(|readout| readout.chip);
     let strip = ui.interact(full, ui.scope_id().with("readout"), Sense::hover());
     strip.widget_info(|| WidgetInfo::labeled(Role::Label, true, sentence(&values)));
-    let lines: &[&[usize]] = if needs_two_lines(ui, full.width()) {
-        &[&[0, 1, 2, 3, 4, 6], &[5, 7, 8, 9, 10]]
-    } else {
-        &[&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10]]
-    };
-    for (line, cells) in lines.iter().enumerate() {
-        let mut x = full.left();
-        for &cell in *cells {
-            let top = full.top() + line as f32 * LINE_PT;
-            x = show_cell(ui, palette, pos2(x, top), cell, &values[cell], chip) + GAP_PT;
+    let swatches = [
+        None,
+        readout.as_ref().map(|readout| widgets::own_color(readout.color)),
+        readout.as_ref().and_then(|readout| readout.chip),
+        None,
+        None,
+    ];
+    let groups = shown_groups(full.width());
+    for (group, place) in places(ui, full.width()).into_iter().enumerate().take(groups) {
+        // Measured amounts that are those of the result are not repeated.
+        if group == 4 && values[4].is_empty() {
+            continue;
+        }
+        let mut at = full.min + place.to_vec2();
+        if swatch_width(GROUPS[group]) > 0.0 {
+            let center = at + vec2(SWATCH_PT / 2.0, LINE_PT / 2.0);
+            let square = Rect::from_center_size(center, vec2(SWATCH_PT, SWATCH_PT));
+            if let Some(color) = swatches[group] {
+                widgets::paint_chip(ui.painter(), square, color, palette);
+            }
+            at.x += SWATCH_PT + NAME_GAP_PT;
+        }
+        for (index, cell) in GROUPS[group].iter().enumerate() {
+            let value = values[group].get(index).map_or("", String::as_str);
+            let id = ui.scope_id().with(("readout", group, index));
+            at.x = show_cell(ui, palette, at, cell, value, id) + CELL_GAP_PT;
         }
     }
 }
 
 /// Paints a cell with its upper left corner at `at`; returns the horizontal position of its right end.
-fn show_cell(
-    ui: &Ui,
-    palette: &ThemeColors,
-    at: egui::Pos2,
-    index: usize,
-    value: &str,
-    chip: Option<Color32>,
-) -> f32 {
-    let cell = &CELLS[index];
-    let font = FontId::proportional(SMALL_PT);
+fn show_cell(ui: &Ui, palette: &ThemeColors, at: Pos2, cell: &Cell, value: &str, id: egui::Id) -> f32 {
     let painter = ui.painter();
     let middle = at.y + LINE_PT / 2.0;
-    painter.text(pos2(at.x, middle), Align2::LEFT_CENTER, cell.name, font.clone(), palette.secondary);
-    let left = at.x + name_width(ui, cell.name);
-    let right = left + cell.width;
-    if let Some(color) = chip.filter(|_| index == 6) {
-        let square = Rect::from_center_size(pos2(left + 5.0, middle), vec2(9.0, 9.0));
-        painter.rect_filled(square, 2.0, color);
+    let name = painter.layout_job(with_subscripts(cell.name, SMALL_PT, palette.secondary));
+    painter.galley(pos2(at.x, middle - name.size().y / 2.0), name, palette.secondary);
+    let right = at.x + cell_width(ui, cell);
+    if !cell.widest.is_empty() {
+        let (x, align) = if cell.is_number {
+            (right, Align2::RIGHT_CENTER)
+        } else {
+            (right - text_width(ui, cell.widest), Align2::LEFT_CENTER)
+        };
+        let (text, tone) =
+            if value.is_empty() { ("\u{2013}", palette.secondary) } else { (value, palette.text) };
+        painter.text(pos2(x, middle), align, text, FontId::proportional(SMALL_PT), tone);
     }
-    let (x, align) = match index {
-        5 | 10 => (left, Align2::LEFT_CENTER),
-        _ => (right, Align2::RIGHT_CENTER),
-    };
-    let (text, tone) = if value.is_empty() { ("\u{2013}", palette.secondary) } else { (value, palette.text) };
-    painter.text(pos2(x, middle), align, text, font, tone);
     let area = Rect::from_min_max(at, pos2(right, at.y + LINE_PT));
-    ui.interact(area, ui.scope_id().with(("readout", index)), Sense::hover()).on_hover_text(cell.tip);
+    let response = ui.interact(area, id, Sense::hover());
+    match cell.tip {
+        Tip::Text(tip) => drop(response.on_hover_text(tip)),
+        Tip::Card(term) => drop(term.card(response, palette)),
+    }
     right
 }
 
 /// The values as a sentence for screen readers.
-fn sentence(values: &[String; 11]) -> String {
+fn sentence(values: &Values) -> String {
     if values[0].is_empty() {
         return "No pixel".to_owned();
     }
-    let named = CELLS.iter().zip(values).filter(|(_, value)| !value.is_empty());
-    named.map(|(cell, value)| format!("{} {value}", cell.name)).collect::<Vec<_>>().join(", ")
+    let groups = GROUPS.iter().zip(values).filter(|(_, values)| !values.is_empty());
+    let texts = groups.flat_map(|(cells, values)| {
+        let heading = cells.iter().filter(|cell| cell.widest.is_empty()).map(|cell| cell.name.to_owned());
+        let named = cells.iter().zip(values).filter(|(_, value)| !value.is_empty());
+        heading.chain(named.map(|(cell, value)| format!("{} {value}", cell.name))).collect::<Vec<_>>()
+    });
+    texts.collect::<Vec<_>>().join(", ")
 }
 
 /// Values of a pixel.
@@ -164,14 +251,7 @@ struct AnalyzedPixel {
     /// Number of the region; at the debugger's cursor, of the hypothesis.
     region: Option<u16>,
     /// The amounts; none in no region.
-    amounts: Option<Amounts>,
-}
-
-/// Amounts of body and surface reflection and noise of a pixel, counts (equation 13).
-struct Amounts {
-    body: f32,
-    surface: Option<f32>,
-    noise: f32,
+    amounts: Option<PixelAmounts>,
 }
 
 impl PixelReadout {
@@ -183,7 +263,7 @@ impl PixelReadout {
         let chip =
             analyzed.as_ref().and_then(|analyzed| analyzed.region).zip(shown).and_then(|(region, shown)| {
                 let color = shown.region_colors.get(usize::from(region).wrapping_sub(1))?;
-                Some(crate::gui::widgets::color(*color))
+                Some(widgets::color(*color))
             });
         Some(Self { at, color, analyzed, chip })
     }
@@ -200,30 +280,32 @@ impl PixelReadout {
         let hypothesis = HypothesisId::from_label(*replay.labels().as_slice().get(working_pixel)?);
         let region = hypothesis.map(HypothesisId::get);
         let analyzed = AnalyzedPixel { class, kind: replay.kind(working_pixel), region, amounts: None };
-        let chip = hypothesis.map(|hypothesis| crate::gui::widgets::color(names.color(hypothesis)));
+        let chip = hypothesis.map(|hypothesis| widgets::color(names.color(hypothesis)));
         let at = [pixel % image.width(), pixel / image.width()];
         Some(Self { at, color, analyzed: Some(analyzed), chip })
     }
 
-    fn values(&self) -> [String; 11] {
-        let counts = |value: f32| format!("{value:.1}");
-        let mut values: [String; 11] = Default::default();
-        (values[0], values[1]) = (self.at[0].to_string(), self.at[1].to_string());
-        for (value, &band) in values[2..5].iter_mut().zip(&self.color) {
-            *value = counts(band);
-        }
+    fn values(&self) -> Values {
+        let counts = |value: f32| widgets::signed(f64::from(value), 1);
+        let mut values = Values::default();
+        values[0] = self.at.map(|place| place.to_string()).to_vec();
+        values[1] = self.color.map(counts).to_vec();
         let Some(analyzed) = &self.analyzed else { return values };
-        analyzed.class.map_or("", Class::name).clone_into(&mut values[5]);
-        let Some(region) = analyzed.region else { return values };
-        values[6] = region.to_string();
-        if let Some(amounts) = &analyzed.amounts {
-            values[7] = counts(amounts.body);
-            values[8] = amounts.surface.map_or_else(String::new, counts);
-            values[9] = format!("{:+.1}", amounts.noise);
-        }
         // A pixel in no region has no kind.
-        let kind = if analyzed.kind == PixelKind::Unassigned { "" } else { analyzed.kind.name() };
-        kind.clone_into(&mut values[10]);
+        let is_in_region = analyzed.region.is_some() && analyzed.kind != PixelKind::Unassigned;
+        values[2] = vec![
+            analyzed.region.map_or_else(String::new, |region| region.to_string()),
+            if is_in_region { analyzed.kind.name().to_owned() } else { String::new() },
+            analyzed.class.map_or_else(String::new, |class| class.name().to_owned()),
+        ];
+        let surface = |amounts: &Amounts| amounts.surface.map_or_else(String::new, counts);
+        if let Some(amounts) = &analyzed.amounts {
+            let result = &amounts.result;
+            values[3] = vec![String::new(), counts(result.body), surface(result), counts(result.noise)];
+            if let Some(measured) = amounts.different_measured() {
+                values[4] = vec![String::new(), counts(measured.body), surface(&measured)];
+            }
+        }
         values
     }
 }
@@ -232,19 +314,12 @@ impl AnalyzedPixel {
     fn of(shown: &ResultSnapshot, pixel: usize, [x, y]: [usize; 2]) -> Self {
         let intrinsic = &shown.analysis.intrinsic;
         let label = shown.labels()[pixel];
-        let reflection = intrinsic.regions.get(usize::from(label).wrapping_sub(1));
-        // The component along a unit vector is the amount.
-        let amount_along =
-            |color: [f32; 3], vector: [f64; 3]| crate::color::dot(color, vector.map(|v| v as f32));
+        let has_region = usize::from(label).wrapping_sub(1) < intrinsic.regions.len();
         Self {
             class: shown.classes().get(x / shown.window_px(), y / shown.window_px()).copied().flatten(),
             kind: intrinsic.kinds[pixel],
-            region: reflection.map(|_| label),
-            amounts: reflection.map(|region| Amounts {
-                body: amount_along(intrinsic.body[pixel], region.body),
-                surface: region.surface.map(|surface| amount_along(intrinsic.surface[pixel], surface)),
-                noise: intrinsic.noise[pixel],
-            }),
+            region: has_region.then_some(label),
+            amounts: PixelAmounts::of(shown, PixelIndex::from_index(pixel)),
         }
     }
 }

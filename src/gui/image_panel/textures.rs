@@ -52,7 +52,9 @@ enum Subject {
 
 impl PaintRequest {
     /// The request of a layer. Settings that do not change the picture are left out, so that the picture is not painted again.
+    /// Before the first result, the photograph stands for the layers of a result.
     pub fn layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
+        let layer = if layer.needs_result() && state.shown().is_none() { Layer::Input } else { layer };
         let picture = Arc::clone(state.picture.as_ref()?);
         let preview = state.shown_preview().filter(|_| layer.needs_result() && !layer.needs_pinned());
         let selected = preview.map_or_else(|| state.selected_region(), |(_, selected)| selected);
@@ -176,6 +178,10 @@ pub struct TextureCache {
     /// The texture that each slot showed last, which stays until the requested texture is painted.
     shown_last: [Option<TextureKey>; 4],
     painting: Option<Task<LayerTexture>>,
+    /// The texture that `painting` makes.
+    painting_key: Option<TextureKey>,
+    /// The texture whose painting ended by a panic, and which is not tried again.
+    failed_key: Option<TextureKey>,
     uses: u64,
 }
 
@@ -190,7 +196,7 @@ impl TextureCache {
             if texels <= LARGE_PX {
                 let texture = LayerTexture::painted(request);
                 self.add_texture(texture);
-            } else if self.painting.is_none() {
+            } else if self.painting.is_none() && self.failed_key.as_ref() != Some(&key) {
                 self.paint_in_background(ctx, request);
             }
             // The painter requests a repaint when it has ended; off screen that request has no effect, so look again.
@@ -211,7 +217,12 @@ impl TextureCache {
 
     /// Keeps the texture that the painter has finished.
     fn take_painted(&mut self) {
-        if let Some(mut texture) = Task::take(&mut self.painting) {
+        let painted = Task::take(&mut self.painting);
+        if self.painting.is_none() && self.painting_key.is_some() {
+            let key = self.painting_key.take();
+            self.failed_key = key.filter(|_| painted.is_none());
+        }
+        if let Some(mut texture) = painted {
             texture.last_use = self.uses;
             self.add_texture(texture);
         }
@@ -236,12 +247,13 @@ impl TextureCache {
 
     /// Starts to paint a request on a thread.
     fn paint_in_background(&mut self, ctx: &Context, request: &PaintRequest) {
-        let request = request.clone();
+        let (request, key) = (request.clone(), request.key());
         let paint = move || {
             let mut texture = LayerTexture::painted(&request);
             texture.make_copies();
             texture
         };
+        self.painting_key = Some(key);
         self.painting = Task::start(ctx, "painter", paint);
     }
 

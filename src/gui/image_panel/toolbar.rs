@@ -47,7 +47,6 @@ pub fn row(
         fill_button(ui, palette, settings);
         zoom_controls(ui, settings, zoom);
         display_menu(ui, palette, settings);
-        super::cursor::follow_button(ui, state, debug);
     });
 }
 

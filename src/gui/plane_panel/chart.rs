@@ -1,6 +1,8 @@
 //! The plane on the screen: conversion between counts and screen points, the oblique axes, and the skewed T.
 
+use crate::gui::glossary::Term;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
+use crate::gui::widgets::with_subscripts;
 use crate::view::RegionPlane;
 use egui::{Align2, FontId, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
@@ -66,13 +68,20 @@ impl Chart {
         }
     }
 
-    /// Paints both axes through black, and a grid of lines of equal amounts.
-    pub fn axes(self, painter: &Painter, plane: &RegionPlane, rect: Rect, palette: &ThemeColors) {
+    /// Paints both axes through black, and a grid of lines of equal amounts. Returns the rectangles of the ticks' numbers.
+    pub fn axes(
+        self,
+        painter: &Painter,
+        plane: &RegionPlane,
+        rect: Rect,
+        palette: &ThemeColors,
+    ) -> Vec<Rect> {
+        let mut numbers = Vec::new();
         let round_step = round_step(TICKS_APART_PT * self.counts_per_pt);
         let corners = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()]
             .map(|corner| plane.from_oblique(self.oblique(corner, rect)));
         let at = |body: f32, surface: f32| self.screen(plane.oblique(body, surface), rect);
-        let font = FontId::proportional(SMALL_PT - 1.0);
+        let font = FontId::proportional(SMALL_PT);
         let span = |axis: usize| {
             let all = corners.map(|corner| corner[axis]);
             [
@@ -88,13 +97,13 @@ impl Chart {
             if value != 0.0 && rect.shrink2(vec2(12.0, 0.0)).x_range().contains(foot.x) {
                 // In a view that is lower than both margins, the upper margin wins.
                 let y = foot.y.min(rect.bottom() - 34.0).max(rect.top() + 16.0);
-                painter.text(
+                numbers.push(painter.text(
                     pos2(foot.x, y + 3.0),
                     Align2::CENTER_TOP,
                     number_text(value),
                     font.clone(),
                     palette.secondary,
-                );
+                ));
             }
         }
         for value in multiples(surface, round_step) {
@@ -103,15 +112,16 @@ impl Chart {
             if value != 0.0 && rect.shrink2(vec2(0.0, 20.0)).y_range().contains(foot.y) {
                 // In a view that is narrower than both margins, the left margin wins.
                 let x = foot.x.min(rect.right() - 6.0).max(rect.left() + 28.0);
-                painter.text(
+                numbers.push(painter.text(
                     pos2(x - 4.0, foot.y),
                     Align2::RIGHT_CENTER,
                     number_text(value),
                     font.clone(),
                     palette.secondary,
-                );
+                ));
             }
         }
+        numbers
     }
 
     /// Position of the label of the m_s axis: left of the point where the axis leaves the view at the top or at a side.
@@ -134,6 +144,7 @@ impl Chart {
         plane: &RegionPlane,
         rect: Rect,
         palette: &ThemeColors,
+        obstacles: &Obstacles,
     ) {
         let painter = ui.painter_at(rect);
         let at = |[body, surface]: [f32; 2]| self.screen(plane.oblique(body, surface), rect);
@@ -148,7 +159,8 @@ impl Chart {
             at: pos2(rect.right() - 8.0, matte[0].y - 4.0),
             anchor: Align2::RIGHT_BOTTOM,
             text: "m_b, counts",
-            tip: "Amount of body reflection, along the matte line (equation 13).",
+            tip: "",
+            term: Some(Term::BodyAmount),
         }];
         names.extend(self.highlight_lines(&painter, plane, rect, stroke));
         let axis = if plane.has_plane { "m_s, counts" } else { "across, counts" };
@@ -156,17 +168,20 @@ impl Chart {
             at: self.top_of_axis(plane, rect),
             anchor: Align2::RIGHT_TOP,
             text: axis,
-            tip: "Amount of surface reflection, in the direction of the light's color (equation 13).",
+            tip: "Distance across the matte line.",
+            term: plane.has_plane.then_some(Term::SurfaceAmount),
         });
         names.push(ChartLabel {
             at: matte[0].lerp(matte[1], 0.3) + vec2(0.0, 16.0),
             anchor: Align2::CENTER_TOP,
             text: "matte line",
-            tip: "Body reflection alone, from black to the brightest matte point (section 3.1).",
+            tip: "",
+            term: Some(Term::MatteLine),
         });
         names.extend(self.meeting_points(&painter, plane, rect, palette));
+        let mut taken = obstacles.taken.clone();
         for name in names {
-            name.show(ui, response, rect, palette);
+            name.show(ui, response, rect, palette, obstacles.points, &mut taken);
         }
     }
 
@@ -188,19 +203,18 @@ impl Chart {
         let longest = lines.iter().max_by(|a, b| a[1][1].total_cmp(&b[1][1]))?;
         let away = plane.oblique(0.0, 1.0);
         let end = self.screen(plane.oblique(longest[1][0], longest[1][1]), rect);
-        let (text, tip) = if lines.len() > 1 {
-            (
-                "highlight lines",
-                "More and more light reflected at the surface, along m_s, from each shade on which a highlight lies (sections 3.1, 7.4).",
-            )
+        let (text, term) = if lines.len() > 1 {
+            ("highlight lines", None)
         } else {
-            ("highlight line", "More and more light reflected at the surface, along m_s (section 3.1).")
+            ("highlight line", Some(Term::HighlightLine))
         };
+        let tip = "More and more light reflected at the surface, along m_s, from each shade on which a highlight lies (sections 3.1, 7.4).";
         Some(ChartLabel {
             at: end + vec2(away[0], -away[1]) * 10.0,
             anchor: Align2::CENTER_BOTTOM,
             text,
             tip,
+            term,
         })
     }
 
@@ -230,7 +244,7 @@ impl Chart {
                 "The shades on which highlights lie: where their lines leave the matte line (sections 3.1, 7.4).",
             ),
         };
-        Some(ChartLabel { at: middle + vec2(0.0, 16.0), anchor: Align2::CENTER_TOP, text, tip })
+        Some(ChartLabel { at: middle + vec2(0.0, 16.0), anchor: Align2::CENTER_TOP, text, tip, term: None })
     }
 }
 
@@ -239,23 +253,101 @@ struct ChartLabel {
     at: Pos2,
     anchor: Align2,
     text: &'static str,
+    /// The tooltip, where there is no card.
     tip: &'static str,
+    /// The word whose card is the tooltip.
+    term: Option<Term>,
+}
+
+/// What labels keep away from.
+pub struct Obstacles<'a> {
+    /// The places of the points.
+    pub points: &'a PointDensity,
+    /// Rectangles of other texts, screen points.
+    pub taken: Vec<Rect>,
+}
+
+/// Side of a cell of [`PointDensity`], points.
+const CELL_PT: f32 = 6.0;
+
+/// Which cells of the view hold points.
+#[derive(Default)]
+pub struct PointDensity {
+    rect: Option<Rect>,
+    columns: usize,
+    cells: Vec<bool>,
+}
+
+impl PointDensity {
+    /// No point in the view `rect`.
+    pub fn new(rect: Rect) -> Self {
+        let cells = |length: f32| (length / CELL_PT).ceil().clamp(0.0, 4096.0) as usize + 1;
+        let (columns, rows) = (cells(rect.width()), cells(rect.height()));
+        Self { rect: Some(rect), columns, cells: vec![false; columns * rows] }
+    }
+
+    /// Adds a point.
+    pub fn add(&mut self, at: Pos2) {
+        let Some(rect) = self.rect.filter(|rect| rect.contains(at)) else { return };
+        let cell = ((at - rect.min) / CELL_PT).to_pos2();
+        if let Some(cell) = self.cells.get_mut(cell.y as usize * self.columns + cell.x as usize) {
+            *cell = true;
+        }
+    }
+
+    /// Share of the cells under `area` that hold points, 0…1.
+    fn share_under(&self, area: Rect) -> f32 {
+        let Some(rect) = self.rect else { return 0.0 };
+        let [from, to] = [area.min, area.max].map(|corner| ((corner - rect.min) / CELL_PT).max(Vec2::ZERO));
+        let (columns, rows) = (from.x as usize..to.x as usize + 1, from.y as usize..to.y as usize + 1);
+        let all = (columns.len() * rows.len()).max(1);
+        let held = rows.flat_map(|row| columns.clone().map(move |column| (row, column)));
+        let is_held = |(row, column): &(usize, usize)| {
+            *column < self.columns && self.cells.get(row * self.columns + column).copied().unwrap_or(false)
+        };
+        held.filter(is_held).count() as f32 / all as f32
+    }
 }
 
 impl ChartLabel {
-    fn show(&self, ui: &Ui, response: &Response, rect: Rect, palette: &ThemeColors) {
+    /// The rectangle of the label with the given size: near its place, inside the view, on no other text, and on as few points as
+    /// possible; none where every place lies on another text.
+    fn place(&self, size: Vec2, rect: Rect, points: &PointDensity, taken: &[Rect]) -> Option<Rect> {
+        let first = self.anchor.anchor_size(self.at, size);
+        let steps = [0.0, -1.0, 1.0, -2.0, 2.0, -3.0, 3.0];
+        let sides = [0.0, -0.6, 0.6, -1.2, 1.2];
+        let moves = steps.into_iter().flat_map(|y| sides.into_iter().map(move |x| vec2(x, y)));
+        let places = moves.filter_map(|step| {
+            let place = first.translate(vec2(step.x * size.x, step.y * (size.y + 2.0)));
+            let is_free =
+                rect.contains_rect(place) && !taken.iter().any(|other| other.intersects(place.expand(2.0)));
+            // Far from its place, a label is harder to relate than over a few points.
+            is_free.then(|| (points.share_under(place) + 0.12 * step.length(), place))
+        });
+        places.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, place)| place)
+    }
+
+    fn show(
+        &self,
+        ui: &Ui,
+        response: &Response,
+        rect: Rect,
+        palette: &ThemeColors,
+        points: &PointDensity,
+        taken: &mut Vec<Rect>,
+    ) {
         let painter = ui.painter_at(rect);
-        let galley =
-            painter.layout_no_wrap(self.text.to_owned(), FontId::proportional(SMALL_PT), palette.text);
-        let place = self.anchor.anchor_size(self.at, galley.size());
-        if !rect.contains_rect(place) {
-            return;
-        }
+        let galley = painter.layout_job(with_subscripts(self.text, SMALL_PT, palette.text));
+        let Some(place) = self.place(galley.size(), rect, points, taken) else { return };
+        taken.push(place);
         painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, palette.panel.gamma_multiply(0.75));
         painter.galley(place.min, galley, palette.text);
         let name = ui.interact(place, response.id.with(self.text), Sense::hover());
         name.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, self.text));
-        name.on_hover_text(self.tip);
+        match self.term {
+            Some(term) => drop(term.card(name, palette)),
+            None => drop(name.on_hover_text(self.tip)),
+        }
     }
 }
 
@@ -293,6 +385,28 @@ fn number_text(value: f32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn labels_lie_on_no_other_text_and_keep_away_from_points() {
+        let rect = Rect::from_min_size(Pos2::ZERO, vec2(400.0, 300.0));
+        let label = ChartLabel {
+            at: pos2(200.0, 150.0),
+            anchor: Align2::CENTER_TOP,
+            text: "matte line",
+            tip: "",
+            term: None,
+        };
+        let size = vec2(60.0, 14.0);
+        let mut points = PointDensity::new(rect);
+        let free = label.place(size, rect, &points, &[]).unwrap();
+        assert_eq!(free.center_top(), label.at);
+        let other = label.place(size, rect, &points, &[free]).unwrap();
+        assert!(!other.intersects(free) && rect.contains_rect(other));
+        (0..400).for_each(|x| (146..168).for_each(|y| points.add(pos2(x as f32, y as f32))));
+        let away = label.place(size, rect, &points, &[]).unwrap();
+        assert!(points.share_under(away) < 0.4, "{away}");
+        assert_eq!(label.place(size, rect, &points, &[rect]), None);
+    }
 
     #[test]
     fn steps_are_round() {

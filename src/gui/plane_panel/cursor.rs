@@ -1,6 +1,7 @@
 //! The plane panel at the debugger's cursor: a skewed-T test (section 5.4.1), drawn in the plane that both lines span,
 //! or a region that grows in its slice (section 5.4.2).
 
+use super::chart::{Obstacles, PointDensity};
 use super::{PlanePanel, kinds, navigate, paint_hovered, point_mesh, secondary_text};
 use crate::app::State;
 use crate::gui::{PanelContext, skewed_t_test, widgets};
@@ -34,7 +35,7 @@ const TESTED: [KindLabel; 3] = [
 /// The kinds of points of a growing region.
 const GROWING: [KindLabel; 3] = [
     (PixelKind::Matte, "its pixels", "What the region holds at the cursor (section 5.3.2, 5.4.2)."),
-    (PixelKind::Highlight, "just taken", "What it took in the ring at work (section 5.3.2, 5.4.2)."),
+    (PixelKind::Highlight, "just taken", "What it took in the ring of this step (section 5.3.2, 5.4.2)."),
     (
         PixelKind::Lost,
         "not taken",
@@ -92,7 +93,7 @@ impl PlanePanel {
         let chart = navigate(ui, &response, plane, moved, rect, &mut self.is_moved);
         self.chart = Some(chart);
         let painter = ui.painter_at(rect);
-        chart.axes(&painter, plane, rect, cx.palette);
+        let numbers = chart.axes(&painter, plane, rect, cx.palette);
         painter.add(egui::Shape::Mesh(point_mesh(&mut self.point_mesh, cx, plane, chart, rect)));
         if let Some(test) = test {
             // The part of the matte line on which a highlight may begin (section 5.4.1).
@@ -101,11 +102,15 @@ impl PlanePanel {
                 test.position_limits.map(|percent| chart.screen(plane.oblique(along(percent), 0.0), rect));
             painter.line_segment(upper, Stroke::new(5.0, cx.palette.accent.gamma_multiply(0.55)));
         }
-        chart.skewed_t(ui, &response, plane, rect, cx.palette);
-        if let Some(test) = test {
-            skewed_t_test::show(ui, cx.palette, cx.palette.panel, rect.left_top() + vec2(8.0, 4.0), test);
-        }
-        paint_hovered(&painter, cx, plane, chart, picture, rect);
+        let checks = test.map(|test| {
+            skewed_t_test::show(ui, cx.palette, cx.palette.panel, rect.left_top() + vec2(8.0, 4.0), test)
+        });
+        let amounts = paint_hovered(&painter, cx, plane, chart, picture, rect);
+        let density = PointDensity::default();
+        let points = self.point_mesh.as_ref().map_or(&density, |point_mesh| &point_mesh.density);
+        let obstacles =
+            Obstacles { points, taken: checks.into_iter().chain([amounts]).chain(numbers).collect() };
+        chart.skewed_t(ui, &response, plane, rect, cx.palette, &obstacles);
         self.handle_pointer(cx, &response, chart, rect);
     }
 
@@ -134,7 +139,7 @@ fn legend(ui: &mut Ui, cx: &PanelContext, names: [KindLabel; 3]) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         for (kind, name, tip) in names {
-            widgets::chip(ui, kinds::color(kind, cx.state.view.theme), name).on_hover_text(tip);
+            widgets::chip(ui, cx.palette, kinds::color(kind, cx.state.view.theme), name).on_hover_text(tip);
             ui.label(secondary_text(cx, name)).on_hover_text(tip);
             ui.add_space(6.0);
         }

@@ -169,11 +169,11 @@ fn cells(row: &mut TableRow, palette: &ThemeColors, row_of: &HypothesisRow, name
     };
     cell(row, |ui| {
         let color = widgets::color(names.color(row_of.hypothesis));
-        widgets::chip(ui, color, &format!("color of hypothesis {}", row_of.hypothesis));
+        widgets::chip(ui, palette, color, &format!("color of hypothesis {}", row_of.hypothesis));
         plain(ui, row_of.hypothesis.to_string());
     });
     number(row, widgets::grouped(row_of.pixels as usize));
-    cell(row, |ui| vector(ui, palette, row_of.direction));
+    cell(row, |ui| vector(ui, palette, "color of the line", row_of.direction, true));
     number(row, format!("{:.1}", row_of.radius));
     cell(row, |ui| plain(ui, row_of.status.text()));
     cell(row, |ui| {
@@ -192,7 +192,7 @@ fn light(ui: &mut Ui, palette: &ThemeColors, replay: &Replay) {
         let tip = "The color of the light as it is estimated up to the cursor (section 5.4).";
         ui.label(RichText::new("light so far").color(palette.secondary)).on_hover_text(tip);
         match replay.light() {
-            Some(direction) => vector(ui, palette, Some(direction)),
+            Some(direction) => vector(ui, palette, "color of the light", Some(direction), true),
             None => {
                 ui.label(RichText::new("not estimated yet").color(palette.secondary));
             }
@@ -205,7 +205,7 @@ fn windows(ui: &mut Ui, palette: &ThemeColors, counts: &WindowCounts) {
     ui.add_space(4.0);
     let row = |ui: &mut Ui, entry: Option<LegendEntry>, name: &str, tip: &str, count: usize| {
         match entry {
-            Some(entry) => widgets::chip(ui, widgets::color(entry.color), name),
+            Some(entry) => widgets::chip(ui, palette, widgets::color(entry.color), name),
             None => ui.label(""),
         };
         ui.label(name).on_hover_text(tip);

@@ -5,6 +5,7 @@ use super::run_to;
 use crate::app::{Command, DebugCommand, DebugSettings, Direction, StepUnit};
 use crate::describe::Names;
 use crate::gui::action::{Action, DebugAction};
+use crate::gui::glossary::Term;
 use crate::gui::move_cursor::move_cursor;
 use crate::gui::shortcuts::keys_of;
 use crate::gui::widgets::{grouped, keep_unless_edited};
@@ -170,7 +171,13 @@ fn playback_settings(ui: &mut Ui, cx: &mut PanelContext) {
     let combo = combo.show_ui(ui, |ui| {
         for unit in StepUnit::ALL {
             let choice = ui.selectable_label(settings.unit == unit, plural(unit));
-            if choice.on_hover_text(unit_tip(unit)).clicked() {
+            let is_clicked = choice.clicked();
+            if unit == StepUnit::Step {
+                Term::Claim.card(choice, cx.palette);
+            } else {
+                choice.on_hover_text(unit_tip(unit));
+            }
+            if is_clicked {
                 (settings.unit, settings.per_second) = (unit, rates(unit)[2]);
             }
         }
@@ -261,6 +268,6 @@ fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names) {
     ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         ui.add(Label::new(RichText::new(status).size(SMALL_PT).color(tone)).truncate());
         ui.add_space(6.0);
-        ui.add(Label::new(&text).truncate()).on_hover_text(&text)
+        ui.add(Label::new(&text).truncate().show_tooltip_when_elided(false)).on_hover_text(&text)
     });
 }

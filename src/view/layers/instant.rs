@@ -75,7 +75,7 @@ pub fn instant_legend(instant: &Instant) -> Vec<LegendEntry> {
             let own = regions.own_color();
             let mut legend = Vec::new();
             if !regions.newest.is_empty() {
-                let tip = "5.3.2, 5.4.2: the pixels that the region took in the ring at work";
+                let tip = "5.3.2, 5.4.2: the pixels that the region took in the ring of this step";
                 legend.push(LegendEntry::new("just taken", bright(own), tip));
             }
             if !regions.beside.is_empty() {

@@ -42,8 +42,8 @@ impl Status {
     /// The status in a word or two.
     pub fn text(self) -> String {
         match self {
-            Self::AtWork => "at work".to_owned(),
-            Self::Stands => "stands".to_owned(),
+            Self::AtWork => "growing now".to_owned(),
+            Self::Stands => "complete".to_owned(),
             Self::Absorbed(by) => format!("absorbed by {by}"),
             Self::Merged(into) => format!("merged into {into}"),
             Self::Barren => "barren".to_owned(),

@@ -51,7 +51,7 @@ pub fn skewed_t_view(test: &CandidateTested, reach: Option<[f64; 2]>) -> SkewedT
 /// The name of a candidate.
 pub fn candidate_name(source: CandidateSource) -> String {
     match source {
-        CandidateSource::Leftover(area) => format!("leftover of area {area}"),
+        CandidateSource::Leftover(area) => format!("what is left of area {area}"),
         CandidateSource::Hypothesis(id) => format!("hypothesis {id}"),
         CandidateSource::Absorbed(id) => format!("absorbed hypothesis {id}"),
     }

@@ -8,10 +8,12 @@
 mod accessibility;
 mod color_space_panel;
 mod colors;
+mod commands;
 mod compare;
 mod cursor;
 mod debugger;
 mod exports;
+mod first_minute;
 mod habits;
 mod image_panel;
 mod images;

@@ -1,7 +1,7 @@
 //! Tests of the parameters panel: dragging, typing, resetting, switching, and undoing.
 
 use crate::window::{
-    Window, apply, choose, click, double_click, drag, named, notice, press, shown, sigma, state, tiny,
+    Window, apply, choose, click, double_click, drag, named, press, says, shown, sigma, state, tiny,
     tiny_window, undo,
 };
 use dichroscope::app::{Edit, ExportKind, JobCommand};
@@ -180,7 +180,7 @@ fn presets_are_in_the_menu_and_parameters_travel_through_a_file() {
     std::fs::write(&path, "window_size = \n").unwrap();
     choose(&mut window, "Analyze", "Load parameters");
     crate::window::answer(&mut window, &path);
-    assert!(notice(&window).contains("p.toml"), "{}", notice(&window));
+    assert!(says(&window, "p.toml: "), "the dialog stays and says what is wrong");
     assert_eq!(state(&window).document.params, preset.params());
 }
 

@@ -5,7 +5,7 @@ use dichroscope::gui::App;
 use dichroscope::params::{Parameter, Setting};
 use dichroscope::raster::RegionId;
 use dichroscope::truth::sample;
-use dichroscope::view::{Item, Origin, ResultSnapshot};
+use dichroscope::view::{Item, Origin, ResultSnapshot, Selection};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -52,7 +52,10 @@ impl Fixture {
         }));
         let state = application.state();
         assert!(state.is_current() && state.debugger.trace().is_some(), "{:?}", state.notices);
-        state.clone()
+        let mut state = state.clone();
+        // The largest region is selected at first; most tests begin with nothing selected.
+        state.document.selection = Selection::default();
+        state
     }
 }
 

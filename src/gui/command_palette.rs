@@ -1,0 +1,183 @@
+//! The command palette: every action by its name, found by typing some of its letters, with its key.
+
+use super::action::Action;
+use super::pane::Pane;
+use super::shortcuts::{keys_of, named_actions};
+use super::theme::SMALL_PT;
+use super::{PanelContext, widgets};
+use crate::view::Layer;
+use egui::{Button, Id, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
+
+/// An action with the name under which it is found.
+struct Entry {
+    action: Action,
+    /// Group and name, such as "Image: Body reflection".
+    name: String,
+}
+
+/// All actions. An action with several keys is listed once.
+fn entries() -> Vec<Entry> {
+    let mut entries: Vec<Entry> = Vec::new();
+    let keyed =
+        named_actions().map(|(group, name, action)| Entry { action, name: format!("{group}: {name}") });
+    let layers = Layer::ALL
+        .into_iter()
+        .map(|layer| Entry { action: Action::Layer(layer), name: format!("Image: layer {}", layer.name()) });
+    let panes = Pane::ALL
+        .into_iter()
+        .map(|pane| Entry { action: Action::Show(pane), name: format!("Show: {}", pane.title()) });
+    let others = [
+        (Action::OpenWorkspace, "File: Open a workspace"),
+        (Action::ShowAll, "Window: Arrange the panels as at first"),
+    ];
+    let others = others.map(|(action, name)| Entry { action, name: name.to_owned() });
+    for entry in keyed.chain(layers).chain(panes).chain(others) {
+        if entry.action != Action::Palette && entries.iter().all(|known| known.action != entry.action) {
+            entries.push(entry);
+        }
+    }
+    entries
+}
+
+/// Whether a name contains every word of a query, in any order and case.
+fn matches(name: &str, query: &str) -> bool {
+    let name = name.to_lowercase();
+    query.to_lowercase().split_whitespace().all(|word| name.contains(word))
+}
+
+/// The palette: what was typed, and which of the found actions is chosen.
+#[derive(Default)]
+pub struct CommandPalette {
+    is_open: bool,
+    query: String,
+    /// Index of the chosen action among the found ones.
+    chosen: usize,
+    /// Whether the field takes the focus in the next frame.
+    focus: bool,
+    /// The widget that had the focus before the palette opened, and has it again afterwards.
+    focus_before: Option<Id>,
+}
+
+impl CommandPalette {
+    /// Opens the palette, or closes it.
+    pub fn toggle(&mut self, ctx: &egui::Context) {
+        if self.is_open {
+            return self.close(ctx);
+        }
+        let focus_before = ctx.memory(egui::Memory::focused);
+        *self = Self { is_open: true, focus: true, focus_before, ..Self::default() };
+    }
+
+    /// Whether the palette is open. An open palette owns the keyboard.
+    pub fn is_open(&self) -> bool {
+        self.is_open
+    }
+
+    /// Closes the palette, and gives the focus back.
+    fn close(&mut self, ctx: &egui::Context) {
+        if let Some(id) = self.focus_before.take() {
+            ctx.memory_mut(|memory| memory.request_focus(id));
+        }
+        *self = Self::default();
+    }
+
+    /// Closes the palette on Escape and on a second Ctrl+P, before these keys reach anything else.
+    pub fn close_on_keys(&mut self, ctx: &egui::Context) {
+        let keys = [(Modifiers::NONE, Key::Escape), (Modifiers::COMMAND, Key::P)];
+        if self.is_open
+            && keys
+                .into_iter()
+                .any(|(modifiers, key)| ctx.input_mut(|input| input.consume_key(modifiers, key)))
+        {
+            self.close(ctx);
+        }
+    }
+
+    /// Shows the palette, if it is open. The chosen action is carried out in the next frame.
+    pub fn show(&mut self, ui: &Ui, cx: &mut PanelContext) {
+        if !self.is_open {
+            return;
+        }
+        let found: Vec<Entry> =
+            entries().into_iter().filter(|entry| matches(&entry.name, &self.query)).collect();
+        let [up, down, enter] = [Key::ArrowUp, Key::ArrowDown, Key::Enter]
+            .map(|key| ui.ctx().input_mut(|input| input.consume_key(Modifiers::NONE, key)));
+        let last = found.len().saturating_sub(1);
+        self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up)).min(last);
+        let mut confirmed = found.get(self.chosen).filter(|_| enter).map(|entry| entry.action);
+        let is_moved = up || down;
+        let window = egui::Window::new("Commands").collapsible(false).resizable(false);
+        let shown = window.anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 64.0)).default_width(420.0).show(
+            ui.ctx(),
+            |ui| {
+                self.field(ui);
+                if found.is_empty() {
+                    ui.label(RichText::new("No command has these letters.").color(cx.palette.secondary));
+                }
+                ScrollArea::vertical().max_height(320.0).auto_shrink([false, true]).show(ui, |ui| {
+                    for (index, entry) in found.iter().enumerate() {
+                        let row = row(ui, entry, index == self.chosen);
+                        if index == self.chosen && is_moved {
+                            row.scroll_to_me(None);
+                        }
+                        if row.clicked() {
+                            confirmed = Some(entry.action);
+                        }
+                    }
+                });
+            },
+        );
+        if let Some(shown) = &shown {
+            // Tab stays inside the palette.
+            ui.ctx().memory_mut(|memory| memory.set_modal_layer(shown.response.layer_id));
+        }
+        if let Some(action) = confirmed {
+            cx.act(action);
+            self.close(ui.ctx());
+        }
+    }
+
+    /// Shows the field for the letters.
+    fn field(&mut self, ui: &mut Ui) {
+        let field = TextEdit::singleline(&mut self.query).id(Id::unique("query of the command palette"));
+        let field = ui.add(field.desired_width(400.0).hint_text("some letters of a command"));
+        field.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Command"));
+        if field.changed() {
+            self.chosen = 0;
+        }
+        if std::mem::take(&mut self.focus) || !field.has_focus() {
+            field.request_focus();
+        }
+    }
+}
+
+/// Shows an action with its key.
+fn row(ui: &mut Ui, entry: &Entry, is_chosen: bool) -> egui::Response {
+    let keys = RichText::new(keys_of(ui.ctx(), entry.action)).size(SMALL_PT);
+    let button = Button::selectable(is_chosen, widgets::capitalized(&entry.name)).shortcut_text(keys);
+    ui.add_sized(egui::vec2(ui.available_width(), 20.0), button.truncate())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_action_is_listed_once_under_a_name_of_its_own() {
+        let entries = entries();
+        for (index, entry) in entries.iter().enumerate() {
+            let earlier = &entries[..index];
+            assert!(earlier.iter().all(|other| other.action != entry.action), "{}", entry.name);
+            assert!(earlier.iter().all(|other| other.name != entry.name), "{}", entry.name);
+        }
+        assert!(entries.iter().any(|entry| entry.action == Action::Show(Pane::Why)));
+        assert!(entries.iter().any(|entry| entry.action == Action::Layer(Layer::Confidence)));
+    }
+
+    #[test]
+    fn words_are_found_in_any_order_and_case() {
+        assert!(matches("Image: Body reflection", "refl body"));
+        assert!(matches("Image: Body reflection", ""));
+        assert!(!matches("Image: Body reflection", "body table"));
+    }
+}

@@ -1,0 +1,77 @@
+//! Context menus: what can be done with a pixel or a region, by the secondary button of the pointer.
+
+use super::PanelContext;
+use super::action::Action;
+use super::pane::Pane;
+use super::shortcuts::keys_of;
+use crate::app::{Combine, Edit, ViewCommand};
+use crate::raster::{PixelIndex, RegionId};
+use crate::view::{ImageSettings, Item, Layer};
+use egui::{Button, Ui};
+use std::sync::Arc;
+
+/// Shows what can be done with a pixel of the photograph.
+pub fn of_pixel(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
+    let Some(picture) = cx.state.picture.clone() else { return };
+    let [x, y] = pixel.position(picture.size().0);
+    ui.label(format!("Pixel {x}, {y}"));
+    if ui.button("Why is this pixel what it is?").clicked() {
+        cx.send(Edit::Select(Some(Item::Pixel(pixel))));
+        cx.act(Action::Show(Pane::Why));
+    }
+    if ui.button("Select this color in the color space").clicked() {
+        cx.send(Edit::Select(picture.histogram.bin_of(pixel.index()).map(Item::Bin)));
+        cx.act(Action::Show(Pane::Colors));
+    }
+    if ui.button("Copy place and color").clicked() {
+        let [r, g, b] = picture.photo.image.pixels[pixel.index()];
+        ui.ctx().copy_text(format!("{x}\t{y}\t{r}\t{g}\t{b}"));
+    }
+    if let Some(region) = cx.state.region_of(Item::Pixel(pixel)) {
+        ui.separator();
+        of_region(ui, cx, region);
+    }
+    ui.separator();
+    ui.menu_button("Layer", |ui| {
+        for layer in Layer::ALL.into_iter().filter(|layer| !layer.needs_pinned() || cx.state.pinned.is_some())
+        {
+            let is_shown = cx.state.view.image.layer == layer;
+            let keys = keys_of(ui.ctx(), Action::Layer(layer));
+            if ui.add(Button::selectable(is_shown, layer.name()).shortcut_text(keys)).clicked() {
+                cx.send(ViewCommand::Image(ImageSettings { layer, ..cx.state.view.image.clone() }));
+            }
+        }
+    });
+    action(ui, cx, "Fit the whole picture", Action::Fit);
+    action(ui, cx, "Export\u{2026}", Action::Export);
+}
+
+/// Shows what can be done with a region.
+pub fn of_region(ui: &mut Ui, cx: &mut PanelContext, region: RegionId) {
+    ui.label(format!("Region {region}"));
+    if ui.button("Select the region").clicked() {
+        cx.send(Edit::Select(Some(Item::Region(region))));
+    }
+    if ui.button("Show its dichromatic plane").clicked() {
+        cx.send(Edit::Select(Some(Item::Region(region))));
+        cx.act(Action::Show(Pane::Plane));
+    }
+    if ui.button("Tell how it was made").clicked() {
+        cx.send(Edit::Select(Some(Item::Region(region))));
+        cx.act(Action::Show(Pane::Why));
+    }
+    if ui.button("Mark its pixels").clicked()
+        && let Some(shown) = cx.state.shown()
+    {
+        let mask = shown.labels().map(|&label| label == region.get());
+        cx.send(Edit::Mark(Arc::new(mask), Combine::Replace, None));
+    }
+}
+
+/// Shows an action with its key.
+fn action(ui: &mut Ui, cx: &mut PanelContext, text: &str, action: Action) {
+    let keys = keys_of(ui.ctx(), action);
+    if ui.add(Button::new(text).shortcut_text(keys)).clicked() {
+        cx.act(action);
+    }
+}

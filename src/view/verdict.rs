@@ -1,0 +1,156 @@
+//! The verdict on a result: one sentence of clauses, each about something that can be shown.
+
+use super::{Layer, ResultSnapshot};
+use crate::intrinsic::RegionReflection;
+use crate::raster::RegionId;
+use crate::segment::{LightBasis, TEXTURE_CORRELATION};
+
+/// Half the interval of the light's direction from which the light counts as uncertain, degrees.
+pub const WIDE_INTERVAL_DEG: f64 = 10.0;
+
+/// What a clause is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClauseSubject {
+    /// All regions.
+    Regions,
+    /// One region.
+    Region(RegionId),
+    /// The light.
+    Light,
+    /// The pixels of a layer.
+    Layer(Layer),
+}
+
+/// A part of the verdict.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Clause {
+    /// The part of the sentence.
+    pub text: String,
+    /// What the part is about.
+    pub subject: ClauseSubject,
+    /// Whether the part says that something is bad.
+    pub is_bad: bool,
+}
+
+/// The verdict on a result. Its clauses, joined by semicolons, are a sentence.
+pub fn verdict(shown: &ResultSnapshot) -> Vec<Clause> {
+    let regions = &shown.analysis.intrinsic.regions;
+    if regions.is_empty() {
+        let reason = shown.analysis.warnings.first();
+        let text = reason.map_or("no region was found", String::as_str).trim_end_matches('.').to_owned();
+        return vec![Clause { text, subject: ClauseSubject::Layer(Layer::Classes), is_bad: true }];
+    }
+    let misfits: Vec<&RegionReflection> = regions.iter().filter(|region| !region.model_fits).collect();
+    let mut clauses = vec![Clause {
+        text: fitting_text(regions.len(), misfits.len()),
+        subject: ClauseSubject::Regions,
+        is_bad: 2 * misfits.len() > regions.len(),
+    }];
+    clauses.extend(misfit_clause(&misfits));
+    clauses.push(light_clause(shown));
+    clauses.extend(score_clause(shown));
+    clauses
+}
+
+/// How many of the regions fit the model.
+fn fitting_text(regions: usize, misfits: usize) -> String {
+    match (regions, misfits) {
+        (1, 0) => "the only region fits".to_owned(),
+        (1, _) => "the only region does not fit".to_owned(),
+        (_, 0) => format!("all {regions} regions fit"),
+        _ if misfits == regions => format!("none of {regions} regions fits"),
+        _ if regions - misfits == 1 => format!("1 of {regions} regions fits"),
+        _ => format!("{} of {regions} regions fit", regions - misfits),
+    }
+}
+
+/// What is the matter with the regions that do not fit; none where all fit. The clause is about the largest of them.
+fn misfit_clause(misfits: &[&RegionReflection]) -> Option<Clause> {
+    let largest = misfits.iter().max_by_key(|region| region.pixels)?;
+    let prints = misfits.iter().filter(|region| region.texture > TEXTURE_CORRELATION).count();
+    let text = match (misfits.len(), prints) {
+        (1, 1) => format!("region {} is split locally: a print", largest.id),
+        (1, _) => format!(
+            "region {} is split locally: its colors lie {:.1} counts off its plane",
+            largest.id, largest.fit_rms_counts
+        ),
+        (all, 0) => format!("{all} are split locally: their colors lie off their planes"),
+        (all, prints) if all == prints => format!("{all} are split locally: prints"),
+        (all, 1) => format!("{all} are split locally, 1 of them a print"),
+        (all, prints) => format!("{all} are split locally, {prints} of them prints"),
+    };
+    Some(Clause { text, subject: ClauseSubject::Region(largest.id), is_bad: true })
+}
+
+/// What the light's color was found by, and how well.
+fn light_clause(shown: &ResultSnapshot) -> Clause {
+    let findings = &shown.analysis.finals.light;
+    let subject = ClauseSubject::Light;
+    let Some(light) = &shown.analysis.illuminant else {
+        let text = "the light's color is unknown: no highlight was found".to_owned();
+        return Clause { text, subject, is_bad: true };
+    };
+    let s = if light.objects == 1 { "" } else { "s" };
+    let text = match findings.basis {
+        LightBasis::Given => "the light's color was given".to_owned(),
+        LightBasis::Votes => format!("the light comes from {} small highlight{s}", light.objects),
+        LightBasis::Planes | LightBasis::Nothing => {
+            format!("the light comes from {} plane{s}", light.objects)
+        }
+    };
+    let interval =
+        findings.interval_deg.map_or_else(String::new, |degrees| format!(", \u{b1}{degrees:.1}\u{b0}"));
+    let is_bad = findings.interval_deg.is_some_and(|degrees| degrees >= WIDE_INTERVAL_DEG);
+    Clause { text: format!("{text}{interval}"), subject, is_bad }
+}
+
+/// How much nearer to the truth the body image is than the photograph, where the truth is known.
+fn score_clause(shown: &ResultSnapshot) -> Option<Clause> {
+    let scores = &shown.accuracy()?.scores;
+    let gain = scores.psnr_body? - scores.psnr_nothing?;
+    let text = if gain < 0.0 {
+        format!("the body image is {:.1} dB worse than doing nothing", -gain)
+    } else {
+        format!("the body image is {gain:.1} dB better")
+    };
+    Some(Clause { text, subject: ClauseSubject::Layer(Layer::Body), is_bad: gain < 0.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_number_of_fitting_regions_is_a_clause() {
+        for ((regions, misfits), text) in [
+            ((1, 0), "the only region fits"),
+            ((1, 1), "the only region does not fit"),
+            ((8, 0), "all 8 regions fit"),
+            ((7, 1), "6 of 7 regions fit"),
+            ((2, 1), "1 of 2 regions fits"),
+            ((3, 3), "none of 3 regions fits"),
+        ] {
+            assert_eq!(fitting_text(regions, misfits), text);
+        }
+    }
+
+    #[test]
+    fn regions_that_do_not_fit_are_told_with_the_reason() {
+        let region = |label: u16, pixels: usize, texture: f64| {
+            let id = RegionId::from_label(label).unwrap();
+            RegionReflection { fit_rms_counts: 5.12, texture, ..crate::view::testing::region(id, pixels) }
+        };
+        let (print, rough) = (region(4, 900, 0.9), region(2, 400, 0.1));
+        let text = |misfits: &[&RegionReflection]| misfit_clause(misfits).map(|clause| clause.text);
+        assert_eq!(text(&[]), None);
+        assert_eq!(text(&[&print]).unwrap(), "region 4 is split locally: a print");
+        assert_eq!(
+            text(&[&rough]).unwrap(),
+            "region 2 is split locally: its colors lie 5.1 counts off its plane"
+        );
+        let both = misfit_clause(&[&rough, &print]).unwrap();
+        assert_eq!(both.text, "2 are split locally, 1 of them a print");
+        assert_eq!(both.subject, ClauseSubject::Region(print.id), "the largest");
+        assert_eq!(text(&[&print, &print]).unwrap(), "2 are split locally: prints");
+    }
+}

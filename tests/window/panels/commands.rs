@@ -1,0 +1,118 @@
+//! Tests of the command palette, the context menus, and of a layout that does not move while the debugger's cursor does.
+
+use crate::window::{
+    Window, answer, apply, at, click, inside, item, marked, open_sample, press, region, says, state, tiny,
+    tiny_window, window,
+};
+use dichroscope::app::{Command, DebugCommand, Edit};
+use dichroscope::truth::sample;
+use dichroscope::view::{Item, Layer, Theme};
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers, PointerButton, Pos2};
+use egui_kittest::kittest::Queryable;
+
+fn type_text(window: &mut Window, text: &str) {
+    window.event(Event::Text(text.to_owned()));
+    window.run_steps(3);
+}
+
+#[test]
+fn a_command_is_found_by_letters_and_done_by_enter() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    assert!(says(&window, "Image: Body reflection") && says(&window, "Show: Why"));
+    type_text(&mut window, "refl body");
+    assert!(says(&window, "Image: Body reflection") && !says(&window, "Image: Noise"));
+    assert_eq!(state(&window).view.image.layer, Layer::Input, "letters reach no panel");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    window.run_steps(2);
+    assert_eq!(state(&window).view.image.layer, Layer::Body);
+    assert!(!says(&window, "Image: Body reflection"), "the palette is closed");
+}
+
+#[test]
+fn a_command_is_chosen_by_arrows_or_the_pointer_and_escape_chooses_none() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    type_text(&mut window, "image layer");
+    press(&mut window, Modifiers::NONE, Key::ArrowDown);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    window.run_steps(2);
+    let second = state(&window).view.image.layer;
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!says(&window, "Light or dark"));
+    assert_eq!(state(&window).view.image.layer, second);
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    type_text(&mut window, "light");
+    click(&mut window, Role::Button, "Window: Light or dark");
+    assert_eq!(state(&window).view.theme, Theme::Light);
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    type_text(&mut window, "no such thing");
+    assert!(says(&window, "No command has these letters."));
+}
+
+fn secondary_click(window: &mut Window, pos: Pos2) {
+    window.hover_at(pos);
+    window.run_steps(2);
+    for pressed in [true, false] {
+        let (button, modifiers) = (PointerButton::Secondary, Modifiers::NONE);
+        window.event(Event::PointerButton { pos, button, pressed, modifiers });
+    }
+    window.run_steps(3);
+}
+
+#[test]
+fn the_context_menu_of_the_picture_is_about_the_pixel_and_its_region() {
+    let mut window = tiny_window();
+    let (x, y) = inside(&window, 2);
+    let place = at(&window, x as f32 + 0.5, y as f32 + 0.5);
+    secondary_click(&mut window, place);
+    assert!(says(&window, "Region 2") && says(&window, "Copy place and color"));
+    click(&mut window, Role::Button, "Mark its pixels");
+    assert!(marked(&window) > 0);
+    secondary_click(&mut window, place);
+    click(&mut window, Role::Button, "Why is this pixel what it is?");
+    assert!(matches!(item(&window), Some(Item::Pixel(_))));
+}
+
+#[test]
+fn the_context_menu_of_a_row_is_about_its_region() {
+    let mut window = tiny_window();
+    let chip = window.get_by_role_and_label(Role::Label, "color of region 2").rect().center();
+    secondary_click(&mut window, chip);
+    click(&mut window, Role::Button, "Select the region");
+    assert_eq!(item(&window), Some(Item::Region(dichroscope::raster::RegionId::from_index(1))));
+}
+
+#[test]
+fn the_picture_does_not_move_while_the_cursor_does() {
+    let mut window = tiny_window();
+    let picture = |window: &Window| window.get_by_role_and_label(Role::Image, "Picture").rect();
+    let rest = picture(&window);
+    for n in [12_000, 3, 30_000] {
+        apply(&mut window, Command::Debug(DebugCommand::Seek(n)));
+        assert!((picture(&window).height() - rest.height()).abs() < 0.5, "after {n} steps");
+    }
+    click(&mut window, Role::Button, "Follow");
+    assert!((picture(&window).height() - rest.height()).abs() < 0.5, "not followed");
+}
+
+#[test]
+fn a_file_that_cannot_be_read_leaves_the_dialog_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let letter = folder.path().join("letter.dichroscope");
+    std::fs::write(&letter, "dear all").unwrap();
+    let mut window = window();
+    open_sample(&mut window, sample::NAME);
+    apply(&mut window, Edit::Select(Some(region(2))));
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    answer(&mut window, &letter);
+    window.run_steps(3);
+    assert!(says(&window, "letter.dichroscope: "));
+    let typed = window.get_by_role_and_label(Role::TextInput, "Path").value();
+    assert!(typed.is_some_and(|text| text.ends_with("letter.dichroscope")));
+    answer(&mut window, &tiny());
+    window.run_steps(3);
+    assert!(window.query_by_role(Role::TextInput).is_none());
+}

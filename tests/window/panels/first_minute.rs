@@ -1,0 +1,167 @@
+//! Tests of the first minute: the start screen, the region that is selected at first, the verdict, cards of words, and the view
+//! before and after.
+
+use crate::window::{
+    Window, apply, choose, click, inside, item, named, open_sample, press, region, says, shown, state,
+    tiny_window, window, words, zoom_in,
+};
+use dichroscope::app::{Edit, JobCommand, ViewCommand};
+use dichroscope::truth::sample;
+use dichroscope::view::{Arrangement, Item, Layer, Origin};
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers, Order};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+#[test]
+fn the_start_screen_opens_samples_and_dialogs_by_pointer_and_keyboard() {
+    let mut window = window();
+    click(&mut window, Role::Button, "Open a workspace\u{2026}");
+    assert!(says(&window, "Path") && says(&window, "Open workspace"));
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    for sample in &sample::SAMPLES {
+        assert!(says(&window, sample.name) && says(&window, sample.about), "{}", sample.name);
+    }
+    window.get_by_role_and_label(Role::Link, sample::NAME).focus();
+    window.run_steps(2);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(state(&window).picture.as_ref().unwrap().origin, Origin::Sample(sample::NAME.to_owned()));
+}
+
+#[test]
+fn the_largest_region_is_selected_until_a_person_selects() {
+    let mut window = window();
+    open_sample(&mut window, sample::NAME);
+    let regions = &shown(&window).analysis.intrinsic.regions;
+    let largest = regions.iter().max_by_key(|region| region.pixels).unwrap().id;
+    assert_eq!(item(&window), Some(Item::Region(largest)));
+    assert!(!state(&window).history.can_undo(), "the selection is no step");
+    assert!(says(&window, "Dichromatic plane of region"));
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(item(&window), None);
+    named(&window, Role::Slider, "camera noise \u{3c3}0").set_value_accesskit(4.0);
+    window.run_steps(3);
+    assert_eq!(item(&window), None, "what was deselected stays so");
+    click(&mut window, Role::Button, "Select the largest region");
+    assert_eq!(item(&window), Some(Item::Region(largest)));
+}
+
+#[test]
+fn each_clause_of_the_verdict_leads_to_its_subject() {
+    let mut window = tiny_window();
+    let clause = |window: &Window, text: &str| {
+        window.root().children_recursive().any(|node| {
+            node.accesskit_node().role() == Role::Link
+                && words(&node).is_some_and(|words| words.contains(text))
+        })
+    };
+    assert!(clause(&window, "regions fit;") && clause(&window, "the light comes from"));
+    choose(&mut window, "View", "Regions");
+    let regions = shown(&window).analysis.intrinsic.regions.len();
+    click(&mut window, Role::Link, &format!("All {regions} regions fit;"));
+    assert_eq!(state(&window).view.image.layer, Layer::Regions);
+    assert!(says(&window, "color of region 1"), "the table is shown again");
+}
+
+#[test]
+fn a_way_back_leads_from_no_panel_to_all() {
+    let mut window = tiny_window();
+    for pane in dichroscope::gui::Pane::ALL {
+        choose(&mut window, "View", pane.title());
+    }
+    assert!(says(&window, "All panels are hidden"));
+    click(&mut window, Role::Button, "Profile");
+    assert!(!says(&window, "All panels are hidden") && says(&window, "row"));
+    choose(&mut window, "View", "Profile");
+    click(&mut window, Role::Button, "Arrange as at first");
+    assert!(says(&window, "color of region 1"));
+}
+
+#[test]
+fn the_readout_keeps_the_clicked_pixel_and_names_measured_and_resulting_amounts() {
+    let mut window = tiny_window();
+    zoom_in(&mut window);
+    let (x, y) = inside(&window, 1);
+    let place = crate::window::at(&window, x as f32 + 0.5, y as f32 + 0.5);
+    window.hover_at(place);
+    window.run_steps(2);
+    for pressed in [true, false] {
+        crate::window::pointer(&mut window, place, pressed, Modifiers::NONE);
+    }
+    window.event(Event::PointerGone);
+    window.run_steps(3);
+    let readout = words(&named(&window, Role::Label, &format!("x {x}, y {y}"))).unwrap();
+    assert!(readout.contains("result, m_b ") && readout.contains("m_s "), "{readout}");
+    let measured = readout.contains("measured, m_b ");
+    assert_eq!(measured, says(&window, "before the cut at noise"), "*Why* says the same: {readout}");
+}
+
+#[test]
+fn while_c_is_held_the_photograph_is_shown() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::NONE, Key::Num8);
+    let before = state(&window).view.image.clone();
+    let hold = |window: &mut Window, pressed: bool| {
+        let (key, physical_key, repeat, modifiers) = (Key::C, None, false, Modifiers::NONE);
+        window.event(Event::Key { key, physical_key, pressed, repeat, modifiers });
+        window.run_steps(2);
+    };
+    hold(&mut window, true);
+    assert_eq!(state(&window).view.image, before, "the settings stay");
+    hold(&mut window, false);
+    assert_eq!(state(&window).view.image, before);
+}
+
+#[test]
+fn words_have_cards_with_a_drawing() {
+    let mut window = tiny_window();
+    apply(&mut window, Edit::Select(Some(region(1))));
+    assert!(!says(&window, "drawing of"));
+    for (label, word) in [("matte line", "matte line"), ("m_s, counts", "m_s, amount of surface")] {
+        let label = window.get_by_role_and_label(Role::Label, label).rect().center();
+        window.hover_at(label);
+        window.run_steps(40);
+        assert!(says(&window, &format!("drawing of: {word}")), "{word}");
+    }
+}
+
+/// Number of tooltips that are shown.
+fn tooltips(window: &Window) -> usize {
+    let layers = window.ctx.memory(|memory| memory.areas().visible_layer_ids());
+    layers.iter().filter(|layer| layer.order == Order::Tooltip).count()
+}
+
+#[test]
+fn no_two_tooltips_are_shown_at_once() {
+    let mut window = tiny_window();
+    apply(&mut window, Edit::Select(Some(region(1))));
+    apply(&mut window, ViewCommand::Pin(true));
+    window.ctx.all_styles_mut(|style| {
+        (style.interaction.tooltip_delay, style.interaction.tooltip_grace_time) = (0.0, 0.0);
+        style.interaction.show_tooltips_only_when_still = false;
+    });
+    let nodes = window.root().children_recursive();
+    let with_place = nodes.filter(|node| node.accesskit_node().bounding_box().is_some());
+    let mut places: Vec<_> = with_place.map(|node| node.rect().center()).collect();
+    places.dedup();
+    let mut any = 0;
+    for place in places {
+        window.hover_at(place);
+        window.run_steps(2);
+        let shown = tooltips(&window);
+        assert!(shown <= 1, "{shown} tooltips at {place}");
+        any += shown;
+    }
+    assert!(any > 20, "tooltips are shown at all: {any}");
+}
+
+#[test]
+fn a_second_photograph_is_shown_with_its_own_verdict() {
+    let mut window = tiny_window();
+    apply(&mut window, JobCommand::Open(Origin::Sample(sample::NAME.to_owned())));
+    assert!(says(&window, "the body image is"), "the truth of a sample is known");
+    assert_eq!(
+        state(&window).view.image.arrangement,
+        Arrangement::Single,
+        "a choice of the first start only"
+    );
+}
