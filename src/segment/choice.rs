@@ -15,7 +15,7 @@
 //! votes alone 280, the better of both 97, the earlier rule, by the support alone, 189. The limits were chosen on the same
 //! pictures.
 //!
-//! Votes for a light of an unusual color that a tenth of the lit pixels have are void: where a second body lies in spots on the first, the spots
+//! Without a light by planes, votes for a light of an unusual color that a tenth of the lit pixels have are void: where a second body lies in spots on the first, the spots
 //! rise above their surroundings as highlights do, and vote for a light of their own color. (A frog with a yellow belly: the light was claimed
 //! 20° off, body 38.3 dB, doing nothing 43.7 dB.) White and gray bodies under an ordinary lamp have the color of the light as well; therefore votes within 9° of white stay.
 //!
@@ -116,6 +116,7 @@ pub fn choose_light(evidence: &LightEvidence) -> LightDecision {
     match (planes, votes) {
         (None, None) => LightDecision::NOTHING,
         (Some(planes), None) => LightDecision::planes_alone(&planes),
+        (None, Some(votes)) if votes.result.has_color_of_a_body(&limits) => LightDecision::NOTHING,
         (None, Some(votes)) => LightDecision::votes_alone(&votes),
         (Some(planes), Some(votes)) => {
             let odds = odds(evidence, &votes);
@@ -159,7 +160,7 @@ fn planes_could_be(planes: &PlaneLight) -> bool {
 /// Whether enough votes agree on a light, and that light is not unusual.
 fn votes_could_be(votes: &VoteLight, least_share: f64) -> bool {
     let usual = (0..2).all(|axis| votes.result.offsets_deg[axis].abs() <= LIGHT_LIMITS.offsets_deg[axis]);
-    usual && votes.result.share >= least_share && !votes.result.has_color_of_a_body(&LIGHT_LIMITS)
+    usual && votes.result.share >= least_share
 }
 
 /// Least interval of the planes' light because the votes contradict it, degrees: half of the angle between both lights.
