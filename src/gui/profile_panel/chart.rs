@@ -91,7 +91,7 @@ impl ProfileChart {
         }
         let corner = self.area.left_top() - vec2(0.0, 4.0);
         painter.text(corner, Align2::LEFT_BOTTOM, "counts", font.clone(), palette.text);
-        let corner = self.area.right_bottom() - vec2(2.0, 2.0);
+        let corner = self.area.right_top() - vec2(0.0, 4.0);
         painter.text(corner, Align2::RIGHT_BOTTOM, "px along the line", font, palette.text);
         let clipped = painter.with_clip_rect(self.area.expand(2.0));
         for curve in curves {
