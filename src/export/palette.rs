@@ -14,7 +14,7 @@ const HUES: usize = 8;
 const HUE_ORDER: [u8; HUES] = [0, 4, 2, 6, 1, 5, 3, 7];
 const COLORS: usize = LEVELS.len() * HUES;
 /// `OKLab` distance from which on two colors are easily distinguished; among such colors the rarest is preferred.
-const EASY_DISTANCE: f32 = 0.16;
+const EASY_DISTANCE: f32 = 0.12;
 
 /// Matrices from linear sRGB to linear sRGB as seen with protanopia and with deuteranopia.
 const CONE_DEFICITS: [[[f32; 3]; 3]; 2] = [

@@ -1,11 +1,13 @@
 //! The profile panel: amounts of body, surface and noise along a line, as in the paper's color figure 11.
 
+mod chart;
+
 use super::{PanelContext, widgets};
 use crate::app::ViewCommand;
 use crate::raster::PixelIndex;
-use crate::view::{Item, ProfileLine, ProfileSample, Tool, profile, profile_ends};
-use egui::{Color32, Ui};
-use egui_plot::{Corner, HoverPosition, Legend, Line, Plot, PlotPoints, VLine};
+use crate::view::{Item, ProfileLine, ProfileSample, Theme, Tool, profile, profile_ends};
+use chart::{Curve, ProfileChart};
+use egui::{Color32, Sense, Ui};
 
 /// Identity of the samples: generation of the result, and the line's ends, hundredths of a pixel.
 type SamplesKey = (u64, [[i64; 2]; 2]);
@@ -14,18 +16,38 @@ type SamplesKey = (u64, [[i64; 2]; 2]);
 #[derive(Default)]
 pub struct ProfilePanel {
     samples: Option<(SamplesKey, Vec<ProfileSample>)>,
+    /// Names of the curves that a person has hidden.
+    hidden: Vec<&'static str>,
 }
 
-/// A curve: name, color, and the value of a sample in counts (`None` in no region).
-type Curve = (&'static str, Color32, fn(&ProfileSample) -> Option<f32>);
+/// The colors of a curve in both themes.
+#[derive(Clone, Copy)]
+struct CurveColors {
+    dark: [u8; 3],
+    light: [u8; 3],
+}
 
-const CURVES: [Curve; 6] = [
-    ("R", Color32::from_rgb(0xB0, 0x5A, 0x52), |sample| Some(sample.input[0])),
-    ("G", Color32::from_rgb(0x5C, 0x8E, 0x5A), |sample| Some(sample.input[1])),
-    ("B", Color32::from_rgb(0x5C, 0x7C, 0xB8), |sample| Some(sample.input[2])),
-    ("body m_b", Color32::from_rgb(0xE8, 0xA3, 0x3D), |sample| sample.body),
-    ("surface m_s", Color32::from_rgb(0x8F, 0xD3, 0xE8), |sample| sample.surface),
-    ("noise \u{3b5}", Color32::from_rgb(0xA8, 0x8C, 0xD8), |sample| sample.noise),
+impl CurveColors {
+    fn of(self, theme: Theme) -> Color32 {
+        widgets::color(if theme == Theme::Dark { self.dark } else { self.light })
+    }
+}
+
+/// The colors of a curve in the dark and in the light theme.
+const fn colors(dark: [u8; 3], light: [u8; 3]) -> CurveColors {
+    CurveColors { dark, light }
+}
+
+/// A curve: name, colors, and the value of a sample in counts (`None` in no region).
+type CurveRow = (&'static str, CurveColors, fn(&ProfileSample) -> Option<f32>);
+
+const CURVES: [CurveRow; 6] = [
+    ("R", colors([0xB0, 0x5A, 0x52], [0xB0, 0x48, 0x40]), |sample| Some(sample.input[0])),
+    ("G", colors([0x5C, 0x8E, 0x5A], [0x3C, 0x78, 0x3C]), |sample| Some(sample.input[1])),
+    ("B", colors([0x5C, 0x7C, 0xB8], [0x38, 0x5C, 0xA4]), |sample| Some(sample.input[2])),
+    ("body m_b", colors([0xE8, 0xA3, 0x3D], [0x9A, 0x5C, 0x00]), |sample| sample.body),
+    ("surface m_s", colors([0x8F, 0xD3, 0xE8], [0x1E, 0x78, 0x96]), |sample| sample.surface),
+    ("noise \u{3b5}", colors([0xA8, 0x8C, 0xD8], [0x70, 0x50, 0xA8]), |sample| sample.noise),
 ];
 
 impl ProfilePanel {
@@ -54,7 +76,7 @@ impl ProfilePanel {
             if !cx.is_export {
                 toolbar(ui, cx, ends, samples, picture.size().0);
             }
-            plot(ui, cx, samples, hovered);
+            plot(ui, cx, samples, hovered, &mut self.hidden);
         });
     }
 }
@@ -90,35 +112,40 @@ fn toolbar(ui: &mut Ui, cx: &mut PanelContext, ends: [[f32; 2]; 2], samples: &[P
     });
 }
 
-/// Plots the samples, and sends the pixel under the pointer as hovered.
-fn plot(ui: &mut Ui, cx: &mut PanelContext, samples: &[ProfileSample], hovered: Option<PixelIndex>) {
-    let accent = cx.palette.accent;
-    let plot = Plot::new("profile")
-        .legend(Legend::default().position(Corner::RightTop).background_alpha(0.6))
-        .x_axis_label("px along the line")
-        .y_axis_label("counts")
-        .label_formatter(|selected| match selected {
-            HoverPosition::NearDataPoint { plot_name, position, .. } => {
-                Some(format!("{plot_name}\n{:.1} counts at {:.0} px", position.y, position.x))
-            }
-            HoverPosition::Elsewhere { .. } => None,
-        })
-        .allow_scroll(false);
-    let response = plot.show(ui, |plot| {
-        for (name, color, value) in CURVES {
-            // A curve has gaps where pixels are in no region.
-            for part in runs(samples, value) {
-                plot.line(Line::new(name, PlotPoints::from(part)).color(color).width(1.3));
-            }
-        }
-        let position = |pixel: PixelIndex| samples.iter().find(|sample| sample.pixel == pixel);
-        if let Some(sample) = hovered.and_then(position) {
-            plot.vline(VLine::new("pointer", f64::from(sample.position_px)).color(accent).width(1.0));
-        }
-        plot.pointer_coordinate().map(|selected| selected.x)
+/// Draws the curves, and sends the pixel under the pointer as hovered.
+fn plot(
+    ui: &mut Ui,
+    cx: &mut PanelContext,
+    samples: &[ProfileSample],
+    hovered: Option<PixelIndex>,
+    hidden: &mut Vec<&'static str>,
+) {
+    let theme = cx.state.view.theme;
+    let all: Vec<Curve> = CURVES
+        .iter()
+        .map(|&(name, colors, value)| Curve { name, color: colors.of(theme), runs: runs(samples, value) })
+        .collect();
+    let position = |pixel: PixelIndex| samples.iter().find(|sample| sample.pixel == pixel);
+    let marked = hovered.and_then(position).map(|sample| sample.position_px);
+    if !cx.is_export {
+        chart::legend(ui, cx.palette, &all, hidden, marked);
+    }
+    let shown: Vec<Curve> = all.into_iter().filter(|curve| !hidden.contains(&curve.name)).collect();
+    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    if rect.width() < 48.0 || rect.height() < 48.0 {
+        return;
+    }
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, "Profile along the line")
     });
-    let pointed = response.inner.filter(|_| response.response.hovered()).and_then(|x| {
-        let distance = |sample: &&ProfileSample| (f64::from(sample.position_px) - x).abs();
+    let chart = ProfileChart::fit(&shown, rect);
+    chart.paint(ui, cx.palette, &shown);
+    if let Some(position_px) = marked {
+        chart.mark(ui.painter(), cx.palette, &shown, position_px);
+    }
+    let pointed = response.hover_pos().and_then(|pointer| {
+        let at = chart.position_at(pointer);
+        let distance = |sample: &&ProfileSample| (sample.position_px - at).abs();
         samples.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
     });
     if let Some(sample) = pointed {
@@ -133,8 +160,8 @@ fn plot(ui: &mut Ui, cx: &mut PanelContext, samples: &[ProfileSample], hovered: 
 }
 
 /// The runs of consecutive samples with a value, as points: position in pixels, value in counts.
-fn runs(samples: &[ProfileSample], value: fn(&ProfileSample) -> Option<f32>) -> Vec<Vec<[f64; 2]>> {
-    let point = |sample: &ProfileSample| Some([f64::from(sample.position_px), f64::from(value(sample)?)]);
+fn runs(samples: &[ProfileSample], value: fn(&ProfileSample) -> Option<f32>) -> Vec<Vec<[f32; 2]>> {
+    let point = |sample: &ProfileSample| Some([sample.position_px, value(sample)?]);
     let known = samples.chunk_by(|a, b| value(a).is_some() == value(b).is_some());
     known.map(|run| run.iter().filter_map(point).collect::<Vec<_>>()).filter(|run| !run.is_empty()).collect()
 }

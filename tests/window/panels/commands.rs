@@ -2,7 +2,7 @@
 
 use crate::window::{
     Window, answer, apply, at, click, inside, item, marked, open_sample, press, region, says, state, tiny,
-    tiny_window, window,
+    tiny_window, window, zoom_in,
 };
 use dichroscope::app::{Command, DebugCommand, Edit};
 use dichroscope::truth::sample;
@@ -65,6 +65,7 @@ fn secondary_click(window: &mut Window, pos: Pos2) {
 #[test]
 fn the_context_menu_of_the_picture_is_about_the_pixel_and_its_region() {
     let mut window = tiny_window();
+    zoom_in(&mut window);
     let (x, y) = inside(&window, 2);
     let place = at(&window, x as f32 + 0.5, y as f32 + 0.5);
     secondary_click(&mut window, place);
