@@ -48,7 +48,7 @@ pub(super) struct Work {
 }
 
 /// What became of a photograph.
-enum Ended {
+enum PhotoOutcome {
     Done(Box<Finished>),
     /// The result of an earlier call is there.
     Unchanged,
@@ -76,7 +76,7 @@ impl Work {
                         && let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed))
                     {
                         let ended = pool.install(|| self.analyze(job));
-                        self.take_down(job, ended, &bar, &tally);
+                        self.record_outcome(job, ended, &bar, &tally);
                     }
                 });
             }
@@ -84,44 +84,45 @@ impl Work {
         bar.finish_and_clear();
         let tally = tally.into_inner().unwrap_or_else(PoisonError::into_inner);
         let interrupted = self.interrupt.came() && tally.done + tally.failed.len() < jobs.len();
-        if let Some(lines) = self.lines {
-            lines.finish()?;
-        }
         if !tally.failed.is_empty() && jobs.len() > 1 {
             let (failed, all) = (tally.failed.len(), jobs.len());
             note(&format!("{failed} of {all} photographs failed: {}", tally.failed.join(", ")));
         }
+        if let Some(lines) = self.lines {
+            lines.finish()?;
+        }
         if interrupted {
             let (done, all) = (tally.done, jobs.len());
+            let call = if self.options.again { "the same call without --again" } else { "the same call" };
             note(&format!(
-                "interrupted: {done} of {all} photographs are done; the same call goes on with the others"
+                "interrupted: {done} of {all} photographs are done; {call} continues with the others"
             ));
             return Ok(Outcome::Interrupted);
         }
         Ok(if tally.failed.is_empty() { Outcome::Done } else { Outcome::SomeFailed })
     }
 
-    /// Writes the line of a photograph, says what became of it and counts it.
-    fn take_down(&self, job: &Job, ended: Ended, bar: &ProgressBar, tally: &Mutex<Tally>) {
+    /// Appends the line of a photograph, prints the outcome and counts the photograph.
+    fn record_outcome(&self, job: &Job, ended: PhotoOutcome, bar: &ProgressBar, tally: &Mutex<Tally>) {
         let (name, file) = (&job.name, place::name_of(&job.input));
         let line = match &ended {
-            Ended::Done(finished) => Some(Line::done(job, &self.settings, finished)),
-            Ended::Failed(error) => Some(Line::failed(job, error)),
-            Ended::Unchanged | Ended::Interrupted => None,
+            PhotoOutcome::Done(finished) => Some(Line::done(job, &self.settings, finished)),
+            PhotoOutcome::Failed(error) => Some(Line::failed(job, error)),
+            PhotoOutcome::Unchanged | PhotoOutcome::Interrupted => None,
         };
         let mut ended = ended;
         if let (Some(lines), Some(line)) = (&self.lines, line)
             && let Err(error) = lines.append(&line)
         {
-            ended = Ended::Failed(format!("{file}: {error:#}"));
+            ended = PhotoOutcome::Failed(format!("{file}: {error:#}"));
         }
         let quiet = self.options.quiet;
         let text = match &ended {
-            Ended::Done(finished) if !quiet => Some(self.summary(job, finished)),
-            Ended::Unchanged if !quiet => {
+            PhotoOutcome::Done(finished) if !quiet => Some(self.summary(job, finished)),
+            PhotoOutcome::Unchanged if !quiet => {
                 Some(format!("{}: unchanged \u{2192} {}", name.display(), self.target(job).display()))
             }
-            Ended::Failed(error) => Some(error.clone()),
+            PhotoOutcome::Failed(error) => Some(error.clone()),
             _ => None,
         };
         if let Some(text) = text {
@@ -129,9 +130,9 @@ impl Work {
         }
         let mut tally = tally.lock().unwrap_or_else(PoisonError::into_inner);
         match ended {
-            Ended::Done(_) | Ended::Unchanged => tally.done += 1,
-            Ended::Failed(_) => tally.failed.push(file),
-            Ended::Interrupted => return,
+            PhotoOutcome::Done(_) | PhotoOutcome::Unchanged => tally.done += 1,
+            PhotoOutcome::Failed(_) => tally.failed.push(file),
+            PhotoOutcome::Interrupted => return,
         }
         bar.inc(1);
     }
@@ -154,27 +155,29 @@ impl Work {
         self.options.force || earlier.is_some_and(|line| line.status == Status::Done)
     }
 
-    fn analyze(&self, job: &Job) -> Ended {
+    fn analyze(&self, job: &Job) -> PhotoOutcome {
         let file = place::name_of(&job.input);
         // A photograph on which the program fails does not end the others. Its half-changed values are dropped.
         let result = catch_unwind(AssertUnwindSafe(|| self.read_and_write(job)));
         match result {
             Ok(Ok(ended)) => ended,
-            Ok(Err(_)) if self.interrupt.came() => Ended::Interrupted,
-            Ok(Err(error)) => Ended::Failed(format!("{error:#}")),
-            Err(_) => Ended::Failed(format!("{file}: the analysis failed on it: report the photograph")),
+            Ok(Err(_)) if self.interrupt.came() => PhotoOutcome::Interrupted,
+            Ok(Err(error)) => PhotoOutcome::Failed(format!("{error:#}")),
+            Err(_) => PhotoOutcome::Failed(format!(
+                "{file}: internal error (panic); please report it with the photograph"
+            )),
         }
     }
 
     /// Errors begin with the name of the photograph.
-    fn read_and_write(&self, job: &Job) -> Result<Ended> {
+    fn read_and_write(&self, job: &Job) -> Result<PhotoOutcome> {
         // The errors of reading name the file already.
         let file = RawFile::read(&job.input)?;
-        if !self.options.again && self.is_done(job, &file.sha256()) {
-            return Ok(Ended::Unchanged);
+        if !self.options.again && self.is_done(job, file.sha256()) {
+            return Ok(PhotoOutcome::Unchanged);
         }
         let shot = file.decode(&self.reading)?;
-        let compared = || -> Result<Finished> {
+        let analyzed = || -> Result<Finished> {
             let reference =
                 self.options.truth.as_deref().map(|root| self.reference(root, job)).transpose()?;
             let plan = Plan {
@@ -188,7 +191,7 @@ impl Work {
             };
             one::analyze(&shot, &plan, &self.target(job))
         };
-        Ok(Ended::Done(Box::new(compared().with_context(|| place::name_of(&job.input))?)))
+        Ok(PhotoOutcome::Done(Box::new(analyzed().with_context(|| place::name_of(&job.input))?)))
     }
 
     /// Whether an earlier call wrote the result of the same photograph with the same settings, and the result is still there.

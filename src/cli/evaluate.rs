@@ -1,6 +1,6 @@
 //! `dichroscope evaluate`: results against ground truth.
 
-use super::one::{Reference, USUAL_CAMERA};
+use super::one::{DEFAULT_CAMERA_FILE, Reference};
 use super::{Outcome, note, print, table};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
@@ -87,7 +87,7 @@ fn evaluate(arguments: &Arguments, name: &Path, folder: &Path) -> Result<Scores>
             bail!("--image {image}: not in {}", truth_folder.display())
         }
         Some(image) => image,
-        None if report.image.file.is_empty() => USUAL_CAMERA,
+        None if report.image.file.is_empty() => DEFAULT_CAMERA_FILE,
         None => &report.image.file,
     };
     let Reference { truth, camera } = Reference::read(&truth_folder, image, &ReadOptions::default())?;

@@ -67,7 +67,7 @@ pub(super) fn plan(inputs: &[PathBuf], pattern: Option<&GlobMatcher>, out: &Path
     }
     let pairs: Vec<(&Path, &Path)> =
         found.list.iter().map(|job| (job.input.as_path(), job.name.as_path())).collect();
-    for (name, job) in names::apart(&pairs).into_iter().zip(&mut found.list) {
+    for (name, job) in names::distinct_names(&pairs).into_iter().zip(&mut found.list) {
         job.name = name;
     }
     Ok(found)

@@ -65,19 +65,21 @@ fn folders(folder: &Path) -> Vec<OsString> {
     normal.collect()
 }
 
-/// Names of the results of photographs, each with a first name, such that no two are equal and none lies inside another.
+/// Names of the results of photographs, each with an initial name, such that no two are equal and none lies inside
+/// another.
 ///
 /// Equal names grow by the photographs' folders; photographs of one folder keep their extensions; what still is equal gets
 /// numbers. A name that another one would lie inside keeps its extension too.
-pub(super) fn apart(photographs: &[(&Path, &Path)]) -> Vec<PathBuf> {
+pub(super) fn distinct_names(photographs: &[(&Path, &Path)]) -> Vec<PathBuf> {
     let mut named: Vec<Named> = photographs.iter().map(|(input, name)| Named::new(input, name)).collect();
-    while grow(&mut named) || leave(&mut named) {}
+    while lengthen_equal_names(&mut named) || add_extensions_to_parents(&mut named) {}
     number(&mut named);
     named.iter().map(Named::name).collect()
 }
 
-/// Lets equal names grow by one folder, or by their extensions in one folder; false where all names differ or none can grow.
-fn grow(named: &mut [Named]) -> bool {
+/// Lengthens equal names by one folder, or by their extensions in one folder; false where all names differ or no name
+/// can be longer.
+fn lengthen_equal_names(named: &mut [Named]) -> bool {
     let mut groups: BTreeMap<PathBuf, Vec<usize>> = BTreeMap::new();
     for (index, photograph) in named.iter().enumerate() {
         groups.entry(photograph.name()).or_default().push(index);
@@ -100,8 +102,8 @@ fn grow(named: &mut [Named]) -> bool {
     has_grown
 }
 
-/// Gives their extensions to names that others would lie inside; false where there are none.
-fn leave(named: &mut [Named]) -> bool {
+/// Adds the extension to each name that is a parent folder of another name; false where no name changed.
+fn add_extensions_to_parents(named: &mut [Named]) -> bool {
     let mut folders = BTreeSet::new();
     for photograph in named.iter() {
         folders.extend(photograph.name().ancestors().skip(1).map(Path::to_owned));
@@ -119,16 +121,19 @@ fn leave(named: &mut [Named]) -> bool {
 /// Numbers the names that are still equal or still lie inside one another.
 fn number(named: &mut [Named]) {
     let mut used: BTreeSet<PathBuf> = BTreeSet::new();
+    // The next number of each name, so that many equal names are not tried again and again.
+    let mut next_numbers: BTreeMap<PathBuf, usize> = BTreeMap::new();
     let all: BTreeSet<PathBuf> = named
         .iter()
         .flat_map(|photograph| photograph.name().ancestors().skip(1).map(Path::to_owned).collect::<Vec<_>>())
         .collect();
     for photograph in named {
         let is_taken = |name: &PathBuf| used.contains(name) || all.contains(name);
-        let mut next = 2;
+        let unnumbered = photograph.name();
         while is_taken(&photograph.name()) {
-            photograph.number = next;
-            next += 1;
+            let next = next_numbers.entry(unnumbered.clone()).or_insert(2);
+            photograph.number = *next;
+            *next += 1;
         }
         used.insert(photograph.name());
     }
@@ -141,7 +146,7 @@ mod tests {
     fn names(photographs: &[(&str, &str)]) -> Vec<String> {
         let paths: Vec<_> =
             photographs.iter().map(|(input, name)| (Path::new(input), Path::new(name))).collect();
-        apart(&paths).iter().map(|name| name.display().to_string()).collect()
+        distinct_names(&paths).iter().map(|name| name.display().to_string()).collect()
     }
 
     #[test]

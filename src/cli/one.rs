@@ -15,19 +15,22 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// The photograph that truth folders hold, where a report does not name one of theirs.
-pub(super) const USUAL_CAMERA: &str = "camera8.png";
+pub(super) const DEFAULT_CAMERA_FILE: &str = "camera8.png";
 
 /// A photograph that has been read.
-pub(super) struct Shot {
+pub(super) struct LoadedPhoto {
     pub(super) photo: Photo,
+    /// SHA-256 of the file.
     sha256: String,
+    /// Time of reading and decoding, milliseconds.
     read_ms: f64,
 }
 
-impl Shot {
+impl LoadedPhoto {
     /// Decodes a file that is already in memory.
     pub(super) fn decode(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Self> {
-        RawFile { bytes: bytes.to_vec(), name: name.to_owned(), begin: Instant::now() }.decode(options)
+        let sha256 = photo::sha256_hex(bytes);
+        RawFile { bytes: bytes.to_vec(), name: name.to_owned(), sha256, read_ms: 0.0 }.decode(options)
     }
 }
 
@@ -35,26 +38,31 @@ impl Shot {
 pub(super) struct RawFile {
     bytes: Vec<u8>,
     name: String,
-    begin: Instant,
+    /// SHA-256 of the bytes.
+    sha256: String,
+    /// Time of reading, milliseconds.
+    read_ms: f64,
 }
 
 impl RawFile {
     /// Reads a file. Errors name the file.
     pub(super) fn read(path: &Path) -> Result<Self> {
         let begin = Instant::now();
-        Ok(Self { bytes: place::read_bytes(path)?, name: place::name_of(path), begin })
+        let bytes = place::read_bytes(path)?;
+        let read_ms = ms_since(begin);
+        Ok(Self { sha256: photo::sha256_hex(&bytes), name: place::name_of(path), bytes, read_ms })
     }
 
     /// SHA-256 of the bytes.
-    pub(super) fn sha256(&self) -> String {
-        photo::sha256_hex(&self.bytes)
+    pub(super) fn sha256(&self) -> &str {
+        &self.sha256
     }
 
     /// Decodes the photograph. Errors name the file.
-    pub(super) fn decode(self, options: &ReadOptions) -> Result<Shot> {
+    pub(super) fn decode(self, options: &ReadOptions) -> Result<LoadedPhoto> {
+        let begin = Instant::now();
         let photo = photo::decode(&self.bytes, &self.name, options)?;
-        let read_ms = ms_since(self.begin);
-        Ok(Shot { photo, sha256: self.sha256(), read_ms })
+        Ok(LoadedPhoto { photo, sha256: self.sha256, read_ms: self.read_ms + ms_since(begin) })
     }
 }
 
@@ -69,7 +77,7 @@ impl Reference {
     /// Reads a truth folder and, in it, the photograph called `image` or else the usual one.
     pub(super) fn read(folder: &Path, image: &str, options: &ReadOptions) -> Result<Self> {
         let named = folder.join(image);
-        let path = if named.is_file() { named } else { folder.join(USUAL_CAMERA) };
+        let path = if named.is_file() { named } else { folder.join(DEFAULT_CAMERA_FILE) };
         let truth = GroundTruth::read(folder)?;
         Ok(Self { truth, camera: photo::read(&path, options)?.image.pixels })
     }
@@ -125,7 +133,7 @@ pub(super) struct Finished {
 }
 
 /// Analyzes a photograph and writes its result to `target`.
-pub(super) fn analyze(shot: &Shot, plan: &Plan, target: &Path) -> Result<Finished> {
+pub(super) fn analyze(shot: &LoadedPhoto, plan: &Plan, target: &Path) -> Result<Finished> {
     let mut clock =
         StageClock { begin: None, timings: Timings::default(), interrupt: plan.interrupt.clone() };
     let image = Arc::new(shot.photo.image.clone());

@@ -2,7 +2,7 @@
 
 use super::batch::in_short;
 use super::interrupt::Interrupt;
-use super::one::{self, Plan, Reference, Shot};
+use super::one::{self, LoadedPhoto, Plan, Reference};
 use super::{Outcome, note, print, table};
 use anyhow::{Context, Result};
 use dichroscope::export::{FileChoice, check_target};
@@ -27,7 +27,7 @@ pub(super) fn run() -> Result<Outcome> {
 }
 
 fn analyze(target: &Path) -> Result<String> {
-    let shot = Shot::decode(SAMPLES[0].camera, "camera8.png", &ReadOptions::default())?;
+    let shot = LoadedPhoto::decode(SAMPLES[0].camera, "camera8.png", &ReadOptions::default())?;
     let truth = SAMPLES[0].truth()?;
     let reference = Reference { truth, camera: shot.photo.image.pixels.clone() };
     let plan = Plan {

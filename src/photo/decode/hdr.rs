@@ -1,4 +1,5 @@
-//! Decoder of Radiance HDR, based on the `image` crate, which reads one of the eight orders of pixels and no other header.
+//! Decoder of Radiance HDR. The `image` crate decodes the pixels, but only of pictures whose resolution line is `-Y …
+//! +X …`; the header is read here.
 
 use super::{Budget, Decoded, simple};
 use crate::photo::error::{CONVERT, Fault};
@@ -16,7 +17,7 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let mut decoded = simple::read(HdrDecoder::new(picture)?, budget)?;
     decoded.orientation = header.resolution.orientation();
     decoded.density = header.density;
-    decoded.warnings = header.warnings;
+    decoded.warnings.extend(header.warnings);
     Ok(decoded)
 }
 
@@ -54,8 +55,10 @@ impl Header {
                 }
                 // Height of a pixel divided by its width.
                 "PIXASPECT" => {
-                    density =
-                        value.parse().ok().and_then(|height: f32| Density::of_pixel_aspect(1.0 / height));
+                    density = value
+                        .parse()
+                        .ok()
+                        .and_then(|height_per_width: f32| Density::of_pixel_aspect(1.0 / height_per_width));
                 }
                 _ => {}
             }
@@ -96,7 +99,7 @@ impl Resolution {
     fn of(line: &str) -> Option<Self> {
         let words: Vec<&str> = line.split_whitespace().collect();
         let [first, scanlines, second, pixels] = words[..] else { return None };
-        let ascends = |axis| [first, second].contains(&axis);
+        let has_direction = |axis| [first, second].contains(&axis);
         let scanlines_are_columns = first.ends_with('X');
         let others = if scanlines_are_columns { ["-Y", "+Y"] } else { ["-X", "+X"] };
         if !["-Y", "+Y", "-X", "+X"].contains(&first) || !others.contains(&second) {
@@ -106,8 +109,8 @@ impl Resolution {
             scanlines_are_columns,
             scanlines: scanlines.parse().ok()?,
             pixels_per_scanline: pixels.parse().ok()?,
-            from_top: ascends("-Y"),
-            from_left: ascends("+X"),
+            from_top: has_direction("-Y"),
+            from_left: has_direction("+X"),
         })
     }
 

@@ -42,11 +42,13 @@ pub(in crate::photo::decode) struct Header {
     unsupported: Option<&'static str>,
 }
 
-/// Number of lowest frequencies of a quantization table that count, in zigzag order: those that a smooth block needs.
+/// Number of steps of a quantization table, in zigzag order, that enter [`Header::compression`]: those of the
+/// frequencies of a smooth block.
 const LOWEST_FREQUENCIES: usize = 6;
 
 impl Header {
-    /// Reads all markers up to the end marker; an error for a file that ends before its end marker.
+    /// Reads all markers up to the end marker. Errors: no end marker, no frame header or several, a damaged header, a
+    /// height of 0.
     pub(in crate::photo::decode) fn of_file(bytes: &[u8]) -> Result<Self, Fault> {
         let cut = || Fault::damaged("it ends before its end marker");
         let rest = |at: usize| bytes.get(at..).unwrap_or_default();
@@ -68,6 +70,9 @@ impl Header {
             }
             let length = bytes.get(at..at + 2).ok_or_else(cut)?;
             let length = usize::from(u16::from_be_bytes([length[0], length[1]]));
+            if length < 2 {
+                return Err(Fault::damaged("a segment is shorter than its length field"));
+            }
             let segment = bytes.get(at..at + length).ok_or_else(cut)?;
             header.read_segment(marker, segment.get(2..).unwrap_or_default())?;
             // The coded data after a start-of-scan segment hold only restart markers, which the search above skips.
@@ -84,12 +89,13 @@ impl Header {
             0xC0..=0xCF => self.read_frame(marker, content)?,
             0xDA => {
                 let count = usize::from(content.first().copied().unwrap_or_default());
-                let entries = content.get(1..1 + 2 * count).unwrap_or_default();
+                let cut = || Fault::damaged("its scan header is cut short");
+                let entries = content.get(1..1 + 2 * count).ok_or_else(cut)?;
                 self.scans.push(entries.chunks_exact(2).map(|entry| entry[0]).collect());
             }
             0xDC => self.unsupported = Some("a height behind its first scan (DNL)"),
-            0xDE | 0xDF => self.unsupported = Some("several frames (hierarchical coding)"),
-            0xF7 => self.unsupported = Some("JPEG-LS coding"),
+            0xDE | 0xDF => return Err(unsupported("several frames (hierarchical coding)")),
+            0xF7 => return Err(unsupported("JPEG-LS coding")),
             0xE0 => self.read_jfif(content),
             0xE1 => {
                 if let Some(exif) = content.strip_prefix(b"Exif\0\0") {
@@ -139,7 +145,8 @@ impl Header {
         };
         self.components = components.chunks_exact(3).take(usize::from(*count)).map(component).collect();
         let factors = self.components.iter().flat_map(|component| [component.across, component.down]);
-        if self.components.is_empty() || factors.into_iter().any(|factor| !(1..=4).contains(&factor)) {
+        let is_complete = !self.components.is_empty() && self.components.len() == usize::from(*count);
+        if !is_complete || factors.into_iter().any(|factor| !(1..=4).contains(&factor)) {
             return Err(Fault::damaged("its frame header contradicts itself"));
         }
         Ok(())
@@ -199,7 +206,8 @@ impl Header {
         self.process == 0xC2
     }
 
-    /// Whether three components are luminance and color differences, by the rules of libjpeg.
+    /// The meaning of the components by the rules of libjpeg: JFIF segment, else Adobe segment, else the identifiers
+    /// `RGB`.
     pub(in crate::photo::decode) fn color(&self) -> Color {
         let ids: Vec<u8> = self.components.iter().map(|component| component.id).collect();
         let is_rgb = match self.adobe_transform {

@@ -1,4 +1,4 @@
-//! Decoder of JPEG (ITU-T T.81): baseline and progressive, gray and RGB, of 8 bits and any sampling.
+//! Decoder of JPEG (ITU-T T.81): baseline and progressive, gray and RGB, of 8 bits.
 //!
 //! The decoding libraries fill missing data with gray, so this decoder first checks that the file is complete, and walks its
 //! codes to find missing blocks (module `gaps`). The markers also say which of two libraries decodes the file rightly, see

@@ -1,10 +1,10 @@
 //! Decodes the samples of a JPEG with the library that decodes its arrangement of scans and samples rightly.
 //!
-//! zune-jpeg 0.5.15 is the fast one. It decodes wrong pixels, without an error, where components come in scans of their own and
-//! are subsampled, and where luminance has fewer samples than a color difference; it refuses horizontal factors of 3.
-//! jpeg-decoder 0.3.2 decodes these, but counts the blocks of a component wrongly in a scan of its own where the component's
-//! factor lies between 1 and the largest one. Both were compared with libjpeg on 112 arrangements. A file that neither
-//! library decodes rightly is refused.
+//! zune-jpeg 0.5.15 is the faster library. Its pixels are wrong, without an error, where the components of a sequential
+//! file come in separate scans and a vertical factor exceeds 1, and where luminance has fewer samples than a color
+//! difference; zune-jpeg refuses horizontal factors of 3. jpeg-decoder 0.3.2 decodes these, but counts the blocks of a
+//! component wrongly in a scan of its own where the component's factor lies between 1 and the largest one. Both were
+//! compared with libjpeg on 112 arrangements. A file that neither library decodes rightly is refused.
 
 use super::gaps::{Gap, first_gap};
 use super::header::{Component, Header};
@@ -92,12 +92,13 @@ fn decoded(bytes: &[u8], header: &Header, color: Color) -> Result<(Vec<u8>, bool
     }
 }
 
-/// Decodes with zune-jpeg; `None` where its pixels would be wrong.
+/// Decodes with zune-jpeg; `None` where zune-jpeg would decode wrong pixels, or assumes another color space than
+/// `color`.
 fn with_zune(bytes: &[u8], header: &Header, color: Color, strict: bool) -> Option<Result<Vec<u8>, Fault>> {
     if !is_right_in_zune(header) {
         return None;
     }
-    // The sizes were checked before.
+    // `Budget::admit` has checked the size: the library's own limits are lifted.
     let options = DecoderOptions::default()
         .set_strict_mode(strict)
         .set_max_width(usize::MAX)
