@@ -5,13 +5,16 @@ use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets;
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rangef, Rect, Shape, Stroke, Ui, pos2, vec2};
 
-/// Smallest distance between two ticks, points.
+/// Smallest distance between two ticks of the axes of positions and of values, points.
 const TICKS_APART_PT: [f32; 2] = [64.0, 36.0];
 
-/// A curve: name, color, and runs of points, each a position along the line (pixels) and a value (counts).
+/// A curve of the profile.
 pub struct Curve {
+    /// The name in the legend.
     pub name: &'static str,
+    /// The color of the line.
     pub color: Color32,
+    /// Runs of points without a gap: position along the line, pixels, and value, counts.
     pub runs: Vec<Vec<[f32; 2]>>,
 }
 
