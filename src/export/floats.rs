@@ -30,7 +30,7 @@ pub(super) fn write_rgb(path: &Path, counts: &Raster<[f32; 3]>) -> Result<(), Ex
         // A file holds its channels in alphabetical order.
         channels: &["B", "G", "R"],
         line: |y, channel, line: &mut Vec<f32>| {
-            line.extend(counts.row(y).iter().map(|color| color[2 - channel]))
+            line.extend(counts.row(y).iter().map(|color| color[2 - channel]));
         },
     };
     picture.write_to(path)
