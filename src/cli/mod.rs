@@ -151,8 +151,8 @@ fn no_screenshot() -> Result<Outcome> {
 
 /// Writes a line to stderr. A closed stderr is ignored, because results are still to be written.
 pub fn note(line: &str) {
-    // A name may hold line ends.
-    let line = line.replace(['\n', '\r'], "\u{fffd}");
+    // A name may hold line ends, and characters that a terminal would obey.
+    let line = line.replace(char::is_control, "\u{fffd}");
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 

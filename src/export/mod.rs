@@ -53,14 +53,6 @@ pub enum ExportError {
         /// The encoder's error.
         source: ::png::EncodingError,
     },
-    /// An EXR could not be encoded or written.
-    #[error("cannot write {}", path.display())]
-    Exr {
-        /// The file.
-        path: PathBuf,
-        /// The encoder's error.
-        source: exr::error::Error,
-    },
     /// The report could not be turned into JSON.
     #[error("cannot write {}", path.display())]
     Json {
@@ -89,7 +81,6 @@ impl ExportError {
         match &mut self {
             Self::Io { path, .. }
             | Self::Png { path, .. }
-            | Self::Exr { path, .. }
             | Self::Json { path, .. }
             | Self::Matte(MatteError::Encode { path, .. } | MatteError::Write { path, .. }) => {
                 if let Ok(rest) = path.strip_prefix(hidden) {

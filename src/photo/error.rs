@@ -168,6 +168,28 @@ impl From<png::DecodingError> for Fault {
 /// Advice to the user about a file that other programs may be able to read.
 pub(super) const CONVERT: &str = "convert it to plain gray or RGB with 8 or 16 bits or 32-bit float";
 
+/// Number of characters of a file's own text that a message quotes.
+const LONGEST_QUOTE: usize = 200;
+
+/// A text that may quote a file: one line, without control characters, which a terminal would obey, and of limited length.
 fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ").trim_end_matches('.').to_owned()
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let shown =
+        |character: char| if character.is_control() { char::REPLACEMENT_CHARACTER } else { character };
+    let mut line: String = words.trim_end_matches('.').chars().take(LONGEST_QUOTE).map(shown).collect();
+    if words.chars().nth(LONGEST_QUOTE).is_some() {
+        line.push('\u{2026}');
+    }
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_file_says_cannot_command_a_terminal_or_fill_it() {
+        assert_eq!(one_line("a \x1b[2Jb\n\u{9b}c."), "a \u{fffd}[2Jb \u{fffd}c");
+        assert_eq!(one_line(&"x".repeat(9000)).chars().count(), LONGEST_QUOTE + 1);
+    }
 }

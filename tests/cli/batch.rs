@@ -68,12 +68,13 @@ fn parts_of_a_folder_are_analyzed_apart_and_their_lines_are_put_together() {
     work.fails(2, "analyze d --out parts --shard 3/2", "as in 3/8");
 }
 
-/// The example of docs/command-line.md, where GNU Parallel is installed.
+/// The example of docs/command-line.md, where GNU Parallel is installed; it must be where `DICHROSCOPE_REQUIRE_PARALLEL` is set.
 #[cfg(unix)]
 #[test]
 fn gnu_parallel_runs_the_parts() {
     let installed = Command::new("parallel").arg("--version").output();
     if !installed.is_ok_and(|output| String::from_utf8_lossy(&output.stdout).contains("GNU parallel")) {
+        assert!(std::env::var_os("DICHROSCOPE_REQUIRE_PARALLEL").is_none(), "GNU Parallel is not installed");
         eprintln!("SKIP: GNU Parallel is not installed");
         return;
     }
@@ -176,6 +177,17 @@ fn the_mask_of_area_may_be_standard_input_too() {
     assert!(ended.err.starts_with("error: stdin: "), "{}", ended.err);
     work.fails(2, "-", "the window cannot show standard input");
     work.fails(2, "screenshot - --out o", "the window cannot show standard input");
+}
+
+/// A name cannot give a terminal commands.
+#[cfg(unix)]
+#[test]
+fn control_characters_of_a_name_are_not_written_to_the_terminal() {
+    let work = WorkFolder::new();
+    work.put("d/a\x1b[2J\nb.png", b"no picture");
+    let ended = work.run("analyze d --out out");
+    assert_eq!((ended.code, ended.err.lines().count()), (1, 1), "{:?}", ended.err);
+    assert!(ended.err.starts_with("d/a\u{fffd}[2J\u{fffd}b.png: "), "{:?}", ended.err);
 }
 
 /// The bytes of names that are not UTF-8 are in the lines, and tell the results of a later call apart.

@@ -195,15 +195,12 @@ impl<'a> Walk<'a> {
     /// Walks all units of a scan: blocks of its only component, or groups of blocks of several (A.2).
     fn walk_units(&mut self, parts: &[Part], pass: Pass, at: usize) -> Result<(), Gap> {
         let largest = self.header.largest_factors();
-        let (across, down, unit_rows) = match parts {
-            [alone] => {
-                let plane = &self.planes[alone.plane];
-                (plane.own.0, plane.own.1, 8 * largest.1 / plane.factors.1)
-            }
-            _ => {
-                let size = (8 * largest.0, 8 * largest.1);
-                (self.header.width.div_ceil(size.0), self.header.height.div_ceil(size.1), size.1)
-            }
+        let (across, down, unit_rows) = if let [alone] = parts {
+            let plane = &self.planes[alone.plane];
+            (plane.own.0, plane.own.1, 8 * largest.1 / plane.factors.1)
+        } else {
+            let size = (8 * largest.0, 8 * largest.1);
+            (self.header.width.div_ceil(size.0), self.header.height.div_ceil(size.1), size.1)
         };
         let mut bits = Bits::new(self.bytes, at);
         let mut end_of_bands = 0;
@@ -214,7 +211,7 @@ impl<'a> Walk<'a> {
                 let number = (unit / self.restart_interval - 1) % 8;
                 match bits.next_marker() {
                     Ok(Some((marker, at))) if marker == 0xD0 + number as u8 => {
-                        bits = Bits::new(self.bytes, at)
+                        bits = Bits::new(self.bytes, at);
                     }
                     Ok(Some((0xD0..=0xD7, _))) | Err(_) => return Err(Gap::Damaged(row)),
                     Ok(_) => return Err(Gap::EndsEarly(row)),
