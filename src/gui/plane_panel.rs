@@ -304,7 +304,7 @@ fn paint_hovered(
     if let Some(PixelAmounts { result, .. }) = in_result {
         let surface = result.surface.map_or_else(|| "\u{2013}".to_owned(), counts);
         let body = counts(result.body);
-        text += &format!("\nin the result, after the cut at noise  m_b {body}   m_s {surface}");
+        text = format!("{text}\nin the result, after the cut at noise  m_b {body}   m_s {surface}");
     }
     paint_text(painter, cx, corner, Align2::RIGHT_TOP, &text, cx.palette.text);
     kept

@@ -125,7 +125,7 @@ fn amounts(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot, pixel: PixelI
     };
     let mut sentence = format!("result {}", text(&amounts.result));
     if let Some(measured) = amounts.different_measured() {
-        sentence += &format!("; measured {}, before the cut at noise", text(&measured));
+        sentence = format!("{sentence}; measured {}, before the cut at noise", text(&measured));
     }
     ui.label(widgets::with_subscripts(&sentence, SMALL_PT, cx.palette.secondary));
 }

@@ -123,7 +123,7 @@ pub fn read_mask(path: &Path, options: &ReadOptions) -> Result<Mask, ReadError> 
 /// As [`read_mask`], from the bytes of a file. `name_hint` is used in messages.
 ///
 /// # Errors
-/// The errors of [`decode`].
+/// The errors of [`decode()`].
 pub fn decode_mask(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Mask, ReadError> {
     let photo = decode(bytes, name_hint, &ReadOptions { encoding: EncodingChoice::Linear, ..*options })?;
     Ok(photo.image.pixels.map(|color| color.iter().any(|&band| band > 0.0)))

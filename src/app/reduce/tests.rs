@@ -178,7 +178,7 @@ fn a_second_photograph_keeps_the_parameters_and_forgets_the_rest() {
     let state = application.state();
     assert_eq!(state.picture.as_ref().unwrap().origin.name(), sample::NAME);
     assert_eq!(sigma(&application), Setting::Value(4.0));
-    assert!(state.document.selection.is_empty() && state.pinned.is_none() && !state.history.can_undo());
+    assert!(state.document.selection.marked.is_none() && state.pinned.is_none() && !state.history.can_undo());
     assert_eq!(state.recent, [PathBuf::from(TINY)]);
 }
 
@@ -340,6 +340,7 @@ fn a_preview_is_shown_until_the_result_is_there() {
     };
     application.take_report(preview_of(shown.generation));
     assert!(application.state().preview.is_none(), "late: its result is shown");
+    application.apply(Edit::Select(None));
     application.take_report(preview_of(shown.generation + 1));
     let selected = |application: &Application| {
         application.state().shown_preview().map(|(preview, region)| (preview.shown.generation, region))

@@ -314,7 +314,7 @@ fn color_bar(painter: &Painter, palette: &ThemeColors, view: Rect, texts: &[&str
     painter.rect_stroke(bar, 0.0, Stroke::new(1.0, palette.secondary), egui::StrokeKind::Outside);
     for (index, galley) in galleys.into_iter().enumerate() {
         let x = bar.left() + bar.width() * index as f32 / last;
-        let shift = if index as f32 == last { 8.0 } else { galley.size().x / 2.0 };
+        let shift = if index as f32 >= last { 8.0 } else { galley.size().x / 2.0 };
         painter.galley(pos2((x - shift).max(corner.x + 3.0), bar.bottom() + 2.0), galley, palette.text);
     }
 }
