@@ -59,6 +59,9 @@ impl Stages {
             let photograph = Photograph { prepared: &prepared, input: detail_input };
             let reused = self.full_resolution.enlarge(&photograph, &working, observer, &mut analysis)?;
             split_reused = split_reused && reused;
+        } else {
+            // The outputs of a larger scale are not kept beside those of the photograph itself.
+            self.full_resolution = FullResolution::default();
         }
         observer.finished(Stage::Split, split_reused);
         observer.made(StageOutput::Intrinsic(Arc::clone(&analysis.intrinsic)));

@@ -195,12 +195,11 @@ impl AnalysisWorker {
             session.run(&request.params, &mut observer).map(|analysis| (analysis, None))
         };
         let (took_ms, preview) = (observer.took_ms, observer.preview);
-        if run.is_err() {
+        let Ok((analysis, trace)) = run else {
             // The result for the working picture is kept although the pass at full resolution was cancelled.
             self.last_preview = preview.or(self.last_preview.take());
             return None;
-        }
-        let (analysis, trace) = run.ok()?;
+        };
         let region_colors = match &preview {
             // The regions of the working picture have the same numbers.
             Some(preview) => preview.shown.region_colors.clone(),

@@ -1,14 +1,16 @@
 //! The edges that the split of a region would make at the border of the region (refinement `border_edges`, beyond the paper).
 //!
-//! Surface reflection rises and falls smoothly on one material, so that body reflection has an edge only where the photograph has one. A
-//! region that is only a part of an object breaks this rule: its plane has a wrong direction, the split takes an even amount of
-//! surface reflection from the whole region, and the body image shows the outline of the region, often the blocks of its windows. White
-//! tiles, paper, plastic foil and wood are split so where their color is close to the color of the light. Therefore the model does
-//! not fit a region at whose border the body reflection has new edges on more than 12 % of the sides against lit pixels outside.
+//! Surface reflection rises and falls smoothly on one material, so that body reflection has an edge only where the
+//! photograph has one. A region that is only a part of an object breaks this rule: its plane has a wrong direction, the
+//! split takes an even amount of surface reflection from the whole region, and the body image shows the outline of the
+//! region, often the blocks of its windows. White tiles, paper, plastic foil and wood are split so where their color is
+//! close to the color of the light. Therefore the model does not fit a region at whose border the body reflection has
+//! new edges on more than 12 % of the sides against lit pixels outside.
 //!
-//! The test follows the limit at borders (`border_mixtures`), without which mixed colors are edges. Pixels outside count with the split of their own region where the model fits it, and else with their color: what the local split does
-//! to them is not known yet. A new edge is a side at which the body differs more than the photograph does, by more than 3 standard
-//! deviations of the noise and more than 4 % of the color.
+//! The test follows the limit at borders (`border_mixtures`), without which mixed colors are edges. Pixels outside
+//! count with the split of their own region where the model fits it, and else with their color: what the local split
+//! does to them is not known yet. A new edge is a side at which the body differs more than the photograph does, by more
+//! than 3 standard deviations of the noise and more than 4 % of the color.
 //!
 //! In 82 rendered scenes no region of a plain object exceeds .10; 14 regions exceed .12: prints, objects beside strong
 //! inter-reflection, rough metal, and ambient light. Of 45 regions that fit in 20 photographs 24 exceed .12: the share

@@ -2,11 +2,12 @@
 //!
 //! The split of a picture and the history of a pixel both take the amounts from [`AmountRule`].
 //!
-//! Surface reflection within the noise of the body line is taken for none. An amount that appears at once beyond that distance
-//! is visible where body and surface vector are close: a distance of 3 counts is a surface reflection of 23 counts at an angle of 7.5°. There
-//! the amounts fade in. At angles above 30° the amounts appear at once, at 7.5° they fade in over 1.4 times the distance, at smaller angles
-//! over twice the distance at most. With the distance of compressed pictures (see `RegionPlan`) the share of new edges in 20 photographs goes from 8.1
-//! to 2.5 %; rendered scenes of plain objects 44.52 → 44.63 dB, of other kinds 36.39 → 36.50 dB (doing nothing: 22.7 and 23.9).
+//! Surface reflection within the noise of the body line is taken for none. An amount that appears at once beyond that
+//! distance is visible where body and surface vector are close: a distance of 3 counts is a surface reflection of 23
+//! counts at an angle of 7.5°. There the amounts fade in. At angles above 30° the amounts appear at once, at 7.5° they
+//! fade in over 1.4 times the distance, at smaller angles over twice the distance at most. With the distance of
+//! compressed pictures (see `RegionPlan`) the share of new edges in 20 photographs goes from 8.1 to 2.5 %; rendered
+//! scenes of plain objects 44.52 → 44.63 dB, of other kinds 36.39 → 36.50 dB (doing nothing: 22.7 and 23.9).
 
 use super::{Components, MIN_ANGLE_DEG, ReflectionTransform};
 use crate::color::{Vec3, axis_angle_deg, dot, rgb};

@@ -15,9 +15,11 @@
 //! votes alone 280, the better of both 97, the earlier rule, by the support alone, 189. The limits were chosen on the same
 //! pictures.
 //!
-//! Without a light by planes, votes for a light of an unusual color that a tenth of the lit pixels have are void: where a second body lies in spots on the first, the spots
-//! rise above their surroundings as highlights do, and vote for a light of their own color. (A frog with a yellow belly: the light was claimed
-//! 20° off, body 38.3 dB, doing nothing 43.7 dB.) White and gray bodies under an ordinary lamp have the color of the light as well; therefore votes within 9° of white stay.
+//! Without a light by planes, votes for a light of an unusual color that a tenth of the lit pixels have are void: where
+//! a second body lies in spots on the first, the spots rise above their surroundings as highlights do, and vote for a
+//! light of their own color. (A frog with a yellow belly: the light was claimed 20° off, body 38.3 dB, doing nothing
+//! 43.7 dB.) White and gray bodies under an ordinary lamp have the color of the light as well; therefore votes within
+//! 9° of white stay.
 //!
 //! [`choose_light`] is the whole rule. The function reads its arguments only; `planar` carries the decision out.
 

@@ -17,14 +17,16 @@ pub fn picture(width: usize, height: usize, color: impl Fn(usize, usize) -> [f32
     LinearImage::new(Raster::from_vec(width, height, data).unwrap(), Some(255.0))
 }
 
-/// Whether a pixel of a region has so little surface reflection that a part of it may have been taken for noise: less than three times the
-/// least distance off the body line, which is σ0 for linear values.
+/// Whether a pixel of a region has no surface reflection, or so little that a part of it may have been taken for noise: less than three times
+/// the least distance off the body line, which is σ0 for linear values, where body and surface vector are less than 30° apart.
 pub fn may_be_cut(analysis: &Analysis, pixel: usize) -> bool {
     let surface = analysis.intrinsic.surface[pixel];
     let region = RegionId::from_label(analysis.finals.labels[pixel]);
     let angle_deg = region.and_then(|region| analysis.intrinsic.regions[region.index()].angle_deg);
     let norm = surface.iter().map(|band| f64::from(*band).powi(2)).sum::<f64>().sqrt();
-    angle_deg.is_some_and(|angle| norm * angle.to_radians().sin() < 3.0 * analysis.used.camera_noise)
+    let fades =
+        |angle: f64| angle < 30.0 && norm * angle.to_radians().sin() < 3.0 * analysis.used.camera_noise;
+    surface == [0.0; 3] || angle_deg.is_some_and(fades)
 }
 
 /// The result of a new session.

@@ -31,8 +31,7 @@ fn enlarged(scene: &Scene, times: usize) -> Scene {
 /// Whether a pixel was not restored, and has surface reflection or is in no region: then nothing of its color was cut off.
 fn is_whole(analysis: &Analysis, pixel: usize) -> bool {
     let intrinsic = &analysis.intrinsic;
-    let is_cut = analysis.finals.labels[pixel] != UNASSIGNED
-        && (intrinsic.surface[pixel] == [0.0; 3] || may_be_cut(analysis, pixel));
+    let is_cut = analysis.finals.labels[pixel] != UNASSIGNED && may_be_cut(analysis, pixel);
     !is_cut && !matches!(intrinsic.kinds[pixel], PixelKind::Restored | PixelKind::Lost)
 }
 

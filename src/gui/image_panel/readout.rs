@@ -61,11 +61,7 @@ const GROUPS: [&[Cell]; 5] = [
         number("B", "888.8", Tip::Card(Term::Counts)),
     ],
     &[
-        word(
-            "",
-            "888",
-            "Its region; at the debugger's cursor the hypothesis that holds it, by its number of birth",
-        ),
+        word("", "888", "Its region; at the debugger's cursor the hypothesis that holds it, by its number"),
         word("", "highlight", "What the pixel is to its region (section 6)"),
         word("", "volume", "Class of its window: the shape of the color cluster (section 5.2.1)"),
     ],
