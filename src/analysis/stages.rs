@@ -52,16 +52,16 @@ impl Stages {
         let working = self.working_outputs::<R, _>(&input, is_whole, observer)?;
         let mut analysis = working.analysis(&prepared, used);
         let mut split_reused = working.split_reused;
-        if !is_whole {
+        if is_whole {
+            // The outputs of a larger scale are not kept beside those of the photograph itself.
+            self.full_resolution = FullResolution::default();
+        } else {
             observer.working_made(&analysis, &prepared.working.blocks);
             let detail_used = prepared.detail_params(params, used);
             let detail_input = prepared.detail_input(&subject.image, &detail_used, refine);
             let photograph = Photograph { prepared: &prepared, input: detail_input };
             let reused = self.full_resolution.enlarge(&photograph, &working, observer, &mut analysis)?;
             split_reused = split_reused && reused;
-        } else {
-            // The outputs of a larger scale are not kept beside those of the photograph itself.
-            self.full_resolution = FullResolution::default();
         }
         observer.finished(Stage::Split, split_reused);
         observer.made(StageOutput::Intrinsic(Arc::clone(&analysis.intrinsic)));
