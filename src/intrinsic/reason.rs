@@ -38,7 +38,7 @@ pub enum Reason {
     PartOfObject,
     /// The pixel is the clipped highlight of another object than the object of its region.
     OtherObject,
-    /// The body reflection of the pixel's region has the light's color: gray, white and metal.
+    /// The body reflection of the pixel's region has the light's color, as far as the light is known: gray, white and metal.
     Collinear,
     /// Every band is clipped.
     ClippedAllBands,
@@ -121,7 +121,9 @@ impl ReasonInput<'_> {
             |light: [f64; 3]| axis_angle_deg(&Vec3::from(region.body), &Vec3::from(light)) < COLLINEAR_DEG;
         let is_near_plane = region.fit_limit_counts >= region.fit_rms_counts;
         // A print of several colors lies off its plane as well; texture is the more specific reason.
-        if !region.model_fits && region.has_new_edges && is_near_plane {
+        if !region.model_fits && region.has_color_of_light {
+            Reason::Collinear
+        } else if !region.model_fits && region.has_new_edges && is_near_plane {
             Reason::PartOfObject
         } else if !region.model_fits && (is_near_plane || region.texture > TEXTURE_CORRELATION) {
             Reason::Texture

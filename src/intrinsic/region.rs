@@ -81,6 +81,7 @@ impl RegionSummary<'_> {
             model_fits: plan.model_fits,
             confidence: of_region(fit, plan.model_fits, angle_deg.filter(|_| separable)),
             texture: fit.texture,
+            has_color_of_light: fit.has_color_of_light(),
             has_new_edges: fit.has_new_edges(),
             separable,
             neighbors,
@@ -144,6 +145,13 @@ impl RegionSummary<'_> {
             warnings.push(format!(
                 "texture: surface and body vary against each other (correlation \u{2212}{:.2})",
                 fit.texture.min(1.0)
+            ));
+        }
+        if fit.has_color_of_light() {
+            warnings.push(format!(
+                "the light is uncertain by {:.1} times the angle between body and surface vector: body and surface reflection are \
+                 one color as far as is known",
+                fit.light_share
             ));
         }
         if fit.has_new_edges() {

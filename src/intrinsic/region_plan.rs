@@ -6,7 +6,8 @@ use crate::color::{Vec3, rgb};
 use crate::raster::RegionId;
 use crate::reflection::{AmountRule, HighlightTest, ReflectionTransform};
 use crate::segment::{
-    AnalysisInput, BranchSearch, Branches, FinalRegions, FittedPlane, Pixels, PlanarHypothesis, RegionFit,
+    AnalysisInput, BranchSearch, Branches, FinalRegions, FittedPlane, LightFindings, Pixels,
+    PlanarHypothesis, RegionFit,
 };
 use crate::trace::VectorsFitted;
 
@@ -55,7 +56,10 @@ impl RegionPlan {
         let rule = AmountRule::new(&vectors.body, vectors.surface.as_ref(), least_offset);
         let through_black =
             FittedPlane { origin: &Vec3::zeros(), body: &vectors.body, surface: vectors.surface.as_ref() };
-        let fit = RegionFit::new(input, &regions.labels, region.get(), pixels, &through_black);
+        let fit = RegionFit {
+            light_share: light_share(&regions.light, rule.transform()),
+            ..RegionFit::new(input, &regions.labels, region.get(), pixels, &through_black)
+        };
         let start_body = rule.transform().map_or(0.0, |t| t.split(rgb(&hypothesis.start)).body.max(0.0));
         let highlight_test = hypothesis.highlight_test().filter(|_| rule.transform().is_some());
         let plan = Self {
@@ -150,6 +154,13 @@ impl RegionPlan {
     }
 }
 
+/// Interval of the light as a share of the angle between body and surface vector; 0 where no light is known or all of a pixel's light
+/// is body reflection.
+fn light_share(light: &LightFindings, transform: Option<&ReflectionTransform>) -> f64 {
+    let angle_deg = transform.map(|transform| f64::from(transform.sine()).asin().to_degrees());
+    light.interval_deg.zip(angle_deg).map_or(0.0, |(interval_deg, angle_deg)| interval_deg / angle_deg)
+}
+
 /// Distance off the body line below which surface reflection is taken for none, counts (refinement `no_negative_surface`): two standard
 /// deviations of the noise, and where compression has an error of its own, of that error at the intensity of the region.
 fn least_offset(input: &AnalysisInput, vectors: &Vectors) -> f32 {
@@ -158,4 +169,25 @@ fn least_offset(input: &AnalysisInput, vectors: &Vectors) -> f32 {
     }
     let fit_sigma = if input.has_extended_coding() { input.fit_sigma(&vectors.matte_mean) } else { 0.0 };
     input.used.camera_noise.max(2.0 * fit_sigma) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_share_of_the_light_is_its_interval_over_the_angle_to_the_body() {
+        let surface = Vec3::repeat(1.0).normalize();
+        let across = Vec3::new(1.0, -1.0, 0.0).normalize();
+        let (sin, cos) = 6.0f64.to_radians().sin_cos();
+        let transform = ReflectionTransform::new(&(surface * cos + across * sin), &surface);
+        let light = |interval_deg| LightFindings { interval_deg, ..LightFindings::default() };
+        let share = |interval_deg| light_share(&light(interval_deg), transform.as_ref());
+        assert!((share(Some(9.0)) - 1.5).abs() < 1e-4 && (share(Some(3.0)) - 0.5).abs() < 1e-4);
+        let far = RegionFit { sigma_counts: 1.0, limit_sigmas: 1.5, ..RegionFit::default() };
+        let fits = |interval_deg| RegionFit { light_share: share(interval_deg), ..far }.model_fits();
+        assert!(!fits(Some(9.0)), "the body is not told from the light");
+        assert!(fits(Some(3.0)) && fits(None), "a known light, and a light that was given");
+        assert!(light_share(&light(Some(9.0)), None).abs() < 1e-9, "no plane");
+    }
 }

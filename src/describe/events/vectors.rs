@@ -30,6 +30,7 @@ impl Describe for VectorsFitted {
                 "fit_rms_counts": self.figures.rms_counts,
                 "texture": self.figures.texture,
                 "texture_slope": self.figures.texture_slope,
+                "light_share": self.figures.light_share,
                 "new_edges": self.figures.new_edges,
                 "holds": self.model_fits,
             }),
@@ -38,6 +39,7 @@ impl Describe for VectorsFitted {
                 "fit_rms_counts": self.limits.rms_counts,
                 "texture": self.limits.texture,
                 "texture_slope": self.limits.texture_slope,
+                "light_share": self.limits.light_share,
                 "new_edges": self.limits.new_edges,
             }),
         )
@@ -59,6 +61,7 @@ impl Describe for VectorsFitted {
                 rms_counts: 1.25,
                 texture: 0.125,
                 texture_slope: 0.0625,
+                light_share: 0.375,
                 new_edges: 0.03125,
             },
             limits: FitLimits {
@@ -66,6 +69,7 @@ impl Describe for VectorsFitted {
                 rms_sigmas: 1.5,
                 texture: 0.25,
                 texture_slope: 0.2,
+                light_share: 1.0,
                 new_edges: 0.12,
             },
             model_fits: true,
@@ -103,13 +107,20 @@ pub(in crate::describe) fn failed_limits(
     limits: &FitLimits,
     has_plane: bool,
 ) -> String {
-    let FitFigures { rms_counts: rms, texture, texture_slope: slope, new_edges } = *figures;
+    let FitFigures { rms_counts: rms, texture, texture_slope: slope, light_share, new_edges } = *figures;
     let far = (rms > limits.rms_counts).then(|| distance(rms, limits, has_plane));
     let textured = (texture > limits.texture && slope > limits.texture_slope).then(|| {
         format!(
             "body and surface vary against each other like a print, correlation {texture:.2} (at most {}), slope {slope:.2} (at \
              most {})",
             limits.texture, limits.texture_slope
+        )
+    });
+    let has_color_of_light = (light_share > limits.light_share).then(|| {
+        format!(
+            "its body color is the light's as far as is known: the light is uncertain by {light_share:.1} times the angle between \
+             them (at most {})",
+            limits.light_share
         )
     });
     let has_new_edges = (new_edges > limits.new_edges).then(|| {
@@ -119,7 +130,12 @@ pub(in crate::describe) fn failed_limits(
             100.0 * limits.new_edges
         )
     });
-    far.into_iter().chain(textured).chain(has_new_edges).collect::<Vec<_>>().join(", and ")
+    far.into_iter()
+        .chain(textured)
+        .chain(has_color_of_light)
+        .chain(has_new_edges)
+        .collect::<Vec<_>>()
+        .join(", and ")
 }
 
 /// `2.2 counts rms from its plane (at most 1.9 = 1.5 σ)`

@@ -44,6 +44,8 @@ pub struct FitFigures {
     pub texture: f64,
     /// Body reflection lost per surface reflection gained from pixel to pixel.
     pub texture_slope: f64,
+    /// Interval of the light as a share of the angle between body and surface vector.
+    pub light_share: f64,
     /// Share of the border at which the split makes an edge that the photograph does not have, 0…1.
     pub new_edges: f64,
 }
@@ -60,6 +62,8 @@ pub struct FitLimits {
     pub texture: f64,
     /// Body reflection lost per surface reflection gained.
     pub texture_slope: f64,
+    /// Interval of the light as a share of the angle between body and surface vector.
+    pub light_share: f64,
     /// Share of the border with a new edge, 0…1.
     pub new_edges: f64,
 }
