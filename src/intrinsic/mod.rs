@@ -102,9 +102,9 @@ pub struct RegionReflection {
     pub confidence: f64,
     /// How much surface and body reflection vary against each other from pixel to pixel: 1 for a print, about 0 for highlights.
     pub texture: f64,
-    /// Whether the body vector lies within the interval of the light, so that body and surface reflection are one color as far
-    /// as is known.
-    pub has_color_of_light: bool,
+    /// Interval of the light as a share of the angle between body and surface vector; 0 where no light is known or there is no
+    /// plane.
+    pub light_share: f64,
     /// Whether the split would make edges at the border of the region that the photograph does not have, as of a part of an object.
     pub has_new_edges: bool,
     /// Whether body and surface reflection can be separated.

@@ -8,7 +8,7 @@ use crate::color::{Vec3, axis_angle_deg};
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
 
-use crate::segment::TEXTURE_CORRELATION;
+use crate::segment::{MAX_LIGHT_SHARE, TEXTURE_CORRELATION};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
@@ -121,7 +121,7 @@ impl ReasonInput<'_> {
             |light: [f64; 3]| axis_angle_deg(&Vec3::from(region.body), &Vec3::from(light)) < COLLINEAR_DEG;
         let is_near_plane = region.fit_limit_counts >= region.fit_rms_counts;
         // A print of several colors lies off its plane as well; texture is the more specific reason.
-        if !region.model_fits && region.has_color_of_light {
+        if !region.model_fits && region.light_share > MAX_LIGHT_SHARE {
             Reason::Collinear
         } else if !region.model_fits && region.has_new_edges && is_near_plane {
             Reason::PartOfObject

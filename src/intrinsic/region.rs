@@ -81,7 +81,7 @@ impl RegionSummary<'_> {
             model_fits: plan.model_fits,
             confidence: of_region(fit, plan.model_fits, angle_deg.filter(|_| separable)),
             texture: fit.texture,
-            has_color_of_light: fit.has_color_of_light(),
+            light_share: fit.light_share,
             has_new_edges: fit.has_new_edges(),
             separable,
             neighbors,

@@ -33,7 +33,7 @@ mod vote_light;
 pub(crate) use branches::{BranchSearch, Branches};
 pub(crate) use candidates::is_leftover;
 pub(crate) use choice::LIGHT_LIMITS;
-pub(crate) use model_fit::{FittedPlane, NewEdges, RegionFit, TEXTURE_CORRELATION};
+pub(crate) use model_fit::{FittedPlane, MAX_LIGHT_SHARE, NewEdges, RegionFit, TEXTURE_CORRELATION};
 pub(crate) use recorded_labels::{Members, Pixels};
 pub(crate) use regions::{members, neighbors, parts};
 

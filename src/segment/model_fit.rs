@@ -47,7 +47,7 @@ const TEXTURE_SLOPE: f64 = 0.35;
 /// Share of new edges at its border that a region of a part of an object exceeds.
 const MAX_NEW_EDGES: f64 = 0.12;
 /// Light error, as a share of the angle between body and surface vector, that a region of the light's color exceeds.
-const MAX_LIGHT_SHARE: f64 = 1.0;
+pub const MAX_LIGHT_SHARE: f64 = 1.0;
 /// Fewest sides of a border that is judged.
 const LEAST_SIDES: u32 = 24;
 /// Largest number of pixels whose distance from the plane is measured, evenly chosen.

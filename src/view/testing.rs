@@ -137,7 +137,7 @@ pub(crate) fn region(id: RegionId, pixels: usize) -> RegionReflection {
         model_fits: true,
         confidence: 1.0,
         texture: 0.0,
-        has_color_of_light: false,
+        light_share: 0.0,
         has_new_edges: false,
         separable: true,
         neighbors: Vec::new(),
