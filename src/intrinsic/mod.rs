@@ -11,6 +11,7 @@ mod full_resolution;
 mod images;
 mod local;
 mod pixel;
+mod plane_evidence;
 mod reason;
 mod region;
 mod region_plan;

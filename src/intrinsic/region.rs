@@ -160,6 +160,11 @@ impl RegionSummary<'_> {
                 100.0 * fit.new_edges.share()
             ));
         }
+        if let Some(highlights) = fit.highlights.filter(|_| fit.lacks_highlights()) {
+            warnings.push(format!(
+                "print or another color: what the plane takes for surface reflection is a highlight with a probability of {highlights:.2}"
+            ));
+        }
         if !plan.model_fits {
             warnings.push(
                 "the model does not hold: the plane is not used, what stands out locally is all that is split"

@@ -8,6 +8,7 @@ use super::explained_mask::explained_mask;
 use super::finish::Finish;
 use super::images::Images;
 use super::local::{LocalInput, LocalSplit, split_locally};
+use super::plane_evidence::reject_regions_without_evidence;
 use super::region::RegionReports;
 use super::region_plan::RegionPlan;
 use crate::raster::{Mask, Raster, RegionId};
@@ -111,6 +112,8 @@ fn split_from<R: Recorder>(
     images.restore(origin, input, &regions.labels, &found.plans, members);
     let mut limited = limit_surface_at_borders(input, &regions.labels, &found.plans, &mut images);
     reject_regions_with_new_edges(input, &regions.labels, members, &images, &mut found.plans);
+    let observations =
+        reject_regions_without_evidence(input, &regions.light, members, &images, &mut found.plans);
     let plans = &found.plans;
     record_plans(origin, plans, recorder);
     if R::KEEPS && input.refine.border_mixtures {
@@ -120,7 +123,8 @@ fn split_from<R: Recorder>(
     }
     let model_fits: Vec<bool> = plans.iter().map(|plan| plan.model_fits).collect();
     found.explained_mask = explained_mask(input, regions, members, &model_fits, &images.kinds);
-    let local_input = LocalInput { input, light: regions.light, explained_mask: &found.explained_mask };
+    let explained_mask = &found.explained_mask;
+    let local_input = LocalInput { input, light: regions.light, explained_mask, observations };
     found.local = split_locally(&local_input, origin, &mut images, recorder);
     if R::KEEPS {
         recorder.record(PassBegan { pass: Pass::Labels });

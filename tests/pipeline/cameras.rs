@@ -144,6 +144,7 @@ fn a_wall_of_the_lights_color_does_not_vote_the_objects_down() {
 fn keeping_parts() -> Params {
     let mut params = Params::default();
     params.refine.border_edges = false;
+    params.refine.plane_evidence = false;
     params
 }
 

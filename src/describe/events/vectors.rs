@@ -32,6 +32,7 @@ impl Describe for VectorsFitted {
                 "texture_slope": self.figures.texture_slope,
                 "light_share": self.figures.light_share,
                 "new_edges": self.figures.new_edges,
+                "highlights": self.figures.highlights,
                 "holds": self.model_fits,
             }),
             json!({
@@ -41,6 +42,7 @@ impl Describe for VectorsFitted {
                 "texture_slope": self.limits.texture_slope,
                 "light_share": self.limits.light_share,
                 "new_edges": self.limits.new_edges,
+                "highlights": self.limits.highlights,
             }),
         )
     }
@@ -63,6 +65,7 @@ impl Describe for VectorsFitted {
                 texture_slope: 0.0625,
                 light_share: 0.375,
                 new_edges: 0.03125,
+                highlights: Some(0.75),
             },
             limits: FitLimits {
                 rms_counts: 1.875,
@@ -71,6 +74,7 @@ impl Describe for VectorsFitted {
                 texture_slope: 0.2,
                 light_share: 1.0,
                 new_edges: 0.12,
+                highlights: 0.3,
             },
             model_fits: true,
             origin: [0.0; 3],
@@ -107,7 +111,8 @@ pub(in crate::describe) fn failed_limits(
     limits: &FitLimits,
     has_plane: bool,
 ) -> String {
-    let FitFigures { rms_counts: rms, texture, texture_slope: slope, light_share, new_edges } = *figures;
+    let FitFigures { rms_counts: rms, texture, texture_slope: slope, light_share, new_edges, highlights } =
+        *figures;
     let far = (rms > limits.rms_counts).then(|| distance(rms, limits, has_plane));
     let textured = (texture > limits.texture && slope > limits.texture_slope).then(|| {
         format!(
@@ -130,10 +135,17 @@ pub(in crate::describe) fn failed_limits(
             100.0 * limits.new_edges
         )
     });
+    let lacks_highlights = highlights.filter(|&highlights| highlights < limits.highlights).map(|highlights| {
+        format!(
+            "what its plane takes for surface reflection looks like print, probability of highlights {highlights:.2} (at least {})",
+            limits.highlights
+        )
+    });
     far.into_iter()
         .chain(textured)
         .chain(has_color_of_light)
         .chain(has_new_edges)
+        .chain(lacks_highlights)
         .collect::<Vec<_>>()
         .join(", and ")
 }

@@ -50,8 +50,6 @@ pub struct Evidence {
     pub terms: Raster<HighlightTerms>,
     /// Log odds of each pixel: the observations around, averaged, without the odds of the picture.
     pub log_odds: Raster<f32>,
-    /// The log odds of the picture.
-    pub picture: PictureOddsFound,
 }
 
 /// Per pixel of the window: what the observations are computed from.
@@ -60,8 +58,8 @@ struct Source<'a> {
 }
 
 impl Evidence {
-    /// The evidence in the window of `map`. `unexplained`: the lit pixels of the picture that no region explains.
-    pub fn new(limits: &LocalLimits, map: &DesaturationMap, unexplained: &Mask) -> Self {
+    /// The evidence in the window of `map`.
+    pub fn new(limits: &LocalLimits, map: &DesaturationMap) -> Self {
         let roi = map.roi;
         let source = Source { map };
         let (chroma, brightness) = source.against_surroundings(limits.sigma);
@@ -77,8 +75,31 @@ impl Evidence {
             .collect();
         let terms = Raster::from_vec(roi.width, roi.height, data).unwrap_or_default();
         let log_odds = source.averaged(&terms);
-        let picture = source.picture_odds(&log_odds, |index| unexplained[roi.pixel(index)]);
-        Self { terms, log_odds, picture }
+        Self { terms, log_odds }
+    }
+
+    /// The log odds of the picture: half the log odds of the share of highlights in the squared surface reflection, over the
+    /// usable pixels of the window of `map` whose excess is above the noise and that are `unexplained`, the lit pixels of the
+    /// picture that no region explains. Share and odds depend on each other and are found by [`ROUNDS`] iterations.
+    pub fn picture_odds(&self, map: &DesaturationMap, unexplained: &Mask) -> PictureOddsFound {
+        let takes_part = |index: &usize| {
+            map.points[*index].exceeds_noise()
+                && map.usable[*index] > 0.0
+                && unexplained[map.roi.pixel(*index)]
+        };
+        let members: Vec<(f64, f64)> = (0..self.log_odds.len())
+            .filter(takes_part)
+            .map(|index| (f64::from(map.points[index].surface).powi(2), f64::from(self.log_odds[index])))
+            .collect();
+        let total: f64 = members.iter().map(|(weight, _)| weight).sum();
+        let mut log_odds = 0.0f64;
+        for _ in 0..if total > 0.0 { ROUNDS } else { 0 } {
+            let probable = |&(weight, odds): &(f64, f64)| weight / (1.0 + (-(odds + log_odds)).exp());
+            let share =
+                (members.iter().map(probable).sum::<f64>() / total).clamp(PICTURE_SHARE.0, PICTURE_SHARE.1);
+            log_odds = 0.5 * (share / (1.0 - share)).ln();
+        }
+        PictureOddsFound { pixels: members.len() as u32, log_odds: log_odds as f32 }
     }
 }
 
@@ -184,26 +205,5 @@ impl Source<'_> {
             let [weight, sum] = sums[index];
             if weight > 1e-9 { sum / weight } else { 0.0 }
         })
-    }
-
-    /// The log odds of the picture: half the log odds of the share of highlights in the squared surface reflection,
-    /// over the usable pixels whose excess is above the noise and for which `takes_part` is true. Share and odds depend
-    /// on each other and are found by [`ROUNDS`] iterations.
-    fn picture_odds(&self, odds: &Raster<f32>, takes_part: impl Fn(usize) -> bool) -> PictureOddsFound {
-        let is_pale =
-            |index: &usize| self.map.points[*index].exceeds_noise() && self.map.usable[*index] > 0.0;
-        let members: Vec<(f64, f64)> = (0..odds.len())
-            .filter(|index| is_pale(index) && takes_part(*index))
-            .map(|index| (f64::from(self.map.points[index].surface).powi(2), f64::from(odds[index])))
-            .collect();
-        let total: f64 = members.iter().map(|(weight, _)| weight).sum();
-        let mut log_odds = 0.0f64;
-        for _ in 0..if total > 0.0 { ROUNDS } else { 0 } {
-            let probable = |&(weight, odds): &(f64, f64)| weight / (1.0 + (-(odds + log_odds)).exp());
-            let share =
-                (members.iter().map(probable).sum::<f64>() / total).clamp(PICTURE_SHARE.0, PICTURE_SHARE.1);
-            log_odds = 0.5 * (share / (1.0 - share)).ln();
-        }
-        PictureOddsFound { pixels: members.len() as u32, log_odds: log_odds as f32 }
     }
 }

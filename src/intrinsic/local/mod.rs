@@ -19,11 +19,13 @@ mod guided;
 mod hue_ratios;
 mod limits;
 mod linear_weights;
+mod observations;
 mod plausibility;
 mod repair;
 mod trace_writer;
 
 pub use full_resolution::{LocalWorkingSplit, split_locally_at_full_resolution};
+pub use observations::Observations;
 
 use super::confidence::LOCAL;
 use super::images::Images;
@@ -31,7 +33,7 @@ use crate::color::Vec3;
 use crate::raster::{Mask, Raster, Roi};
 use crate::reflection::WhiteningGain;
 use crate::segment::{AnalysisInput, LightFindings};
-use crate::trace::{LocalLimits, LocalStart, PixelKind, Recorder};
+use crate::trace::{LocalLimits, LocalStart, PictureOddsFound, PixelKind, Recorder};
 use desaturation_map::DesaturationMap;
 use evidence::Evidence;
 use guided::AmountLines;
@@ -53,6 +55,8 @@ pub struct LocalInput<'a> {
     pub light: LightFindings,
     /// The pixels that the skewed T of their region explains.
     pub explained_mask: &'a Mask,
+    /// The observations in a window around all lit pixels, where they were made before.
+    pub observations: Option<Observations>,
 }
 
 /// What the local split found.
@@ -92,7 +96,7 @@ fn least_pixels(lit: usize) -> usize {
 
 /// Splits the lit pixels that no region explains. Returns what [`split_locally`] returns.
 fn split_unexplained<R: Recorder>(
-    LocalInput { input, light: findings, .. }: &LocalInput,
+    LocalInput { input, light: findings, observations, .. }: &LocalInput,
     unexplained: &Mask,
     images: &mut Images,
     trace_writer: &mut LocalTraceWriter<R>,
@@ -102,22 +106,23 @@ fn split_unexplained<R: Recorder>(
     let few = pixels < least_pixels(lit);
     let limits = limits::limits(input);
     let light = findings.direction.map(Vec3::from);
-    let map = light.filter(|_| input.refine.local_split && !few && !input.stopped()).and_then(|light| {
+    let wanted = input.refine.local_split && !few && !input.stopped();
+    let made = light.filter(|_| wanted && observations.is_none()).and_then(|light| {
         let size = (unexplained.width(), unexplained.height());
         let roi = Roi::around(size, MARGIN_PX, |pixel| unexplained[pixel])?;
-        Some((light, DesaturationMap::new(input, &limits, &light, roi)?))
+        Observations::new(input, &light, roi)
     });
-    let start = match map {
+    let observed = observations.as_ref().filter(|_| wanted).or(made.as_ref());
+    let start = match observed {
         Some(_) => LocalStart::Begins,
         None if !input.refine.local_split => LocalStart::Off,
         None if few => LocalStart::Few,
         None => LocalStart::NoLight,
     };
     trace_writer.began(input, &limits, start, pixels, lit, findings.direction);
-    let (light, map) = map?;
-    let wanted = input.refine.highlight_evidence;
-    let evidence = wanted.then(|| Evidence::new(&limits, &map, unexplained));
-    trace_writer.judged(input, &map, evidence.as_ref(), unexplained);
+    let (light, Observations { map, evidence, .. }) = light.zip(observed)?;
+    let judged = evidence.as_ref().map(|evidence| (evidence, evidence.picture_odds(map, unexplained)));
+    trace_writer.judged(input, map, judged, unexplained);
     if input.refine.belief {
         let tested = plausibility::test(input, findings);
         let is_plausible = tested.plausible();
@@ -126,19 +131,19 @@ fn split_unexplained<R: Recorder>(
             return None;
         }
     }
-    let weights = weights(&limits, &map, evidence.as_ref(), unexplained);
+    let weights = weights(&limits, map, judged, unexplained);
     let mut amounts = map.raster(|index| weights[index] * map.points[index].surface);
     let mut fills = Vec::new();
     if input.refine.clip_repair {
         trace_writer.repairs_began();
-        let found = repair::LocalAmounts { map: &map, weights: &weights, amounts: &amounts };
+        let found = repair::LocalAmounts { map, weights: &weights, amounts: &amounts };
         fills = repair::fills(input, unexplained, &found, |tried, blob| trace_writer.repair(tried, blob));
-        amounts = repair::faded(input, unexplained, &map, &fills, amounts);
+        amounts = repair::faded(input, unexplained, map, &fills, amounts);
     }
     let lines = if input.refine.guided_amount {
-        AmountLines::guided(&map, &amounts, limits.sigma)
+        AmountLines::guided(map, &amounts, limits.sigma)
     } else {
-        AmountLines::constant(&map, &amounts)
+        AmountLines::constant(map, &amounts)
     };
     let amounts = map.raster(|index| {
         let pixel = map.roi.pixel(index);
@@ -147,7 +152,7 @@ fn split_unexplained<R: Recorder>(
     });
     trace_writer.amounts(&amounts);
     let per_amount = std::array::from_fn(|band| (3f64.sqrt() * light[band]) as f32);
-    let mut confidence = move_surface(&map, per_amount, &amounts, &weights, images);
+    let mut confidence = move_surface(map, per_amount, &amounts, &weights, images);
     let filled = repair::fill(input, &fills, images, &mut confidence);
     Some(LocalSplit { lines, gain: map.gain, per_amount, confidence, filled })
 }
@@ -157,7 +162,7 @@ fn split_unexplained<R: Recorder>(
 fn weights(
     limits: &LocalLimits,
     map: &DesaturationMap,
-    evidence: Option<&Evidence>,
+    evidence: Option<(&Evidence, PictureOddsFound)>,
     unexplained: &Mask,
 ) -> Raster<f32> {
     map.raster(|index| {
@@ -166,7 +171,7 @@ fn weights(
             return 0.0;
         }
         let ratio = found.body / map.colors[index].chroma.max(f32::MIN_POSITIVE);
-        let odds = evidence.map(|evidence| evidence.log_odds[index] + evidence.picture.log_odds);
+        let odds = evidence.map(|(evidence, picture)| evidence.log_odds[index] + picture.log_odds);
         limits.weight(found, ratio, odds)
     })
 }

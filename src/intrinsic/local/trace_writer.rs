@@ -7,7 +7,7 @@ use crate::raster::{Mask, Raster};
 use crate::segment::AnalysisInput;
 use crate::trace::{
     Event, LocalBegan, LocalFigures, LocalLimits, LocalPoint, LocalPoints, LocalRecord, LocalStart, Pass,
-    PassBegan, PlausibilityTested, Recorder, RepairTried,
+    PassBegan, PictureOddsFound, PlausibilityTested, Recorder, RepairTried,
 };
 use rayon::prelude::*;
 
@@ -66,15 +66,16 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         &mut self,
         input: &AnalysisInput,
         map: &DesaturationMap,
-        evidence: Option<&Evidence>,
+        evidence: Option<(&Evidence, PictureOddsFound)>,
         unexplained: &Mask,
     ) {
         if !R::KEEPS {
             return;
         }
-        self.points = Some(LocalPoints { roi: map.roi, of: points(input, map, evidence, unexplained) });
-        if let Some(evidence) = evidence {
-            self.record(evidence.picture);
+        let terms = evidence.map(|(terms, _)| terms);
+        self.points = Some(LocalPoints { roi: map.roi, of: points(input, map, terms, unexplained) });
+        if let Some((_, picture)) = evidence {
+            self.record(picture);
         }
     }
 

@@ -48,9 +48,11 @@ pub struct FitFigures {
     pub light_share: f64,
     /// Share of the border at which the split makes an edge that the photograph does not have, 0…1.
     pub new_edges: f64,
+    /// Mean probability of a highlight in the surface reflection of the plane, 0…1; none where it was not measured.
+    pub highlights: Option<f64>,
 }
 
-/// The largest figures of a region that its skewed T explains.
+/// The limits of the figures of a region that its skewed T explains: the largest figures, and of the last the least.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct FitLimits {
@@ -66,6 +68,8 @@ pub struct FitLimits {
     pub light_share: f64,
     /// Share of the border with a new edge, 0…1.
     pub new_edges: f64,
+    /// Least mean probability of a highlight in the surface reflection of the plane, 0…1.
+    pub highlights: f64,
 }
 
 impl EventData for VectorsFitted {

@@ -1,0 +1,26 @@
+//! What the pixels of a window are judged by: their desaturation, and the evidence of highlights.
+
+use super::desaturation_map::DesaturationMap;
+use super::evidence::Evidence;
+use super::limits::limits;
+use crate::color::Vec3;
+use crate::raster::Roi;
+use crate::segment::AnalysisInput;
+
+/// What the pixels of a window are judged by, whether a region explains them or not.
+pub struct Observations {
+    /// The desaturation of each pixel.
+    pub map: DesaturationMap,
+    /// The evidence of a highlight in each pixel; none without refinement `highlight_evidence`.
+    pub evidence: Option<Evidence>,
+}
+
+impl Observations {
+    /// The observations in the window `roi` under the light `light`, unit; none where the light lacks a band.
+    pub fn new(input: &AnalysisInput, light: &Vec3, roi: Roi) -> Option<Self> {
+        let limits = limits(input);
+        let map = DesaturationMap::new(input, &limits, light, roi)?;
+        let evidence = input.refine.highlight_evidence.then(|| Evidence::new(&limits, &map));
+        Some(Self { map, evidence })
+    }
+}

@@ -1,0 +1,132 @@
+//! The evidence that what the plane of a region takes for surface reflection is a highlight (refinement `plane_evidence`, beyond the
+//! paper).
+//!
+//! In a photograph that was compressed or demosaiced a plane fits where its pixels lie within 3 σ, and many colors do: gray hair, a
+//! gray wall and skin lie in one plane with black, and the hair is taken for skin under an even highlight. Texture finds no such
+//! region, as the colors do not vary from pixel to pixel. The observations of the local split (`local/evidence`) tell
+//! highlights from white print without any plane. Their mean probability of a highlight, weighted by the square of the surface
+//! reflection of the plane, is near 1 on highlights. Where the mean is below .3 the model does not fit the region, and the local
+//! split takes its pixels.
+//!
+//! Pictures without such errors are not tested: there a fit within 1.5 σ is the better evidence, and metal would lose its plane.
+//!
+//! Measured on 82 rendered scenes at JPEG 92: the mean is below .3 for 3 regions, whose planes gained −1.1, .2 and .4 dB against
+//! doing nothing; body of other kinds than plain objects 32.78 → 33.00 dB (doing nothing: 23.9), all else unchanged; demosaiced
+//! with JPEG 92 32.39 → 32.38 dB. In 20 photographs the mean is below .3 for 4 of 10 regions; share of border pixels of the
+//! split with a new edge 2.1 → 1.2 %, of a portrait 17.6 → .7 %.
+
+use super::images::Images;
+use super::local::Observations;
+use super::region_plan::RegionPlan;
+use crate::color::Vec3;
+use crate::raster::{RegionId, Roi};
+use crate::segment::{AnalysisInput, LightFindings, Members, Pixels};
+use rayon::prelude::*;
+
+/// Fewest pixels with surface reflection that are judged.
+const LEAST_PIXELS: usize = 20;
+/// How far around the lit pixels the observations reach, pixels.
+const MARGIN_PX: usize = 24;
+
+/// Measures the evidence of each region that the model fits, and rejects the regions with too little. Returns the observations that
+/// this took, which the local split needs as well; none where no region was tested.
+pub(super) fn reject_regions_without_evidence(
+    input: &AnalysisInput,
+    light: &LightFindings,
+    members: &Members,
+    images: &Images,
+    plans: &mut [RegionPlan],
+) -> Option<Observations> {
+    let refine = input.refine;
+    let is_wanted = refine.plane_evidence && refine.region_holds && refine.local_split && input.extended;
+    let is_tested = |plan: &RegionPlan| plan.model_fits && plan.transform().is_some();
+    if !is_wanted || !plans.iter().any(is_tested) {
+        return None;
+    }
+    let light = Vec3::from(light.direction?);
+    let size = (input.pixels.width(), input.pixels.height());
+    let roi = Roi::around(size, MARGIN_PX, |pixel| !input.masks.dark(pixel))?;
+    let observations = Observations::new(input, &light, roi)?;
+    let tested = plans.par_iter_mut().enumerate().filter(|(_, plan)| is_tested(plan));
+    tested.for_each(|(index, plan)| {
+        let id = RegionId::from_index(index);
+        plan.fit.highlights = mean_probability(input, &observations, images, members.region(id));
+        plan.model_fits &= plan.fit.model_fits();
+    });
+    Some(observations)
+}
+
+/// The mean probability of a highlight in the undistorted pixels of a region with surface reflection, weighted by the square of the
+/// surface reflection; none for fewer than [`LEAST_PIXELS`] pixels, and without refinement `highlight_evidence`.
+fn mean_probability(
+    input: &AnalysisInput,
+    observations: &Observations,
+    images: &Images,
+    pixels: Pixels,
+) -> Option<f64> {
+    let evidence = observations.evidence.as_ref()?;
+    let (mut sum, mut total, mut count) = (0.0f64, 0.0f64, 0usize);
+    for pixel in pixels.iter().map(|pixel| pixel as usize) {
+        let surface = f64::from(images.surface[pixel].iter().sum::<f32>()) / 3.0;
+        let index = observations.map.roi.index(pixel).filter(|_| surface > 0.0 && input.masks.usable(pixel));
+        let Some(index) = index else { continue };
+        let probability = 1.0 / (1.0 + f64::from(-evidence.log_odds[index]).exp());
+        sum += surface * surface * probability;
+        total += surface * surface;
+        count += 1;
+    }
+    (count >= LEAST_PIXELS).then(|| sum / total)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::rgb;
+    use crate::raster::{LabelMap, Raster};
+    use crate::segment::testing::Drawing;
+    use crate::trace::PixelKind;
+
+    const SIDE_PX: usize = 96;
+
+    fn light() -> Vec3 {
+        Vec3::repeat(1.0).normalize()
+    }
+
+    /// Surface reflection at (x, y), counts: a highlight at (24, 40) on the left half, an even amount on the right half.
+    fn surface(x: f64, y: f64) -> Vec3 {
+        let highlight = 130.0 * (-((x - 24.0).powi(2) + (y - 40.0).powi(2)) / 60.0).exp();
+        light() * if x < 48.0 { highlight } else { 50.0 }
+    }
+
+    /// The mean probabilities of a highlight in the left half, skin, and in the right half, gray hair in the same plane.
+    fn probabilities(highlight_evidence: bool) -> [Option<f64>; 2] {
+        let body = |x: f64, y: f64| {
+            let shading = if x < 48.0 { 110.0 + 0.3 * y } else { 40.0 + 0.1 * y + (x / 3.0).sin() };
+            Vec3::new(0.75, 0.4, 0.25) * shading
+        };
+        let mut drawing = Drawing::by_place(SIDE_PX, |x, y| body(x, y) + surface(x, y));
+        drawing.refine.highlight_evidence = highlight_evidence;
+        let input = drawing.input();
+        let place = |pixel: usize| ((pixel % SIDE_PX) as f64, (pixel / SIDE_PX) as f64);
+        let surface = (0..SIDE_PX * SIDE_PX).map(|pixel| rgb(&surface(place(pixel).0, place(pixel).1)));
+        let surface = Raster::from_vec(SIDE_PX, SIDE_PX, surface.collect()).unwrap();
+        let images = Images {
+            body: input.pixels.clone(),
+            surface,
+            noise: Raster::filled(SIDE_PX, SIDE_PX, 0.0),
+            kinds: Raster::filled(SIDE_PX, SIDE_PX, PixelKind::Matte),
+        };
+        let labels = (0..SIDE_PX * SIDE_PX).map(|pixel| if pixel % SIDE_PX < 48 { 1 } else { 2 });
+        let members = Members::of(&LabelMap::from_vec(SIDE_PX, SIDE_PX, labels.collect()).unwrap(), 2);
+        let roi = Roi::around((SIDE_PX, SIDE_PX), 0, |_| true).unwrap();
+        let observations = Observations::new(&input, &light(), roi).unwrap();
+        [1u16, 2].map(|id| mean_probability(&input, &observations, &images, members.region(id)))
+    }
+
+    #[test]
+    fn a_highlight_is_probable_and_a_gray_material_in_the_same_plane_is_not() {
+        let [skin, hair] = probabilities(true).map(Option::unwrap);
+        assert!(skin > 0.8 && hair < 0.3, "{skin} and {hair}");
+        assert_eq!(probabilities(false), [None, None], "nothing is measured without the observations");
+    }
+}
