@@ -8,7 +8,10 @@
 //! reflection of the plane, is near 1 on highlights. Where the mean is below .3 the model does not fit the region, and the local
 //! split takes its pixels.
 //!
-//! Pictures without such errors are not tested: there a fit within 1.5 σ is the better evidence, and metal would lose its plane.
+//! Pictures without such errors are not tested: there a fit within 1.5 σ is the better evidence, and metal would lose its plane. The
+//! exception is a region with a small misfit. The mean of several pixels has so little noise that errors of the model itself
+//! (inter-reflection, a light that is not one color) exceed 1.5 σ at one count. Such a region fits where the mean probability
+//! is at least .8: a cup in a scene of 1536 × 1440 pixels 17.8 → 37.7 dB.
 //!
 //! Measured on 82 rendered scenes at JPEG 92: the mean is below .3 for 3 regions, whose planes gained −1.1, .2 and .4 dB against
 //! doing nothing; body of other kinds than plain objects 32.78 → 33.00 dB (doing nothing: 23.9), all else unchanged; demosaiced
@@ -38,22 +41,36 @@ pub(super) fn reject_regions_without_evidence(
     plans: &mut [RegionPlan],
 ) -> Option<Observations> {
     let refine = input.refine;
-    let is_wanted = refine.plane_evidence && refine.region_holds && refine.local_split && input.extended;
-    let is_tested = |plan: &RegionPlan| plan.model_fits && plan.transform().is_some();
-    if !is_wanted || !plans.iter().any(is_tested) {
+    if !refine.region_holds {
         return None;
     }
-    let light = Vec3::from(light.direction?);
-    let size = (input.pixels.width(), input.pixels.height());
-    let roi = Roi::around(size, MARGIN_PX, |pixel| !input.masks.dark(pixel))?;
-    let observations = Observations::new(input, &light, roi)?;
+    let is_doubtful = |plan: &RegionPlan| {
+        plan.fit.has_small_misfit() || (refine.plane_evidence && refine.local_split && input.extended)
+    };
+    let is_tested = |plan: &RegionPlan| plan.model_fits && plan.transform().is_some() && is_doubtful(plan);
+    if !plans.iter().any(is_tested) {
+        return None;
+    }
+    let observations = observations(input, light);
     let tested = plans.par_iter_mut().enumerate().filter(|(_, plan)| is_tested(plan));
     tested.for_each(|(index, plan)| {
-        let id = RegionId::from_index(index);
-        plan.fit.highlights = mean_probability(input, &observations, images, members.region(id));
+        let pixels = members.region(RegionId::from_index(index));
+        plan.fit.needs_highlights = true;
+        plan.fit.highlights = observations
+            .as_ref()
+            .and_then(|observations| mean_probability(input, observations, images, pixels));
         plan.model_fits &= plan.fit.model_fits();
     });
-    Some(observations)
+    observations
+}
+
+/// The observations around all lit pixels; none without the refinements that they belong to, and where no light is known.
+fn observations(input: &AnalysisInput, light: &LightFindings) -> Option<Observations> {
+    let refine = input.refine;
+    let light = light.direction.filter(|_| refine.plane_evidence && refine.local_split)?;
+    let size = (input.pixels.width(), input.pixels.height());
+    let roi = Roi::around(size, MARGIN_PX, |pixel| !input.masks.dark(pixel))?;
+    Observations::new(input, &Vec3::from(light), roi)
 }
 
 /// The mean probability of a highlight in the undistorted pixels of a region with surface reflection, weighted by the square of the

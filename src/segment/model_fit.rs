@@ -3,7 +3,8 @@
 //! Five measures decide. The first is the root mean square distance of the pixels from the dichromatic plane. Let σ be the distance that
 //! the noise and the error of the file's values explain at the region's intensity. The distance is about 1 σ on plastic and 2–16 σ
 //! on prints, wood and leaves. The limit is 1.5 σ, and 3 σ where compression or demosaicing mixed the colors at the rims of
-//! highlights and objects.
+//! highlights and objects. A distance of up to 1.9 counts from a plane is no misfit, however small σ is, where the plane finds clear
+//! highlights.
 //!
 //! The second measure is texture. A pattern of two colors lies in one plane as exactly as a highlight does (distance 1.0 σ, but the
 //! body image is 13 dB worse than the input). Within a few pixels of such a pattern the surface reflection rises where the body
@@ -39,6 +40,9 @@ use nalgebra::Matrix3;
 
 /// Largest root mean square distance from plane or line that noise and coding explain, σ.
 const MAX_RMS_SIGMAS: f64 = 1.5;
+/// Root mean square distance from a plane that is no misfit, however little noise the mean of several pixels has, counts: the limit of
+/// a camera with the σ0 of the paper, 2.5 counts. Of a line it is a misfit, as the split by a line moves colors onto the line.
+const NO_MISFIT_COUNTS: f64 = 1.875;
 /// Largest root mean square distance where the errors of neighboring pixels are alike, σ: compression and demosaicing mix the colors at the
 /// rims of highlights and objects.
 const MAX_RMS_SIGMAS_EXTENDED: f64 = 3.0;
@@ -52,6 +56,8 @@ const MAX_NEW_EDGES: f64 = 0.12;
 pub const MAX_LIGHT_SHARE: f64 = 1.0;
 /// Least mean probability of a highlight in the surface reflection of a region that the model fits.
 const MIN_HIGHLIGHTS: f64 = 0.3;
+/// The same of a region with a small misfit.
+const MIN_HIGHLIGHTS_SMALL_MISFIT: f64 = 0.8;
 /// Fewest sides of a border that is judged.
 const LEAST_SIDES: u32 = 24;
 /// Largest number of pixels whose distance from the plane is measured, evenly chosen.
@@ -87,6 +93,8 @@ pub struct RegionFit {
     pub sigma_counts: f64,
     /// Largest `rms_counts` of a region that the model fits, σ.
     pub limit_sigmas: f64,
+    /// Root mean square distance that is no misfit, counts.
+    pub least_limit_counts: f64,
     /// Anticorrelation of body and surface reflection from pixel to pixel: 1 for a print, about 0 for highlights.
     pub texture: f64,
     /// Decrease of body reflection per increase of surface reflection from pixel to pixel.
@@ -98,6 +106,8 @@ pub struct RegionFit {
     pub new_edges: NewEdges,
     /// Mean probability of a highlight in the surface reflection of the plane, 0…1; none where it was not measured.
     pub highlights: Option<f64>,
+    /// Whether the region needs `highlights`.
+    pub needs_highlights: bool,
 }
 
 /// The sides of the pixels of a region against lit pixels outside, and how many of the sides have an edge in the body image that the
@@ -149,18 +159,30 @@ impl RegionFit {
         Self {
             rms_counts: (squares / pixel_count).sqrt(),
             sigma_counts: input.fit_sigma(&(sum / pixel_count)),
+            least_limit_counts: if transform.is_some() { NO_MISFIT_COUNTS } else { 0.0 },
             limit_sigmas: if input.extended { MAX_RMS_SIGMAS_EXTENDED } else { MAX_RMS_SIGMAS },
             texture: texture.anticorrelation,
             texture_slope: texture.slope,
             light_share: 0.0,
             new_edges: NewEdges::default(),
             highlights: None,
+            needs_highlights: false,
         }
     }
 
     /// Whether the pixels lie farther from the plane than noise and coding explain.
     pub fn poor(&self) -> bool {
-        self.rms_counts > self.limit_sigmas * self.sigma_counts
+        self.rms_counts > self.limit_counts()
+    }
+
+    /// Whether noise and coding alone do not explain the distance from the plane, but the distance is too small to be a misfit.
+    pub fn has_small_misfit(&self) -> bool {
+        self.rms_counts > self.limit_sigmas * self.sigma_counts && !self.poor()
+    }
+
+    /// Largest distance from the plane that is no misfit, counts.
+    fn limit_counts(&self) -> f64 {
+        (self.limit_sigmas * self.sigma_counts).max(self.least_limit_counts)
     }
 
     /// Whether anticorrelation and slope both exceed the limits of a texture.
@@ -179,9 +201,16 @@ impl RegionFit {
         self.light_share > MAX_LIGHT_SHARE
     }
 
-    /// Whether what the plane takes for surface reflection has been found to look like print or another color.
+    /// Whether the region needs highlights and what the plane takes for surface reflection looks like print or another color. Too
+    /// little surface reflection to be judged is no reason against a region without misfit.
     pub fn lacks_highlights(&self) -> bool {
-        self.highlights.is_some_and(|highlights| highlights < MIN_HIGHLIGHTS)
+        let lacking = |highlights| highlights < self.least_highlights();
+        self.needs_highlights && self.highlights.map_or(self.has_small_misfit(), lacking)
+    }
+
+    /// Least mean probability of a highlight of a region that needs highlights.
+    fn least_highlights(&self) -> f64 {
+        if self.has_small_misfit() { MIN_HIGHLIGHTS_SMALL_MISFIT } else { MIN_HIGHLIGHTS }
     }
 
     /// The measures that decide.
@@ -199,13 +228,13 @@ impl RegionFit {
     /// Largest measures of a region that the model fits.
     pub fn limits(&self) -> FitLimits {
         FitLimits {
-            rms_counts: self.limit_sigmas * self.sigma_counts,
-            rms_sigmas: self.limit_sigmas,
+            rms_counts: self.limit_counts(),
+            rms_sigmas: (10.0 * self.limit_counts() / self.sigma_counts.max(1e-9)).round() / 10.0,
             texture: TEXTURE_CORRELATION,
             texture_slope: TEXTURE_SLOPE,
             light_share: MAX_LIGHT_SHARE,
             new_edges: MAX_NEW_EDGES,
-            highlights: MIN_HIGHLIGHTS,
+            highlights: self.least_highlights(),
         }
     }
 
@@ -348,5 +377,33 @@ mod tests {
     fn the_model_fits_shading_alone() {
         let found = fit(|x, y| (60.0 + x + (y / 6.0).sin() * y, 0.0));
         assert!(found.model_fits(), "{found:?}");
+    }
+
+    #[test]
+    fn a_small_misfit_needs_clear_highlights_and_a_line_has_none() {
+        let plane = RegionFit {
+            rms_counts: 1.6,
+            sigma_counts: 0.75,
+            limit_sigmas: 1.5,
+            least_limit_counts: NO_MISFIT_COUNTS,
+            ..RegionFit::default()
+        };
+        assert!(plane.has_small_misfit() && plane.model_fits());
+        let with = |highlights| RegionFit { needs_highlights: true, highlights, ..plane };
+        assert!(with(Some(0.9)).model_fits());
+        assert!(!with(Some(0.5)).model_fits() && !with(None).model_fits());
+        let line = RegionFit { least_limit_counts: 0.0, ..plane };
+        assert!(line.poor() && !line.has_small_misfit());
+        let exact = RegionFit { rms_counts: 0.8, ..with(Some(0.5)) };
+        assert!(exact.model_fits(), "without a misfit .3 is enough");
+        assert!(
+            RegionFit { highlights: None, ..exact }.model_fits(),
+            "too little surface reflection to be judged"
+        );
+        assert!(!RegionFit { highlights: Some(0.2), ..exact }.model_fits());
+        assert!(
+            (plane.limits().rms_counts - 1.875).abs() < 1e-9
+                && (plane.limits().rms_sigmas - 2.5).abs() < 1e-9
+        );
     }
 }
