@@ -2,7 +2,7 @@
 
 use super::resolve::{NoiseFindings, detail_noise, mask_limits, scale_factor, used_params};
 use super::subject::Subject;
-use crate::params::{Params, Refine, Setting, UsedParams};
+use crate::params::{Params, Rules, Setting, UsedParams};
 use crate::photo::{
     CodingError, LinearImage, MaskLimits, Masks, NoiseCorrelation, NoiseEstimate, ShotNoise, WorkingPicture,
 };
@@ -27,8 +27,9 @@ pub(super) struct Prepared {
 
 impl Prepared {
     /// The input of the stages: the working picture.
-    pub(super) fn working_input<'a>(&'a self, used: &'a UsedParams, refine: Refine) -> AnalysisInput<'a> {
-        let input = AnalysisInput::new(&self.working.image, &self.working.masks, used, refine);
+    pub(super) fn working_input<'a>(&'a self, used: &'a UsedParams, rules: Rules) -> AnalysisInput<'a> {
+        let input = AnalysisInput::new(&self.working.image, &self.working.masks, used, rules.refine)
+            .with_readings(rules.readings);
         self.with_errors(input, self.working_coding.as_ref(), self.noise.shot)
     }
 
@@ -37,9 +38,9 @@ impl Prepared {
         &'a self,
         image: &'a LinearImage,
         used: &'a UsedParams,
-        refine: Refine,
+        rules: Rules,
     ) -> AnalysisInput<'a> {
-        let input = AnalysisInput::new(image, &self.masks, used, refine);
+        let input = AnalysisInput::new(image, &self.masks, used, rules.refine).with_readings(rules.readings);
         let shot = self.detail.map_or(self.noise.shot, |detail| detail.shot);
         self.with_errors(input, self.noise.coding.as_ref(), shot)
     }

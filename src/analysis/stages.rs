@@ -10,7 +10,7 @@ use super::warnings::all_warnings;
 use super::working_outputs::{MergedAreas, WorkingOutputs};
 use super::{Analysis, Cancelled, Observer, Stage, StageOutput};
 use crate::intrinsic::{WorkingSplit, split};
-use crate::params::{Params, Refine, UsedParams};
+use crate::params::{Params, Rules, UsedParams};
 use crate::raster::Raster;
 use crate::segment::{
     AnalysisInput, Areas, Classifier, FinalRegions, MatteRegions, PlanarRegions, Windows, classify,
@@ -35,7 +35,7 @@ pub struct Stages {
 
 /// Key of a stage's output: the generation of the output of the stage before, and the parameters that the stages up to this one
 /// read.
-type Key = (u64, (UsedParams, Refine));
+type Key = (u64, (UsedParams, Rules));
 
 impl Stages {
     /// Runs the stages that are stale, and, where `R` keeps a record, the stages without one.
@@ -45,9 +45,9 @@ impl Stages {
         params: &Params,
         observer: &mut impl Observer,
     ) -> Result<Analysis, Cancelled> {
-        let refine = params.refinements();
+        let rules = params.rules();
         let (prepared, used) = self.masks::<R>(subject, params, observer)?;
-        let input = prepared.working_input(&used, refine);
+        let input = prepared.working_input(&used, rules);
         let is_whole = prepared.working.blocks.side() == 1;
         let working = self.working_outputs::<R, _>(&input, is_whole, observer)?;
         let mut analysis = working.analysis(&prepared, used);
@@ -58,7 +58,7 @@ impl Stages {
         } else {
             observer.working_made(&analysis, &prepared.working.blocks);
             let detail_used = prepared.detail_params(params, used);
-            let detail_input = prepared.detail_input(&subject.image, &detail_used, refine);
+            let detail_input = prepared.detail_input(&subject.image, &detail_used, rules);
             let photograph = Photograph { prepared: &prepared, input: detail_input };
             let reused = self.full_resolution.enlarge(&photograph, &working, observer, &mut analysis)?;
             split_reused = split_reused && reused;
@@ -78,7 +78,7 @@ impl Stages {
         is_whole: bool,
         observer: &mut O,
     ) -> Result<WorkingOutputs, Cancelled> {
-        let key = |stage, before| (before, seen_up_to(stage, input.used, input.refine));
+        let key = |stage, before| (before, seen_up_to(stage, input.used, input.rules()));
         let tell = |observer: &mut O, output: StageOutput| {
             if is_whole {
                 observer.made(output);

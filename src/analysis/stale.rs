@@ -4,14 +4,15 @@
 //! read have a fixed value in the key, so that a change of such a parameter leaves the output valid.
 
 use super::Stage;
-use crate::params::{AmbientSetting, Parameter, Refine, Switch, UsedParams};
+use crate::params::{AmbientSetting, Parameter, Reading, Rules, Switch, UsedParams};
 
-/// The parameters and refinements that `stage` and the stages before it read; all other parameters are 0 and refinements off.
+/// The parameters and switches that `stage` and the stages before it read; all other parameters are 0 and switches off.
 ///
-/// The tables of parameters and switches name the first stage that reads each ([`Parameter::spec`], [`Switch::first_stage`]).
+/// The tables of parameters, refinements and readings name the first stage that reads each ([`Parameter::spec`],
+/// [`Switch::first_stage`], [`Reading::first_stage`]).
 /// The planar stage is the first that reads a given light, the split is the first that reads the ambient light.
-pub fn seen_up_to(stage: Stage, used: &UsedParams, refine: Refine) -> (UsedParams, Refine) {
-    let (mut used, mut refine) = (*used, refine);
+pub fn seen_up_to(stage: Stage, used: &UsedParams, rules: Rules) -> (UsedParams, Rules) {
+    let (mut used, mut rules) = (*used, rules);
     for parameter in Parameter::ALL {
         if stage < parameter.spec().first_stage {
             *used.slot(parameter) = 0.0;
@@ -25,31 +26,43 @@ pub fn seen_up_to(stage: Stage, used: &UsedParams, refine: Refine) -> (UsedParam
     }
     for switch in Switch::ALL {
         if stage < switch.first_stage() {
-            refine.set(switch, false);
+            rules.refine.set(switch, false);
         }
     }
-    (used, refine)
+    for reading in Reading::ALL {
+        if stage < reading.first_stage() {
+            rules.readings.set(reading, false);
+        }
+    }
+    (used, rules)
 }
 
 #[cfg(test)]
 #[allow(clippy::float_cmp, reason = "exactness is what is tested")]
 mod tests {
     use super::*;
+    use crate::params::{Readings, Refine};
 
     /// Otherwise a changed parameter could leave an output valid that was made with the old value.
     #[test]
     fn from_its_first_stage_on_every_parameter_and_switch_is_seen() {
-        let (used, refine) = (UsedParams::paper(), Refine::all(true));
+        let used = UsedParams::paper();
+        let rules = Rules { refine: Refine::all(true), readings: Readings::all(true) };
         for stage in Stage::ALL {
-            let (seen, switches) = seen_up_to(stage, &used, refine);
+            let (seen, switches) = seen_up_to(stage, &used, rules);
             for parameter in Parameter::ALL {
                 let reads = parameter.spec().first_stage <= stage;
                 assert_eq!(seen.get(parameter) == used.get(parameter), reads, "{parameter:?} in {stage:?}");
             }
             for switch in Switch::ALL {
-                assert_eq!(switches.get(switch), switch.first_stage() <= stage, "{switch:?} in {stage:?}");
+                let is_seen = switches.refine.get(switch);
+                assert_eq!(is_seen, switch.first_stage() <= stage, "{switch:?} in {stage:?}");
+            }
+            for reading in Reading::ALL {
+                let is_seen = switches.readings.get(reading);
+                assert_eq!(is_seen, reading.first_stage() <= stage, "{reading:?} in {stage:?}");
             }
         }
-        assert_eq!(seen_up_to(Stage::Split, &used, refine), (used, refine));
+        assert_eq!(seen_up_to(Stage::Split, &used, rules), (used, rules));
     }
 }

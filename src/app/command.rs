@@ -2,7 +2,7 @@
 //! a type of their own, which no panel can make.
 
 use super::{DebugCommand, Export, Gesture, Question, Severity};
-use crate::params::{AmbientSetting, Method, Parameter, Params, Setting, Switch};
+use crate::params::{AmbientSetting, Method, Parameter, Params, Reading, Setting, Switch};
 use crate::photo::ReadOptions;
 use crate::raster::Mask;
 use crate::view::{CubeSettings, ImageSettings, Item, Origin, PlaneSettings, ProfileLine, Theme};
@@ -38,8 +38,10 @@ pub enum Edit {
     SetParameter(Parameter, Setting, Option<Gesture>),
     /// Choose the algorithm; parameters at the other method's defaults follow.
     SetMethod(Method),
-    /// Switch a refinement.
+    /// Switch a refinement of the method in force.
     SetSwitch(Switch, bool),
+    /// Switch a reading of the paper's method.
+    SetReading(Reading, bool),
     /// Set all parameters, to those of a preset.
     SetParams(Box<Params>),
     /// Set the light's direction; none: the analysis finds it.

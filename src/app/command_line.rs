@@ -2,7 +2,7 @@
 
 use super::State;
 use super::write::AREA_FILE;
-use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine, Switch};
+use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Reading, Switch};
 use crate::view::Origin;
 use std::path::Path;
 
@@ -71,13 +71,20 @@ fn params_words(params: &Params) -> Vec<String> {
     if params.ambient != AmbientSetting::Auto {
         words.extend(["--ambient".to_owned(), params.ambient.to_string()]);
     }
-    // The paper's method ignores the switches of the refinements.
-    if params.method == Method::Refined {
-        for switch in Switch::ALL {
-            let on = params.refine.get(switch);
-            if on != Refine::default().get(switch) {
-                words.push(if on { "--with" } else { "--without" }.to_owned());
-                words.push(switch.name().to_owned());
+    for switch in Switch::ALL {
+        let on = params.refinements().get(switch);
+        if on != defaults.refinements().get(switch) {
+            words.push(if on { "--with" } else { "--without" }.to_owned());
+            words.push(switch.name().to_owned());
+        }
+    }
+    // The readings of the refined method are fixed.
+    if params.method == Method::Paper {
+        for reading in Reading::ALL {
+            let on = params.paper.readings.get(reading);
+            if on != defaults.paper.readings.get(reading) {
+                words.push(if on { "--reading" } else { "--without-reading" }.to_owned());
+                words.push(reading.name().to_owned());
             }
         }
     }

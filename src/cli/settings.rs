@@ -1,10 +1,10 @@
 //! Parameters from flags and a TOML file: defaults of the method, or a preset < file < `--auto` < single flags.
 
 use anyhow::{Context, Result, anyhow, bail};
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
 use dichroscope::params::{
-    AmbientSetting, IlluminantSetting, Method, Parameter, Params, Preset, Setting, Switch,
+    AmbientSetting, IlluminantSetting, Method, Parameter, Params, Preset, Reading, Setting, Switch,
 };
 use std::path::{Path, PathBuf};
 
@@ -18,18 +18,24 @@ pub(super) struct Settings {
     /// The paper's parameters for one of its pictures (a column of table 6), and its method unless --method says otherwise
     #[arg(long, value_name = "NAME", value_parser = preset_parser())]
     preset: Option<Preset>,
-    /// Parameters from a TOML file: `method`, one key per parameter, and the switches under `[refine]`
+    /// Parameters from a TOML file: `method`, one key per parameter, the switches under `[refine]`, and the readings under `[paper]`
     #[arg(long, value_name = "FILE.toml")]
     params: Option<PathBuf>,
     /// Estimate from the image whatever can be, except what a flag of its own sets
     #[arg(long)]
     auto: bool,
-    /// Switch a refinement on (repeatable)
+    /// Switch a refinement on, or add it to the paper's method (repeatable)
     #[arg(long, value_name = "NAME", value_parser = switch_parser())]
     with: Vec<Switch>,
     /// Switch a refinement off (repeatable; names as for --with)
     #[arg(long, value_name = "NAME", value_parser = switch_parser(), hide_possible_values = true)]
     without: Vec<Switch>,
+    /// Read the paper's text as this reading says; only with the paper's method (repeatable)
+    #[arg(long, value_name = "NAME", value_parser = reading_parser())]
+    reading: Vec<Reading>,
+    /// Read the paper's text the other way (repeatable; names as for --reading)
+    #[arg(long, value_name = "NAME", value_parser = reading_parser(), hide_possible_values = true)]
+    without_reading: Vec<Reading>,
     #[command(flatten)]
     flags: ParameterFlags,
     /// The color of the light, of any length; every dichromatic plane turns to it [default: auto]
@@ -59,6 +65,7 @@ impl Settings {
         params.illuminant = self.illuminant.unwrap_or(params.illuminant);
         params.ambient = self.ambient.unwrap_or(params.ambient);
         self.switch(&mut params)?;
+        self.read(&mut params)?;
         params.validate()?;
         Ok(params)
     }
@@ -67,12 +74,27 @@ impl Settings {
         if let Some(switch) = self.with.iter().find(|switch| self.without.contains(switch)) {
             bail!("{} is both --with and --without", switch.name());
         }
-        if params.method == Method::Paper && !(self.with.is_empty() && self.without.is_empty()) {
-            bail!("--with and --without belong to `--method refined`: the paper's method refines nothing");
-        }
         for (switches, on) in [(&self.with, true), (&self.without, false)] {
             for &switch in switches {
-                params.refine.set(switch, on);
+                params.refinements_mut().set(switch, on);
+            }
+        }
+        Ok(())
+    }
+
+    fn read(&self, params: &mut Params) -> Result<()> {
+        if let Some(reading) = self.reading.iter().find(|reading| self.without_reading.contains(reading)) {
+            bail!("{} is both --reading and --without-reading", reading.name());
+        }
+        let any = !(self.reading.is_empty() && self.without_reading.is_empty());
+        if params.method == Method::Refined && any {
+            bail!(
+                "--reading and --without-reading belong to `--method paper`: the refined method reads the text in one way"
+            );
+        }
+        for (readings, on) in [(&self.reading, true), (&self.without_reading, false)] {
+            for &reading in readings {
+                params.paper.readings.set(reading, on);
             }
         }
         Ok(())
@@ -132,6 +154,11 @@ fn preset_parser() -> impl TypedValueParser<Value = Preset> {
 
 fn switch_parser() -> impl TypedValueParser<Value = Switch> {
     PossibleValuesParser::new(Switch::ALL.map(Switch::name)).try_map(|name| Switch::from_name(&name))
+}
+
+fn reading_parser() -> impl TypedValueParser<Value = Reading> {
+    let value = |reading: Reading| PossibleValue::new(reading.name()).help(reading.spec().title);
+    PossibleValuesParser::new(Reading::ALL.map(value)).try_map(|name| Reading::from_name(&name))
 }
 
 /// One flag per parameter, made from [`Parameter::spec`].

@@ -6,7 +6,7 @@ use super::scores::Scores;
 use crate::analysis::{Analysis, Stage};
 use crate::intrinsic::Reason;
 use crate::params::{
-    AmbientSetting, IlluminantSetting, Method, Parameter, Params, Refine, Setting, parameter_rows,
+    AmbientSetting, IlluminantSetting, Method, Parameter, Params, Readings, Refine, Setting, parameter_rows,
 };
 use crate::photo::Photo;
 use crate::raster::{Mask, UNASSIGNED};
@@ -65,6 +65,9 @@ impl Report {
         let labels = analysis.finals.labels.as_slice();
         let is_unassigned =
             |&(pixel, &id): &(usize, &u16)| id == UNASSIGNED && !analysis.masks.outside(pixel);
+        // The paper's light is the average of highlight directions, unless a refinement replaces the average.
+        let refine = params.refinements();
+        let is_refined = params.method == Method::Refined || refine.robust_illuminant || refine.vote_light;
         let unassigned = labels.iter().enumerate().filter(is_unassigned).count();
         Self {
             schema: SCHEMA,
@@ -74,7 +77,7 @@ impl Report {
             params: ParamsFacts::new(params, analysis),
             noise: NoiseFacts::new(analysis),
             scale: ScaleFacts::new(params, analysis),
-            illuminant: IlluminantFacts::new(analysis),
+            illuminant: IlluminantFacts::new(analysis, is_refined),
             ambient: AmbientFacts::new(analysis),
             regions: analysis.intrinsic.regions.iter().map(RegionFacts::from).collect(),
             unassigned_pixels: unassigned,
@@ -229,8 +232,11 @@ macro_rules! define_params_facts {
             /// The ambient light. Absent in reports of versions without this setting.
             #[serde(default)]
             pub ambient: AmbientAsked,
-            /// The refinements in force: all off under the paper's method.
+            /// The refinements in force: under the paper's method those that were added to it.
             pub refine: Refine,
+            /// How the paper was read; absent under the refined method.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            pub readings: Option<Readings>,
         }
 
         impl ParamsFacts {
@@ -247,6 +253,7 @@ macro_rules! define_params_facts {
                         used: analysis.intrinsic.ambient.subtracted,
                     },
                     refine: params.refinements(),
+                    readings: (params.method == Method::Paper).then_some(params.paper.readings),
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 use crate::analysis::Analysis;
 use crate::intrinsic::Ambient;
+use crate::segment::{LightBasis, LightFindings};
 use serde::{Deserialize, Serialize};
 
 /// The ambient light (section 7.5).
@@ -10,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub struct AmbientFacts {
     /// Subtracted before the split and added to the body image after it, counts; null: nothing.
     pub subtracted: Option<[f64; 3]>,
-    /// Why ambient light was subtracted, or why not: `off`, `given`, `subtracted`, `few_lines`, `black`, `negative`, `no_meeting` or
+    /// Why ambient light was subtracted, or why not: `off`, `not_estimated`, `given`, `subtracted`, `few_lines`, `black`, `negative`, `no_meeting` or
     /// `darker_pixels`.
     pub verdict: String,
     /// The same in words.
@@ -116,7 +117,7 @@ pub struct IlluminantFacts {
     /// Whether the light was given and not estimated.
     #[serde(default)]
     pub given: bool,
-    /// The evidence: `given`, `planes`, `votes` or `none`.
+    /// The evidence: `given`, `average`, `planes`, `votes` or `none`.
     #[serde(default)]
     pub basis: String,
     /// Why this light was used, or why no light was.
@@ -125,42 +126,54 @@ pub struct IlluminantFacts {
     /// Error of the light by its evidence, degrees; null where the light was given or is unknown.
     #[serde(default)]
     pub interval_deg: Option<f64>,
+    /// The two estimates of the refined method; absent where the light is the paper's average of highlight directions.
+    #[serde(flatten)]
+    pub estimates: Option<LightEstimateFacts>,
+}
+
+/// The two estimates of the light of the refined method.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct LightEstimateFacts {
     /// The light by the dichromatic planes, unit.
-    #[serde(default)]
     pub planes: Option<[f64; 3]>,
     /// Whether the planes are those of the highlights alone, as faint surface reflection has another color.
-    #[serde(default)]
     pub highlights_alone: bool,
     /// The light by the votes of small highlights, unit.
-    #[serde(default)]
     pub votes: Option<[f64; 3]>,
     /// Angle between both lights, degrees.
-    #[serde(default)]
     pub agreement_deg: Option<f64>,
     /// Share of the votes for the light that was used, 0…1.
-    #[serde(default)]
     pub vote_share: f64,
     /// Share of the lit pixels in regions that hold and show highlights, 0…1.
-    #[serde(default)]
     pub support: f64,
 }
 
-impl IlluminantFacts {
-    pub(super) fn new(analysis: &Analysis) -> Self {
-        let light = &analysis.planar.light;
+impl LightEstimateFacts {
+    fn new(light: &LightFindings) -> Self {
         Self {
-            direction: analysis.illuminant.map(|light| light.direction),
-            objects: analysis.illuminant.map_or(0, |light| light.objects),
-            given: analysis.illuminant.is_some_and(|light| light.given),
-            basis: light.basis.name().to_owned(),
-            reason: light.reason(),
-            interval_deg: light.interval_deg,
             planes: light.planes,
             highlights_alone: light.highlights_alone,
             votes: light.votes,
             agreement_deg: light.agreement_deg(),
             vote_share: light.share,
             support: light.support,
+        }
+    }
+}
+
+impl IlluminantFacts {
+    /// The facts of an analysis; `is_refined`: whether the refined estimates of the light were made.
+    pub(super) fn new(analysis: &Analysis, is_refined: bool) -> Self {
+        let light = &analysis.planar.light;
+        Self {
+            direction: analysis.illuminant.map(|light| light.direction),
+            objects: analysis.illuminant.map_or(0, |light| light.objects),
+            given: analysis.illuminant.is_some_and(|light| light.given),
+            basis: light.direction.map_or(LightBasis::Nothing, |_| light.basis).name().to_owned(),
+            reason: light.reason(),
+            interval_deg: light.interval_deg,
+            estimates: is_refined.then(|| LightEstimateFacts::new(light)),
         }
     }
 }

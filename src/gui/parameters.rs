@@ -4,7 +4,7 @@ use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::app::{Edit, Gesture};
 use crate::params::{
-    AmbientSetting, IlluminantSetting, Method, Parameter, ParameterSpec, Params, Setting, Switch,
+    AmbientSetting, IlluminantSetting, Method, Parameter, ParameterSpec, Params, Reading, Setting, Switch,
 };
 use egui::{Align, Button, DragValue, Layout, RichText, ScrollArea, Sense, Slider, Ui, vec2};
 
@@ -46,7 +46,7 @@ fn method(ui: &mut Ui, cx: &mut PanelContext) {
     let current = cx.state.document.params.method;
     ui.horizontal(|ui| {
         let tip =
-            "Refined: the paper's algorithm with switches below. Paper: as written in 1990 (section 5).";
+            "Refined: the paper's algorithm with switches below. Paper: as written in 1990, with its readings below (section 5).";
         if ui.available_width() >= NARROW_PT {
             label(ui, "method", tip);
         }
@@ -419,22 +419,34 @@ impl Bands {
     }
 }
 
-/// Shows the boxes of the refinement switches.
+/// Shows the boxes of the switches: the readings of the paper's method, and the refinements of either method.
 fn switches(ui: &mut Ui, cx: &mut PanelContext) {
     let params = cx.state.document.params;
-    let refined = params.method == Method::Refined;
-    let open =
-        egui::CollapsingHeader::new(RichText::new("Refinements").size(SMALL_PT).color(cx.palette.secondary));
-    open.default_open(true).show(ui, |ui| {
-        ui.add_enabled_ui(refined, |ui| {
-            for switch in Switch::ALL {
-                let mut on = params.refine.get(switch) && refined;
-                let words = switch.name().replace('_', " ");
-                if ui.checkbox(&mut on, words).on_hover_text(switch.meaning()).changed() {
-                    cx.send(Edit::SetSwitch(switch, on));
+    let header = |title: &str| {
+        let title = RichText::new(title).size(SMALL_PT).color(cx.palette.secondary);
+        egui::CollapsingHeader::new(title).default_open(true)
+    };
+    let words = |name: &str| name.replace('_', " ");
+    let [readings, refinements] = [header("Readings"), header("Refinements")];
+    if params.method == Method::Paper {
+        readings.show(ui, |ui| {
+            for reading in Reading::ALL {
+                let mut on = params.paper.readings.get(reading);
+                let spec = reading.spec();
+                let tip = format!("{}\n{}", spec.title, spec.explanation());
+                if ui.checkbox(&mut on, words(spec.name)).on_hover_text(tip).changed() {
+                    cx.send(Edit::SetReading(reading, on));
                 }
             }
         });
+    }
+    refinements.show(ui, |ui| {
+        for switch in Switch::ALL {
+            let mut on = params.refinements().get(switch);
+            if ui.checkbox(&mut on, words(switch.name())).on_hover_text(switch.meaning()).changed() {
+                cx.send(Edit::SetSwitch(switch, on));
+            }
+        }
     });
 }
 

@@ -222,8 +222,14 @@ fn paint_facts(
         let several = several_highlights(&plane.branches);
         format!("angle {angle:.1}\u{b0}\nslice \u{b1}{slice:.1} counts\n\u{3b5} {rms:.2} counts rms{several}")
     } else {
+        let hypothesis = plane.region.and_then(|region| shown.analysis.finals.hypotheses.get(region.index()));
+        let has_highlight = hypothesis.is_some_and(|hypothesis| hypothesis.highlight.is_some());
         let why = if shown.analysis.illuminant.is_none() {
             "the light's color is unknown, as no highlight was found"
+        } else if !has_highlight && !shown.params.refinements().extend_planes {
+            "no neighbor passed the tests of a highlight (section 5.4.1)"
+        } else if shown.params.rules().readings.angle_by_width {
+            "the angle between body and surface vector is too small for the cylinder width (section 7.5)"
         } else {
             "its body color is the light's"
         };

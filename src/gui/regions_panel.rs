@@ -40,19 +40,19 @@ const COLUMNS: [(SortKey, &str, f32, &str); 8] = [
         SortKey::Body,
         "body C_b",
         96.0,
-        "Body reflection vector: unit direction of the matte line through black, red green blue (section 2.2, 6).",
+        "Body reflection vector: unit direction of the matte line through black, red green blue (section 3.1, 6).",
     ),
     (
         SortKey::Surface,
         "surface C_s",
         96.0,
-        "Surface reflection vector: unit direction of the highlight line, the color of the light (section 2.2, 6).",
+        "Surface reflection vector: unit direction of the highlight line, the color of the light (section 3.1, 6).",
     ),
     (
         SortKey::Angle,
         "angle",
         48.0,
-        "Between body and surface vector: the smaller it is, the harder they are to tell apart (section 5.6).",
+        "Between body and surface vector: the smaller it is, the harder they are to tell apart (section 7.5).",
     ),
     (
         SortKey::Highlight,
@@ -342,8 +342,11 @@ fn light(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
         ui.spacing_mut().item_spacing = egui::vec2(6.0, 2.0);
         // A text that does not fit begins another line.
         ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
-        let tip =
-            "The color of the light: where the dichromatic planes of all objects intersect (section 5.4).";
+        let tip = if findings.basis == LightBasis::Average {
+            "The color of the light: the average direction of all highlight clusters (section 5.4.1)."
+        } else {
+            "The color of the light: where the dichromatic planes of all objects intersect (section 5.4)."
+        };
         ui.label(RichText::new("light").color(cx.palette.secondary)).on_hover_text(tip);
         if let Some(light) = &shown.analysis.illuminant {
             vector(ui, cx.palette, "color of the light", Some(light.direction), true);
@@ -414,6 +417,7 @@ fn basis_text(light: &Illuminant, findings: &LightFindings) -> String {
     let s = if light.objects == 1 { "" } else { "s" };
     let from = match findings.basis {
         LightBasis::Given => return "given".to_owned(),
+        LightBasis::Average => format!("average of {} highlight{s}", light.objects),
         LightBasis::Votes => format!("by {} small highlight{s}", light.objects),
         LightBasis::Planes | LightBasis::Nothing => format!("from {} object{s}", light.objects),
     };

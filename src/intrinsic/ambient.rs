@@ -51,14 +51,15 @@ const TUNING: f64 = 4.7;
 /// Most reweightings of the robust line fit.
 const ITERATIONS: usize = 12;
 
-/// The ambient light of a segmented picture: given by the user, estimated, or not asked for.
+/// The ambient light of a segmented picture: given by the user, estimated, not estimated, or off.
 pub fn ambient(input: &AnalysisInput, regions: &FinalRegions, members: &Members) -> Ambient {
     match input.used.ambient {
         AmbientSetting::Given(counts) => {
             Ambient { subtracted: Some(counts), meeting: None, verdict: AmbientVerdict::Given }
         }
         AmbientSetting::Auto if input.refine.ambient_light => estimated(input, regions, members),
-        AmbientSetting::Off | AmbientSetting::Auto => Ambient::default(),
+        AmbientSetting::Auto => Ambient { verdict: AmbientVerdict::NotEstimated, ..Ambient::default() },
+        AmbientSetting::Off => Ambient::default(),
     }
 }
 

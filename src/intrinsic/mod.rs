@@ -1,6 +1,7 @@
 //! Section 6: every pixel split into body reflection, surface reflection and noise.
 
 mod ambient;
+mod angle_limits;
 mod border_edges;
 mod border_mixtures;
 mod confidence;

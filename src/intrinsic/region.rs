@@ -5,13 +5,9 @@ use super::region_plan::RegionPlan;
 use super::{HighlightBranch, RegionReflection};
 use crate::color::Vec3;
 use crate::raster::{Raster, RegionId};
-use crate::reflection::MIN_ANGLE_DEG;
 use crate::segment::{AnalysisInput, Members, Pixels};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
-
-/// Below this angle between body and surface vector the split amplifies noise more than four times, degrees.
-const SMALL_ANGLE_DEG: f64 = 14.0;
 
 /// A picture whose regions were split.
 pub struct RegionReports<'a> {
@@ -124,15 +120,11 @@ impl RegionSummary<'_> {
         let mut warnings = Vec::new();
         let fit = &plan.fit;
         match angle_deg {
+            None if plan.splitter.keeps_color => {
+                warnings.push("no dichromatic plane: the region is not split".to_owned());
+            }
             None => warnings.push("no dichromatic plane: everything counts as body reflection".to_owned()),
-            Some(angle) if angle < MIN_ANGLE_DEG => warnings.push(format!(
-                "body and surface vector are collinear ({angle:.1}\u{b0}): everything counts as body reflection"
-            )),
-            Some(angle) if angle < SMALL_ANGLE_DEG => warnings.push(format!(
-                "body and surface vector are only {angle:.1}\u{b0} apart: the split amplifies noise {:.0} times",
-                1.0 / angle.to_radians().sin()
-            )),
-            Some(_) => {}
+            Some(angle) => warnings.extend(plan.angle_limits.warning(angle)),
         }
         if fit.poor() {
             let what = if plan.transform().is_some() { "plane" } else { "matte line" };

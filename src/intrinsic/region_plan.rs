@@ -1,8 +1,9 @@
 //! Section 6: how the pixels of one region are split: the region's vectors, highlight lines and tests.
 
+use super::angle_limits::AngleLimits;
 use super::pixel::PixelSplitter;
 use super::vectors::{Vectors, fit_vectors, matte_mean};
-use crate::color::{Vec3, rgb};
+use crate::color::{Cylinder, Line, Vec3, rgb};
 use crate::raster::RegionId;
 use crate::reflection::{AmountRule, HighlightTest, ReflectionTransform};
 use crate::segment::{
@@ -40,6 +41,10 @@ pub(super) struct RegionPlan {
     pub(super) start_bodies: Vec<f32>,
     /// Side of a pixel of the picture to which the plan was fitted, pixels of the picture that the plan splits.
     block_side: usize,
+    /// The angles between body and surface vector that a split needs.
+    pub(super) angle_limits: AngleLimits,
+    /// The line from which ε is measured, where the region has no plane (reading `cylinder_noise`).
+    noise_line: Option<Line>,
 }
 
 impl RegionPlan {
@@ -52,20 +57,26 @@ impl RegionPlan {
         pixels: Pixels,
     ) -> Self {
         let vectors = fit_vectors(input, hypothesis, pixels);
-        let least_offset = least_offset(input, &vectors);
-        let rule = AmountRule::new(&vectors.body, vectors.surface.as_ref(), least_offset);
-        let through_black =
-            FittedPlane { origin: &Vec3::zeros(), body: &vectors.body, surface: vectors.surface.as_ref() };
+        let angle_limits = AngleLimits::new(input, hypothesis, pixels);
+        let rule = amount_rule(input, &vectors, &angle_limits);
+        let unsplit = rule.transform().is_none();
+        let noise_line =
+            (unsplit && input.readings.cylinder_noise).then(|| Line::new(vectors.matte_mean, vectors.body));
+        let rule = rule.with_noise_line(noise_line.map(|line| cylinder(input, &line)));
+        let keeps_color = unsplit && input.readings.unsplit_without_highlight;
+        let origin = fit_origin(&vectors, keeps_color);
+        let fitted_plane =
+            FittedPlane { origin: &origin, body: &vectors.body, surface: vectors.surface.as_ref() };
         let fit = RegionFit {
             light_share: light_share(&regions.light, rule.transform()),
-            ..RegionFit::new(input, &regions.labels, region.get(), pixels, &through_black)
+            ..RegionFit::new(input, &regions.labels, region.get(), pixels, &fitted_plane)
         };
         let start_body = rule.transform().map_or(0.0, |t| t.split(rgb(&hypothesis.start)).body.max(0.0));
         let highlight_test = hypothesis.highlight_test().filter(|_| rule.transform().is_some());
         let plan = Self {
             hypothesis: *hypothesis,
             vectors,
-            splitter: PixelSplitter { rule, highlight_test },
+            splitter: PixelSplitter { rule, highlight_test, keeps_color },
             fit,
             model_fits: !input.refine.region_holds || fit.model_fits(),
             branches: Branches::default(),
@@ -73,6 +84,8 @@ impl RegionPlan {
             test_starts: vec![hypothesis.start],
             start_bodies: vec![start_body],
             block_side: 1,
+            angle_limits,
+            noise_line,
         };
         let wanted = input.refine.second_branch && fit.model_fits() && !input.stopped();
         let Some(transform) = rule.transform().filter(|_| wanted) else { return plan };
@@ -128,8 +141,9 @@ impl RegionPlan {
         let mut plan = self.clone();
         plan.block_side = block_side;
         if input.refine.no_negative_surface {
-            let Vectors { body, surface, .. } = &self.vectors;
-            plan.splitter.rule = AmountRule::new(body, surface.as_ref(), least_offset(input, &self.vectors));
+            let noise_line = self.noise_line.map(|line| cylinder(input, &line));
+            plan.splitter.rule =
+                amount_rule(input, &self.vectors, &self.angle_limits).with_noise_line(noise_line);
         }
         plan
     }
@@ -150,6 +164,8 @@ impl RegionPlan {
             limits: self.fit.limits(),
             model_fits: self.model_fits,
             origin: *origin,
+            unsplit: self.splitter.keeps_color,
+            noise_line: self.noise_line,
         }
     }
 }
@@ -159,6 +175,24 @@ impl RegionPlan {
 fn light_share(light: &LightFindings, transform: Option<&ReflectionTransform>) -> f64 {
     let angle_deg = transform.map(|transform| f64::from(transform.sine()).asin().to_degrees());
     light.interval_deg.zip(angle_deg).map_or(0.0, |(interval_deg, angle_deg)| interval_deg / angle_deg)
+}
+
+/// A point of the plane or line with which the pixels of a region are compared, counts. The split is linear, so that its plane contains
+/// black; a region that is not split has its own matte line.
+fn fit_origin(vectors: &Vectors, keeps_color: bool) -> Vec3 {
+    if keeps_color && vectors.surface.is_none() { vectors.matte_mean } else { Vec3::zeros() }
+}
+
+/// The rule that divides the colors of a region with these vectors and these limits of their angle.
+fn amount_rule(input: &AnalysisInput, vectors: &Vectors, angle_limits: &AngleLimits) -> AmountRule {
+    let Vectors { body, surface, .. } = vectors;
+    let least_offset = least_offset(input, vectors);
+    AmountRule::with_least_angle(body, surface.as_ref(), least_offset, angle_limits.least_deg)
+}
+
+/// The matte cylinder around a line.
+fn cylinder(input: &AnalysisInput, line: &Line) -> Cylinder {
+    Cylinder::new(line, input.used.radius_counts())
 }
 
 /// Distance off the body line below which surface reflection is taken for none, counts (refinement `no_negative_surface`): two standard

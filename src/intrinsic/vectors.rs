@@ -8,7 +8,6 @@
 //! (`scene_illuminant`, +5.7 dB body, +7.6 dB surface). A given illuminant is the surface vector under the paper's method too.
 
 use crate::color::{Line, Moments, Vec3, dot, rgb};
-use crate::photo::Masks;
 use crate::reflection::{DichromaticPlane, HighlightTest};
 use crate::segment::{AnalysisInput, Pixels, PlanarHypothesis};
 
@@ -25,12 +24,12 @@ pub struct Vectors {
 
 /// Half width of the band around the matte line whose pixels the mean shift uses, standard deviations of the noise.
 const BANDWIDTH: f64 = 2.5;
-/// Most pixels of a fit, evenly chosen.
+/// Most pixels of a fit, evenly chosen; the reading `every_pixel` has no such limit.
 const FIT_SAMPLES: usize = 6000;
 
 /// Fits body and surface vector to the region's undistorted pixels.
 pub fn fit_vectors(input: &AnalysisInput, hypothesis: &PlanarHypothesis, pixels: Pixels) -> Vectors {
-    let colors = undistorted(input.pixels.as_slice(), input.masks, pixels);
+    let colors = undistorted(input, pixels);
     let test = hypothesis.highlight_test();
     let is_highlight = |&color: &[f32; 3]| test.is_some_and(|test| test.is_highlight(color));
     let (highlight, matte): (Vec<_>, Vec<_>) = colors.iter().copied().partition(is_highlight);
@@ -53,15 +52,16 @@ pub fn fit_vectors(input: &AnalysisInput, hypothesis: &PlanarHypothesis, pixels:
 
 /// Mean color of the region's matte pixels, counts; none without a matte pixel. `test` recognizes highlight pixels.
 pub fn matte_mean(input: &AnalysisInput, pixels: Pixels, test: &HighlightTest) -> Option<Vec3> {
-    let mut matte = undistorted(input.pixels.as_slice(), input.masks, pixels);
+    let mut matte = undistorted(input, pixels);
     matte.retain(|&color| !test.is_highlight(color));
     (!matte.is_empty()).then(|| matte.into_iter().collect::<Moments>().mean())
 }
 
 /// Colors of at most [`FIT_SAMPLES`] usable pixels.
-fn undistorted(image: &[[f32; 3]], masks: &Masks, pixels: Pixels) -> Vec<[f32; 3]> {
-    let usable = pixels.sample(FIT_SAMPLES).filter(|&pixel| masks.usable(pixel as usize));
-    usable.map(|pixel| image[pixel as usize]).collect()
+fn undistorted(input: &AnalysisInput, pixels: Pixels) -> Vec<[f32; 3]> {
+    let sample = pixels.sample(input.fit_samples(FIT_SAMPLES));
+    let usable = sample.filter(|&pixel| input.masks.usable(pixel as usize));
+    usable.map(|pixel| input.pixels[pixel as usize]).collect()
 }
 
 /// The direction from black along which the matte pixels lie.
@@ -132,7 +132,7 @@ mod tests {
     use crate::color::{axis_angle_deg, vec3};
     use crate::intrinsic::split;
     use crate::params::{Params, UsedParams};
-    use crate::photo::{LinearImage, MaskLimits};
+    use crate::photo::{LinearImage, MaskLimits, Masks};
     use crate::raster::{LabelMap, Raster};
     use crate::segment::{FinalRegions, LightFindings};
     use crate::trace::NoopRecorder;

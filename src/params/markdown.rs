@@ -1,5 +1,6 @@
-//! The tables of `docs/parameters.md`, made from the rows of parameters and switches.
+//! The tables of `docs/parameters.md` and `docs/readings.md`, made from the rows of parameters, switches and readings.
 
+use super::reading::Reading;
 use super::refine::Switch;
 use super::setting::Setting;
 use super::table::Parameter;
@@ -45,6 +46,24 @@ pub fn switch_table() -> String {
     table
 }
 
+/// All readings as a Markdown table, one line each, in the order of the stages.
+pub fn reading_table() -> String {
+    let mut table = String::from(
+        "| reading | section and sentence | on | off | default | measured |\n|---|---|---|---|---|---|\n",
+    );
+    for reading in Reading::ALL {
+        let spec = reading.spec();
+        let default = if spec.paper { "on" } else { "off" };
+        let (name, title, section, text) = (spec.name, spec.title, spec.section, spec.text);
+        let line = format!(
+            "| `{name}`: {title} | {section}: \u{201c}{text}\u{201d} | {} | {} | {default} | {} |",
+            spec.on, spec.off, spec.measured
+        );
+        writeln!(table, "{line}").expect("invariant: writing to a String cannot fail");
+    }
+    table
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -52,7 +71,7 @@ mod tests {
     /// A `|` in a row's text would add a column.
     #[test]
     fn every_line_has_as_many_cells_as_the_head() {
-        for table in [parameter_table(), switch_table()] {
+        for table in [parameter_table(), switch_table(), reading_table()] {
             let cells = |line: &str| line.matches('|').count();
             let head = table.lines().next().map(cells).unwrap();
             for line in table.lines() {

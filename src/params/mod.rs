@@ -3,15 +3,19 @@
 //! This room uses no other room, so that every other room can use its types.
 
 mod markdown;
+mod paper;
 mod preset;
+mod reading;
 mod refine;
 mod setting;
 mod stage;
 mod table;
 mod values;
 
-pub use markdown::{parameter_table, switch_table};
+pub use markdown::{parameter_table, reading_table, switch_table};
+pub use paper::{PaperMethod, Rules};
 pub use preset::Preset;
+pub use reading::{Reading, ReadingSpec, Readings, UnknownReading};
 pub use refine::{Refine, Switch, UnknownSwitch};
 pub use setting::{AmbientSetting, IlluminantSetting, Setting};
 pub use stage::Stage;

@@ -3,6 +3,8 @@
 //! Fields for numbers are made from the rows of `table.rs`. Values in counts refer to 255 counts at full scale, whatever
 //! the depth of the file.
 
+use super::paper::{PaperMethod, Rules};
+use super::reading::Readings;
 use super::refine::Refine;
 use super::setting::{AmbientSetting, IlluminantSetting, Setting};
 use super::table::{Parameter, parameter_rows};
@@ -37,6 +39,8 @@ macro_rules! define_params {
             pub ambient: AmbientSetting,
             /// The refinements of the refined method.
             pub refine: Refine,
+            /// The readings of the paper's method, and the refinements added to it.
+            pub paper: PaperMethod,
         }
 
         impl Default for Params {
@@ -47,6 +51,7 @@ macro_rules! define_params {
                     illuminant: IlluminantSetting::Auto,
                     ambient: AmbientSetting::Auto,
                     refine: Refine::default(),
+                    paper: PaperMethod::default(),
                 }
             }
         }
@@ -123,12 +128,29 @@ impl Params {
         }
     }
 
-    /// The refinements in force: none under `method = paper`.
+    /// The refinements in force. Under `method = paper` these are the refinements that were added to it, by default none.
     pub fn refinements(&self) -> Refine {
         match self.method {
             Method::Refined => self.refine,
-            Method::Paper => Refine::all(false),
+            Method::Paper => self.paper.with,
         }
+    }
+
+    /// The refinements in force, to be changed.
+    pub fn refinements_mut(&mut self) -> &mut Refine {
+        match self.method {
+            Method::Refined => &mut self.refine,
+            Method::Paper => &mut self.paper.with,
+        }
+    }
+
+    /// The switches in force: the refinements, and the readings, which the refined method has fixed.
+    pub fn rules(&self) -> Rules {
+        let readings = match self.method {
+            Method::Refined => Readings::REFINED,
+            Method::Paper => self.paper.readings,
+        };
+        Rules { refine: self.refinements(), readings }
     }
 
     /// Every number finite, in range and whole where it must be, and the light a color.

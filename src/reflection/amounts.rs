@@ -10,7 +10,7 @@
 //! scenes of plain objects 44.52 → 44.63 dB, of other kinds 36.39 → 36.50 dB (doing nothing: 22.7 and 23.9).
 
 use super::{Components, MIN_ANGLE_DEG, ReflectionTransform};
-use crate::color::{Vec3, axis_angle_deg, dot, rgb};
+use crate::color::{Cylinder, Vec3, axis_angle_deg, dot, rgb};
 
 /// Surface reflection per distance off the body line, 1 / sin(angle), up to which amounts appear at once.
 const FADE_START: f32 = 2.0;
@@ -30,6 +30,8 @@ pub struct AmountRule {
     least_offset: f32,
     /// Surface reflection up to this distance farther off the body line fades in, counts; 0 where it appears at once.
     fade_offset: f32,
+    /// Without a transform, ε is the distance from the axis of this cylinder; none: ε is 0.
+    noise_line: Option<Cylinder>,
 }
 
 /// The amounts of one color.
@@ -46,14 +48,30 @@ impl AmountRule {
     /// [`MIN_ANGLE_DEG`] from `body`, every amount is body reflection. `least_offset`: surface reflection less than this
     /// distance off the body line is taken for none, counts; negative infinity: never.
     pub fn new(body: &Vec3, surface: Option<&Vec3>, least_offset: f32) -> Self {
+        Self::with_least_angle(body, surface, least_offset, MIN_ANGLE_DEG)
+    }
+
+    /// The same rule with another least angle between body and surface vector, degrees.
+    pub fn with_least_angle(
+        body: &Vec3,
+        surface: Option<&Vec3>,
+        least_offset: f32,
+        least_angle_deg: f64,
+    ) -> Self {
         let transform = surface
-            .filter(|surface| axis_angle_deg(body, surface) >= MIN_ANGLE_DEG)
+            .filter(|surface| axis_angle_deg(body, surface) >= least_angle_deg)
             .and_then(|surface| ReflectionTransform::new(body, surface));
         let fade = transform.map_or(0.0, |transform| {
             (FADE_RISE * (1.0 / transform.sine() - FADE_START)).clamp(0.0, MOST_FADE)
         });
         let fade_offset = if least_offset > 0.0 { fade * least_offset } else { 0.0 };
-        Self { body: rgb(body), transform, least_offset, fade_offset }
+        Self { body: rgb(body), transform, least_offset, fade_offset, noise_line: None }
+    }
+
+    /// The same rule, where ε of a region without a transform is the distance from the axis of `line`.
+    #[must_use]
+    pub fn with_noise_line(self, line: Option<Cylinder>) -> Self {
+        Self { noise_line: line, ..self }
     }
 
     /// The amounts of an undistorted color, counts above the ambient light.
@@ -61,7 +79,8 @@ impl AmountRule {
     pub fn amounts(&self, color: [f32; 3]) -> Amounts {
         let only_body = Components { body: dot(color, self.body), surface: 0.0, noise: 0.0 };
         let Some(transform) = &self.transform else {
-            return Amounts { components: only_body, removed_offset: None };
+            let noise = self.noise_line.map_or(0.0, |line| line.distance2(color).sqrt());
+            return Amounts { components: Components { noise, ..only_body }, removed_offset: None };
         };
         let components = transform.split(color);
         let offset = components.surface * transform.sine();

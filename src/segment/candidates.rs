@@ -6,6 +6,9 @@
 //!
 //! The candidates are the leftover pixels of the merged areas (the pixels that linear growth has not claimed; with whole areas
 //! the illuminant is off by 2.93° instead of 2.61°), neighboring linear regions, and regions absorbed as broad highlights.
+//!
+//! The text can be read in several ways. The readings `distorted_candidates`, `all_neighbors`, `gap_within_noise`,
+//! `strict_upper_half`, `beyond_meeting_point` and `chosen_start` choose among them; `params/reading.rs` quotes the text.
 
 use super::absorb::is_positive;
 use super::borders::near_hypotheses;
@@ -22,18 +25,19 @@ use crate::trace::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Fewest pixels of a candidate.
+/// Fewest pixels of a candidate; the reading `all_neighbors` has no such limit.
 const MIN_PIXELS: f64 = 10.0;
 /// Pixels of a neighboring region that its line is taken from, evenly chosen.
 const CLUSTER_SAMPLES: usize = 4000;
 /// Limits of the meeting point on the matte line, as shares of its length: the 50 % heuristic of section 3.2, and a tolerance
-/// beyond the end of the line.
+/// beyond the end of the line, to which the radius of the cylinder is added. The reading `strict_upper_half` has no tolerance.
 const UPPER: [f64; 2] = [0.5, 1.1];
 
 /// The highlight line of a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HighlightLine {
-    /// Weighted mean of all accepted meeting points, on the matte line, counts.
+    /// Weighted mean of all accepted meeting points, on the matte line, counts. Under the reading `chosen_start` the meeting point of
+    /// the candidate nearest to this mean.
     pub start: Vec3,
     /// Unit direction of the candidate nearest to it.
     pub direction: Vec3,
@@ -70,7 +74,7 @@ pub fn highlight_lines<R: Recorder>(
             let cluster = clusters.entry(other).or_insert_with(|| {
                 members
                     .region(other)
-                    .sample(CLUSTER_SAMPLES)
+                    .sample(input.fit_samples(CLUSTER_SAMPLES))
                     .map(|pixel| input.pixels[pixel as usize])
                     .collect()
             });
@@ -91,7 +95,8 @@ pub fn highlight_lines<R: Recorder>(
             let accepted: Vec<Accepted> = clusters
                 .iter()
                 .filter(|(_, cluster)| {
-                    cluster.n >= MIN_PIXELS && classifier.classify(cluster).0 != Class::Point
+                    let all = input.readings.all_neighbors;
+                    all || (cluster.n >= MIN_PIXELS && classifier.classify(cluster).0 != Class::Point)
                 })
                 .filter_map(|(source, cluster)| tests.run(*source, cluster))
                 .collect();
@@ -107,6 +112,17 @@ pub fn is_leftover(labels: &LabelMap, masks: &Masks, pixel: usize) -> bool {
     labels[pixel] == UNASSIGNED && masks.usable(pixel)
 }
 
+/// Whether a pixel belongs to the candidate of its merged area: it is left over, and its color is used or, where candidates contain
+/// distorted pixels (`with_distorted`, reading `distorted_candidates`), clipped or bloomed.
+#[inline]
+pub fn is_of_candidate(labels: &LabelMap, masks: &Masks, with_distorted: bool, pixel: usize) -> bool {
+    if with_distorted {
+        labels[pixel] == UNASSIGNED && masks.claimable_by_color(pixel, false)
+    } else {
+        is_leftover(labels, masks, pixel)
+    }
+}
+
 /// For each region, the leftover pixels of every merged area of which a leftover pixel is a 4-neighbor of the region.
 fn leftover_neighbors(
     input: &AnalysisInput,
@@ -117,7 +133,7 @@ fn leftover_neighbors(
     let mut leftovers: BTreeMap<u32, Moments> = BTreeMap::new();
     let mut touching: BTreeSet<(HypothesisId, u32)> = BTreeSet::new();
     for pixel in 0..labels.len() {
-        if !is_leftover(labels, input.masks, pixel) {
+        if !is_of_candidate(labels, input.masks, input.readings.distorted_candidates, pixel) {
             continue;
         }
         let area = areas.of_window[windows.window_of(pixel, width)];
@@ -148,6 +164,33 @@ struct Accepted {
     pixels: f64,
 }
 
+/// The limits of the skewed-T tests of one region.
+struct Limits {
+    /// Largest distance between both lines, counts: the radius of the cylinder, or the camera noise under the reading
+    /// `gap_within_noise`.
+    gap: f64,
+    /// Least and largest position of the meeting point on the matte line, counts.
+    position: [f64; 2],
+    /// The same in percent of the length of the matte line.
+    position_percent: [f64; 2],
+}
+
+impl Limits {
+    /// The limits for a matte line of a length in counts.
+    fn new(input: &AnalysisInput, length: f64) -> Self {
+        let (used, readings) = (input.used, input.readings);
+        let radius = used.radius_counts();
+        let gap = if readings.gap_within_noise { used.camera_noise } else { radius };
+        let lower = UPPER[0] * length;
+        let percent = |position: f64| 100.0 * position / length.max(f64::MIN_POSITIVE);
+        if readings.strict_upper_half {
+            return Self { gap, position: [lower, length], position_percent: [100.0 * UPPER[0], 100.0] };
+        }
+        let position_percent = [100.0 * UPPER[0], 100.0 * UPPER[1] + percent(radius)];
+        Self { gap, position: [lower, UPPER[1] * length + radius], position_percent }
+    }
+}
+
 /// The skewed-T tests of one region's candidates.
 struct Tests<'a, 's, R: Recorder> {
     input: &'a AnalysisInput<'s>,
@@ -163,14 +206,15 @@ impl<R: Recorder> Tests<'_, '_, R> {
     fn run(&mut self, source: CandidateSource, cluster: &Moments) -> Option<Accepted> {
         let line = Line::principal(cluster)?;
         let (on_matte, on_candidate) = closest_points(&self.matte, &line)?;
-        let radius = self.input.used.radius_counts();
+        let limits = Limits::new(self.input, self.length);
         let gap = (on_matte - on_candidate).norm();
         let position = on_matte.dot(&self.matte.direction);
+        let lies_beyond = (line.mean - on_candidate).dot(&line.direction) >= 0.0;
         let verdict = CandidateVerdict {
-            lines_meet: gap <= radius,
-            upper_half: position >= UPPER[0] * self.length && position <= UPPER[1] * self.length + radius,
+            lines_meet: gap <= limits.gap,
+            upper_half: position >= limits.position[0] && position <= limits.position[1],
             positive: is_positive(&line.direction),
-            beyond: (line.mean - on_candidate).dot(&line.direction) >= 0.0,
+            beyond: lies_beyond || !self.input.readings.beyond_meeting_point,
         };
         if R::KEEPS {
             let percent = |position: f64| 100.0 * position / self.length.max(f64::MIN_POSITIVE);
@@ -182,11 +226,12 @@ impl<R: Recorder> Tests<'_, '_, R> {
                 matte_length: self.length,
                 line,
                 meeting: [on_matte, on_candidate],
-                gap: Measured::new(gap, radius),
+                gap: Measured::new(gap, limits.gap),
                 position_percent: percent(position),
-                position_limits: [100.0 * UPPER[0], 100.0 * UPPER[1] + percent(radius)],
+                position_limits: limits.position_percent,
                 verdict,
                 weight: if verdict.accepted() { cluster.n } else { 0.0 },
+                with_distorted: self.input.readings.distorted_candidates,
             });
         }
         verdict.accepted().then_some(Accepted {
@@ -213,6 +258,8 @@ impl<R: Recorder> Tests<'_, '_, R> {
                 direction: chosen.direction,
             });
         }
+        let is_chosen_start = self.input.readings.chosen_start;
+        let start = if is_chosen_start { chosen.meeting_point } else { start };
         Some(HighlightLine { start, direction: chosen.direction, pixels })
     }
 }

@@ -3,7 +3,7 @@
 //! The color of such a pixel is not usable, so the position decides: from its highlight pixels (nearer to the highlight line
 //! than to the matte line) a region grows into unassigned neighbors that are brighter than the meeting point of both lines.
 //! Then holes are filled: components of distorted pixels on whose assigned border one region has the largest part, and small components of unassigned
-//! pixels that lie wholly inside one region.
+//! pixels that lie wholly inside one region. The paper only says that such a method “should be able to” help: the reading `fill_holes`.
 
 use super::input::AnalysisInput;
 use super::planar_hypothesis::PlanarRegions;
@@ -58,6 +58,9 @@ pub fn clipping_regions<R: Recorder>(
                     && dot(color, color) > meeting_point_norm2
             },
         );
+    }
+    if !input.readings.fill_holes {
+        return recorded_labels.labels;
     }
     recorded_labels.begin(Pass::ClippedHoles);
     let distorted = |pixel: usize| input.masks.distorted(pixel) && !input.masks.dark(pixel);

@@ -1,7 +1,7 @@
 //! The input of every stage of the segmentation.
 
 use crate::color::Vec3;
-use crate::params::{Refine, UsedParams};
+use crate::params::{Readings, Refine, Rules, UsedParams};
 use crate::photo::{CodingError, LinearImage, Masks, ShotNoise};
 use crate::raster::Raster;
 
@@ -17,6 +17,8 @@ pub struct AnalysisInput<'a> {
     pub used: &'a UsedParams,
     /// The refinements in force.
     pub refine: Refine,
+    /// How the text of the paper is read.
+    pub readings: Readings,
     /// Error of the file's values beyond the noise; `None`: the noise contains it.
     coding: Option<&'a CodingError>,
     /// The noise as a function of the intensity; `None`: the noise is the same at every intensity.
@@ -27,18 +29,35 @@ pub struct AnalysisInput<'a> {
 }
 
 impl<'a> AnalysisInput<'a> {
-    /// The input of a run that is never stopped.
+    /// The input of a run that is never stopped, with the readings of the refined method.
     pub fn new(image: &'a LinearImage, masks: &'a Masks, used: &'a UsedParams, refine: Refine) -> Self {
         Self {
             pixels: &image.pixels,
             masks,
             used,
             refine,
+            readings: Readings::REFINED,
             coding: None,
             shot: None,
             extended: false,
             stop: &|| false,
         }
+    }
+
+    /// The same input, with the text of the paper read in another way.
+    #[must_use]
+    pub fn with_readings(self, readings: Readings) -> Self {
+        Self { readings, ..self }
+    }
+
+    /// The refinements and the readings in force.
+    pub fn rules(&self) -> Rules {
+        Rules { refine: self.refine, readings: self.readings }
+    }
+
+    /// Largest number of pixels that a fit uses: `most`, or every pixel under the reading `every_pixel`.
+    pub fn fit_samples(&self, most: usize) -> usize {
+        if self.readings.every_pixel { usize::MAX } else { most }
     }
 
     /// The same input, of a file whose way of storing values makes an error of its own. `extended`: the errors of neighboring

@@ -52,6 +52,10 @@ impl LightFindings {
     pub fn reason(&self) -> String {
         match self.basis {
             LightBasis::Given => "it was given".to_owned(),
+            LightBasis::Average if self.direction.is_none() => {
+                "no highlight was found: no neighbor of a region passed the tests".to_owned()
+            }
+            LightBasis::Average => "the average of the highlight directions".to_owned(),
             LightBasis::Planes => {
                 let alone = if self.highlights_alone {
                     ", those of the highlights alone, as faint surface reflection has another color (ambient light)"

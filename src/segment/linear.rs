@@ -47,7 +47,7 @@ pub struct SeedAreaRules {
     pub through_black: bool,
 }
 
-/// Largest number of pixels that a line is fitted to, evenly chosen.
+/// Largest number of pixels that a line is fitted to, evenly chosen; the reading `every_pixel` has no such limit.
 const FIT_SAMPLES: usize = 4000;
 
 /// Generates linear hypotheses from merged areas and exploits them; new hypotheses are appended to `hypotheses`.
@@ -189,12 +189,13 @@ fn refit<R: Recorder>(
     }
 }
 
-/// Largest number of pixels from which the length of a matte line is measured, evenly chosen.
+/// Largest number of pixels from which the length of a matte line is measured, evenly chosen; the reading `every_pixel` has no such
+/// limit.
 const LENGTH_SAMPLES: usize = 6000;
 
 /// Colors of at most [`FIT_SAMPLES`] of the pixels, evenly chosen.
 fn sample(input: &AnalysisInput, pixels: &[u32]) -> Vec<[f32; 3]> {
-    let step = pixels.len().div_ceil(FIT_SAMPLES).max(1);
+    let step = pixels.len().div_ceil(input.fit_samples(FIT_SAMPLES)).max(1);
     pixels.iter().step_by(step).map(|&pixel| input.pixels[pixel as usize]).collect()
 }
 
@@ -358,12 +359,12 @@ impl<'a> SeedAreas<'a> {
 
 /// Length of a region's matte line from black, counts: the 99.5 % quantile of C·d (d the line's direction) over the pixels on
 /// the outer side of the line. Highlights lie on the inner side (section 5.4.1, figure 9), so that the brightest matte point
-/// is measured on the outer side.
+/// is measured on the outer side. Under the reading `brightest_pixel` the largest C·d instead of the quantile.
 pub fn matte_length(input: &AnalysisInput, line: &Line, pixels: Pixels) -> f64 {
     let outer_side = line.outer_side();
     let direction = crate::color::rgb(&line.direction);
     let mut lengths: Vec<f32> = pixels
-        .sample(LENGTH_SAMPLES)
+        .sample(input.fit_samples(LENGTH_SAMPLES))
         .map(|pixel| input.pixels[pixel as usize])
         .filter(|&color| outer_side.contains(color))
         .map(|color| crate::color::dot(color, direction))
@@ -371,7 +372,8 @@ pub fn matte_length(input: &AnalysisInput, line: &Line, pixels: Pixels) -> f64 {
     if lengths.is_empty() {
         return line.mean.dot(&line.direction);
     }
-    let rank = (lengths.len() - 1) * 995 / 1000;
+    let per_mille = if input.readings.brightest_pixel { 1000 } else { 995 };
+    let rank = (lengths.len() - 1) * per_mille / 1000;
     let (_, &mut length, _) = lengths.select_nth_unstable_by(rank, f32::total_cmp);
     f64::from(length)
 }

@@ -16,6 +16,7 @@ mod input;
 mod light;
 mod linear;
 mod matte;
+mod matte_areas;
 mod merge;
 mod model_fit;
 mod planar;
@@ -31,7 +32,7 @@ mod unite;
 mod vote_light;
 
 pub(crate) use branches::{BranchSearch, Branches};
-pub(crate) use candidates::is_leftover;
+pub(crate) use candidates::is_of_candidate;
 pub(crate) use choice::LIGHT_LIMITS;
 pub(crate) use model_fit::{FittedPlane, MAX_LIGHT_SHARE, NewEdges, RegionFit, TEXTURE_CORRELATION};
 pub(crate) use recorded_labels::{Members, Pixels};

@@ -5,6 +5,8 @@
 //! regions until the illuminant turns by less than 0.5°. At last the estimate by planes is compared with the votes of small
 //! highlights (`vote_light`, the rule of `choice`); where the votes win, the slices grow once more.
 //!
+//! The readings `grown_matte_line` and `own_cylinder_only` change the paper's planar stage; `params/reading.rs` quotes the text.
+//!
 //! An illuminant that was given is not estimated, whatever the method: every plane contains the given direction.
 
 use super::candidates::{EarlierStages, highlight_lines};
@@ -23,9 +25,12 @@ use super::plane_light::{
 };
 use super::recorded_labels::Members;
 use super::vote_light::{LEAST_VOTERS, Votes};
-use crate::color::{Vec3, axis_angle_deg};
+use crate::color::{Line, Moments, Vec3, axis_angle_deg};
 use crate::raster::HypothesisId;
-use crate::trace::{IlluminantEstimated, IlluminantGiven, LightChosen, Pass, PassBegan, Recorder, VotesCast};
+use crate::trace::{
+    HighlightsAveraged, IlluminantEstimated, IlluminantGiven, LightBasis, LightChosen, LineRefitted, Pass,
+    PassBegan, Recorder, VotesCast,
+};
 use rayon::prelude::*;
 
 /// Largest number of rounds in which illuminant and slices are found again from the grown regions.
@@ -43,6 +48,11 @@ pub fn planar_regions<R: Recorder>(
     recorder: &mut R,
 ) -> PlanarRegions {
     let members = Members::of(&matte.labels, matte.hypotheses.len());
+    if R::KEEPS {
+        recorder.record(PassBegan { pass: Pass::Candidates });
+    }
+    let grown = input.readings.grown_matte_line.then(|| with_grown_lines(input, matte, &members, recorder));
+    let matte = grown.as_ref().unwrap_or(matte);
     let lengths: Vec<f64> = (0..matte.hypotheses.len())
         .into_par_iter()
         .map(|index| {
@@ -50,9 +60,6 @@ pub fn planar_regions<R: Recorder>(
             matte_length(input, &matte.hypotheses[index].line, pixels)
         })
         .collect();
-    if R::KEEPS {
-        recorder.record(PassBegan { pass: Pass::Candidates });
-    }
     let earlier = EarlierStages { windows, areas, labels: &matte.labels, hypotheses: &matte.hypotheses };
     let lines = highlight_lines(input, &earlier, &members, &lengths, recorder);
     let state = PlanarState::new(input, matte, lengths, lines, recorder);
@@ -63,6 +70,25 @@ pub fn planar_regions<R: Recorder>(
     } else {
         under_average_light(state)
     }
+}
+
+/// The matte regions with the line of each fitted to all of its pixels `members` (reading `grown_matte_line`).
+fn with_grown_lines<R: Recorder>(
+    input: &AnalysisInput,
+    matte: &MatteRegions,
+    members: &Members,
+    recorder: &mut R,
+) -> MatteRegions {
+    let mut grown = matte.clone();
+    for (id, hypothesis) in HypothesisId::all(matte.hypotheses.len()).zip(&mut grown.hypotheses) {
+        let cluster: Moments = members.region(id).iter().map(|pixel| input.pixels[pixel as usize]).collect();
+        let Some(line) = Line::principal(&cluster).filter(|_| hypothesis.alive) else { continue };
+        hypothesis.line = line;
+        if R::KEEPS {
+            recorder.record(LineRefitted { hypothesis: id, line });
+        }
+    }
+    grown
 }
 
 /// The regions under an illuminant that was given: nothing is estimated, so that one round suffices.
@@ -84,10 +110,23 @@ fn under_given_light<R: Recorder>(mut state: PlanarState<R>, direction: [f64; 3]
 
 /// The regions under the paper's estimate, the average of the highlight lines.
 fn under_average_light<R: Recorder>(mut state: PlanarState<R>) -> PlanarRegions {
+    let votes_count = state.input.refine.vote_light;
     let estimate = average_of_lines(&state);
     let light = record_estimate(&mut state, estimate);
     let hypotheses = state.grow_slices(light.direction);
-    under_chosen_light(state, hypotheses, light)
+    let mut regions = under_chosen_light(state, hypotheses, light);
+    // Small highlights are votes only with `vote_light`: without it the average alone decides whether there is a light.
+    let is_average = match regions.light.basis {
+        LightBasis::Planes => true,
+        LightBasis::Nothing => !votes_count,
+        _ => false,
+    };
+    if is_average {
+        // The average has no interval, and is no intersection of planes.
+        let basis = LightBasis::Average;
+        regions.light = LightFindings { basis, planes: None, interval_deg: None, ..regions.light };
+    }
+    regions
 }
 
 /// The regions under the robust estimate, which is repeated with the grown regions. `members`: pixels of the matte regions.
@@ -160,7 +199,9 @@ fn under_chosen_light<R: Recorder>(
 fn grow_again<R: Recorder>(state: &mut PlanarState<R>, direction: Option<Vec3>) -> Vec<PlanarHypothesis> {
     state.reset();
     let light = PlaneLight { direction, ..PlaneLight::none() };
-    record_estimate(state, PlaneEstimate { light, contributions: Vec::new(), two_light_test: None });
+    let estimate =
+        PlaneEstimate { light, contributions: Vec::new(), averaged: Vec::new(), two_light_test: None };
+    record_estimate(state, estimate);
     let hypotheses = state.grow_slices(direction);
     if direction.is_none() {
         return hypotheses;
@@ -171,14 +212,18 @@ fn grow_again<R: Recorder>(state: &mut PlanarState<R>, direction: Option<Vec3>) 
 
 /// Records an estimate of the illuminant, and returns the light.
 fn record_estimate<R: Recorder>(state: &mut PlanarState<R>, estimate: PlaneEstimate) -> PlaneLight {
-    let PlaneEstimate { light, contributions, two_light_test } = estimate;
+    let PlaneEstimate { light, contributions, averaged, two_light_test } = estimate;
     state.recorded_labels.begin(Pass::Illuminant);
     if R::KEEPS
         && let Some(direction) = light.direction
     {
         let direction = direction.into();
-        let estimated = IlluminantEstimated { direction, contributions, outshone: two_light_test };
-        state.recorded_labels.recorder.record(estimated);
+        let recorder = &mut *state.recorded_labels.recorder;
+        if averaged.is_empty() {
+            recorder.record(IlluminantEstimated { direction, contributions, outshone: two_light_test });
+        } else {
+            recorder.record(HighlightsAveraged { direction, contributions: averaged });
+        }
     }
     light
 }

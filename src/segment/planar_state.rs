@@ -3,7 +3,8 @@
 //!
 //! Larger regions grow first. Special provision for coplanar colors: a pixel that was recognized as a matte pixel of
 //! another region is taken only if its color lies inside the own matte cylinder and nearer to the own axis. Where two
-//! slices contain a pixel, the nearer plane wins.
+//! slices contain a pixel, the nearer plane wins. Two matte areas of one object, which a highlight divides, are united
+//! (`matte_areas`).
 //!
 //! Refined: regions without a highlight candidate get a slice too (`extend_planes`); a slice ends where body or surface
 //! reflection would be negative (`slice_bounds`).
@@ -12,6 +13,7 @@ use super::candidates::HighlightLine;
 use super::input::AnalysisInput;
 use super::linear::{Hypothesis, cylinders, matte_length};
 use super::matte::MatteRegions;
+use super::matte_areas::{MatteAreas, is_united};
 use super::planar_hypothesis::PlanarHypothesis;
 use super::recorded_labels::{Members, RecordedLabels};
 use super::unite::merge_regions;
@@ -117,6 +119,9 @@ impl<'a, 's, R: Recorder> PlanarState<'a, 's, R> {
             if self.input.stopped() {
                 break;
             }
+            if is_united(self.input, &self.recorded_labels.labels, id, members.region(id)) {
+                continue;
+            }
             if let (Some(slice), Some(plane)) = (&bounds.slices[id.index()], &hypotheses[id.index()].plane) {
                 if R::KEEPS {
                     self.recorded_labels.recorder.record(SliceMade {
@@ -168,6 +173,7 @@ impl<'a, 's, R: Recorder> PlanarState<'a, 's, R> {
     fn grow_slice(&mut self, id: HypothesisId, slice: &Slice, bounds: &Bounds, members: &Members) {
         let input = self.input;
         let own_cylinder = bounds.cylinders[id.index()];
+        let mut matte_areas = MatteAreas::new(input, id, own_cylinder, members);
         let matte_labels = &self.matte_labels;
         let mut front = self.recorded_labels.border(id, members.region(id));
         if R::KEEPS {
@@ -186,16 +192,25 @@ impl<'a, 's, R: Recorder> PlanarState<'a, 's, R> {
                 let Some(holder) = holder else { return true };
                 let matte = matte_labels[pixel];
                 let is_foreign_matte = matte != UNASSIGNED && matte != id.get();
+                let by_cylinder = || Contest {
+                    measure: Measure::ForeignMatte,
+                    challenger: own_cylinder.distance2(color).sqrt(),
+                    holder: input.used.radius_counts() as f32,
+                };
                 if is_foreign_matte && !own_cylinder.contains(color) {
                     if R::KEEPS {
-                        let contest = Contest {
-                            measure: Measure::ForeignMatte,
-                            challenger: own_cylinder.distance2(color).sqrt(),
-                            holder: input.used.radius_counts() as f32,
-                        };
-                        recorder.contest(PixelIndex::from_index(pixel), holder, id, false, contest);
+                        recorder.contest(PixelIndex::from_index(pixel), holder, id, false, by_cylinder());
                     }
                     return false;
+                }
+                if let Some(other) = HypothesisId::from_label(matte)
+                    && is_foreign_matte
+                    && matte_areas.takes_from(other)
+                {
+                    if R::KEEPS {
+                        recorder.contest(PixelIndex::from_index(pixel), holder, id, true, by_cylinder());
+                    }
+                    return true;
                 }
                 let (measure, own_distance, holder_distance) = match &bounds.slices[holder.index()] {
                     Some(holder_slice) if !is_foreign_matte => {
@@ -216,5 +231,6 @@ impl<'a, 's, R: Recorder> PlanarState<'a, 's, R> {
                 taken
             },
         );
+        matte_areas.record_united(self.recorded_labels.recorder);
     }
 }

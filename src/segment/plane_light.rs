@@ -4,6 +4,7 @@
 //! intersected robustly (`illuminant`), at first with the unclaimed pixels just outside the matte regions, then with the
 //! pixels of the grown regions and what their highlights say (`in_plane`, `two_lights`).
 
+use super::candidates::HighlightLine;
 use super::evidence::{nearby_highlight, plane_constraint};
 use super::illuminant::{Constraint, Prior, average_direction, intersect, weighted_direction};
 use super::in_plane::InPlaneSearch;
@@ -11,10 +12,10 @@ use super::planar_hypothesis::PlanarHypothesis;
 use super::planar_state::PlanarState;
 use super::recorded_labels::Members;
 use super::two_lights::{Evidence, light_of};
-use crate::color::Vec3;
+use crate::color::{Vec3, axis_angle_deg};
 use crate::raster::HypothesisId;
 use crate::reflection::DichromaticPlane;
-use crate::trace::{Contribution, Recorder, TwoLightTest};
+use crate::trace::{AveragedDirection, Contribution, Recorder, TwoLightTest};
 use rayon::prelude::*;
 
 /// Number of pixels that the in-plane fits of all regions look at together: their cost does not grow with the picture.
@@ -59,6 +60,8 @@ pub struct PlaneEstimate {
     pub light: PlaneLight,
     /// Residual and weight of each region's evidence; empty for the paper's average.
     pub contributions: Vec<Contribution>,
+    /// Each highlight direction of the paper's average; empty for the robust estimate.
+    pub averaged: Vec<AveragedDirection>,
     /// The test for a second light; `None` where it was not made.
     pub two_light_test: Option<TwoLightTest>,
 }
@@ -70,7 +73,13 @@ pub fn average_of_lines<R: Recorder>(state: &PlanarState<R>) -> PlaneEstimate {
         regions: state.lines.iter().flatten().count(),
         ..PlaneLight::none()
     };
-    PlaneEstimate { light, contributions: Vec::new(), two_light_test: None }
+    let contribution = |(hypothesis, line): (HypothesisId, &Option<HighlightLine>)| {
+        let (line, average) = (line.as_ref()?, light.direction.as_ref()?);
+        let angle_deg = axis_angle_deg(&line.direction, average);
+        Some(AveragedDirection { hypothesis, direction: line.direction.into(), angle_deg })
+    };
+    let averaged = HypothesisId::all(state.lines.len()).zip(&state.lines).filter_map(contribution).collect();
+    PlaneEstimate { light, contributions: Vec::new(), averaged, two_light_test: None }
 }
 
 /// The first estimate, from the unclaimed pixels just outside the matte regions, whose pixels are `members`; `None` where
@@ -106,7 +115,8 @@ pub fn estimate_beside_matte_regions<R: Recorder>(
         interval_deg: found.interval_deg,
         highlights_alone: false,
     };
-    Some(PlaneEstimate { light, contributions: found.contributions, two_light_test: None })
+    let contributions = found.contributions;
+    Some(PlaneEstimate { light, contributions, averaged: Vec::new(), two_light_test: None })
 }
 
 /// The next estimate, from the grown regions. `before`: the direction under which the slices of `hypotheses` grew. The
@@ -145,5 +155,5 @@ pub fn estimate_from_grown_regions<R: Recorder>(
         interval_deg: found.interval_deg,
         highlights_alone: two_light_test.is_some_and(|test| test.taken),
     };
-    PlaneEstimate { light, contributions: found.contributions, two_light_test }
+    PlaneEstimate { light, contributions: found.contributions, averaged: Vec::new(), two_light_test }
 }

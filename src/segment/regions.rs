@@ -17,8 +17,8 @@ use crate::raster::{HypothesisId, LabelMap, RegionId, UNASSIGNED};
 use crate::trace::{ComponentSplit, Dropped, Pass, Recorder, RegionsMerged, Renumbered};
 use std::collections::BTreeMap;
 
-/// Fewest pixels of a region and of a part that becomes a region. A smaller region is dropped, a smaller part stays in its
-/// region.
+/// Fewest pixels of a region and of a part that becomes a region. A smaller region is dropped, except under the reading
+/// `small_regions`; a smaller part stays in its region.
 const MIN_REGION_PX: usize = 60;
 /// Largest distance along rows or columns between pixels of one part, pixels.
 const APART_PX: usize = 4;
@@ -73,7 +73,8 @@ pub fn final_regions<R: Recorder>(
     let mut kept = Vec::new();
     for id in order {
         let pixels = members.region(id);
-        if pixels.len() >= MIN_REGION_PX {
+        let least_px = if input.readings.small_regions { 1 } else { MIN_REGION_PX };
+        if pixels.len() >= least_px {
             region_of[id.index()] = Some(RegionId::from_index(kept.len()));
             kept.push(hypotheses[id.index()]);
         } else if !pixels.is_empty() {

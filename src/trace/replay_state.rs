@@ -166,6 +166,7 @@ impl ReplayState {
     pub(super) fn light(&self, trace: &Trace) -> Option<[f64; 3]> {
         match trace.event_at(*self.lights.last()?) {
             Event::IlluminantEstimated(estimated) => Some(estimated.direction),
+            Event::HighlightsAveraged(averaged) => Some(averaged.direction),
             Event::IlluminantGiven(IlluminantGiven { direction }) => Some(*direction),
             Event::LightChosen(chosen) => chosen.direction,
             _ => None,
@@ -250,7 +251,10 @@ impl ReplayState {
                     hypothesis.events.push(id);
                 }
             }
-            Event::IlluminantEstimated(_) | Event::IlluminantGiven(_) | Event::LightChosen(_) => {
+            Event::IlluminantEstimated(_)
+            | Event::HighlightsAveraged(_)
+            | Event::IlluminantGiven(_)
+            | Event::LightChosen(_) => {
                 self.lights.push(id);
             }
             Event::Renumbered(_) => self.numbered = Some(id),
@@ -295,7 +299,10 @@ impl ReplayState {
             Event::CandidateChosen(chosen) => {
                 self.pop_event(chosen.hypothesis).and_then(|hypothesis| hypothesis.highlights.pop());
             }
-            Event::IlluminantEstimated(_) | Event::IlluminantGiven(_) | Event::LightChosen(_) => {
+            Event::IlluminantEstimated(_)
+            | Event::HighlightsAveraged(_)
+            | Event::IlluminantGiven(_)
+            | Event::LightChosen(_) => {
                 self.lights.pop();
             }
             Event::Renumbered(_) => self.numbered = None,

@@ -2,7 +2,7 @@
 
 use super::ResultSnapshot;
 use super::snapshot::{best_overlaps, overlaps};
-use crate::params::{Parameter, Switch};
+use crate::params::{Method, Parameter, Reading, Switch};
 use crate::raster::RegionId;
 use crate::truth::angle_deg;
 use rayon::prelude::*;
@@ -142,6 +142,12 @@ fn settings(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<SettingChan
     let (before, after) = (pinned.params.refinements(), newest.params.refinements());
     for switch in Switch::ALL {
         add(switch.name(), word(before.get(switch)), word(after.get(switch)));
+    }
+    let (before, after) = (pinned.params.rules().readings, newest.params.rules().readings);
+    if pinned.params.method == Method::Paper && newest.params.method == Method::Paper {
+        for reading in Reading::ALL {
+            add(reading.name(), word(before.get(reading)), word(after.get(reading)));
+        }
     }
     let area = |shown: &ResultSnapshot| {
         shown.area.as_ref().map_or_else(

@@ -41,15 +41,19 @@ pub fn verdict(shown: &ResultSnapshot) -> Vec<Clause> {
         return vec![Clause { text, subject: ClauseSubject::Layer(Layer::Classes), is_bad: true }];
     }
     let misfits: Vec<&RegionReflection> = regions.iter().filter(|region| !region.model_fits).collect();
-    let mut clauses = vec![Clause {
-        text: fitting_text(regions.len(), misfits.len()),
-        subject: ClauseSubject::Regions,
-        is_bad: 2 * misfits.len() > regions.len(),
-    }];
+    let is_asked = shown.params.refinements().region_holds;
+    let text = if is_asked { fitting_text(regions.len(), misfits.len()) } else { number_text(regions.len()) };
+    let mut clauses =
+        vec![Clause { text, subject: ClauseSubject::Regions, is_bad: 2 * misfits.len() > regions.len() }];
     clauses.extend(misfit_clause(&misfits));
     clauses.push(light_clause(shown));
     clauses.extend(score_clause(shown));
     clauses
+}
+
+/// How many regions there are, where whether they fit the model is not asked.
+fn number_text(regions: usize) -> String {
+    if regions == 1 { "one region was found".to_owned() } else { format!("{regions} regions were found") }
 }
 
 /// How many of the regions fit the model.
@@ -93,6 +97,9 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
     let s = if light.objects == 1 { "" } else { "s" };
     let text = match findings.basis {
         LightBasis::Given => "the light's color was given".to_owned(),
+        LightBasis::Average => {
+            format!("the light is the average of {} highlight direction{s}", light.objects)
+        }
         LightBasis::Votes => format!("the light comes from {} small highlight{s}", light.objects),
         LightBasis::Planes | LightBasis::Nothing => {
             format!("the light comes from {} plane{s}", light.objects)

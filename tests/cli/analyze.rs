@@ -3,7 +3,7 @@
 use crate::folder::{WorkFolder, list, tiny};
 use dichroscope::app::{Application, Edit, Executor, ExportKind, JobCommand, analyze_call};
 use dichroscope::describe::RegionFacts;
-use dichroscope::params::{IlluminantSetting, Method, Parameter, Setting, Switch};
+use dichroscope::params::{IlluminantSetting, Method, Parameter, Reading, Readings, Refine, Setting, Switch};
 use dichroscope::photo::ReadOptions;
 use dichroscope::raster::Raster;
 use dichroscope::truth::ResultPictures;
@@ -71,7 +71,12 @@ fn wrong_usage_is_exit_2_before_any_work() {
         ("analyze a.png --out out --min-area many", "neither a number nor `auto`"),
         ("analyze a.png --out out --with magic", "robust_lines"),
         ("analyze a.png --out out --with edge_body --without edge_body", "edge_body is both"),
-        ("analyze a.png --out out --method paper --with edge_body", "the paper's method refines nothing"),
+        ("analyze a.png --out out --reading fill_holes", "belong to `--method paper`"),
+        ("analyze a.png --out out --method paper --reading holes", "fill_holes"),
+        (
+            "analyze a.png --out out --method paper --reading fill_holes --without-reading fill_holes",
+            "fill_holes is both",
+        ),
         ("analyze a.png --out out --method 1990", "paper"),
         ("analyze a.png --out out --encoding gamma:x", "gamma:x"),
         ("analyze a.png --out out --full-scale 0", "above 0"),
@@ -246,6 +251,36 @@ fn defaults_give_way_to_the_file_and_the_file_to_flags() {
     assert_eq!(params.camera_noise.asked, Setting::Value(2.5), "table 6, because the file says paper");
     work.succeeds("analyze a.png --out out --params paper.toml --method refined");
     assert_eq!(work.report("out/a").params.camera_noise.asked, Setting::Auto);
+}
+
+#[test]
+fn the_papers_method_takes_readings_and_added_refinements() {
+    let work = WorkFolder::new();
+    work.photo("a.png");
+    work.succeeds("analyze a.png --out out --method paper");
+    let params = work.report("out/a").params;
+    assert_eq!((params.refine, params.readings), (Refine::all(false), Some(Readings::PAPER)));
+
+    work.succeeds(
+        "analyze a.png --out out --method paper --with edge_body --reading fill_holes --without-reading every_pixel",
+    );
+    let params = work.report("out/a").params;
+    assert_eq!(params.refine, Refine { edge_body: true, ..Refine::all(false) });
+    let readings = Readings { fill_holes: true, every_pixel: false, ..Readings::PAPER };
+    assert_eq!(params.readings, Some(readings));
+
+    let file = b"method = \"paper\"\n[paper]\nfill_holes = true\nwith = [\"edge_body\", \"all_seeds\"]\n";
+    work.put("paper.toml", file);
+    work.succeeds(
+        "analyze a.png --out out --params paper.toml --without-reading fill_holes --without all_seeds",
+    );
+    let params = work.report("out/a").params;
+    assert_eq!(params.refine, Refine { edge_body: true, ..Refine::all(false) });
+    assert_eq!(params.readings, Some(Readings { fill_holes: false, ..Readings::PAPER }));
+
+    work.succeeds("analyze a.png --out out --params paper.toml --method refined");
+    let params = work.report("out/a").params;
+    assert_eq!((params.refine, params.readings), (Refine::all(true), None), "the table is the paper's alone");
 }
 
 #[test]
@@ -445,15 +480,28 @@ fn without_arguments_the_sample_is_analyzed() {
 /// for the times. The window runs without a screen.
 #[test]
 fn the_call_that_the_window_hands_out_writes_the_windows_result() {
+    let edits = [
+        Edit::SetParameter(Parameter::CameraNoise, Setting::Value(3.5), None),
+        Edit::SetSwitch(Switch::SecondLook, false),
+        Edit::PinIlluminant(Some([1.0, 0.75, 0.5]), None),
+    ];
+    assert_that_the_call_repeats(edits.into());
+    let edits = [
+        Edit::SetMethod(Method::Paper),
+        Edit::SetSwitch(Switch::EdgeBody, true),
+        Edit::SetReading(Reading::FillHoles, true),
+    ];
+    assert_that_the_call_repeats(edits.into());
+}
+
+fn assert_that_the_call_repeats(edits: Vec<Edit>) {
     let work = WorkFolder::new();
     for name in list(&tiny()) {
         work.put(&format!("scene/{name}"), &fs::read(tiny().join(&name)).unwrap());
     }
     let mut application = Application::new(Executor::Inline, || ()).unwrap();
     application.apply(JobCommand::Open(Origin::File(work.path("scene/camera8.png"))));
-    application.apply(Edit::SetParameter(Parameter::CameraNoise, Setting::Value(3.5), None));
-    application.apply(Edit::SetSwitch(Switch::SecondLook, false));
-    application.apply(Edit::PinIlluminant(Some([1.0, 0.75, 0.5]), None));
+    edits.into_iter().for_each(|edit| application.apply(edit));
     let (width, height) = application.state().picture.as_ref().unwrap().size();
     let inside = (0..width * height).map(|pixel| pixel % width < width * 3 / 4).collect();
     let area = Arc::new(Raster::from_vec(width, height, inside).unwrap());

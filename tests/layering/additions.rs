@@ -2,7 +2,7 @@
 
 use crate::source::mentions;
 use crate::{collect_rust_files, module_path};
-use dichroscope::params::{Parameter, Switch};
+use dichroscope::params::{Parameter, Reading, Switch};
 use std::io;
 use std::path::Path;
 
@@ -42,9 +42,9 @@ fn every_event_of_the_trace_is_recorded_by_a_stage() -> io::Result<()> {
     Ok(())
 }
 
-/// A new parameter or switch does not compile without its row; this test names the one that no stage reads.
+/// A new parameter, switch or reading does not compile without its row; this test names the one that no stage reads.
 #[test]
-fn every_parameter_and_switch_is_read_by_a_stage() -> io::Result<()> {
+fn every_parameter_switch_and_reading_is_read_by_a_stage() -> io::Result<()> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     // Products of parameters are computed in `params/values.rs`.
     let mut files = vec![root.join("params/values.rs")];
@@ -62,6 +62,7 @@ fn every_parameter_and_switch_is_read_by_a_stage() -> io::Result<()> {
     let parameters = Parameter::ALL.into_iter().filter(|&parameter| parameter != Parameter::Scale);
     let names =
         parameters.map(|parameter| parameter.spec().name).chain(Switch::ALL.into_iter().map(Switch::name));
+    let names = names.chain(Reading::ALL.into_iter().map(Reading::name));
     let forgotten: Vec<&str> = names.filter(|name| !is_read(name)).collect();
     assert!(forgotten.is_empty(), "read by no stage: {forgotten:?}");
     Ok(())

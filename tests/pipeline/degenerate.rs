@@ -3,7 +3,7 @@
 use crate::common::{METHODS, analyze, assert_valid, faults, picture};
 use crate::synthetic::{Random, Scene};
 use dichroscope::analysis::{Analysis, Session};
-use dichroscope::params::{Method, Parameter, Params, Setting, Switch};
+use dichroscope::params::{Method, Parameter, Params, Reading, Setting, Switch};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::{HypothesisId, RegionId};
 use dichroscope::trace::Replay;
@@ -155,12 +155,14 @@ fn small_picture() -> impl Strategy<Value = LinearImage> {
 }
 
 /// Random parameters: most have the method's default, so that regions are found; the others have any value of their
-/// range.
+/// range. Refinements and readings are random, except that half of the runs of the paper's method have no refinement.
 fn any_params() -> impl Strategy<Value = Params> {
     let choice = prop_oneof![6 => Just(None), 1 => Just(Some(None)), 1 => (0f64..=1.0).prop_map(|share| Some(Some(share)))];
     let choices = prop::collection::vec(choice, Parameter::ALL.len());
-    (any::<bool>(), choices, prop::collection::vec(any::<bool>(), Switch::ALL.len())).prop_map(
-        |(paper, choices, switches)| {
+    let switches = prop::collection::vec(any::<bool>(), Switch::ALL.len());
+    let readings = prop::collection::vec(any::<bool>(), Reading::ALL.len());
+    (any::<[bool; 2]>(), choices, switches, readings).prop_map(
+        |([paper, adds_refinements], choices, switches, readings)| {
             let mut params = Params::of(if paper { Method::Paper } else { Method::Refined });
             params.min_area = Setting::Value(60.0);
             for (parameter, choice) in Parameter::ALL.into_iter().zip(choices) {
@@ -177,6 +179,10 @@ fn any_params() -> impl Strategy<Value = Params> {
             }
             for (switch, on) in Switch::ALL.into_iter().zip(switches) {
                 params.refine.set(switch, on);
+                params.paper.with.set(switch, on && adds_refinements);
+            }
+            for (reading, on) in Reading::ALL.into_iter().zip(readings) {
+                params.paper.readings.set(reading, on);
             }
             params
         },

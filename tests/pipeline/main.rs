@@ -17,6 +17,7 @@ mod identities;
 mod light;
 mod methods;
 mod prints;
+mod readings;
 mod replay;
 mod scale;
 mod scenes;

@@ -212,7 +212,7 @@ fn a_test_is_about_both_clusters_and_the_ignored_pixels() {
     assert!(groups.iter().any(|(role, _)| *role == Role::Own));
     if !matches!(test.candidate, CandidateSource::Absorbed(_)) {
         assert!(groups.iter().any(|(role, _)| *role == Role::Beside));
-        assert_eq!(candidate_pixels(replay, test.candidate, masks(&application)).len(), test.pixels as usize);
+        assert_eq!(candidate_pixels(replay, test, masks(&application)).len(), test.pixels as usize);
     }
     let chosen = |event: &Event| matches!(event, Event::CandidateChosen(_));
     let n = events(&trace, chosen).next().unwrap();

@@ -25,7 +25,12 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
             edit_params(state, gesture, |params| *params.slot(parameter) = setting)
         }
         Edit::SetMethod(method) => edit_params(state, None, |params| *params = with_method(params, method)),
-        Edit::SetSwitch(switch, on) => edit_params(state, None, |params| params.refine.set(switch, on)),
+        Edit::SetSwitch(switch, on) => {
+            edit_params(state, None, |params| params.refinements_mut().set(switch, on))
+        }
+        Edit::SetReading(reading, on) => {
+            edit_params(state, None, |params| params.paper.readings.set(reading, on))
+        }
         Edit::SetParams(params) => edit_params(state, None, |old| *old = *params),
         Edit::PinIlluminant(direction, gesture) => pin_illuminant(state, direction, gesture),
         Edit::SetAmbient(setting, gesture) => edit_params(state, gesture, |params| params.ambient = setting),

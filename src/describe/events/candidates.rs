@@ -64,6 +64,7 @@ impl Describe for CandidateTested {
                 beyond: true,
             },
             weight: 0.0,
+            with_distorted: false,
         }
     }
 }

@@ -4,8 +4,8 @@ use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
 use crate::describe::names::{count, direction, tenths};
 use crate::trace::{
-    Contribution, IlluminantEstimated, IlluminantGiven, LightBasis, LightChosen, LightLimits, LightOdds,
-    TwoLightTest, VoteResult, VotesCast,
+    AveragedDirection, Contribution, HighlightsAveraged, IlluminantEstimated, IlluminantGiven, LightBasis,
+    LightChosen, LightLimits, LightOdds, TwoLightTest, VoteResult, VotesCast,
 };
 use serde_json::{Value, json};
 
@@ -48,6 +48,36 @@ impl Describe for IlluminantEstimated {
         };
         let contribution = Contribution { hypothesis: super::hypothesis(1), residual_deg: 0.25, weight: 2.0 };
         Self { direction: [0.6, 0.0, 0.8], contributions: vec![contribution], outshone: Some(outshone) }
+    }
+}
+
+impl Describe for HighlightsAveraged {
+    fn sentence(&self, names: &Names) -> String {
+        let of = |c: &AveragedDirection| {
+            let name = names.hypothesis(c.hypothesis);
+            format!("{} of {name} ({:.1}\u{b0} off)", direction(c.direction), c.angle_deg)
+        };
+        let parts: Vec<String> = self.contributions.iter().map(of).collect();
+        format!(
+            "the light is {}, the average of {}: {}",
+            direction(self.direction),
+            count(parts.len() as u64, "highlight direction"),
+            parts.join(", ")
+        )
+    }
+
+    fn line_objects(&self, _names: &Names) -> LineObjects {
+        let contribution = |c: &AveragedDirection| json!({"region": c.hypothesis, "direction": c.direction, "angle_deg": c.angle_deg});
+        let contributions: Vec<Value> = self.contributions.iter().map(contribution).collect();
+        let values = json!({"given": false, "direction": self.direction, "averaged": true, "contributions": contributions});
+        LineObjects::new(nothing(), values, nothing())
+    }
+
+    #[cfg(test)]
+    fn example() -> Self {
+        let direction = [0.6, 0.0, 0.8];
+        let contribution = AveragedDirection { hypothesis: super::hypothesis(1), direction, angle_deg: 0.0 };
+        Self { direction, contributions: vec![contribution] }
     }
 }
 

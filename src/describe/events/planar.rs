@@ -2,9 +2,10 @@
 
 #[cfg(test)]
 use super::hypothesis;
-use super::{Describe, LineObjects, vector};
+use super::{Describe, LineObjects, nothing, vector};
 use crate::describe::Names;
-use crate::trace::SliceMade;
+use crate::describe::names::count;
+use crate::trace::{MatteAreasUnited, SliceMade};
 use serde_json::json;
 
 impl Describe for SliceMade {
@@ -45,5 +46,30 @@ impl Describe for SliceMade {
             half_width: 8.0,
             slice: Slice::unbounded(&plane, 8.0),
         }
+    }
+}
+
+impl Describe for MatteAreasUnited {
+    fn sentence(&self, names: &Names) -> String {
+        let Self { hypothesis, into, taken_px, area_px } = *self;
+        format!(
+            "the matte area of {} is united with {}: {taken_px} of its {} lie in the same matte cylinder",
+            names.hypothesis(hypothesis),
+            names.hypothesis(into),
+            count(area_px, "pixel")
+        )
+    }
+
+    fn line_objects(&self, _names: &Names) -> LineObjects {
+        LineObjects::new(
+            json!({"region": self.hypothesis, "into": self.into}),
+            json!({"pixels": self.taken_px, "area_pixels": self.area_px}),
+            nothing(),
+        )
+    }
+
+    #[cfg(test)]
+    fn example() -> Self {
+        Self { hypothesis: hypothesis(2), into: hypothesis(1), taken_px: 400, area_px: 500 }
     }
 }

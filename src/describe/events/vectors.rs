@@ -11,7 +11,11 @@ impl Describe for VectorsFitted {
     fn sentence(&self, _names: &Names) -> String {
         let body = direction(self.body.into());
         let surface = self.surface.map_or_else(
-            || "no surface vector: all is body reflection".to_owned(),
+            || {
+                let what =
+                    if self.unsplit { "its pixels stay as they are" } else { "all is body reflection" };
+                format!("no surface vector: {what}")
+            },
             |surface| format!("surface vector {}", direction(surface.into())),
         );
         let verdict = verdict(self);
@@ -78,6 +82,8 @@ impl Describe for VectorsFitted {
             },
             model_fits: true,
             origin: [0.0; 3],
+            unsplit: false,
+            noise_line: None,
         }
     }
 }

@@ -279,7 +279,7 @@ fn split(story: &SplitStory) -> String {
     if let Some(why) = &story.unfit {
         return unfit(story.region, why);
     }
-    let SplitStory { region, kind, lines, amounts, cut, border, least_offset, ambient, .. } = story;
+    let SplitStory { region, kind, lines, amounts, unsplit, cut, border, least_offset, ambient, .. } = story;
     let what = match (kind, lines) {
         (PixelKind::Restored, _) => "is restored from the bands that can be believed".to_owned(),
         (PixelKind::Lost, _) => "is clipped in every band: its split is a guess".to_owned(),
@@ -287,6 +287,7 @@ fn split(story: &SplitStory) -> String {
             "is {}: {matte:.1} counts from the matte line, {highlight:.1} from the highlight line",
             kind.name()
         ),
+        (_, None) if *unsplit => format!("stays as it is: region {region} has no highlight line"),
         (_, None) => format!("is {}: region {region} has no highlight line", kind.name()),
     };
     let amounts = amounts.map_or_else(String::new, |amounts| {

@@ -107,6 +107,7 @@ fn a_failed_skewed_t_names_the_test_and_its_limit() {
         position_limits: [50.0, 115.0],
         verdict: CandidateVerdict { lines_meet: false, upper_half: false, positive: true, beyond: true },
         weight: 0.0,
+        with_distorted: false,
     };
     let said = names().event(&Event::CandidateTested(Box::new(test)));
     assert!(said.contains("no skewed T: 12.0 counts apart, at most 8.0"), "{said}");

@@ -169,7 +169,7 @@ impl ShapeBuilder<'_> {
     ) {
         let working = &shown.analysis.working;
         let colors = working.image.pixels.as_slice();
-        let pixels = view::candidate_pixels(replay, test.candidate, &working.masks);
+        let pixels = view::candidate_pixels(replay, test, &working.masks);
         let reach = candidate_reach(test, pixels.iter().map(|&pixel| colors[pixel as usize]));
         let skewed_t_view = view::skewed_t_view(test, reach);
         self.add_line(&skewed_t_view.upper, color, MARK_PT, 0.0);

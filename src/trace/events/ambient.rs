@@ -38,6 +38,8 @@ pub enum AmbientVerdict {
     /// Ambient light is off.
     #[default]
     Off,
+    /// The method does not estimate ambient light: that of 1990, or the refined method without `ambient_light`.
+    NotEstimated,
     /// Ambient light was given.
     Given,
     /// Ambient light was estimated and subtracted.
@@ -59,6 +61,7 @@ impl AmbientVerdict {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Off => "off",
+            Self::NotEstimated => "not_estimated",
             Self::Given => "given",
             Self::Subtracted => "subtracted",
             Self::FewLines => "few_lines",
@@ -72,7 +75,10 @@ impl AmbientVerdict {
     /// The verdict as a sentence.
     pub const fn reason(self) -> &'static str {
         match self {
-            Self::Off => "ambient light was not asked for",
+            Self::Off => "ambient light is off",
+            Self::NotEstimated => {
+                "the estimate of ambient light is the refinement ambient_light, which is off"
+            }
             Self::Given => "it was given",
             Self::Subtracted => "the matte lines meet there, significantly away from black",
             Self::FewLines => {

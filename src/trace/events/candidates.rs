@@ -33,6 +33,8 @@ pub struct CandidateTested {
     pub verdict: CandidateVerdict,
     /// Weight of the candidate among those that passed, pixels; 0 if the candidate failed.
     pub weight: f64,
+    /// Whether a candidate of leftover pixels contains clipped and bloomed pixels (reading `distorted_candidates`).
+    pub with_distorted: bool,
 }
 
 /// The highlight line of a hypothesis was chosen from the candidates that passed (section 5.4.1).

@@ -1,4 +1,5 @@
-//! The light that is used, and its evidence: the planes of hypotheses, or the votes of small highlights (beyond 5.4).
+//! The light that is used, and its evidence: the directions of highlight clusters (5.4.1), the planes of hypotheses, or the votes of
+//! small highlights (beyond 5.4).
 
 use super::{EventData, Subject};
 use crate::raster::HypothesisId;
@@ -28,6 +29,28 @@ pub struct Contribution {
     pub weight: f64,
 }
 
+/// The color of the light was computed as the average direction of all highlight clusters (section 5.4.1, the paper's method).
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct HighlightsAveraged {
+    /// Unit direction of the light, the average.
+    pub direction: [f64; 3],
+    /// The highlight directions that were averaged, each with the same weight.
+    pub contributions: Vec<AveragedDirection>,
+}
+
+/// The highlight direction of one hypothesis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct AveragedDirection {
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
+    /// Unit direction of the highlight cluster.
+    pub direction: [f64; 3],
+    /// Angle between this direction and the average, degrees.
+    pub angle_deg: f64,
+}
+
 /// The color of the light was given, and therefore not estimated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IlluminantGiven {
@@ -44,6 +67,8 @@ pub enum LightBasis {
     Nothing,
     /// The light was given.
     Given,
+    /// The average of the directions of highlight clusters (the paper's method).
+    Average,
     /// The dichromatic planes of regions.
     Planes,
     /// The votes of small highlights.
@@ -56,6 +81,7 @@ impl LightBasis {
         match self {
             Self::Nothing => "none",
             Self::Given => "given",
+            Self::Average => "average",
             Self::Planes => "planes",
             Self::Votes => "votes",
         }
@@ -177,6 +203,16 @@ pub struct TwoLightTest {
 }
 
 impl EventData for IlluminantEstimated {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        size_of_val(self.contributions.as_slice())
+    }
+}
+
+impl EventData for HighlightsAveraged {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [None, None]
     }

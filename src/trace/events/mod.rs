@@ -191,13 +191,15 @@ events! { $
     /// A highlight line was chosen (section 5.4.1).
     Highlight "highlight chosen" { boxed CandidateChosen(CandidateChosen) }
     /// The illuminant was estimated or given (section 5.4.1).
-    Illuminant "illuminant" { boxed IlluminantEstimated(IlluminantEstimated), inline IlluminantGiven(IlluminantGiven) }
+    Illuminant "illuminant" { boxed IlluminantEstimated(IlluminantEstimated), inline IlluminantGiven(IlluminantGiven), boxed HighlightsAveraged(HighlightsAveraged) }
     /// Small highlights voted for a light (refines section 5.4.1).
     Votes "votes" { boxed VotesCast(VotesCast) }
     /// The light that is used was chosen (refines section 5.4.1).
     LightChoice "light chosen" { boxed LightChosen(LightChosen) }
     /// A slice was made (section 5.4.2).
     Slice "slice" { boxed SliceMade(SliceMade) }
+    /// Two matte areas of one object were united (section 5.4.2).
+    United "matte areas united" { inline MatteAreasUnited(MatteAreasUnited) }
     /// A hole was filled (section 5.5).
     Hole "hole filled" { inline HoleFilled(HoleFilled) }
     /// A hypothesis was dropped.

@@ -23,6 +23,31 @@ pub struct SliceMade {
     pub slice: Slice,
 }
 
+/// A matte area became a part of another region: the growth of that region took more than half of the area, whose colors lie in the
+/// region's matte cylinder (section 5.4.2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct MatteAreasUnited {
+    /// The hypothesis whose matte area was taken.
+    pub hypothesis: HypothesisId,
+    /// The hypothesis that grew.
+    pub into: HypothesisId,
+    /// Number of pixels of the matte area that were taken.
+    pub taken_px: u32,
+    /// Number of all pixels of the matte area.
+    pub area_px: u32,
+}
+
+impl EventData for MatteAreasUnited {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [Some(Subject::Hypothesis(self.hypothesis)), Some(Subject::Hypothesis(self.into))]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
 impl EventData for SliceMade {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), None]

@@ -33,6 +33,10 @@ pub struct VectorsFitted {
     pub model_fits: bool,
     /// The color from which body and surface reflection are measured: black, or the ambient light, counts.
     pub origin: [f64; 3],
+    /// Whether the region is not split, so that the body reflection of a pixel is its color (reading `unsplit_without_highlight`).
+    pub unsplit: bool,
+    /// The line from which ε is measured without a plane, its mean measured from `origin`; none: ε is 0 (reading `cylinder_noise`).
+    pub noise_line: Option<Line>,
 }
 
 /// The figures by which a region is judged.

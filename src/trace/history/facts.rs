@@ -2,6 +2,7 @@
 
 use super::MaskVerdict;
 use super::growth::brightness;
+use crate::color::Cylinder;
 use crate::photo::{LinearImage, MaskLimits, Masks};
 use crate::reflection::{AmountRule, Amounts};
 use crate::trace::VectorsFitted;
@@ -40,5 +41,8 @@ pub(super) fn verdicts(
 /// The amounts of an undistorted color (equation 13), by the rule of the split.
 pub(super) fn amounts(fitted: &VectorsFitted, color: [f32; 3]) -> Amounts {
     let color = std::array::from_fn(|band| color[band] - fitted.origin[band] as f32);
-    AmountRule::new(&fitted.body, fitted.surface.as_ref(), fitted.least_offset).amounts(color)
+    // The event has a surface vector only where the angle to the body vector was large enough for a split.
+    AmountRule::with_least_angle(&fitted.body, fitted.surface.as_ref(), fitted.least_offset, 0.0)
+        .with_noise_line(fitted.noise_line.map(|line| Cylinder::new(&line, 0.0)))
+        .amounts(color)
 }

@@ -50,7 +50,9 @@ impl Outside {
 /// The step and event of the light under which pixels are split: where a light was chosen, the choice and not the light of the
 /// slices that follow.
 fn decisive_light<'t>(trace: &'t Trace, end: &ReplayState) -> Option<(usize, &'t Event)> {
-    let chosen = |id: &&EventId| !matches!(trace.event_at(**id), Event::IlluminantEstimated(_));
+    let is_estimate =
+        |event: &Event| matches!(event, Event::IlluminantEstimated(_) | Event::HighlightsAveraged(_));
+    let chosen = |id: &&EventId| !is_estimate(trace.event_at(**id));
     let id = *end.lights.iter().rev().find(chosen).or(end.lights.last())?;
     Some((trace.step_of_event(id), trace.event_at(id)))
 }

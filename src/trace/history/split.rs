@@ -15,8 +15,12 @@ pub struct SplitStory {
     /// Distances from the matte and from the highlight line, counts; the nearer decides. None without a highlight line, and
     /// where the color is distorted.
     pub lines: Option<[f32; 2]>,
-    /// The amounts m_b, m_s and ε (equation 13), counts. None for a distorted color, which was restored.
+    /// The amounts m_b, m_s and ε (equation 13), counts. None for a distorted color, which was restored, and for a region
+    /// that is not split.
     pub amounts: Option<Components>,
+    /// Whether the region is not split, so that the body reflection of the pixel is its color (reading
+    /// `unsplit_without_highlight`).
+    pub unsplit: bool,
     /// Distance from the body line of surface reflection that was taken for none, as the distance is less than
     /// [`SplitStory::least_offset`], counts; none where no surface reflection was removed.
     pub cut: Option<f32>,

@@ -265,6 +265,8 @@ fn the_end_is_a_number_a_role_and_amounts() {
                 limits: FitLimits::default(),
                 model_fits: true,
                 origin: [0.0; 3],
+                unsplit: false,
+                noise_line: None,
             });
             let kinds = vec![PixelKind::Highlight, PixelKind::Matte];
             recorder.labels(&Raster::from_vec(2, 1, kinds).unwrap());

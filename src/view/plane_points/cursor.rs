@@ -72,7 +72,7 @@ pub fn test_plane(
     let points = projection.points(&[
         (measured, PixelKind::Matte),
         (ignored, PixelKind::Lost),
-        (candidate_pixels(replay, test.candidate, masks), PixelKind::Highlight),
+        (candidate_pixels(replay, test, masks), PixelKind::Highlight),
     ]);
     let brightest = test.matte.foot() + test.matte.direction * test.matte_length;
     let (matte_length, meeting) = (projection.amount(brightest), projection.amount(test.meeting[0]));

@@ -5,7 +5,7 @@ use crate::color::Cylinder;
 use crate::photo::Masks;
 use crate::raster::{HypothesisId, Raster, UNASSIGNED};
 use crate::reflection::Slice;
-use crate::segment::is_leftover;
+use crate::segment::is_of_candidate;
 use crate::trace::{CandidateSource, CandidateTested, Event, Replay, Topic};
 
 /// Pixels of the hypothesis that grows at the cursor, and the pixels around them.
@@ -94,17 +94,18 @@ pub fn test_at_cursor(replay: &Replay) -> Option<&CandidateTested> {
     }
 }
 
-/// The pixels of a highlight candidate; none of a candidate that was absorbed, as its object has them now.
-pub fn candidate_pixels(replay: &Replay, source: CandidateSource, masks: &Masks) -> Vec<u32> {
+/// The pixels of a tested highlight candidate; none of a candidate that was absorbed, as its object has them now.
+pub fn candidate_pixels(replay: &Replay, test: &CandidateTested, masks: &Masks) -> Vec<u32> {
     let labels = replay.labels();
-    match source {
+    match test.candidate {
         CandidateSource::Hypothesis(hypothesis) => pixels_of_region(replay, hypothesis),
         CandidateSource::Absorbed(_) => Vec::new(),
         CandidateSource::Leftover(area) => {
             let Some(grid) = replay.first_grid() else { return Vec::new() };
             let (areas, width) = (grid.areas(), labels.width());
             let of_area = |pixel: usize| areas.get(grid.window_of(pixel, width)) == Some(&area);
-            let of_candidate = |&pixel: &usize| is_leftover(labels, masks, pixel) && of_area(pixel);
+            let of_candidate =
+                |&pixel: &usize| of_area(pixel) && is_of_candidate(labels, masks, test.with_distorted, pixel);
             (0..labels.len()).filter(of_candidate).map(|pixel| pixel as u32).collect()
         }
     }

@@ -192,7 +192,7 @@ fn regions(
         (grown.newest, beside)
     });
     let test = test_at_cursor(replay);
-    let beside = test.map_or(beside, |test| candidate_pixels(replay, test.candidate, masks));
+    let beside = test.map_or(beside, |test| candidate_pixels(replay, test, masks));
     let topic = replay.at().checked_sub(1).and_then(|last| replay.trace().block_at(last));
     RegionsView {
         labels: replay.labels().clone(),

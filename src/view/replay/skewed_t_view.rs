@@ -72,7 +72,7 @@ fn checks(test: &CandidateTested) -> [Check; 4] {
                 "gap {gap:.1} {} {limit:.1} counts",
                 if verdict.lines_meet { '\u{2264}' } else { '>' }
             ),
-            tip: "The lines form a skewed T where they pass within the cylinder's radius of one another (section 5.4.1).",
+            tip: "The lines form a skewed T where they pass near enough to one another: within the cylinder's radius, or within \u{3c3}0 under the reading gap_within_noise (section 5.4.1).",
         },
         Check {
             passed: verdict.upper_half,
@@ -114,6 +114,7 @@ mod tests {
     /// A matte line along red, 200 counts long, and a highlight 4 counts beside it at 150, along blue.
     fn test() -> CandidateTested {
         CandidateTested {
+            with_distorted: false,
             hypothesis: HypothesisId::from_index(0),
             candidate: CandidateSource::Hypothesis(HypothesisId::from_index(1)),
             pixels: 40,

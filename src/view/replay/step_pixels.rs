@@ -49,7 +49,7 @@ fn groups(
     if let Some(test) = test_at_cursor(replay) {
         let own = pixels_of_region(replay, test.hypothesis);
         let (measured, ignored) = measured_and_ignored(test, &own, colors);
-        let candidate = candidate_pixels(replay, test.candidate, masks);
+        let candidate = candidate_pixels(replay, test, masks);
         return vec![(Role::Own, measured), (Role::Ignored, ignored), (Role::Beside, candidate)];
     }
     if let Some(grown) = growth_pixels(replay, colors, masks) {
