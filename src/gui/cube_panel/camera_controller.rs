@@ -60,7 +60,7 @@ impl NamedView {
             Self::EdgeOn,
             Key::E,
             "Edge-on to the plane",
-            "Along the selected region's dichromatic plane: how thin its slice is, as in figure 9.",
+            "Along the selected region's dichromatic plane: how thin its slice is, as in figure 10.",
         ),
     ];
 }

@@ -68,13 +68,13 @@ pub(super) const CONFIDENCE: [LegendEntry; 2] = [
 
 /// The reasons why pixels are not explained, in the order of [`crate::intrinsic::Reason::ALL`] from its second entry on.
 pub(super) const REASONS: [LegendEntry; 9] = [
-    LegendEntry::new("shadow", [74, 111, 212], "5.6: too dark to be analyzed, shadow or background"),
+    LegendEntry::new("shadow", [74, 111, 212], "5.3.2: too dark to be analyzed, shadow or background"),
     LegendEntry::new("no matte line", [160, 120, 220], "5.3: lit, but on no matte line that was found"),
-    LegendEntry::new("mixed boundary", [120, 190, 200], "5.6: between two objects, a mixture of both"),
+    LegendEntry::new("mixed boundary", [120, 190, 200], "6: between two objects, a mixture of both"),
     LegendEntry::new(
         "off the plane",
         [90, 180, 110],
-        "7.5: off the plane, light of a neighbor or a second material",
+        "5.6, 7.5: off the plane, light of a neighbor or a second material",
     ),
     LegendEntry::new(
         "texture",
@@ -91,7 +91,7 @@ pub(super) const REASONS: [LegendEntry; 9] = [
         [220, 140, 190],
         "5.5: the clipped highlight of another object than its region's",
     ),
-    LegendEntry::new("collinear", [150, 150, 150], "3.2: the body has the light's color: gray, white, metal"),
+    LegendEntry::new("collinear", [150, 150, 150], "7.5: the body has the light's color: gray, white, metal"),
     LegendEntry::new("clipped in all bands", [250, 226, 70], "5.5: nothing of its color is left to go by"),
 ];
 
