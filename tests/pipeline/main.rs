@@ -8,6 +8,7 @@ mod ambient;
 mod area;
 mod cache;
 mod cameras;
+mod case_study;
 mod common;
 mod decisions;
 mod degenerate;
