@@ -4,7 +4,7 @@
 use super::replay_state::ReplayState;
 use super::{
     Absorbed, CandidateChosen, CandidateTested, ComponentSplit, Event, Hypothesis, HypothesisChosen,
-    LineRefitted, RegionsMerged, Renumbered, SliceMade, Trace,
+    LineRefitted, MatteAreasUnited, RegionsMerged, Renumbered, SliceMade, Trace,
 };
 use crate::raster::{HypothesisId, RegionId};
 
@@ -84,6 +84,13 @@ pub enum JoinedHow {
         angle_deg: f64,
         /// Root mean square distance of the pixels from the line of the other hypothesis, counts.
         rms: f64,
+    },
+    /// The matte areas of both form a single cluster, and the growth of the other one took most of the pixels (section 5.4.2).
+    United {
+        /// Number of pixels that were taken.
+        taken_px: u32,
+        /// Number of all pixels of the matte area.
+        area_px: u32,
     },
     /// The other hypothesis was separated from this one.
     Whole,
@@ -165,6 +172,10 @@ fn joins(trace: &Trace, state: &ReplayState) -> Vec<(HypothesisId, Joined)> {
                 }
                 Event::RegionsMerged(RegionsMerged { hypothesis, into, angle_deg, rms }) => {
                     let how = JoinedHow::Merged { angle_deg, rms };
+                    Some((hypothesis, Joined { step, to: into, how }))
+                }
+                Event::MatteAreasUnited(MatteAreasUnited { hypothesis, into, taken_px, area_px }) => {
+                    let how = JoinedHow::United { taken_px, area_px };
                     Some((hypothesis, Joined { step, to: into, how }))
                 }
                 _ => None,

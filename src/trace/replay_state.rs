@@ -240,11 +240,8 @@ impl ReplayState {
                     hypothesis.events.push(id);
                 }
             }
-            Event::CandidateTested(test) => {
-                if let Some(hypothesis) = self.of(test.hypothesis) {
-                    hypothesis.events.push(id);
-                }
-            }
+            Event::CandidateTested(test) => self.tell(test.hypothesis, id),
+            Event::MatteAreasUnited(united) => self.tell(united.hypothesis, id),
             Event::CandidateChosen(chosen) => {
                 if let Some(hypothesis) = self.of(chosen.hypothesis) {
                     hypothesis.highlights.push(id);
@@ -296,6 +293,9 @@ impl ReplayState {
             Event::CandidateTested(test) => {
                 self.pop_event(test.hypothesis);
             }
+            Event::MatteAreasUnited(united) => {
+                self.pop_event(united.hypothesis);
+            }
             Event::CandidateChosen(chosen) => {
                 self.pop_event(chosen.hypothesis).and_then(|hypothesis| hypothesis.highlights.pop());
             }
@@ -320,6 +320,13 @@ impl ReplayState {
                     self.pop_event(ended).and_then(|hypothesis| hypothesis.ends.pop());
                 }
             }
+        }
+    }
+
+    /// Adds an event to the story of a hypothesis.
+    fn tell(&mut self, hypothesis: HypothesisId, id: EventId) {
+        if let Some(hypothesis) = self.of(hypothesis) {
+            hypothesis.events.push(id);
         }
     }
 

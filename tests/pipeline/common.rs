@@ -3,14 +3,26 @@
 use crate::synthetic::{Rendered, Scene};
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::describe::{ImageFacts, Report, Scores};
-use dichroscope::params::{Method, Params};
+use dichroscope::params::{Method, Params, Reading, Readings};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::{Raster, RegionId, UNASSIGNED};
 use dichroscope::trace::PixelKind;
 use dichroscope::truth::{GroundTruth, Outcome, TruthObject, score};
+use proptest::prelude::*;
 use std::sync::Arc;
 
 pub const METHODS: [Method; 2] = [Method::Refined, Method::Paper];
+
+/// Any readings of the paper: each on or off.
+pub fn any_readings() -> impl Strategy<Value = Readings> {
+    prop::collection::vec(any::<bool>(), Reading::ALL.len()).prop_map(|switches| {
+        let mut readings = Readings::PAPER;
+        for (reading, on) in Reading::ALL.into_iter().zip(switches) {
+            readings.set(reading, on);
+        }
+        readings
+    })
+}
 
 pub fn picture(width: usize, height: usize, color: impl Fn(usize, usize) -> [f32; 3]) -> LinearImage {
     let data = (0..width * height).map(|pixel| color(pixel % width, pixel / width)).collect();

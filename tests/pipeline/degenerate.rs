@@ -1,9 +1,9 @@
 //! Degenerate pictures, and parameters at the ends of their ranges, give a result or a warning, but never a panic.
 
-use crate::common::{METHODS, analyze, assert_valid, faults, picture};
+use crate::common::{METHODS, analyze, any_readings, assert_valid, faults, picture};
 use crate::synthetic::{Random, Scene};
 use dichroscope::analysis::{Analysis, Session};
-use dichroscope::params::{Method, Parameter, Params, Reading, Setting, Switch};
+use dichroscope::params::{Method, Parameter, Params, Setting, Switch};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::{HypothesisId, RegionId};
 use dichroscope::trace::Replay;
@@ -160,8 +160,7 @@ fn any_params() -> impl Strategy<Value = Params> {
     let choice = prop_oneof![6 => Just(None), 1 => Just(Some(None)), 1 => (0f64..=1.0).prop_map(|share| Some(Some(share)))];
     let choices = prop::collection::vec(choice, Parameter::ALL.len());
     let switches = prop::collection::vec(any::<bool>(), Switch::ALL.len());
-    let readings = prop::collection::vec(any::<bool>(), Reading::ALL.len());
-    (any::<[bool; 2]>(), choices, switches, readings).prop_map(
+    (any::<[bool; 2]>(), choices, switches, any_readings()).prop_map(
         |([paper, adds_refinements], choices, switches, readings)| {
             let mut params = Params::of(if paper { Method::Paper } else { Method::Refined });
             params.min_area = Setting::Value(60.0);
@@ -181,9 +180,7 @@ fn any_params() -> impl Strategy<Value = Params> {
                 params.refine.set(switch, on);
                 params.paper.with.set(switch, on && adds_refinements);
             }
-            for (reading, on) in Reading::ALL.into_iter().zip(readings) {
-                params.paper.readings.set(reading, on);
-            }
+            params.paper.readings = readings;
             params
         },
     )

@@ -1,9 +1,10 @@
 //! A pixel's history is complete, in order, and agrees with the trace.
 
+use crate::common::any_readings;
 use crate::synthetic::Scene;
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::describe::{Names, condense, trace_line};
-use dichroscope::params::{Method, Params, Setting};
+use dichroscope::params::{Method, PaperMethod, Params, Setting};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::{HypothesisId, PixelIndex, RegionId};
 use dichroscope::reflection::{SliceBound, SliceMiss};
@@ -49,10 +50,12 @@ impl Traced {
 
 fn random_params() -> impl Strategy<Value = Params> {
     let method = prop_oneof![Just(Method::Refined), Just(Method::Paper)];
-    (method, 1.5f64..6.0, 1.5f64..6.0, 60u32..600).prop_map(|(method, cylinder, slice, area)| Params {
+    let numbers = (1.5f64..6.0, 1.5f64..6.0, 60u32..600);
+    (method, numbers, any_readings()).prop_map(|(method, (cylinder, slice, area), readings)| Params {
         cylinder_width: Setting::Value(cylinder),
         slice_width: Setting::Value(slice),
         min_area: Setting::Value(f64::from(area)),
+        paper: PaperMethod { readings, ..PaperMethod::default() },
         ..Params::of(method)
     })
 }

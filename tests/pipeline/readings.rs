@@ -1,14 +1,17 @@
 //! Every reading of the paper changes what its row says, and the figures of its row hold on bundled pictures.
 
-use crate::common::{analyze, assert_valid, picture, scores_of};
+use crate::common::{analyze, assert_valid, picture, report, scores_of};
 use crate::synthetic::{Random, Scene, unit};
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::color::{Line, Moments, axis_angle_deg};
 use dichroscope::describe::Scores;
 use dichroscope::params::{IlluminantSetting, Params, Preset, Reading, Setting};
 use dichroscope::photo::{LinearImage, ReadOptions, read};
-use dichroscope::raster::UNASSIGNED;
-use dichroscope::trace::{CandidateChosen, CandidateTested, Event, MatteAreasUnited, PixelKind};
+use dichroscope::raster::{HypothesisId, UNASSIGNED};
+use dichroscope::segment::LightBasis;
+use dichroscope::trace::{
+    CandidateChosen, CandidateTested, Event, HighlightsAveraged, MatteAreasUnited, PixelKind, lineage,
+};
 use dichroscope::truth::GroundTruth;
 use std::path::Path;
 use std::sync::Arc;
@@ -195,6 +198,38 @@ fn single_matte_cluster_unites_both_sides_of_a_highlight() {
         panic!("one union: {united:?}")
     };
     assert!(hypothesis != into && 2 * taken_px > area_px);
+    let (analysis, trace) = Session::new(Arc::new(image.clone())).run_traced(&params(true), &mut ()).unwrap();
+    let largest = analysis.intrinsic.regions[0].id;
+    let ancestors: Vec<HypothesisId> = lineage(&trace, largest).iter().map(|one| one.hypothesis).collect();
+    assert_eq!(ancestors, [into, hypothesis], "the lineage of the region tells both");
+}
+
+#[test]
+fn the_light_is_the_average_of_the_recorded_highlight_directions() {
+    let image = balls();
+    let averages: Vec<HighlightsAveraged> = events(&image, &Params::paper(), |event| match event {
+        Event::HighlightsAveraged(averaged) => Some((**averaged).clone()),
+        _ => None,
+    });
+    let [average] = &averages[..] else { panic!("one average: {averages:?}") };
+    assert!(average.contributions.len() > 2, "{average:?}");
+    let mut sum = [0.0; 3];
+    for contribution in &average.contributions {
+        (0..3).for_each(|band| sum[band] += contribution.direction[band]);
+        let angle_deg = axis_angle_deg(&contribution.direction.into(), &average.direction.into());
+        assert!((angle_deg - contribution.angle_deg).abs() < 1e-6);
+    }
+    let mean = unit(sum);
+    assert!((0..3).all(|band| (mean[band] - average.direction[band]).abs() < 1e-9));
+    let analysis = analyze(&image, &Params::paper());
+    let light = &analysis.planar.light;
+    assert_eq!((light.basis, light.interval_deg), (LightBasis::Average, None));
+    assert_eq!((light.planes, light.votes), (None, None));
+    assert_eq!(analysis.illuminant.unwrap().objects, average.contributions.len());
+    let json = report(&analysis, &Params::paper()).to_json().unwrap();
+    for word in ["support", "vote_share", "not asked for"] {
+        assert!(!json.contains(word), "{word}");
+    }
 }
 
 #[test]

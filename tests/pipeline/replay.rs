@@ -1,9 +1,9 @@
 //! A trace can be replayed forward and backward, ends in the result, and recording does not change the result.
 
-use crate::common::{analyze, fingerprint};
+use crate::common::{analyze, any_readings, fingerprint};
 use crate::synthetic::Scene;
 use dichroscope::analysis::{Analysis, Observer, Session};
-use dichroscope::params::{Method, Params, Setting};
+use dichroscope::params::{Method, PaperMethod, Params, Setting};
 use dichroscope::raster::{HypothesisId, RegionId};
 use dichroscope::trace::{Class, Event, PassBegan, PixelKind, Replay, Stage, StageBegan, Trace};
 use proptest::prelude::*;
@@ -12,11 +12,13 @@ use std::sync::Arc;
 fn random_params() -> impl Strategy<Value = Params> {
     let numbers = (4u32..14, 1f64..8.0, 1f64..8.0, 60u32..800, 1f64..6.0);
     let method = prop_oneof![Just(Method::Refined), Just(Method::Paper)];
-    (method, any::<bool>(), numbers).prop_map(|(method, default, (window, cylinder, slice, area, noise))| {
+    (method, any::<bool>(), numbers, any_readings()).prop_map(|(method, default, numbers, readings)| {
         if default {
             return Params::of(method);
         }
+        let (window, cylinder, slice, area, noise) = numbers;
         Params {
+            paper: PaperMethod { readings, ..PaperMethod::default() },
             window_size: Setting::Value(f64::from(window)),
             cylinder_width: Setting::Value(cylinder),
             slice_width: Setting::Value(slice),

@@ -21,6 +21,9 @@ impl Names {
             JoinedHow::Merged { angle_deg, rms } => {
                 format!("; one line with it: {angle_deg:.1}\u{b0} apart, rms distance {rms:.1} counts")
             }
+            JoinedHow::United { taken_px, area_px } => {
+                format!("; a single matte cluster with it: {taken_px} of {}", count(area_px, "pixel"))
+            }
             JoinedHow::Whole => "; it was separated from this one".to_owned(),
         });
         format!("{} {born}{joined}", self.hypothesis(ancestor.hypothesis))
@@ -47,6 +50,9 @@ impl Names {
                     format!("absorbs its broad highlight, gap {gap:.1} counts")
                 }
                 JoinedHow::Merged { angle_deg, .. } => format!("is joined, {angle_deg:.1}\u{b0} off, by"),
+                JoinedHow::United { taken_px, .. } => {
+                    format!("takes {} of the same matte cluster from", count(taken_px, "pixel"))
+                }
                 JoinedHow::Whole => "was part of".to_owned(),
             };
             (joined.step, format!("{how}: {}", self.hypothesis(hypothesis)))

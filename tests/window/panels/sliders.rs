@@ -140,6 +140,25 @@ fn auto_keeps_what_was_found_when_it_is_let_go() {
 }
 
 #[test]
+fn the_papers_method_shows_its_readings_and_takes_refinements() {
+    let mut window = tiny_window();
+    window.state_mut().show_alone(Some(Pane::Parameters));
+    window.run_steps(2);
+    click(&mut window, Role::Button, "paper");
+    click(&mut window, Role::CheckBox, "fill holes");
+    click(&mut window, Role::CheckBox, "edge body");
+    let params = state(&window).document.params;
+    assert!(params.paper.readings.fill_holes && params.rules().refine.edge_body);
+    assert_eq!(params.refine, Params::default().refine, "the refined method keeps its own switches");
+    click(&mut window, Role::Button, "Reset");
+    assert_eq!(state(&window).document.params, Params::paper());
+    click(&mut window, Role::Button, "refined");
+    let has_readings =
+        |window: &Window| window.query_by_role_and_label(Role::CheckBox, "fill holes").is_some();
+    assert!(!has_readings(&window), "the readings belong to the paper's method");
+}
+
+#[test]
 fn methods_and_switches_are_chosen_and_reset() {
     let mut window = tiny_window();
     let switch = |window: &Window| state(window).document.params.refine.edge_body;
