@@ -1,11 +1,12 @@
-use crate::app::{Application, Command, DebugCommand, Executor, JobCommand};
+use crate::app::{Application, Command, DebugCommand, Edit, Executor, JobCommand};
+use crate::params::Method;
 use crate::photo::Masks;
 use crate::raster::{HypothesisId, Raster};
 use crate::trace::Replay;
 use crate::trace::{CandidateSource, MergeTried, Trace, WindowClassified};
 use crate::trace::{Event, Stage, Step, Topic};
 use crate::view::{
-    Instant, InstantView, RegionsView, Status, candidate_pixels, cursor_place, growth_pixels,
+    Instant, InstantView, RegionsView, Status, candidate_pixels, cursor_place, cursor_shapes, growth_pixels,
     hypothesis_rows, measured_and_ignored, pixels_of_region, step_pixels, test_at_cursor, window_counts,
 };
 use crate::view::{Layer, Look, Origin, Role};
@@ -266,4 +267,23 @@ fn the_place_of_the_cursor_is_named() {
     assert_eq!(cursor_place(application.state().followed().unwrap()), "linear \u{b7} hypothesis 2");
     seek(&mut application, trace.steps_of(Stage::Merge).start + 1);
     assert_eq!(cursor_place(application.state().followed().unwrap()), "merge");
+}
+
+#[test]
+fn the_average_of_the_paper_shows_each_highlight_direction_and_the_light() {
+    let mut application = application();
+    application.apply(Edit::SetMethod(Method::Paper));
+    let trace = trace(&application);
+    let n = events(&trace, |event| matches!(event, Event::HighlightsAveraged(_))).next().unwrap();
+    let Some(Event::HighlightsAveraged(averaged)) = trace.event(n - 1) else { panic!("the event") };
+    seek(&mut application, n);
+    let shown = Arc::clone(application.state().newest.as_ref().unwrap());
+    let shapes = cursor_shapes(application.state().followed().unwrap(), None, &shown);
+    let of = |(hypothesis, _): &(HypothesisId, _)| *hypothesis;
+    let expected: Vec<HypothesisId> = averaged.contributions.iter().map(|one| one.hypothesis).collect();
+    assert_eq!(shapes.averaged.iter().map(of).collect::<Vec<_>>(), expected);
+    assert!(shapes.light.is_some() && expected.len() > 1);
+    seek(&mut application, n + 1);
+    let after = cursor_shapes(application.state().followed().unwrap(), None, &shown);
+    assert!(after.averaged.is_empty() && after.light == shapes.light);
 }

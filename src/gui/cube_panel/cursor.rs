@@ -124,6 +124,13 @@ impl ShapeBuilder<'_> {
             let tip = "The color of the light as it is estimated so far (section 5.4).";
             self.add_light(&ends, palette.text, "illuminant so far", tip);
         }
+        for (region, ends) in &shapes.averaged {
+            let color = widgets::color(state.debugger.names.color(*region));
+            self.add_line(ends, color, THICK_PT, 0.0);
+            let tip =
+                "The direction of a highlight cluster; the light is the average of all (section 5.4.1).";
+            self.add_label(ends[1], format!("highlight of {region}"), tip, true);
+        }
         if let Some(solid) = shapes.cylinder.as_ref().filter(|_| show.show_cylinder) {
             self.add_body(solid, color, "cylinder", "The colors that the region may claim (section 5.3.2).");
         }

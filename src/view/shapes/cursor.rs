@@ -3,7 +3,7 @@
 use super::{ellipsoid_of, full, slice_body};
 use crate::color::Moments;
 use crate::raster::HypothesisId;
-use crate::trace::Replay;
+use crate::trace::{Event, Replay, Step};
 use crate::view::solid::Tube;
 use crate::view::{Point, ResultSnapshot, Solid};
 
@@ -22,6 +22,8 @@ pub struct CursorShapes {
     pub others: Vec<(HypothesisId, [Point; 2])>,
     /// The line from black along the light as it is estimated so far.
     pub light: Option<[Point; 2]>,
+    /// The lines from black along the highlight directions that the step taken last averaged (5.4.1).
+    pub averaged: Vec<(HypothesisId, [Point; 2])>,
 }
 
 /// The shapes at the cursor; `focus` is the hypothesis whose shapes are shown in full.
@@ -47,18 +49,27 @@ pub fn cursor_shapes(replay: &Replay, focus: Option<HypothesisId>, shown: &Resul
     });
     let standing = replay.numbered_hypotheses().filter(|(_, hypothesis)| hypothesis.end().is_none());
     let others = standing.map(|(id, _)| id).filter(|id| Some(*id) != focus);
-    let largest = |direction: [f64; 3]| direction.iter().fold(0.0f64, |most, v| most.max(*v));
-    let light = replay.light().filter(|&direction| largest(direction) > 0.0);
+    // The line from black along a direction to the side of the cube.
+    let from_black = |direction: [f64; 3]| {
+        let largest = direction.iter().fold(0.0f64, |most, v| most.max(*v));
+        let scale = full / largest;
+        (largest > 0.0).then(|| [[0.0; 3], direction.map(|v| (v * scale) as f32)])
+    };
+    let averaged = match replay.last() {
+        Some(Step::Event(Event::HighlightsAveraged(averaged))) => averaged.contributions.as_slice(),
+        _ => &[],
+    };
     CursorShapes {
         cylinder: own.as_ref().filter(|_| slice.is_none()).and_then(Tube::solid),
         slice,
         axis: own.as_ref().and_then(Tube::axis),
         start: made.map(|made| crate::color::rgb(&made.start)),
         others: others.filter_map(|id| Some((id, tube(id)?.axis()?))).collect(),
-        light: light.map(|direction| {
-            let scale = full / largest(direction);
-            [[0.0; 3], direction.map(|v| (v * scale) as f32)]
-        }),
+        light: replay.light().and_then(from_black),
+        averaged: averaged
+            .iter()
+            .filter_map(|one| Some((one.hypothesis, from_black(one.direction)?)))
+            .collect(),
     }
 }
 
