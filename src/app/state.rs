@@ -163,7 +163,7 @@ impl State {
     pub(super) fn workspace(&self) -> Result<Workspace, String> {
         let picture =
             self.picture.as_ref().ok_or("there is no workspace to save: open a photograph first")?;
-        Workspace::new(picture, &self.document, self.pinned.as_ref().map(|pinned| pinned.params), &self.view)
+        Workspace::new(picture, &self.document, self.pinned.as_ref().map(|pinned| &pinned.params), &self.view)
     }
 
     /// The region of the selected item, which the panels about one region show.

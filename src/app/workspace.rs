@@ -60,7 +60,7 @@ impl Workspace {
     pub(super) fn new(
         picture: &Picture,
         document: &Document,
-        pinned: Option<Params>,
+        pinned: Option<&Params>,
         view: &ViewSettings,
     ) -> Result<Self, String> {
         if let Origin::Bytes { name, .. } = &picture.origin {
@@ -77,7 +77,7 @@ impl Workspace {
             encoding: picture.reading.encoding.to_string(),
             full_scale: picture.reading.full_scale,
             params: document.params,
-            pinned,
+            pinned: pinned.copied(),
             area: document.area.as_ref().map(runs),
             item: selection.item,
             marked: selection.marked.as_ref().map(runs),

@@ -54,7 +54,7 @@ impl Settings {
         let file = self.params.as_deref().map(read_toml).transpose()?.unwrap_or_default();
         let by_method = || Params::of(self.method.or(file.method).unwrap_or_default());
         let mut params = self.preset.map_or_else(by_method, Preset::params);
-        params = overlay(params, file.table)?;
+        params = overlay(&params, file.table)?;
         params.method = self.method.unwrap_or(params.method);
         for parameter in Parameter::ALL {
             let asked = self.flags.get(parameter).or(self.auto.then_some(Setting::Auto));
@@ -125,7 +125,7 @@ fn located(path: &Path, text: &str, error: &toml::de::Error) -> anyhow::Error {
 }
 
 /// `base` with the values of `table` in place of its own.
-fn overlay(base: Params, table: toml::Table) -> Result<Params> {
+fn overlay(base: &Params, table: toml::Table) -> Result<Params> {
     let mut all = toml::Table::try_from(base)?;
     for (key, value) in table {
         match (all.get_mut(&key), value) {

@@ -70,7 +70,7 @@ pub(crate) fn tiny() -> Arc<ResultSnapshot> {
         let (picture, params) = (tiny_picture(), Params::default());
         let image = Arc::new(picture.photo.image.clone());
         let (analysis, trace) = Session::new(image).run_traced(&params, &mut ()).unwrap();
-        let snapshot = snapshot(&picture, params, analysis);
+        let snapshot = snapshot(&picture, &params, analysis);
         snapshot.trace.get_or_init(|| Arc::new(trace));
         Arc::new(snapshot)
     };
@@ -82,15 +82,15 @@ pub(crate) fn shown(picture: &Arc<Picture>) -> ResultSnapshot {
     let params = Params::paper();
     let image = Arc::new(picture.photo.image.clone());
     let analysis = Session::new(image).run(&params, &mut ()).unwrap();
-    snapshot(picture, params, analysis)
+    snapshot(picture, &params, analysis)
 }
 
-fn snapshot(picture: &Arc<Picture>, params: Params, analysis: Analysis) -> ResultSnapshot {
+fn snapshot(picture: &Arc<Picture>, params: &Params, analysis: Analysis) -> ResultSnapshot {
     let count = analysis.intrinsic.regions.len();
     ResultSnapshot {
         generation: 1,
         picture: Arc::clone(picture),
-        params,
+        params: *params,
         area: None,
         analysis,
         stale_from: None,

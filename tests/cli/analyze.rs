@@ -501,7 +501,9 @@ fn assert_that_the_call_repeats(edits: Vec<Edit>) {
     }
     let mut application = Application::new(Executor::Inline, || ()).unwrap();
     application.apply(JobCommand::Open(Origin::File(work.path("scene/camera8.png"))));
-    edits.into_iter().for_each(|edit| application.apply(edit));
+    for edit in edits {
+        application.apply(edit);
+    }
     let (width, height) = application.state().picture.as_ref().unwrap().size();
     let inside = (0..width * height).map(|pixel| pixel % width < width * 3 / 4).collect();
     let area = Arc::new(Raster::from_vec(width, height, inside).unwrap());
