@@ -145,11 +145,17 @@ fn the_papers_method_shows_its_readings_and_takes_refinements() {
     window.state_mut().show_alone(Some(Pane::Parameters));
     window.run_steps(2);
     click(&mut window, Role::Button, "paper");
-    click(&mut window, Role::CheckBox, "fill holes");
-    click(&mut window, Role::CheckBox, "edge body");
+    for name in ["fill holes", "edge body"] {
+        // The panel has more rows than fit into the window.
+        named(&window, Role::CheckBox, name).scroll_to_me();
+        window.run_steps(4);
+        click(&mut window, Role::CheckBox, name);
+    }
     let params = state(&window).document.params;
     assert!(params.paper.readings.fill_holes && params.rules().refine.edge_body);
     assert_eq!(params.refine, Params::default().refine, "the refined method keeps its own switches");
+    named(&window, Role::Button, "Reset").scroll_to_me();
+    window.run_steps(4);
     click(&mut window, Role::Button, "Reset");
     assert_eq!(state(&window).document.params, Params::paper());
     click(&mut window, Role::Button, "refined");
