@@ -146,6 +146,11 @@ impl State {
         (newest.analysis.working.blocks == replay.trace().pixel_blocks()).then_some(replay)
     }
 
+    /// The color of the hypothesis that the debugger's cursor is about, sRGB; none where the cursor is about no hypothesis.
+    pub fn focus_color(&self) -> Option<[u8; 3]> {
+        self.debugger.focus().map(|focus| self.debugger.names.color(focus))
+    }
+
     /// Adds a notice, unless a notice with the same text is shown already.
     pub(super) fn notify(&mut self, severity: Severity, text: String) {
         if self.notices.iter().any(|notice| notice.text == text) {

@@ -184,7 +184,7 @@ impl CubePanel {
     ) {
         let rect = response.rect;
         let settings = &cx.state.view.cube;
-        let mut occupied = vec![legend::show(ui, cx, rect, self.cloud.fullest)];
+        let mut occupied = vec![legend::show(ui, cx, rect, self.cloud.fullest, &self.cursor_points.meanings)];
         if matches!(settings.space, crate::view::ColorSpace::Rgb | crate::view::ColorSpace::LogRgb) {
             let axes = self.camera_controller.orbit.right_up_forward();
             occupied.push(frame::gizmo(ui, axes, rect, ["R", "G", "B"], cx.palette));

@@ -180,6 +180,7 @@ fn point_mesh(
     rect: Rect,
 ) -> Arc<egui::Mesh> {
     let by_label = cx.state.view.plane.color_by_label;
+    let own = cx.state.focus_color();
     let inputs = (chart, rect, by_label, cx.state.view.theme);
     if let Some(point_mesh) = cached.as_ref().filter(|point_mesh| point_mesh.inputs == inputs) {
         return Arc::clone(&point_mesh.mesh);
@@ -191,7 +192,7 @@ fn point_mesh(
         let at = chart.screen(plane.oblique(point.body, point.surface), rect);
         if rect.expand(4.0).contains(at) {
             let color = if by_label {
-                kinds::color(point.kind, cx.state.view.theme)
+                kinds::color_of(point, own, cx.state.view.theme)
             } else {
                 widgets::own_color(point.color)
             };

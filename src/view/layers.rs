@@ -13,7 +13,7 @@ mod painters;
 mod pyramid;
 mod table;
 
-pub use instant::{beside_color, instant_legend, paint_instant};
+pub use instant::{instant_legend, paint_instant};
 pub use legends::{LegendEntry, class_entries};
 pub use look::{DIFFERENCE_COUNTS, Fill, Look};
 pub use marks::{ACCENT, marks};

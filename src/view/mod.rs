@@ -12,6 +12,7 @@ mod histogram;
 mod item;
 mod layers;
 pub mod marking;
+mod meaning;
 mod picture;
 mod pixel_amounts;
 mod plane_points;
@@ -40,9 +41,10 @@ pub use compare::{
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
 pub use item::{Item, Selection};
 pub use layers::{
-    ACCENT, DIFFERENCE_COUNTS, Fill, Layer, LegendEntry, Look, beside_color, class_entries, instant_legend,
-    legend, marks, paint, paint_instant, pyramid,
+    ACCENT, DIFFERENCE_COUNTS, Fill, Layer, LegendEntry, Look, class_entries, instant_legend, legend, marks,
+    paint, paint_instant, pyramid,
 };
+pub use meaning::Meaning;
 pub use picture::{Origin, Picture};
 pub use pixel_amounts::{Amounts, PixelAmounts};
 pub use plane_points::{

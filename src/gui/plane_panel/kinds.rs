@@ -5,7 +5,7 @@ use crate::app::ViewCommand;
 use crate::gui::PanelContext;
 use crate::gui::widgets;
 use crate::intrinsic::PixelKind;
-use crate::view::{PlaneSettings, RegionPlane, Theme};
+use crate::view::{PlanePixel, PlaneSettings, RegionPlane, Theme};
 use egui::{Color32, Ui};
 
 /// The kinds with names and tooltips.
@@ -38,6 +38,12 @@ pub fn color(kind: PixelKind, theme: Theme) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
+/// The color of a point: at the debugger's cursor the color of its meaning, in a result the color of its kind. `own` is the color of
+/// the hypothesis at the cursor.
+pub fn color_of(point: &PlanePixel, own: Option<[u8; 3]>, theme: Theme) -> Color32 {
+    point.meaning.map_or_else(|| color(point.kind, theme), |meaning| widgets::color(meaning.color(own)))
+}
+
 /// Shows the choice between own colors and labels, and the legend of the labels.
 pub fn toolbar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
     let by_label = cx.state.view.plane.color_by_label;
@@ -63,4 +69,30 @@ pub fn toolbar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
             }
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::PixelIndex;
+    use crate::view::Meaning;
+
+    #[test]
+    fn points_at_the_cursor_have_the_colors_of_their_meanings() {
+        for meaning in Meaning::ALL {
+            let own = Some([10, 200, 30]);
+            let point = PlanePixel {
+                body: 1.0,
+                surface: 1.0,
+                color: [1.0; 3],
+                kind: PixelKind::Matte,
+                meaning: Some(meaning),
+                pixel: PixelIndex::new(0),
+                count: 1,
+            };
+            assert_eq!(color_of(&point, own, Theme::Dark), widgets::color(meaning.color(own)));
+            let in_result = PlanePixel { meaning: None, ..point };
+            assert_eq!(color_of(&in_result, own, Theme::Light), color(PixelKind::Matte, Theme::Light));
+        }
+    }
 }

@@ -12,7 +12,7 @@ pub struct LegendEntry {
 }
 
 impl LegendEntry {
-    pub(super) const fn new(name: &'static str, color: [u8; 3], tooltip: &'static str) -> Self {
+    pub(in crate::view) const fn new(name: &'static str, color: [u8; 3], tooltip: &'static str) -> Self {
         Self { name, color, tooltip }
     }
 }
