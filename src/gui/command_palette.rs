@@ -170,7 +170,7 @@ mod tests {
             assert!(earlier.iter().all(|other| other.action != entry.action), "{}", entry.name);
             assert!(earlier.iter().all(|other| other.name != entry.name), "{}", entry.name);
         }
-        assert!(entries.iter().any(|entry| entry.action == Action::Show(Pane::Why)));
+        assert!(entries.iter().any(|entry| entry.action == Action::Show(Pane::Inspector)));
         assert!(entries.iter().any(|entry| entry.action == Action::Layer(Layer::Confidence)));
     }
 

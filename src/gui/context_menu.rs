@@ -17,7 +17,7 @@ pub fn of_pixel(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
     ui.label(format!("Pixel {x}, {y}"));
     if ui.button("Why is this pixel what it is?").clicked() {
         cx.send(Edit::Select(Some(Item::Pixel(pixel))));
-        cx.act(Action::Show(Pane::Why));
+        cx.act(Action::Show(Pane::Inspector));
     }
     if ui.button("Select this color in the color space").clicked() {
         cx.send(Edit::Select(picture.histogram.bin_of(pixel.index()).map(Item::Bin)));
@@ -58,7 +58,7 @@ pub fn of_region(ui: &mut Ui, cx: &mut PanelContext, region: RegionId) {
     }
     if ui.button("Tell how it was made").clicked() {
         cx.send(Edit::Select(Some(Item::Region(region))));
-        cx.act(Action::Show(Pane::Why));
+        cx.act(Action::Show(Pane::Inspector));
     }
     if ui.button("Mark its pixels").clicked()
         && let Some(shown) = cx.state.shown()

@@ -105,10 +105,10 @@ panes! {
         tabs: TabGroup::Timeline,
         show: |panels, ui, cx| panels.timeline.show(ui, cx),
     };
-    Why { why: super::why_panel::WhyPanel } PaneRow {
+    Inspector { inspector: super::inspector_panel::InspectorPanel } PaneRow {
         background: |palette| palette.panel,
         tabs: TabGroup::Questions,
-        show: |panels, ui, cx| panels.why.show(ui, cx),
+        show: |panels, ui, cx| panels.inspector.show(ui, cx),
     };
     Watch { watch: super::watch_panel::WatchPanel } PaneRow {
         background: |palette| palette.panel,

@@ -16,6 +16,7 @@ mod files;
 mod glossary;
 mod icons;
 mod image_panel;
+mod inspector_panel;
 mod instant_key;
 mod keyboard_focus;
 mod menu;
@@ -40,12 +41,13 @@ mod task;
 #[doc(hidden)]
 pub mod testing;
 mod theme;
+mod threshold_bar;
 mod timeline_panel;
 mod typed_path;
 mod verdict_strip;
 mod view_export;
 mod watch_panel;
-mod why_panel;
+
 mod widgets;
 mod window;
 

@@ -1,6 +1,7 @@
 //! The plane panel: the selected region's pixels in its dichromatic plane, the skewed T of figure 2.
 
 mod chart;
+mod cluster;
 mod cursor;
 mod kinds;
 pub mod testing;
@@ -31,6 +32,8 @@ pub struct PlanePanel {
     of: Option<(Arc<ResultSnapshot>, RegionId)>,
     /// The instant at the debugger's cursor that is shown; `None` when the result is shown.
     plane_instant: Option<cursor::PlaneInstant>,
+    /// The clusters of a step of the classification or the merging.
+    clusters: cluster::ClusterCache,
     plane: Option<RegionPlane>,
     chart: Option<Chart>,
     /// Whether a person has panned or zoomed. Until then, the chart is fitted to the plane at every change.
@@ -52,6 +55,9 @@ impl PlanePanel {
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let state = cx.state;
         if let Some(replay) = state.followed() {
+            if let Some(clusters) = self.clusters.get(state) {
+                return cluster::show(ui, cx, clusters);
+            }
             return match cursor::plane_instant(state) {
                 Some(frame) => self.show_instant(ui, cx, replay, frame),
                 None => widgets::placeholder(ui, cx.palette, "The step at the cursor concerns no region."),

@@ -14,13 +14,13 @@ mod pyramid;
 mod table;
 
 pub use instant::{instant_legend, paint_instant};
-pub use legends::{LegendEntry, class_entries};
+pub use legends::{class_entries, reason_entry};
 pub use look::{DIFFERENCE_COUNTS, Fill, Look};
-pub use marks::{ACCENT, marks};
+pub use marks::marks;
 pub use pyramid::pyramid;
 pub use table::Layer;
 
-use super::{Picture, ResultSnapshot};
+use super::{LegendEntry, Picture, ResultSnapshot};
 use crate::intrinsic::Intrinsic;
 use crate::raster::Raster;
 pub(crate) use curve::Curve;

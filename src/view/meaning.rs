@@ -4,7 +4,10 @@
 //! Pixels of a hypothesis have the color of the hypothesis. The other colors are darker than every color of a region
 //! (`OKLab` lightness 0.5 to 0.6 against 0.64 to 0.84), and have a contrast of at least 3 on the panels of both themes.
 
-use super::layers::{ACCENT, LegendEntry};
+use super::LegendEntry;
+
+/// Color of the cursor and of everything selected, sRGB.
+pub const ACCENT: [u8; 3] = [0xE8, 0xA3, 0x3D];
 
 /// What a step did with pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -5,12 +5,15 @@
 
 mod accuracy;
 mod axes;
+mod cluster_plane;
 mod colors;
 mod compare;
 mod curves;
 mod histogram;
+mod inspection;
 mod item;
 mod layers;
+mod legend_entry;
 pub mod marking;
 mod meaning;
 mod picture;
@@ -34,17 +37,23 @@ mod verdict;
 
 pub use accuracy::{Accuracy, RegionAccuracy};
 pub use axes::{Axis, Tick};
+pub use cluster_plane::{Cluster, ClusterPlane, ELLIPSE_DEVIATIONS, cluster_plane};
 pub(crate) use colors::region_colors;
 pub use compare::{
     BodyChange, ComparedRegion, Comparison, Figure, PixelChanges, RegionChange, SettingChange, compare,
 };
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
+pub use inspection::{
+    Inspection, Limits, ThresholdTest, Tone, candidate_tests, inspect_item, inspect_marked, inspect_step,
+    step_verdict,
+};
 pub use item::{Item, Selection};
 pub use layers::{
-    ACCENT, DIFFERENCE_COUNTS, Fill, Layer, LegendEntry, Look, class_entries, instant_legend, legend, marks,
-    paint, paint_instant, pyramid,
+    DIFFERENCE_COUNTS, Fill, Layer, Look, class_entries, instant_legend, legend, marks, paint, paint_instant,
+    pyramid, reason_entry,
 };
-pub use meaning::Meaning;
+pub use legend_entry::LegendEntry;
+pub use meaning::{ACCENT, Meaning};
 pub use picture::{Origin, Picture};
 pub use pixel_amounts::{Amounts, PixelAmounts};
 pub use plane_points::{
@@ -53,11 +62,11 @@ pub use plane_points::{
 pub(crate) use profile::profile_csv;
 pub use profile::{ProfileSample, profile, profile_ends};
 pub use replay::{
-    AxisDistance, Check, CurrentHypothesis, Growth, HypothesisRow, Instant, InstantView, RegionNames,
-    RegionsView, Role, RolesView, SkewedTView, Status, StepPixels, TimelineAxis, TimelineSection, Watch,
-    WatchedPixel, Why, WhySentence, WindowCounts, WindowsView, candidate_name, candidate_reach, cursor_place,
-    growth, hypothesis_rows, sampled, skewed_t_view, step_pixels, test_at_cursor, timeline_density, watch,
-    why, window_counts,
+    AxisDistance, CurrentHypothesis, Growth, HypothesisRow, Instant, InstantView, RegionNames, RegionsView,
+    Role, RolesView, SkewedTView, Status, StepPixels, TimelineAxis, TimelineSection, Watch, WatchedPixel,
+    Why, WhySentence, WindowCounts, WindowsView, candidate_name, candidate_reach, cursor_place, growth,
+    hypothesis_rows, sampled, skewed_t_view, step_pixels, test_at_cursor, timeline_density, watch, why,
+    window_counts,
 };
 pub(crate) use replay::{candidate_pixels, growth_pixels, measured_and_ignored, pixels_of_region, rings};
 pub(crate) use runs::MaskRuns;

@@ -1,10 +1,10 @@
 //! The instant at the debugger's cursor, as a picture to lay over the photograph.
 
 use super::Look;
-use super::legends::{CLASSES, LegendEntry};
+use super::legends::CLASSES;
 use crate::raster::{HypothesisId, Raster};
 use crate::trace::{Class, PixelKind};
-use crate::view::{Fill, Instant, InstantView, Meaning, RegionsView, RolesView, WindowsView};
+use crate::view::{Fill, Instant, InstantView, LegendEntry, Meaning, RegionsView, RolesView, WindowsView};
 use rayon::prelude::*;
 
 const CLEAR: [u8; 4] = [0; 4];

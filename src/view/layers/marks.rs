@@ -1,11 +1,8 @@
 //! The selection and the hovered item, as a picture to draw over any layer.
 
 use crate::raster::{Mask, Raster};
-use crate::view::{Item, Picture, ResultSnapshot, Selection};
+use crate::view::{ACCENT, Item, Picture, ResultSnapshot, Selection};
 use rayon::prelude::*;
-
-/// Color of the cursor and of everything selected, sRGB.
-pub const ACCENT: [u8; 3] = [0xE8, 0xA3, 0x3D];
 
 const MARKED: [u8; 4] = with_alpha(ACCENT, 72);
 const OUTLINE: [u8; 4] = with_alpha(ACCENT, 255);

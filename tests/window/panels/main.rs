@@ -17,6 +17,7 @@ mod first_minute;
 mod habits;
 mod image_panel;
 mod images;
+mod inspector;
 mod keyboard;
 mod opening;
 mod pictures;
