@@ -24,13 +24,15 @@ pub enum Command {
     Debug(DebugCommand),
 }
 
-/// A change of the document. All but the first three are steps of the undo history.
+/// A change of the document. All but the first four are steps of the undo history.
 #[derive(Clone, Debug)]
 pub enum Edit {
     /// Take back the last step.
     Undo,
     /// Take back the last undo.
     Redo,
+    /// Go to an entry of the history, by its index from the earliest on: several steps of undo or redo at once.
+    GoTo(usize),
     /// End the gesture: the next change is a step of its own.
     EndGesture,
 

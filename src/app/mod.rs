@@ -13,6 +13,7 @@ mod command;
 mod command_line;
 mod debugger;
 mod document;
+mod document_change;
 mod effect;
 mod export_input;
 mod exports;
@@ -39,6 +40,7 @@ pub use debugger::{
     Goal, SavedClass, StepUnit,
 };
 pub use document::{Document, Gesture, History};
+pub use document_change::document_change;
 pub use effect::Effect;
 pub use export_input::{DrawnPicture, ExportOptions};
 pub use exports::{Export, ExportKind};

@@ -100,6 +100,11 @@ panes! {
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.compare.show(ui, cx),
     };
+    History { history: super::history_panel::HistoryPanel } PaneRow {
+        background: |palette| palette.panel,
+        tabs: TabGroup::Tables,
+        show: |panels, ui, cx| panels.history.show(ui, cx),
+    };
     Timeline { timeline: super::timeline_panel::TimelinePanel } PaneRow {
         background: |palette| palette.panel,
         tabs: TabGroup::Timeline,

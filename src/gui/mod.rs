@@ -14,6 +14,7 @@ mod cube_panel;
 mod dock;
 mod files;
 mod glossary;
+mod history_panel;
 mod icons;
 mod image_panel;
 mod inspector_panel;

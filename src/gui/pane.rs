@@ -43,6 +43,8 @@ panes! {
     Selection = "Selection";
     /// Pinned and newest result.
     Compare = "Compare";
+    /// The steps of undo and redo in words.
+    History = "History";
     /// The decisions in their order, and the cursor among them.
     Timeline = "Timeline";
     /// The verdict on what is hovered, selected, marked or stepped to, with values and limits, and its history.

@@ -41,6 +41,7 @@ pub use cluster_plane::{Cluster, ClusterPlane, ELLIPSE_DEVIATIONS, cluster_plane
 pub(crate) use colors::region_colors;
 pub use compare::{
     BodyChange, ComparedRegion, Comparison, Figure, PixelChanges, RegionChange, SettingChange, compare,
+    setting_changes,
 };
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
 pub use inspection::{

@@ -17,6 +17,10 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
             let later = state.history.redo(&state.document);
             restore_document(state, later)
         }
+        Edit::GoTo(entry) => {
+            let other = state.history.go_to(entry, &state.document);
+            restore_document(state, other)
+        }
         Edit::EndGesture => {
             state.history.end_gesture();
             Vec::new()

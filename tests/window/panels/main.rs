@@ -15,6 +15,7 @@ mod debugger;
 mod exports;
 mod first_minute;
 mod habits;
+mod history;
 mod image_panel;
 mod images;
 mod inspector;
