@@ -57,8 +57,27 @@ pub enum Edit {
     Mark(Arc<Mask>, Combine, Option<Gesture>),
     /// Mark exactly the pixels that are not marked.
     InvertMarked,
-    /// Unmark all pixels and select nothing.
+    /// Change the named marks.
+    NamedMark(NamedMarkEdit),
+    /// Unmark all pixels and select nothing; named marks stay.
     ClearSelection,
+}
+
+/// A change of the named marks, which are counted from 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NamedMarkEdit {
+    /// Keep the marked pixels as a new mark, which the tools change from now on.
+    Keep,
+    /// Let the tools change this mark.
+    Activate(usize),
+    /// Let the tools change no mark, and mark nothing.
+    Release,
+    /// Give this mark another name.
+    Rename(usize, String),
+    /// Give this mark another color.
+    Recolor(usize),
+    /// Remove this mark.
+    Remove(usize),
 }
 
 /// A change of how results are shown. Such a change is no step of the undo history and needs no analysis.

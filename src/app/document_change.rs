@@ -2,7 +2,7 @@
 
 use super::Document;
 use crate::raster::Mask;
-use crate::view::{Item, setting_changes};
+use crate::view::{Item, NamedMarks, setting_changes};
 use std::sync::Arc;
 
 /// What changed from one document to the next; `width` is the photograph's, pixels.
@@ -38,7 +38,26 @@ pub fn document_change(before: &Document, after: &Document, width: usize) -> Str
             ),
         );
     }
+    parts.extend(named_change(&old.named, &new.named));
     if parts.is_empty() { "no change".to_owned() } else { parts.join("; ") }
+}
+
+/// What changed in the named marks; none where nothing did.
+fn named_change(old: &NamedMarks, new: &NamedMarks) -> Option<String> {
+    if old.marks.len() < new.marks.len() {
+        return new.marks.last().map(|mark| format!("{} kept", mark.name));
+    }
+    if old.marks.len() > new.marks.len() {
+        return Some("a named mark removed".to_owned());
+    }
+    let changed = old.marks.iter().zip(&new.marks).find(|(old, new)| old != new);
+    changed.map(|(old, new)| {
+        if old.name == new.name {
+            format!("{} changed", new.name)
+        } else {
+            format!("{} renamed {}", old.name, new.name)
+        }
+    })
 }
 
 /// The name of an item in a sentence; `width` is the photograph's, pixels.

@@ -33,7 +33,7 @@ mod write;
 
 pub use analysis_worker::AnalysisRequest;
 pub use application::{Application, Executor};
-pub use command::{Combine, Command, Edit, JobCommand, ViewCommand};
+pub use command::{Combine, Command, Edit, JobCommand, NamedMarkEdit, ViewCommand};
 pub use command_line::analyze_call;
 pub use debugger::{
     Breakpoint, CandidateCheck, Condition, DebugCommand, DebugSettings, Debugger, Difference, Direction,

@@ -3,6 +3,7 @@
 mod debugger;
 mod edits;
 mod jobs;
+mod named_marks;
 mod questions;
 mod reports;
 mod views;

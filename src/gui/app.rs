@@ -229,6 +229,7 @@ impl WindowContent {
         self.command_palette.close_on_keys(ui.ctx());
         self.panels.image.cancel_on_escape(ui.ctx());
         self.panels.cube.cancel_on_escape(ui.ctx());
+        self.panels.plane.cancel_on_escape(ui.ctx());
         // egui removes the focus from a text field on Escape, so the focus of the last frame decides.
         let was_text_edited = std::mem::replace(&mut self.is_text_edited, false);
         let escape_is_action = !was_text_edited && !egui::Popup::is_any_open(ui.ctx());

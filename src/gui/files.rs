@@ -3,13 +3,14 @@
 //! The system's dialog runs on a thread of its own, so that a dialog that hangs does not stop the window.
 
 use super::PanelContext;
+use super::action::LayerFile;
 use super::pane::Pane;
 use super::task::Task;
 use super::typed_path::{typed_path, unique_names};
 use super::view_export::ViewExport;
 use crate::app::{Export, ExportKind, ExportOptions, JobCommand, Notice, Severity, ViewCommand};
 use crate::truth::sample::SAMPLES;
-use crate::view::Origin;
+use crate::view::{Layer, Origin};
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
 
@@ -86,6 +87,7 @@ impl Dialogs {
     pub fn open(&mut self, dialog: Dialog) {
         (self.dialog, self.focus, self.options.force) = (Some(dialog), true, false);
         self.reading_since = None;
+        self.options.layer = None;
         self.problem.clear();
         self.is_new = true;
         match dialog {
@@ -95,6 +97,18 @@ impl Dialogs {
             Dialog::SaveParameters => "parameters.toml".clone_into(&mut self.path),
             Dialog::SaveWorkspace => "workspace.dichroscope".clone_into(&mut self.path),
         }
+    }
+
+    /// Opens the export dialog for a file of one layer.
+    pub fn open_layer_export(&mut self, cx: &PanelContext, layer: Layer, file: LayerFile) {
+        self.open(Dialog::Export);
+        (self.kind, self.options.layer) = (ExportKind::Layer, Some(layer));
+        let name = layer.name().to_lowercase().replace(' ', "-");
+        let proposed = proposed_path(ExportKind::Layer, cx);
+        let stem = proposed.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let stem = stem.strip_suffix("layer").unwrap_or(&stem).to_owned();
+        let path = proposed.with_file_name(format!("{stem}{name}.{}", file.extension()));
+        self.path = path.display().to_string();
     }
 
     /// Whether a dialog is open. An open dialog owns the keyboard: no key reaches the panels.
@@ -166,6 +180,7 @@ impl Dialogs {
             let radio = ui.add_enabled(available, egui::RadioButton::new(self.kind == kind, kind.title()));
             if radio.on_hover_text(kind.tip()).on_disabled_hover_text(kind.tip()).clicked() {
                 self.kind = kind;
+                self.options.layer = None;
                 self.path = proposed_path(kind, cx).display().to_string();
                 self.focus = true;
             }
@@ -178,6 +193,11 @@ impl Dialogs {
                 ui.checkbox(&mut self.options.force, "replace the folder whatever it holds").on_hover_text(
                     "An earlier result is replaced anyway; this replaces any other folder too.",
                 );
+            }
+            ExportKind::Layer => {
+                let layer = self.options.layer.unwrap_or(cx.state.view.image.layer);
+                let text = format!("{}: .png as shown, .exr or .npy with its numbers", layer.name());
+                ui.label(RichText::new(text).color(cx.palette.secondary));
             }
             ExportKind::View => {
                 ui.horizontal(|ui| {

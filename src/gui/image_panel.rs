@@ -82,7 +82,9 @@ impl ImagePanel {
         }
         let bar = Frame::new().fill(palette.panel);
         let top = Panel::top("image toolbar").frame(bar.inner_margin(Margin::symmetric(6, 3)));
-        let top = top.show(ui, |ui| toolbar::row(ui, state, palette, &mut settings, &mut debug, self.zoom));
+        let top = top.show(ui, |ui| {
+            toolbar::row(ui, state, palette, &mut settings, &mut debug, self.zoom, cx.actions)
+        });
         // The height of a row that wraps is known from the next frame on.
         let height = top.response.rect.height();
         if (height - std::mem::replace(&mut self.toolbar_height_pt, height)).abs() > 0.5 {
@@ -292,6 +294,7 @@ impl ImagePanel {
         overlay::hovered_colors(&painter, place, state);
         overlay::profile(&painter, place, state);
         overlay::pixels(&painter, place, state, context.response.contains_pointer());
+        overlay::mark_at_pointer(ui, &painter, cx.palette, place, state);
         let brush = (settings.tool == Tool::Brush && context.response.contains_pointer())
             .then_some(settings.brush_px);
         self.tool_state.draw(&painter, place, brush);
@@ -362,7 +365,10 @@ fn show_texts(
             } else {
                 (part.left_top() + vec2(6.0, 6.0), Align2::LEFT_TOP)
             };
-            overlay::text_box(&painter, cx.palette, corner, align, layer.name());
+            let place = overlay::text_box(&painter, cx.palette, corner, align, layer.name());
+            let name = ui.interact(place, ui.scope_id().with(("layer shown", right)), Sense::hover());
+            let text = format!("Layer shown: {}", layer.name());
+            name.widget_info(|| WidgetInfo::labeled(Role::Label, true, text.clone()));
         }
         overlay::layer_legend(&painter, cx.palette, part, layer, cx.state);
     }

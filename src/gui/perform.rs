@@ -13,6 +13,7 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
         Action::Open => dialogs.open(files::Dialog::Open),
         Action::OpenWorkspace => dialogs.open(files::Dialog::OpenWorkspace),
         Action::Export => dialogs.open(files::Dialog::Export),
+        Action::ExportLayer(layer, file) => dialogs.open_layer_export(cx, layer, file),
         Action::Save => match cx.state.workspace_path.clone() {
             Some(path) => cx.send(JobCommand::Export(ExportKind::Workspace.to(path))),
             None => dialogs.open(files::Dialog::SaveWorkspace),

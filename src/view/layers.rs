@@ -12,6 +12,7 @@ mod marks;
 mod painters;
 mod pyramid;
 mod table;
+mod values;
 
 pub use instant::{instant_legend, paint_instant};
 pub use legends::{class_entries, reason_entry};
@@ -19,6 +20,7 @@ pub use look::{DIFFERENCE_COUNTS, Fill, Look};
 pub use marks::marks;
 pub use pyramid::pyramid;
 pub use table::Layer;
+pub(crate) use values::layer_floats;
 
 use super::{LegendEntry, Picture, ResultSnapshot};
 use crate::intrinsic::Intrinsic;

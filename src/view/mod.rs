@@ -16,8 +16,10 @@ mod layers;
 mod legend_entry;
 pub mod marking;
 mod meaning;
+mod named_marks;
 mod picture;
 mod pixel_amounts;
+mod plane_marks;
 mod plane_points;
 mod profile;
 mod replay;
@@ -49,14 +51,17 @@ pub use inspection::{
     step_verdict,
 };
 pub use item::{Item, Selection};
+pub(crate) use layers::layer_floats;
 pub use layers::{
     DIFFERENCE_COUNTS, Fill, Layer, Look, class_entries, instant_legend, legend, marks, paint, paint_instant,
     pyramid, reason_entry,
 };
 pub use legend_entry::LegendEntry;
 pub use meaning::{ACCENT, Meaning};
+pub use named_marks::{NamedMark, NamedMarks};
 pub use picture::{Origin, Picture};
 pub use pixel_amounts::{Amounts, PixelAmounts};
+pub use plane_marks::plane_mask;
 pub use plane_points::{
     MOST_PLANE_POINTS, PlaneBranch, PlanePixel, RegionPlane, growing_plane, region_plane, test_plane,
 };

@@ -63,7 +63,7 @@ impl PlanePanel {
             egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, name)
         });
         let moved = self.chart.filter(|_| self.is_moved);
-        let chart = navigate(ui, &response, plane, moved, rect, &mut self.is_moved);
+        let chart = navigate(ui, &response, plane, moved, rect, &mut self.is_moved, true);
         self.chart = Some(chart);
         let painter = ui.painter_at(rect);
         let numbers = chart.axes(&painter, plane, rect, cx.palette);

@@ -3,9 +3,10 @@
 use super::secondary_text;
 use crate::app::ViewCommand;
 use crate::gui::PanelContext;
+use crate::gui::icons::{self, Icon};
 use crate::gui::widgets;
 use crate::intrinsic::PixelKind;
-use crate::view::{PlanePixel, PlaneSettings, RegionPlane, Theme};
+use crate::view::{PlanePixel, PlaneSettings, RegionPlane, Theme, Tool};
 use egui::{Color32, Ui};
 
 /// The kinds with names and tooltips.
@@ -55,9 +56,12 @@ pub fn toolbar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
             (false, "Own color", "Points in the color that was measured."),
         ] {
             if ui.selectable_label(by_label == choice, name).on_hover_text(tip).clicked() {
-                cx.send(ViewCommand::Plane(PlaneSettings { color_by_label: choice }));
+                let settings = PlaneSettings { color_by_label: choice, ..cx.state.view.plane.clone() };
+                cx.send(ViewCommand::Plane(settings));
             }
         }
+        ui.add_space(6.0);
+        tools(ui, cx);
         if by_label {
             ui.add_space(6.0);
             for (kind, name, tip) in KINDS {
@@ -69,6 +73,24 @@ pub fn toolbar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
             }
         }
     });
+}
+
+/// Shows the tools that mark points.
+fn tools(ui: &mut Ui, cx: &mut PanelContext) {
+    let settings = cx.state.view.plane.clone();
+    for (tool, icon, name, tip) in [
+        (Tool::Pointer, Icon::Arrow, "Plane: pointer", "A click selects a pixel, a drag pans."),
+        (
+            Tool::Lasso,
+            Icon::Lasso,
+            "Plane: lasso",
+            "Marks the region's pixels inside a free outline; Shift adds, Alt takes away (section 3.1).",
+        ),
+    ] {
+        if icons::button(ui, cx.palette, icon, settings.tool == tool, name).on_hover_text(tip).clicked() {
+            cx.send(ViewCommand::Plane(PlaneSettings { tool, ..settings.clone() }));
+        }
+    }
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@ mod image_panel;
 mod images;
 mod inspector;
 mod keyboard;
+mod named_marks;
 mod opening;
 mod pictures;
 mod plane_panel;
