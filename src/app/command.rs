@@ -1,7 +1,7 @@
 //! The commands of a person. A [`Command`] is the only way in which panels change a [`super::State`]; the reports of workers are
 //! a type of their own, which no panel can make.
 
-use super::{DebugCommand, Export, Gesture, Question, Severity};
+use super::{DebugCommand, Export, Gesture, Question, Severity, Switching};
 use crate::params::{AmbientSetting, Method, Parameter, Params, Setting, Switch};
 use crate::photo::ReadOptions;
 use crate::raster::Mask;
@@ -109,6 +109,8 @@ pub enum ViewCommand {
     Notify(Severity, String),
     /// Remove the notice with this id.
     Dismiss(u64),
+    /// Show the next open photograph in the second view of the picture (true), or a second layer of the same one (false).
+    ComparePhotographs(bool),
     /// Forget the photographs opened before.
     ForgetRecent,
 }
@@ -118,6 +120,10 @@ pub enum ViewCommand {
 pub enum JobCommand {
     /// Read a photograph and show it.
     Open(Origin),
+    /// Show another open photograph.
+    Switch(Switching),
+    /// Close the photograph that is shown, and show the next one.
+    ClosePhotograph,
     /// Read the open photograph again with these options.
     ReadAs(ReadOptions),
     /// Read a workspace file, then its photograph, and restore the rest of the workspace.

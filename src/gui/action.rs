@@ -1,7 +1,7 @@
 //! What keys, menus and buttons do: the vocabulary that shortcuts, menus, toolbars and panels share.
 
 use super::pane::Pane;
-use crate::app::{Direction, StepUnit};
+use crate::app::{Direction, StepUnit, Switching};
 use crate::view::{Layer, Tool};
 
 /// What a key or a menu does.
@@ -17,6 +17,12 @@ pub enum Action {
     ExportLayer(Layer, LayerFile),
     /// Save the workspace: to its file, or where the dialog says when it has none.
     Save,
+    /// Show another open photograph.
+    Switch(Switching),
+    /// Close the photograph that is shown.
+    ClosePhotograph,
+    /// Compare the next open photograph in the second view, or no longer.
+    ComparePhotographs,
     /// Close the window.
     Quit,
     /// Show a panel, in front of the other tabs.

@@ -5,6 +5,7 @@
 use super::PanelContext;
 use super::action::LayerFile;
 use super::pane::Pane;
+use super::proposed_path::{proposed_layer_path, proposed_path};
 use super::task::Task;
 use super::typed_path::{typed_path, unique_names};
 use super::view_export::ViewExport;
@@ -103,12 +104,7 @@ impl Dialogs {
     pub fn open_layer_export(&mut self, cx: &PanelContext, layer: Layer, file: LayerFile) {
         self.open(Dialog::Export);
         (self.kind, self.options.layer) = (ExportKind::Layer, Some(layer));
-        let name = layer.name().to_lowercase().replace(' ', "-");
-        let proposed = proposed_path(ExportKind::Layer, cx);
-        let stem = proposed.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let stem = stem.strip_suffix("layer").unwrap_or(&stem).to_owned();
-        let path = proposed.with_file_name(format!("{stem}{name}.{}", file.extension()));
-        self.path = path.display().to_string();
+        self.path = proposed_layer_path(layer, file, cx).display().to_string();
     }
 
     /// Whether a dialog is open. An open dialog owns the keyboard: no key reaches the panels.
@@ -382,22 +378,6 @@ impl Dialogs {
             ui.ctx().request_repaint();
         }
     }
-}
-
-/// The proposed path of an export: beside the photograph, or in the working directory.
-fn proposed_path(kind: ExportKind, cx: &PanelContext) -> PathBuf {
-    let picture = cx.state.picture.as_ref();
-    let photo = picture.and_then(|picture| picture.origin.path());
-    let folder = photo.and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();
-    let stem = picture.map_or_else(String::new, |picture| {
-        Path::new(&picture.origin.name()).file_stem().unwrap_or_default().to_string_lossy().into_owned()
-    });
-    let name = format!("{stem}-{}", kind.file());
-    if kind.is_folder() || kind.file().contains('.') {
-        return folder.join(name);
-    }
-    let extension = photo.and_then(Path::extension).map_or("png".into(), |e| e.to_string_lossy());
-    folder.join(format!("{name}.{extension}"))
 }
 
 /// Whether a path has the extension of workspaces.

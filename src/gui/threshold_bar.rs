@@ -27,7 +27,8 @@ pub fn show(ui: &mut Ui, palette: &ThemeColors, tests: &[ThresholdTest]) {
     }
 }
 
-/// Shows tests over a chart, the upper left corner at `corner`, on the background color `ground`; returns their rectangle.
+/// Shows tests over a chart, the upper left corner at `corner`, on the background color `ground`; returns their rectangle. Texts
+/// wrap at the right end of `ui`.
 pub fn show_at(
     ui: &Ui,
     palette: &ThemeColors,
@@ -37,8 +38,9 @@ pub fn show_at(
 ) -> Rect {
     let mut area = Rect::from_min_size(corner, vec2(0.0, 0.0));
     for test in tests {
-        let galley = text(ui.painter(), palette, test, f32::INFINITY);
-        let width = CHART_BAR_PT.max(galley.size().x + MARK_PT);
+        let room = ui.max_rect().right() - corner.x - 4.0;
+        let galley = text(ui.painter(), palette, test, room - MARK_PT);
+        let width = CHART_BAR_PT.min(room).max(galley.size().x + MARK_PT);
         let size = vec2(width, galley.size().y + BAR_PT + GAP_PT);
         let rect = Rect::from_min_size(area.left_bottom(), size);
         ui.painter().rect_filled(rect.expand2(vec2(2.0, 0.0)), 2.0, ground);

@@ -2,6 +2,7 @@
 
 use super::debugger::take_trace;
 use super::edits::{analyze, edit_params};
+use super::photographs::keep_open;
 use super::questions::take_progress;
 use crate::app::report::{Report, Work};
 use crate::app::state::{AfterPin, Restoring};
@@ -116,12 +117,18 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     let warnings: Vec<String> = warnings.collect();
     let restored = state.restoring.take().filter(|restoring| restoring.workspace.origin == picture.origin);
     let had_picture = state.picture.is_some();
+    let params = state.document.params;
+    // A photograph that is read again, with another encoding or by a workspace, replaces itself.
+    if state.picture.as_ref().is_some_and(|shown| shown.origin != picture.origin) {
+        keep_open(state);
+    }
+    state.others.retain(|other| other.picture.origin != picture.origin);
     // What was said about the photograph before does not concern this one.
     state.notices.retain(|notice| !notice.of_photograph);
     state.picture = Some(picture);
     state.debugger = Debugger::default();
     // Masks belong to one picture; parameters stay.
-    state.document = Document { params: state.document.params, ..Document::default() };
+    state.document = Document { params, ..Document::default() };
     state.history.forget();
     (state.newest, state.pinned, state.hover, state.explained_pixel) = (None, None, None, None);
     state.view.show_pinned = false;

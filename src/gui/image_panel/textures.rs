@@ -69,6 +69,21 @@ impl PaintRequest {
         Some(Self { picture, shown, pinned, subject: Subject::Layer(layer, look), texel_px })
     }
 
+    /// The request of a layer of the photograph that the second view shows for comparison; none where no photograph is compared.
+    pub fn compared_layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
+        let other = state.compared_photograph()?;
+        let has_result = other.newest.is_some();
+        let layer =
+            if layer.needs_pinned() || (layer.needs_result() && !has_result) { Layer::Input } else { layer };
+        Some(Self {
+            picture: Arc::clone(&other.picture),
+            shown: other.newest.clone(),
+            pinned: None,
+            subject: Subject::Layer(layer, settings.look(None)),
+            texel_px: 1,
+        })
+    }
+
     /// The request of the marks: marked, selected and hovered pixels; none where none of these is larger than a pixel.
     pub fn marks(state: &State) -> Option<Self> {
         let followed = state.followed().is_some();

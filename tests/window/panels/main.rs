@@ -22,6 +22,7 @@ mod inspector;
 mod keyboard;
 mod named_marks;
 mod opening;
+mod photographs;
 mod pictures;
 mod plane_panel;
 mod regions;
