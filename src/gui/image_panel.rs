@@ -85,7 +85,7 @@ impl ImagePanel {
         let bar = Frame::new().fill(palette.panel);
         let top = Panel::top("image toolbar").frame(bar.inner_margin(Margin::symmetric(6, 3)));
         let top = top.show(ui, |ui| {
-            toolbar::row(ui, state, palette, &mut settings, &mut debug, self.zoom, cx.actions)
+            toolbar::row(ui, state, palette, &mut settings, &mut debug, self.zoom, cx.actions);
         });
         // The height of a row that wraps is known from the next frame on.
         let height = top.response.rect.height();

@@ -47,7 +47,10 @@ impl NamedMarks {
     /// A name that no mark has: "mark 1" and so on.
     pub fn free_name(&self) -> String {
         let taken = |name: &String| self.marks.iter().any(|mark| mark.name == *name);
-        (1..).map(|number| format!("mark {number}")).find(|name| !taken(name)).unwrap_or_default()
+        (1..=self.marks.len() + 1)
+            .map(|number| format!("mark {number}"))
+            .find(|name| !taken(name))
+            .unwrap_or_default()
     }
 
     /// A color that no mark has, as long as there is one.

@@ -110,7 +110,7 @@ impl Inputs {
             && same_arc(self.marked.as_ref(), other.marked.as_ref())
             && same_arc(self.unique_colors.as_ref(), other.unique_colors.as_ref())
             && (self.item, self.settings, self.ghosts_only) == (other.item, other.settings, other.ghosts_only)
-            && self.scale_and_opacity == other.scale_and_opacity
+            && self.scale_and_opacity.map(f32::to_bits) == other.scale_and_opacity.map(f32::to_bits)
     }
 }
 
