@@ -1,7 +1,7 @@
 //! The commands of a person. A [`Command`] is the only way in which panels change a [`super::State`]; the reports of workers are
 //! a type of their own, which no panel can make.
 
-use super::{DebugCommand, Export, Gesture, Question, Severity};
+use super::{DebugCommand, Export, Gesture, Question, Severity, Switching};
 use crate::params::{AmbientSetting, Method, Parameter, Params, Reading, Setting, Switch};
 use crate::photo::ReadOptions;
 use crate::raster::Mask;
@@ -24,13 +24,15 @@ pub enum Command {
     Debug(DebugCommand),
 }
 
-/// A change of the document. All but the first three are steps of the undo history.
+/// A change of the document. All but the first four are steps of the undo history.
 #[derive(Clone, Debug)]
 pub enum Edit {
     /// Take back the last step.
     Undo,
     /// Take back the last undo.
     Redo,
+    /// Go to an entry of the history, by its index from the earliest on: several steps of undo or redo at once.
+    GoTo(usize),
     /// End the gesture: the next change is a step of its own.
     EndGesture,
 
@@ -57,8 +59,27 @@ pub enum Edit {
     Mark(Arc<Mask>, Combine, Option<Gesture>),
     /// Mark exactly the pixels that are not marked.
     InvertMarked,
-    /// Unmark all pixels and select nothing.
+    /// Change the named marks.
+    NamedMark(NamedMarkEdit),
+    /// Unmark all pixels and select nothing; named marks stay.
     ClearSelection,
+}
+
+/// A change of the named marks, which are counted from 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NamedMarkEdit {
+    /// Keep the marked pixels as a new mark, which the tools change from now on.
+    Keep,
+    /// Let the tools change this mark.
+    Activate(usize),
+    /// Let the tools change no mark, and mark nothing.
+    Release,
+    /// Give this mark another name.
+    Rename(usize, String),
+    /// Give this mark another color.
+    Recolor(usize),
+    /// Remove this mark.
+    Remove(usize),
 }
 
 /// A change of how results are shown. Such a change is no step of the undo history and needs no analysis.
@@ -90,6 +111,8 @@ pub enum ViewCommand {
     Notify(Severity, String),
     /// Remove the notice with this id.
     Dismiss(u64),
+    /// Show the next open photograph in the second view of the picture (true), or a second layer of the same one (false).
+    ComparePhotographs(bool),
     /// Forget the photographs opened before.
     ForgetRecent,
 }
@@ -99,6 +122,10 @@ pub enum ViewCommand {
 pub enum JobCommand {
     /// Read a photograph and show it.
     Open(Origin),
+    /// Show another open photograph.
+    Switch(Switching),
+    /// Close the photograph that is shown, and show the next one.
+    ClosePhotograph,
     /// Read the open photograph again with these options.
     ReadAs(ReadOptions),
     /// Read a workspace file, then its photograph, and restore the rest of the workspace.

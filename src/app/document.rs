@@ -60,6 +60,11 @@ impl History {
         self.open = None;
     }
 
+    /// Whether further changes of a gesture would belong to the last step.
+    pub fn is_in_gesture(&self) -> bool {
+        self.open.is_some()
+    }
+
     /// Undoes the last step: returns the document before it, and keeps the present one for redo.
     pub fn undo(&mut self, now: &Document) -> Option<Document> {
         self.open = None;
@@ -74,6 +79,25 @@ impl History {
         let later = self.future.pop()?;
         self.past.push(now.clone());
         Some(later)
+    }
+
+    /// Goes to an entry of [`History::entries`]: returns its document, and keeps all others. None where the entry is the present one or
+    /// does not exist.
+    pub fn go_to(&mut self, entry: usize, now: &Document) -> Option<Document> {
+        let mut reached = None;
+        while entry != self.past.len() {
+            let current = reached.as_ref().unwrap_or(now).clone();
+            let next = if entry < self.past.len() { self.undo(&current) } else { self.redo(&current) };
+            let Some(next) = next else { break };
+            reached = Some(next);
+        }
+        reached
+    }
+
+    /// All documents, the earliest first; `now` is the present one, at the index of the second value.
+    pub fn entries<'a>(&'a self, now: &'a Document) -> (Vec<&'a Document>, usize) {
+        let all = self.past.iter().chain([now]).chain(self.future.iter().rev());
+        (all.collect(), self.past.len())
     }
 
     /// Whether there is something to undo.

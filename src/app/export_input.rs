@@ -2,7 +2,7 @@
 
 use super::{Document, State, Workspace};
 use crate::raster::RegionId;
-use crate::view::{ImageSettings, Picture, ResultSnapshot};
+use crate::view::{ImageSettings, Layer, Picture, ResultSnapshot};
 use std::sync::Arc;
 
 /// Options of an export. Each kind of export reads the options that it needs.
@@ -14,6 +14,8 @@ pub struct ExportOptions {
     pub force: bool,
     /// The picture that a view has drawn.
     pub drawn: Option<DrawnPicture>,
+    /// The layer to write; none: the layer that the image view shows.
+    pub layer: Option<Layer>,
 }
 
 /// A picture that a view has drawn.

@@ -91,7 +91,7 @@ exports! {
     /// The layer of the image view, one pixel of the file for each pixel of the photograph.
     Layer: ExportRow {
         title: "Image view as PNG",
-        tip: "The layer that the image view shows, a pixel a pixel.",
+        tip: "The layer that the image view shows, a pixel a pixel: .png as shown, .exr or .npy with its numbers.",
         file: "layer.png",
         offered: true,
         available: |_| true,

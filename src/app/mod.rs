@@ -13,11 +13,13 @@ mod command;
 mod command_line;
 mod debugger;
 mod document;
+mod document_change;
 mod effect;
 mod export_input;
 mod exports;
 mod jobs;
 mod panics;
+mod photographs;
 mod preview;
 mod read;
 mod reduce;
@@ -32,18 +34,20 @@ mod write;
 
 pub use analysis_worker::AnalysisRequest;
 pub use application::{Application, Executor};
-pub use command::{Combine, Command, Edit, JobCommand, ViewCommand};
+pub use command::{Combine, Command, Edit, JobCommand, NamedMarkEdit, ViewCommand};
 pub use command_line::analyze_call;
 pub use debugger::{
     Breakpoint, CandidateCheck, Condition, DebugCommand, DebugSettings, Debugger, Difference, Direction,
     Goal, SavedClass, StepUnit,
 };
 pub use document::{Document, Gesture, History};
+pub use document_change::document_change;
 pub use effect::Effect;
 pub use export_input::{DrawnPicture, ExportOptions};
 pub use exports::{Export, ExportKind};
 pub use jobs::{Job, JobState};
 pub use panics::catch_panic;
+pub use photographs::{OpenPhotograph, Switching};
 pub use preview::Preview;
 pub use reduce::reduce;
 pub use settings::Settings;

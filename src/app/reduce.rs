@@ -3,6 +3,8 @@
 mod debugger;
 mod edits;
 mod jobs;
+mod named_marks;
+mod photographs;
 mod questions;
 mod reports;
 mod views;

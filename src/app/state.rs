@@ -1,6 +1,8 @@
 //! The state of the application.
 
-use super::{Debugger, Document, History, JobState, Preview, ViewSettings, WhatIfJob, Workspace};
+use super::{
+    Debugger, Document, History, JobState, OpenPhotograph, Preview, ViewSettings, WhatIfJob, Workspace,
+};
 use crate::params::Params;
 use crate::raster::{PixelIndex, RegionId};
 use crate::trace::Replay;
@@ -31,6 +33,10 @@ pub struct State {
     pub hover: Option<Item>,
     /// The pixels of the color bins near the pointer in the color space view, ascending; none unless the hovered item is a bin.
     pub hover_pixels: Arc<[u32]>,
+    /// The photographs that are open beside the one that is shown, in the order of the circle in which keys switch.
+    pub others: Vec<OpenPhotograph>,
+    /// Whether the second view of the picture shows the next of these photographs in place of the one that is shown.
+    pub compares_photographs: bool,
     /// The settings of the views.
     pub view: ViewSettings,
     /// The step debugger.
@@ -144,6 +150,17 @@ impl State {
         let replay = self.debugger.stopped().filter(|_| self.view.debug.follow && !self.view.show_pinned)?;
         let newest = self.newest.as_ref().filter(|_| self.picture.is_some())?;
         (newest.analysis.working.blocks == replay.trace().pixel_blocks()).then_some(replay)
+    }
+
+    /// The photograph that the second view shows for comparison: the next open one, where it has the size of the one that is shown.
+    pub fn compared_photograph(&self) -> Option<&OpenPhotograph> {
+        let size = self.picture.as_ref()?.size();
+        self.others.first().filter(|other| self.compares_photographs && other.picture.size() == size)
+    }
+
+    /// The color of the hypothesis that the debugger's cursor is about, sRGB; none where the cursor is about no hypothesis.
+    pub fn focus_color(&self) -> Option<[u8; 3]> {
+        self.debugger.focus().map(|focus| self.debugger.names.color(focus))
     }
 
     /// Adds a notice, unless a notice with the same text is shown already.

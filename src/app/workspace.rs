@@ -4,7 +4,7 @@ use super::{Document, ViewSettings};
 use crate::params::Params;
 use crate::photo::{EncodingChoice, ReadOptions};
 use crate::raster::Mask;
-use crate::view::{Item, MaskRuns, Origin, Picture};
+use crate::view::{Item, MaskRuns, NamedMark, Origin, Picture};
 use serde::{Deserialize, Serialize};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
@@ -39,9 +39,29 @@ pub struct Workspace {
     /// The marked pixels.
     #[serde(default)]
     pub marked: Option<MaskRuns>,
+    /// The named marks.
+    #[serde(default)]
+    pub named_marks: Vec<SavedMark>,
     /// The settings of the views.
     #[serde(default)]
     pub view: ViewSettings,
+}
+
+/// A named mark in a workspace file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SavedMark {
+    /// The name.
+    pub name: String,
+    /// The color, sRGB.
+    pub color: [u8; 3],
+    /// The pixels.
+    pub pixels: MaskRuns,
+}
+
+impl SavedMark {
+    fn of(mark: &NamedMark) -> Self {
+        Self { name: mark.name.clone(), color: mark.color, pixels: MaskRuns::of(&mark.mask) }
+    }
 }
 
 /// The fields that identify a workspace, in every version of the format.
@@ -81,6 +101,7 @@ impl Workspace {
             area: document.area.as_ref().map(runs),
             item: selection.item,
             marked: selection.marked.as_ref().map(runs),
+            named_marks: selection.named.marks.iter().map(SavedMark::of).collect(),
             view: view.clone(),
         })
     }

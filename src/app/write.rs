@@ -6,7 +6,9 @@ use crate::analysis::Stage;
 use crate::describe::{AreaFacts, Report, Timings};
 use crate::export::{ExportError, WholeResult, matte_bytes, png_of_rgba};
 use crate::truth::{self, Reference, ReportInput};
-use crate::view::{Picture, ResultSnapshot, paint, profile, profile_csv, regions_text, selected};
+use crate::view::{
+    Picture, ResultSnapshot, layer_floats, paint, profile, profile_csv, regions_text, selected,
+};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
@@ -64,14 +66,23 @@ pub(super) fn profile_table(path: &Path, _: &ExportOptions, input: &ExportInput)
     Ok(file(path, profile_csv(&samples, picture.size().0).into_bytes(), "the profile"))
 }
 
-/// The layer of the image view, one pixel of the file for each pixel of the photograph.
-pub(super) fn layer(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
+/// A layer, one pixel of the file for each pixel of the photograph: as it is shown, or by the extensions `.exr` and `.npy` its numbers.
+pub(super) fn layer(path: &Path, options: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
     let (picture, settings) = (picture(input)?, &input.image);
     let look = settings.look(input.selected_region);
     let (shown, pinned) = (input.shown.as_deref(), input.pinned.as_deref());
-    let painted = paint(settings.layer, picture, shown, pinned, &look);
+    let layer = options.layer.unwrap_or(settings.layer);
+    let what = format!("the layer \u{201c}{}\u{201d}", layer.name());
+    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+    let floats = || layer_floats(layer, picture, shown, pinned, &look);
+    if extension == "exr" {
+        return Ok(file(path, floats().exr(), &what));
+    }
+    if extension == "npy" {
+        return Ok(file(path, floats().npy(), &what));
+    }
+    let painted = paint(layer, picture, shown, pinned, &look);
     let size = [painted.width() as u32, painted.height() as u32];
-    let what = format!("the layer \u{201c}{}\u{201d}", settings.layer.name());
     Ok(file(path, png_of_rgba(size, painted.as_slice().as_flattened()), &what))
 }
 

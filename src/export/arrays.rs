@@ -22,6 +22,22 @@ pub(super) fn write_single(path: &Path, counts: &Raster<f32>) -> Result<(), Expo
     write(path, &format!("({}, {})", counts.height(), counts.width()), counts.as_slice())
 }
 
+/// The bytes of an array of rows, columns and bands.
+pub(super) fn rgb_bytes(counts: &Raster<[f32; 3]>) -> Vec<u8> {
+    let shape = format!("({}, {}, 3)", counts.height(), counts.width());
+    bytes(&shape, counts.as_slice().as_flattened())
+}
+
+/// The bytes of an array of rows and columns.
+pub(super) fn single_bytes(counts: &Raster<f32>) -> Vec<u8> {
+    bytes(&format!("({}, {})", counts.height(), counts.width()), counts.as_slice())
+}
+
+fn bytes(shape: &str, counts: &[f32]) -> Vec<u8> {
+    let values = counts.iter().flat_map(|value| (value / COUNTS_PER_UNIT).to_le_bytes());
+    header(shape).into_iter().chain(values).collect()
+}
+
 fn write(path: &Path, shape: &str, counts: &[f32]) -> Result<(), ExportError> {
     let failed = |source| ExportError::Io { path: path.to_owned(), source };
     let mut file = BufWriter::new(File::create(path).map_err(failed)?);

@@ -25,25 +25,41 @@ const FLOAT: u32 = 2;
 
 /// Writes counts as channels R, G and B.
 pub(super) fn write_rgb(path: &Path, counts: &Raster<[f32; 3]>) -> Result<(), ExportError> {
-    let picture = Picture {
+    rgb_picture(counts).write_to(path)
+}
+
+fn rgb_picture(counts: &Raster<[f32; 3]>) -> Picture<impl Fn(usize, usize, &mut Vec<f32>) + Sync> {
+    Picture {
         size: (counts.width(), counts.height()),
         // A file holds its channels in alphabetical order.
         channels: &["B", "G", "R"],
-        line: |y, channel, line: &mut Vec<f32>| {
+        line: |y: usize, channel: usize, line: &mut Vec<f32>| {
             line.extend(counts.row(y).iter().map(|color| color[2 - channel]));
         },
-    };
-    picture.write_to(path)
+    }
 }
 
 /// Writes counts as the single channel Y.
 pub(super) fn write_single(path: &Path, counts: &Raster<f32>) -> Result<(), ExportError> {
-    let picture = Picture {
+    single_picture(counts).write_to(path)
+}
+
+fn single_picture(counts: &Raster<f32>) -> Picture<impl Fn(usize, usize, &mut Vec<f32>) + Sync> {
+    Picture {
         size: (counts.width(), counts.height()),
         channels: &["Y"],
-        line: |y, _, line: &mut Vec<f32>| line.extend_from_slice(counts.row(y)),
-    };
-    picture.write_to(path)
+        line: |y: usize, _: usize, line: &mut Vec<f32>| line.extend_from_slice(counts.row(y)),
+    }
+}
+
+/// The bytes of a file with counts as channels R, G and B.
+pub(super) fn rgb_bytes(counts: &Raster<[f32; 3]>) -> Vec<u8> {
+    rgb_picture(counts).bytes()
+}
+
+/// The bytes of a file with counts as the single channel Y.
+pub(super) fn single_bytes(counts: &Raster<f32>) -> Vec<u8> {
+    single_picture(counts).bytes()
 }
 
 /// A picture to be written.
@@ -61,6 +77,14 @@ impl<L: Fn(usize, usize, &mut Vec<f32>) + Sync> Picture<L> {
         let failed = |source| ExportError::Io { path: path.to_owned(), source };
         let mut file = BufWriter::new(File::create(path).map_err(failed)?);
         self.write(&mut file).and_then(|()| file.flush()).map_err(failed)
+    }
+
+    /// The bytes of the file.
+    fn bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        // Writing to a vector cannot fail.
+        let _ = self.write(&mut bytes);
+        bytes
     }
 
     /// Writes header, table of the blocks' places, and blocks.

@@ -6,6 +6,7 @@
 mod arrays;
 mod choice;
 mod exchange;
+mod float_picture;
 mod floats;
 mod leftovers;
 mod matte;
@@ -19,6 +20,7 @@ mod staging;
 mod whole;
 
 pub use choice::{FileChoice, UnknownFile};
+pub(crate) use float_picture::FloatPicture;
 pub use leftovers::remove_leftovers;
 pub use matte::{MatteError, matte_bytes, write_matte};
 pub(crate) use palette::Palette;

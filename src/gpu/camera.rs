@@ -82,6 +82,9 @@ pub struct Orbit {
     pub distance: f32,
     /// The projection of depth. Objects at the target have the same size in both projections.
     pub projection: Projection,
+    /// What is nearer to the eye than this share of the cube's depth is cut away, 0…1; 0: nothing is. No part of a saved camera.
+    #[serde(skip)]
+    pub cut: f32,
 }
 
 impl Default for Orbit {
@@ -92,6 +95,7 @@ impl Default for Orbit {
             orientation: [0.0, 0.0, 0.0, 1.0],
             distance: 1.0,
             projection: Projection::Perspective,
+            cut: 0.0,
         };
         camera.preset(Preset::Home);
         camera.fit(1.0);
@@ -247,6 +251,14 @@ impl Orbit {
         Ray { origin: origin.into(), direction: direction.into() }
     }
 
+    /// The distance from the eye of the plane in front of which everything is cut away, world units; none where nothing is.
+    fn cut_distance(&self) -> Option<f32> {
+        let backwards = self.rotation() * Vector3::z();
+        let to_center = (Vector3::from(self.eye()) - Vector3::from(CENTER)).dot(&backwards);
+        let radius = 0.5 * 3f32.sqrt();
+        (self.cut > 0.0).then(|| to_center - radius + 2.0 * radius * self.cut.min(1.0))
+    }
+
     /// The projection matrix with depth from 0 to 1, as wgpu needs; nalgebra's matrices have depth from −1 to 1.
     fn projection_matrix(&self, aspect: f32) -> Matrix4<f32> {
         let reach = WORLD_RADIUS + (Vector3::from(self.target) - Vector3::from(CENTER)).norm();
@@ -254,7 +266,9 @@ impl Orbit {
         let mut matrix = Matrix4::zeros();
         match self.projection {
             Projection::Perspective => {
-                let (near, far) = (0.02 * self.distance, self.distance + reach);
+                let nearest = 0.02 * self.distance;
+                let near = self.cut_distance().map_or(nearest, |cut| cut.max(nearest));
+                let far = self.distance + reach;
                 let scale = self.distance / self.half_height();
                 matrix[(0, 0)] = scale / aspect;
                 matrix[(1, 1)] = scale;
@@ -263,7 +277,9 @@ impl Orbit {
                 matrix[(3, 2)] = -1.0;
             }
             Projection::Orthographic => {
-                let (near, far) = (self.distance - reach, self.distance + reach);
+                let nearest = self.distance - reach;
+                let near = self.cut_distance().map_or(nearest, |cut| cut.max(nearest));
+                let far = self.distance + reach;
                 let scale = 1.0 / self.half_height();
                 matrix[(0, 0)] = scale / aspect;
                 matrix[(1, 1)] = scale;

@@ -1,7 +1,7 @@
 //! What keys, menus and buttons do: the vocabulary that shortcuts, menus, toolbars and panels share.
 
 use super::pane::Pane;
-use crate::app::{Direction, StepUnit};
+use crate::app::{Direction, StepUnit, Switching};
 use crate::view::{Layer, Tool};
 
 /// What a key or a menu does.
@@ -13,8 +13,16 @@ pub enum Action {
     OpenWorkspace,
     /// Open the export dialog.
     Export,
+    /// Open the export dialog for a single file of a layer.
+    ExportLayer(Layer, LayerFile),
     /// Save the workspace: to its file, or where the dialog says when it has none.
     Save,
+    /// Show another open photograph.
+    Switch(Switching),
+    /// Close the photograph that is shown.
+    ClosePhotograph,
+    /// Compare the next open photograph in the second view, or no longer.
+    ComparePhotographs,
     /// Close the window.
     Quit,
     /// Show a panel, in front of the other tabs.
@@ -55,6 +63,40 @@ pub enum Action {
     Palette,
     /// Show the list of keys.
     Help,
+}
+
+/// A kind of file for a single layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LayerFile {
+    /// The layer as it is shown, 8 bits a band.
+    Png,
+    /// The layer's numbers as 32-bit floats, with channels.
+    Exr,
+    /// The layer's numbers as an array of NumPy.
+    Npy,
+}
+
+impl LayerFile {
+    /// All kinds.
+    pub const ALL: [Self; 3] = [Self::Png, Self::Exr, Self::Npy];
+
+    /// The name in menus.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Png => "PNG",
+            Self::Exr => "OpenEXR",
+            Self::Npy => "NumPy array",
+        }
+    }
+
+    /// The extension of the file, without a dot.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Exr => "exr",
+            Self::Npy => "npy",
+        }
+    }
 }
 
 /// What a key or a button does to the debugger.

@@ -3,17 +3,17 @@
 use super::action::Action;
 use super::command_palette::CommandPalette;
 use super::dock::{Dock, Panels};
-use super::files::{Dialogs, is_workspace};
+use super::dropped_files::open_dropped_and_pasted;
+use super::files::Dialogs;
 use super::keyboard_focus::KeyboardFocus;
 use super::pane::Pane;
 use super::theme::{self, ThemeColors};
-use super::typed_path::typed_paths;
 use super::view_export::ViewExporter;
 use super::{PanelContext, menu, notices, perform, shortcuts, task, timeline_panel, widgets};
 use crate::app::{
     Application, Command, DebugCommand, Executor, JobCommand, Settings, State, ViewCommand, catch_panic,
 };
-use crate::view::{Origin, ProfileLine, Theme, Tool};
+use crate::view::{ProfileLine, Theme, Tool};
 use egui::{Event, RichText, Ui};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -229,6 +229,7 @@ impl WindowContent {
         self.command_palette.close_on_keys(ui.ctx());
         self.panels.image.cancel_on_escape(ui.ctx());
         self.panels.cube.cancel_on_escape(ui.ctx());
+        self.panels.plane.cancel_on_escape(ui.ctx());
         // egui removes the focus from a text field on Escape, so the focus of the last frame decides.
         let was_text_edited = std::mem::replace(&mut self.is_text_edited, false);
         let escape_is_action = !was_text_edited && !egui::Popup::is_any_open(ui.ctx());
@@ -268,7 +269,7 @@ impl WindowContent {
             if self.dock.is_empty() {
                 all_panels_hidden(ui, cx);
             } else {
-                self.dock.show(ui, &mut self.panels, cx);
+                in_least_size(ui, |ui| self.dock.show(ui, &mut self.panels, cx));
             }
         });
         if let Some(keys) = held_keys {
@@ -313,6 +314,24 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.show(ui);
     }
+}
+
+/// Smallest width and height of all panels together, points. In a smaller window, as a large interface in a small window is, the
+/// panels keep this size and are scrolled by bars.
+const LEAST_SIZE_PT: egui::Vec2 = egui::vec2(700.0, 440.0);
+
+/// Shows `contents` in all of `ui`; where `ui` is smaller than [`LEAST_SIZE_PT`], in an area of that size with scroll bars. The
+/// wheel scrolls no such area, because the wheel zooms the views.
+fn in_least_size(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
+    let room = ui.available_size();
+    if room.x >= LEAST_SIZE_PT.x && room.y >= LEAST_SIZE_PT.y {
+        return contents(ui);
+    }
+    let area = egui::ScrollArea::both().scroll_source(egui::scroll_area::ScrollSource::SCROLL_BAR);
+    area.auto_shrink(false).show(ui, |ui| {
+        let (rect, _) = ui.allocate_exact_size(room.max(LEAST_SIZE_PT), egui::Sense::hover());
+        contents(&mut ui.new_child(egui::UiBuilder::new().max_rect(rect)));
+    });
 }
 
 /// Shows, while every panel is hidden, the ways back.
@@ -361,70 +380,6 @@ fn take_keys(ctx: &egui::Context) -> Vec<Event> {
         input.events = others;
         keys
     })
-}
-
-/// Opens files that were dropped on the window, and pasted paths and pictures.
-fn open_dropped_and_pasted(ui: &Ui, cx: &mut PanelContext) {
-    let is_text_edited = ui.ctx().text_edit_focused();
-    let (dropped, pasted) = ui.input(|input| {
-        let is_paste = |event: &&Event| matches!(event, Event::Paste(_) | Event::PasteImage(_));
-        let pasted: Vec<Event> =
-            if is_text_edited { Vec::new() } else { input.events.iter().filter(is_paste).cloned().collect() };
-        (input.raw.dropped_files.clone(), pasted)
-    });
-    // Of several files the last one is opened: one photograph is open at a time.
-    if let Some(file) = dropped.last() {
-        let path = file.path().to_path_buf();
-        if path.is_file() || path.parent().is_some_and(|parent| !parent.as_os_str().is_empty()) {
-            open_path(cx, path);
-        } else {
-            match file.bytes() {
-                Ok(bytes) => {
-                    let name = path.display().to_string();
-                    cx.send(JobCommand::Open(Origin::Bytes { name, bytes: bytes.into() }));
-                }
-                Err(reason) => {
-                    let text = format!("{}: what was dropped cannot be read: {reason}", path.display());
-                    cx.send(ViewCommand::Notify(crate::app::Severity::Error, text));
-                }
-            }
-        }
-    }
-    for event in pasted {
-        match event {
-            Event::Paste(text) => {
-                let mut paths = typed_paths(&text).into_iter();
-                let Some(first) = paths.next() else { continue };
-                let others = paths.count();
-                if others > 0 {
-                    let text = format!(
-                        "{} files were pasted, and one is open at a time: {} was opened",
-                        others + 1,
-                        first.display()
-                    );
-                    cx.send(ViewCommand::Notify(crate::app::Severity::Done, text));
-                }
-                open_path(cx, first);
-            }
-            Event::PasteImage(image) => {
-                let size = [image.size[0] as u32, image.size[1] as u32];
-                let rgba: Vec<u8> =
-                    image.pixels.iter().flat_map(egui::Color32::to_srgba_unmultiplied).collect();
-                let bytes: Arc<[u8]> = crate::export::png_of_rgba(size, &rgba).into();
-                cx.send(JobCommand::Open(Origin::Bytes { name: "clipboard".to_owned(), bytes }));
-            }
-            _ => {}
-        }
-    }
-}
-
-/// Opens a workspace or a photograph, by the extension of the path.
-fn open_path(cx: &mut PanelContext, path: PathBuf) {
-    cx.send(if is_workspace(&path) {
-        JobCommand::OpenWorkspace(path)
-    } else {
-        JobCommand::Open(Origin::File(path))
-    });
 }
 
 /// Sets the title of the window, where the title has changed.

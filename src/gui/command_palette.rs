@@ -1,6 +1,6 @@
 //! The command palette: every action by its name, found by typing some of its letters, with its key.
 
-use super::action::Action;
+use super::action::{Action, LayerFile};
 use super::pane::Pane;
 use super::shortcuts::{keys_of, named_actions};
 use super::theme::SMALL_PT;
@@ -23,6 +23,12 @@ fn entries() -> Vec<Entry> {
     let layers = Layer::ALL
         .into_iter()
         .map(|layer| Entry { action: Action::Layer(layer), name: format!("Image: layer {}", layer.name()) });
+    let layer_files = Layer::ALL.into_iter().flat_map(|layer| {
+        LayerFile::ALL.map(|file| Entry {
+            action: Action::ExportLayer(layer, file),
+            name: format!("Export: layer {} as {}", layer.name(), file.name()),
+        })
+    });
     let panes = Pane::ALL
         .into_iter()
         .map(|pane| Entry { action: Action::Show(pane), name: format!("Show: {}", pane.title()) });
@@ -31,7 +37,7 @@ fn entries() -> Vec<Entry> {
         (Action::ShowAll, "Window: Arrange the panels as at first"),
     ];
     let others = others.map(|(action, name)| Entry { action, name: name.to_owned() });
-    for entry in keyed.chain(layers).chain(panes).chain(others) {
+    for entry in keyed.chain(layers).chain(panes).chain(layer_files).chain(others) {
         if entry.action != Action::Palette && entries.iter().all(|known| known.action != entry.action) {
             entries.push(entry);
         }
@@ -170,7 +176,7 @@ mod tests {
             assert!(earlier.iter().all(|other| other.action != entry.action), "{}", entry.name);
             assert!(earlier.iter().all(|other| other.name != entry.name), "{}", entry.name);
         }
-        assert!(entries.iter().any(|entry| entry.action == Action::Show(Pane::Why)));
+        assert!(entries.iter().any(|entry| entry.action == Action::Show(Pane::Inspector)));
         assert!(entries.iter().any(|entry| entry.action == Action::Layer(Layer::Confidence)));
     }
 

@@ -1,7 +1,7 @@
 //! Context menus: what can be done with a pixel or a region, by the secondary button of the pointer.
 
 use super::PanelContext;
-use super::action::Action;
+use super::action::{Action, LayerFile};
 use super::pane::Pane;
 use super::shortcuts::keys_of;
 use crate::app::{Combine, Edit, ViewCommand};
@@ -17,7 +17,7 @@ pub fn of_pixel(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
     ui.label(format!("Pixel {x}, {y}"));
     if ui.button("Why is this pixel what it is?").clicked() {
         cx.send(Edit::Select(Some(Item::Pixel(pixel))));
-        cx.act(Action::Show(Pane::Why));
+        cx.act(Action::Show(Pane::Inspector));
     }
     if ui.button("Select this color in the color space").clicked() {
         cx.send(Edit::Select(picture.histogram.bin_of(pixel.index()).map(Item::Bin)));
@@ -42,6 +42,7 @@ pub fn of_pixel(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
             }
         }
     });
+    export_layer(ui, cx, cx.state.view.image.layer);
     action(ui, cx, "Fit the whole picture", Action::Fit);
     action(ui, cx, "Export\u{2026}", Action::Export);
 }
@@ -58,7 +59,7 @@ pub fn of_region(ui: &mut Ui, cx: &mut PanelContext, region: RegionId) {
     }
     if ui.button("Tell how it was made").clicked() {
         cx.send(Edit::Select(Some(Item::Region(region))));
-        cx.act(Action::Show(Pane::Why));
+        cx.act(Action::Show(Pane::Inspector));
     }
     if ui.button("Mark its pixels").clicked()
         && let Some(shown) = cx.state.shown()
@@ -66,6 +67,20 @@ pub fn of_region(ui: &mut Ui, cx: &mut PanelContext, region: RegionId) {
         let mask = shown.labels().map(|&label| label == region.get());
         cx.send(Edit::Mark(Arc::new(mask), Combine::Replace, None));
     }
+}
+
+/// Shows the submenu that exports one layer as one file.
+pub fn export_layer(ui: &mut Ui, cx: &mut PanelContext, layer: Layer) {
+    let menu = ui.menu_button(format!("Export {}", layer.name().to_lowercase()), |ui| {
+        for file in LayerFile::ALL {
+            if ui.button(format!("{}\u{2026}", file.name())).clicked() {
+                cx.act(Action::ExportLayer(layer, file));
+            }
+        }
+    });
+    menu.response.on_hover_text(
+        "Writes this layer alone: PNG as shown, OpenEXR or NumPy with its numbers (section 6).",
+    );
 }
 
 /// Shows an action with its key.

@@ -10,23 +10,22 @@ mod figure;
 mod frame;
 mod labels;
 mod legend;
-mod outline;
 pub mod testing;
 mod unique_colors;
 
 use super::{PanelContext, widgets};
-use crate::app::{Combine, Edit, ViewCommand};
+use crate::app::{Edit, ViewCommand};
 use crate::gpu::{Batch, Line, Orbit, Projector, Scene, pick};
-use crate::raster::RegionId;
-use crate::view::{Item, Picture, Tool};
+use crate::gui::outline::{Outline, combine_by_keys};
+use crate::raster::{Mask, RegionId};
+use crate::view::{Item, Picture, Tool, marking};
 use camera_controller::{CameraController, Plane};
 use canvas::Canvas;
 use cloud::Cloud;
 use cursor::CursorPoints;
-use egui::{Color32, EventFilter, Rect, Response, Sense, Stroke, Ui, vec2};
+use egui::{Color32, EventFilter, Pos2, Rect, Response, Sense, Stroke, Ui, vec2};
 use figure::Figure;
 use frame::AxesFrame;
-use outline::Outline;
 use std::sync::Arc;
 use unique_colors::UniqueColors;
 
@@ -114,6 +113,7 @@ impl CubePanel {
                 .set_content(self.frame.lines.iter().flat_map(|line| [line.a, line.b]).collect());
         }
         self.move_camera(ui, cx, &response, rect);
+        self.camera_controller.orbit.cut = settings.depth_plane;
         self.update_scene(ui, cx, gpu, &picture, space_changed);
         self.canvas.show(ui, gpu, rect, &self.scene, &self.camera_controller.orbit);
         let projector = self.camera_controller.orbit.projector(self.size);
@@ -184,7 +184,7 @@ impl CubePanel {
     ) {
         let rect = response.rect;
         let settings = &cx.state.view.cube;
-        let mut occupied = vec![legend::show(ui, cx, rect, self.cloud.fullest)];
+        let mut occupied = vec![legend::show(ui, cx, rect, self.cloud.fullest, &self.cursor_points.meanings)];
         if matches!(settings.space, crate::view::ColorSpace::Rgb | crate::view::ColorSpace::LogRgb) {
             let axes = self.camera_controller.orbit.right_up_forward();
             occupied.push(frame::gizmo(ui, axes, rect, ["R", "G", "B"], cx.palette));
@@ -303,16 +303,26 @@ impl CubePanel {
         picture: &Picture,
     ) {
         if let Some(outline) = self.outline.handle_pointer(ui, response, cx.state.view.cube.tool) {
-            let mask = outline::mask_of(picture, &self.cloud.bins, projector, rect, &outline);
-            let combine = ui.input(|input| match input.modifiers {
-                egui::Modifiers { alt: true, .. } => Combine::Subtract,
-                egui::Modifiers { shift: true, .. } => Combine::Union,
-                _ => Combine::Replace,
-            });
-            cx.send(Edit::Mark(Arc::new(mask), combine, None));
+            let mask = mask_of(picture, &self.cloud.bins, projector, rect, &outline);
+            cx.send(Edit::Mark(Arc::new(mask), combine_by_keys(ui), None));
         }
         self.outline.paint(&ui.painter_at(rect), response, cx.palette.accent);
     }
+}
+
+/// Mask of the pixels in bins whose centers appear inside an outline on the screen.
+fn mask_of(
+    picture: &Picture,
+    bins: &[crate::gpu::Point],
+    projector: &Projector,
+    rect: Rect,
+    outline: &[Pos2],
+) -> Mask {
+    let corners: Vec<[f32; 2]> = outline.iter().map(|corner| (*corner - rect.min).into()).collect();
+    let inside = pick::inside_polygon(bins, projector, &corners);
+    let inside: Vec<u32> = inside.into_iter().map(|bin| bin as u32).collect();
+    let (width, height) = picture.size();
+    marking::of_bins(picture, &inside).unwrap_or_else(|| Mask::filled(width, height, false))
 }
 
 /// Sets the accessible role and name of the view.

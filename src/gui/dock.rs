@@ -100,15 +100,20 @@ panes! {
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.compare.show(ui, cx),
     };
+    History { history: super::history_panel::HistoryPanel } PaneRow {
+        background: |palette| palette.panel,
+        tabs: TabGroup::Tables,
+        show: |panels, ui, cx| panels.history.show(ui, cx),
+    };
     Timeline { timeline: super::timeline_panel::TimelinePanel } PaneRow {
         background: |palette| palette.panel,
         tabs: TabGroup::Timeline,
         show: |panels, ui, cx| panels.timeline.show(ui, cx),
     };
-    Why { why: super::why_panel::WhyPanel } PaneRow {
+    Inspector { inspector: super::inspector_panel::InspectorPanel } PaneRow {
         background: |palette| palette.panel,
         tabs: TabGroup::Questions,
-        show: |panels, ui, cx| panels.why.show(ui, cx),
+        show: |panels, ui, cx| panels.inspector.show(ui, cx),
     };
     Watch { watch: super::watch_panel::WatchPanel } PaneRow {
         background: |palette| palette.panel,

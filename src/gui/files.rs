@@ -3,13 +3,15 @@
 //! The system's dialog runs on a thread of its own, so that a dialog that hangs does not stop the window.
 
 use super::PanelContext;
+use super::action::LayerFile;
 use super::pane::Pane;
+use super::proposed_path::{proposed_layer_path, proposed_path};
 use super::task::Task;
 use super::typed_path::{typed_path, unique_names};
 use super::view_export::ViewExport;
 use crate::app::{Export, ExportKind, ExportOptions, JobCommand, Notice, Severity, ViewCommand};
 use crate::truth::sample::SAMPLES;
-use crate::view::Origin;
+use crate::view::{Layer, Origin};
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
 
@@ -86,6 +88,7 @@ impl Dialogs {
     pub fn open(&mut self, dialog: Dialog) {
         (self.dialog, self.focus, self.options.force) = (Some(dialog), true, false);
         self.reading_since = None;
+        self.options.layer = None;
         self.problem.clear();
         self.is_new = true;
         match dialog {
@@ -95,6 +98,13 @@ impl Dialogs {
             Dialog::SaveParameters => "parameters.toml".clone_into(&mut self.path),
             Dialog::SaveWorkspace => "workspace.dichroscope".clone_into(&mut self.path),
         }
+    }
+
+    /// Opens the export dialog for a file of one layer.
+    pub fn open_layer_export(&mut self, cx: &PanelContext, layer: Layer, file: LayerFile) {
+        self.open(Dialog::Export);
+        (self.kind, self.options.layer) = (ExportKind::Layer, Some(layer));
+        self.path = proposed_layer_path(layer, file, cx).display().to_string();
     }
 
     /// Whether a dialog is open. An open dialog owns the keyboard: no key reaches the panels.
@@ -166,6 +176,7 @@ impl Dialogs {
             let radio = ui.add_enabled(available, egui::RadioButton::new(self.kind == kind, kind.title()));
             if radio.on_hover_text(kind.tip()).on_disabled_hover_text(kind.tip()).clicked() {
                 self.kind = kind;
+                self.options.layer = None;
                 self.path = proposed_path(kind, cx).display().to_string();
                 self.focus = true;
             }
@@ -178,6 +189,11 @@ impl Dialogs {
                 ui.checkbox(&mut self.options.force, "replace the folder whatever it holds").on_hover_text(
                     "An earlier result is replaced anyway; this replaces any other folder too.",
                 );
+            }
+            ExportKind::Layer => {
+                let layer = self.options.layer.unwrap_or(cx.state.view.image.layer);
+                let text = format!("{}: .png as shown, .exr or .npy with its numbers", layer.name());
+                ui.label(RichText::new(text).color(cx.palette.secondary));
             }
             ExportKind::View => {
                 ui.horizontal(|ui| {
@@ -362,22 +378,6 @@ impl Dialogs {
             ui.ctx().request_repaint();
         }
     }
-}
-
-/// The proposed path of an export: beside the photograph, or in the working directory.
-fn proposed_path(kind: ExportKind, cx: &PanelContext) -> PathBuf {
-    let picture = cx.state.picture.as_ref();
-    let photo = picture.and_then(|picture| picture.origin.path());
-    let folder = photo.and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();
-    let stem = picture.map_or_else(String::new, |picture| {
-        Path::new(&picture.origin.name()).file_stem().unwrap_or_default().to_string_lossy().into_owned()
-    });
-    let name = format!("{stem}-{}", kind.file());
-    if kind.is_folder() || kind.file().contains('.') {
-        return folder.join(name);
-    }
-    let extension = photo.and_then(Path::extension).map_or("png".into(), |e| e.to_string_lossy());
-    folder.join(format!("{name}.{extension}"))
 }
 
 /// Whether a path has the extension of workspaces.

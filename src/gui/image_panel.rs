@@ -3,8 +3,10 @@
 mod cursor;
 mod geometry;
 mod icons;
+mod navigation;
 mod overlay;
 mod readout;
+mod texts;
 mod textures;
 mod tiles;
 mod toolbar;
@@ -19,18 +21,18 @@ use crate::view::{Arrangement, ImageSettings, Instant, Item, Layer, Tool};
 use cursor::InstantCache;
 use egui::accesskit::Role;
 use egui::{
-    Align2, CentralPanel, Color32, CursorIcon, EventFilter, Frame, Key, Margin, Modifiers, Panel, Rect,
-    Response, Sense, Ui, Vec2, WidgetInfo, pos2, vec2,
+    CentralPanel, Color32, CursorIcon, Frame, Key, Margin, Modifiers, Panel, Rect, Sense, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 pub use geometry::Placement;
+use navigation::navigate;
 use std::sync::Arc;
+use texts::show_texts;
 use textures::{PaintRequest, Slot, TextureCache};
 use tools::{PointerContext, ToolState};
 
 /// Half the width of the wipe's handle, points.
 const HANDLE_PT: f32 = 6.0;
-/// Distance that an arrow key moves the picture, points.
-const PAN_STEP_PT: f32 = 40.0;
 
 /// The image panel: the uploaded textures, and the gesture in progress.
 #[derive(Default)]
@@ -82,7 +84,9 @@ impl ImagePanel {
         }
         let bar = Frame::new().fill(palette.panel);
         let top = Panel::top("image toolbar").frame(bar.inner_margin(Margin::symmetric(6, 3)));
-        let top = top.show(ui, |ui| toolbar::row(ui, state, palette, &mut settings, &mut debug, self.zoom));
+        let top = top.show(ui, |ui| {
+            toolbar::row(ui, state, palette, &mut settings, &mut debug, self.zoom, cx.actions);
+        });
         // The height of a row that wraps is known from the next frame on.
         let height = top.response.rect.height();
         if (height - std::mem::replace(&mut self.toolbar_height_pt, height)).abs() > 0.5 {
@@ -274,11 +278,19 @@ impl ImagePanel {
                 self.paint_instant(ui, &painter, context, state, instant);
                 continue;
             }
-            let request = PaintRequest::layer(state, layer, settings);
+            let compared = match slot {
+                Slot::SecondLayer => PaintRequest::compared_layer(state, layer, settings),
+                _ => None,
+            };
+            let is_compared = compared.is_some();
+            let request = compared.or_else(|| PaintRequest::layer(state, layer, settings));
             let texture = request.and_then(|request| self.textures.get(ui.ctx(), slot, &request));
             if let Some(texture) = texture {
                 texture.draw(&painter, place, tint(cx, layer));
-                overlay::values(&painter, place, state, layer, texture);
+                // The numbers of the other photograph are not at hand.
+                if !is_compared {
+                    overlay::values(&painter, place, state, layer, texture);
+                }
             }
         }
         overlay::grid(&painter, place);
@@ -292,6 +304,7 @@ impl ImagePanel {
         overlay::hovered_colors(&painter, place, state);
         overlay::profile(&painter, place, state);
         overlay::pixels(&painter, place, state, context.response.contains_pointer());
+        overlay::mark_at_pointer(ui, &painter, cx.palette, place, state);
         let brush = (settings.tool == Tool::Brush && context.response.contains_pointer())
             .then_some(settings.brush_px);
         self.tool_state.draw(&painter, place, brush);
@@ -337,77 +350,6 @@ impl ImagePanel {
             cx.send(ViewCommand::Hover(item));
         }
         self.sent_pixel = pixel;
-    }
-}
-
-/// Writes the names of the layers (`shows_names`), the legends of their colors, and the warnings of the analysis.
-fn show_texts(
-    ui: &Ui,
-    painter: &egui::Painter,
-    cx: &PanelContext,
-    parts: &[(Layer, Slot, Rect)],
-    shows_names: bool,
-    instant: Option<&Instant>,
-) {
-    for &(layer, slot, part) in parts {
-        let painter = painter.with_clip_rect(part);
-        if let Some(instant) = instant.filter(|_| slot == Slot::Layer) {
-            cursor::show_texts(ui, &painter, cx.palette, part, cx.state, instant);
-            continue;
-        }
-        if shows_names {
-            let right = parts.len() == 2 && slot == Slot::SecondLayer;
-            let (corner, align) = if right {
-                (part.right_top() + vec2(-6.0, 6.0), Align2::RIGHT_TOP)
-            } else {
-                (part.left_top() + vec2(6.0, 6.0), Align2::LEFT_TOP)
-            };
-            overlay::text_box(&painter, cx.palette, corner, align, layer.name());
-        }
-        overlay::layer_legend(&painter, cx.palette, part, layer, cx.state);
-    }
-    if instant.is_some() {
-        return;
-    }
-    let view = painter.clip_rect();
-    let below = if shows_names { vec2(0.0, 22.0) } else { Vec2::ZERO };
-    overlay::warnings(painter, cx.palette, view.translate(below), cx.state);
-}
-
-/// Zooms and pans by scrolling, pinching and keys.
-fn navigate(ui: &Ui, response: &Response, place: &Placement, settings: &mut ImageSettings) {
-    let pointer = response.hover_pos().filter(|_| response.contains_pointer());
-    if response.clicked() || response.drag_started() {
-        response.request_focus();
-    }
-    let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
-    let factor = pinch * (scroll / 200.0).exp();
-    if let Some(pointer) = pointer.filter(|_| (factor - 1.0).abs() > 1e-6) {
-        place.zoomed(factor, pointer).store(settings);
-    }
-    let focused = ui.memory(egui::Memory::focused);
-    let takes_keys = response.has_focus() || (pointer.is_some() && focused.is_none());
-    if !takes_keys {
-        return;
-    }
-    let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
-    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
-    let (offset, factor) = ui.input(|input| {
-        if input.modifiers.command {
-            return (Vec2::ZERO, 1.0);
-        }
-        let presses = |key: Key| input.num_presses(key) as f32;
-        let offset = vec2(
-            presses(Key::ArrowLeft) - presses(Key::ArrowRight),
-            presses(Key::ArrowUp) - presses(Key::ArrowDown),
-        );
-        let zoom_steps = presses(Key::Plus) + presses(Key::Equals) - presses(Key::Minus);
-        (offset * PAN_STEP_PT, 1.25f32.powf(zoom_steps))
-    });
-    if offset != Vec2::ZERO {
-        place.panned(offset).store(settings);
-    } else if (factor - 1.0).abs() > 1e-6 {
-        place.zoomed(factor, pointer.unwrap_or(place.view.center())).store(settings);
     }
 }
 

@@ -9,7 +9,7 @@ use super::shortcuts::keys_of;
 use super::typed_path::unique_names;
 use super::widgets::capitalized;
 use super::{PanelContext, perform, status};
-use crate::app::{Edit, JobCommand, Severity, StepUnit, ViewCommand, analyze_call};
+use crate::app::{Edit, JobCommand, Severity, StepUnit, Switching, ViewCommand, analyze_call};
 use crate::params::{Method, Preset};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::truth::sample::SAMPLES;
@@ -61,6 +61,7 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
             cx.send(ViewCommand::ForgetRecent);
         }
     });
+    open_photographs(ui, cx);
     ui.menu_button("Sample scenes", |ui| {
         for sample in &SAMPLES {
             if ui.button(sample.name).on_hover_text(sample.about).clicked() {
@@ -89,6 +90,36 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
     if item(ui, "Quit", Action::Quit, true) {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
     }
+}
+
+/// The submenu of the photographs that are open.
+fn open_photographs(ui: &mut Ui, cx: &mut PanelContext) {
+    let Some(picture) = cx.state.picture.clone() else { return };
+    ui.menu_button("Open photographs", |ui| {
+        let _ = ui.selectable_label(true, picture.origin.name());
+        for (index, other) in cx.state.others.iter().enumerate() {
+            if ui.selectable_label(false, other.picture.origin.name()).clicked() {
+                cx.commands.push(JobCommand::Switch(Switching::To(index)).into());
+            }
+        }
+        ui.separator();
+        let several = !cx.state.others.is_empty();
+        for (text, switching) in
+            [("Next photograph", Switching::Next), ("Photograph before", Switching::Previous)]
+        {
+            if item(ui, text, Action::Switch(switching), several) {
+                cx.send(JobCommand::Switch(switching));
+            }
+        }
+        let text =
+            if cx.state.compares_photographs { "No longer compare" } else { "Compare with the next beside" };
+        if item(ui, text, Action::ComparePhotographs, several) {
+            cx.send(ViewCommand::ComparePhotographs(!cx.state.compares_photographs));
+        }
+        if item(ui, "Close this photograph", Action::ClosePhotograph, several) {
+            cx.send(JobCommand::ClosePhotograph);
+        }
+    });
 }
 
 /// The menu of the encodings, for files that declare no encoding or a wrong one.

@@ -43,10 +43,13 @@ panes! {
     Selection = "Selection";
     /// Pinned and newest result.
     Compare = "Compare";
+    /// The steps of undo and redo in words.
+    History = "History";
     /// The decisions in their order, and the cursor among them.
     Timeline = "Timeline";
-    /// The decisions that gave a pixel its region, or made a region.
-    Why = "Why";
+    /// The verdict on what is hovered, selected, marked or stepped to, with values and limits, and its history.
+    #[serde(alias = "Why")]
+    Inspector = "Inspector";
     /// Values at the cursor.
     Watch = "Watch";
     /// Conditions that stop the cursor.

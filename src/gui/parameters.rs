@@ -44,7 +44,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
 /// Shows the choice of the method and the button "Reset".
 fn method(ui: &mut Ui, cx: &mut PanelContext) {
     let current = cx.state.document.params.method;
-    ui.horizontal(|ui| {
+    let has_reset = ui.horizontal(|ui| {
         let tip =
             "Refined: the paper's algorithm with switches below. Paper: as written in 1990, with its readings below (section 5).";
         if ui.available_width() >= NARROW_PT {
@@ -55,19 +55,28 @@ fn method(ui: &mut Ui, cx: &mut PanelContext) {
                 cx.send(Edit::SetMethod(choice));
             }
         }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let defaults = Params::of(current);
-            let changed = cx.state.document.params != defaults;
-            if ui
-                .add_enabled(changed, Button::new("Reset").small())
-                .on_hover_text("Every parameter and switch to this method's default.")
-                .clicked()
-            {
-                cx.send(Edit::SetParams(Box::new(defaults)));
-            }
-        });
+        let has_room = ui.available_width() >= RESET_PT;
+        if has_room {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| reset(ui, cx, current));
+        }
+        has_room
     });
+    if !has_reset.inner {
+        reset(ui, cx, current);
+    }
     ui.add_space(4.0);
+}
+
+/// Width of the button "Reset" with its margin, points.
+const RESET_PT: f32 = 50.0;
+
+/// Shows the button "Reset".
+fn reset(ui: &mut Ui, cx: &mut PanelContext, method: Method) {
+    let defaults = Params::of(method);
+    let button = ui.add_enabled(cx.state.document.params != defaults, Button::new("Reset").small());
+    if button.on_hover_text("Every parameter and switch to this method's default.").clicked() {
+        cx.send(Edit::SetParams(Box::new(defaults)));
+    }
 }
 
 /// Shows the label of a row.

@@ -13,6 +13,7 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
         Action::Open => dialogs.open(files::Dialog::Open),
         Action::OpenWorkspace => dialogs.open(files::Dialog::OpenWorkspace),
         Action::Export => dialogs.open(files::Dialog::Export),
+        Action::ExportLayer(layer, file) => dialogs.open_layer_export(cx, layer, file),
         Action::Save => match cx.state.workspace_path.clone() {
             Some(path) => cx.send(JobCommand::Export(ExportKind::Workspace.to(path))),
             None => dialogs.open(files::Dialog::SaveWorkspace),
@@ -20,6 +21,11 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
         // The window closes itself and arranges its panels: an action has no window.
         Action::Quit | Action::Show(_) | Action::ShowAll | Action::Palette => {}
         Action::Help => *help = !*help,
+        Action::Switch(switching) => cx.send(JobCommand::Switch(switching)),
+        Action::ClosePhotograph => cx.send(JobCommand::ClosePhotograph),
+        Action::ComparePhotographs => {
+            cx.send(ViewCommand::ComparePhotographs(!cx.state.compares_photographs));
+        }
         Action::Undo => cx.send(Edit::Undo),
         Action::Redo => cx.send(Edit::Redo),
         Action::Invert => cx.send(Edit::InvertMarked),

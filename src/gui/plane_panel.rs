@@ -1,6 +1,7 @@
 //! The plane panel: the selected region's pixels in its dichromatic plane, the skewed T of figure 2.
 
 mod chart;
+mod cluster;
 mod cursor;
 mod kinds;
 pub mod testing;
@@ -8,9 +9,11 @@ pub mod testing;
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::app::{Edit, ViewCommand};
+use crate::gui::outline::{Outline, combine_by_keys};
 use crate::raster::RegionId;
 use crate::view::{
-    Item, Picture, PixelAmounts, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, region_plane,
+    Item, Picture, PixelAmounts, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, Tool, plane_mask,
+    region_plane,
 };
 use chart::{Chart, Obstacles, PointDensity};
 use egui::{Align2, Color32, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
@@ -31,12 +34,16 @@ pub struct PlanePanel {
     of: Option<(Arc<ResultSnapshot>, RegionId)>,
     /// The instant at the debugger's cursor that is shown; `None` when the result is shown.
     plane_instant: Option<cursor::PlaneInstant>,
+    /// The clusters of a step of the classification or the merging.
+    clusters: cluster::ClusterCache,
     plane: Option<RegionPlane>,
     chart: Option<Chart>,
     /// Whether a person has panned or zoomed. Until then, the chart is fitted to the plane at every change.
     is_moved: bool,
     point_mesh: Option<PointMesh>,
     is_hovering: bool,
+    /// The outline that is being drawn.
+    outline: Outline,
 }
 
 /// The points as a mesh, with the inputs that the mesh was made for.
@@ -52,6 +59,9 @@ impl PlanePanel {
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let state = cx.state;
         if let Some(replay) = state.followed() {
+            if let Some(clusters) = self.clusters.get(state) {
+                return cluster::show(ui, cx, clusters);
+            }
             return match cursor::plane_instant(state) {
                 Some(frame) => self.show_instant(ui, cx, replay, frame),
                 None => widgets::placeholder(ui, cx.palette, "The step at the cursor concerns no region."),
@@ -83,7 +93,8 @@ impl PlanePanel {
             egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, name)
         });
         let moved = self.chart.filter(|_| self.is_moved);
-        let chart = navigate(ui, &response, plane, moved, rect, &mut self.is_moved);
+        let is_pointer = cx.state.view.plane.tool == Tool::Pointer;
+        let chart = navigate(ui, &response, plane, moved, rect, &mut self.is_moved, is_pointer);
         self.chart = Some(chart);
         let painter = ui.painter_at(rect);
         let numbers = chart.axes(&painter, plane, rect, cx.palette);
@@ -96,7 +107,28 @@ impl PlanePanel {
         let obstacles =
             Obstacles { points, taken: facts.into_iter().chain([amounts]).chain(numbers).collect() };
         chart.skewed_t(ui, &response, plane, rect, cx.palette, &obstacles);
-        self.handle_pointer(cx, &response, chart, rect);
+        if let Some(outline) = self.outline.handle_pointer(ui, &response, cx.state.view.plane.tool) {
+            mark_outlined(
+                ui,
+                cx,
+                &shown,
+                plane,
+                &outline.iter().map(|at| chart.oblique(*at, rect)).collect::<Vec<_>>(),
+            );
+        }
+        self.outline.paint(&painter, &response, cx.palette.accent);
+        if is_pointer {
+            self.handle_pointer(cx, &response, chart, rect);
+        }
+    }
+
+    /// Drops an unfinished outline when Escape is pressed, and consumes the key, so that the selection stays.
+    pub fn cancel_on_escape(&mut self, ctx: &egui::Context) {
+        if self.outline.is_unfinished()
+            && ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
+        {
+            self.outline = Outline::default();
+        }
     }
 
     /// Computes the plane of a region, where result or region have changed.
@@ -135,6 +167,19 @@ impl PlanePanel {
     }
 }
 
+/// Marks the pixels of the region whose colors lie inside an outline, oblique counts.
+fn mark_outlined(
+    ui: &Ui,
+    cx: &mut PanelContext,
+    shown: &ResultSnapshot,
+    plane: &RegionPlane,
+    corners: &[[f32; 2]],
+) {
+    if let Some(mask) = plane_mask(shown, plane, |place| crate::gpu::pick::encloses(corners, place)) {
+        cx.send(Edit::Mark(Arc::new(mask), combine_by_keys(ui), None));
+    }
+}
+
 /// Shows, while no region is selected, a sentence and the button that selects the largest region.
 fn nothing_selected(ui: &mut Ui, cx: &mut PanelContext) {
     let text = "Select a region to see its dichromatic plane.";
@@ -150,7 +195,7 @@ fn nothing_selected(ui: &mut Ui, cx: &mut PanelContext) {
 
 /// The chart after this frame's input: a drag pans, the wheel zooms at the pointer, a double click fits the plane. `chart` is the
 /// chart that a person moved; without such a chart, the plane is fitted into the view. `is_moved` is whether a person has
-/// moved the chart.
+/// moved the chart. `pans` is whether a drag pans; otherwise a drag draws an outline.
 fn navigate(
     ui: &Ui,
     response: &Response,
@@ -158,11 +203,14 @@ fn navigate(
     chart: Option<Chart>,
     rect: Rect,
     is_moved: &mut bool,
+    pans: bool,
 ) -> Chart {
     let fitted = chart.filter(|_| !response.double_clicked());
     let mut chart = fitted.unwrap_or_else(|| Chart::fit(plane, rect));
     let before = chart;
-    chart.pan(response.drag_delta());
+    if pans || response.dragged_by(egui::PointerButton::Middle) {
+        chart.pan(response.drag_delta());
+    }
     if let Some(pointer) = response.hover_pos() {
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
         chart.zoom((scroll / SCROLL_PT).exp() * pinch, pointer, rect);
@@ -180,6 +228,7 @@ fn point_mesh(
     rect: Rect,
 ) -> Arc<egui::Mesh> {
     let by_label = cx.state.view.plane.color_by_label;
+    let own = cx.state.focus_color();
     let inputs = (chart, rect, by_label, cx.state.view.theme);
     if let Some(point_mesh) = cached.as_ref().filter(|point_mesh| point_mesh.inputs == inputs) {
         return Arc::clone(&point_mesh.mesh);
@@ -191,7 +240,7 @@ fn point_mesh(
         let at = chart.screen(plane.oblique(point.body, point.surface), rect);
         if rect.expand(4.0).contains(at) {
             let color = if by_label {
-                kinds::color(point.kind, cx.state.view.theme)
+                kinds::color_of(point, own, cx.state.view.theme)
             } else {
                 widgets::own_color(point.color)
             };

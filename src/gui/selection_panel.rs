@@ -1,6 +1,7 @@
 //! The selection panel: statistics of the marked or selected pixels (number, colors, place).
 
 use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
+use super::named_marks_list::NamedMarksList;
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::app::Edit;
@@ -20,6 +21,7 @@ type StatisticsKey = (u64, Option<usize>, Option<Item>);
 #[derive(Default)]
 pub struct SelectionPanel {
     statistics: BackgroundValue<StatisticsKey, Option<Statistics>>,
+    named_marks: NamedMarksList,
 }
 
 impl SelectionPanel {
@@ -37,6 +39,11 @@ impl SelectionPanel {
         let subject = match (&marked, item) {
             (Some(_), _) => "Marked pixels".to_owned(),
             (None, Some(item)) => name_of(item, shown.picture.size().0),
+            (None, None) if !state.document.selection.named.marks.is_empty() => {
+                let frame = egui::Frame::new().inner_margin(8);
+                frame.show(ui, |ui| self.named_marks.show(ui, cx));
+                return;
+            }
             (None, None) => {
                 let hint = "Click a region, or mark pixels with a tool of the image or the color space.";
                 return widgets::placeholder(ui, cx.palette, hint);
@@ -51,18 +58,23 @@ impl SelectionPanel {
         };
         let found = self.statistics.get(ui.ctx(), key, synchronous, make);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            egui::Frame::new().inner_margin(8).show(ui, |ui| match found {
-                Some(Some(found)) => {
-                    buttons(ui, cx, &subject);
-                    ui.horizontal_wrapped(|ui| facts(ui, cx, found));
-                    bands(ui, cx, found);
-                }
-                Some(None) => {
-                    buttons(ui, cx, &subject);
-                    ui.label(RichText::new("No pixel of the picture is in it.").color(cx.palette.secondary));
-                }
-                None => {
-                    ui.label(RichText::new("counting\u{2026}").color(cx.palette.secondary));
+            egui::Frame::new().inner_margin(8).show(ui, |ui| {
+                self.named_marks.show(ui, cx);
+                match found {
+                    Some(Some(found)) => {
+                        buttons(ui, cx, &subject);
+                        ui.horizontal_wrapped(|ui| facts(ui, cx, found));
+                        bands(ui, cx, found);
+                    }
+                    Some(None) => {
+                        buttons(ui, cx, &subject);
+                        ui.label(
+                            RichText::new("No pixel of the picture is in it.").color(cx.palette.secondary),
+                        );
+                    }
+                    None => {
+                        ui.label(RichText::new("counting\u{2026}").color(cx.palette.secondary));
+                    }
                 }
             });
         });

@@ -8,6 +8,7 @@ pub use debug::{KeyListeners, SpaceTap};
 use super::PanelContext;
 use super::action::{Action, DebugAction};
 use super::theme::SMALL_PT;
+use crate::app::Switching;
 use crate::view::{Layer, Tool};
 use egui::{Key, KeyboardShortcut, Modifiers, RichText, Ui};
 use shortcut::Shortcut;
@@ -46,6 +47,24 @@ const GENERAL: &[Shortcut] = &[
     key_with_command("File", Key::O, Action::Open, "Open a photograph"),
     key_with_command("File", Key::E, Action::Export, "Export"),
     key_with_command("File", Key::S, Action::Save, "Save the workspace"),
+    Shortcut::new(
+        "File",
+        Modifiers::CTRL.plus(Modifiers::SHIFT),
+        Key::Tab,
+        Action::Switch(Switching::Previous),
+        "The open photograph before",
+    ),
+    Shortcut::new(
+        "File",
+        Modifiers::CTRL,
+        Key::Tab,
+        Action::Switch(Switching::Next),
+        "The next open photograph",
+    ),
+    key_with_command("File", Key::PageDown, Action::Switch(Switching::Next), "The next open photograph"),
+    key_with_command("File", Key::PageUp, Action::Switch(Switching::Previous), "The open photograph before"),
+    key_with_command("File", Key::W, Action::ClosePhotograph, "Close the photograph, where others are open"),
+    key_with_command("File", Key::D, Action::ComparePhotographs, "Compare the next open photograph beside"),
     key_with_command("File", Key::Q, Action::Quit, "Quit"),
     key_with_command("Edit", Key::Z, Action::Undo, "Undo"),
     key_with_command("Edit", Key::Y, Action::Redo, "Redo"),

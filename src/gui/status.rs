@@ -11,12 +11,19 @@ use std::time::Duration;
 /// Time after which running work is shown with a spinner and a progress bar.
 pub const PROGRESS_DELAY: Duration = Duration::from_millis(150);
 
+/// Smallest width of a part, points.
+const LEAST_PART_PT: f32 = 44.0;
+
 /// Shows the line, right-aligned in the remaining space of the menu bar.
 pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         progress(ui, cx);
         for StatusPart { text, is_bad } in parts(cx).into_iter().rev() {
+            // A part without room for a word is left out, so that no text lies on the menus.
+            if ui.available_width() < LEAST_PART_PT {
+                break;
+            }
             let color = if is_bad { cx.palette.warning } else { cx.palette.secondary };
             let text = super::widgets::with_subscripts(&text, SMALL_PT, color);
             ui.add(egui::Label::new(text).truncate());

@@ -2,7 +2,7 @@
 
 use super::ResultSnapshot;
 use super::snapshot::{best_overlaps, overlaps};
-use crate::params::{Method, Parameter, Reading, Switch};
+use crate::params::{Method, Parameter, Params, Reading, Switch};
 use crate::raster::RegionId;
 use crate::truth::angle_deg;
 use rayon::prelude::*;
@@ -123,39 +123,48 @@ pub fn compare(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Option<Compa
     })
 }
 
-fn settings(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<SettingChange> {
+/// The settings that differ between two sets of parameters.
+pub fn setting_changes(before: &Params, after: &Params) -> Vec<SettingChange> {
     let mut changes = Vec::new();
     let mut add = |name, pinned: String, newest: String| {
         if pinned != newest {
             changes.push(SettingChange { name, pinned, newest });
         }
     };
-    let method = |shown: &ResultSnapshot| format!("{:?}", shown.params.method).to_lowercase();
-    add("method", method(pinned), method(newest));
+    let method = |params: &Params| format!("{:?}", params.method).to_lowercase();
+    add("method", method(before), method(after));
     for parameter in Parameter::ALL {
-        let asked = |shown: &ResultSnapshot| shown.params.get(parameter).to_string();
-        add(parameter.spec().name, asked(pinned), asked(newest));
+        let asked = |params: &Params| params.get(parameter).to_string();
+        add(parameter.spec().name, asked(before), asked(after));
     }
-    add("illuminant", pinned.params.illuminant.to_string(), newest.params.illuminant.to_string());
-    add("ambient", pinned.params.ambient.to_string(), newest.params.ambient.to_string());
+    add("illuminant", before.illuminant.to_string(), after.illuminant.to_string());
+    add("ambient", before.ambient.to_string(), after.ambient.to_string());
     let word = |on: bool| if on { "on" } else { "off" }.to_owned();
-    let (before, after) = (pinned.params.refinements(), newest.params.refinements());
+    let (old, new) = (before.refinements(), after.refinements());
     for switch in Switch::ALL {
-        add(switch.name(), word(before.get(switch)), word(after.get(switch)));
+        add(switch.name(), word(old.get(switch)), word(new.get(switch)));
     }
-    let (before, after) = (pinned.params.rules().readings, newest.params.rules().readings);
-    if pinned.params.method == Method::Paper && newest.params.method == Method::Paper {
+    let (old, new) = (before.rules().readings, after.rules().readings);
+    if before.method == Method::Paper && after.method == Method::Paper {
         for reading in Reading::ALL {
-            add(reading.name(), word(before.get(reading)), word(after.get(reading)));
+            add(reading.name(), word(old.get(reading)), word(new.get(reading)));
         }
     }
+    changes
+}
+
+fn settings(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<SettingChange> {
+    let mut changes = setting_changes(&pinned.params, &newest.params);
     let area = |shown: &ResultSnapshot| {
         shown.area.as_ref().map_or_else(
             || "all".to_owned(),
             |area| format!("{} px", area.as_slice().iter().filter(|&&inside| inside).count()),
         )
     };
-    add("area", area(pinned), area(newest));
+    let (pinned, newest) = (area(pinned), area(newest));
+    if pinned != newest {
+        changes.push(SettingChange { name: "area", pinned, newest });
+    }
     changes
 }
 

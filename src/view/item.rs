@@ -1,5 +1,6 @@
 //! The items that can be hovered and selected. All panels share one hover and one selection.
 
+use super::named_marks::NamedMarks;
 use crate::raster::{Mask, PixelIndex, RegionId};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -24,10 +25,12 @@ pub struct Selection {
     pub item: Option<Item>,
     /// The marked pixels; none: no pixel is marked.
     pub marked: Option<Arc<Mask>>,
+    /// The named marks.
+    pub named: Arc<NamedMarks>,
 }
 
 impl Selection {
-    /// Whether nothing at all is selected.
+    /// Whether no item is selected and no pixel is marked; named marks do not count.
     pub fn is_empty(&self) -> bool {
         self.item.is_none() && self.marked.is_none()
     }

@@ -12,15 +12,17 @@ mod marks;
 mod painters;
 mod pyramid;
 mod table;
+mod values;
 
-pub use instant::{beside_color, instant_legend, paint_instant};
-pub use legends::{LegendEntry, class_entries};
+pub use instant::{instant_legend, paint_instant};
+pub use legends::{class_entries, reason_entry};
 pub use look::{DIFFERENCE_COUNTS, Fill, Look};
-pub use marks::{ACCENT, marks};
+pub use marks::marks;
 pub use pyramid::pyramid;
 pub use table::Layer;
+pub(crate) use values::layer_floats;
 
-use super::{Picture, ResultSnapshot};
+use super::{LegendEntry, Picture, ResultSnapshot};
 use crate::intrinsic::Intrinsic;
 use crate::raster::Raster;
 pub(crate) use curve::Curve;

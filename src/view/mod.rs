@@ -5,15 +5,21 @@
 
 mod accuracy;
 mod axes;
+mod cluster_plane;
 mod colors;
 mod compare;
 mod curves;
 mod histogram;
+mod inspection;
 mod item;
 mod layers;
+mod legend_entry;
 pub mod marking;
+mod meaning;
+mod named_marks;
 mod picture;
 mod pixel_amounts;
+mod plane_marks;
 mod plane_points;
 mod profile;
 mod replay;
@@ -33,29 +39,40 @@ mod verdict;
 
 pub use accuracy::{Accuracy, RegionAccuracy};
 pub use axes::{Axis, Tick};
+pub use cluster_plane::{Cluster, ClusterPlane, ELLIPSE_DEVIATIONS, cluster_plane};
 pub(crate) use colors::region_colors;
 pub use compare::{
     BodyChange, ComparedRegion, Comparison, Figure, PixelChanges, RegionChange, SettingChange, compare,
+    setting_changes,
 };
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
-pub use item::{Item, Selection};
-pub use layers::{
-    ACCENT, DIFFERENCE_COUNTS, Fill, Layer, LegendEntry, Look, beside_color, class_entries, instant_legend,
-    legend, marks, paint, paint_instant, pyramid,
+pub use inspection::{
+    Inspection, Limits, ThresholdTest, Tone, candidate_tests, inspect_item, inspect_marked, inspect_step,
+    step_verdict,
 };
+pub use item::{Item, Selection};
+pub(crate) use layers::layer_floats;
+pub use layers::{
+    DIFFERENCE_COUNTS, Fill, Layer, Look, class_entries, instant_legend, legend, marks, paint, paint_instant,
+    pyramid, reason_entry,
+};
+pub use legend_entry::LegendEntry;
+pub use meaning::{ACCENT, Meaning};
+pub use named_marks::{NamedMark, NamedMarks};
 pub use picture::{Origin, Picture};
 pub use pixel_amounts::{Amounts, PixelAmounts};
+pub use plane_marks::plane_mask;
 pub use plane_points::{
     MOST_PLANE_POINTS, PlaneBranch, PlanePixel, RegionPlane, growing_plane, region_plane, test_plane,
 };
 pub(crate) use profile::profile_csv;
 pub use profile::{ProfileSample, profile, profile_ends};
 pub use replay::{
-    AxisDistance, Check, CurrentHypothesis, Growth, HypothesisRow, Instant, InstantView, RegionNames,
-    RegionsView, Role, RolesView, SkewedTView, Status, StepPixels, TimelineAxis, TimelineSection, Watch,
-    WatchedPixel, Why, WhySentence, WindowCounts, WindowsView, candidate_name, candidate_reach, cursor_place,
-    growth, hypothesis_rows, sampled, skewed_t_view, step_pixels, test_at_cursor, timeline_density, watch,
-    why, window_counts,
+    AxisDistance, CurrentHypothesis, Growth, HypothesisRow, Instant, InstantView, RegionNames, RegionsView,
+    Role, RolesView, SkewedTView, Status, StepPixels, TimelineAxis, TimelineSection, Watch, WatchedPixel,
+    Why, WhySentence, WindowCounts, WindowsView, candidate_name, candidate_reach, cursor_place, growth,
+    hypothesis_rows, sampled, skewed_t_view, step_pixels, test_at_cursor, timeline_density, watch, why,
+    window_counts,
 };
 pub(crate) use replay::{candidate_pixels, growth_pixels, measured_and_ignored, pixels_of_region, rings};
 pub(crate) use runs::MaskRuns;

@@ -5,7 +5,7 @@ mod cursor;
 pub use cursor::{growing_plane, test_plane};
 
 use super::shapes::{across, hypothesis, starts};
-use super::{Point, ResultSnapshot};
+use super::{Meaning, Point, ResultSnapshot};
 use crate::color::{Vec3, rgb};
 use crate::raster::{LabelMap, PixelIndex, RegionId};
 use crate::reflection::{Components, ReflectionTransform};
@@ -69,6 +69,8 @@ pub struct PlanePixel {
     pub color: Point,
     /// Kind of the pixels; all pixels of a cell are of one kind.
     pub kind: PixelKind,
+    /// What the step at the debugger's cursor did with the pixel; none in a result.
+    pub meaning: Option<Meaning>,
     /// The pixel, or the first pixel of the cell.
     pub pixel: PixelIndex,
     /// Number of pixels that the point stands for.
@@ -202,6 +204,7 @@ fn points(
             surface,
             color,
             kind: kinds[pixel as usize],
+            meaning: None,
             pixel: PixelIndex::new(pixel),
             count: 1,
         }
@@ -244,6 +247,7 @@ fn points(
             surface,
             color: [r, g, b],
             kind: kinds[pixel as usize],
+            meaning: None,
             pixel: PixelIndex::new(pixel),
             count,
         }
@@ -353,6 +357,7 @@ mod tests {
             surface,
             color: [0.0; 3],
             kind,
+            meaning: None,
             pixel: PixelIndex::new(0),
             count: 1,
         };

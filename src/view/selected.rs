@@ -72,7 +72,7 @@ mod tests {
         let picture = gray(&ROWS, 50);
         let shown = divided(&picture, &ROWS);
         let of = |item, marked: Option<&Mask>| {
-            let selection = Selection { item, marked: marked.cloned().map(Arc::new) };
+            let selection = Selection { item, marked: marked.cloned().map(Arc::new), ..Selection::default() };
             selected_pixels(&selection, &picture, Some(&shown)).map(Raster::into_vec)
         };
         let (t, f) = (true, false);

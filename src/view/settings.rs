@@ -143,6 +143,12 @@ pub struct CubeSettings {
     pub color_by: ColorBy,
     /// Whether points grow with the number of their pixels.
     pub size_by_count: bool,
+    /// Factor of the points' diameters.
+    pub point_scale: f32,
+    /// Opacity of the points that are no ghosts, 0…1.
+    pub point_opacity: f32,
+    /// Place of the depth plane, as a share of the cube's depth from its nearest point on: what is nearer to the viewer is hidden; 0: nothing is.
+    pub depth_plane: f32,
     /// Show every unique color instead of 64³ bins while the camera is at rest.
     pub full_detail: bool,
     /// Dim the points that are not selected.
@@ -169,6 +175,9 @@ impl Default for CubeSettings {
             space: ColorSpace::Rgb,
             color_by: ColorBy::Own,
             size_by_count: true,
+            point_scale: 1.0,
+            point_opacity: 1.0,
+            depth_plane: 0.0,
             full_detail: false,
             ghost_rest: true,
             show_cylinder: true,
@@ -189,11 +198,13 @@ pub struct PlaneSettings {
     /// Color points by their label (matte, highlight, restored) instead of their own color.
     #[serde(alias = "colour_by_label")]
     pub color_by_label: bool,
+    /// The tool of the pointer: pointer, rectangle, lasso or polygon.
+    pub tool: Tool,
 }
 
 impl Default for PlaneSettings {
     fn default() -> Self {
-        Self { color_by_label: true }
+        Self { color_by_label: true, tool: Tool::Pointer }
     }
 }
 

@@ -144,6 +144,22 @@ pub fn next_stop(replay: &Replay, goal: usize, breakpoints: &[Breakpoint]) -> Op
 }
 
 impl Condition {
+    /// The condition that stops the cursor at steps like `step`; none for a step that no condition is about.
+    pub fn for_step(step: &Step, trace: &Trace) -> Option<Self> {
+        if let Some(pixel) = step.pixel() {
+            let middle = trace.pixel_blocks().middle(pixel.index());
+            return Some(Self::PixelChangesOwner(PixelIndex::from_index(middle)));
+        }
+        match step {
+            Step::Event(Event::WindowClassified(found)) => {
+                found.class.map(|class| Self::ClassIs(class.into()))
+            }
+            Step::Event(Event::CandidateTested(_)) => Some(Self::CandidateFails(CandidateCheck::Any)),
+            Step::Event(event) if rejects(event) => Some(Self::HypothesisRejected),
+            _ => None,
+        }
+    }
+
     /// The condition on the pixels of a trace, which are working pixels, in place of the pixels of the photograph.
     fn of_working_pixels(self, trace: &Trace) -> Self {
         match self {

@@ -6,8 +6,9 @@ use crate::trace::Replay;
 use crate::trace::{CandidateSource, MergeTried, Trace, WindowClassified};
 use crate::trace::{Event, Stage, Step, Topic};
 use crate::view::{
-    Instant, InstantView, RegionsView, Status, candidate_pixels, cursor_place, cursor_shapes, growth_pixels,
-    hypothesis_rows, measured_and_ignored, pixels_of_region, step_pixels, test_at_cursor, window_counts,
+    Instant, InstantView, Meaning, RegionsView, Status, candidate_pixels, cursor_place, cursor_shapes,
+    growth_pixels, hypothesis_rows, measured_and_ignored, pixels_of_region, step_pixels, test_at_cursor,
+    window_counts,
 };
 use crate::view::{Layer, Look, Origin, Role};
 use crate::view::{paint, paint_instant};
@@ -210,9 +211,9 @@ fn a_test_is_about_both_clusters_and_the_ignored_pixels() {
     assert!(longer * 100 <= measured.len(), "the matte line ends where its brightest pixels do");
     let groups = step_pixels(replay, None, colors(&application), masks(&application), 50);
     assert!(groups.iter().all(|(_, pixels)| pixels.len() <= 50));
-    assert!(groups.iter().any(|(role, _)| *role == Role::Own));
+    assert!(groups.iter().any(|(role, _)| *role == Role::Meaning(Meaning::Taken)));
     if !matches!(test.candidate, CandidateSource::Absorbed(_)) {
-        assert!(groups.iter().any(|(role, _)| *role == Role::Beside));
+        assert!(groups.iter().any(|(role, _)| *role == Role::Meaning(Meaning::Candidate)));
         assert_eq!(candidate_pixels(replay, test, masks(&application)).len(), test.pixels as usize);
     }
     let chosen = |event: &Event| matches!(event, Event::CandidateChosen(_));

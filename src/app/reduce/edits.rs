@@ -1,5 +1,6 @@
 //! The reducer of the document's edits: each change is a step of the undo history, and is analyzed where needed.
 
+use super::named_marks::{edit_named_marks, update_active_mark};
 use crate::app::{Combine, Document, Edit, Effect, Gesture, Severity, State};
 use crate::params::{IlluminantSetting, Method, Parameter, Params};
 use crate::raster::{Mask, Raster};
@@ -16,6 +17,10 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
         Edit::Redo => {
             let later = state.history.redo(&state.document);
             restore_document(state, later)
+        }
+        Edit::GoTo(entry) => {
+            let other = state.history.go_to(entry, &state.document);
+            restore_document(state, other)
         }
         Edit::EndGesture => {
             state.history.end_gesture();
@@ -40,7 +45,9 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
             edit(state, None, |document| document.selection.item = item)
         }
         Edit::Mark(mask, combine, gesture) => edit(state, gesture, |document| {
-            document.selection.marked = combined_marks(document.selection.marked.take(), mask, combine);
+            let (selection, size) = (&mut document.selection, (mask.width(), mask.height()));
+            selection.marked = combined_marks(selection.marked.take(), mask, combine);
+            update_active_mark(selection, size);
         }),
         Edit::InvertMarked => {
             let Some(size) = state.picture.as_ref().map(|picture| picture.size()) else { return Vec::new() };
@@ -50,11 +57,19 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
                     Some(mask) => some_if_any(mask.map(|&on| !on)),
                     None => Some(Arc::new(Mask::filled(size.0, size.1, true))),
                 };
+                update_active_mark(&mut document.selection, size);
             })
+        }
+        Edit::NamedMark(change) => {
+            edit(state, None, |document| edit_named_marks(&mut document.selection, change))
         }
         Edit::ClearSelection => {
             state.explained_pixel = None;
-            edit(state, None, |document| document.selection = Selection::default())
+            edit(state, None, |document| {
+                let mut named = (*document.selection.named).clone();
+                named.active = None;
+                document.selection = Selection { named: Arc::new(named), ..Selection::default() };
+            })
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The reducer of the commands that start and stop work in the background.
 
+use super::photographs;
 use crate::app::{Effect, JobCommand, Severity, State};
 use crate::photo::ReadOptions;
 
@@ -10,6 +11,8 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
             state.restoring = None;
             vec![Effect::Read(origin, ReadOptions::default())]
         }
+        JobCommand::Switch(switching) => photographs::switch(state, switching),
+        JobCommand::ClosePhotograph => photographs::close(state),
         JobCommand::ReadAs(options) => {
             state.restoring = None;
             state.picture.iter().map(|picture| Effect::Read(picture.origin.clone(), options)).collect()

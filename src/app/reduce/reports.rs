@@ -2,12 +2,13 @@
 
 use super::debugger::take_trace;
 use super::edits::{analyze, edit_params};
+use super::photographs::keep_open;
 use super::questions::take_progress;
 use crate::app::report::{Report, Work};
 use crate::app::state::{AfterPin, Restoring};
 use crate::app::{Debugger, Document, Effect, Preview, Severity, State, ViewSettings, Workspace};
 use crate::params::{IlluminantSetting, Params};
-use crate::view::{Item, MaskRuns, Picture, ProfileLine, ResultSnapshot};
+use crate::view::{Item, MaskRuns, NamedMark, NamedMarks, Picture, ProfileLine, ResultSnapshot};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -116,12 +117,18 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     let warnings: Vec<String> = warnings.collect();
     let restored = state.restoring.take().filter(|restoring| restoring.workspace.origin == picture.origin);
     let had_picture = state.picture.is_some();
+    let params = state.document.params;
+    // A photograph that is read again, with another encoding or by a workspace, replaces itself.
+    if state.picture.as_ref().is_some_and(|shown| shown.origin != picture.origin) {
+        keep_open(state);
+    }
+    state.others.retain(|other| other.picture.origin != picture.origin);
     // What was said about the photograph before does not concern this one.
     state.notices.retain(|notice| !notice.of_photograph);
     state.picture = Some(picture);
     state.debugger = Debugger::default();
     // Masks belong to one picture; parameters stay.
-    state.document = Document { params: state.document.params, ..Document::default() };
+    state.document = Document { params, ..Document::default() };
     state.history.forget();
     (state.newest, state.pinned, state.hover, state.explained_pixel) = (None, None, None, None);
     state.view.show_pinned = false;
@@ -147,7 +154,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
 /// Restores the parts of a workspace other than its photograph, which is open by now.
 fn restore_workspace(state: &mut State, workspace: Workspace) {
     let Some(size) = state.picture.as_ref().map(|picture| picture.size()) else { return };
-    let Workspace { params, pinned, area, item, marked, view, .. } = workspace;
+    let Workspace { params, pinned, area, item, marked, named_marks, view, .. } = workspace;
     let show_pinned = view.show_pinned;
     // The theme is a choice for the whole program: a workspace does not change the theme.
     state.view = ViewSettings { show_pinned: false, theme: state.view.theme, ..view };
@@ -161,6 +168,13 @@ fn restore_workspace(state: &mut State, workspace: Workspace) {
         mask.map(Arc::new)
     };
     let (area, marked) = (mask("area", area), mask("selection", marked));
+    let named = named_marks
+        .into_iter()
+        .filter_map(|saved| {
+            Some(NamedMark::new(saved.name, saved.color, mask("named mark", Some(saved.pixels))?))
+        })
+        .collect();
+    state.document.selection.named = Arc::new(NamedMarks { marks: named, active: None });
     state.document.area = area;
     state.document.selection.marked = marked;
     if let Some(pinned) = pinned {

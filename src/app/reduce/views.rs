@@ -1,7 +1,7 @@
 //! The reducer of the commands that change how things are shown.
 
 use crate::app::{State, ViewCommand};
-use crate::view::Item;
+use crate::view::{Arrangement, Item};
 use std::sync::Arc;
 
 /// Changes how things are shown.
@@ -31,6 +31,15 @@ pub(super) fn reduce(state: &mut State, command: ViewCommand) {
         ViewCommand::Camera(camera) => state.view.camera = camera,
         ViewCommand::Notify(severity, text) => state.notify(severity, text),
         ViewCommand::Dismiss(id) => state.notices.retain(|notice| notice.id != id),
+        ViewCommand::ComparePhotographs(compares) => {
+            state.compares_photographs = compares;
+            if compares && state.view.image.arrangement == Arrangement::Single {
+                state.view.image.arrangement = Arrangement::SideBySide;
+            }
+            if compares {
+                state.view.image.other = state.view.image.layer;
+            }
+        }
         ViewCommand::ForgetRecent => state.recent.clear(),
     }
 }

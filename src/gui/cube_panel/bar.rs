@@ -5,9 +5,10 @@ use crate::app::ViewCommand;
 use crate::gpu::Projection;
 use crate::gui::PanelContext;
 use crate::gui::icons::{self, Icon};
+use crate::gui::widgets::clickable;
 use crate::view::{ColorBy, ColorSpace, CubeSettings, Tool};
 use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Button, ComboBox, PopupCloseBehavior, Ui, WidgetInfo};
+use egui::{Button, ComboBox, PopupCloseBehavior, Slider, Ui, WidgetInfo};
 
 /// Below this width all tools are in one menu, points.
 const NARROW_PT: f32 = 430.0;
@@ -184,6 +185,41 @@ fn shape_checkboxes(ui: &mut Ui, settings: &mut CubeSettings) {
         "Every color at rest",
         "Each color that occurs instead of 64 \u{d7} 64 \u{d7} 64 bins, when the camera rests.",
     );
+    point_sliders(ui, settings);
+}
+
+/// Shows the sliders of the points' size and opacity, and of the depth plane; a double-click resets.
+fn point_sliders(ui: &mut Ui, settings: &mut CubeSettings) {
+    let defaults = CubeSettings::default();
+    ui.spacing_mut().slider_width = 110.0;
+    for (value, range, default, name, tip) in [
+        (
+            &mut settings.point_scale,
+            0.25..=4.0,
+            defaults.point_scale,
+            "Point size",
+            "Factor of the points' diameters; a double-click resets.",
+        ),
+        (
+            &mut settings.point_opacity,
+            0.05..=1.0,
+            defaults.point_opacity,
+            "Point opacity",
+            "Opacity of the points that are no ghosts; a double-click resets.",
+        ),
+        (
+            &mut settings.depth_plane,
+            0.0..=1.0,
+            defaults.depth_plane,
+            "Depth plane",
+            "Hides what is nearer to the viewer than this share of the cube's depth; a double-click resets.",
+        ),
+    ] {
+        let slider = ui.add(Slider::new(value, range).max_decimals(2).text(name)).on_hover_text(tip);
+        if clickable(&slider).double_clicked() {
+            *value = default;
+        }
+    }
 }
 
 /// Shows the named views and the choice of the projection.

@@ -72,6 +72,8 @@ struct Inputs {
     item: Option<Item>,
     /// Color space, coloring, whether sizes show counts, whether the rest is ghosts, theme.
     settings: (ColorSpace, ColorBy, bool, bool, Theme),
+    /// Factor of the diameters, and opacity of the points that are no ghosts.
+    scale_and_opacity: [f32; 2],
     unique_colors: Option<Arc<[UniqueColor]>>,
     /// Whether all points are ghosts, because the pixels at the debugger's cursor are drawn instead.
     ghosts_only: bool,
@@ -84,7 +86,8 @@ impl Inputs {
         unique_colors: Option<&Arc<[UniqueColor]>>,
         ghosts_only: bool,
     ) -> Self {
-        let CubeSettings { space, size_by_count, ghost_rest, .. } = state.view.cube;
+        let CubeSettings { space, size_by_count, ghost_rest, point_scale, point_opacity, .. } =
+            state.view.cube;
         let color_by = color_by(state);
         let selection = &state.document.selection;
         Self {
@@ -93,6 +96,7 @@ impl Inputs {
             marked: selection.marked.clone(),
             item: selection.item,
             settings: (space, color_by, size_by_count, ghost_rest, state.view.theme),
+            scale_and_opacity: [point_scale, point_opacity],
             unique_colors: unique_colors.cloned(),
             ghosts_only,
         }
@@ -106,6 +110,7 @@ impl Inputs {
             && same_arc(self.marked.as_ref(), other.marked.as_ref())
             && same_arc(self.unique_colors.as_ref(), other.unique_colors.as_ref())
             && (self.item, self.settings, self.ghosts_only) == (other.item, other.settings, other.ghosts_only)
+            && self.scale_and_opacity.map(f32::to_bits) == other.scale_and_opacity.map(f32::to_bits)
     }
 }
 
@@ -162,7 +167,7 @@ impl Cloud {
             }
             Some(colors) => PointStyle::split(colors.iter().map(|unique| {
                 let mut point = style.point(unique.bin as usize, unique.color, unique.count);
-                point.size_px = point.size_px.min(PLAIN_PT);
+                point.size_px = point.size_px.min(PLAIN_PT * inputs.scale_and_opacity[0]);
                 (point, is_in_focus(pixels_in_focus.as_deref(), unique.bin as usize))
             })),
         };
@@ -225,7 +230,11 @@ impl PointStyle<'_> {
         };
         let size_px =
             if size_by_count { SIZES_PT[0] + (SIZES_PT[1] - SIZES_PT[0]) * share * share } else { PLAIN_PT };
-        Point { position: space.place(counts, full), color: color.to_array(), size_px }
+        let [scale, opacity] = self.inputs.scale_and_opacity;
+        let [r, g, b, _] = color.to_array();
+        let alpha = (255.0 * opacity.clamp(0.0, 1.0)).round() as u8;
+        let size_px = size_px * scale.clamp(0.1, 10.0);
+        Point { position: space.place(counts, full), color: [r, g, b, alpha], size_px }
     }
 
     fn region_color(&self, bin: usize) -> Color32 {

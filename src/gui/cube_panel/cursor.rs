@@ -9,7 +9,7 @@ use crate::gui::theme::ThemeColors;
 use crate::gui::widgets;
 use crate::trace::{Measured, Replay};
 use crate::view::{
-    self, CubeSettings, Picture, ResultSnapshot, Role, Theme, beside_color, candidate_reach, step_pixels,
+    self, CubeSettings, Meaning, Picture, ResultSnapshot, Role, Theme, candidate_reach, step_pixels,
     test_at_cursor,
 };
 use egui::Color32;
@@ -41,6 +41,8 @@ pub struct CursorPoints {
     made_at: Option<Instant>,
     /// One batch of points per role of the pixels in the step.
     pub drawn: Vec<Batch<Point>>,
+    /// The meanings of the points, for the legend.
+    pub meanings: Vec<Meaning>,
 }
 
 impl CursorPoints {
@@ -53,13 +55,17 @@ impl CursorPoints {
         self.inputs = inputs;
         self.made_at = Some(Instant::now());
         self.drawn.clear();
+        self.meanings.clear();
         let (Some(replay), Some(shown)) = (state.followed(), &state.newest) else { return };
         let working = &shown.analysis.working;
         let (colors, masks) = (&working.image.pixels, &working.masks);
         let focus = state.debugger.focus();
         let (space, full) = (state.view.cube.space, picture.histogram.full_counts);
         for (role, pixels) in step_pixels(replay, focus, colors, masks, MOST_POINTS) {
-            let (color, size_px) = color_and_size(role, focus_color(state), palette);
+            let (color, size_px) = color_and_size(role, state.focus_color(), palette);
+            if let Role::Meaning(meaning) = role {
+                self.meanings.push(meaning);
+            }
             let point = |&pixel: &u32| Point {
                 position: space.place(colors.as_slice()[pixel as usize], full),
                 color: color.to_array(),
@@ -84,19 +90,17 @@ impl CursorPoints {
     }
 }
 
-/// The color of the region in focus, sRGB.
-fn focus_color(state: &State) -> Option<[u8; 3]> {
-    state.debugger.focus().map(|focus| state.debugger.names.color(focus))
-}
-
-/// Color and diameter of the points of a role.
+/// Color and diameter of the points of a role. `own` is the color of the hypothesis in focus.
 fn color_and_size(role: Role, own: Option<[u8; 3]>, palette: &ThemeColors) -> (Color32, f32) {
-    let accent = |color: Option<[u8; 3]>| color.map_or(palette.accent, widgets::color);
     match role {
-        Role::Own => (accent(own), OWN_PT),
-        Role::Newest => (palette.text, BESIDE_PT),
-        Role::Beside => (widgets::color(beside_color(own.unwrap_or(view::ACCENT))), BESIDE_PT),
-        Role::Ignored => (palette.secondary, QUIET_PT),
+        Role::Meaning(meaning) => {
+            let size_pt = match meaning {
+                Meaning::Taken => OWN_PT,
+                Meaning::JustTaken | Meaning::Refused | Meaning::Candidate => BESIDE_PT,
+                Meaning::Ignored => QUIET_PT,
+            };
+            (widgets::color(meaning.color(own)), size_pt)
+        }
         Role::Window(class) => (class.map_or(palette.secondary, super::cloud::class_color), BESIDE_PT),
     }
 }
@@ -113,7 +117,7 @@ impl ShapeBuilder<'_> {
         let show = &state.view.cube;
         let focus = state.debugger.focus();
         let shapes = view::cursor_shapes(replay, focus, shown);
-        let color = focus_color(state).map_or(palette.secondary, widgets::color);
+        let color = state.focus_color().map_or(palette.secondary, widgets::color);
         if show.show_lines {
             for (region, axis) in &shapes.others {
                 let color = widgets::color(state.debugger.names.color(*region)).gamma_multiply(0.7);
@@ -181,7 +185,7 @@ impl ShapeBuilder<'_> {
         let skewed_t_view = view::skewed_t_view(test, reach);
         self.add_line(&skewed_t_view.upper, color, MARK_PT, 0.0);
         self.add_matte_line(&skewed_t_view.matte, palette.text, THICK_PT);
-        self.add_line(&skewed_t_view.line, palette.text, THICK_PT, 0.0);
+        self.add_line(&skewed_t_view.line, widgets::color(Meaning::Candidate.color(None)), THICK_PT, 0.0);
         self.add_line(&skewed_t_view.gap, palette.accent, THICK_PT, 0.0);
         let Measured { value: gap, limit } = test.gap;
         let tip = "The shortest way between both lines, against the longest allowed (section 5.4.1).";
@@ -192,5 +196,21 @@ impl ShapeBuilder<'_> {
         self.add_label(skewed_t_view.line[1], "candidate", tip, false);
         let tip = "Where the highlight line may leave the matte line: the 50 % heuristic (section 5.4.1).";
         self.add_label(skewed_t_view.upper[0], "upper 50 %", tip, false);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_have_the_colors_of_their_meanings() {
+        let palette = ThemeColors::of(Theme::Dark);
+        for meaning in Meaning::ALL {
+            for own in [None, Some([10, 200, 30])] {
+                let (color, _) = color_and_size(Role::Meaning(meaning), own, &palette);
+                assert_eq!(color, widgets::color(meaning.color(own)), "{meaning:?}");
+            }
+        }
     }
 }

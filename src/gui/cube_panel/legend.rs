@@ -1,40 +1,50 @@
-//! The legend of the points' colors: window classes or density. Points in the color of their region, or in the color
-//! that they stand for, need no legend.
+//! The legend of the points' colors: window classes or density, and at the debugger's cursor what the step did with the pixels.
+//! Points in the color of their region, or in the color that they stand for, need no legend.
 
 use super::cloud::{class_color, color_by, density_color};
 use crate::gui::PanelContext;
 use crate::gui::theme::SMALL_PT;
 use crate::gui::widgets;
 use crate::trace::Class;
-use crate::view::ColorBy;
-use egui::{Align2, FontId, Mesh, Painter, Rect, Ui, pos2, vec2};
+use crate::view::{ColorBy, LegendEntry, Meaning};
+use egui::{Align2, Color32, FontId, Mesh, Painter, Rect, Ui, pos2, vec2};
 
 const RAMP_PT: egui::Vec2 = vec2(96.0, 6.0);
 const STEPS: usize = 24;
 
 /// Paints the legend into the upper left corner; returns its rectangle. `fullest` is the pixel count
-/// of the fullest bin.
-pub fn show(ui: &Ui, cx: &PanelContext, rect: Rect, fullest: u32) -> Rect {
+/// of the fullest bin; `meanings` are those of the points at the debugger's cursor.
+pub fn show(ui: &Ui, cx: &PanelContext, rect: Rect, fullest: u32, meanings: &[Meaning]) -> Rect {
     let painter = ui.painter_at(rect);
     let corner = rect.min + vec2(8.0, 6.0);
+    if !meanings.is_empty() && cx.state.followed().is_some() {
+        let entry = |meaning: &Meaning| {
+            let LegendEntry { name, color, .. } = meaning.legend(cx.state.focus_color());
+            (name, widgets::color(color))
+        };
+        return entries(&painter, cx, corner, meanings.iter().map(entry));
+    }
     match color_by(cx.state) {
-        ColorBy::Class => classes(&painter, cx, corner),
+        ColorBy::Class => {
+            let classes = [Class::Point, Class::Line, Class::Plane, Class::Volume];
+            entries(&painter, cx, corner, classes.into_iter().map(|class| (class.name(), class_color(class))))
+        }
         ColorBy::Density => density(&painter, cx, corner, fullest),
         ColorBy::Own | ColorBy::Region => Rect::from_min_max(corner, corner),
     }
 }
 
-/// Paints the colors of the classes; returns their rectangle.
-fn classes(painter: &Painter, cx: &PanelContext, corner: egui::Pos2) -> Rect {
+/// Paints colors with their names in a row; returns their rectangle.
+fn entries(
+    painter: &Painter,
+    cx: &PanelContext,
+    corner: egui::Pos2,
+    entries: impl Iterator<Item = (&'static str, Color32)>,
+) -> Rect {
     let mut area = Rect::from_min_size(corner, vec2(0.0, 0.0));
-    for class in [Class::Point, Class::Line, Class::Plane, Class::Volume] {
-        let name = class.name();
+    for (name, color) in entries {
         let left = pos2(area.right(), corner.y);
-        painter.rect_filled(
-            Rect::from_min_size(left + vec2(0.0, 3.0), vec2(9.0, 9.0)),
-            2.0,
-            class_color(class),
-        );
+        painter.rect_filled(Rect::from_min_size(left + vec2(0.0, 3.0), vec2(9.0, 9.0)), 2.0, color);
         let font = FontId::proportional(SMALL_PT);
         let text = painter.text(left + vec2(13.0, 0.0), Align2::LEFT_TOP, name, font, cx.palette.text);
         area = area.union(text.expand2(vec2(5.0, 0.0)));

@@ -92,6 +92,13 @@ fn readable_on([r, g, b, _]: [u8; 4]) -> Color32 {
 pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
     let (Some(picture), width) = (&state.picture, place.size.x as usize) else { return };
     let selection = &state.document.selection;
+    for mark in &selection.named.marks {
+        let [r, g, b] = mark.color;
+        let (color, inside) =
+            (Color32::from_rgb(r, g, b), |x: usize, y: usize| mark.mask.get(x, y) == Some(&true));
+        fill(painter, place, color.gamma_multiply(0.28), inside);
+        edges(painter, place, color, inside);
+    }
     if let Some(mask) = &selection.marked {
         let marked = |x: usize, y: usize| mask.get(x, y).copied().unwrap_or(false);
         fill(painter, place, MARK_COLOR.gamma_multiply(0.28), marked);
@@ -118,6 +125,23 @@ pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
             _ => {}
         }
     }
+}
+
+/// Writes name and number of pixels of the named mark under the pointer beside the pointer.
+pub fn mark_at_pointer(
+    ui: &egui::Ui,
+    painter: &Painter,
+    palette: &ThemeColors,
+    place: &Placement,
+    state: &State,
+) {
+    let Some(Item::Pixel(pixel)) = state.hover else { return };
+    let Some(mark) = state.document.selection.named.at(pixel.index()) else { return };
+    let square = place.screen_rect_of(place.square_of(pixel));
+    let text = format!("{}: {} px", mark.name, widgets::grouped(mark.pixels));
+    let area = text_box(painter, palette, square.center() + vec2(12.0, 14.0), Align2::LEFT_TOP, &text);
+    let label = ui.interact(area, ui.scope_id().with("mark at the pointer"), egui::Sense::empty());
+    label.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, text.clone()));
 }
 
 /// Largest number of pixels of hovered colors that have a ring each.

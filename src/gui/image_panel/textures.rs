@@ -6,8 +6,8 @@ use crate::app::State;
 use crate::gui::task::Task;
 use crate::raster::{Mask, Raster};
 use crate::view::{
-    Fill, ImageSettings, Instant, Item, Layer, Look, Picture, ResultSnapshot, Selection, marks, paint,
-    paint_instant, pyramid,
+    Fill, ImageSettings, Instant, Item, Layer, Look, NamedMarks, Picture, ResultSnapshot, Selection, marks,
+    paint, paint_instant, pyramid,
 };
 use egui::{Color32, Context, Mesh, Painter, Rect, Shape, TextureHandle};
 use std::collections::HashMap;
@@ -69,6 +69,21 @@ impl PaintRequest {
         Some(Self { picture, shown, pinned, subject: Subject::Layer(layer, look), texel_px })
     }
 
+    /// The request of a layer of the photograph that the second view shows for comparison; none where no photograph is compared.
+    pub fn compared_layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
+        let other = state.compared_photograph()?;
+        let has_result = other.newest.is_some();
+        let layer =
+            if layer.needs_pinned() || (layer.needs_result() && !has_result) { Layer::Input } else { layer };
+        Some(Self {
+            picture: Arc::clone(&other.picture),
+            shown: other.newest.clone(),
+            pinned: None,
+            subject: Subject::Layer(layer, settings.look(None)),
+            texel_px: 1,
+        })
+    }
+
     /// The request of the marks: marked, selected and hovered pixels; none where none of these is larger than a pixel.
     pub fn marks(state: &State) -> Option<Self> {
         let followed = state.followed().is_some();
@@ -81,7 +96,7 @@ impl PaintRequest {
         let hover = state.hover.filter(large);
         let mut selection = state.document.selection.clone();
         selection.item = selection.item.filter(large);
-        if selection.is_empty() && hover.is_none() {
+        if selection.is_empty() && selection.named.marks.is_empty() && hover.is_none() {
             return None;
         }
         let picture = Arc::clone(state.picture.as_ref()?);
@@ -125,7 +140,7 @@ impl PaintRequest {
             Subject::Layer(layer, look) => SubjectKey::Layer(*layer, *look),
             Subject::Marks(selection, hover) => {
                 let marked = selection.marked.as_ref().map(Arc::downgrade).unwrap_or_default();
-                SubjectKey::Marks(selection.item, marked, *hover)
+                SubjectKey::Marks(selection.item, marked, Arc::downgrade(&selection.named), *hover)
             }
             Subject::Instant(instant, look) => SubjectKey::Instant(Arc::downgrade(instant), *look),
         };
@@ -150,7 +165,7 @@ struct TextureKey {
 #[derive(Clone)]
 enum SubjectKey {
     Layer(Layer, Look),
-    Marks(Option<Item>, Weak<Mask>, Option<Item>),
+    Marks(Option<Item>, Weak<Mask>, Weak<NamedMarks>, Option<Item>),
     Instant(Weak<Instant>, Look),
 }
 
@@ -158,8 +173,8 @@ impl PartialEq for TextureKey {
     fn eq(&self, other: &Self) -> bool {
         let subject = match (&self.subject, &other.subject) {
             (SubjectKey::Layer(a, b), SubjectKey::Layer(c, d)) => (a, b) == (c, d),
-            (SubjectKey::Marks(a, b, c), SubjectKey::Marks(d, e, f)) => {
-                (a, c) == (d, f) && Weak::ptr_eq(b, e)
+            (SubjectKey::Marks(a, b, c, d), SubjectKey::Marks(e, f, g, h)) => {
+                (a, d) == (e, h) && Weak::ptr_eq(b, f) && Weak::ptr_eq(c, g)
             }
             (SubjectKey::Instant(a, b), SubjectKey::Instant(c, d)) => b == d && Weak::ptr_eq(a, c),
             _ => false,

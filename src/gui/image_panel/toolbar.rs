@@ -2,7 +2,7 @@
 
 use super::icons::{self, ToolbarIcon};
 use crate::app::{DebugSettings, State};
-use crate::gui::action::Action;
+use crate::gui::action::{Action, LayerFile};
 use crate::gui::shortcuts::keys_of;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets::{clickable, keep_unless_edited};
@@ -24,7 +24,7 @@ const TOOLS: [(Tool, &str, &str); 7] = [
     (Tool::WhitePatch, "White patch", "Pins the light's color to the mean of a white patch (section 6)."),
 ];
 
-/// Shows the row. `zoom` is the current zoom, screen points per pixel.
+/// Shows the row. `zoom` is the current zoom, screen points per pixel; `actions` takes the exports that are asked for.
 pub fn row(
     ui: &mut Ui,
     state: &State,
@@ -32,17 +32,18 @@ pub fn row(
     settings: &mut ImageSettings,
     debug: &mut DebugSettings,
     zoom: f32,
+    actions: &mut Vec<Action>,
 ) {
     ui.spacing_mut().item_spacing = vec2(3.0, 3.0);
     ui.spacing_mut().interact_size.y = icons::SIDE_PT;
     ui.horizontal_wrapped(|ui| {
         let followed = state.followed().is_some();
-        if layer_menu(ui, state, "Layer", &mut settings.layer, followed) {
+        if layer_menu(ui, state, "Layer", &mut settings.layer, followed, actions) {
             debug.follow = false;
         }
         arrangement_buttons(ui, palette, settings);
         if settings.arrangement != Arrangement::Single {
-            layer_menu(ui, state, "Second layer", &mut settings.other, false);
+            layer_menu(ui, state, "Second layer", &mut settings.other, false, actions);
         }
         fill_button(ui, palette, settings);
         zoom_controls(ui, settings, zoom);
@@ -50,10 +51,17 @@ pub fn row(
     });
 }
 
-/// Shows the choice of a layer; returns whether a layer was chosen in place of the instant at the debugger's cursor.
-fn layer_menu(ui: &mut Ui, state: &State, name: &str, layer: &mut Layer, followed: bool) -> bool {
+/// Shows the choice of a layer, and below the layers the exports of the present one; returns whether a layer was chosen in place of the instant at the debugger's cursor.
+fn layer_menu(
+    ui: &mut Ui,
+    state: &State,
+    name: &str,
+    layer: &mut Layer,
+    followed: bool,
+    actions: &mut Vec<Action>,
+) -> bool {
     let now = if followed { "At the cursor" } else { layer.name() };
-    let combo = ComboBox::from_id_salt(name).width(104.0).height(320.0).selected_text(now);
+    let combo = ComboBox::from_id_salt(name).width(104.0).height(460.0).selected_text(now);
     let mut chosen = false;
     let shown = combo.show_ui(ui, |ui| {
         for choice in Layer::ALL {
@@ -64,6 +72,15 @@ fn layer_menu(ui: &mut Ui, state: &State, name: &str, layer: &mut Layer, followe
             if button.on_disabled_hover_text("Pin a result first (K).").clicked() {
                 *layer = choice;
                 chosen = followed;
+            }
+        }
+        ui.separator();
+        for file in LayerFile::ALL {
+            let text = format!("Export {} as {}\u{2026}", layer.name().to_lowercase(), file.name());
+            let tip = "Writes this layer alone: PNG as shown, OpenEXR or NumPy with its numbers (section 6).";
+            if ui.button(text).on_hover_text(tip).clicked() {
+                actions.push(Action::ExportLayer(*layer, file));
+                ui.close();
             }
         }
     });

@@ -2,46 +2,19 @@
 //! or a region that grows in its slice (section 5.4.2).
 
 use super::chart::{Obstacles, PointDensity};
-use super::{PlanePanel, kinds, navigate, paint_hovered, point_mesh, secondary_text};
+use super::{PlanePanel, navigate, paint_hovered, point_mesh, secondary_text};
 use crate::app::State;
 use crate::gui::{PanelContext, skewed_t_test, widgets};
 use crate::raster::HypothesisId;
-use crate::trace::{PixelKind, Replay};
-use crate::view::{growing_plane, test_at_cursor, test_plane};
+use crate::trace::Replay;
+use crate::view::{LegendEntry, Meaning, growing_plane, test_at_cursor, test_plane};
 use egui::{Sense, Stroke, Ui, vec2};
 
-/// A kind of pixel, its name and tooltip.
-type KindLabel = (PixelKind, &'static str, &'static str);
+/// What the points of a skewed-T test may be.
+const TESTED: [Meaning; 3] = [Meaning::Taken, Meaning::Ignored, Meaning::Candidate];
 
-/// The kinds of points in a test.
-const TESTED: [KindLabel; 3] = [
-    (
-        PixelKind::Matte,
-        "measured",
-        "Pixels on the outside of the matte line: its length is measured by them (section 5.4.1).",
-    ),
-    (
-        PixelKind::Lost,
-        "ignored",
-        "Pixels on its inside, where highlights grow: ignored for its length (section 5.4.1).",
-    ),
-    (
-        PixelKind::Highlight,
-        "candidate",
-        "The neighboring cluster that is tested as its highlight (section 5.4.1).",
-    ),
-];
-
-/// The kinds of points of a growing region.
-const GROWING: [KindLabel; 3] = [
-    (PixelKind::Matte, "its pixels", "What the region holds at the cursor (section 5.3.2, 5.4.2)."),
-    (PixelKind::Highlight, "just taken", "What it took in the ring of this step (section 5.3.2, 5.4.2)."),
-    (
-        PixelKind::Lost,
-        "not taken",
-        "Neighbors whose colors lie outside of its cylinder or slice (section 5.3.2, 5.4.2).",
-    ),
-];
+/// What the points of a growing region may be.
+const GROWING: [Meaning; 3] = [Meaning::Taken, Meaning::JustTaken, Meaning::Refused];
 
 /// Identity of an instant: generation of the trace, number of steps taken, and id of the hypothesis shown.
 pub type PlaneInstant = (u64, usize, HypothesisId);
@@ -74,10 +47,10 @@ impl PlanePanel {
         };
         let test = test_at_cursor(replay);
         if !cx.is_export {
-            let names = if test.is_some() { TESTED } else { GROWING };
+            let meanings = if test.is_some() { TESTED } else { GROWING };
             egui::Frame::new()
                 .inner_margin(egui::Margin::symmetric(6, 3))
-                .show(ui, |ui| legend(ui, cx, names));
+                .show(ui, |ui| legend(ui, cx, meanings));
         }
         ui.spacing_mut().item_spacing.y = 0.0;
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
@@ -90,7 +63,7 @@ impl PlanePanel {
             egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, name)
         });
         let moved = self.chart.filter(|_| self.is_moved);
-        let chart = navigate(ui, &response, plane, moved, rect, &mut self.is_moved);
+        let chart = navigate(ui, &response, plane, moved, rect, &mut self.is_moved, true);
         self.chart = Some(chart);
         let painter = ui.painter_at(rect);
         let numbers = chart.axes(&painter, plane, rect, cx.palette);
@@ -135,12 +108,13 @@ impl PlanePanel {
 }
 
 /// Shows the legend of the points' colors.
-fn legend(ui: &mut Ui, cx: &PanelContext, names: [KindLabel; 3]) {
+fn legend(ui: &mut Ui, cx: &PanelContext, meanings: [Meaning; 3]) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        for (kind, name, tip) in names {
-            widgets::chip(ui, cx.palette, kinds::color(kind, cx.state.view.theme), name).on_hover_text(tip);
-            ui.label(secondary_text(cx, name)).on_hover_text(tip);
+        for meaning in meanings {
+            let LegendEntry { name, color, tooltip } = meaning.legend(cx.state.focus_color());
+            widgets::chip(ui, cx.palette, widgets::color(color), name).on_hover_text(tooltip);
+            ui.label(secondary_text(cx, name)).on_hover_text(tooltip);
             ui.add_space(6.0);
         }
     });

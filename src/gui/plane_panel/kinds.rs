@@ -3,9 +3,10 @@
 use super::secondary_text;
 use crate::app::ViewCommand;
 use crate::gui::PanelContext;
+use crate::gui::icons::{self, Icon};
 use crate::gui::widgets;
 use crate::intrinsic::PixelKind;
-use crate::view::{PlaneSettings, RegionPlane, Theme};
+use crate::view::{PlanePixel, PlaneSettings, RegionPlane, Theme, Tool};
 use egui::{Color32, Ui};
 
 /// The kinds with names and tooltips.
@@ -38,6 +39,12 @@ pub fn color(kind: PixelKind, theme: Theme) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
+/// The color of a point: at the debugger's cursor the color of its meaning, in a result the color of its kind. `own` is the color of
+/// the hypothesis at the cursor.
+pub fn color_of(point: &PlanePixel, own: Option<[u8; 3]>, theme: Theme) -> Color32 {
+    point.meaning.map_or_else(|| color(point.kind, theme), |meaning| widgets::color(meaning.color(own)))
+}
+
 /// Shows the choice between own colors and labels, and the legend of the labels.
 pub fn toolbar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
     let by_label = cx.state.view.plane.color_by_label;
@@ -49,9 +56,12 @@ pub fn toolbar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
             (false, "Own color", "Points in the color that was measured."),
         ] {
             if ui.selectable_label(by_label == choice, name).on_hover_text(tip).clicked() {
-                cx.send(ViewCommand::Plane(PlaneSettings { color_by_label: choice }));
+                let settings = PlaneSettings { color_by_label: choice, ..cx.state.view.plane.clone() };
+                cx.send(ViewCommand::Plane(settings));
             }
         }
+        ui.add_space(6.0);
+        tools(ui, cx);
         if by_label {
             ui.add_space(6.0);
             for (kind, name, tip) in KINDS {
@@ -63,4 +73,48 @@ pub fn toolbar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
             }
         }
     });
+}
+
+/// Shows the tools that mark points.
+fn tools(ui: &mut Ui, cx: &mut PanelContext) {
+    let settings = cx.state.view.plane.clone();
+    for (tool, icon, name, tip) in [
+        (Tool::Pointer, Icon::Arrow, "Plane: pointer", "A click selects a pixel, a drag pans."),
+        (
+            Tool::Lasso,
+            Icon::Lasso,
+            "Plane: lasso",
+            "Marks the region's pixels inside a free outline; Shift adds, Alt takes away (section 3.1).",
+        ),
+    ] {
+        if icons::button(ui, cx.palette, icon, settings.tool == tool, name).on_hover_text(tip).clicked() {
+            cx.send(ViewCommand::Plane(PlaneSettings { tool, ..settings.clone() }));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::PixelIndex;
+    use crate::view::Meaning;
+
+    #[test]
+    fn points_at_the_cursor_have_the_colors_of_their_meanings() {
+        for meaning in Meaning::ALL {
+            let own = Some([10, 200, 30]);
+            let point = PlanePixel {
+                body: 1.0,
+                surface: 1.0,
+                color: [1.0; 3],
+                kind: PixelKind::Matte,
+                meaning: Some(meaning),
+                pixel: PixelIndex::new(0),
+                count: 1,
+            };
+            assert_eq!(color_of(&point, own, Theme::Dark), widgets::color(meaning.color(own)));
+            let in_result = PlanePixel { meaning: None, ..point };
+            assert_eq!(color_of(&in_result, own, Theme::Light), color(PixelKind::Matte, Theme::Light));
+        }
+    }
 }

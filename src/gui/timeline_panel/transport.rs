@@ -4,13 +4,15 @@ use super::icons::{self, PlaybackIcon};
 use super::run_to;
 use crate::app::{Command, DebugCommand, DebugSettings, Direction, StepUnit};
 use crate::describe::Names;
+use crate::gui::PanelContext;
 use crate::gui::action::{Action, DebugAction};
 use crate::gui::glossary::Term;
 use crate::gui::move_cursor::move_cursor;
 use crate::gui::shortcuts::keys_of;
+use crate::gui::theme::{BODY_PT, SMALL_PT, heading_font};
 use crate::gui::widgets::{grouped, keep_unless_edited};
-use crate::gui::{PanelContext, theme::SMALL_PT};
-use crate::trace::Replay;
+use crate::trace::{Replay, Step};
+use crate::view::{Tone, step_verdict};
 use Direction::{Back, Forward};
 use egui::accesskit::Role;
 use egui::{ComboBox, DragValue, Label, RichText, Slider, Ui, WidgetInfo, vec2};
@@ -263,11 +265,27 @@ fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names) {
         Some(step) => names.step(&step),
         None => "nothing is decided yet".to_owned(),
     };
-    // A text that does not fit is truncated: the space below belongs to the track.
+    // The sentence is truncated where it does not fit, as the space below belongs to the track; the verdict never is.
     let size = vec2(ui.available_size_before_wrap().x.max(1.0), ui.spacing().interact_size.y);
     ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
-        ui.add(Label::new(RichText::new(status).size(SMALL_PT).color(tone)).truncate());
+        ui.add(Label::new(RichText::new(status).size(SMALL_PT).color(tone)).extend());
         ui.add_space(6.0);
+        if let Some(step) = replay.last().filter(|_| debugger.stopped().is_some()) {
+            verdict(ui, cx, &step);
+        }
         ui.add(Label::new(&text).truncate().show_tooltip_when_elided(false)).on_hover_text(&text)
     });
+}
+
+/// Shows the verdict of a step, which is never cut off.
+fn verdict(ui: &mut Ui, cx: &PanelContext, step: &Step) -> egui::Response {
+    let (word, tone) = step_verdict(step);
+    let color = match tone {
+        Tone::Good => cx.palette.accent,
+        Tone::Bad => cx.palette.warning,
+        Tone::Neutral => cx.palette.text,
+    };
+    let label = ui.add(Label::new(RichText::new(word).font(heading_font(BODY_PT)).color(color)).extend());
+    ui.add_space(4.0);
+    label.on_hover_text("The verdict of this step; the inspector has its values and limits.")
 }

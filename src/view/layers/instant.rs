@@ -1,18 +1,19 @@
 //! The instant at the debugger's cursor, as a picture to lay over the photograph.
 
-use super::legends::{CLASSES, LegendEntry};
-use super::{ACCENT, Look};
+use super::Look;
+use super::legends::CLASSES;
 use crate::raster::{HypothesisId, Raster};
 use crate::trace::{Class, PixelKind};
-use crate::view::Fill;
-use crate::view::{Instant, InstantView, RegionsView, RolesView, WindowsView};
+use crate::view::{Fill, Instant, InstantView, LegendEntry, Meaning, RegionsView, RolesView, WindowsView};
 use rayon::prelude::*;
 
 const CLEAR: [u8; 4] = [0; 4];
+/// Colors of what was joined or found and of what was not, where a step is about no hypothesis, sRGB.
+const TAKEN: [u8; 3] = Meaning::Taken.color(None);
+const REFUSED: [u8; 3] = Meaning::Refused.color(None);
 /// Color of the seams between areas, sRGB with straight alpha.
 const SEAM: [u8; 4] = [0, 0, 0, 200];
-/// Colors of pixels that a hypothesis did not take, sRGB: the color that differs more from the color of the hypothesis is used.
-const BESIDE: [[u8; 3]; 2] = [[0x2E, 0xC4, 0xF2], [0xF2, 0x55, 0xC2]];
+/// Opacity of pixels that a hypothesis did not take.
 const BESIDE_ALPHA: u8 = 210;
 /// Opacity of the hypotheses that are not in focus, as a share of the opacity of the one in focus: pixels of a hypothesis
 /// remain distinct from pixels of none.
@@ -30,12 +31,6 @@ const ROLES: [LegendEntry; 4] = [
     LegendEntry::new("lost", [0x8A, 0x8A, 0x8A], "6: clipped in every band"),
 ];
 
-/// The color of pixels that a hypothesis of this color did not take, sRGB.
-pub fn beside_color(region: [u8; 3]) -> [u8; 3] {
-    let apart = |other: [u8; 3]| (0..3).map(|k| u32::from(other[k].abs_diff(region[k])).pow(2)).sum::<u32>();
-    if apart(BESIDE[0]) >= apart(BESIDE[1]) { BESIDE[0] } else { BESIDE[1] }
-}
-
 /// The legend of an instant.
 pub fn instant_legend(instant: &Instant) -> Vec<LegendEntry> {
     match &instant.view {
@@ -46,10 +41,10 @@ pub fn instant_legend(instant: &Instant) -> Vec<LegendEntry> {
             let refused = "5.2.2: the union of both areas is of another class, and they stay apart";
             match windows.tried.len() {
                 0 => {}
-                1 => legend.push(LegendEntry::new("joined", ACCENT, joined)),
+                1 => legend.push(LegendEntry::new("joined", TAKEN, joined)),
                 _ => {
-                    legend.push(LegendEntry::new("stays apart", ACCENT, refused));
-                    legend.push(LegendEntry::new("from this", BESIDE[0], refused));
+                    legend.push(LegendEntry::new("stays apart", TAKEN, refused));
+                    legend.push(LegendEntry::new("from this", REFUSED, refused));
                 }
             }
             legend
@@ -59,12 +54,12 @@ pub fn instant_legend(instant: &Instant) -> Vec<LegendEntry> {
             match roles.blob {
                 Some((_, true)) => legend.push(LegendEntry::new(
                     "highlight found",
-                    ACCENT,
+                    TAKEN,
                     "where no region holds: a blob that is a highlight, or a clipped one that is filled",
                 )),
                 Some((_, false)) => legend.push(LegendEntry::new(
                     "no highlight",
-                    BESIDE[0],
+                    REFUSED,
                     "where no region holds: a blob that is no highlight, or a clipped one that is left",
                 )),
                 None => {}
@@ -75,16 +70,10 @@ pub fn instant_legend(instant: &Instant) -> Vec<LegendEntry> {
             let own = regions.own_color();
             let mut legend = Vec::new();
             if !regions.newest.is_empty() {
-                let tip = "5.3.2, 5.4.2: the pixels that the region took in the ring of this step";
-                legend.push(LegendEntry::new("just taken", bright(own), tip));
+                legend.push(Meaning::JustTaken.legend(own));
             }
             if !regions.beside.is_empty() {
-                let (name, tip) = if regions.tested {
-                    ("candidate", "5.4.1: the neighboring cluster that is tested as its highlight")
-                } else {
-                    ("not taken", "5.3.2, 5.4.2: neighbors of the region that it did not take")
-                };
-                legend.push(LegendEntry::new(name, beside_color(own), tip));
+                legend.push(regions.meaning_beside().legend(own));
             }
             legend
         }
@@ -101,11 +90,6 @@ pub fn paint_instant(instant: &Instant, width: usize, height: usize, look: &Look
         InstantView::Roles(roles) => roles.paint(&mut painted, look),
     }
     painted
-}
-
-/// A lighter color of the same hue.
-fn bright(color: [u8; 3]) -> [u8; 3] {
-    color.map(|band| 255 - (255 - band) / 2)
 }
 
 fn with_alpha([r, g, b]: [u8; 3], alpha: u8) -> [u8; 4] {
@@ -139,8 +123,8 @@ impl WindowsView {
             self.areas.iter().zip(0..).any(|(area, window)| *area != window) || !self.tried.is_empty();
         let styles: Vec<[u8; 4]> = (0..self.classes.len())
             .map(|window| match self.part(window) {
-                Some(0) => with_alpha(ACCENT, 235),
-                Some(_) => with_alpha(BESIDE[0], 235),
+                Some(0) => with_alpha(TAKEN, 235),
+                Some(_) => with_alpha(REFUSED, 235),
                 None if look.fill == Fill::Outline => CLEAR,
                 None => styles[number(self.classes[window])],
             })
@@ -188,7 +172,7 @@ impl WindowsView {
                 let Some(class) = class else { continue };
                 let color = self.part(window).map_or_else(
                     || CLASSES[number(Some(class)) - 1].color,
-                    |part| if part == 0 { ACCENT } else { BESIDE[0] },
+                    |part| if part == 0 { TAKEN } else { REFUSED },
                 );
                 let color = with_alpha(color, 230);
                 let last = pixels.len() - 1;
@@ -204,13 +188,18 @@ impl WindowsView {
 }
 
 impl RegionsView {
-    /// The color of the hypothesis in focus, sRGB.
-    fn own_color(&self) -> [u8; 3] {
-        self.focus.and_then(|focus| self.colors.get(focus.index())).copied().unwrap_or(ACCENT)
+    /// The color of the hypothesis in focus, sRGB; none without a hypothesis in focus.
+    fn own_color(&self) -> Option<[u8; 3]> {
+        self.focus.and_then(|focus| self.colors.get(focus.index())).copied()
     }
 
-    /// Paints the hypotheses, all dimmed but the one in focus; pixels that this hypothesis took last are lighter,
-    /// pixels that it did not take have another color.
+    /// The meaning of the pixels beside the hypothesis in focus.
+    const fn meaning_beside(&self) -> Meaning {
+        if self.tested { Meaning::Candidate } else { Meaning::Refused }
+    }
+
+    /// Paints the hypotheses, all dimmed but the one in focus; pixels that this hypothesis took last,
+    /// and pixels beside the hypothesis, have the colors of their meanings.
     fn paint(&self, painted: &mut Raster<[u8; 4]>, look: &Look) {
         let selected = |id: HypothesisId| self.focus.is_none_or(|focus| focus == id);
         let styles: Vec<[u8; 4]> = std::iter::once(CLEAR)
@@ -244,8 +233,8 @@ impl RegionsView {
         }
         let own = self.own_color();
         for (pixels, color) in [
-            (&self.beside, with_alpha(beside_color(own), BESIDE_ALPHA)),
-            (&self.newest, with_alpha(bright(own), 255)),
+            (&self.beside, with_alpha(self.meaning_beside().color(own), BESIDE_ALPHA)),
+            (&self.newest, with_alpha(Meaning::JustTaken.color(own), 255)),
         ] {
             for &pixel in pixels {
                 painted[pixel as usize] = color;
@@ -273,7 +262,7 @@ impl RolesView {
             }
         });
         if let Some((blob, kept)) = &self.blob {
-            let color = with_alpha(if *kept { ACCENT } else { BESIDE[0] }, 235);
+            let color = with_alpha(if *kept { TAKEN } else { REFUSED }, 235);
             for &pixel in blob {
                 painted[pixel as usize] = color;
             }
@@ -320,9 +309,9 @@ mod tests {
         let named = [
             ('.', CLEAR),
             ('1', [200, 0, 0, 255]),
-            ('+', [228, 128, 128, 255]),
+            ('+', with_alpha(Meaning::JustTaken.color(None), 255)),
             ('2', [0, 0, 200, DIM]),
-            ('x', [0x2E, 0xC4, 0xF2, BESIDE_ALPHA]),
+            ('x', with_alpha(REFUSED, BESIDE_ALPHA)),
         ];
         let legend =
             instant_legend(&Instant { view: InstantView::Regions(view.clone()), pixel: None, window: None });
@@ -358,8 +347,8 @@ mod tests {
         let named = [
             ('.', CLEAR),
             ('L', [255, 0, 0, 255]),
-            ('a', with_alpha(ACCENT, 235)),
-            ('b', with_alpha(BESIDE[0], 235)),
+            ('a', with_alpha(TAKEN, 235)),
+            ('b', with_alpha(REFUSED, 235)),
             ('|', SEAM),
         ];
         let found = painted(InstantView::Windows(view.clone()), 4, 4, &look());
@@ -379,13 +368,7 @@ mod tests {
         let found =
             painted(InstantView::Roles(RolesView { kinds, blob: Some((vec![3], true)) }), 4, 1, &look());
         let color = |role: usize| with_alpha(ROLES[role].color, 255);
-        let blob = with_alpha(ACCENT, 235);
+        let blob = with_alpha(TAKEN, 235);
         assert_eq!(found.as_slice(), [color(0), color(1), color(2), blob]);
-    }
-
-    #[test]
-    fn the_color_beside_a_region_differs_from_the_region() {
-        assert_eq!(beside_color([0x30, 0xC0, 0xF0]), BESIDE[1]);
-        assert_eq!(beside_color([0xF0, 0x50, 0xC0]), BESIDE[0]);
     }
 }

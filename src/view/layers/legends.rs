@@ -1,21 +1,7 @@
 //! Colors of the layers, with their names and meanings.
 
-/// One color of a layer and its meaning.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LegendEntry {
-    /// The name, a word or two.
-    pub name: &'static str,
-    /// The color, sRGB.
-    pub color: [u8; 3],
-    /// The meaning, with the section of the paper.
-    pub tooltip: &'static str,
-}
-
-impl LegendEntry {
-    pub(super) const fn new(name: &'static str, color: [u8; 3], tooltip: &'static str) -> Self {
-        Self { name, color, tooltip }
-    }
-}
+use crate::intrinsic::Reason;
+use crate::view::LegendEntry;
 
 /// Names, colors and meanings of the classes (section 5.2.1), in the paper's colors.
 pub(super) const CLASSES: [LegendEntry; 4] = [
@@ -98,4 +84,10 @@ pub(super) const REASONS: [LegendEntry; 9] = [
 /// The colors of the classes in the order point, line, plane, volume.
 pub fn class_entries() -> [LegendEntry; 4] {
     CLASSES
+}
+
+/// The color, name and meaning of a reason why a pixel is not explained; none for an explained pixel.
+pub fn reason_entry(reason: Reason) -> Option<LegendEntry> {
+    let index = Reason::ALL.iter().position(|known| *known == reason)?;
+    REASONS.get(index.checked_sub(1)?).copied()
 }

@@ -1,13 +1,11 @@
 //! The selection and the hovered item, as a picture to draw over any layer.
 
 use crate::raster::{Mask, Raster};
-use crate::view::{Item, Picture, ResultSnapshot, Selection};
+use crate::view::{ACCENT, Item, NamedMark, Picture, ResultSnapshot, Selection};
 use rayon::prelude::*;
 
-/// Color of the cursor and of everything selected, sRGB.
-pub const ACCENT: [u8; 3] = [0xE8, 0xA3, 0x3D];
-
-const MARKED: [u8; 4] = with_alpha(ACCENT, 72);
+/// Opacity of the fill of marked pixels.
+const FILL_ALPHA: u8 = 72;
 const OUTLINE: [u8; 4] = with_alpha(ACCENT, 255);
 const HOVERED: [u8; 4] = [255, 255, 255, 220];
 const CLEAR: [u8; 4] = [0; 4];
@@ -31,12 +29,17 @@ pub fn marks(
         Item::Bin(bin) => (bin as usize) < picture.histogram.bins.len(),
     };
     let (selected, hover) = (selection.item.filter(drawn), hover.filter(drawn));
-    if marked.is_none() && selected.is_none() && hover.is_none() {
+    let fits = |mark: &&NamedMark| (mark.mask.width(), mark.mask.height()) == (width, height);
+    let named: Vec<&NamedMark> = selection.named.marks.iter().filter(fits).collect();
+    if marked.is_none() && selected.is_none() && hover.is_none() && named.is_empty() {
         return None;
     }
     let mut canvas = Canvas { picture, shown, painted: Raster::filled(width, height, CLEAR) };
+    for mark in named {
+        canvas.fill(&mark.mask, mark.color);
+    }
     if let Some(mask) = marked {
-        canvas.fill(mask);
+        canvas.fill(mask, ACCENT);
     }
     for (item, color) in [(selected, OUTLINE), (hover, HOVERED)] {
         if let Some(item) = item {
@@ -57,10 +60,11 @@ struct Canvas<'a> {
 }
 
 impl Canvas<'_> {
-    fn fill(&mut self, mask: &Mask) {
+    /// Paints a translucent fill and an outline.
+    fn fill(&mut self, mask: &Mask, color: [u8; 3]) {
         self.each(|x, y| match mask.row(y)[x] {
-            true if is_border(mask, x, y, |on| on) => Some(OUTLINE),
-            true => Some(MARKED),
+            true if is_border(mask, x, y, |on| on) => Some(with_alpha(color, 255)),
+            true => Some(with_alpha(color, FILL_ALPHA)),
             false => None,
         });
     }

@@ -1,11 +1,12 @@
 //! The pictures of the layers, at the size of the photograph.
 
 use super::curve::Curve;
-use super::legends::{CLASSES, LegendEntry, MASKS, REASONS};
+use super::legends::{CLASSES, MASKS, REASONS};
 use super::look::{DIFFERENCE_COUNTS, Fill, Look};
 use crate::export::colored;
 use crate::raster::{LabelMap, Raster, RegionId};
 use crate::trace::Class;
+use crate::view::LegendEntry;
 use crate::view::ResultSnapshot;
 use crate::view::snapshot::best_overlaps;
 use rayon::prelude::*;

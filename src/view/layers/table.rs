@@ -1,9 +1,10 @@
 //! The table of the image layers, from which [`Layer`] and all properties of a layer are made.
 
-use super::legends::{self, LegendEntry};
+use super::legends;
 use super::painters::{self, PaintInput};
 use crate::intrinsic::Intrinsic;
 use crate::raster::Raster;
+use crate::view::LegendEntry;
 use serde::{Deserialize, Serialize};
 
 /// What a layer's picture depends on, and how the layer relates to the photograph.

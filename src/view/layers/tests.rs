@@ -189,14 +189,14 @@ fn marks_are_a_fill_an_outline_and_what_is_hovered() {
         "there is no result"
     );
     let mask = labels(&["1111.", "1111.", "1111.", "...1."]).map(|&label| label == 1);
-    let marked = Selection { item: None, marked: Some(Arc::new(mask)) };
+    let marked = Selection { marked: Some(Arc::new(mask)), ..Selection::default() };
     let named = [('f', [0xE8, 0xA3, 0x3D, 72]), ('o', [0xE8, 0xA3, 0x3D, 255]), ('h', [255, 255, 255, 220])];
     let painted =
         marks(&picture, Some(&shown), &marked, Some(Item::Region(RegionId::from_index(2 - 1)))).unwrap();
     check(&painted, &named, &["oooo.", "offhh", "ooohh", "...oh"]);
     let bin = Item::Bin(picture.histogram.bin_of(0).unwrap());
     check(&marks(&picture, None, &none, Some(bin)).unwrap(), &named, &["hhhhh"; 4]);
-    let window = Selection { item: Some(Item::Window(0)), marked: None };
+    let window = Selection { item: Some(Item::Window(0)), ..Selection::default() };
     check(
         &marks(&picture, Some(&shown), &window, None).unwrap(),
         &named,

@@ -6,8 +6,10 @@ use crate::photo::WorkingPicture;
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::reflection::{Components, ReflectionTransform};
 use crate::trace::{CandidateTested, PixelKind, Replay};
-use crate::view::MOST_PLANE_POINTS;
-use crate::view::{candidate_pixels, growth_pixels, measured_and_ignored, pixels_of_region, sampled};
+use crate::view::{
+    MOST_PLANE_POINTS, Meaning, candidate_pixels, growth_pixels, measured_and_ignored, pixels_of_region,
+    sampled,
+};
 
 /// The working picture, and the transform into the coordinates of a plane.
 struct PlaneProjection<'a> {
@@ -16,15 +18,18 @@ struct PlaneProjection<'a> {
 }
 
 impl PlaneProjection<'_> {
-    /// The points of some groups of pixels, each group of one kind.
-    fn points(&self, groups: &[(Vec<u32>, PixelKind)]) -> Vec<PlanePixel> {
+    /// The points of some groups of pixels, each group of one meaning.
+    fn points(&self, groups: &[(Vec<u32>, Meaning)]) -> Vec<PlanePixel> {
         let most = MOST_PLANE_POINTS / groups.len().max(1);
-        let all = groups.iter().flat_map(|(pixels, kind)| sampled(pixels, most).map(move |p| (p, *kind)));
-        let place = |(pixel, kind): (u32, PixelKind)| {
+        let all =
+            groups.iter().flat_map(|(pixels, meaning)| sampled(pixels, most).map(move |p| (p, *meaning)));
+        let place = |(pixel, meaning): (u32, Meaning)| {
             let color = self.working.image.pixels[pixel as usize];
             let middle = self.working.blocks.middle(pixel as usize);
             let Components { body, surface, .. } = self.transform.split(color);
-            PlanePixel { body, surface, color, kind, pixel: PixelIndex::from_index(middle), count: 1 }
+            let pixel = PixelIndex::from_index(middle);
+            let (kind, meaning) = (kind_of(meaning), Some(meaning));
+            PlanePixel { body, surface, color, kind, meaning, pixel, count: 1 }
         };
         all.map(place).collect()
     }
@@ -55,8 +60,16 @@ impl PlaneProjection<'_> {
     }
 }
 
-/// A test in the plane of both lines: m_b along the matte line, m_s along the candidate's. Pixels by which the matte
-/// line is measured are matte, those ignored for it are lost, the candidate's are highlight. `region` is the region that the
+/// The kind that stands for a meaning: the points of the matte line are matte, the points off the line are highlight or lost.
+const fn kind_of(meaning: Meaning) -> PixelKind {
+    match meaning {
+        Meaning::Taken => PixelKind::Matte,
+        Meaning::JustTaken | Meaning::Candidate => PixelKind::Highlight,
+        Meaning::Refused | Meaning::Ignored => PixelKind::Lost,
+    }
+}
+
+/// A test in the plane of both lines: m_b along the matte line, m_s along the candidate's. `region` is the region that the
 /// tested hypothesis became part of. None where both lines have one direction.
 pub fn test_plane(
     replay: &Replay,
@@ -70,9 +83,9 @@ pub fn test_plane(
     let own = pixels_of_region(replay, test.hypothesis);
     let (measured, ignored) = measured_and_ignored(test, &own, colors);
     let points = projection.points(&[
-        (measured, PixelKind::Matte),
-        (ignored, PixelKind::Lost),
-        (candidate_pixels(replay, test, masks), PixelKind::Highlight),
+        (measured, Meaning::Taken),
+        (ignored, Meaning::Ignored),
+        (candidate_pixels(replay, test, masks), Meaning::Candidate),
     ]);
     let brightest = test.matte.foot() + test.matte.direction * test.matte_length;
     let (matte_length, meeting) = (projection.amount(brightest), projection.amount(test.meeting[0]));
@@ -81,8 +94,7 @@ pub fn test_plane(
     Some(RegionPlane { matte_length, branches, ..plane })
 }
 
-/// A hypothesis at the cursor: its pixels are shown as matte, the pixels that it took last as highlight, the pixels
-/// that it did not take as lost. The plane is the dichromatic plane once there is a slice, before that a plane across
+/// A hypothesis at the cursor: its pixels, the pixels that it took last and the pixels that it did not take. The plane is the dichromatic plane once there is a slice, before that a plane across
 /// the line. `focus` is the hypothesis,
 /// `region` the region that the hypothesis became part of. None where the hypothesis has no line.
 pub fn growing_plane(
@@ -106,9 +118,9 @@ pub fn growing_plane(
     let grown = growth_pixels(replay, colors, masks).filter(|grown| grown.hypothesis == focus);
     let (outside, newest) = grown.map_or_else(Default::default, |grown| (grown.outside, grown.newest));
     let points = projection.points(&[
-        (pixels_of_region(replay, focus), PixelKind::Matte),
-        (outside, PixelKind::Lost),
-        (newest, PixelKind::Highlight),
+        (pixels_of_region(replay, focus), Meaning::Taken),
+        (outside, Meaning::Refused),
+        (newest, Meaning::JustTaken),
     ]);
     let brightest = made.map(|made| line.foot() + line.direction * made.matte_length);
     let held = points.iter().filter(|point| point.kind == PixelKind::Matte);

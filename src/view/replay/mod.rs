@@ -19,7 +19,7 @@ pub use growth_pixels::{
 pub use instant::{Instant, InstantView, RegionsView, RolesView, WindowsView, cursor_place};
 pub use names::RegionNames;
 pub use rows::{HypothesisRow, Status, WindowCounts, hypothesis_rows, window_counts};
-pub use skewed_t_view::{Check, SkewedTView, candidate_name, candidate_reach, skewed_t_view};
+pub use skewed_t_view::{SkewedTView, candidate_name, candidate_reach, skewed_t_view};
 pub use step_pixels::{Role, StepPixels, step_pixels};
 pub use timeline_axis::{TimelineAxis, TimelineSection, timeline_density};
 pub use watch::{AxisDistance, CurrentHypothesis, Watch, WatchedPixel, watch};

@@ -1,7 +1,7 @@
-//! A skewed-T test as it is drawn: two lines, the gap between them, and the four checks with their values and limits (5.4.1).
+//! A skewed-T test as it is drawn: two lines, and the gap between them (5.4.1).
 
 use crate::color::{Vec3, rgb};
-use crate::trace::{CandidateSource, CandidateTested, Measured};
+use crate::trace::{CandidateSource, CandidateTested};
 use crate::view::Point;
 
 /// A test in the color cube, counts.
@@ -15,19 +15,6 @@ pub struct SkewedTView {
     pub line: [Point; 2],
     /// The points of both lines that are nearest to one another.
     pub gap: [Point; 2],
-    /// The four checks, in the order in which they are made.
-    pub checks: [Check; 4],
-}
-
-/// A check of a test.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Check {
-    /// Whether the check was passed.
-    pub passed: bool,
-    /// Value and limit, as text.
-    pub text: String,
-    /// The purpose of the check.
-    pub tip: &'static str,
 }
 
 /// The test as it is drawn. `reach`: the least and the largest place of the pixels of the candidate on its line, counts from the
@@ -44,7 +31,6 @@ pub fn skewed_t_view(test: &CandidateTested, reach: Option<[f64; 2]>) -> SkewedT
         upper: test.position_limits.map(on_matte),
         line: [on_line(low.min(0.0)), on_line(high.max(0.0))],
         gap: [rgb(&meeting), rgb(&start)],
-        checks: checks(test),
     }
 }
 
@@ -55,44 +41,6 @@ pub fn candidate_name(source: CandidateSource) -> String {
         CandidateSource::Hypothesis(id) => format!("hypothesis {id}"),
         CandidateSource::Absorbed(id) => format!("absorbed hypothesis {id}"),
     }
-}
-
-fn checks(test: &CandidateTested) -> [Check; 4] {
-    let verdict = test.verdict;
-    let Measured { value: gap, limit } = test.gap;
-    let [low, high] = test.position_limits;
-    let position = test.position_percent;
-    let [r, g, b] = rgb(&test.line.direction);
-    let sign = if verdict.positive { "positive" } else { "not positive" };
-    let beyond = (test.line.mean - test.meeting[1]).dot(&test.line.direction);
-    [
-        Check {
-            passed: verdict.lines_meet,
-            text: format!(
-                "gap {gap:.1} {} {limit:.1} counts",
-                if verdict.lines_meet { '\u{2264}' } else { '>' }
-            ),
-            tip: "The lines form a skewed T where they pass near enough to one another: within the cylinder's radius, or within \u{3c3}0 under the reading gap_within_noise (section 5.4.1).",
-        },
-        Check {
-            passed: verdict.upper_half,
-            text: format!(
-                "meets at {position:.0} %, {} {low:.0}\u{2013}{high:.0} %",
-                if verdict.upper_half { "within" } else { "outside" }
-            ),
-            tip: "Highlights begin in the upper half of the matte line: the 50 % heuristic (section 5.4.1).",
-        },
-        Check {
-            passed: verdict.positive,
-            text: format!("direction {r:.2} {g:.2} {b:.2}, {sign}").replace('-', "\u{2212}"),
-            tip: "Light added at the surface makes no band darker (section 5.4.1).",
-        },
-        Check {
-            passed: verdict.beyond,
-            text: format!("cluster {beyond:.0} counts beyond the line").replace('-', "\u{2212}"),
-            tip: "The cluster lies where light was added, not where it was taken away (section 5.4.1).",
-        },
-    ]
 }
 
 /// The least and the largest place of these colors on the candidate's line, counts from the meeting point.
@@ -109,7 +57,7 @@ mod tests {
     use super::*;
     use crate::color::Line;
     use crate::raster::HypothesisId;
-    use crate::trace::CandidateVerdict;
+    use crate::trace::{CandidateVerdict, Measured};
 
     /// A matte line along red, 200 counts long, and a highlight 4 counts beside it at 150, along blue.
     fn test() -> CandidateTested {
@@ -146,25 +94,5 @@ mod tests {
         assert_eq!(found, Some([-5.0, 82.0]));
         assert_eq!(skewed_t_view(&test, found).line, [[150.0, 7.0, -5.0], [150.0, 7.0, 82.0]]);
         assert_eq!(candidate_reach(&test, std::iter::empty()), None);
-    }
-
-    #[test]
-    fn checks_name_the_value_and_its_limit() {
-        let texts =
-            |test: &CandidateTested| skewed_t_view(test, None).checks.map(|check| (check.passed, check.text));
-        let passed = texts(&test());
-        assert_eq!(passed[0], (true, "gap 4.0 \u{2264} 10.0 counts".to_owned()));
-        assert_eq!(passed[1], (true, "meets at 75 %, within 50\u{2013}120 %".to_owned()));
-        assert_eq!(passed[3], (true, "cluster 30 counts beyond the line".to_owned()));
-        let verdict = CandidateVerdict { lines_meet: false, upper_half: false, positive: true, beyond: true };
-        let failed = texts(&CandidateTested {
-            gap: Measured::new(12.3, 10.0),
-            position_percent: 31.0,
-            verdict,
-            ..test()
-        });
-        assert_eq!(failed[0], (false, "gap 12.3 > 10.0 counts".to_owned()));
-        assert_eq!(failed[1], (false, "meets at 31 %, outside 50\u{2013}120 %".to_owned()));
-        assert!(failed[2].0 && failed[2].1.starts_with("direction 0.00 0.00 1.00"));
     }
 }

@@ -6,19 +6,16 @@ use super::growth_pixels::{
 use crate::photo::Masks;
 use crate::raster::{HypothesisId, Raster};
 use crate::trace::{Class, Event, Grid, MergeTried, RepairVerdict, Replay, Stage, Step, WindowClassified};
+use crate::view::Meaning;
+use crate::view::Meaning::{Refused, Taken};
 
 /// The part of a group of pixels in the step at the cursor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Pixels of the hypothesis, of the area that would remain, or of a blob that is a highlight.
-    Own,
-    /// Pixels of the hypothesis that the newest ring took.
-    Newest,
-    /// Pixels that the hypothesis did not take, of the cluster that is tested, of the area that would vanish, or of a
-    /// blob that is no highlight.
-    Beside,
-    /// Pixels on the inside of a tested matte line, without which the length of the line is measured (5.4.1).
-    Ignored,
+    /// What the step did with the pixels. Taken: pixels of the hypothesis, of the area that would remain, or of a blob that is a
+    /// highlight. Refused: pixels that the hypothesis did not take, of the area that would vanish, or of a blob that is no
+    /// highlight.
+    Meaning(Meaning),
     /// Pixels of a window of this class (5.2.1).
     Window(Option<Class>),
 }
@@ -40,6 +37,11 @@ pub fn step_pixels(
     groups.map(few).filter(|(_, pixels)| !pixels.is_empty()).collect()
 }
 
+/// Groups of pixels by their meanings.
+fn of_meanings<const N: usize>(groups: [(Meaning, Vec<u32>); N]) -> Vec<StepPixels> {
+    groups.map(|(meaning, pixels)| (Role::Meaning(meaning), pixels)).into()
+}
+
 fn groups(
     replay: &Replay,
     focus: Option<HypothesisId>,
@@ -50,17 +52,21 @@ fn groups(
         let own = pixels_of_region(replay, test.hypothesis);
         let (measured, ignored) = measured_and_ignored(test, &own, colors);
         let candidate = candidate_pixels(replay, test, masks);
-        return vec![(Role::Own, measured), (Role::Ignored, ignored), (Role::Beside, candidate)];
+        return of_meanings([
+            (Taken, measured),
+            (Meaning::Ignored, ignored),
+            (Meaning::Candidate, candidate),
+        ]);
     }
     if let Some(grown) = growth_pixels(replay, colors, masks) {
-        return vec![
-            (Role::Own, pixels_of_region(replay, grown.hypothesis)),
-            (Role::Beside, grown.outside),
-            (Role::Newest, grown.newest),
-        ];
+        return of_meanings([
+            (Taken, pixels_of_region(replay, grown.hypothesis)),
+            (Refused, grown.outside),
+            (Meaning::JustTaken, grown.newest),
+        ]);
     }
     if let Some((blob, kept)) = blob_at_cursor(replay) {
-        return vec![(if kept { Role::Own } else { Role::Beside }, blob)];
+        return of_meanings([(if kept { Taken } else { Refused }, blob)]);
     }
     let width = colors.width();
     match (replay.last(), replay.grid()) {
@@ -73,13 +79,13 @@ fn groups(
             let pixels = |root: Option<u32>| {
                 pixels_in(grid, width, colors.height(), |at| areas.get(at).copied() == root)
             };
-            let mut groups = vec![(Role::Own, pixels(root(into)))];
+            let mut groups = of_meanings([(Taken, pixels(root(into)))]);
             if class != union {
-                groups.push((Role::Beside, pixels(root(from))));
+                groups.push((Role::Meaning(Refused), pixels(root(from))));
             }
             groups
         }
-        _ => focus.map(|focus| (Role::Own, pixels_of_region(replay, focus))).into_iter().collect(),
+        _ => focus.map_or_else(Vec::new, |focus| of_meanings([(Taken, pixels_of_region(replay, focus))])),
     }
 }
 

@@ -1,12 +1,13 @@
 //! Tests of the color space panel on the sample scene: turning, hovering, and marking with tools.
 
-use crate::window::{Fixture, SIZE, Window, region, with_device, with_gpu};
+use crate::window::{Fixture, SIZE, Window, apply, named, region, state, with_device, with_gpu};
 use dichroscope::app::{Edit, ViewCommand};
 use dichroscope::gpu::Orbit;
+use dichroscope::gui::Pane;
 use dichroscope::gui::testing::{ColorSpaceDrawing, color_space_pixels};
 use dichroscope::raster::RegionId;
 use dichroscope::trace::Class;
-use dichroscope::view::{ColorSpace, Item, Picture, Tool};
+use dichroscope::view::{ColorSpace, CubeSettings, Item, Picture, Tool};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, vec2};
 use egui_kittest::kittest::Queryable;
@@ -314,4 +315,27 @@ fn a_window_shows_its_ellipsoid_around_its_mean() {
         let middle = f64::from(f32::midpoint(low, high));
         assert!((middle - mean[axis]).abs() < 2e-3 && high > low, "{axis}: {low} {high} {}", mean[axis]);
     }
+}
+
+#[test]
+fn size_opacity_and_depth_plane_change_what_is_drawn_and_are_reset_by_two_clicks() {
+    let Some(mut window) = with_gpu(vec2(900.0, 600.0), Fixture::Tiny) else { return };
+    window.state_mut().show_alone(Some(Pane::Colors));
+    window.run_steps(3);
+    let mut pictures = vec![window.render().unwrap().into_raw()];
+    for change in [
+        CubeSettings { point_scale: 3.0, ..CubeSettings::default() },
+        CubeSettings { point_opacity: 0.2, ..CubeSettings::default() },
+        CubeSettings { depth_plane: 0.6, ..CubeSettings::default() },
+    ] {
+        apply(&mut window, ViewCommand::Cube(change));
+        window.run_steps(3);
+        pictures.push(window.render().unwrap().into_raw());
+        assert!(pictures[..pictures.len() - 1].iter().all(|other| other != pictures.last().unwrap()));
+    }
+    window.get_by_role_and_label(Role::Button, "Show").click();
+    window.run_steps(3);
+    let slider = named(&window, Role::Slider, "Depth plane").rect().center();
+    crate::window::double_click(&mut window, slider);
+    assert!(state(&window).view.cube.depth_plane.abs() < 1e-6);
 }

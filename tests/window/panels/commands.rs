@@ -20,7 +20,7 @@ fn type_text(window: &mut Window, text: &str) {
 fn a_command_is_found_by_letters_and_done_by_enter() {
     let mut window = tiny_window();
     press(&mut window, Modifiers::COMMAND, Key::P);
-    assert!(says(&window, "Image: Body reflection") && says(&window, "Show: Why"));
+    assert!(says(&window, "Image: Body reflection") && says(&window, "Show: Inspector"));
     type_text(&mut window, "refl body");
     assert!(says(&window, "Image: Body reflection") && !says(&window, "Image: Noise"));
     assert_eq!(state(&window).view.image.layer, Layer::Input, "letters reach no panel");

@@ -5,7 +5,7 @@ use crate::window::{
 };
 use dichroscope::app::{Edit, Severity, ViewCommand};
 use dichroscope::truth::sample;
-use dichroscope::view::{Arrangement, Layer, ProfileLine, Tool};
+use dichroscope::view::{Arrangement, ImageSettings, Layer, ProfileLine, Tool};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -196,4 +196,46 @@ fn controls_stay_inside_a_narrow_window_and_a_large_interface() {
             }
         }
     }
+}
+
+#[test]
+fn a_layer_is_exported_alone_from_its_menu_as_floats() {
+    let mut window = tiny_window();
+    let folder = tempfile::tempdir().unwrap();
+    for (entry, name, magic) in [
+        ("Export body as OpenEXR\u{2026}", "body.exr", &b"\x76\x2f\x31\x01"[..]),
+        ("Export body as NumPy array\u{2026}", "body.npy", &b"\x93NUMPY"[..]),
+        ("Export body as PNG\u{2026}", "body.png", &b"\x89PNG"[..]),
+    ] {
+        apply(&mut window, ViewCommand::Image(ImageSettings { layer: Layer::Body, ..Default::default() }));
+        click(&mut window, Role::ComboBox, "Layer");
+        click(&mut window, Role::Button, entry);
+        window.run_steps(3);
+        assert!(says(&window, "Body: .png as shown"), "{entry}");
+        let path = folder.path().join(name);
+        crate::window::answer(&mut window, &path);
+        let bytes = std::fs::read(&path).unwrap();
+        assert!(bytes.starts_with(magic), "{entry}");
+    }
+}
+
+#[test]
+fn the_photograph_is_shown_while_c_is_held() {
+    let mut window = tiny_window();
+    apply(&mut window, ViewCommand::Image(ImageSettings { layer: Layer::Body, ..Default::default() }));
+    let before = state(&window).view.image.clone();
+    let c = |pressed| egui::Event::Key {
+        key: Key::C,
+        physical_key: Some(Key::C),
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    window.event(c(true));
+    window.run_steps(3);
+    assert!(says(&window, "Layer shown: Input"), "the photograph in place of the body reflection");
+    assert_eq!(state(&window).view.image, before, "the settings stay");
+    window.event(c(false));
+    window.run_steps(3);
+    assert!(!says(&window, "Layer shown:"));
 }

@@ -1,7 +1,11 @@
 //! Tests of the plane panel on the sample scene.
 
-use crate::window::{Fixture, SIZE, Window, region, with_gpu};
+use crate::window::{
+    Fixture, SIZE, Window, apply, click, drag, item, marked, named, region, shown, tiny_window, undo,
+    with_gpu,
+};
 use dichroscope::app::{Command, DebugCommand, Edit};
+use dichroscope::gui::Pane;
 use dichroscope::gui::testing::PlaneDrawing;
 use dichroscope::view::Item;
 use egui::accesskit::Role;
@@ -81,4 +85,27 @@ fn hovering_a_point_hovers_its_pixel_and_a_drag_pans() {
     let moved = PlaneDrawing::of(harness.state()).unwrap();
     assert!((moved.center[0] - drawing.center[0] + 30.0 * drawing.counts_per_pt).abs() < 0.5);
     assert!((moved.center[1] - drawing.center[1] - 12.0 * drawing.counts_per_pt).abs() < 0.5);
+}
+
+#[test]
+fn a_lasso_in_the_plane_marks_pixels_of_the_region_and_a_click_selects_none() {
+    let mut window = tiny_window();
+    apply(&mut window, Edit::Select(Some(region(1))));
+    window.state_mut().show_alone(Some(Pane::Plane));
+    window.run_steps(3);
+    click(&mut window, Role::Button, "Plane: lasso");
+    let canvas = named(&window, Role::Canvas, "Dichromatic plane of region 1").rect();
+    let corner = |x, y| canvas.lerp_inside(egui::vec2(x, y));
+    let around = [corner(0.02, 0.02), corner(0.98, 0.02), corner(0.98, 0.98), corner(0.02, 0.98)];
+    drag(&mut window, &around, Modifiers::NONE);
+    let all = marked(&window);
+    let pixels = shown(&window).analysis.intrinsic.regions[0].pixels;
+    assert!(all > pixels / 2 && all <= pixels, "{all} of {pixels}");
+    let half = [corner(0.02, 0.02), corner(0.5, 0.02), corner(0.5, 0.98), corner(0.02, 0.98)];
+    drag(&mut window, &half, Modifiers::ALT);
+    assert!(marked(&window) < all, "Alt takes away");
+    assert_eq!(item(&window), Some(region(1)), "a drag selects nothing");
+    undo(&mut window);
+    assert_eq!(marked(&window), all);
+    click(&mut window, Role::Button, "Plane: pointer");
 }

@@ -82,7 +82,8 @@ fn the_cursor_in_every_stage() {
     let slice = trace.blocks().find(|block| matches!(block.topic, Topic::Slice(_)));
     let slice = slice.expect("the scene has a slice").steps;
     let places = stages.into_iter().chain([after_test(&window), usize::midpoint(slice.start, slice.end), 0]);
-    let panes = [Pane::Image, Pane::Plane, Pane::Regions, Pane::Timeline, Pane::Why, Pane::Watch].map(Some);
+    let panes =
+        [Pane::Image, Pane::Plane, Pane::Regions, Pane::Timeline, Pane::Inspector, Pane::Watch].map(Some);
     for n in places {
         apply(&mut window, Command::Debug(DebugCommand::Seek(n)));
         check_all_sizes(&mut window, &panes, &format!("after {n} steps"));

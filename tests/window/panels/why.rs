@@ -16,7 +16,7 @@ fn pixel(window: &Window) -> PixelIndex {
 
 /// Shows the panel alone in the window, so that no test has to scroll.
 fn alone(window: &mut Window) {
-    window.state_mut().show_alone(Some(Pane::Why));
+    window.state_mut().show_alone(Some(Pane::Inspector));
     window.run_steps(3);
 }
 

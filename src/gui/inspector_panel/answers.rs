@@ -1,70 +1,26 @@
-//! The why panel: the history of the selected pixel, of its hypothesis and of its region, and which changes of a
-//! parameter would change the pixel's result.
+//! The history of the selected pixel, of its hypothesis and of its region, and which changes of a parameter would change the
+//! pixel's result.
 
-use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
-use super::glossary::Term;
-use super::theme::SMALL_PT;
-use super::{PanelContext, widgets};
 use crate::analysis::WhatIf;
 use crate::app::{Command, DebugCommand, Edit, Question, WhatIfJob};
 use crate::describe::what_if_sentence;
+use crate::gui::glossary::Term;
+use crate::gui::theme::SMALL_PT;
+use crate::gui::{PanelContext, widgets};
 use crate::params::Setting;
-use crate::raster::{HypothesisId, PixelIndex, RegionId};
-use crate::view::{Amounts, PixelAmounts, ResultSnapshot, Why, WhySentence, why};
-use egui::{FontId, Response, RichText, ScrollArea, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
+use crate::raster::PixelIndex;
+use crate::view::{Why, WhySentence};
+use egui::{FontId, Response, RichText, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
-/// Identity of the answers: generation of the trace, pixel, and hypothesis id.
-type WhyKey = (u64, Option<PixelIndex>, Option<HypothesisId>);
-
-/// The why panel: the answers that were computed last.
-#[derive(Default)]
-pub struct WhyPanel {
-    show_answers: BackgroundValue<WhyKey, Why>,
-}
-
-impl WhyPanel {
-    /// Shows the panel, for the selected pixel or region.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
-        let debugger = &cx.state.debugger;
-        let (Some(trace), Some(shown)) = (debugger.trace().cloned(), cx.state.newest.clone()) else {
-            return not_recorded(ui, cx);
-        };
-        let pixel = cx.state.explained_pixel();
-        let selected = cx.state.selected_region().filter(|_| pixel.is_none());
-        let of_region = selected.and_then(|region| debugger.names.hypotheses_of(region).next());
-        let hypothesis = debugger.chosen.filter(|_| pixel.is_none()).or(of_region);
-        if pixel.is_none() && hypothesis.is_none() {
-            let text =
-                "Click a pixel or a region: its history appears here, and the reason for every refusal.";
-            let frame = egui::Frame::new().inner_margin(12);
-            frame.show(ui, |ui| widgets::placeholder(ui, cx.palette, text));
-            return;
-        }
-        let (names, generation) = (Arc::clone(&debugger.names), debugger.generation);
-        let synchronous = shown.labels().len() <= SYNCHRONOUS_PX;
-        let key = (generation, pixel, hypothesis);
-        let compute = move || why(&shown, &trace, &names, pixel, hypothesis);
-        let Some(found) = self.show_answers.get(ui.ctx(), key, synchronous, compute) else { return };
-        egui::Frame::new().inner_margin(8).show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| show_answers(ui, cx, found));
-        });
-    }
-}
-
 /// Shows, while no decisions are recorded, a hint or the button that starts recording.
-fn not_recorded(ui: &mut Ui, cx: &mut PanelContext) {
-    if cx.state.picture.is_none() {
-        return widgets::placeholder(
-            ui,
-            cx.palette,
-            "Open a photograph, then click a pixel to learn why it is what it is.",
-        );
-    }
+pub fn not_recorded(ui: &mut Ui, cx: &mut PanelContext) {
     if cx.state.view.debug.open {
-        return widgets::placeholder(ui, cx.palette, "The decisions are being recorded\u{2026}");
+        let text = "The decisions are being recorded\u{2026}";
+        ui.label(RichText::new(text).color(cx.palette.secondary));
+        return;
     }
-    ui.centered_and_justified(|ui| {
+    ui.vertical(|ui| {
         let record = egui::Button::new("Record the decisions").ui(ui);
         if record
             .on_hover_text("Keeps every decision of the analysis, so that each can be asked for.")
@@ -77,11 +33,12 @@ fn not_recorded(ui: &mut Ui, cx: &mut PanelContext) {
 }
 
 /// Shows the histories of pixel, hypothesis and region.
-fn show_answers(ui: &mut Ui, cx: &mut PanelContext, found: &Why) {
+pub fn show(ui: &mut Ui, cx: &mut PanelContext, found: &Why) {
     if let Some((pixel, history)) = &found.pixel {
-        about_pixel(ui, cx, *pixel);
-        show_sentences(ui, cx, history);
         what_if(ui, cx, *pixel);
+        let heading = widgets::heading(ui, cx.palette, "History");
+        heading.on_hover_text("What was decided about the pixel, newest first; each line leads to its step.");
+        show_sentences(ui, cx, history);
     }
     if let Some((hypothesis, sentences)) = &found.hypothesis {
         let heading = widgets::heading(ui, cx.palette, &format!("Hypothesis {hypothesis}"));
@@ -95,39 +52,6 @@ fn show_answers(ui: &mut Ui, cx: &mut PanelContext, found: &Why) {
         );
         show_sentences(ui, cx, sentences);
     }
-}
-
-/// Shows the pixel's position, color, region and kind.
-fn about_pixel(ui: &mut Ui, cx: &PanelContext, pixel: PixelIndex) {
-    let (Some(picture), Some(shown)) = (&cx.state.picture, &cx.state.newest) else { return };
-    let [x, y] = pixel.position(picture.size().0);
-    let color = picture.photo.image.pixels[pixel.index()];
-    let region = RegionId::from_label(shown.labels()[pixel.index()]);
-    ui.horizontal_wrapped(|ui| {
-        widgets::chip(ui, cx.palette, widgets::own_color(color), "the pixel's color");
-        ui.label(format!("Pixel {x}, {y}"));
-        let [r, g, b] = color;
-        ui.label(RichText::new(format!("{r:.0} {g:.0} {b:.0} counts")).color(cx.palette.secondary));
-        let kind = shown.analysis.intrinsic.kinds[pixel.index()].name();
-        let change = region.map_or_else(|| kind.to_owned(), |region| format!("region {region}, {kind}"));
-        ui.label(change);
-    });
-    amounts(ui, cx, shown, pixel);
-}
-
-/// Shows the pixel's amounts of body and surface reflection in the result, and as measured where the two differ.
-fn amounts(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot, pixel: PixelIndex) {
-    let Some(amounts) = PixelAmounts::of(shown, pixel) else { return };
-    let text = |of: &Amounts| {
-        let counts = |value: f32| widgets::signed(f64::from(value), 1);
-        let surface = of.surface.map_or_else(String::new, |surface| format!(", m_s {}", counts(surface)));
-        format!("m_b {}{surface}", counts(of.body))
-    };
-    let mut sentence = format!("result {}", text(&amounts.result));
-    if let Some(measured) = amounts.different_measured() {
-        sentence = format!("{sentence}; measured {}, before the cut at noise", text(&measured));
-    }
-    ui.label(widgets::with_subscripts(&sentence, SMALL_PT, cx.palette.secondary));
 }
 
 /// Shows sentences, each a link that moves the cursor to the sentence's step.

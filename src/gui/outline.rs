@@ -1,8 +1,7 @@
-//! Outlines that the user draws over the points: rectangle, lasso, polygon.
+//! Outlines that a person draws over the points of the color space or of the plane: rectangle, lasso, polygon.
 
-use crate::gpu::{Projector, pick};
-use crate::raster::Mask;
-use crate::view::{Picture, Tool, marking};
+use crate::app::Combine;
+use crate::view::Tool;
 use egui::{Color32, Key, Painter, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui};
 
 /// Smallest distance between two corners of a lasso, points.
@@ -105,17 +104,11 @@ impl Outline {
     }
 }
 
-/// Mask of the pixels in bins whose centers appear inside an outline on the screen.
-pub fn mask_of(
-    picture: &Picture,
-    bins: &[crate::gpu::Point],
-    projector: &Projector,
-    rect: Rect,
-    outline: &[Pos2],
-) -> Mask {
-    let corners: Vec<[f32; 2]> = outline.iter().map(|corner| (*corner - rect.min).into()).collect();
-    let inside = pick::inside_polygon(bins, projector, &corners);
-    let inside: Vec<u32> = inside.into_iter().map(|bin| bin as u32).collect();
-    let (width, height) = picture.size();
-    marking::of_bins(picture, &inside).unwrap_or_else(|| Mask::filled(width, height, false))
+/// How newly marked pixels combine with those marked before, by the modifier keys: Shift adds, Alt takes away.
+pub fn combine_by_keys(ui: &Ui) -> Combine {
+    ui.input(|input| match input.modifiers {
+        egui::Modifiers { alt: true, .. } => Combine::Subtract,
+        egui::Modifiers { shift: true, .. } => Combine::Union,
+        _ => Combine::Replace,
+    })
 }

@@ -1,0 +1,74 @@
+//! The reducer of the change between open photographs.
+
+use super::edits::analyze;
+use crate::app::photographs::MOST_OTHERS;
+use crate::app::{Debugger, Effect, OpenPhotograph, State, Switching};
+use std::sync::Arc;
+
+/// Puts the photograph that is shown to the end of the others, before another one is shown.
+pub(super) fn keep_open(state: &mut State) {
+    let shown = take_shown(state);
+    state.others.extend(shown);
+    if state.others.len() > MOST_OTHERS {
+        state.others.remove(0);
+    }
+}
+
+/// Shows another open photograph, with its document and its last result, and analyzes it anew: results are not kept by generation.
+pub(super) fn switch(state: &mut State, switching: Switching) -> Vec<Effect> {
+    let index = match switching {
+        Switching::Next => 0,
+        Switching::Previous => state.others.len().saturating_sub(1),
+        Switching::To(index) => index,
+    };
+    if index >= state.others.len() || state.picture.is_none() {
+        return Vec::new();
+    }
+    // The circle of photographs is turned until the wanted one is first, so that its order stays.
+    let shown = take_shown(state);
+    let mut circle: Vec<OpenPhotograph> =
+        shown.into_iter().chain(std::mem::take(&mut state.others)).collect();
+    circle.rotate_left(index + 1);
+    state.others = circle.split_off(1);
+    circle.pop().map_or_else(Vec::new, |next| show(state, next))
+}
+
+/// Closes the photograph that is shown, and shows the next one; nothing where it is the only one.
+pub(super) fn close(state: &mut State) -> Vec<Effect> {
+    if state.others.is_empty() {
+        return Vec::new();
+    }
+    take_shown(state);
+    let next = state.others.remove(0);
+    show(state, next)
+}
+
+/// The photograph that is shown, taken out of the state.
+fn take_shown(state: &mut State) -> Option<OpenPhotograph> {
+    Some(OpenPhotograph {
+        picture: state.picture.take()?,
+        document: std::mem::take(&mut state.document),
+        history: std::mem::take(&mut state.history),
+        newest: state.newest.take(),
+        pinned: state.pinned.take(),
+        found_light: state.found_light.take(),
+        workspace_path: state.workspace_path.take(),
+    })
+}
+
+fn show(state: &mut State, photograph: OpenPhotograph) -> Vec<Effect> {
+    let OpenPhotograph { picture, document, history, newest, pinned, found_light, workspace_path } =
+        photograph;
+    let has_other_size = state.others.last().is_some_and(|other| other.picture.size() != picture.size());
+    if has_other_size {
+        (state.view.image.center_px, state.view.image.zoom) = (None, None);
+    }
+    state.notices.retain(|notice| !notice.of_photograph);
+    (state.picture, state.document, state.history) = (Some(picture), document, history);
+    (state.newest, state.pinned, state.found_light) = (newest, pinned, found_light);
+    state.workspace_path = workspace_path;
+    (state.debugger, state.preview, state.after_pin) = (Debugger::default(), None, None);
+    (state.hover, state.explained_pixel, state.hover_pixels) = (None, None, Arc::default());
+    (state.view.show_pinned, state.preselects) = (false, false);
+    analyze(state)
+}

@@ -1,0 +1,145 @@
+//! The inspector: one panel for what is hovered, selected, marked or stepped to. Each thing has a block: the verdict first, then
+//! each value against its threshold, the section, and what can be done. The history of the pixel or region follows.
+
+mod actions;
+mod answers;
+mod block;
+
+use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
+use super::{PanelContext, widgets};
+use crate::app::State;
+use crate::describe::Names;
+use crate::raster::{HypothesisId, PixelIndex};
+use crate::view::{Inspection, Item, Why, inspect_item, inspect_marked, inspect_step, why};
+use actions::Subject;
+use egui::{ScrollArea, Ui};
+use std::sync::Arc;
+
+/// Identity of the answers: generation of the trace, pixel, and hypothesis id.
+type WhyKey = (u64, Option<PixelIndex>, Option<HypothesisId>);
+
+/// Identity of the findings about marked pixels: generation of the result, and address of the mask.
+type MarkedKey = (u64, usize);
+
+/// The inspector, with the answers and findings that were computed last.
+#[derive(Default)]
+pub struct InspectorPanel {
+    show_answers: BackgroundValue<WhyKey, Why>,
+    marked: BackgroundValue<MarkedKey, Option<Inspection>>,
+    /// The findings about the step at the cursor: generation of the trace, number of steps taken, findings.
+    step: Option<(u64, usize, Option<Inspection>)>,
+    /// Height of the block of the selected item, which a hovered item keeps, so that nothing below moves with the pointer; points.
+    item_height: f32,
+}
+
+impl InspectorPanel {
+    /// Shows the panel.
+    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
+        if cx.state.picture.is_none() {
+            let text = "Open a photograph, then click a pixel to learn why it is what it is.";
+            return widgets::placeholder(ui, cx.palette, text);
+        }
+        let step = self.inspected_step(cx.state);
+        let (item, is_hovered) = inspected_item(cx.state);
+        let found = item.zip(cx.state.shown()).and_then(|(item, shown)| inspect_item(shown, item));
+        let marked = self.inspected_marked(ui, cx.state);
+        let has_answers = cx.state.explained_pixel().is_some()
+            || cx.state.selected_region().is_some()
+            || cx.state.debugger.chosen.is_some();
+        if step.is_none() && found.is_none() && marked.is_none() && !has_answers {
+            let text = "Click a pixel or a region: its verdict and its history appear here, and the reason for every refusal.";
+            let frame = egui::Frame::new().inner_margin(12);
+            frame.show(ui, |ui| widgets::placeholder(ui, cx.palette, text));
+            return;
+        }
+        egui::Frame::new().inner_margin(8).show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                if let Some(step) = &step {
+                    block::show(ui, cx, step, Subject::Step);
+                }
+                if let Some((item, found)) = item.zip(found.as_ref()) {
+                    self.show_item(ui, cx, item, found, is_hovered);
+                }
+                if let Some(marked) = &marked {
+                    block::show(ui, cx, marked, Subject::Marked);
+                }
+                self.show_history(ui, cx);
+            });
+        });
+    }
+
+    /// Shows the block of an item. A hovered item takes the height of the selected item.
+    fn show_item(
+        &mut self,
+        ui: &mut Ui,
+        cx: &mut PanelContext,
+        item: Item,
+        found: &Inspection,
+        is_hovered: bool,
+    ) {
+        let kept = if is_hovered { self.item_height } else { 0.0 };
+        let subject = if is_hovered { Subject::Hovered(item) } else { Subject::Selected(item) };
+        let shown = ui.scope(|ui| {
+            ui.set_min_height(kept);
+            block::show(ui, cx, found, subject);
+        });
+        if !is_hovered {
+            self.item_height = shown.response.rect.height();
+        }
+    }
+
+    /// The findings about the step at the cursor, where the cursor stands before the end; computed once for each place.
+    fn inspected_step(&mut self, state: &State) -> Option<Inspection> {
+        let (Some(replay), Some(shown)) = (state.followed(), &state.newest) else {
+            self.step = None;
+            return None;
+        };
+        let place = (state.debugger.generation, replay.at());
+        if self.step.as_ref().is_none_or(|(generation, at, _)| (*generation, *at) != place) {
+            let colors = &shown.analysis.working.image.pixels;
+            let found = inspect_step(replay, &Names::of(replay.trace()), colors);
+            self.step = Some((place.0, place.1, found));
+        }
+        self.step.as_ref().and_then(|(_, _, found)| found.clone())
+    }
+
+    /// The findings about the marked pixels.
+    fn inspected_marked(&mut self, ui: &Ui, state: &State) -> Option<Inspection> {
+        let (mask, shown) = (state.document.selection.marked.clone()?, state.shown().cloned()?);
+        let key = (shown.generation, Arc::as_ptr(&mask) as usize);
+        let synchronous = mask.len() <= SYNCHRONOUS_PX;
+        let make = move || inspect_marked(&shown, &mask);
+        self.marked.get(ui.ctx(), key, synchronous, make).cloned().flatten()
+    }
+
+    /// Shows the history of the selected pixel or region.
+    fn show_history(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
+        let debugger = &cx.state.debugger;
+        let (Some(trace), Some(shown)) = (debugger.trace().cloned(), cx.state.newest.clone()) else {
+            return answers::not_recorded(ui, cx);
+        };
+        let pixel = cx.state.explained_pixel();
+        let selected = cx.state.selected_region().filter(|_| pixel.is_none());
+        let of_region = selected.and_then(|region| debugger.names.hypotheses_of(region).next());
+        let hypothesis = debugger.chosen.filter(|_| pixel.is_none()).or(of_region);
+        if pixel.is_none() && hypothesis.is_none() {
+            return;
+        }
+        let (names, generation) = (Arc::clone(&debugger.names), debugger.generation);
+        let synchronous = shown.labels().len() <= SYNCHRONOUS_PX;
+        let key = (generation, pixel, hypothesis);
+        let compute = move || why(&shown, &trace, &names, pixel, hypothesis);
+        if let Some(found) = self.show_answers.get(ui.ctx(), key, synchronous, compute) {
+            answers::show(ui, cx, found);
+        }
+    }
+}
+
+/// The item that the inspector is about: the hovered one, otherwise the clicked pixel or the selected item; and whether the item is
+/// hovered.
+fn inspected_item(state: &State) -> (Option<Item>, bool) {
+    if state.followed().is_none() && state.hover.is_some() {
+        return (state.hover, true);
+    }
+    (state.explained_pixel().map(Item::Pixel).or(state.document.selection.item), false)
+}

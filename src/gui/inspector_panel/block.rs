@@ -1,0 +1,76 @@
+//! One block of the inspector: subject and verdict, what the verdict means, the values against their thresholds, section and actions.
+
+use super::actions::{self, Subject};
+use crate::gui::theme::{BODY_PT, SMALL_PT, heading_font};
+use crate::gui::{PanelContext, threshold_bar, widgets};
+use crate::raster::PixelIndex;
+use crate::view::{Amounts, Inspection, Item, PixelAmounts, ResultSnapshot, Tone};
+use egui::accesskit::Role;
+use egui::{Color32, Label, RichText, Ui, WidgetInfo};
+
+/// Shows the findings about a subject.
+pub fn show(ui: &mut Ui, cx: &mut PanelContext, found: &Inspection, subject: Subject) {
+    ui.spacing_mut().item_spacing.y = 3.0;
+    head(ui, cx, found, subject);
+    if !found.sentence.is_empty() {
+        let sentence = widgets::with_subscripts(&found.sentence, SMALL_PT, cx.palette.text);
+        ui.add(Label::new(sentence).wrap());
+    }
+    if let Subject::Hovered(Item::Pixel(pixel)) | Subject::Selected(Item::Pixel(pixel)) = subject {
+        color_and_amounts(ui, cx, pixel);
+    }
+    threshold_bar::show(ui, cx.palette, &found.tests);
+    actions::show(ui, cx, found, subject);
+    ui.add_space(6.0);
+}
+
+/// Shows the subject, the verdict and the section in a line that wraps.
+fn head(ui: &mut Ui, cx: &PanelContext, found: &Inspection, subject: Subject) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 6.0;
+        let verdict = RichText::new(&found.verdict).font(heading_font(BODY_PT));
+        let verdict = ui.add(Label::new(verdict.color(tone_color(cx, found.tone))));
+        let name = format!("Verdict: {}", found.verdict);
+        verdict.widget_info(|| WidgetInfo::labeled(Role::Label, true, name.clone()));
+        let how = if matches!(subject, Subject::Hovered(_)) { ", pointed at" } else { "" };
+        let text = format!("{}{how} \u{b7} section {}", found.subject, found.section);
+        ui.add(Label::new(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary)));
+    });
+}
+
+/// The color of a verdict. A bad verdict has the color of warnings, which is readable as text.
+fn tone_color(cx: &PanelContext, tone: Tone) -> Color32 {
+    match tone {
+        Tone::Good => cx.palette.accent,
+        Tone::Bad => cx.palette.warning,
+        Tone::Neutral => cx.palette.text,
+    }
+}
+
+/// Shows the color of a pixel, and its amounts of body and surface reflection.
+fn color_and_amounts(ui: &mut Ui, cx: &PanelContext, pixel: PixelIndex) {
+    let (Some(picture), Some(shown)) = (&cx.state.picture, cx.state.shown()) else { return };
+    let Some(color) = picture.photo.image.pixels.as_slice().get(pixel.index()).copied() else { return };
+    ui.horizontal_wrapped(|ui| {
+        widgets::chip(ui, cx.palette, widgets::own_color(color), "the pixel's color");
+        let [r, g, b] = color;
+        let text = format!("{r:.0} {g:.0} {b:.0} counts");
+        ui.label(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary));
+        amounts(ui, cx, shown, pixel);
+    });
+}
+
+/// Shows the pixel's amounts of body and surface reflection in the result, and as measured where the two differ.
+fn amounts(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot, pixel: PixelIndex) {
+    let Some(amounts) = PixelAmounts::of(shown, pixel) else { return };
+    let text = |of: &Amounts| {
+        let counts = |value: f32| widgets::signed(f64::from(value), 1);
+        let surface = of.surface.map_or_else(String::new, |surface| format!(", m_s {}", counts(surface)));
+        format!("m_b {}{surface}", counts(of.body))
+    };
+    let mut sentence = format!("result {}", text(&amounts.result));
+    if let Some(measured) = amounts.different_measured() {
+        sentence = format!("{sentence}; measured {}, before the cut at noise", text(&measured));
+    }
+    ui.label(widgets::with_subscripts(&sentence, SMALL_PT, cx.palette.secondary));
+}

@@ -1,0 +1,32 @@
+//! The paths that the export dialog proposes.
+
+use super::PanelContext;
+use super::action::LayerFile;
+use crate::app::ExportKind;
+use crate::view::Layer;
+use std::path::{Path, PathBuf};
+
+/// The proposed path of an export: beside the photograph, or in the working directory.
+pub fn proposed_path(kind: ExportKind, cx: &PanelContext) -> PathBuf {
+    let picture = cx.state.picture.as_ref();
+    let photo = picture.and_then(|picture| picture.origin.path());
+    let folder = photo.and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();
+    let stem = picture.map_or_else(String::new, |picture| {
+        Path::new(&picture.origin.name()).file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    });
+    let name = format!("{stem}-{}", kind.file());
+    if kind.is_folder() || kind.file().contains('.') {
+        return folder.join(name);
+    }
+    let extension = photo.and_then(Path::extension).map_or("png".into(), |e| e.to_string_lossy());
+    folder.join(format!("{name}.{extension}"))
+}
+
+/// The proposed path of a single layer's file: `cups-body.exr` beside `cups.png`.
+pub fn proposed_layer_path(layer: Layer, file: LayerFile, cx: &PanelContext) -> PathBuf {
+    let name = layer.name().to_lowercase().replace(' ', "-");
+    let proposed = proposed_path(ExportKind::Layer, cx);
+    let stem = proposed.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let stem = stem.strip_suffix("layer").unwrap_or(&stem).to_owned();
+    proposed.with_file_name(format!("{stem}{name}.{}", file.extension()))
+}

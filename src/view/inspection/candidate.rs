@@ -1,0 +1,90 @@
+//! The four tests of a skewed T (section 5.4.1).
+
+use super::{Limits, ThresholdTest};
+use crate::trace::CandidateTested;
+
+/// The tests of a highlight candidate, in the order in which the tests are made.
+pub fn candidate_tests(test: &CandidateTested) -> [ThresholdTest; 4] {
+    let direction = &test.line.direction;
+    let least = direction.iter().fold(f64::INFINITY, |least, band| least.min(*band));
+    let beyond = (test.line.mean - test.meeting[1]).dot(direction);
+    let verdict = test.verdict;
+    let gap = ThresholdTest::at_most(
+        "gap",
+        test.gap,
+        "counts",
+        "The lines form a skewed T where they pass near enough to one another: within the cylinder's radius, or within \u{3c3}0 under the reading gap_within_noise (section 5.4.1).",
+    );
+    [
+        ThresholdTest { passed: verdict.lines_meet, ..gap },
+        ThresholdTest {
+            name: "meets at",
+            value: test.position_percent,
+            limits: Limits::Within(test.position_limits),
+            unit: "%",
+            passed: verdict.upper_half,
+            tip: "Highlights begin in the upper half of the matte line: the 50 % heuristic (section 5.4.1).",
+        },
+        ThresholdTest {
+            name: "least band of its direction",
+            value: least,
+            limits: Limits::AtLeast(0.0),
+            unit: "",
+            passed: verdict.positive,
+            tip: "Light added at the surface makes no band darker (section 5.4.1).",
+        },
+        ThresholdTest {
+            name: "cluster beyond the line",
+            value: beyond,
+            limits: Limits::AtLeast(0.0),
+            unit: "counts",
+            passed: verdict.beyond,
+            tip: "The cluster lies where light was added, not where it was taken away (section 5.4.1).",
+        },
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::{Line, Vec3};
+    use crate::raster::HypothesisId;
+    use crate::trace::{CandidateSource, CandidateVerdict, Measured};
+
+    /// A matte line along red, 200 counts long, and a highlight 4 counts beside it at 150, along blue.
+    fn test() -> CandidateTested {
+        CandidateTested {
+            with_distorted: false,
+            hypothesis: HypothesisId::from_index(0),
+            candidate: CandidateSource::Hypothesis(HypothesisId::from_index(1)),
+            pixels: 40,
+            matte: Line::new(Vec3::new(90.0, 3.0, 0.0), Vec3::x()),
+            matte_length: 200.0,
+            line: Line::new(Vec3::new(150.0, 7.0, 30.0), Vec3::z()),
+            meeting: [Vec3::new(150.0, 3.0, 0.0), Vec3::new(150.0, 7.0, 0.0)],
+            gap: Measured::new(4.0, 10.0),
+            position_percent: 75.0,
+            position_limits: [50.0, 120.0],
+            verdict: CandidateVerdict { lines_meet: true, upper_half: true, positive: true, beyond: true },
+            weight: 40.0,
+        }
+    }
+
+    #[test]
+    fn tests_name_the_value_and_its_limit() {
+        let texts = |test: &CandidateTested| candidate_tests(test).map(|test| (test.passed, test.text()));
+        let passed = texts(&test());
+        assert_eq!(passed[0], (true, "gap 4.0 \u{2264} 10.0 counts".to_owned()));
+        assert_eq!(passed[1], (true, "meets at 75 within 50\u{2013}120 %".to_owned()));
+        assert_eq!(passed[3], (true, "cluster beyond the line 30.00 \u{2265} 0.00 counts".to_owned()));
+        let verdict = CandidateVerdict { lines_meet: false, upper_half: false, positive: true, beyond: true };
+        let failed = texts(&CandidateTested {
+            gap: Measured::new(12.3, 10.0),
+            position_percent: 31.0,
+            verdict,
+            ..test()
+        });
+        assert_eq!(failed[0], (false, "gap 12.3 > 10.0 counts".to_owned()));
+        assert_eq!(failed[1], (false, "meets at 31 outside 50\u{2013}120 %".to_owned()));
+    }
+}

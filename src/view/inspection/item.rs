@@ -1,0 +1,168 @@
+//! The findings about an item of a result: a pixel, a region, a window or a color, and about marked pixels.
+
+use super::fits::region_tests;
+use super::step::window_tests;
+use super::{Inspection, ThresholdTest, Tone};
+use crate::color::vec3;
+use crate::raster::{Mask, PixelIndex, RegionId};
+use crate::trace::{Class, Event, Measured};
+use crate::view::shapes::hypothesis;
+use crate::view::{Item, PixelAmounts, ResultSnapshot, reason_entry};
+
+/// The findings about an item; none where the result has no such item.
+pub fn inspect_item(shown: &ResultSnapshot, item: Item) -> Option<Inspection> {
+    match item {
+        Item::Pixel(pixel) => of_pixel(shown, pixel),
+        Item::Region(region) => of_region(shown, region),
+        Item::Window(window) => of_window(shown, window),
+        Item::Bin(bin) => of_bin(shown, bin),
+    }
+}
+
+fn of_pixel(shown: &ResultSnapshot, pixel: PixelIndex) -> Option<Inspection> {
+    let analysis = &shown.analysis;
+    let color = *shown.picture.photo.image.pixels.as_slice().get(pixel.index())?;
+    let [x, y] = pixel.position(shown.picture.size().0);
+    let label = *shown.labels().as_slice().get(pixel.index())?;
+    let region = RegionId::from_label(label).filter(|id| id.index() < analysis.intrinsic.regions.len());
+    let reason = reason_entry(*analysis.intrinsic.reasons.as_slice().get(pixel.index())?);
+    let kind = analysis.intrinsic.kinds.as_slice().get(pixel.index())?.name();
+    let amounts = PixelAmounts::of(shown, pixel);
+    let mut tests = mask_tests(color, analysis.used.min_intensity, analysis.used.clip_threshold).to_vec();
+    if let Some(found) = region.and_then(|region| hypothesis(shown, region)) {
+        let distance = found.matte.distance(&vec3(color));
+        tests.push(ThresholdTest::at_most(
+            "from the matte line",
+            Measured::new(distance, analysis.used.radius_counts()),
+            "counts",
+            "Distance of the color from the matte line, against the radius of the cylinder: beyond it, the color is no matte pixel (section 5.3.2).",
+        ));
+        if let Some(amounts) = amounts.filter(|amounts| amounts.result.surface.is_some()) {
+            let off =
+                f64::from(amounts.measured.map_or(amounts.result.noise, |measured| measured.noise).abs());
+            tests.push(ThresholdTest::at_most(
+                "from the plane",
+                Measured::new(off, analysis.used.slice_half_width_counts()),
+                "counts",
+                "Distance of the color from the dichromatic plane, against half the slice's thickness (section 5.4.2).",
+            ));
+        }
+    }
+    let (verdict, tone, sentence) = match (reason, region) {
+        (None, Some(region)) => {
+            ("Explained".to_owned(), Tone::Good, format!("{kind} pixel of region {region}"))
+        }
+        (None, None) => ("In no region".to_owned(), Tone::Neutral, String::new()),
+        (Some(entry), region) => {
+            let of = region.map_or_else(String::new, |region| format!("region {region}, {kind}; "));
+            (format!("Not explained: {}", entry.name), Tone::Bad, format!("{of}{}", entry.tooltip))
+        }
+    };
+    Some(Inspection { subject: format!("Pixel {x}, {y}"), verdict, tone, sentence, tests, section: "6" })
+}
+
+/// The tests of the masks (section 4): brightness, and the largest band.
+fn mask_tests(color: [f32; 3], least: f64, clip: f64) -> [ThresholdTest; 2] {
+    let brightness = vec3(color).norm();
+    let largest = color.iter().fold(f64::NEG_INFINITY, |most, &band| most.max(f64::from(band)));
+    [
+        ThresholdTest::at_least(
+            "from black",
+            Measured::new(brightness, least),
+            "counts",
+            "Distance of the color from black: nearer colors are mostly noise and not analyzed (section 4).",
+        ),
+        ThresholdTest {
+            passed: largest < clip,
+            ..ThresholdTest::at_most(
+                "largest band",
+                Measured::new(largest, clip),
+                "counts",
+                "A pixel with a band at the clipping threshold is not believed (section 4).",
+            )
+        },
+    ]
+}
+
+fn of_region(shown: &ResultSnapshot, id: RegionId) -> Option<Inspection> {
+    let region = shown.analysis.intrinsic.regions.get(id.index())?;
+    let tests = region_tests(region, shown.trace().map(|trace| &**trace));
+    let (verdict, tone) =
+        if region.model_fits { ("Holds", Tone::Good) } else { ("Does not hold", Tone::Bad) };
+    let angle = region.angle_deg.map_or_else(
+        || "no dichromatic plane".to_owned(),
+        |angle| format!("{angle:.1}\u{b0} between body and surface vector"),
+    );
+    let sentence = format!(
+        "{} pixels, {} of them matte and {} highlight; {angle}; confidence {:.2}",
+        region.pixels, region.matte_pixels, region.highlight_pixels, region.confidence
+    );
+    Some(Inspection {
+        subject: format!("Region {id}"),
+        verdict: verdict.to_owned(),
+        tone,
+        sentence,
+        tests,
+        section: "6",
+    })
+}
+
+fn of_window(shown: &ResultSnapshot, window: u32) -> Option<Inspection> {
+    let class = *shown.classes().as_slice().get(window as usize)?;
+    let classified = shown.trace().and_then(|trace| {
+        trace.events().find_map(|(_, event)| match event {
+            Event::WindowClassified(found) if found.window == window => Some(found),
+            _ => None,
+        })
+    });
+    Some(Inspection {
+        subject: format!("Window {}", window + 1),
+        verdict: class.map_or("No class", Class::name).to_owned(),
+        tone: Tone::Neutral,
+        sentence: "by the number of directions in which its colors vary beyond the noise".to_owned(),
+        tests: classified.map_or_else(Vec::new, |found| window_tests(found, None)),
+        section: "5.2.1",
+    })
+}
+
+fn of_bin(shown: &ResultSnapshot, bin: u32) -> Option<Inspection> {
+    let found = shown.picture.histogram.bins.get(bin as usize)?;
+    let tests = mask_tests(found.mean, shown.analysis.used.min_intensity, shown.analysis.used.clip_threshold);
+    let [r, g, b] = found.mean;
+    Some(Inspection {
+        subject: format!("Color {r:.0} {g:.0} {b:.0}"),
+        verdict: format!("{} pixels", found.count),
+        tone: Tone::Neutral,
+        sentence: "of this color, within a 64th of full scale in each band".to_owned(),
+        tests: tests.to_vec(),
+        section: "4",
+    })
+}
+
+/// The findings about marked pixels; none where no pixel of the picture is marked.
+pub fn inspect_marked(shown: &ResultSnapshot, mask: &Mask) -> Option<Inspection> {
+    let found = crate::view::statistics(shown, mask)?;
+    let class = found.class.map_or("of no class", Class::name);
+    let share = |n: usize| 100.0 * n as f64 / found.pixels.max(1) as f64;
+    let regions = found.regions.iter().take(3).map(|&(region, n)| {
+        let name = region.map_or_else(|| "no region".to_owned(), |region| format!("region {region}"));
+        format!("{name} {:.0} %", share(n))
+    });
+    let regions = regions.collect::<Vec<_>>().join(", ");
+    let most = |name, n: usize, tip| ThresholdTest::at_most(name, Measured::new(share(n), 50.0), "%", tip);
+    Some(Inspection {
+        subject: "Marked pixels".to_owned(),
+        verdict: class.to_owned(),
+        tone: Tone::Neutral,
+        sentence: format!("{} pixels: {regions}", found.pixels),
+        tests: vec![
+            most(
+                "clipped",
+                found.clipped,
+                "Share of the pixels with a clipped band: a majority has little color to go by (section 4).",
+            ),
+            most("dark", found.dark, "Share of the pixels that are not analyzed (section 4)."),
+        ],
+        section: "5.2.1",
+    })
+}

@@ -1,0 +1,112 @@
+//! Tests of the inspector: verdict, values against thresholds and actions of what is selected, marked, hovered or stepped to.
+
+use crate::window::{Window, apply, click, marked, named, region, says, shown, state, tiny_window};
+use dichroscope::app::{Combine, Command, DebugCommand, Edit, ViewCommand};
+use dichroscope::gui::Pane;
+use dichroscope::intrinsic::Reason;
+use dichroscope::raster::PixelIndex;
+use dichroscope::trace::{Event, Kind};
+use dichroscope::view::Item;
+use egui::accesskit::Role;
+use std::sync::Arc;
+
+/// A window with the small photograph in which the inspector is alone.
+fn inspector() -> Window {
+    let mut window = tiny_window();
+    window.state_mut().show_alone(Some(Pane::Inspector));
+    window.run_steps(3);
+    window
+}
+
+/// Moves the cursor behind the first event that is wanted.
+fn go_to(window: &mut Window, wanted: impl Fn(&Event) -> bool) {
+    let trace = Arc::clone(state(window).debugger.trace().unwrap());
+    let (step, _) = trace.events().find(|(_, event)| wanted(event)).unwrap();
+    apply(window, Command::Debug(DebugCommand::Seek(step + 1)));
+}
+
+#[test]
+fn a_region_has_its_verdict_first_then_values_against_limits_and_actions() {
+    let mut window = inspector();
+    apply(&mut window, Edit::Select(Some(region(1))));
+    assert!(says(&window, "Verdict: Holds") && says(&window, "Region 1 \u{b7} section 6"));
+    assert!(says(&window, "passed: rms from the plane") && says(&window, "passed: new edges"));
+    let verdict = named(&window, Role::Label, "Verdict: Holds").rect();
+    click(&mut window, Role::Button, "Mark its pixels");
+    assert!(marked(&window) > 0 && says(&window, "Marked pixels"));
+    let marked_block = named(&window, Role::Label, "Marked pixels \u{b7} section 5.2.1").rect();
+    assert!(marked_block.top() > verdict.bottom());
+    click(&mut window, Role::Button, "Restrict to them");
+    assert!(state(&window).document.area.is_some());
+}
+
+#[test]
+fn a_hovered_pixel_takes_the_place_of_the_selected_one_and_moves_nothing_below() {
+    let mut window = inspector();
+    let labels = shown(&window).labels().clone();
+    let reasons = shown(&window).analysis.intrinsic.reasons.clone();
+    let explained = |pixel: &usize| labels[*pixel] == 1 && reasons[*pixel] == Reason::Explained;
+    let inside = (0..labels.len()).find(explained).unwrap();
+    let outside = labels.as_slice().iter().position(|&label| label == 0).unwrap();
+    apply(&mut window, Edit::Select(Some(Item::Pixel(PixelIndex::from_index(inside)))));
+    assert!(says(&window, "Verdict: Explained") && says(&window, "passed: from black"));
+    assert!(says(&window, "from the matte line"));
+    let history = named(&window, Role::Label, "History").rect();
+    apply(&mut window, ViewCommand::Hover(Some(Item::Pixel(PixelIndex::from_index(outside)))));
+    assert!(says(&window, "Verdict: Not explained") && says(&window, "pointed at"));
+    assert!(!says(&window, "Select its region"), "the pointer is elsewhere");
+    assert_eq!(named(&window, Role::Label, "History").rect(), history);
+}
+
+#[test]
+fn a_step_has_its_verdict_and_can_be_run_to_and_stopped_at_again() {
+    let mut window = inspector();
+    go_to(&mut window, |event| matches!(event, Event::CandidateTested(test) if !test.verdict.accepted()));
+    assert!(says(&window, "Verdict: No skewed T") && says(&window, "section 5.4"));
+    assert!(says(&window, "failed: ") && says(&window, "gap"));
+    click(&mut window, Role::Button, "Break here");
+    assert_eq!(state(&window).view.debug.breakpoints.len(), 1);
+    let before = state(&window).debugger.replay.as_ref().unwrap().at();
+    click(&mut window, Role::Button, "Run to the next one");
+    let replay = state(&window).debugger.replay.as_ref().unwrap();
+    assert!(replay.at() > before);
+    assert_eq!(replay.last().unwrap().kind(), Kind::Candidate);
+    go_to(&mut window, |event| matches!(event, Event::HypothesisChosen(_)));
+    assert!(says(&window, "Verdict: Taken") && says(&window, "passed: line from black"));
+}
+
+#[test]
+fn the_verdict_of_a_step_stands_in_the_timeline_at_every_width() {
+    let mut window = tiny_window();
+    go_to(&mut window, |event| matches!(event, Event::MergeTried(tried) if tried.class != tried.union));
+    for width in [900.0, 1280.0, 1900.0] {
+        window.set_size(egui::vec2(width, 700.0));
+        window.run_steps(4);
+        let verdict = named(&window, Role::Label, "Stay apart").rect();
+        assert!(verdict.right() <= width && verdict.width() > 50.0, "{width}: {verdict}");
+    }
+}
+
+#[test]
+fn the_plane_shows_the_clusters_of_a_window_and_of_two_areas() {
+    let mut window = tiny_window();
+    window.state_mut().show_alone(Some(Pane::Plane));
+    go_to(&mut window, |event| matches!(event, Event::WindowClassified(found) if found.class.is_some()));
+    assert!(says(&window, "Clusters of window") && says(&window, "dashed: noise"));
+    assert!(says(&window, "a point"));
+    go_to(&mut window, |event| matches!(event, Event::MergeTried(tried) if tried.class == tried.union));
+    assert!(says(&window, "they merge") && says(&window, "union") && says(&window, "merged"));
+    go_to(&mut window, |event| matches!(event, Event::MergeTried(tried) if tried.class != tried.union));
+    assert!(says(&window, "they stay apart") && says(&window, "stays apart"));
+}
+
+#[test]
+fn marked_pixels_have_a_block_of_their_own() {
+    let mut window = inspector();
+    apply(&mut window, Edit::ClearSelection);
+    let labels = shown(&window).labels().clone();
+    let mask = Arc::new(labels.map(|&label| label == 2));
+    apply(&mut window, Edit::Mark(mask, Combine::Replace, None));
+    assert!(says(&window, "region 2 100 %"));
+    click(&mut window, Role::Button, "Copy");
+}

@@ -1,0 +1,55 @@
+//! Tests of several open photographs: opened, switched by keys and menu, compared, closed.
+
+use crate::window::{apply, open_sample, press, region, says, sigma, state, tiny_window};
+use dichroscope::app::{Edit, JobCommand};
+use dichroscope::params::{Parameter, Setting};
+use dichroscope::truth::sample;
+use dichroscope::view::{Arrangement, Origin};
+use egui::{Key, Modifiers};
+
+fn name(window: &crate::window::Window) -> String {
+    state(window).picture.as_ref().unwrap().origin.name()
+}
+
+#[test]
+fn photographs_stay_open_and_keys_go_from_one_to_the_other_and_back() {
+    let mut window = tiny_window();
+    let first = name(&window);
+    apply(&mut window, Edit::SetParameter(Parameter::CameraNoise, Setting::Value(3.0), None));
+    apply(&mut window, Edit::Select(Some(region(2))));
+    open_sample(&mut window, sample::NAME);
+    assert_eq!((name(&window).as_str(), state(&window).others.len()), (sample::NAME, 1));
+    apply(&mut window, Edit::SetParameter(Parameter::CameraNoise, Setting::Value(5.0), None));
+    press(&mut window, Modifiers::CTRL, Key::Tab);
+    assert_eq!((name(&window), sigma(&window)), (first.clone(), Setting::Value(3.0)));
+    assert_eq!(state(&window).document.selection.item, Some(region(2)), "its selection is back");
+    assert!(state(&window).is_current() && state(&window).history.can_undo(), "and its result and history");
+    press(&mut window, Modifiers::COMMAND, Key::PageUp);
+    assert_eq!((name(&window).as_str(), sigma(&window)), (sample::NAME, Setting::Value(5.0)));
+    press(&mut window, Modifiers::CTRL.plus(Modifiers::SHIFT), Key::Tab);
+    assert_eq!(name(&window), first);
+    press(&mut window, Modifiers::COMMAND, Key::W);
+    assert_eq!((name(&window).as_str(), state(&window).others.len()), (sample::NAME, 0));
+    press(&mut window, Modifiers::COMMAND, Key::W);
+    assert_eq!(name(&window), sample::NAME, "the only one stays");
+}
+
+#[test]
+fn a_photograph_that_is_opened_again_is_open_once_and_two_are_compared_beside() {
+    let mut window = tiny_window();
+    let origin = state(&window).picture.as_ref().unwrap().origin.clone();
+    open_sample(&mut window, sample::NAME);
+    apply(&mut window, JobCommand::Open(origin.clone()));
+    assert_eq!(state(&window).others.len(), 1, "the first is shown again and not twice open");
+    let copy = std::fs::read(origin.path().unwrap()).unwrap();
+    apply(&mut window, JobCommand::Open(Origin::Bytes { name: "copy.png".into(), bytes: copy.into() }));
+    press(&mut window, Modifiers::CTRL, Key::Tab);
+    assert_eq!(name(&window), sample::NAME);
+    press(&mut window, Modifiers::COMMAND, Key::W);
+    assert_eq!(name(&window), origin.name(), "the next one in the circle");
+    press(&mut window, Modifiers::COMMAND, Key::D);
+    assert_eq!(state(&window).view.image.arrangement, Arrangement::SideBySide);
+    assert!(says(&window, "Layer shown: copy.png: "), "the second view shows the other photograph");
+    press(&mut window, Modifiers::COMMAND, Key::D);
+    assert!(!says(&window, "Layer shown: copy.png: "));
+}
