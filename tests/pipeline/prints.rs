@@ -2,7 +2,7 @@
 
 use crate::common::{analyze, assert_valid, scores_of, truth_of};
 use crate::synthetic::{FULL_SCALE, Random, Rendered, Scene};
-use dichroscope::params::{Params, Refine};
+use dichroscope::params::{IlluminantSetting, Params, Refine};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::Raster;
 use dichroscope::segment::LightBasis;
@@ -74,6 +74,55 @@ fn a_picture_of_body_reflection_stays_as_it_is() {
             let analysis = analyze(&image, &Params::default());
             let left = psnr_db(&analysis.intrinsic.body, &image.pixels);
             assert!(left > 45.0, "seed {seed}, print {print}: {left} dB between input and body");
+        }
+    }
+}
+
+const LAMP: [f64; 3] = [1.1, 1.0, 0.9];
+
+/// The photograph of two balls under [`LAMP`], plain or printed.
+fn two_balls(seed: u64, print: bool) -> LinearImage {
+    let illuminant = crate::synthetic::unit(LAMP);
+    let scene = Scene { illuminant, ..Scene::grid_of_balls([320, 160], 2, 1, seed) };
+    if print { printed(&scene).image } else { scene.render().image }
+}
+
+/// Two balls, printed or not, and parameters with which highlights are taken off them: nothing tells the light of a picture of prints
+/// alone, so that the light of these is given.
+fn with_highlights() -> impl Iterator<Item = (LinearImage, Params, Raster<[f32; 3]>, String)> {
+    [(31, false), (32, false), (31, true), (32, true), (33, true)].into_iter().map(|(seed, print)| {
+        let image = two_balls(seed, print);
+        let given = IlluminantSetting::Given(crate::synthetic::unit(LAMP).into());
+        let params =
+            if print { Params { illuminant: given, ..Params::default() } } else { Params::default() };
+        let body = analyze(&image, &params).intrinsic.body.clone();
+        let taken_off = psnr_db(&body, &image.pixels);
+        assert!(taken_off < 40.0, "seed {seed}, print {print}: {taken_off} dB between input and body");
+        (image, params, body, format!("seed {seed}, print {print}"))
+    })
+}
+
+#[test]
+fn the_body_image_as_input_stays_as_it_is() {
+    for (_, params, body, scene) in with_highlights() {
+        let coded = body.map(|color| color.map(|band| band.round().clamp(0.0, FULL_SCALE as f32)));
+        let again = analyze(&LinearImage::new(coded.clone(), Some(FULL_SCALE as f32)), &params);
+        let left = psnr_db(&again.intrinsic.body, &coded);
+        assert!(left > 45.0, "{scene}: {left} dB between input and body");
+    }
+}
+
+#[test]
+fn a_shift_of_the_picture_hardly_changes_the_result() {
+    for (image, params, body, scene) in with_highlights() {
+        for shift in [1, 4, 7, 11] {
+            let shifted = |raster: &Raster<[f32; 3]>| {
+                let rows = (shift..raster.height()).flat_map(|y| raster.row(y)[shift..].to_vec());
+                Raster::from_vec(raster.width() - shift, raster.height() - shift, rows.collect()).unwrap()
+            };
+            let found = analyze(&LinearImage::new(shifted(&image.pixels), Some(FULL_SCALE as f32)), &params);
+            let alike = psnr_db(&found.intrinsic.body, &shifted(&body));
+            assert!(alike > 60.0, "{scene}, shift {shift} px: {alike} dB");
         }
     }
 }
