@@ -119,8 +119,11 @@ fn decisions_at(ui: &mut Ui, cx: &PanelContext, step: usize) {
                 trace.step(step).map_or_else(|| "has ended".to_owned(), |n| Names::of(trace).step(&n));
             let stage = trace.stage_at(step).map_or("", crate::trace::Stage::name);
             ui.label(
-                RichText::new(format!("{name}  step {}, {stage}: {decision}", widgets::grouped(step + 1)))
-                    .size(SMALL_PT),
+                RichText::new(format!(
+                    "{name}  step {}, {stage}: {decision}",
+                    crate::view::grouped(step + 1)
+                ))
+                .size(SMALL_PT),
             );
         }
     });

@@ -227,7 +227,7 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
 fn in_photograph_pixels(ui: &mut Ui, cx: &PanelContext, parameter: Parameter, value: f64) {
     let side = cx.state.newest.as_ref().map_or(1, |shown| shown.analysis.working.blocks.side());
     let Some(pixels) = photograph_pixels(parameter, value, side) else { return };
-    let pixels = widgets::grouped(pixels as usize);
+    let pixels = crate::view::grouped(pixels as usize);
     let text = format!("of working pixels of {side} \u{d7} {side}; in the photograph {pixels} px");
     ui.add(egui::Label::new(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary)).wrap());
 }
@@ -291,7 +291,7 @@ fn given_by_hand(ui: &mut Ui, cx: &mut PanelContext) {
         match area {
             Some(area) => {
                 let pixels = area.as_slice().iter().filter(|&&inside| inside).count();
-                ui.label(format!("{} px", widgets::grouped(pixels)));
+                ui.label(format!("{} px", crate::view::grouped(pixels)));
             }
             // A narrow panel has room for the button only.
             None if narrow => {}

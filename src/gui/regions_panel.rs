@@ -242,11 +242,11 @@ fn cells(
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| plain(ui, text));
         });
     };
-    number(row, RichText::new(widgets::grouped(region.pixels)));
+    number(row, RichText::new(crate::view::grouped(region.pixels)));
     cell(row, |ui| vector(ui, palette, "body color", Some(region.body), shows_numbers[0]));
     cell(row, |ui| vector(ui, palette, "color of the light on it", region.surface, shows_numbers[1]));
     number(row, region.angle_deg.map_or_else(dash, |angle| RichText::new(format!("{angle:.1}\u{b0}"))));
-    let highlight = (region.highlight_pixels > 0).then(|| widgets::grouped(region.highlight_pixels));
+    let highlight = (region.highlight_pixels > 0).then(|| crate::view::grouped(region.highlight_pixels));
     row.col(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let label = plain(ui, highlight.map_or_else(dash, RichText::new));
@@ -293,7 +293,7 @@ fn cells(
 /// Tooltip about the shades on which a region's highlights lie, one line per highlight line (section 7.4).
 fn highlight_lines(branches: &[HighlightBranch]) -> String {
     let line = |branch: &HighlightBranch| {
-        let (pixels, percent) = (widgets::grouped(branch.pixels), 100.0 * branch.share);
+        let (pixels, percent) = (crate::view::grouped(branch.pixels), 100.0 * branch.share);
         format!("from m_b {:.0} counts: {pixels} px, {percent:.0} %", branch.body)
     };
     let lines: Vec<String> = branches.iter().map(line).collect();

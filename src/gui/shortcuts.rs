@@ -96,7 +96,7 @@ const GENERAL: &[Shortcut] = &[
     key_alone("Compare", Key::K, Action::Pin, "Pin the result, or unpin it"),
     key_alone("Compare", Key::A, Action::Swap, "A/B: pinned or newest result"),
     key_with_command("Window", Key::P, Action::Palette, "All commands by name"),
-    key_alone("Window", Key::T, Action::Theme, "Light or dark"),
+    key_alone("Window", Key::T, Action::Theme, "Light or dark theme"),
     key_alone("Window", Key::Questionmark, Action::Help, "This list"),
     key_alone("Window", Key::F1, Action::Help, "This list"),
 ];

@@ -9,6 +9,7 @@ mod cluster_plane;
 mod colors;
 mod compare;
 mod curves;
+mod grouped;
 mod histogram;
 mod inspection;
 mod item;
@@ -45,6 +46,7 @@ pub use compare::{
     BodyChange, ComparedRegion, Comparison, Figure, PixelChanges, RegionChange, SettingChange, compare,
     setting_changes,
 };
+pub use grouped::grouped;
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
 pub use inspection::{
     Inspection, Limits, ThresholdTest, Tone, candidate_tests, inspect_item, inspect_marked, inspect_step,

@@ -172,7 +172,7 @@ fn cells(row: &mut TableRow, palette: &ThemeColors, row_of: &HypothesisRow, name
         widgets::chip(ui, palette, color, &format!("color of hypothesis {}", row_of.hypothesis));
         plain(ui, row_of.hypothesis.to_string());
     });
-    number(row, widgets::grouped(row_of.pixels as usize));
+    number(row, crate::view::grouped(row_of.pixels as usize));
     cell(row, |ui| vector(ui, palette, "color of the line", row_of.direction, true));
     number(row, format!("{:.1}", row_of.radius));
     cell(row, |ui| plain(ui, row_of.status.text()));
@@ -209,7 +209,7 @@ fn windows(ui: &mut Ui, palette: &ThemeColors, counts: &WindowCounts) {
             None => ui.label(""),
         };
         ui.label(name).on_hover_text(tip);
-        widgets::number(ui, palette, 70.0, &widgets::grouped(count), "");
+        widgets::number(ui, palette, 70.0, &crate::view::grouped(count), "");
         ui.end_row();
     };
     egui::Grid::new("windows so far").num_columns(3).spacing([6.0, 2.0]).show(ui, |ui| {

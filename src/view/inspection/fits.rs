@@ -21,7 +21,15 @@ pub(super) fn region_tests(region: &RegionReflection, trace: Option<&Trace>) -> 
 /// The tests of a recorded fit.
 pub(super) fn fit_tests(fitted: &VectorsFitted) -> Vec<ThresholdTest> {
     let VectorsFitted { figures, limits, .. } = fitted;
-    vec![
+    let highlights = figures.highlights.map(|highlights| {
+        ThresholdTest::at_least(
+            "highlights",
+            Measured::new(highlights, limits.highlights),
+            "",
+            "Mean probability that what the plane takes for surface reflection is a highlight and no print (section 7.5).",
+        )
+    });
+    let mut tests = vec![
         distance(Measured::new(figures.rms_counts, limits.rms_counts)),
         ThresholdTest::at_most(
             "body against surface",
@@ -36,12 +44,20 @@ pub(super) fn fit_tests(fitted: &VectorsFitted) -> Vec<ThresholdTest> {
             "Body reflection lost per surface reflection gained; a print exceeds this and the anticorrelation (section 7.5).",
         ),
         ThresholdTest::at_most(
+            "light",
+            Measured::new(figures.light_share, limits.light_share),
+            "of the angle",
+            "Interval of the light as a share of the angle between body and surface vector: beyond 1 both are one color as far as is known (section 7.5).",
+        ),
+        ThresholdTest::at_most(
             "new edges",
             Measured::new(100.0 * figures.new_edges, 100.0 * limits.new_edges),
             "%",
             "Share of the border at which the split makes an edge that the photograph does not have (section 3).",
         ),
-    ]
+    ];
+    tests.extend(highlights);
+    tests
 }
 
 fn distance(measured: Measured<f64>) -> ThresholdTest {

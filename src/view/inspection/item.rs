@@ -7,7 +7,7 @@ use crate::color::vec3;
 use crate::raster::{Mask, PixelIndex, RegionId};
 use crate::trace::{Class, Event, Measured};
 use crate::view::shapes::hypothesis;
-use crate::view::{Item, PixelAmounts, ResultSnapshot, reason_entry};
+use crate::view::{Item, PixelAmounts, ResultSnapshot, grouped, reason_entry};
 
 /// The findings about an item; none where the result has no such item.
 pub fn inspect_item(shown: &ResultSnapshot, item: Item) -> Option<Inspection> {
@@ -95,7 +95,10 @@ fn of_region(shown: &ResultSnapshot, id: RegionId) -> Option<Inspection> {
     );
     let sentence = format!(
         "{} pixels, {} of them matte and {} highlight; {angle}; confidence {:.2}",
-        region.pixels, region.matte_pixels, region.highlight_pixels, region.confidence
+        grouped(region.pixels),
+        grouped(region.matte_pixels),
+        grouped(region.highlight_pixels),
+        region.confidence
     );
     Some(Inspection {
         subject: format!("Region {id}"),
@@ -131,7 +134,7 @@ fn of_bin(shown: &ResultSnapshot, bin: u32) -> Option<Inspection> {
     let [r, g, b] = found.mean;
     Some(Inspection {
         subject: format!("Color {r:.0} {g:.0} {b:.0}"),
-        verdict: format!("{} pixels", found.count),
+        verdict: format!("{} pixels", grouped(found.count as usize)),
         tone: Tone::Neutral,
         sentence: "of this color, within a 64th of full scale in each band".to_owned(),
         tests: tests.to_vec(),
@@ -154,7 +157,7 @@ pub fn inspect_marked(shown: &ResultSnapshot, mask: &Mask) -> Option<Inspection>
         subject: "Marked pixels".to_owned(),
         verdict: class.to_owned(),
         tone: Tone::Neutral,
-        sentence: format!("{} pixels: {regions}", found.pixels),
+        sentence: format!("{} pixels: {regions}", grouped(found.pixels)),
         tests: vec![
             most(
                 "clipped",

@@ -41,11 +41,11 @@ fn a_command_is_chosen_by_arrows_or_the_pointer_and_escape_chooses_none() {
     let second = state(&window).view.image.layer;
     press(&mut window, Modifiers::COMMAND, Key::P);
     press(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(!says(&window, "Light or dark"));
+    assert!(!says(&window, "Light or dark theme"));
     assert_eq!(state(&window).view.image.layer, second);
     press(&mut window, Modifiers::COMMAND, Key::P);
     type_text(&mut window, "light");
-    click(&mut window, Role::Button, "Window: Light or dark");
+    click(&mut window, Role::Button, "Window: Light or dark theme");
     assert_eq!(state(&window).view.theme, Theme::Light);
     press(&mut window, Modifiers::COMMAND, Key::P);
     type_text(&mut window, "no such thing");
