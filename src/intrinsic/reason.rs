@@ -32,7 +32,8 @@ pub enum Reason {
     MixedBoundary,
     /// The pixel or its region lies off the dichromatic plane: inter-reflection, or more than one material.
     InterReflection,
-    /// Body and surface reflection of the pixel's region vary against each other: a print or a grain.
+    /// Body and surface reflection of the pixel's region vary against each other, or what its plane takes for surface reflection looks
+    /// like no highlight: a print, a grain, a second color.
     Texture,
     /// The pixel's region is only a part of an object: its surface reflection ends where the photograph has no edge.
     PartOfObject,

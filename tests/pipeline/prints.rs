@@ -92,7 +92,7 @@ fn two_balls(seed: u64, print: bool) -> LinearImage {
 fn with_highlights() -> impl Iterator<Item = (LinearImage, Params, Raster<[f32; 3]>, String)> {
     [(31, false), (32, false), (31, true), (32, true), (33, true)].into_iter().map(|(seed, print)| {
         let image = two_balls(seed, print);
-        let given = IlluminantSetting::Given(crate::synthetic::unit(LAMP).into());
+        let given = IlluminantSetting::Given(crate::synthetic::unit(LAMP));
         let params =
             if print { Params { illuminant: given, ..Params::default() } } else { Params::default() };
         let body = analyze(&image, &params).intrinsic.body.clone();

@@ -86,9 +86,14 @@ fn mask_tests(color: [f32; 3], least: f64, clip: f64) -> [ThresholdTest; 2] {
 
 fn of_region(shown: &ResultSnapshot, id: RegionId) -> Option<Inspection> {
     let region = shown.analysis.intrinsic.regions.get(id.index())?;
-    let tests = region_tests(region, shown.trace().map(|trace| &**trace));
-    let (verdict, tone) =
-        if region.model_fits { ("Holds", Tone::Good) } else { ("Does not hold", Tone::Bad) };
+    let is_judged = shown.params.refinements().region_holds;
+    let tests =
+        if is_judged { region_tests(region, shown.trace().map(|trace| &**trace)) } else { Vec::new() };
+    let (verdict, tone) = match (is_judged, region.model_fits) {
+        (false, _) => ("Not judged", Tone::Neutral),
+        (true, true) => ("Holds", Tone::Good),
+        (true, false) => ("Does not hold", Tone::Bad),
+    };
     let angle = region.angle_deg.map_or_else(
         || "no dichromatic plane".to_owned(),
         |angle| format!("{angle:.1}\u{b0} between body and surface vector"),

@@ -4,6 +4,7 @@ use crate::window::{Window, apply, click, marked, named, region, says, shown, st
 use dichroscope::app::{Combine, Command, DebugCommand, Edit, ViewCommand};
 use dichroscope::gui::Pane;
 use dichroscope::intrinsic::Reason;
+use dichroscope::params::Method;
 use dichroscope::raster::PixelIndex;
 use dichroscope::trace::{Event, Kind};
 use dichroscope::view::Item;
@@ -38,6 +39,15 @@ fn a_region_has_its_verdict_first_then_values_against_limits_and_actions() {
     assert!(marked_block.top() > verdict.bottom());
     click(&mut window, Role::Button, "Restrict to them");
     assert!(state(&window).document.area.is_some());
+}
+
+#[test]
+fn a_region_of_the_papers_method_is_not_judged() {
+    let mut window = inspector();
+    apply(&mut window, Edit::SetMethod(Method::Paper));
+    apply(&mut window, Edit::Select(Some(region(1))));
+    assert_eq!(shown(&window).params.method, Method::Paper);
+    assert!(says(&window, "Verdict: Not judged") && !says(&window, "rms from the plane"));
 }
 
 #[test]
