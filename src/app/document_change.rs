@@ -20,7 +20,7 @@ pub fn document_change(before: &Document, after: &Document, width: usize) -> Str
     if !same_mask(before.area.as_ref(), after.area.as_ref()) {
         parts.push(after.area.as_ref().map_or_else(
             || "the whole picture analyzed".to_owned(),
-            |area| format!("analysis restricted to {} pixels", pixels(area)),
+            |area| format!("analysis restricted to {} pixels", area.count()),
         ));
     }
     let (old, new) = (&before.selection, &after.selection);
@@ -34,7 +34,7 @@ pub fn document_change(before: &Document, after: &Document, width: usize) -> Str
         parts.push(
             new.marked.as_ref().map_or_else(
                 || "no pixels marked".to_owned(),
-                |mask| format!("{} pixels marked", pixels(mask)),
+                |mask| format!("{} pixels marked", mask.count()),
             ),
         );
     }
@@ -79,10 +79,6 @@ fn same_mask(a: Option<&Arc<Mask>>, b: Option<&Arc<Mask>>) -> bool {
         (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a == b,
         _ => false,
     }
-}
-
-fn pixels(mask: &Mask) -> usize {
-    mask.as_slice().iter().filter(|&&on| on).count()
 }
 
 #[cfg(test)]

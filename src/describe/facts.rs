@@ -142,7 +142,7 @@ pub struct AreaFacts {
 impl AreaFacts {
     /// The facts of `mask`, true inside, which is kept in a file of this name.
     pub fn new(file: &str, mask: &Mask) -> Self {
-        let pixels = mask.as_slice().iter().filter(|&&inside| inside).count();
+        let pixels = mask.count();
         Self { file: file.to_owned(), pixels }
     }
 }

@@ -290,7 +290,7 @@ fn given_by_hand(ui: &mut Ui, cx: &mut PanelContext) {
         label(ui, "area", "Only these pixels are analyzed; the others stay as they are.");
         match area {
             Some(area) => {
-                let pixels = area.as_slice().iter().filter(|&&inside| inside).count();
+                let pixels = area.count();
                 ui.label(format!("{} px", crate::view::grouped(pixels)));
             }
             // A narrow panel has room for the button only.

@@ -220,7 +220,7 @@ fn pixel_warnings(source: &Source, image: &LinearImage) -> Vec<String> {
             "{transparent} of {pixels} pixels are not fully opaque: the picture was composited on black"
         ));
     }
-    let invalid = image.invalid.as_slice().iter().filter(|&&bad| bad).count();
+    let invalid = image.invalid.count();
     if invalid > 0 {
         warnings.push(format!(
             "{invalid} of {pixels} pixels have values that are negative or not finite: they are left out"

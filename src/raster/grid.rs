@@ -14,6 +14,13 @@ pub type Mask = Raster<bool>;
 /// A region number per pixel; [`UNASSIGNED`] for a pixel of no region.
 pub type LabelMap = Raster<u16>;
 
+impl Mask {
+    /// Number of pixels that are true.
+    pub fn count(&self) -> usize {
+        self.as_slice().iter().filter(|&&on| on).count()
+    }
+}
+
 /// The label of a pixel that belongs to no region.
 pub const UNASSIGNED: u16 = 0;
 

@@ -104,10 +104,9 @@ pub struct RegionFit {
     pub light_share: f64,
     /// The edges that the split would make at the border of the region; counted after the pixels are split.
     pub new_edges: NewEdges,
-    /// Mean probability of a highlight in the surface reflection of the plane, 0…1; none where it was not measured.
+    /// Mean probability of a highlight in the surface reflection of the plane, 0…1; none where it was not measured. 0 for a region
+    /// with a small misfit and too little surface reflection to be judged.
     pub highlights: Option<f64>,
-    /// Whether the region needs `highlights`.
-    pub needs_highlights: bool,
 }
 
 /// The sides of the pixels of a region against lit pixels outside, and how many of the sides have an edge in the body image that the
@@ -166,7 +165,6 @@ impl RegionFit {
             light_share: 0.0,
             new_edges: NewEdges::default(),
             highlights: None,
-            needs_highlights: false,
         }
     }
 
@@ -201,14 +199,12 @@ impl RegionFit {
         self.light_share > MAX_LIGHT_SHARE
     }
 
-    /// Whether the region needs highlights and what the plane takes for surface reflection looks like print or another color. Too
-    /// little surface reflection to be judged is no reason against a region without misfit.
+    /// Whether what the plane takes for surface reflection has been found to look like print or another color.
     pub fn lacks_highlights(&self) -> bool {
-        let lacking = |highlights| highlights < self.least_highlights();
-        self.needs_highlights && self.highlights.map_or(self.has_small_misfit(), lacking)
+        self.highlights.is_some_and(|highlights| highlights < self.least_highlights())
     }
 
-    /// Least mean probability of a highlight of a region that needs highlights.
+    /// Least mean probability of a highlight of a region that the model fits.
     fn least_highlights(&self) -> f64 {
         if self.has_small_misfit() { MIN_HIGHLIGHTS_SMALL_MISFIT } else { MIN_HIGHLIGHTS }
     }
@@ -389,9 +385,9 @@ mod tests {
             ..RegionFit::default()
         };
         assert!(plane.has_small_misfit() && plane.model_fits());
-        let with = |highlights| RegionFit { needs_highlights: true, highlights, ..plane };
+        let with = |highlights| RegionFit { highlights, ..plane };
         assert!(with(Some(0.9)).model_fits());
-        assert!(!with(Some(0.5)).model_fits() && !with(None).model_fits());
+        assert!(!with(Some(0.5)).model_fits() && !with(Some(0.0)).model_fits());
         let line = RegionFit { least_limit_counts: 0.0, ..plane };
         assert!(line.poor() && !line.has_small_misfit());
         let exact = RegionFit { rms_counts: 0.8, ..with(Some(0.5)) };

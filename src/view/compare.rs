@@ -156,10 +156,7 @@ pub fn setting_changes(before: &Params, after: &Params) -> Vec<SettingChange> {
 fn settings(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<SettingChange> {
     let mut changes = setting_changes(&pinned.params, &newest.params);
     let area = |shown: &ResultSnapshot| {
-        shown.area.as_ref().map_or_else(
-            || "all".to_owned(),
-            |area| format!("{} px", area.as_slice().iter().filter(|&&inside| inside).count()),
-        )
+        shown.area.as_ref().map_or_else(|| "all".to_owned(), |area| format!("{} px", area.count()))
     };
     let (pinned, newest) = (area(pinned), area(newest));
     if pinned != newest {

@@ -28,13 +28,13 @@ pub struct NamedMarks {
 impl NamedMark {
     /// A mark of the pixels of a mask.
     pub fn new(name: String, color: [u8; 3], mask: Arc<Mask>) -> Self {
-        let pixels = count(&mask);
+        let pixels = mask.count();
         Self { name, color, mask, pixels }
     }
 
     /// Replaces the pixels.
     pub fn set_mask(&mut self, mask: Arc<Mask>) {
-        (self.pixels, self.mask) = (count(&mask), mask);
+        (self.pixels, self.mask) = (mask.count(), mask);
     }
 }
 
@@ -60,10 +60,6 @@ impl NamedMarks {
         let next = colors[self.marks.len() % colors.len().max(1)];
         colors.into_iter().find(is_free).unwrap_or(next)
     }
-}
-
-fn count(mask: &Mask) -> usize {
-    mask.as_slice().iter().filter(|&&on| on).count()
 }
 
 #[cfg(test)]

@@ -38,7 +38,7 @@ mod tests {
         let shown = tiny();
         let region = RegionId::from_index(0);
         let plane = region_plane(&shown, region).unwrap();
-        let count = |mask: Mask| mask.as_slice().iter().filter(|&&on| on).count();
+        let count = |mask: Mask| mask.count();
         let all = count(plane_mask(&shown, &plane, |_| true).unwrap());
         assert_eq!(all, shown.analysis.intrinsic.regions[0].pixels);
         let middle = 0.5 * plane.matte_length;

@@ -41,7 +41,7 @@ pub(crate) fn csv(mask: &Mask, picture: &Picture, shown: Option<&ResultSnapshot>
 /// The pixels of a mask as points in the color cube: x, y, z are linear red, green and blue in counts, and each point has
 /// its sRGB color (PLY 1.0, binary, little-endian).
 pub(crate) fn ply(mask: &Mask, picture: &Picture) -> Vec<u8> {
-    let count = mask.as_slice().iter().filter(|&&on| on).count();
+    let count = mask.count();
     let mut bytes = format!(
         "ply\nformat binary_little_endian 1.0\ncomment x y z: linear red, green and blue in counts, 255 = full scale\n\
          element vertex {count}\nproperty float x\nproperty float y\nproperty float z\n\

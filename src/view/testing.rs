@@ -2,11 +2,13 @@
 
 use super::{Histogram, Origin, Picture, ResultSnapshot};
 use crate::analysis::{Analysis, Session};
+use crate::color::{Line, Vec3};
 use crate::intrinsic::{Intrinsic, RegionReflection};
 use crate::params::Params;
 use crate::photo::{self, EncodingChoice, ReadOptions};
-use crate::raster::{LabelMap, Raster, RegionId};
+use crate::raster::{HypothesisId, LabelMap, Raster, RegionId};
 use crate::segment::FinalRegions;
+use crate::trace::{CandidateSource, CandidateTested, CandidateVerdict, Measured};
 use std::sync::{Arc, OnceLock};
 
 /// A picture `width` pixels wide, of linear 8-bit colors.
@@ -26,6 +28,25 @@ pub(crate) fn picture(width: usize, colors: &[[u8; 3]]) -> Arc<Picture> {
         histogram,
         truth: None,
     })
+}
+
+/// A matte line along red, 200 counts long, and a highlight 4 counts beside it at 150, along blue.
+pub(crate) fn candidate() -> CandidateTested {
+    CandidateTested {
+        with_distorted: false,
+        hypothesis: HypothesisId::from_index(0),
+        candidate: CandidateSource::Hypothesis(HypothesisId::from_index(1)),
+        pixels: 40,
+        matte: Line::new(Vec3::new(90.0, 3.0, 0.0), Vec3::x()),
+        matte_length: 200.0,
+        line: Line::new(Vec3::new(150.0, 7.0, 30.0), Vec3::z()),
+        meeting: [Vec3::new(150.0, 3.0, 0.0), Vec3::new(150.0, 7.0, 0.0)],
+        gap: Measured::new(4.0, 10.0),
+        position_percent: 75.0,
+        position_limits: [50.0, 120.0],
+        verdict: CandidateVerdict { lines_meet: true, upper_half: true, positive: true, beyond: true },
+        weight: 40.0,
+    }
 }
 
 /// A gray picture of the size of `rows`.

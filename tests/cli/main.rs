@@ -7,4 +7,5 @@ mod batch;
 mod contract;
 mod documents;
 mod folder;
+mod parameters;
 mod trace;

@@ -30,7 +30,7 @@ pub use observations::Observations;
 use super::confidence::LOCAL;
 use super::images::Images;
 use crate::color::Vec3;
-use crate::raster::{Mask, Raster, Roi};
+use crate::raster::{Mask, Raster};
 use crate::reflection::WhiteningGain;
 use crate::segment::{AnalysisInput, LightFindings};
 use crate::trace::{LocalLimits, LocalStart, PictureOddsFound, PixelKind, Recorder};
@@ -44,8 +44,6 @@ use trace_writer::LocalTraceWriter;
 const LEAST_PIXELS: usize = 64;
 /// Least share of unexplained pixels among lit pixels for which the local split begins.
 const LEAST_SHARE: f64 = 0.01;
-/// How far around the unexplained pixels the window reaches, pixels.
-const MARGIN_PX: usize = 24;
 
 /// The picture whose unexplained pixels are split locally.
 pub struct LocalInput<'a> {
@@ -101,17 +99,15 @@ fn split_unexplained<R: Recorder>(
     images: &mut Images,
     trace_writer: &mut LocalTraceWriter<R>,
 ) -> Option<LocalSplit> {
-    let pixels = unexplained.as_slice().iter().filter(|&&unexplained| unexplained).count();
+    let pixels = unexplained.count();
     let lit = (0..unexplained.len()).filter(|&pixel| !input.masks.dark(pixel)).count();
     let few = pixels < least_pixels(lit);
     let limits = limits::limits(input);
     let light = findings.direction.map(Vec3::from);
     let wanted = input.refine.local_split && !few && !input.stopped();
-    let made = light.filter(|_| wanted && observations.is_none()).and_then(|light| {
-        let size = (unexplained.width(), unexplained.height());
-        let roi = Roi::around(size, MARGIN_PX, |pixel| unexplained[pixel])?;
-        Observations::new(input, &light, roi)
-    });
+    let made = light
+        .filter(|_| wanted && observations.is_none())
+        .and_then(|light| Observations::around(input, &light, |pixel| unexplained[pixel]));
     let observed = observations.as_ref().filter(|_| wanted).or(made.as_ref());
     let start = match observed {
         Some(_) => LocalStart::Begins,

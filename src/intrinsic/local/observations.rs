@@ -7,6 +7,9 @@ use crate::color::Vec3;
 use crate::raster::Roi;
 use crate::segment::AnalysisInput;
 
+/// How far around the wanted pixels the window reaches, pixels.
+const MARGIN_PX: usize = 24;
+
 /// What the pixels of a window are judged by, whether a region explains them or not.
 pub struct Observations {
     /// The desaturation of each pixel.
@@ -16,8 +19,11 @@ pub struct Observations {
 }
 
 impl Observations {
-    /// The observations in the window `roi` under the light `light`, unit; none where the light lacks a band.
-    pub fn new(input: &AnalysisInput, light: &Vec3, roi: Roi) -> Option<Self> {
+    /// The observations in a window around the pixels for which `wanted` is true, under the light `light`, unit; none where the
+    /// light lacks a band or there is no such pixel.
+    pub fn around(input: &AnalysisInput, light: &Vec3, wanted: impl Fn(usize) -> bool) -> Option<Self> {
+        let size = (input.pixels.width(), input.pixels.height());
+        let roi = Roi::around(size, MARGIN_PX, wanted)?;
         let limits = limits(input);
         let map = DesaturationMap::new(input, &limits, light, roi)?;
         let evidence = input.refine.highlight_evidence.then(|| Evidence::new(&limits, &map));

@@ -47,33 +47,13 @@ pub fn candidate_tests(test: &CandidateTested) -> [ThresholdTest; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::{Line, Vec3};
-    use crate::raster::HypothesisId;
-    use crate::trace::{CandidateSource, CandidateVerdict, Measured};
-
-    /// A matte line along red, 200 counts long, and a highlight 4 counts beside it at 150, along blue.
-    fn test() -> CandidateTested {
-        CandidateTested {
-            with_distorted: false,
-            hypothesis: HypothesisId::from_index(0),
-            candidate: CandidateSource::Hypothesis(HypothesisId::from_index(1)),
-            pixels: 40,
-            matte: Line::new(Vec3::new(90.0, 3.0, 0.0), Vec3::x()),
-            matte_length: 200.0,
-            line: Line::new(Vec3::new(150.0, 7.0, 30.0), Vec3::z()),
-            meeting: [Vec3::new(150.0, 3.0, 0.0), Vec3::new(150.0, 7.0, 0.0)],
-            gap: Measured::new(4.0, 10.0),
-            position_percent: 75.0,
-            position_limits: [50.0, 120.0],
-            verdict: CandidateVerdict { lines_meet: true, upper_half: true, positive: true, beyond: true },
-            weight: 40.0,
-        }
-    }
+    use crate::trace::{CandidateVerdict, Measured};
+    use crate::view::testing::candidate;
 
     #[test]
     fn tests_name_the_value_and_its_limit() {
         let texts = |test: &CandidateTested| candidate_tests(test).map(|test| (test.passed, test.text()));
-        let passed = texts(&test());
+        let passed = texts(&candidate());
         assert_eq!(passed[0], (true, "gap 4.0 \u{2264} 10.0 counts".to_owned()));
         assert_eq!(passed[1], (true, "meets at 75 within 50\u{2013}120 %".to_owned()));
         assert_eq!(passed[3], (true, "cluster beyond the line 30.00 \u{2265} 0.00 counts".to_owned()));
@@ -82,7 +62,7 @@ mod tests {
             gap: Measured::new(12.3, 10.0),
             position_percent: 31.0,
             verdict,
-            ..test()
+            ..candidate()
         });
         assert_eq!(failed[0], (false, "gap 12.3 > 10.0 counts".to_owned()));
         assert_eq!(failed[1], (false, "meets at 31 outside 50\u{2013}120 %".to_owned()));

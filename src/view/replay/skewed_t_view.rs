@@ -55,32 +55,11 @@ pub fn candidate_reach(test: &CandidateTested, colors: impl Iterator<Item = [f32
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::Line;
-    use crate::raster::HypothesisId;
-    use crate::trace::{CandidateVerdict, Measured};
-
-    /// A matte line along red, 200 counts long, and a highlight 4 counts beside it at 150, along blue.
-    fn test() -> CandidateTested {
-        CandidateTested {
-            with_distorted: false,
-            hypothesis: HypothesisId::from_index(0),
-            candidate: CandidateSource::Hypothesis(HypothesisId::from_index(1)),
-            pixels: 40,
-            matte: Line::new(Vec3::new(90.0, 3.0, 0.0), Vec3::x()),
-            matte_length: 200.0,
-            line: Line::new(Vec3::new(150.0, 7.0, 30.0), Vec3::z()),
-            meeting: [Vec3::new(150.0, 3.0, 0.0), Vec3::new(150.0, 7.0, 0.0)],
-            gap: Measured::new(4.0, 10.0),
-            position_percent: 75.0,
-            position_limits: [50.0, 120.0],
-            verdict: CandidateVerdict { lines_meet: true, upper_half: true, positive: true, beyond: true },
-            weight: 40.0,
-        }
-    }
+    use crate::view::testing::candidate;
 
     #[test]
     fn both_lines_lie_where_they_were_fitted_and_the_gap_joins_them() {
-        let skewed_t_view = skewed_t_view(&test(), None);
+        let skewed_t_view = skewed_t_view(&candidate(), None);
         assert_eq!(skewed_t_view.matte, [[0.0, 3.0, 0.0], [200.0, 3.0, 0.0]]);
         assert_eq!(skewed_t_view.upper, [[100.0, 3.0, 0.0], [240.0, 3.0, 0.0]]);
         assert_eq!(skewed_t_view.gap, [[150.0, 3.0, 0.0], [150.0, 7.0, 0.0]]);
@@ -89,7 +68,7 @@ mod tests {
 
     #[test]
     fn the_candidates_line_spans_its_cluster() {
-        let test = test();
+        let test = candidate();
         let found = candidate_reach(&test, [[140.0, 9.0, -5.0], [150.0, 7.0, 82.0]].into_iter());
         assert_eq!(found, Some([-5.0, 82.0]));
         assert_eq!(skewed_t_view(&test, found).line, [[150.0, 7.0, -5.0], [150.0, 7.0, 82.0]]);
