@@ -19,11 +19,11 @@
 //! split with a new edge 2.1 → 1.2 %, of a portrait 17.6 → 0 %.
 
 use super::images::Images;
-use super::local::Observations;
+use super::local::{Observations, Regions};
 use super::region_plan::RegionPlan;
 use crate::color::Vec3;
 use crate::raster::RegionId;
-use crate::segment::{AnalysisInput, LightFindings, Members, Pixels};
+use crate::segment::{AnalysisInput, LightFindings, Pixels};
 use rayon::prelude::*;
 
 /// Fewest pixels with surface reflection that are judged.
@@ -31,13 +31,13 @@ const LEAST_PIXELS: usize = 20;
 
 /// Measures the evidence of each region that the model fits, and rejects the regions with too little. Returns the observations that
 /// this took, which the local split needs as well; none where no region was tested.
-pub(super) fn reject_regions_without_evidence(
+pub(super) fn reject_regions_without_evidence<'a>(
     input: &AnalysisInput,
     light: &LightFindings,
-    members: &Members,
+    regions: &Regions<'a>,
     images: &Images,
     plans: &mut [RegionPlan],
-) -> Option<Observations> {
+) -> Option<Observations<'a>> {
     let refine = input.refine;
     if !refine.region_holds {
         return None;
@@ -49,10 +49,10 @@ pub(super) fn reject_regions_without_evidence(
     if !plans.iter().any(is_tested) {
         return None;
     }
-    let observations = observations(input, light);
+    let observations = observations(input, light, regions);
     let tested = plans.par_iter_mut().enumerate().filter(|(_, plan)| is_tested(plan));
     tested.for_each(|(index, plan)| {
-        let pixels = members.region(RegionId::from_index(index));
+        let pixels = regions.members.region(RegionId::from_index(index));
         let measured = observations
             .as_ref()
             .and_then(|observations| mean_probability(input, observations, images, pixels));
@@ -64,10 +64,14 @@ pub(super) fn reject_regions_without_evidence(
 }
 
 /// The observations around all lit pixels; none without the refinements that they belong to, and where no light is known.
-fn observations(input: &AnalysisInput, light: &LightFindings) -> Option<Observations> {
+fn observations<'a>(
+    input: &AnalysisInput,
+    light: &LightFindings,
+    regions: &Regions<'a>,
+) -> Option<Observations<'a>> {
     let refine = input.refine;
     let light = light.direction.filter(|_| refine.plane_evidence && refine.local_split)?;
-    Observations::around(input, &Vec3::from(light), |pixel| !input.masks.dark(pixel))
+    Observations::around(input, &Vec3::from(light), regions, |pixel| !input.masks.dark(pixel))
 }
 
 /// The mean probability of a highlight in the undistorted pixels of a region with surface reflection, weighted by the square of the
@@ -97,6 +101,7 @@ mod tests {
     use super::*;
     use crate::color::rgb;
     use crate::raster::{LabelMap, Raster};
+    use crate::segment::Members;
     use crate::segment::testing::Drawing;
     use crate::trace::PixelKind;
 
@@ -131,8 +136,10 @@ mod tests {
             kinds: Raster::filled(SIDE_PX, SIDE_PX, PixelKind::Matte),
         };
         let labels = (0..SIDE_PX * SIDE_PX).map(|pixel| if pixel % SIDE_PX < 48 { 1 } else { 2 });
-        let members = Members::of(&LabelMap::from_vec(SIDE_PX, SIDE_PX, labels.collect()).unwrap(), 2);
-        let observations = Observations::around(&input, &light(), |_| true).unwrap();
+        let labels = LabelMap::from_vec(SIDE_PX, SIDE_PX, labels.collect()).unwrap();
+        let members = Members::of(&labels, 2);
+        let regions = Regions { labels: &labels, members: &members, matte: &[] };
+        let observations = Observations::around(&input, &light(), &regions, |_| true).unwrap();
         [1u16, 2].map(|id| mean_probability(&input, &observations, &images, members.region(id)))
     }
 

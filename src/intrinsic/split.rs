@@ -7,10 +7,11 @@ use super::border_mixtures::limit_surface_at_borders;
 use super::explained_mask::explained_mask;
 use super::finish::Finish;
 use super::images::Images;
-use super::local::{LocalInput, LocalSplit, split_locally};
+use super::local::{LocalInput, LocalSplit, Regions, split_locally};
 use super::plane_evidence::reject_regions_without_evidence;
 use super::region::RegionReports;
 use super::region_plan::RegionPlan;
+use crate::color::Line;
 use crate::raster::{Mask, Raster, RegionId};
 use crate::segment::{AnalysisInput, Branches, FinalRegions, Members, PlanarHypothesis, members, neighbors};
 use crate::trace::{Ambient, BranchesSought, Pass, PassBegan, Recorder};
@@ -112,8 +113,10 @@ fn split_from<R: Recorder>(
     images.restore(origin, input, &regions.labels, &found.plans, members);
     let mut limited = limit_surface_at_borders(input, &regions.labels, &found.plans, &mut images);
     reject_regions_with_new_edges(input, &regions.labels, members, &images, &mut found.plans);
+    let matte: Vec<Line> = found.plans.iter().map(|plan| plan.hypothesis.matte).collect();
+    let local_regions = Regions { labels: &regions.labels, members, matte: &matte };
     let observations =
-        reject_regions_without_evidence(input, &regions.light, members, &images, &mut found.plans);
+        reject_regions_without_evidence(input, &regions.light, &local_regions, &images, &mut found.plans);
     let plans = &found.plans;
     record_plans(origin, plans, recorder);
     if R::KEEPS && input.refine.border_mixtures {
@@ -124,7 +127,8 @@ fn split_from<R: Recorder>(
     let model_fits: Vec<bool> = plans.iter().map(|plan| plan.model_fits).collect();
     found.explained_mask = explained_mask(input, regions, members, &model_fits, &images.kinds);
     let explained_mask = &found.explained_mask;
-    let local_input = LocalInput { input, light: regions.light, explained_mask, observations };
+    let local_input =
+        LocalInput { input, light: regions.light, explained_mask, observations, regions: local_regions };
     found.local = split_locally(&local_input, origin, &mut images, recorder);
     if R::KEEPS {
         recorder.record(PassBegan { pass: Pass::Labels });

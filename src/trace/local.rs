@@ -24,7 +24,7 @@ pub struct LocalPoint {
 /// What a pixel was judged by.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LocalFigures {
-    /// κ and the median of a/c around the pixel; none where no pixel of the picture has the hue of this one.
+    /// κ and the median of a/c around the pixel, or of its region; none where no pixel of the picture has the hue of this one.
     pub ratios: Option<[f32; 2]>,
     /// The observations, log odds.
     pub terms: HighlightTerms,

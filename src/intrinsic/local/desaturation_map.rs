@@ -1,6 +1,7 @@
 //! Rule `local_split`: the desaturation of each pixel against the pixels of the same hue around it.
 
 use super::hue_ratios::HueRatios;
+use super::region_ratios::{RegionRatios, Regions};
 use crate::color::Vec3;
 use crate::raster::{Raster, Roi};
 use crate::reflection::{Desaturation, WhitenedColor, WhiteningGain};
@@ -9,7 +10,7 @@ use crate::trace::LocalLimits;
 use rayon::prelude::*;
 
 /// The desaturation of the pixels of a window.
-pub struct DesaturationMap {
+pub struct DesaturationMap<'a> {
     /// The window.
     pub roi: Roi,
     /// The desaturation of each pixel; zeros for dark pixels.
@@ -21,13 +22,21 @@ pub struct DesaturationMap {
     /// The factor that makes the light white.
     pub gain: WhiteningGain,
     ratios: HueRatios,
+    region_ratios: RegionRatios<'a>,
 }
 
-impl DesaturationMap {
+impl<'a> DesaturationMap<'a> {
     /// The desaturation under the light `light`, unit; none where the light lacks a band.
-    pub fn new(input: &AnalysisInput, limits: &LocalLimits, light: &Vec3, roi: Roi) -> Option<Self> {
+    pub fn new(
+        input: &AnalysisInput,
+        limits: &LocalLimits,
+        light: &Vec3,
+        roi: Roi,
+        regions: &Regions<'a>,
+    ) -> Option<Self> {
         let gain = WhiteningGain::new(light)?;
         let ratios = HueRatios::new(input, limits, &gain);
+        let region_ratios = RegionRatios::new(input, limits, &gain, regions);
         let mut points = Raster::filled(roi.width, roi.height, Desaturation::default());
         let mut colors = Raster::filled(roi.width, roi.height, WhitenedColor::default());
         let rows = (
@@ -47,14 +56,17 @@ impl DesaturationMap {
                 let (x, y) = (roi.left + column, roi.top + row);
                 *whitened = color;
                 *point = match ratios.at(x, y, color.hue_turns) {
-                    Some(ratios) => limits.desaturation(color, ratios, input.masks.clipped(pixel)),
+                    Some(around) => {
+                        let ratios = region_ratios.or_around(pixel, color.hue_turns, around);
+                        limits.desaturation(color, ratios, input.masks.clipped(pixel))
+                    }
                     None => Desaturation::unjudged(color, 1.0),
                 };
             }
         });
         let usable =
             roi.raster(|pixel| if input.masks.dark(pixel) || input.masks.clipped(pixel) { 0.0 } else { 1.0 });
-        Some(Self { roi, points, usable, colors, gain, ratios })
+        Some(Self { roi, points, usable, colors, gain, ratios, region_ratios })
     }
 
     /// A raster of the window whose values are `of` the indices of the pixels, computed in parallel.
@@ -64,11 +76,13 @@ impl DesaturationMap {
         Raster::from_vec(self.roi.width, self.roi.height, data).unwrap_or_default()
     }
 
-    /// κ and the median of a/c around the pixel at `index` of the window; `None` where no counted pixel of the picture
-    /// has the hue or a neighboring hue.
+    /// κ and the median of a/c around the pixel at `index` of the window, or those of its region; `None` where no counted pixel of
+    /// the picture has the hue or a neighboring hue.
     pub fn ratios(&self, input: &AnalysisInput, index: usize) -> Option<[f32; 2]> {
         let (x, y) = (self.roi.left + index % self.roi.width, self.roi.top + index / self.roi.width);
-        let color = self.gain.whitened(input.pixels[self.roi.pixel(index)]);
-        self.ratios.at(x, y, color.hue_turns)
+        let pixel = self.roi.pixel(index);
+        let hue_turns = self.gain.whitened(input.pixels[pixel]).hue_turns;
+        let around = self.ratios.at(x, y, hue_turns)?;
+        Some(self.region_ratios.or_around(pixel, hue_turns, around))
     }
 }

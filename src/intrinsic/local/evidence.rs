@@ -54,7 +54,7 @@ pub struct Evidence {
 
 /// Per pixel of the window: what the observations are computed from.
 struct Source<'a> {
-    map: &'a DesaturationMap,
+    map: &'a DesaturationMap<'a>,
 }
 
 impl Evidence {

@@ -5,7 +5,7 @@
 //! reflection adds the light's color, and so lowers a pixel's saturation below the saturation of the same hue around
 //! the pixel. J = I / (√3 s) is the color under a white light, with the unit vector s of the light; a is the mean of J,
 //! c the length of its chromatic part, κ the ratio a/c of body reflection, and m_s = max(a − κc, 0) the excess
-//! (`hue_ratios`). `desaturation_map` measures the excess, `evidence` tells highlights from white print, `plausibility`
+//! (`hue_ratios`, and `region_ratios` for pale regions). `desaturation_map` measures the excess, `evidence` tells highlights from white print, `plausibility`
 //! whether the light is known well enough, `guided` makes the amounts follow the edges of the picture, and `repair`
 //! fills clipped pixels.
 //!
@@ -21,11 +21,13 @@ mod limits;
 mod linear_weights;
 mod observations;
 mod plausibility;
+mod region_ratios;
 mod repair;
 mod trace_writer;
 
 pub use full_resolution::{LocalWorkingSplit, split_locally_at_full_resolution};
 pub use observations::Observations;
+pub use region_ratios::Regions;
 
 use super::confidence::LOCAL;
 use super::images::Images;
@@ -54,7 +56,9 @@ pub struct LocalInput<'a> {
     /// The pixels that the skewed T of their region explains.
     pub explained_mask: &'a Mask,
     /// The observations in a window around all lit pixels, where they were made before.
-    pub observations: Option<Observations>,
+    pub observations: Option<Observations<'a>>,
+    /// The regions.
+    pub regions: Regions<'a>,
 }
 
 /// What the local split found.
@@ -94,7 +98,7 @@ fn least_pixels(lit: usize) -> usize {
 
 /// Splits the lit pixels that no region explains. Returns what [`split_locally`] returns.
 fn split_unexplained<R: Recorder>(
-    LocalInput { input, light: findings, observations, .. }: &LocalInput,
+    LocalInput { input, light: findings, observations, regions, .. }: &LocalInput,
     unexplained: &Mask,
     images: &mut Images,
     trace_writer: &mut LocalTraceWriter<R>,
@@ -107,7 +111,7 @@ fn split_unexplained<R: Recorder>(
     let wanted = input.refine.local_split && !few && !input.stopped();
     let made = light
         .filter(|_| wanted && observations.is_none())
-        .and_then(|light| Observations::around(input, &light, |pixel| unexplained[pixel]));
+        .and_then(|light| Observations::around(input, &light, regions, |pixel| unexplained[pixel]));
     let observed = observations.as_ref().filter(|_| wanted).or(made.as_ref());
     let start = match observed {
         Some(_) => LocalStart::Begins,

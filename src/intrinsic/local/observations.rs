@@ -3,6 +3,7 @@
 use super::desaturation_map::DesaturationMap;
 use super::evidence::Evidence;
 use super::limits::limits;
+use super::region_ratios::Regions;
 use crate::color::Vec3;
 use crate::raster::Roi;
 use crate::segment::AnalysisInput;
@@ -11,21 +12,26 @@ use crate::segment::AnalysisInput;
 const MARGIN_PX: usize = 24;
 
 /// What the pixels of a window are judged by, whether a region explains them or not.
-pub struct Observations {
+pub struct Observations<'a> {
     /// The desaturation of each pixel.
-    pub map: DesaturationMap,
+    pub map: DesaturationMap<'a>,
     /// The evidence of a highlight in each pixel; none without refinement `highlight_evidence`.
     pub evidence: Option<Evidence>,
 }
 
-impl Observations {
+impl<'a> Observations<'a> {
     /// The observations in a window around the pixels for which `wanted` is true, under the light `light`, unit; none where the
-    /// light lacks a band or there is no such pixel.
-    pub fn around(input: &AnalysisInput, light: &Vec3, wanted: impl Fn(usize) -> bool) -> Option<Self> {
+    /// light lacks a band or there is no such pixel. `regions`: the regions of the picture, which may have ratios of their own.
+    pub fn around(
+        input: &AnalysisInput,
+        light: &Vec3,
+        regions: &Regions<'a>,
+        wanted: impl Fn(usize) -> bool,
+    ) -> Option<Self> {
         let size = (input.pixels.width(), input.pixels.height());
         let roi = Roi::around(size, MARGIN_PX, wanted)?;
         let limits = limits(input);
-        let map = DesaturationMap::new(input, &limits, light, roi)?;
+        let map = DesaturationMap::new(input, &limits, light, roi, regions)?;
         let evidence = input.refine.highlight_evidence.then(|| Evidence::new(&limits, &map));
         Some(Self { map, evidence })
     }

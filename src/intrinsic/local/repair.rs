@@ -36,7 +36,7 @@ pub(super) const CONFIDENCE: f32 = 0.3;
 /// The surface reflection around the clipped blobs of a window, by which the blobs are judged.
 pub struct LocalAmounts<'a> {
     /// The desaturation of the pixels.
-    pub map: &'a DesaturationMap,
+    pub map: &'a DesaturationMap<'a>,
     /// The share of each pixel's excess that is surface reflection, 0…1.
     pub weights: &'a Raster<f32>,
     /// Amount of surface reflection of each pixel, counts of J.

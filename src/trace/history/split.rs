@@ -70,7 +70,8 @@ pub struct LocalStory {
     pub mean: f32,
     /// c: the length of the chromatic part of J, counts.
     pub chroma: f32,
-    /// κ: the ratio a/c of the body around the pixel, and its median there; none where no pixel around has the hue of this one.
+    /// κ: the ratio a/c of the body around the pixel, or of its region where that is clearly paler, and the median of a/c there; none
+    /// where no pixel around has the hue of this one.
     pub ratios: Option<[f32; 2]>,
     /// κc: the part of a that the saturation accounts for, counts.
     pub body: f32,
