@@ -66,6 +66,7 @@
 //! | [`color`] | points in the color cube: moments, eigenvectors, the χ² test, robust lines, cylinders | who computes with the model |
 //! | [`raster`] | rectangles of values: pixels, masks, label maps | who reads pictures of a result |
 //! | [`view`] | what the window's panels show, as plain data | the window |
+//! | [`figures`] | the paper's figures and tables of a photograph, as an HTML page | every user |
 //! | [`app`] | the window's state, commands and workers, without a screen | the window |
 //! | `gpu` | the color space in three dimensions: camera, points, lines and solids, picking | the window |
 //! | `gui` | the window: one file per panel | the window |
@@ -75,12 +76,12 @@
 //! A module uses only modules to its left; modules that stand together do not use each other:
 //!
 //! ```text
-//! params, raster, color ← reflection ← photo ← trace ← segment ← intrinsic ← analysis ← describe ← truth, export ← view ← app ← gui
+//! params, raster, color ← reflection ← photo ← trace ← segment ← intrinsic ← analysis ← describe ← truth, export ← view ← figures ← app ← gui
 //! ```
 //!
 //! `gpu` uses no other module, and only `gui` uses it. The command line (`src/cli`) is part of the program, not of the library.
 //! `tests/layering` fails when an arrow runs backwards. `params`, `raster`, `color`, `reflection`, `trace`, `segment`,
-//! `intrinsic`, `analysis` and `describe` are pure: no file, clock, environment or printing, and the same bytes at any number
+//! `intrinsic`, `analysis`, `describe` and `figures` are pure: no file, clock, environment or printing, and the same bytes at any number
 //! of threads.
 
 pub mod analysis;
@@ -88,6 +89,7 @@ pub mod app;
 pub mod color;
 pub mod describe;
 pub mod export;
+pub mod figures;
 #[cfg(feature = "gui")]
 pub mod gpu;
 #[cfg(feature = "gui")]

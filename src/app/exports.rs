@@ -142,6 +142,15 @@ exports! {
         available: |_| true,
         writer: Writer::File(write::profile_table),
     };
+    /// The figures and tables of the paper for the photograph, as a page.
+    Figures: ExportRow {
+        title: "Figures and tables",
+        tip: "The paper's color figures and tables for this photograph, as one HTML page to read, send and print.",
+        file: "figures.html",
+        offered: true,
+        available: |_| true,
+        writer: Writer::File(write::figures),
+    };
     /// The parameters as TOML.
     Parameters: ExportRow {
         title: "Parameters",

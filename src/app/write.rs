@@ -5,6 +5,7 @@ use super::jobs::Stop;
 use crate::analysis::Stage;
 use crate::describe::{AreaFacts, Report, Timings};
 use crate::export::{ExportError, WholeResult, matte_bytes, png_of_rgba};
+use crate::figures::{self, Scene};
 use crate::truth::{self, Reference, ReportInput};
 use crate::view::{
     Picture, ResultSnapshot, layer_floats, paint, profile, profile_csv, regions_text, selected,
@@ -97,6 +98,18 @@ pub(super) fn drawn(path: &Path, options: &ExportOptions, _: &ExportInput) -> Re
         return Err(format!("{}: the drawn picture has no pixels; choose a larger size", path.display()));
     }
     Ok(file(path, bytes, &format!("a picture of {} \u{d7} {} pixels", size[0], size[1])))
+}
+
+/// The figures and tables of the paper for the result shown, with the profile along the profile's line.
+pub(super) fn figures(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
+    let complete = shown(input)?;
+    let (report, name) = (report(complete)?, complete.picture.origin.name());
+    let shown = input.shown.clone().ok_or("nothing to export: the analysis gave no result")?;
+    let mut scene = Scene::of_snapshot(shown, report).named(&name);
+    if let Some(line) = input.profile {
+        scene = scene.with_line(line);
+    }
+    Ok(file(path, figures::page(&scene, None).into_bytes(), "the figures and tables"))
 }
 
 /// The parameters as TOML.

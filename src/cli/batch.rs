@@ -179,7 +179,7 @@ impl Work {
         let shot = file.decode(&self.reading)?;
         let analyzed = || -> Result<Finished> {
             let reference =
-                self.options.truth.as_deref().map(|root| self.reference(root, job)).transpose()?;
+                self.options.truth.as_deref().map(|root| reference(root, job, &self.reading)).transpose()?;
             let plan = Plan {
                 params: &self.params,
                 area: self.area.as_ref(),
@@ -209,20 +209,21 @@ impl Work {
             && is_there
     }
 
-    fn reference(&self, root: &Path, job: &Job) -> Result<Reference> {
-        let parent = parent_name(&job.input);
-        let names = [Some(job.name.as_path()), job.name.file_name().map(Path::new), parent.as_deref()];
-        let folder = find_truth(root, names.into_iter().flatten())
-            .ok_or_else(|| anyhow!("no ground truth for {} in {}", job.name.display(), root.display()))?;
-        let file = job.input.file_name().unwrap_or_default().to_string_lossy();
-        Reference::read(&folder, &file, &self.reading)
-    }
-
     /// `plastic8_white: 8 regions, 99.8 % of the lit pixels, light (0.58, 0.57, 0.58), 11 ms → out/plastic8_white`
     fn summary(&self, job: &Job, finished: &Finished) -> String {
         let target = self.target(job);
         format!("{}: {} \u{2192} {}", job.name.display(), in_short(finished), target.display())
     }
+}
+
+/// The ground truth of a photograph: the truth folder `root`, or the one that is found under it by the photograph's names.
+pub(super) fn reference(root: &Path, job: &Job, reading: &ReadOptions) -> Result<Reference> {
+    let parent = parent_name(&job.input);
+    let names = [Some(job.name.as_path()), job.name.file_name().map(Path::new), parent.as_deref()];
+    let folder = find_truth(root, names.into_iter().flatten())
+        .ok_or_else(|| anyhow!("no ground truth for {} in {}", job.name.display(), root.display()))?;
+    let file = job.input.file_name().unwrap_or_default().to_string_lossy();
+    Reference::read(&folder, &file, reading)
 }
 
 /// The numbers of regions, share of lit pixels and light for the line of a finished photograph.

@@ -6,6 +6,7 @@
 mod analyze;
 mod batch;
 mod evaluate;
+mod figures;
 mod inputs;
 mod interrupt;
 mod lines;
@@ -50,6 +51,7 @@ pub struct Arguments {
 pub enum Command {
     Analyze(Box<analyze::Arguments>),
     Evaluate(evaluate::Arguments),
+    Figures(Box<figures::Arguments>),
     Trace(Box<trace::Arguments>),
     Why(Box<why::Arguments>),
     Screenshot(ScreenshotArguments),
@@ -87,7 +89,7 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// Whether every part of the work succeeded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Outcome {
     Done,
     SomeFailed,
@@ -105,6 +107,7 @@ pub fn run(arguments: Arguments) -> ExitCode {
     let result = match (arguments.command, arguments.image) {
         (Some(Command::Analyze(arguments)), _) => analyze::run(&arguments),
         (Some(Command::Evaluate(arguments)), _) => evaluate::run(&arguments),
+        (Some(Command::Figures(arguments)), _) => figures::run(&arguments),
         (Some(Command::Trace(arguments)), _) => trace::run(&arguments),
         (Some(Command::Why(arguments)), _) => why::run(&arguments),
         (Some(Command::Screenshot(_)), _) => no_screenshot(),

@@ -21,7 +21,7 @@ pub(super) const DEFAULT_CAMERA_FILE: &str = "camera8.png";
 pub(super) struct LoadedPhoto {
     pub(super) photo: Photo,
     /// SHA-256 of the file.
-    sha256: String,
+    pub(super) sha256: String,
     /// Time of reading and decoding, milliseconds.
     read_ms: f64,
 }
@@ -104,6 +104,11 @@ impl Area {
         photo::sha256_hex(&pixels)
     }
 
+    /// The area in a report.
+    pub(super) fn facts(&self) -> AreaFacts {
+        AreaFacts::new(&self.name, &self.mask)
+    }
+
     /// The mask, true inside.
     pub(super) fn mask(&self) -> Arc<Mask> {
         Arc::clone(&self.mask)
@@ -147,7 +152,7 @@ pub(super) fn analyze(shot: &LoadedPhoto, plan: &Plan, target: &Path) -> Result<
         sha256: &shot.sha256,
         params: plan.params,
         analysis: &analysis,
-        area: plan.area.map(|area| AreaFacts::new(&area.name, &area.mask)),
+        area: plan.area.map(Area::facts),
         timings_ms: Timings { read: Some(shot.read_ms), ..clock.timings },
         reference: plan
             .reference

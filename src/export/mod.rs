@@ -25,7 +25,7 @@ pub use leftovers::remove_leftovers;
 pub use matte::{MatteError, matte_bytes, write_matte};
 pub(crate) use palette::Palette;
 pub use pictures::write_pictures;
-pub(crate) use png::{png_of_gray, png_of_rgba};
+pub(crate) use png::{png_of_gray, png_of_rgb, png_of_rgba};
 pub use result::{ResultError, is_result_folder, read_report};
 pub use single::{PartFile, write_file};
 pub(crate) use stages::colored;

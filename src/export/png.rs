@@ -49,6 +49,20 @@ pub fn png_of_rgba(size: [u32; 2], rgba: &[u8]) -> Vec<u8> {
     }
 }
 
+/// The bytes of a PNG with 8-bit sRGB values, as small as the encoder makes them in reasonable time. Empty for a raster without
+/// pixels.
+pub fn png_of_rgb(values: &Raster<[u8; 3]>) -> Vec<u8> {
+    let sample_type = SampleType { color: ColorType::Rgb, depth: BitDepth::Eight, srgb: true };
+    let size = (values.width(), values.height());
+    let mut bytes = Vec::new();
+    let compression = Compression::Balanced;
+    match encode_with(compression, &mut bytes, size, &sample_type, values.as_slice().as_flattened()) {
+        Ok(()) => bytes,
+        // Writing to memory fails only for a raster without pixels.
+        Err(_) => Vec::new(),
+    }
+}
+
 /// 8-bit sRGB value of linear light. 1 and more is white.
 pub(super) fn code_from_linear(linear: f32) -> u8 {
     (srgb_from_linear(linear.clamp(0.0, 1.0)) * 255.0).round() as u8
@@ -76,6 +90,16 @@ fn write(
 }
 
 fn encode(
+    file: impl Write,
+    size: (usize, usize),
+    sample_type: &SampleType,
+    bytes: &[u8],
+) -> Result<(), EncodingError> {
+    encode_with(Compression::Fast, file, size, sample_type, bytes)
+}
+
+fn encode_with(
+    compression: Compression,
     mut file: impl Write,
     size: (usize, usize),
     sample_type: &SampleType,
@@ -84,7 +108,7 @@ fn encode(
     let mut encoder = png::Encoder::new(&mut file, size.0 as u32, size.1 as u32);
     encoder.set_color(sample_type.color);
     encoder.set_depth(sample_type.depth);
-    encoder.set_compression(Compression::Fast);
+    encoder.set_compression(compression);
     if sample_type.srgb {
         encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
     }

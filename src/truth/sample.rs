@@ -34,10 +34,29 @@ macro_rules! sample {
 pub const NAME: &str = "plastic8_white";
 
 /// All samples. The program starts with the first one where no photograph is named.
-pub static SAMPLES: [Sample; 2] = [
+pub static SAMPLES: [Sample; 4] = [
     sample!("plastic8_white", "Eight plastic objects under white light."),
     sample!("cups3_yellow", "Three cups under yellow light."),
+    sample!("cups3_white", "Three cups under white light."),
+    sample!("cups3_pink", "Three cups under pink light."),
 ];
+
+/// Sample scenes that are opened together.
+pub struct SampleSet {
+    /// The name on buttons.
+    pub name: &'static str,
+    /// What the scenes show together, in a sentence.
+    pub about: &'static str,
+    /// The names of the scenes; the first is shown first.
+    pub scenes: &'static [&'static str],
+}
+
+/// The three cups of the paper under its three lamps (color figures 12 to 14).
+pub const THREE_LAMPS: SampleSet = SampleSet {
+    name: "Three lamps",
+    about: "The same three cups under yellow, white and pink light, open together.",
+    scenes: &["cups3_yellow", "cups3_white", "cups3_pink"],
+};
 
 impl Sample {
     /// The scene called `name`.
@@ -69,5 +88,6 @@ mod tests {
             assert_eq!((truth.body.width(), truth.body.height()), (image.width(), image.height()));
         }
         assert!(Sample::find("nothing").is_none());
+        assert!(THREE_LAMPS.scenes.iter().all(|name| Sample::find(name).is_some()));
     }
 }

@@ -6,6 +6,7 @@ mod analyze;
 mod batch;
 mod contract;
 mod documents;
+mod figures;
 mod folder;
 mod parameters;
 mod trace;

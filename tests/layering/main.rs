@@ -26,6 +26,7 @@ const ORDER: &[&[&str]] = &[
     &["describe"],
     &["truth", "baseline", "export"],
     &["view"],
+    &["figures"],
     &["app"],
     &["gui"],
 ];
@@ -49,8 +50,18 @@ const AT_HOME: &[(&[&str], &[&str], bool)] = &[
 ];
 
 /// Rooms whose results depend on their arguments alone. Their tests are not restricted.
-const PURE: &[&str] =
-    &["params", "raster", "color", "reflection", "trace", "segment", "intrinsic", "analysis", "describe"];
+const PURE: &[&str] = &[
+    "params",
+    "raster",
+    "color",
+    "reflection",
+    "trace",
+    "segment",
+    "intrinsic",
+    "analysis",
+    "describe",
+    "figures",
+];
 
 /// Paths that a pure room must not name.
 const IMPURE: &[&[&str]] = &[
