@@ -11,6 +11,7 @@ use super::{
     reduce, rescue,
 };
 use crate::analysis::{Session, WhatIfObserver, what_if};
+use crate::photo::ReadOptions;
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -139,6 +140,16 @@ impl Application {
                 self.run("reader", Work::Photograph, move || match read::picture(origin, options) {
                     Ok(picture) => Report::Opened(Arc::new(picture)),
                     Err(reason) => Report::OpenFailed(reason),
+                });
+            }
+            Effect::ReadTogether(origins) => {
+                self.state.jobs.reading = Some(Job::now());
+                self.run("reader", Work::Photograph, move || {
+                    let read = |origin| read::picture(origin, ReadOptions::default()).map(Arc::new);
+                    match origins.into_iter().map(read).collect() {
+                        Ok(pictures) => Report::OpenedTogether(pictures),
+                        Err(reason) => Report::OpenFailed(reason),
+                    }
                 });
             }
             Effect::ReadParams(path) => {

@@ -5,6 +5,7 @@ use super::{DebugCommand, Export, Gesture, Question, Severity, Switching};
 use crate::params::{AmbientSetting, Method, Parameter, Params, Reading, Setting, Switch};
 use crate::photo::ReadOptions;
 use crate::raster::Mask;
+use crate::truth::sample::SampleSet;
 use crate::view::{CubeSettings, ImageSettings, Item, Origin, PlaneSettings, ProfileLine, Theme};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -122,6 +123,8 @@ pub enum ViewCommand {
 pub enum JobCommand {
     /// Read a photograph and show it.
     Open(Origin),
+    /// Read photographs and open all of them; the first is shown.
+    OpenTogether(Vec<Origin>),
     /// Show another open photograph.
     Switch(Switching),
     /// Close the photograph that is shown, and show the next one.
@@ -138,6 +141,13 @@ pub enum JobCommand {
     CancelExport,
     /// Show the sentence about a panic of the window, and save the workspace beside the photograph.
     Rescue(String),
+}
+
+impl JobCommand {
+    /// Opens the scenes of a set of samples together.
+    pub fn open_samples(set: &SampleSet) -> Self {
+        Self::OpenTogether(set.scenes.iter().map(|&name| Origin::Sample(name.to_owned())).collect())
+    }
 }
 
 impl From<Edit> for Command {

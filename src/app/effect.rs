@@ -20,6 +20,8 @@ pub enum Effect {
     Rescue,
     /// Read a photograph with these options.
     Read(Origin, ReadOptions),
+    /// Read photographs that are opened together, in this order.
+    ReadTogether(Vec<Origin>),
     /// Read a parameter file.
     ReadParams(PathBuf),
     /// Read a workspace file.

@@ -13,6 +13,8 @@ use std::sync::Arc;
 pub(super) enum Report {
     /// A photograph was read.
     Opened(Arc<Picture>),
+    /// Photographs that are opened together were read; the first is to be shown.
+    OpenedTogether(Vec<Arc<Picture>>),
     /// A photograph could not be read: the sentence to show.
     OpenFailed(String),
     /// A parameter file was read.

@@ -10,7 +10,7 @@ use super::task::Task;
 use super::typed_path::{typed_path, unique_names};
 use super::view_export::ViewExport;
 use crate::app::{Export, ExportKind, ExportOptions, JobCommand, Notice, Severity, ViewCommand};
-use crate::truth::sample::SAMPLES;
+use crate::truth::sample::{SAMPLES, THREE_LAMPS};
 use crate::view::{Layer, Origin};
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
@@ -308,26 +308,29 @@ impl Dialogs {
 
     /// Shows the sample scenes and the photographs opened before. Returns whether one was chosen.
     fn samples_and_recent(ui: &mut Ui, cx: &mut PanelContext) -> bool {
-        let mut chosen = None;
+        let mut chosen: Option<JobCommand> = None;
         ui.add_space(4.0);
         super::widgets::heading(ui, cx.palette, "Sample scenes");
         for sample in &SAMPLES {
             let tip = format!("{} Rendered, with its ground truth.", sample.about);
             if ui.link(sample.name).on_hover_text(tip).clicked() {
-                chosen = Some(Origin::Sample(sample.name.to_owned()));
+                chosen = Some(JobCommand::Open(Origin::Sample(sample.name.to_owned())));
             }
+        }
+        if ui.link(THREE_LAMPS.name).on_hover_text(THREE_LAMPS.about).clicked() {
+            chosen = Some(JobCommand::open_samples(&THREE_LAMPS));
         }
         if !cx.state.recent.is_empty() {
             super::widgets::heading(ui, cx.palette, "Recent");
             for (path, name) in cx.state.recent.iter().zip(unique_names(&cx.state.recent)) {
                 if ui.link(name).on_hover_text(path.display().to_string()).clicked() {
-                    chosen = Some(Origin::File(path.clone()));
+                    chosen = Some(JobCommand::Open(Origin::File(path.clone())));
                 }
             }
         }
         let is_chosen = chosen.is_some();
-        if let Some(origin) = chosen {
-            cx.send(JobCommand::Open(origin));
+        if let Some(command) = chosen {
+            cx.send(command);
         }
         is_chosen
     }

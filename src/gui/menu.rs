@@ -12,7 +12,7 @@ use super::{PanelContext, perform, status};
 use crate::app::{Edit, JobCommand, Severity, StepUnit, Switching, ViewCommand, analyze_call};
 use crate::params::{Method, Preset};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
-use crate::truth::sample::SAMPLES;
+use crate::truth::sample::{SAMPLES, THREE_LAMPS};
 use crate::view::{Origin, Theme};
 use egui::{Button, RadioButton, Ui};
 
@@ -67,6 +67,10 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
             if ui.button(sample.name).on_hover_text(sample.about).clicked() {
                 cx.send(JobCommand::Open(Origin::Sample(sample.name.to_owned())));
             }
+        }
+        ui.separator();
+        if ui.button(THREE_LAMPS.name).on_hover_text(THREE_LAMPS.about).clicked() {
+            cx.send(JobCommand::open_samples(&THREE_LAMPS));
         }
     });
     ui.menu_button("Read as", |ui| read_as(ui, cx));

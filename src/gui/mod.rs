@@ -37,6 +37,7 @@ mod profile_panel;
 mod proposed_path;
 mod regions_panel;
 mod screenshot;
+mod screenshot_lamps;
 mod selection_panel;
 mod shortcuts;
 mod skewed_t_test;

@@ -3,10 +3,13 @@
 use super::offscreen::OffscreenError;
 use super::offscreen_app::OffscreenApp;
 use super::pane::Pane;
+use super::screenshot_lamps::lamp_pictures;
 use crate::app::{Command, DebugCommand, Edit, JobCommand, Question, Severity, State, ViewCommand};
 use crate::export::{PartFile, png_of_rgba};
+use crate::params::Method;
 use crate::raster::{PixelIndex, RegionId};
 use crate::trace::{Event, Step, Topic};
+use crate::truth::sample;
 use crate::view::{
     Arrangement, ColorBy, CubeSettings, Fill, ImageSettings, Item, Layer, Origin, ProfileLine, Theme,
 };
@@ -35,6 +38,7 @@ pub enum ScreenshotError {
 /// One picture of the gallery.
 struct GalleryPicture {
     name: &'static str,
+    method: Method,
     /// The panel shown alone; `None` for the whole window.
     pane: Option<Pane>,
     theme: Theme,
@@ -81,6 +85,7 @@ impl Moment {
 fn whole_window(name: &'static str) -> GalleryPicture {
     GalleryPicture {
         name,
+        method: Method::Refined,
         pane: None,
         theme: Theme::Dark,
         region: RegionId::from_label(1),
@@ -130,6 +135,11 @@ fn gallery() -> Vec<GalleryPicture> {
         stopped("debugger-slice", Moment::Slice),
         stopped("debugger-skewed-t", Moment::Test),
         GalleryPicture { shows_why: true, region: None, ..whole_window("debugger-why") },
+        // The last, as the window keeps the method.
+        GalleryPicture { method: Method::Paper, ..whole_window("window-paper") },
+        GalleryPicture { method: Method::Paper, ..image("paper-planar", Layer::Planar) },
+        GalleryPicture { method: Method::Paper, ..image("paper-surface", Layer::Surface) },
+        GalleryPicture { method: Method::Paper, pane: Some(Pane::Plane), ..whole_window("paper-plane") },
     ]
 }
 
@@ -141,6 +151,7 @@ fn gallery() -> Vec<GalleryPicture> {
 pub fn screenshot(folder: &Path, size_px: [u32; 2], origin: Origin) -> Result<Vec<PathBuf>, ScreenshotError> {
     let write = |path: &Path, cause| ScreenshotError::Write { path: path.to_path_buf(), cause };
     std::fs::create_dir_all(folder).map_err(|cause| write(folder, cause))?;
+    let has_lamps = matches!(&origin, Origin::Sample(name) if name == sample::NAME);
     let mut offscreen = OffscreenApp::new(size_px, 1.0)?;
     offscreen.app.apply(JobCommand::Open(origin));
     if offscreen.app.state().picture.is_none() {
@@ -160,6 +171,12 @@ pub fn screenshot(folder: &Path, size_px: [u32; 2], origin: Origin) -> Result<Ve
         let rgba = offscreen.picture()?;
         let path = folder.join(format!("{}.png", gallery_picture.name));
         write_whole(&path, &png_of_rgba(size, &rgba)).map_err(|cause| write(&path, cause))?;
+        written.push(path);
+    }
+    // The three lamps belong to the gallery of the first sample.
+    for picture in if has_lamps { lamp_pictures(&mut offscreen.app) } else { Vec::new() } {
+        let path = folder.join(format!("{}.png", picture.name));
+        write_whole(&path, &png_of_rgba(picture.size, &picture.rgba)).map_err(|cause| write(&path, cause))?;
         written.push(path);
     }
     Ok(written)
@@ -184,6 +201,9 @@ fn contested_pixel(state: &State) -> Option<PixelIndex> {
 /// Brings the application into the state of a picture.
 fn prepare(offscreen: &mut OffscreenApp, gallery_picture: &GalleryPicture, size_px: [u32; 2]) {
     let app = &mut offscreen.app;
+    if app.state().document.params.method != gallery_picture.method {
+        app.apply(Edit::SetMethod(gallery_picture.method));
+    }
     let notices: Vec<u64> = app.state().notices.iter().map(|notice| notice.id).collect();
     for id in notices {
         app.apply(ViewCommand::Dismiss(id));

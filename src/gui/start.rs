@@ -6,7 +6,7 @@ use super::theme::{TITLE_PT, heading_font};
 use super::typed_path::unique_names;
 use super::{PanelContext, widgets};
 use crate::app::JobCommand;
-use crate::truth::sample::SAMPLES;
+use crate::truth::sample::{SAMPLES, THREE_LAMPS};
 use crate::view::Origin;
 use egui::{Button, RichText, ScrollArea, Ui};
 
@@ -43,6 +43,12 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
                     ui.label(RichText::new(sample.about).color(cx.palette.secondary));
                 });
             }
+            ui.horizontal_wrapped(|ui| {
+                if ui.link(THREE_LAMPS.name).clicked() {
+                    cx.send(JobCommand::open_samples(&THREE_LAMPS));
+                }
+                ui.label(RichText::new(THREE_LAMPS.about).color(cx.palette.secondary));
+            });
             if !cx.state.recent.is_empty() {
                 widgets::heading(ui, cx.palette, "Opened before");
                 let names = unique_names(&cx.state.recent);

@@ -342,10 +342,17 @@ fn the_gallery_is_drawn_without_a_display() {
     let size = |name: &str| image::image_dimensions(work.path("gallery").join(name)).unwrap();
     for name in &files {
         let whole = name.starts_with("window") || name.starts_with("debugger");
-        let expected = if whole { (640, 400) } else { (384, 240) };
+        let expected = match whole {
+            // Four quarters of a scene of 512 × 480 pixels, reduced to a half.
+            _ if name.starts_with("figure-") => (518, 486),
+            true => (640, 400),
+            false => (384, 240),
+        };
         assert_eq!(size(name), expected, "{name}: the whole window, or three fifths of it");
     }
     assert!(files.len() >= 8, "{files:?}");
+    let lamps = files.iter().filter(|name| name.starts_with("figure-")).count();
+    assert_eq!(lamps, 3, "the three lamps: {files:?}");
     work.put("letter.txt", b"dear all");
     work.fails(1, "screenshot letter.txt --out other", "letter.txt");
 }

@@ -11,6 +11,10 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
             state.restoring = None;
             vec![Effect::Read(origin, ReadOptions::default())]
         }
+        JobCommand::OpenTogether(origins) => {
+            state.restoring = None;
+            vec![Effect::ReadTogether(origins)]
+        }
         JobCommand::Switch(switching) => photographs::switch(state, switching),
         JobCommand::ClosePhotograph => photographs::close(state),
         JobCommand::ReadAs(options) => {

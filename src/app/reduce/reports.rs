@@ -19,6 +19,7 @@ const MOST_RECENT: usize = 12;
 pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
     match report {
         Report::Opened(picture) => return open_picture(state, picture),
+        Report::OpenedTogether(pictures) => return open_together(state, pictures),
         Report::OpenFailed(reason) => {
             (state.jobs.reading, state.restoring) = (None, None);
             state.notify(Severity::Error, reason);
@@ -102,6 +103,19 @@ fn read_photograph_of(state: &mut State, workspace: Box<Workspace>, path: PathBu
             Vec::new()
         }
     }
+}
+
+/// Opens photographs, and shows and analyzes the first; the others are analyzed when they are shown.
+fn open_together(state: &mut State, mut pictures: Vec<Arc<Picture>>) -> Vec<Effect> {
+    // The last photograph that is opened is shown, and the others follow it in their order.
+    if !pictures.is_empty() {
+        pictures.rotate_left(1);
+    }
+    let mut effects = Vec::new();
+    for picture in pictures {
+        effects = open_picture(state, picture);
+    }
+    effects
 }
 
 /// Shows a photograph that was read, and analyzes it.

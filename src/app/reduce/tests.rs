@@ -51,6 +51,23 @@ fn a_sample_opens_and_is_analyzed() {
 }
 
 #[test]
+fn photographs_that_are_opened_together_follow_one_another_in_their_order() {
+    let mut application = Application::new(Executor::Inline, || ()).unwrap();
+    application.apply(JobCommand::open_samples(&sample::THREE_LAMPS));
+    for name in ["cups3_yellow", "cups3_white", "cups3_pink", "cups3_yellow"] {
+        let state = application.state();
+        assert_eq!((state.picture.as_ref().unwrap().origin.name().as_str(), state.others.len()), (name, 2));
+        assert!(state.is_current() && state.jobs.reading.is_none());
+        application.apply(JobCommand::Switch(crate::app::Switching::Next));
+    }
+    let missing = vec![tiny(), Origin::Sample("nothing".into())];
+    application.apply(JobCommand::OpenTogether(missing));
+    assert!(
+        application.state().notices.iter().any(|notice| notice.text.starts_with("nothing: there is no such"))
+    );
+}
+
+#[test]
 fn recent_photographs_are_absolute_and_listed_once() {
     let mut application = opened_tiny();
     let relative = PathBuf::from("assets/tiny/../tiny/./camera8.png");
