@@ -224,8 +224,8 @@ impl Scene {
         if ev.abs() < 0.05 {
             return String::new();
         }
-        let (factor, what) = if ev < 0.0 { (-ev, "darker") } else { (ev, "brighter") };
-        format!("The picture is shown {:.1} stops {what} than the file. ", factor)
+        let (stops, what) = (ev.abs(), if ev < 0.0 { "darker" } else { "brighter" });
+        format!("The picture is shown {stops:.1} stops {what} than the file. ")
     }
 }
 

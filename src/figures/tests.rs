@@ -10,23 +10,24 @@ use crate::truth::sample::Sample;
 use crate::truth::{self, GroundTruth, Reference, ReportInput};
 use std::sync::Arc;
 
-fn scene_of(photo: Photo, params: Params, truth: Option<GroundTruth>) -> Scene {
-    let analysis = Session::new(Arc::new(photo.image.clone())).run(&params, &mut ()).unwrap();
+fn scene_of(photo: Photo, params: &Params, truth: Option<GroundTruth>) -> Scene {
+    let analysis = Session::new(Arc::new(photo.image.clone())).run(params, &mut ()).unwrap();
     let reference = truth.as_ref().map(|truth| Reference { truth, camera: &photo.image.pixels });
     let report = truth::report(ReportInput {
         photo: &photo,
         sha256: "5a",
-        params: &params,
+        params,
         analysis: &analysis,
         area: None,
         timings_ms: Timings::default(),
         reference,
     });
-    let input = AnalyzedPhotograph { photo, sha256: "5a".into(), params, analysis, area: None, truth };
+    let input =
+        AnalyzedPhotograph { photo, sha256: "5a".into(), params: *params, analysis, area: None, truth };
     Scene::of_photograph(input, report.unwrap())
 }
 
-fn tiny(params: Params) -> Scene {
+fn tiny(params: &Params) -> Scene {
     let bytes = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png")).unwrap();
     scene_of(decode(&bytes, "camera8.png", &ReadOptions::default()).unwrap(), params, None)
 }
@@ -36,7 +37,7 @@ fn plain(width: usize, height: usize, color: [u8; 3]) -> Scene {
     let mut bytes = format!("P6 {width} {height} 255\n").into_bytes();
     bytes.extend(color.repeat(width * height));
     let options = ReadOptions { encoding: EncodingChoice::Linear, ..ReadOptions::default() };
-    scene_of(decode(&bytes, "plain.ppm", &options).unwrap(), Params::default(), None)
+    scene_of(decode(&bytes, "plain.ppm", &options).unwrap(), &Params::default(), None)
 }
 
 /// Every element is closed by its own end, as `svg`, `td` and `p` need.
@@ -81,7 +82,7 @@ fn assert_alone(html: &str) {
 #[test]
 fn a_page_holds_all_figures_and_tables_and_needs_nothing_else() {
     for params in [Params::default(), Params::paper()] {
-        let html = page(&tiny(params), None);
+        let html = page(&tiny(&params), None);
         assert_balanced(&html);
         assert_alone(&html);
         for number in 1..=13 {
@@ -108,7 +109,7 @@ fn pages_are_the_same_at_any_number_of_threads() {
     let pages = [1, 2, 5].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let scene = tiny(Params::default());
+            let scene = tiny(&Params::default());
             (page(&scene, Some("May 1990")), side_by_side(&[ComparedScene::of(&scene)], &[], None))
         })
     });
@@ -145,7 +146,7 @@ fn a_row_and_a_white_patch_are_inside_of_the_photograph() {
 fn the_light_is_compared_with_the_ground_truth() {
     let sample = Sample::find("cups3_yellow").unwrap();
     let photo = decode(sample.camera, "camera8.png", &ReadOptions::default()).unwrap();
-    let scene = scene_of(photo, Params::paper(), Some(sample.truth().unwrap())).named("cups <3>");
+    let scene = scene_of(photo, &Params::paper(), Some(sample.truth().unwrap())).named("cups <3>");
     let html = page(&scene, None);
     assert!(html.contains("from the ground truth, is (0.73, 0.66, 0.19)"));
     assert!(html.contains("Accuracy against the ground truth") && html.contains("cups &lt;3&gt;"));
@@ -179,9 +180,9 @@ fn light_beyond_white_is_shown_darker_and_said_so() {
         photo
     };
     assert!(
-        page(&scene_of(photo(2040.0), Params::default(), None), None).contains("stops darker than the file")
+        page(&scene_of(photo(2040.0), &Params::default(), None), None).contains("stops darker than the file")
     );
     assert!(
-        page(&scene_of(photo(0.5), Params::default(), None), None).contains("stops brighter than the file")
+        page(&scene_of(photo(0.5), &Params::default(), None), None).contains("stops brighter than the file")
     );
 }

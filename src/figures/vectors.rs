@@ -174,19 +174,20 @@ pub fn table(scene: &Scene, fits: &[Option<[f64; 3]>], counterpart: &'static str
 }
 
 fn table_note(scene: &Scene, lights: &Lights, has_truth: bool) -> String {
-    let mut note = "Highlight: pixels nearer to a highlight line than to the matte line. ".to_owned();
     let left_out = scene.report.regions.len().saturating_sub(MOST_ROWS);
+    let mut parts = vec!["Highlight: pixels nearer to a highlight line than to the matte line.".to_owned()];
     if left_out > 0 {
-        note.push_str(&format!("{} of smaller size are left out. ", counted(left_out, "region", "regions")));
+        parts.push(format!("{} of smaller size are left out.", counted(left_out, "region", "regions")));
     }
     if has_truth {
-        note.push_str("Body error: angle to the vector of the true object that covers most of the region. ");
+        let text = "Body error: angle to the vector of the true object that covers most of the region.";
+        parts.push(text.to_owned());
     }
     if lights.measured.is_some() {
-        note.push_str("Surface error: angle to the independent measurement. ");
+        parts.push("Surface error: angle to the independent measurement.".to_owned());
     }
-    note.push_str("A dash stands for what could not be determined.");
-    note
+    parts.push("A dash stands for what could not be determined.".to_owned());
+    parts.join(" ")
 }
 
 /// The rows of the light, as at the end of the paper's tables.
@@ -215,48 +216,51 @@ fn light_rows(lights: &Lights, has_truth: bool) -> Vec<Row> {
 
 /// How the light was found and how exactly, sentences.
 pub fn light_sentence(scene: &Scene, lights: &Lights) -> String {
-    let facts = &scene.report.illuminant;
     let Some(computed) = lights.computed else {
-        return format!("The color of the light is not known: {}.", facts.reason);
+        return format!("The color of the light is not known: {}.", scene.report.illuminant.reason);
     };
-    let mut text = format!("The light is {}", vector(computed));
-    if facts.given {
-        text.push_str(", as it was given");
-    } else {
-        let [one, many] = if facts.basis == "votes" {
-            ["small highlight", "small highlights"]
-        } else {
-            ["object", "objects"]
-        };
-        text.push_str(&format!(", found from {}", counted(facts.objects, one, many)));
-        if let Some(interval) = facts.interval_deg {
-            text.push_str(&format!(" to within {} by its own evidence", degrees(interval)));
-        }
-        text.push_str(&format!(" ({})", facts.reason));
-    }
-    text.push_str(". ");
-    if let Some(average) = lights.average {
-        text.push_str(&format!(
-            "The average of {} fitted to the highlights, as the paper computes the light, is {}. ",
+    let average = match lights.average {
+        Some(average) => format!(
+            "The average of {} fitted to the highlights, as the paper computes the light, is {}.",
             counted(lights.fitted, "surface reflection vector", "surface reflection vectors"),
             vector(average)
-        ));
-    } else {
-        text.push_str("No region has enough highlight pixels for a surface reflection vector of its own. ");
+        ),
+        None => {
+            "No region has enough highlight pixels for a surface reflection vector of its own.".to_owned()
+        }
+    };
+    format!("{} {average} {}", found_sentence(scene, computed), measured_sentence(lights, computed))
+}
+
+/// How the light of the analysis was found.
+fn found_sentence(scene: &Scene, computed: [f64; 3]) -> String {
+    let facts = &scene.report.illuminant;
+    let light = vector(computed);
+    if facts.given {
+        return format!("The light is {light}, as it was given.");
     }
-    if let Some(Measured { direction, source }) = &lights.measured {
-        let average = lights.average.map_or_else(String::new, |average| {
-            format!(" and {} from the average", degrees(angle_deg(average, *direction)))
-        });
-        text.push_str(&format!(
-            "The independent measurement, from {source}, is {}: {} from the light of the analysis{average}.",
-            vector(*direction),
-            degrees(angle_deg(computed, *direction)),
-        ));
-    } else {
-        text.push_str("No independent measurement of the light is known.");
-    }
-    text
+    let [one, many] =
+        if facts.basis == "votes" { ["small highlight", "small highlights"] } else { ["object", "objects"] };
+    let interval = facts
+        .interval_deg
+        .map_or_else(String::new, |interval| format!(" to within {} by its own evidence", degrees(interval)));
+    let objects = counted(facts.objects, one, many);
+    format!("The light is {light}, found from {objects}{interval} ({}).", facts.reason)
+}
+
+/// How far the light of the analysis and the average are from the independent measurement.
+fn measured_sentence(lights: &Lights, computed: [f64; 3]) -> String {
+    let Some(Measured { direction, source }) = &lights.measured else {
+        return "No independent measurement of the light is known.".to_owned();
+    };
+    let average = lights.average.map_or_else(String::new, |average| {
+        format!(" and {} from the average", degrees(angle_deg(average, *direction)))
+    });
+    format!(
+        "The independent measurement, from {source}, is {}: {} from the light of the analysis{average}.",
+        vector(*direction),
+        degrees(angle_deg(computed, *direction)),
+    )
 }
 
 /// The lights of several photographs, each with its name, a row each, as in the last rows of tables 3 to 5.

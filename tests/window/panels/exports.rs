@@ -95,6 +95,12 @@ fn tables_layers_and_marks_are_written() {
     let profile = folder.path().join("profile.csv");
     export(&mut window, "Profile", &profile);
     assert_eq!(fs::read_to_string(&profile).unwrap().lines().count(), 178 + 1);
+    let page = folder.path().join("figures.html");
+    export(&mut window, "Figures and tables", &page);
+    let page = fs::read_to_string(&page).unwrap();
+    assert!(
+        page.contains("<h1>Figures of camera8.png</h1>") && page.contains("Along row 75 of the photograph")
+    );
 }
 
 #[test]

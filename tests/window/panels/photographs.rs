@@ -1,10 +1,11 @@
 //! Tests of several open photographs: opened, switched by keys and menu, compared, closed.
 
-use crate::window::{apply, open_sample, press, region, says, sigma, state, tiny_window};
+use crate::window::{apply, choose, click, open_sample, press, region, says, sigma, state, tiny_window};
 use dichroscope::app::{Edit, JobCommand};
 use dichroscope::params::{Parameter, Setting};
 use dichroscope::truth::sample;
 use dichroscope::view::{Arrangement, Origin};
+use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 
 fn name(window: &crate::window::Window) -> String {
@@ -32,6 +33,21 @@ fn photographs_stay_open_and_keys_go_from_one_to_the_other_and_back() {
     assert_eq!((name(&window).as_str(), state(&window).others.len()), (sample::NAME, 0));
     press(&mut window, Modifiers::COMMAND, Key::W);
     assert_eq!(name(&window), sample::NAME, "the only one stays");
+}
+
+#[test]
+fn the_three_lamps_are_opened_together_from_the_menu() {
+    let mut window = tiny_window();
+    choose(&mut window, "File", "Sample scenes");
+    click(&mut window, Role::Button, sample::THREE_LAMPS.name);
+    for lamp in sample::THREE_LAMPS.scenes {
+        assert_eq!((name(&window).as_str(), state(&window).others.len()), (*lamp, 3));
+        // The photograph that was open before comes between the last lamp and the first.
+        press(&mut window, Modifiers::CTRL, Key::Tab);
+        if name(&window) == "camera8.png" {
+            press(&mut window, Modifiers::CTRL, Key::Tab);
+        }
+    }
 }
 
 #[test]
