@@ -24,7 +24,7 @@ pub fn body(scene: &Scene) -> Figure {
     let scores = scene.report.scores.and_then(|scores| Some((scores.psnr_body?, scores.psnr_nothing?)));
     let accuracy = scores.map_or_else(String::new, |(body, nothing)| {
         format!(
-            "Peak signal-to-noise ratio against the true body reflection: {} dB; of the photograph itself: {} dB. ",
+            "Peak signal-to-noise ratio against the true body reflection: {}\u{a0}dB; of the photograph itself: {}\u{a0}dB. ",
             decimals(body, 1),
             decimals(nothing, 1)
         )

@@ -17,10 +17,10 @@ pub fn counted(number: usize, one: &str, many: &str) -> String {
     format!("{}\u{a0}{}", grouped(number), if number == 1 { one } else { many })
 }
 
-/// A unit vector as in the tables of the paper: two decimals.
+/// A unit vector as in the tables of the paper: two decimals. No line is broken inside.
 pub fn vector(v: [f64; 3]) -> String {
     let [r, g, b] = v.map(|v| decimals(v, 2));
-    format!("({r}, {g}, {b})")
+    format!("({r},\u{a0}{g},\u{a0}{b})")
 }
 
 /// A number with a fixed number of decimals and the sign of mathematics; a zero has none.
@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn numbers_have_the_form_of_the_papers_tables() {
-        assert_eq!(vector([0.994, -0.081, -0.001]), "(0.99, \u{2212}0.08, 0.00)");
+        assert_eq!(vector([0.994, -0.081, -0.001]), "(0.99,\u{a0}\u{2212}0.08,\u{a0}0.00)");
         assert_eq!(
             (short(2.5), short(4.0), short(0.0626), short(-1.0)),
             ("2.5".into(), "4".into(), "0.063".into(), "\u{2212}1".into())

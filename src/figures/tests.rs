@@ -139,7 +139,7 @@ fn a_row_and_a_white_patch_are_inside_of_the_photograph() {
     assert_eq!(error.to_string(), "there is no row 20: the photograph has 20 rows, counted from 0");
     assert_eq!(scene().with_white_patch([30, 0], [5, 5]).err(), Some(SceneError::Patch(30, 0)));
     let html = page(&scene().with_white_patch([25, 5], [10, 3]).unwrap().with_row(3).unwrap(), None);
-    assert!(html.contains("(0.80, 0.53, 0.27)"), "the direction of (90, 60, 30)");
+    assert!(html.contains("(0.80,\u{a0}0.53,\u{a0}0.27)"), "the direction of (90, 60, 30)");
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn the_light_is_compared_with_the_ground_truth() {
     let photo = decode(sample.camera, "camera8.png", &ReadOptions::default()).unwrap();
     let scene = scene_of(photo, &Params::paper(), Some(sample.truth().unwrap())).named("cups <3>");
     let html = page(&scene, None);
-    assert!(html.contains("from the ground truth, is (0.73, 0.66, 0.19)"));
+    assert!(html.contains("from the ground truth, is (0.73,\u{a0}0.66,\u{a0}0.19)"));
     assert!(html.contains("Accuracy against the ground truth") && html.contains("cups &lt;3&gt;"));
     let compared = side_by_side(&[ComparedScene::of(&scene)], &["a-figures.html".into()], None);
     assert_balanced(&compared);

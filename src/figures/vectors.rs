@@ -193,22 +193,24 @@ fn table_note(scene: &Scene, lights: &Lights, has_truth: bool) -> String {
 /// The rows of the light, as at the end of the paper's tables.
 fn light_rows(lights: &Lights, has_truth: bool) -> Vec<Row> {
     // The name stands in the place of region, pixels and body vector.
-    let row = |name: &str, direction: Option<[f64; 3]>, is_separated: bool| {
+    let row = |name: &str, direction: Option<[f64; 3]>, is_found: bool, is_separated: bool| {
         let mut cells = vec![shown_vector(direction), String::new()];
         if has_truth {
             cells.push(String::new());
         }
+        // The measurement has no error against itself.
         if lights.measured.is_some() {
-            cells.push(lights.error(direction));
+            cells.push(if is_found { lights.error(direction) } else { String::new() });
         }
         Row { heading: Some((escaped(name), 3)), cells, is_separated }
     };
     vec![
-        row("Light, by the analysis", lights.computed, true),
-        row("Light, average of the surface vectors", lights.average, false),
+        row("Light, by the analysis", lights.computed, true, true),
+        row("Light, average of the surface vectors", lights.average, true, false),
         row(
             "Light, independent measurement",
             lights.measured.as_ref().map(|measured| measured.direction),
+            false,
             false,
         ),
     ]
