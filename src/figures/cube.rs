@@ -6,7 +6,7 @@ use super::picture::transparent_uri;
 use super::scene::Scene;
 use crate::color::srgb_from_linear;
 use crate::raster::RegionId;
-use crate::view::{ColorSpace, Point, RegionShapes, illuminant_line, region_shapes};
+use crate::view::{ColorSpace, Histogram, Point, RegionShapes, illuminant_line, region_shapes};
 use std::fmt::Write;
 
 /// Most regions whose hypotheses are drawn, the largest first.
@@ -20,6 +20,9 @@ const DENSITY: f64 = 2.0;
 const EDGE: f64 = 240.0;
 /// Where the middle of the cube is.
 const MIDDLE: [f64; 2] = [200.0, 200.0];
+
+/// Share of full scale below which the brightest color makes the cube smaller.
+const FAR_DARKER: f32 = 0.6;
 
 /// A direction from which the cube is seen.
 #[derive(Clone, Copy)]
@@ -70,14 +73,15 @@ impl Projection {
 /// The histogram of a scene from a side, as an `svg` element.
 pub fn svg(scene: &Scene, side: Side) -> String {
     let histogram = &scene.shown.picture.histogram;
-    let projection = Projection::new(side, f64::from(histogram.full_counts));
+    let edge = edge_counts(histogram);
+    let projection = Projection::new(side, f64::from(edge));
     let [width, height] = SIZE;
     let mut svg = format!(
         "<svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"Color histogram from azimuth {:.0} degrees\">\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#17181c\"/>",
         side.azimuth_deg
     );
-    svg.push_str(&frame(&projection, histogram.full_counts));
+    svg.push_str(&frame(&projection, edge));
     let shapes: Vec<(RegionShapes, String)> = RegionId::all(scene.report.regions.len())
         .take(MOST_HYPOTHESES)
         .filter_map(|region| {
@@ -103,9 +107,20 @@ pub fn svg(scene: &Scene, side: Side) -> String {
             a[0], a[1], b[0], b[1]
         );
     }
-    svg.push_str(&labels(&projection, histogram.full_counts));
+    svg.push_str(&labels(&projection, edge));
     svg.push_str("</svg>");
     svg
+}
+
+/// Counts along the edge of the cube that is drawn: full scale, or less where all colors are far darker, as in a file with room
+/// above white.
+fn edge_counts(histogram: &Histogram) -> f32 {
+    let brightest = histogram.bins.iter().flat_map(|bin| bin.mean).fold(0.0f32, f32::max);
+    if brightest < FAR_DARKER * histogram.full_counts {
+        (1.1 * brightest).max(1.0)
+    } else {
+        histogram.full_counts
+    }
 }
 
 /// Names and colors of the axes.

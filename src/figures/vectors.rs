@@ -177,7 +177,7 @@ fn table_note(scene: &Scene, lights: &Lights, has_truth: bool) -> String {
     let left_out = scene.report.regions.len().saturating_sub(MOST_ROWS);
     let mut parts = vec!["Highlight: pixels nearer to a highlight line than to the matte line.".to_owned()];
     if left_out > 0 {
-        parts.push(format!("{} of smaller size are left out.", counted(left_out, "region", "regions")));
+        parts.push(format!("{} left out.", counted(left_out, "smaller region is", "smaller regions are")));
     }
     if has_truth {
         let text = "Body error: angle to the vector of the true object that covers most of the region.";
