@@ -6,11 +6,13 @@
 //!     that any analysis of color clusters has to do. With the vector instructions that every x86-64 has it takes
 //!     five to ten copies: (a) stands beside it to show how far away memory itself is;
 //! (c) the whole analysis, masks to split, with default parameters and all threads;
-//! and (c) as a multiple of (b). A ratio travels between machines better than a time; nothing here passes or fails.
+//! (c) as a multiple of (b), and (c) per pixel. A ratio travels between machines better than a time; nothing here passes or
+//! fails. The larger sizes, up to 96 megapixels, are measured by `cargo bench` alone.
 //!
 //! Then, for the embedded sample and for a tiling of it, what one movement of a slider costs: a session that holds the
 //! result of the default parameters runs again after one parameter or switch has changed. Best and median of several runs,
-//! and the best as a multiple of (b). For the largest tiling, the stages of a first run.
+//! and the best as a multiple of (b). For the largest tiling, the stages of a first run, and what one movement of a slider costs
+//! until the result for the working picture is there, which the window shows at once, and until all of it is there.
 //!
 //! Last, the cost of recording every decision: time of a recorded run as a multiple of an unrecorded one, bytes per
 //! pixel,
@@ -22,10 +24,10 @@
 #[path = "../tests/synthetic/mod.rs"]
 mod synthetic;
 
-use dichroscope::analysis::{Observer, Session, Stage};
+use dichroscope::analysis::{Analysis, Observer, Session, Stage};
 use dichroscope::params::{IlluminantSetting, Parameter, Params, Setting, Switch};
 use dichroscope::photo::{LinearImage, ReadOptions, read};
-use dichroscope::raster::Raster;
+use dichroscope::raster::{Blocks, Raster};
 use dichroscope::trace::Replay;
 use std::fs::OpenOptions;
 use std::hint::black_box;
@@ -38,14 +40,23 @@ use std::time::{Duration, Instant};
 const WINDOW_PX: usize = 10;
 /// Number of values in one row of a window: three bands per pixel.
 const LANES: usize = 3 * WINDOW_PX;
+/// Sizes of pictures for the comparison with the floor, pixels.
+const SMALL_PX: [[usize; 2]; 2] = [[580, 432], [1160, 864]];
+/// Sizes of pictures of cameras, pixels.
+const LARGE_PX: [[usize; 2]; 3] = [[4000, 3000], [6000, 4000], [12_000, 8000]];
 
 fn main() {
     // `cargo bench` passes `--bench`. Without it (`cargo test --benches`), one run shows that the benchmark works.
     let asked = |name: &str| std::env::args().any(|argument| argument == name);
     let runs = if asked("--bench") { 15 } else { 1 };
-    println!("{:>10}  {:>9}  {:>9}  {:>9}  {:>7}", "size", "copy", "floor", "analysis", "ratio");
+    println!(
+        "{:>10}  {:>9}  {:>9}  {:>10}  {:>7}  {:>9}",
+        "size", "copy", "floor", "analysis", "ratio", "per pixel"
+    );
     let mut ratios = Vec::new();
-    for size_px in [[580, 432], [1160, 864]] {
+    let large: &[[usize; 2]] = if asked("--bench") { &LARGE_PX } else { &[] };
+    for &size_px in SMALL_PX.iter().chain(large) {
+        let runs = if large.contains(&size_px) { runs.min(5) } else { runs };
         let image = Arc::new(synthetic::Scene::grid_of_balls(size_px, 4, 3, 1).render().image);
         let copy = best_of(runs, || image.pixels.clone());
         let floor = best_of(runs, || window_moments(&image.pixels));
@@ -53,10 +64,11 @@ fn main() {
         let (megapixels, ratio) =
             (image.pixels.len() as f64 / 1e6, analysis.as_secs_f64() / floor.as_secs_f64());
         println!(
-            "{megapixels:>7.2} MP  {}  {}  {}  {ratio:>6.1}×",
+            "{megapixels:>7.2} MP  {}  {}  {}  {ratio:>6.1}×  {:>6.1} ns",
             milliseconds(copy),
             milliseconds(floor),
             milliseconds(analysis),
+            1e3 * analysis.as_secs_f64() / megapixels,
         );
         ratios.push((megapixels, ratio));
     }
@@ -68,6 +80,7 @@ fn main() {
     sliders(1, runs);
     sliders(2, runs);
     stages(7, runs.min(3));
+    previews(7, runs);
     println!(
         "\n{:>10}  {:>9}  {:>7}  {:>8}  {:>9}  {:>9}",
         "trace", "recorded", "ratio", "bytes/px", "seek", "worst"
@@ -174,6 +187,41 @@ fn stages(tiles: usize, runs: usize) {
     println!("\n{:>7.2} MP  {:>19}  {}", image.pixels.len() as f64 / 1e6, "analysis", milliseconds(whole));
     for stage in Stage::ALL {
         println!("{:>31}  {}", stage.name(), milliseconds(times.best[stage as usize].unwrap_or_default()));
+    }
+}
+
+/// The times of one run until the result for the working picture was there.
+#[derive(Default)]
+struct PreviewTime {
+    begun: Option<Instant>,
+    working: Option<Duration>,
+}
+
+impl Observer for PreviewTime {
+    fn working_made(&mut self, _analysis: &Analysis, _blocks: &Blocks) {
+        self.working = self.begun.map(|begun| begun.elapsed());
+    }
+}
+
+fn previews(tiles: usize, runs: usize) {
+    let image = sample(tiles);
+    let floor = best_of(runs.min(3), || window_moments(&image.pixels)).as_secs_f64();
+    let megapixels = image.pixels.len() as f64 / 1e6;
+    println!("\n{megapixels:>7.2} MP  {:>19}  {:>9}  {:>9}  {:>7}", "moved", "working", "whole", "ratio");
+    for (name, moved) in movements(&image).into_iter().take(Parameter::ALL.len() + 1) {
+        let mut session = Session::new(image.clone());
+        let mut times: Vec<(Duration, Duration)> = (0..runs)
+            .map(|_| {
+                let _ = session.run(&Params::default(), &mut ());
+                let mut time = PreviewTime { begun: Some(Instant::now()), working: None };
+                let whole = best_of(1, || session.run(&moved, &mut time));
+                (time.working.unwrap_or(whole), whole)
+            })
+            .collect();
+        times.sort_unstable();
+        let (working, whole) = times[runs / 2];
+        let ratio = whole.as_secs_f64() / floor;
+        println!("{name:>31}  {}  {}  {ratio:>6.1}\u{d7}", milliseconds(working), milliseconds(whole));
     }
 }
 
