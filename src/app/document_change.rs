@@ -2,7 +2,7 @@
 
 use super::Document;
 use crate::raster::Mask;
-use crate::view::{Item, NamedMarks, setting_changes};
+use crate::view::{Item, NamedMarks, counted, setting_changes};
 use std::sync::Arc;
 
 /// What changed from one document to the next; `width` is the photograph's, pixels.
@@ -20,7 +20,7 @@ pub fn document_change(before: &Document, after: &Document, width: usize) -> Str
     if !same_mask(before.area.as_ref(), after.area.as_ref()) {
         parts.push(after.area.as_ref().map_or_else(
             || "the whole picture analyzed".to_owned(),
-            |area| format!("analysis restricted to {} pixels", area.count()),
+            |area| format!("analysis restricted to {}", counted(area.count(), "pixel")),
         ));
     }
     let (old, new) = (&before.selection, &after.selection);
@@ -31,12 +31,10 @@ pub fn document_change(before: &Document, after: &Document, width: usize) -> Str
         ));
     }
     if !same_mask(old.marked.as_ref(), new.marked.as_ref()) {
-        parts.push(
-            new.marked.as_ref().map_or_else(
-                || "no pixels marked".to_owned(),
-                |mask| format!("{} pixels marked", mask.count()),
-            ),
-        );
+        parts.push(new.marked.as_ref().map_or_else(
+            || "no pixels marked".to_owned(),
+            |mask| format!("{} marked", counted(mask.count(), "pixel")),
+        ));
     }
     parts.extend(named_change(&old.named, &new.named));
     if parts.is_empty() { "no change".to_owned() } else { parts.join("; ") }
@@ -103,12 +101,9 @@ mod tests {
         let mask = Arc::new(Raster::from_vec(2, 1, vec![true, false]).unwrap());
         assert_eq!(
             change(&|document| document.area = Some(Arc::clone(&mask))),
-            "analysis restricted to 1 pixels"
+            "analysis restricted to 1 pixel"
         );
-        assert_eq!(
-            change(&|document| document.selection.marked = Some(Arc::clone(&mask))),
-            "1 pixels marked"
-        );
+        assert_eq!(change(&|document| document.selection.marked = Some(Arc::clone(&mask))), "1 pixel marked");
         let paper = change(&|document| document.params = crate::params::Params::paper());
         assert!(paper.ends_with("settings changed") || paper.contains("method"), "{paper}");
     }

@@ -16,6 +16,8 @@ pub struct ExportOptions {
     pub drawn: Option<DrawnPicture>,
     /// The layer to write; none: the layer that the image view shows.
     pub layer: Option<Layer>,
+    /// The region whose pixels are written by an export of pixels; none: the marked pixels.
+    pub region: Option<RegionId>,
 }
 
 /// A picture that a view has drawn.

@@ -6,7 +6,7 @@ use super::{
 use crate::params::Params;
 use crate::raster::{PixelIndex, RegionId};
 use crate::trace::Replay;
-use crate::view::{Item, Picture, ResultSnapshot};
+use crate::view::{Item, Picture, PixelReading, ResultSnapshot, Watch, watch};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -154,8 +154,28 @@ impl State {
 
     /// The photograph that the second view shows for comparison: the next open one, where it has the size of the one that is shown.
     pub fn compared_photograph(&self) -> Option<&OpenPhotograph> {
-        let size = self.picture.as_ref()?.size();
-        self.others.first().filter(|other| self.compares_photographs && other.picture.size() == size)
+        self.others.first().filter(|_| self.compares_photographs && self.picture.is_some())
+    }
+
+    /// The values at the debugger's cursor, those of the selected pixel among them; none where no decisions are recorded.
+    pub fn watched(&self) -> Option<Watch> {
+        let (replay, picture) = (self.debugger.replay.as_ref()?, self.picture.as_ref()?);
+        // While another scale is analyzed, the working picture may be another one than that of the trace.
+        let pixel_blocks = replay.trace().pixel_blocks();
+        let working = self.newest.as_ref().map(|shown| &shown.analysis.working);
+        let working = working.filter(|working| working.blocks == pixel_blocks);
+        let pixel = self.explained_pixel().filter(|_| working.is_some());
+        let colors = working.map_or(&picture.photo.image.pixels, |working| &working.image.pixels);
+        Some(watch(replay, &self.debugger.names, colors, pixel))
+    }
+
+    /// What is known of a pixel: at the debugger's cursor where that is followed, otherwise in the result shown.
+    pub fn reading_of(&self, pixel: PixelIndex) -> Option<PixelReading> {
+        let picture = self.picture.as_ref()?;
+        match self.followed() {
+            Some(replay) => PixelReading::at_cursor(picture, replay, &self.debugger.names, pixel.index()),
+            None => PixelReading::of(picture, self.shown().map(|shown| &**shown), pixel.index()),
+        }
     }
 
     /// The color of the hypothesis that the debugger's cursor is about, sRGB; none where the cursor is about no hypothesis.

@@ -7,8 +7,9 @@ use crate::describe::{AreaFacts, Report, Timings};
 use crate::export::{ExportError, WholeResult, matte_bytes, png_of_rgba};
 use crate::figures::{self, Scene};
 use crate::truth::{self, Reference, ReportInput};
+use crate::view::marking::mask_of;
 use crate::view::{
-    Picture, ResultSnapshot, layer_floats, paint, profile, profile_csv, regions_text, selected,
+    Item, Picture, ResultSnapshot, layer_floats, paint, profile, profile_csv, regions_text, selected,
 };
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -196,15 +197,28 @@ fn with_fitting_extension(path: &Path, format: &str) -> PathBuf {
     }
 }
 
-/// The selected pixels: a mask (`.png`), a table (`.csv`) or points (`.ply`).
-pub(super) fn selection(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
+/// The pixels of a region, or the marked pixels: a mask (`.png`), a table (`.csv`) or points (`.ply`).
+pub(super) fn selection(
+    path: &Path,
+    options: &ExportOptions,
+    input: &ExportInput,
+) -> Result<Contents, String> {
     let (picture, shown) = (picture(input)?, input.shown.as_deref());
-    let mask = selected::selected_pixels(&input.document.selection, picture, shown)
-        .ok_or("nothing is selected: mark pixels or select a region, then export again")?;
+    let mask = match options.region {
+        Some(region) => shown.and_then(|shown| mask_of(Item::Region(region), shown)),
+        None => selected::selected_pixels(&input.document.selection, picture, shown),
+    };
+    let mask = mask.ok_or("nothing is selected: mark pixels or select a region, then export again")?;
+    let of = options
+        .region
+        .map_or_else(|| "the selected pixels".to_owned(), |id| format!("the pixels of region {id}"));
     let (bytes, what) = match extension_of(path).as_str() {
-        "png" => (selected::mask_png(&mask), "the selection as a mask"),
-        "csv" => (selected::csv(&mask, picture, shown).into_bytes(), "the selected pixels as a table"),
-        "ply" => (selected::ply(&mask, picture), "the selected pixels as points"),
+        "png" if options.region.is_none() => {
+            (selected::mask_png(&mask), "the selection as a mask".to_owned())
+        }
+        "png" => (selected::mask_png(&mask), format!("{of} as a mask")),
+        "csv" => (selected::csv(&mask, picture, shown).into_bytes(), format!("{of} as a table")),
+        "ply" => (selected::ply(&mask, picture), format!("{of} as points")),
         _ => {
             let path = path.display();
             return Err(format!(
@@ -212,7 +226,7 @@ pub(super) fn selection(path: &Path, _: &ExportOptions, input: &ExportInput) -> 
             ));
         }
     };
-    Ok(Contents { path: path.to_owned(), bytes, what: what.to_owned() })
+    Ok(Contents { path: path.to_owned(), bytes, what })
 }
 
 /// The extension of a path in lower case; empty without one.

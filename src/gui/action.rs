@@ -2,6 +2,7 @@
 
 use super::pane::Pane;
 use crate::app::{Direction, StepUnit, Switching};
+use crate::raster::RegionId;
 use crate::view::{Layer, Tool};
 
 /// What a key or a menu does.
@@ -15,6 +16,8 @@ pub enum Action {
     Export,
     /// Open the export dialog for a single file of a layer.
     ExportLayer(Layer, LayerFile),
+    /// Open the export dialog for the pixels of a set.
+    ExportPixels(PixelSet),
     /// Save the workspace: to its file, or where the dialog says when it has none.
     Save,
     /// Show another open photograph.
@@ -37,6 +40,8 @@ pub enum Action {
     Invert,
     /// Mark the pixels of the selected region.
     MarkRegion,
+    /// Keep the marked pixels under a name.
+    KeepMark,
     /// Select nothing.
     Escape,
     /// Select the region after (`true`) or before the selected one.
@@ -63,6 +68,17 @@ pub enum Action {
     Palette,
     /// Show the list of keys.
     Help,
+}
+
+/// Pixels that are exported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PixelSet {
+    /// The marked pixels.
+    Marked,
+    /// The pixels of a region.
+    Region(RegionId),
+    /// The pixels of the selected region.
+    SelectedRegion,
 }
 
 /// A kind of file for a single layer.

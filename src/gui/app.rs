@@ -2,6 +2,7 @@
 
 use super::action::Action;
 use super::command_palette::CommandPalette;
+use super::compact_dock::CompactDock;
 use super::dock::{Dock, Panels};
 use super::dropped_files::open_dropped_and_pasted;
 use super::files::Dialogs;
@@ -32,6 +33,7 @@ pub struct App {
 #[derive(Default)]
 struct WindowContent {
     dock: Dock,
+    compact_dock: CompactDock,
     /// The arrangement that was last sent to the state.
     layout: String,
     /// The camera that was last sent to the state.
@@ -246,7 +248,7 @@ impl WindowContent {
             ui.ctx().request_repaint();
             match action {
                 Action::Quit => ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close),
-                Action::Show(pane) => self.dock.set_visible(pane, true),
+                Action::Show(pane) => self.raise(pane),
                 Action::ShowAll => self.dock.reset(),
                 Action::Palette => self.command_palette.toggle(ui.ctx()),
                 _ => perform::carry_out(action, cx, &mut self.dialogs, &mut self.help),
@@ -269,7 +271,7 @@ impl WindowContent {
             if self.dock.is_empty() {
                 all_panels_hidden(ui, cx);
             } else {
-                in_least_size(ui, |ui| self.dock.show(ui, &mut self.panels, cx));
+                self.show_panels(ui, cx);
             }
         });
         if let Some(keys) = held_keys {
@@ -287,12 +289,28 @@ impl WindowContent {
         self.keyboard_focus.show(ui.ctx(), cx.palette);
     }
 
+    /// Shows the panels as they are arranged, or where there is no room for that, as tabs of one group.
+    fn show_panels(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
+        if CompactDock::is_needed(ui.available_size()) {
+            self.compact_dock.show(ui, &self.dock, &mut self.panels, cx);
+        } else {
+            self.dock.show(ui, &mut self.panels, cx);
+        }
+    }
+
+    /// Shows a panel in front of the other tabs.
+    fn raise(&mut self, pane: Pane) {
+        self.dock.set_visible(pane, true);
+        self.compact_dock.activate(pane);
+    }
+
     /// Brings the profile to the front when a person draws its line.
     fn raise_drawn_profile(&mut self, cx: &PanelContext) {
         let line = cx.state.view.profile;
         let is_drawn = matches!(line, ProfileLine::Between(..)) && cx.state.view.image.tool == Tool::Profile;
         if std::mem::replace(&mut self.profile, line) != line && is_drawn {
             self.dock.activate(Pane::Profile);
+            self.compact_dock.activate(Pane::Profile);
         }
     }
 
@@ -314,24 +332,6 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.show(ui);
     }
-}
-
-/// Smallest width and height of all panels together, points. In a smaller window, as a large interface in a small window is, the
-/// panels keep this size and are scrolled by bars.
-const LEAST_SIZE_PT: egui::Vec2 = egui::vec2(700.0, 440.0);
-
-/// Shows `contents` in all of `ui`; where `ui` is smaller than [`LEAST_SIZE_PT`], in an area of that size with scroll bars. The
-/// wheel scrolls no such area, because the wheel zooms the views.
-fn in_least_size(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
-    let room = ui.available_size();
-    if room.x >= LEAST_SIZE_PT.x && room.y >= LEAST_SIZE_PT.y {
-        return contents(ui);
-    }
-    let area = egui::ScrollArea::both().scroll_source(egui::scroll_area::ScrollSource::SCROLL_BAR);
-    area.auto_shrink(false).show(ui, |ui| {
-        let (rect, _) = ui.allocate_exact_size(room.max(LEAST_SIZE_PT), egui::Sense::hover());
-        contents(&mut ui.new_child(egui::UiBuilder::new().max_rect(rect)));
-    });
 }
 
 /// Shows, while every panel is hidden, the ways back.

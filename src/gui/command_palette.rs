@@ -1,6 +1,6 @@
 //! The command palette: every action by its name, found by typing some of its letters, with its key.
 
-use super::action::{Action, LayerFile};
+use super::action::{Action, LayerFile, PixelSet};
 use super::pane::Pane;
 use super::shortcuts::{keys_of, named_actions};
 use super::theme::SMALL_PT;
@@ -34,6 +34,8 @@ fn entries() -> Vec<Entry> {
         .map(|pane| Entry { action: Action::Show(pane), name: format!("Show: {}", pane.title()) });
     let others = [
         (Action::OpenWorkspace, "File: Open a workspace"),
+        (Action::ExportPixels(PixelSet::Marked), "Export: marked pixels"),
+        (Action::ExportPixels(PixelSet::SelectedRegion), "Export: pixels of the selected region"),
         (Action::ShowAll, "Window: Arrange the panels as at first"),
     ];
     let others = others.map(|(action, name)| Entry { action, name: name.to_owned() });

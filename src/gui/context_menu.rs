@@ -1,7 +1,7 @@
 //! Context menus: what can be done with a pixel or a region, by the secondary button of the pointer.
 
 use super::PanelContext;
-use super::action::{Action, LayerFile};
+use super::action::{Action, LayerFile, PixelSet};
 use super::pane::Pane;
 use super::shortcuts::keys_of;
 use crate::app::{Combine, Edit, ViewCommand};
@@ -67,6 +67,7 @@ pub fn of_region(ui: &mut Ui, cx: &mut PanelContext, region: RegionId) {
         let mask = shown.labels().map(|&label| label == region.get());
         cx.send(Edit::Mark(Arc::new(mask), Combine::Replace, None));
     }
+    action(ui, cx, "Export its pixels\u{2026}", Action::ExportPixels(PixelSet::Region(region)));
 }
 
 /// Shows the submenu that exports one layer as one file.

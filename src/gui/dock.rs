@@ -198,6 +198,20 @@ impl Dock {
         }
     }
 
+    /// All `panes` as tabs of one group.
+    pub fn of_tabs(panes: &[Pane]) -> Self {
+        let mut tiles = Tiles::default();
+        let tabs = panes.iter().map(|&pane| tiles.insert_pane(pane)).collect();
+        let root = tiles.insert_tab_tile(tabs);
+        Self { tree: Tree::new(egui::Id::unique("compact dock"), root, tiles) }
+    }
+
+    /// Whether the panel's tab is in front of the other tabs of its group.
+    pub fn is_in_front(&self, pane: Pane) -> bool {
+        let active = self.tree.active_tiles();
+        self.find(pane).is_some_and(|id| active.contains(&id))
+    }
+
     /// Brings the panel's tab to the front.
     pub fn activate(&mut self, pane: Pane) {
         self.tree.make_active(|_, tile| matches!(tile, Tile::Pane(found) if *found == pane));

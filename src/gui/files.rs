@@ -3,9 +3,9 @@
 //! The system's dialog runs on a thread of its own, so that a dialog that hangs does not stop the window.
 
 use super::PanelContext;
-use super::action::LayerFile;
+use super::action::{LayerFile, PixelSet};
 use super::pane::Pane;
-use super::proposed_path::{proposed_layer_path, proposed_path};
+use super::proposed_path::{proposed_layer_path, proposed_path, proposed_pixels_path};
 use super::task::Task;
 use super::typed_path::{typed_path, unique_names};
 use super::view_export::ViewExport;
@@ -88,7 +88,7 @@ impl Dialogs {
     pub fn open(&mut self, dialog: Dialog) {
         (self.dialog, self.focus, self.options.force) = (Some(dialog), true, false);
         self.reading_since = None;
-        self.options.layer = None;
+        (self.options.layer, self.options.region) = (None, None);
         self.problem.clear();
         self.is_new = true;
         match dialog {
@@ -105,6 +105,18 @@ impl Dialogs {
         self.open(Dialog::Export);
         (self.kind, self.options.layer) = (ExportKind::Layer, Some(layer));
         self.path = proposed_layer_path(layer, file, cx).display().to_string();
+    }
+
+    /// Opens the export dialog for the pixels of a set, as a mask, a table or points.
+    pub fn open_pixels_export(&mut self, cx: &PanelContext, pixels: PixelSet) {
+        self.open(Dialog::Export);
+        let region = match pixels {
+            PixelSet::Marked => None,
+            PixelSet::Region(region) => Some(region),
+            PixelSet::SelectedRegion => cx.state.selected_region(),
+        };
+        (self.kind, self.options.region) = (ExportKind::Selection, region);
+        self.path = proposed_pixels_path(region, cx).display().to_string();
     }
 
     /// Whether a dialog is open. An open dialog owns the keyboard: no key reaches the panels.
@@ -172,11 +184,13 @@ impl Dialogs {
             self.path = proposed_path(self.kind, cx).display().to_string();
         }
         for kind in ExportKind::ALL.into_iter().filter(|kind| kind.is_offered()) {
-            let available = kind.is_available(cx.state) && (kind != ExportKind::View || cx.gpu.is_some());
+            let of_region = kind == ExportKind::Selection && self.options.region.is_some();
+            let available =
+                (of_region || kind.is_available(cx.state)) && (kind != ExportKind::View || cx.gpu.is_some());
             let radio = ui.add_enabled(available, egui::RadioButton::new(self.kind == kind, kind.title()));
             if radio.on_hover_text(kind.tip()).on_disabled_hover_text(kind.tip()).clicked() {
                 self.kind = kind;
-                self.options.layer = None;
+                (self.options.layer, self.options.region) = (None, None);
                 self.path = proposed_path(kind, cx).display().to_string();
                 self.focus = true;
             }
@@ -193,6 +207,15 @@ impl Dialogs {
             ExportKind::Layer => {
                 let layer = self.options.layer.unwrap_or(cx.state.view.image.layer);
                 let text = format!("{}: .png as shown, .exr or .npy with its numbers", layer.name());
+                ui.label(RichText::new(text).color(cx.palette.secondary));
+            }
+            ExportKind::Selection => {
+                let marked = || "the marked pixels".to_owned();
+                let of = self
+                    .options
+                    .region
+                    .map_or_else(marked, |region| format!("the pixels of region {region}"));
+                let text = format!("{of}: .png as a mask, .csv as a table, .ply as points in the color cube");
                 ui.label(RichText::new(text).color(cx.palette.secondary));
             }
             ExportKind::View => {

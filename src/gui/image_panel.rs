@@ -4,6 +4,7 @@ mod cursor;
 mod geometry;
 mod icons;
 mod navigation;
+mod other_size;
 mod overlay;
 mod readout;
 mod texts;
@@ -31,6 +32,10 @@ use texts::show_texts;
 use textures::{PaintRequest, Slot, TextureCache};
 use tools::{PointerContext, ToolState};
 
+/// Height without the toolbar below which the panel is low: readout and verdict have a line each, and the picture the rest; points.
+const LOW_PT: f32 = 330.0;
+/// Height of a line of the verdict, points.
+const VERDICT_LINE_PT: f32 = 20.0;
 /// Half the width of the wipe's handle, points.
 const HANDLE_PT: f32 = 6.0;
 
@@ -92,12 +97,13 @@ impl ImagePanel {
         if (height - std::mem::replace(&mut self.toolbar_height_pt, height)).abs() > 0.5 {
             ui.ctx().request_repaint();
         }
-        let readout_height = readout::height(ui, ui.available_width() - 16.0);
+        let is_low = ui.available_height() < LOW_PT;
+        let readout_height = readout::height(ui, ui.available_width() - 16.0, is_low);
         let frame = bar.inner_margin(Margin { left: 8, right: 8, top: 2, bottom: 2 });
         Panel::bottom("read-out").frame(frame).exact_size(readout_height + 4.0).show(ui, |ui| {
-            readout::show(ui, state, palette);
+            readout::show(ui, state, palette, is_low);
         });
-        self.show_verdict(ui, cx, &mut debug, bar);
+        self.show_verdict(ui, cx, &mut debug, bar, is_low);
         let column = Panel::left("tools").resizable(false).exact_size(icons::SIDE_PT + 8.0);
         column.frame(bar.inner_margin(4)).show(ui, |ui| toolbar::column(ui, palette, &mut settings));
         let (width, height) = picture.size();
@@ -138,15 +144,28 @@ impl ImagePanel {
 
     /// Shows the verdict on the result, or the sentence about the step at the debugger's cursor, which has the height of the
     /// verdict, so that the picture does not move.
-    fn show_verdict(&mut self, ui: &mut Ui, cx: &mut PanelContext, debug: &mut DebugSettings, bar: Frame) {
+    fn show_verdict(
+        &mut self,
+        ui: &mut Ui,
+        cx: &mut PanelContext,
+        debug: &mut DebugSettings,
+        bar: Frame,
+        is_low: bool,
+    ) {
         let state = cx.state;
         let Some(shown) = state.shown().filter(|_| !cx.is_export) else { return };
         let frame = bar.inner_margin(Margin { left: 8, right: 8, top: 4, bottom: 2 });
         let panel = Panel::bottom("verdict").frame(frame).resizable(false);
         if state.debugger.stopped().is_none() {
             let response = panel.show(ui, |ui| {
-                ui.set_min_height(20.0);
-                verdict_strip::show(ui, cx, shown);
+                ui.set_min_height(VERDICT_LINE_PT);
+                if is_low {
+                    // The picture comes first: what does not fit into one line is scrolled.
+                    let area = egui::ScrollArea::vertical().max_height(VERDICT_LINE_PT);
+                    area.show(ui, |ui| verdict_strip::show(ui, cx, shown));
+                } else {
+                    verdict_strip::show(ui, cx, shown);
+                }
             });
             // The height of a verdict that wraps is known from the next frame on.
             let height = response.response.rect.height();
@@ -179,15 +198,44 @@ impl ImagePanel {
             let right = Rect::from_min_max(pos2(middle + 1.0, full.top()), full.max);
             ui.painter().vline(middle, full.y_range(), (2.0, cx.palette.line));
             for (view, slot) in [(left, Slot::Layer), (right, Slot::SecondLayer)] {
-                hovered_pixel = self
-                    .show_view(ui, cx, settings, Placement::new(view, size, settings), slot)
-                    .or(hovered_pixel);
+                let place = Placement::new(view, size, settings);
+                let other_size = other_size::other_size(cx).filter(|_| slot == Slot::SecondLayer);
+                let pixel = match other_size {
+                    Some(other) => self.show_other_size(ui, cx, settings, place.of_size(other), size),
+                    None => self.show_view(ui, cx, settings, place, slot),
+                };
+                hovered_pixel = pixel.or(hovered_pixel);
             }
         } else {
             hovered_pixel =
                 self.show_view(ui, cx, settings, Placement::new(full, size, settings), Slot::Layer);
         }
         self.send_hover(cx, hovered_pixel);
+    }
+
+    /// Shows the second view with a photograph of another size than `size`, the size of the photograph shown. Returns the pixel of
+    /// the photograph shown that lies where the pointer is.
+    fn show_other_size(
+        &mut self,
+        ui: &mut Ui,
+        cx: &PanelContext,
+        settings: &mut ImageSettings,
+        place: Placement,
+        size: Vec2,
+    ) -> Option<PixelIndex> {
+        let name = "Second picture";
+        let response = ui.interact(place.view, ui.scope_id().with(name), Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
+        other_size::pan_and_zoom(ui, &response, &place, size, settings);
+        let (painter, layer) = (ui.painter_at(place.view), settings.other);
+        let request = PaintRequest::compared_layer(cx.state, layer, settings);
+        let texture = request.and_then(|request| self.textures.get(ui.ctx(), Slot::SecondLayer, &request));
+        if let Some(texture) = texture {
+            texture.draw(&painter, &place, Color32::WHITE);
+        }
+        other_size::paint_marks(&painter, cx, &place, size);
+        show_texts(ui, &painter, cx, &[(layer, Slot::SecondLayer, place.view)], true, None);
+        other_size::pixel_under_pointer(ui, &place, size)
     }
 
     /// Shows one view. Returns the pixel of the view under the pointer.
@@ -286,13 +334,18 @@ impl ImagePanel {
             let request = compared.or_else(|| PaintRequest::layer(state, layer, settings));
             let texture = request.and_then(|request| self.textures.get(ui.ctx(), slot, &request));
             if let Some(texture) = texture {
-                texture.draw(&painter, place, tint(cx, layer));
+                let other = other_size::other_size(cx).filter(|_| is_compared);
+                let place_of_texture = other.map_or(*place, |size| place.of_size(size));
+                texture.draw(&painter, &place_of_texture, tint(cx, layer));
                 // The numbers of the other photograph are not at hand.
                 if !is_compared {
                     overlay::values(&painter, place, state, layer, texture);
                 }
             }
         }
+        // Marks have pixels of the photograph shown, and not of a compared one of another size.
+        let of_first = other_size::other_size(cx).filter(|_| wipe_x.is_some()).map(|_| parts[0].2);
+        let painter = of_first.map_or_else(|| painter.clone(), |part| painter.with_clip_rect(part));
         overlay::grid(&painter, place);
         if place.zoom >= overlay::OUTLINE_ZOOM {
             overlay::outlines(&painter, place, state);
@@ -308,6 +361,7 @@ impl ImagePanel {
         let brush = (settings.tool == Tool::Brush && context.response.contains_pointer())
             .then_some(settings.brush_px);
         self.tool_state.draw(&painter, place, brush);
+        let painter = ui.painter_at(place.view);
         if let Some(x) = wipe_x {
             paint_wipe_line(&painter, cx, place.view, x);
         }

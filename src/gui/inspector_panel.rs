@@ -4,6 +4,7 @@
 mod actions;
 mod answers;
 mod block;
+mod distances;
 
 use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
 use super::{PanelContext, widgets};

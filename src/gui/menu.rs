@@ -9,7 +9,7 @@ use super::shortcuts::keys_of;
 use super::typed_path::unique_names;
 use super::widgets::capitalized;
 use super::{PanelContext, perform, status};
-use crate::app::{Edit, JobCommand, Severity, StepUnit, Switching, ViewCommand, analyze_call};
+use crate::app::{Edit, JobCommand, NamedMarkEdit, Severity, StepUnit, Switching, ViewCommand, analyze_call};
 use crate::params::{Method, Preset};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
@@ -175,6 +175,10 @@ fn edit(ui: &mut Ui, cx: &mut PanelContext) {
     ui.separator();
     if item(ui, "Invert marked", Action::Invert, state.picture.is_some()) {
         cx.send(Edit::InvertMarked);
+    }
+    let can_keep = marked.is_some() && state.document.selection.named.active.is_none();
+    if item(ui, "Keep as a named mark", Action::KeepMark, can_keep) {
+        cx.send(Edit::NamedMark(NamedMarkEdit::Keep));
     }
     if item(ui, "Select nothing", Action::Escape, !state.document.selection.is_empty()) {
         cx.send(Edit::ClearSelection);

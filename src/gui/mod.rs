@@ -8,6 +8,7 @@ mod app;
 mod background_value;
 mod breakpoints_panel;
 mod command_palette;
+mod compact_dock;
 mod compare_panel;
 mod context_menu;
 mod cube_panel;

@@ -3,7 +3,7 @@
 use super::action::Action;
 use super::move_cursor::move_cursor;
 use super::{PanelContext, files};
-use crate::app::{Combine, Edit, ExportKind, JobCommand, ViewCommand};
+use crate::app::{Combine, Edit, ExportKind, JobCommand, NamedMarkEdit, ViewCommand};
 use crate::raster::RegionId;
 use crate::view::{Item, Tool};
 
@@ -14,6 +14,7 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
         Action::OpenWorkspace => dialogs.open(files::Dialog::OpenWorkspace),
         Action::Export => dialogs.open(files::Dialog::Export),
         Action::ExportLayer(layer, file) => dialogs.open_layer_export(cx, layer, file),
+        Action::ExportPixels(pixels) => dialogs.open_pixels_export(cx, pixels),
         Action::Save => match cx.state.workspace_path.clone() {
             Some(path) => cx.send(JobCommand::Export(ExportKind::Workspace.to(path))),
             None => dialogs.open(files::Dialog::SaveWorkspace),
@@ -30,6 +31,7 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
         Action::Redo => cx.send(Edit::Redo),
         Action::Invert => cx.send(Edit::InvertMarked),
         Action::MarkRegion => mark_region(cx),
+        Action::KeepMark => cx.send(Edit::NamedMark(NamedMarkEdit::Keep)),
         Action::Escape => {
             if *help {
                 *help = false;

@@ -12,8 +12,8 @@ use crate::app::{Edit, ViewCommand};
 use crate::gui::outline::{Outline, combine_by_keys};
 use crate::raster::RegionId;
 use crate::view::{
-    Item, Picture, PixelAmounts, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, Tool, plane_mask,
-    region_plane,
+    Item, NamedMarks, Picture, PixelAmounts, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, Tool,
+    plane_mask, region_plane,
 };
 use chart::{Chart, Obstacles, PointDensity};
 use egui::{Align2, Color32, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
@@ -49,6 +49,7 @@ pub struct PlanePanel {
 /// The points as a mesh, with the inputs that the mesh was made for.
 struct PointMesh {
     inputs: (Chart, Rect, bool, Theme),
+    named_marks: Arc<NamedMarks>,
     mesh: Arc<egui::Mesh>,
     /// Where the points lie, for labels that keep away from points.
     density: PointDensity,
@@ -230,7 +231,9 @@ fn point_mesh(
     let by_label = cx.state.view.plane.color_by_label;
     let own = cx.state.focus_color();
     let inputs = (chart, rect, by_label, cx.state.view.theme);
-    if let Some(point_mesh) = cached.as_ref().filter(|point_mesh| point_mesh.inputs == inputs) {
+    let named = &cx.state.document.selection.named;
+    let is_same = |known: &&PointMesh| known.inputs == inputs && Arc::ptr_eq(&known.named_marks, named);
+    if let Some(point_mesh) = cached.as_ref().filter(is_same) {
         return Arc::clone(&point_mesh.mesh);
     }
     let (mut mesh, mut density) = (egui::Mesh::default(), PointDensity::new(rect));
@@ -239,7 +242,11 @@ fn point_mesh(
     for point in &plane.points {
         let at = chart.screen(plane.oblique(point.body, point.surface), rect);
         if rect.expand(4.0).contains(at) {
-            let color = if by_label {
+            // At the debugger's cursor the colors tell what the step did.
+            let mark = named.at(point.pixel.index()).filter(|_| point.meaning.is_none());
+            let color = if let Some(mark) = mark {
+                widgets::color(mark.color)
+            } else if by_label {
                 kinds::color_of(point, own, cx.state.view.theme)
             } else {
                 widgets::own_color(point.color)
@@ -250,7 +257,7 @@ fn point_mesh(
         }
     }
     let mesh = Arc::new(mesh);
-    *cached = Some(PointMesh { inputs, mesh: Arc::clone(&mesh), density });
+    *cached = Some(PointMesh { inputs, named_marks: Arc::clone(named), mesh: Arc::clone(&mesh), density });
     mesh
 }
 

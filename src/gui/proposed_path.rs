@@ -3,6 +3,7 @@
 use super::PanelContext;
 use super::action::LayerFile;
 use crate::app::ExportKind;
+use crate::raster::RegionId;
 use crate::view::Layer;
 use std::path::{Path, PathBuf};
 
@@ -20,6 +21,15 @@ pub fn proposed_path(kind: ExportKind, cx: &PanelContext) -> PathBuf {
     }
     let extension = photo.and_then(Path::extension).map_or("png".into(), |e| e.to_string_lossy());
     folder.join(format!("{name}.{extension}"))
+}
+
+/// The proposed path of the pixels of a region, or without a region of the marked pixels: `cups-region-3.png` beside `cups.png`.
+pub fn proposed_pixels_path(region: Option<RegionId>, cx: &PanelContext) -> PathBuf {
+    let proposed = proposed_path(ExportKind::Selection, cx);
+    let Some(region) = region else { return proposed };
+    let name = proposed.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let stem = name.strip_suffix(ExportKind::Selection.file()).unwrap_or(&name).to_owned();
+    proposed.with_file_name(format!("{stem}region-{region}.png"))
 }
 
 /// The proposed path of a single layer's file: `cups-body.exr` beside `cups.png`.

@@ -71,8 +71,8 @@ fn regions_and_coverage(regions: usize, misfits: usize, coverage: f64) -> String
         1 => ", 1 does not fit".to_owned(),
         some => format!(", {some} do not fit"),
     };
-    let s = if regions == 1 { "" } else { "s" };
-    format!("{regions} region{s}{misfits}, {:.1} %", 100.0 * coverage)
+    let regions = crate::view::counted(regions, "region");
+    format!("{regions}{misfits}, {:.1} %", 100.0 * coverage)
 }
 
 /// A duration of `ms` milliseconds with two or three digits: in seconds from one second on.

@@ -3,8 +3,8 @@
 use super::theme::{SMALL_PT, ThemeColors};
 use super::{PanelContext, widgets};
 use crate::color::Vec3;
-use crate::view::{AxisDistance, CurrentHypothesis, Watch, WatchedPixel, watch};
-use egui::{Align, Color32, Label, Layout, RichText, ScrollArea, Ui, vec2};
+use crate::view::{CurrentHypothesis, Watch, WatchedPixel};
+use egui::{Align, Label, Layout, RichText, ScrollArea, Ui, vec2};
 
 /// Width of the names, points.
 const NAME_PT: f32 = 76.0;
@@ -12,10 +12,6 @@ const NAME_PT: f32 = 76.0;
 const NUMBERS_PT: f32 = 126.0;
 /// Width of a line of name, numbers and unit, points.
 const GROUP_PT: f32 = NAME_PT + NUMBERS_PT + 50.0;
-/// Width of the column of regions' names in the table of distances, points.
-const REGION_PT: f32 = 112.0;
-/// Width of a distance and its limit, points.
-const DISTANCE_PT: f32 = 82.0;
 /// Height of a line, points.
 const LINE_PT: f32 = 18.0;
 
@@ -53,13 +49,7 @@ impl WatchPanel {
             let text = "Values at the cursor appear when the decisions of an analysis are recorded (D).";
             return widgets::placeholder(ui, cx.palette, text);
         };
-        // While another scale is analyzed, the working picture may be another one than that of the trace.
-        let pixel_blocks = replay.trace().pixel_blocks();
-        let working = state.newest.as_ref().map(|shown| &shown.analysis.working);
-        let working = working.filter(|working| working.blocks == pixel_blocks);
-        let pixel = state.explained_pixel().filter(|_| working.is_some());
-        let colors = working.map_or(&picture.photo.image.pixels, |working| &working.image.pixels);
-        let found = watch(replay, &debugger.names, colors, pixel);
+        let Some(found) = state.watched() else { return };
         let mut groups = vec![run_lines(&found)];
         groups.extend(found.current.as_ref().map(hypothesis_lines));
         groups.extend(found.pixel.as_ref().map(|pixel| pixel_lines(pixel, picture.size().0)));
@@ -69,11 +59,9 @@ impl WatchPanel {
             egui::Frame::new().inner_margin(8).show(ui, |ui| {
                 ui.spacing_mut().item_spacing = vec2(4.0, 1.0);
                 table(ui, cx.palette, &now.groups, |line| self.has_changed(line));
-                if let Some(pixel) = &found.pixel {
-                    distances(ui, cx, pixel);
-                } else {
-                    let text = "Select a pixel (Alt + click) to see its distances to every axis and plane.";
-                    ui.label(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary));
+                if found.pixel.is_none() {
+                    let text = "Select a pixel (Alt + click) to watch it; the inspector has its distances to every axis and plane.";
+                    ui.add(Label::new(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary)).wrap());
                 }
             });
         });
@@ -218,66 +206,6 @@ fn cell(ui: &mut Ui, width: f32, text: RichText) {
         ui.set_min_size(size);
         ui.add(Label::new(text).extend());
     });
-}
-
-/// Shows the selected pixel's distances to every region, each with its limit. Distances within the limit are in the
-/// text color, others in the secondary color.
-fn distances(ui: &mut Ui, cx: &PanelContext, pixel: &WatchedPixel) {
-    let palette = cx.palette;
-    let heading =
-        format!("from pixel to region, {}", if pixel.distances.is_empty() { "none yet" } else { "counts" });
-    widgets::heading(ui, palette, &heading).on_hover_text(
-        "Distance from each cylinder's axis against its radius (5.3.2), and from each slice's plane against half its width (5.4.2).",
-    );
-    if pixel.distances.is_empty() {
-        return;
-    }
-    let small = |text: &str| RichText::new(text.to_owned()).size(SMALL_PT).color(palette.secondary);
-    ui.horizontal(|ui| {
-        ui.add_space(REGION_PT + ui.spacing().item_spacing.x);
-        for title in ["axis / radius", "plane / half", "along"] {
-            cell(ui, DISTANCE_PT, small(title));
-        }
-    });
-    for distance in &pixel.distances {
-        ui.horizontal(|ui| row(ui, cx, distance));
-    }
-}
-
-/// Shows the distances from one hypothesis.
-fn row(ui: &mut Ui, cx: &PanelContext, distance: &AxisDistance) {
-    let (palette, names) = (cx.palette, &cx.state.debugger.names);
-    let size = vec2(REGION_PT, LINE_PT);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
-        ui.set_min_size(size);
-        let hypothesis = distance.hypothesis;
-        widgets::chip(
-            ui,
-            cx.palette,
-            widgets::color(names.color(hypothesis)),
-            &format!("color of hypothesis {hypothesis}"),
-        );
-        ui.label(RichText::new(format!("hypothesis {hypothesis}")).color(palette.secondary));
-    });
-    let with_limit = |[value, limit]: [f64; 2]| {
-        let text_color: Color32 = if value <= limit { palette.text } else { palette.secondary };
-        RichText::new(format!("{value:.1} / {limit:.1}")).color(text_color)
-    };
-    cell(ui, DISTANCE_PT, with_limit(distance.axis));
-    cell(
-        ui,
-        DISTANCE_PT,
-        distance.plane.map_or_else(|| RichText::new("\u{2013}").color(palette.secondary), with_limit),
-    );
-    cell(ui, DISTANCE_PT, RichText::new(format!("{:.0}", distance.along)).color(palette.secondary));
-    let inside = |[value, limit]: [f64; 2]| value <= limit;
-    let words = match (inside(distance.axis), distance.plane.is_some_and(inside)) {
-        (true, true) => "in both",
-        (true, false) => "in cylinder",
-        (false, true) => "in slice",
-        (false, false) => "",
-    };
-    ui.label(RichText::new(words).size(SMALL_PT).color(palette.text));
 }
 
 #[cfg(test)]

@@ -29,6 +29,8 @@ pub(super) struct RegionPlan {
     pub(super) fit: RegionFit,
     /// Whether the skewed T of the vectors explains the region; always true without refinement `region_holds`.
     pub(super) model_fits: bool,
+    /// Whether refinement `region_holds` asks if the skewed T explains the region.
+    is_judged: bool,
     /// The groups of the region's highlights by the body reflection under them; empty without refinement `second_branch`.
     branches: Branches,
     /// Where each highlight line leaves the matte line, counts, the strongest line first. At least one.
@@ -79,6 +81,7 @@ impl RegionPlan {
             splitter: PixelSplitter { rule, highlight_test, keeps_color },
             fit,
             model_fits: !input.refine.region_holds || fit.model_fits(),
+            is_judged: input.refine.region_holds,
             branches: Branches::default(),
             starts: vec![hypothesis.start],
             test_starts: vec![hypothesis.start],
@@ -163,6 +166,7 @@ impl RegionPlan {
             figures: self.fit.figures(),
             limits: self.fit.limits(),
             model_fits: self.model_fits,
+            is_judged: self.is_judged,
             origin: *origin,
             unsplit: self.splitter.keeps_color,
             noise_line: self.noise_line,

@@ -13,9 +13,20 @@ pub fn grouped(number: usize) -> String {
     text
 }
 
+/// A number of things: `1 pixel`, `14 452 pixels` with thin spaces. `what` is the singular of a word whose plural ends in s.
+pub fn counted(number: usize, what: &str) -> String {
+    format!("{} {what}{}", grouped(number), if number == 1 { "" } else { "s" })
+}
+
 #[cfg(test)]
 mod tests {
-    use super::grouped;
+    use super::{counted, grouped};
+
+    #[test]
+    fn one_thing_is_told_in_the_singular() {
+        let texts = [0, 1, 2, 1200].map(|number| counted(number, "pixel").replace('\u{2009}', " "));
+        assert_eq!(texts, ["0 pixels", "1 pixel", "2 pixels", "1 200 pixels"]);
+    }
 
     #[test]
     fn groups_of_three_digits_are_counted_from_the_right() {

@@ -20,6 +20,7 @@ mod meaning;
 mod named_marks;
 mod picture;
 mod pixel_amounts;
+mod pixel_reading;
 mod plane_marks;
 mod plane_points;
 mod profile;
@@ -46,7 +47,7 @@ pub use compare::{
     BodyChange, ComparedRegion, Comparison, Figure, PixelChanges, RegionChange, SettingChange, compare,
     setting_changes,
 };
-pub use grouped::grouped;
+pub use grouped::{counted, grouped};
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
 pub use inspection::{
     Inspection, Limits, ThresholdTest, Tone, candidate_tests, inspect_item, inspect_marked, inspect_step,
@@ -63,6 +64,7 @@ pub use meaning::{ACCENT, Meaning};
 pub use named_marks::{NamedMark, NamedMarks};
 pub use picture::{Origin, Picture};
 pub use pixel_amounts::{Amounts, PixelAmounts};
+pub use pixel_reading::{AnalyzedPixel, PixelReading};
 pub use plane_marks::plane_mask;
 pub use plane_points::{
     MOST_PLANE_POINTS, PlaneBranch, PlanePixel, RegionPlane, growing_plane, region_plane, test_plane,

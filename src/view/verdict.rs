@@ -1,6 +1,6 @@
 //! The verdict on a result: one sentence of clauses, each about something that can be shown.
 
-use super::{Layer, ResultSnapshot};
+use super::{Layer, ResultSnapshot, counted};
 use crate::intrinsic::RegionReflection;
 use crate::raster::RegionId;
 use crate::segment::{LightBasis, TEXTURE_CORRELATION};
@@ -94,15 +94,15 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
         let text = "the light's color is unknown: no highlight was found".to_owned();
         return Clause { text, subject, is_bad: true };
     };
-    let s = if light.objects == 1 { "" } else { "s" };
+    let from = |what: &str| counted(light.objects, what);
     let text = match findings.basis {
         LightBasis::Given => "the light's color was given".to_owned(),
         LightBasis::Average => {
-            format!("the light is the average of {} highlight direction{s}", light.objects)
+            format!("the light is the average of {}", from("highlight direction"))
         }
-        LightBasis::Votes => format!("the light comes from {} small highlight{s}", light.objects),
+        LightBasis::Votes => format!("the light comes from {}", from("small highlight")),
         LightBasis::Planes | LightBasis::Nothing => {
-            format!("the light comes from {} plane{s}", light.objects)
+            format!("the light comes from {}", from("plane"))
         }
     };
     let interval =

@@ -81,6 +81,7 @@ impl Describe for VectorsFitted {
                 highlights: 0.3,
             },
             model_fits: true,
+            is_judged: true,
             origin: [0.0; 3],
             unsplit: false,
             noise_line: None,
@@ -94,9 +95,10 @@ fn verdict(fitted: &VectorsFitted) -> String {
     let FitFigures { rms_counts, texture, texture_slope, .. } = figures;
     let has_plane = fitted.surface.is_some();
     let failed = failed_limits(figures, limits, has_plane);
-    match (fitted.model_fits, failed.as_str()) {
-        (false, _) => format!("it does not hold and its plane is not used: {failed}"),
-        (true, "") => {
+    let is_held = fitted.is_judged.then_some(fitted.model_fits);
+    match (is_held, failed.as_str()) {
+        (Some(false), _) => format!("it does not hold and its plane is not used: {failed}"),
+        (Some(true), "") => {
             let texture = if has_plane {
                 format!(
                     ", texture correlation {texture:.2} (suspect above {}), slope {texture_slope:.2} (above {})",
@@ -107,7 +109,8 @@ fn verdict(fitted: &VectorsFitted) -> String {
             };
             format!("it holds: {}{texture}", distance(*rms_counts, limits, has_plane))
         }
-        (true, _) => format!("whether it holds is not asked ({failed})"),
+        (None, "") => format!("whether it holds is not asked ({})", distance(*rms_counts, limits, has_plane)),
+        (_, failed) => format!("whether it holds is not asked ({failed})"),
     }
 }
 

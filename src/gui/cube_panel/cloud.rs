@@ -7,7 +7,7 @@ use crate::raster::Mask;
 use crate::raster::RegionId;
 use crate::trace::Class;
 use crate::view::{
-    ColorBy, ColorSpace, CubeSettings, Item, Picture, ResultSnapshot, Theme, UniqueColor, marking,
+    ColorBy, ColorSpace, CubeSettings, Item, NamedMarks, Picture, ResultSnapshot, Theme, UniqueColor, marking,
 };
 use egui::Color32;
 use std::sync::Arc;
@@ -69,6 +69,7 @@ struct Inputs {
     picture: Arc<Picture>,
     shown: Option<Arc<ResultSnapshot>>,
     marked: Option<Arc<Mask>>,
+    named: Arc<NamedMarks>,
     item: Option<Item>,
     /// Color space, coloring, whether sizes show counts, whether the rest is ghosts, theme.
     settings: (ColorSpace, ColorBy, bool, bool, Theme),
@@ -94,6 +95,7 @@ impl Inputs {
             picture: Arc::clone(picture),
             shown: state.shown().cloned(),
             marked: selection.marked.clone(),
+            named: Arc::clone(&selection.named),
             item: selection.item,
             settings: (space, color_by, size_by_count, ghost_rest, state.view.theme),
             scale_and_opacity: [point_scale, point_opacity],
@@ -108,6 +110,7 @@ impl Inputs {
         Arc::ptr_eq(&self.picture, &other.picture)
             && same(self.shown.as_ref(), other.shown.as_ref())
             && same_arc(self.marked.as_ref(), other.marked.as_ref())
+            && Arc::ptr_eq(&self.named, &other.named)
             && same_arc(self.unique_colors.as_ref(), other.unique_colors.as_ref())
             && (self.item, self.settings, self.ghosts_only) == (other.item, other.settings, other.ghosts_only)
             && self.scale_and_opacity.map(f32::to_bits) == other.scale_and_opacity.map(f32::to_bits)
@@ -154,8 +157,13 @@ impl Cloud {
             pixels_in_focus(state, picture)
         };
         self.fullest = picture.histogram.bins.iter().map(|bin| bin.count).max().unwrap_or(1);
-        let style =
-            PointStyle { inputs: &inputs, majorities: &self.majorities, palette, fullest: self.fullest };
+        let style = PointStyle {
+            inputs: &inputs,
+            majorities: &self.majorities,
+            mark_colors: mark_colors(&inputs.named, picture),
+            palette,
+            fullest: self.fullest,
+        };
         let bins = picture.histogram.bins.iter().enumerate();
         self.bins = bins.map(|(bin, of)| style.point(bin, of.mean, of.count)).collect();
         self.drawn = match &inputs.unique_colors {
@@ -185,7 +193,19 @@ fn is_in_focus(pixels_in_focus: Option<&[u32]>, bin: usize) -> bool {
     pixels_in_focus.is_none_or(|pixels_in_focus| pixels_in_focus[bin] > 0)
 }
 
-/// Number of pixels of each bin that are marked or in the selected region, window or bin; `None` when no pixel is, or
+/// The color of the newest named mark that has pixels in a bin, per bin; empty without named marks.
+fn mark_colors(named: &NamedMarks, picture: &Picture) -> Vec<Option<Color32>> {
+    let mut colors = Vec::new();
+    for mark in named.marks.iter().filter(|mark| mark.pixels > 0) {
+        let counts = picture.histogram.bins_of(&mark.mask);
+        colors.resize(counts.len(), None);
+        let marked = colors.iter_mut().zip(counts).filter(|(_, count)| *count > 0);
+        marked.for_each(|(color, _)| *color = Some(crate::gui::widgets::color(mark.color)));
+    }
+    colors
+}
+
+/// Number of pixels of each bin that are marked, in a named mark, or in the selected region, window or bin; `None` when no pixel is, or
 /// when the setting `ghost_rest` is off.
 fn pixels_in_focus(state: &State, picture: &Picture) -> Option<Vec<u32>> {
     if !state.view.cube.ghost_rest {
@@ -195,7 +215,8 @@ fn pixels_in_focus(state: &State, picture: &Picture) -> Option<Vec<u32>> {
     let histogram = &picture.histogram;
     let item = state.selected_region().map(Item::Region).or(selection.item);
     let selected = item.zip(state.shown()).and_then(|(item, shown)| marking::mask_of(item, shown));
-    let masks = selected.iter().chain(selection.marked.as_deref());
+    let named = selection.named.marks.iter().map(|mark| &*mark.mask);
+    let masks = selected.iter().chain(selection.marked.as_deref()).chain(named);
     let counts = masks.map(|mask| histogram.bins_of(mask)).reduce(|mut sum, counts| {
         sum.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
         sum
@@ -207,6 +228,8 @@ fn pixels_in_focus(state: &State, picture: &Picture) -> Option<Vec<u32>> {
 struct PointStyle<'a> {
     inputs: &'a Inputs,
     majorities: &'a BinMajorities,
+    /// The color of the named mark of each bin; empty without named marks.
+    mark_colors: Vec<Option<Color32>>,
     palette: &'a ThemeColors,
     fullest: u32,
 }
@@ -216,7 +239,8 @@ impl PointStyle<'_> {
         let (space, color_by, size_by_count, ..) = self.inputs.settings;
         let full = self.inputs.picture.histogram.full_counts;
         let share = (pixels as f32).ln_1p() / (self.fullest as f32).ln_1p().max(1e-6);
-        let color = match color_by {
+        let of_mark = self.mark_colors.get(bin).copied().flatten();
+        let color = of_mark.unwrap_or_else(|| match color_by {
             ColorBy::Own => crate::gui::widgets::own_color(counts),
             ColorBy::Region => self.region_color(bin),
             ColorBy::Class => self
@@ -227,7 +251,7 @@ impl PointStyle<'_> {
                 .flatten()
                 .map_or(self.palette.secondary, class_color),
             ColorBy::Density => density_color(share, self.inputs.settings.4),
-        };
+        });
         let size_px =
             if size_by_count { SIZES_PT[0] + (SIZES_PT[1] - SIZES_PT[0]) * share * share } else { PLAIN_PT };
         let [scale, opacity] = self.inputs.scale_and_opacity;

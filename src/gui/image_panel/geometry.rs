@@ -36,6 +36,16 @@ impl Placement {
         Self { view, size, zoom, center }.clamped()
     }
 
+    /// The placement of a picture of another size in the same view: the same part of the picture by fractions of its sides. The whole
+    /// picture fits where the whole of this one fits.
+    #[must_use]
+    pub fn of_size(&self, size: Vec2) -> Self {
+        let zoom = self.zoom * fitting_zoom(self.view, size) / fitting_zoom(self.view, self.size);
+        let sides = self.size.max(Vec2::splat(1.0));
+        let center = (self.center.to_vec2() / sides * size).to_pos2();
+        Self { size, zoom, center, ..*self }.clamped()
+    }
+
     /// Stores zoom and center in the settings.
     pub fn store(&self, settings: &mut ImageSettings) {
         settings.zoom = Some(self.zoom);
@@ -142,6 +152,18 @@ mod tests {
             vec2(512.0, 480.0),
             settings,
         )
+    }
+
+    #[test]
+    fn a_picture_of_another_size_shows_the_same_part_and_the_way_back_is_the_same_placement() {
+        let place = placement(&ImageSettings::default()).zoomed(3.0, pos2(250.0, 200.0));
+        let twice = place.of_size(place.size * 2.0);
+        let part = |place: &Placement, at: Pos2| place.image_from_screen(at).to_vec2() / place.size;
+        for at in [pos2(110.0, 60.0), pos2(400.0, 300.0)] {
+            assert!((part(&place, at) - part(&twice, at)).length() < 1e-4);
+        }
+        let back = place.of_size(vec2(640.0, 300.0)).of_size(place.size);
+        assert!((back.zoom - place.zoom).abs() < 1e-4 && (back.center - place.center).length() < 1e-2);
     }
 
     #[test]

@@ -5,9 +5,7 @@ use crate::gui::glossary::Term;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets::{self, with_subscripts};
 use crate::intrinsic::PixelKind;
-use crate::raster::{HypothesisId, PixelIndex};
-use crate::trace::{Class, Replay};
-use crate::view::{Amounts, Item, Picture, PixelAmounts, RegionNames, ResultSnapshot};
+use crate::view::{Amounts, Item, PixelReading};
 use egui::accesskit::Role;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -92,14 +90,17 @@ type Values = [Vec<String>; 5];
 /// Width of the strip below which measured amounts are left to the plane and to *Why*, points.
 const NARROW_PT: f32 = 420.0;
 
-/// Number of groups that a strip of this width has.
-fn shown_groups(width: f32) -> usize {
+/// Number of groups that a strip of this width has; of one line where `is_low`.
+fn shown_groups(ui: &Ui, width: f32, is_low: bool) -> usize {
+    if is_low {
+        return places(ui, width).iter().take_while(|place| place.y <= 0.0).count().max(1);
+    }
     if width < NARROW_PT { GROUPS.len() - 1 } else { GROUPS.len() }
 }
 
-/// Height of the strip, points.
-pub fn height(ui: &Ui, width: f32) -> f32 {
-    let last = places(ui, width)[shown_groups(width) - 1];
+/// Height of the strip, points. `is_low`: whether the strip has one line, as in a low panel.
+pub fn height(ui: &Ui, width: f32, is_low: bool) -> f32 {
+    let last = places(ui, width)[shown_groups(ui, width, is_low) - 1];
     last.y + LINE_PT
 }
 
@@ -142,28 +143,36 @@ fn text_width(ui: &Ui, text: &str) -> f32 {
 }
 
 /// Shows the strip for the pixel that is hovered in any panel, otherwise for the pixel that was clicked last.
-pub fn show(ui: &mut Ui, state: &State, palette: &ThemeColors) {
+pub fn show(ui: &mut Ui, state: &State, palette: &ThemeColors, is_low: bool) {
     let full = ui.available_rect_before_wrap();
     let hovered = match state.hover {
         Some(Item::Pixel(pixel)) => Some(pixel),
         _ => None,
     };
-    let pixel = hovered.or(state.explained_pixel()).map(PixelIndex::index);
-    let readout = state.picture.as_ref().zip(pixel).and_then(|(picture, pixel)| match state.followed() {
-        Some(replay) => PixelReadout::at_cursor(picture, replay, &state.debugger.names, pixel),
-        None => PixelReadout::of(picture, state.shown().map(|shown| &**shown), pixel),
-    });
-    let values = readout.as_ref().map_or_else(Default::default, PixelReadout::values);
+    let pixel = hovered.or(state.explained_pixel());
+    let readout = pixel.and_then(|pixel| state.reading_of(pixel));
+    let values = readout.as_ref().map_or_else(Default::default, values_of);
     let strip = ui.interact(full, ui.scope_id().with("readout"), Sense::hover());
     strip.widget_info(|| WidgetInfo::labeled(Role::Label, true, sentence(&values)));
     let swatches = [
         None,
         readout.as_ref().map(|readout| widgets::own_color(readout.color)),
-        readout.as_ref().and_then(|readout| readout.chip),
+        readout.as_ref().and_then(|readout| readout.chip).map(widgets::color),
         None,
         None,
     ];
-    let groups = shown_groups(full.width());
+    if readout.is_none() {
+        let text = "Point at a pixel: its place, color, region and amounts stand here.";
+        let galley = ui.painter().layout(
+            text.to_owned(),
+            FontId::proportional(SMALL_PT),
+            palette.secondary,
+            full.width(),
+        );
+        ui.painter().galley(full.min + vec2(0.0, 2.0), galley, palette.secondary);
+        return;
+    }
+    let groups = shown_groups(ui, full.width(), is_low);
     for (group, place) in places(ui, full.width()).into_iter().enumerate().take(groups) {
         // Measured amounts that are those of the result are not repeated.
         if group == 4 && values[4].is_empty() {
@@ -226,96 +235,27 @@ fn sentence(values: &Values) -> String {
     texts.collect::<Vec<_>>().join(", ")
 }
 
-/// Values of a pixel.
-struct PixelReadout {
-    /// Column and row.
-    at: [usize; 2],
-    /// Linear counts of red, green and blue.
-    color: [f32; 3],
-    /// The values of the result; none before a result.
-    analyzed: Option<AnalyzedPixel>,
-    /// Color of the region or hypothesis.
-    chip: Option<Color32>,
-}
-
-/// Values of a pixel in a result.
-struct AnalyzedPixel {
-    /// Class of the pixel's window.
-    class: Option<Class>,
-    /// Kind of the pixel: matte, highlight and so on.
-    kind: PixelKind,
-    /// Number of the region; at the debugger's cursor, of the hypothesis.
-    region: Option<u16>,
-    /// The amounts; none in no region.
-    amounts: Option<PixelAmounts>,
-}
-
-impl PixelReadout {
-    fn of(picture: &Picture, shown: Option<&ResultSnapshot>, pixel: usize) -> Option<Self> {
-        let image = &picture.photo.image;
-        let color = *image.pixels.as_slice().get(pixel)?;
-        let at = [pixel % image.width(), pixel / image.width()];
-        let analyzed = shown.map(|shown| AnalyzedPixel::of(shown, pixel, at));
-        let chip =
-            analyzed.as_ref().and_then(|analyzed| analyzed.region).zip(shown).and_then(|(region, shown)| {
-                let color = shown.region_colors.get(usize::from(region).wrapping_sub(1))?;
-                Some(widgets::color(*color))
-            });
-        Some(Self { at, color, analyzed, chip })
-    }
-
-    /// Values at the debugger's cursor; the region is a hypothesis id. `None` outside of the photograph.
-    fn at_cursor(picture: &Picture, replay: &Replay, names: &RegionNames, pixel: usize) -> Option<Self> {
-        let image = &picture.photo.image;
-        let color = *image.pixels.as_slice().get(pixel)?;
-        let working_pixel = replay.trace().working_pixel(PixelIndex::from_index(pixel)).index();
-        let class = replay.first_grid().and_then(|grid| {
-            let window = grid.window_of(working_pixel, replay.trace().width());
-            grid.classes.as_slice().get(window).copied().flatten().flatten()
-        });
-        let hypothesis = HypothesisId::from_label(*replay.labels().as_slice().get(working_pixel)?);
-        let region = hypothesis.map(HypothesisId::get);
-        let analyzed = AnalyzedPixel { class, kind: replay.kind(working_pixel), region, amounts: None };
-        let chip = hypothesis.map(|hypothesis| widgets::color(names.color(hypothesis)));
-        let at = [pixel % image.width(), pixel / image.width()];
-        Some(Self { at, color, analyzed: Some(analyzed), chip })
-    }
-
-    fn values(&self) -> Values {
-        let counts = |value: f32| widgets::signed(f64::from(value), 1);
-        let mut values = Values::default();
-        values[0] = self.at.map(|place| place.to_string()).to_vec();
-        values[1] = self.color.map(counts).to_vec();
-        let Some(analyzed) = &self.analyzed else { return values };
-        // A pixel in no region has no kind.
-        let is_in_region = analyzed.region.is_some() && analyzed.kind != PixelKind::Unassigned;
-        values[2] = vec![
-            analyzed.region.map_or_else(String::new, |region| region.to_string()),
-            if is_in_region { analyzed.kind.name().to_owned() } else { String::new() },
-            analyzed.class.map_or_else(String::new, |class| class.name().to_owned()),
-        ];
-        let surface = |amounts: &Amounts| amounts.surface.map_or_else(String::new, counts);
-        if let Some(amounts) = &analyzed.amounts {
-            let result = &amounts.result;
-            values[3] = vec![String::new(), counts(result.body), surface(result), counts(result.noise)];
-            if let Some(measured) = amounts.different_measured() {
-                values[4] = vec![String::new(), counts(measured.body), surface(&measured)];
-            }
-        }
-        values
-    }
-}
-
-impl AnalyzedPixel {
-    fn of(shown: &ResultSnapshot, pixel: usize, [x, y]: [usize; 2]) -> Self {
-        let intrinsic = &shown.analysis.intrinsic;
-        let label = shown.labels()[pixel];
-        let has_region = usize::from(label).wrapping_sub(1) < intrinsic.regions.len();
-        Self {
-            class: shown.classes().get(x / shown.window_px(), y / shown.window_px()).copied().flatten(),
-            kind: intrinsic.kinds[pixel],
-            region: has_region.then_some(label),
-            amounts: PixelAmounts::of(shown, PixelIndex::from_index(pixel)),
+/// The texts of the cells for a pixel.
+fn values_of(reading: &PixelReading) -> Values {
+    let counts = |value: f32| widgets::signed(f64::from(value), 1);
+    let mut values = Values::default();
+    values[0] = reading.at.map(|place| place.to_string()).to_vec();
+    values[1] = reading.color.map(counts).to_vec();
+    let Some(analyzed) = &reading.analyzed else { return values };
+    // A pixel in no region has no kind.
+    let is_in_region = analyzed.region.is_some() && analyzed.kind != PixelKind::Unassigned;
+    values[2] = vec![
+        analyzed.region.map_or_else(String::new, |region| region.to_string()),
+        if is_in_region { analyzed.kind.name().to_owned() } else { String::new() },
+        analyzed.class.map_or_else(String::new, |class| class.name().to_owned()),
+    ];
+    let surface = |amounts: &Amounts| amounts.surface.map_or_else(String::new, counts);
+    if let Some(amounts) = &analyzed.amounts {
+        let result = &amounts.result;
+        values[3] = vec![String::new(), counts(result.body), surface(result), counts(result.noise)];
+        if let Some(measured) = amounts.different_measured() {
+            values[4] = vec![String::new(), counts(measured.body), surface(&measured)];
         }
     }
+    values
 }

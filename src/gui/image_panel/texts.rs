@@ -41,7 +41,10 @@ pub fn show_texts(
         }
         overlay::layer_legend(&painter, cx.palette, part, layer, cx.state);
     }
-    if instant.is_some() {
+    // The verdict under the picture says why there is no region.
+    let is_told =
+        !cx.is_export && cx.state.shown().is_some_and(|shown| shown.analysis.intrinsic.regions.is_empty());
+    if instant.is_some() || is_told {
         return;
     }
     let view = painter.clip_rect();

@@ -3,7 +3,7 @@
 use crate::app::Direction::Forward;
 use crate::app::{Breakpoint, Combine, Command, Condition, DebugCommand, DebugSettings, Edit, Goal};
 use crate::gui::PanelContext;
-use crate::gui::action::Action;
+use crate::gui::action::{Action, PixelSet};
 use crate::gui::pane::Pane;
 use crate::raster::{PixelIndex, RegionId};
 use crate::view::{Inspection, Item};
@@ -101,7 +101,7 @@ fn of_region(ui: &mut Ui, cx: &mut PanelContext, region: RegionId) {
     {
         cx.send(Command::Debug(DebugCommand::RunTo(Goal::Hypothesis(hypothesis), Forward)));
     }
-    export(ui, cx);
+    export(ui, cx, PixelSet::Region(region));
 }
 
 fn of_marked(ui: &mut Ui, cx: &mut PanelContext) {
@@ -111,12 +111,14 @@ fn of_marked(ui: &mut Ui, cx: &mut PanelContext) {
     if button(ui, "Restrict to them", "Analyzes the marked pixels alone.") {
         cx.send(Edit::RestrictTo(cx.state.document.selection.marked.clone()));
     }
-    export(ui, cx);
+    export(ui, cx, PixelSet::Marked);
 }
 
-fn export(ui: &mut Ui, cx: &mut PanelContext) {
-    if button(ui, "Export\u{2026}", "Opens the export dialog.") {
-        cx.act(Action::Export);
+/// Shows the button that exports the pixels which the block is about.
+fn export(ui: &mut Ui, cx: &mut PanelContext, pixels: PixelSet) {
+    let tip = "Writes these pixels as a mask (.png), a table (.csv) or points (.ply); a mask is an area for `--area`.";
+    if button(ui, "Export\u{2026}", tip) {
+        cx.act(Action::ExportPixels(pixels));
     }
 }
 

@@ -1,10 +1,11 @@
 //! One block of the inspector: subject and verdict, what the verdict means, the values against their thresholds, section and actions.
 
 use super::actions::{self, Subject};
+use super::distances;
 use crate::gui::theme::{BODY_PT, SMALL_PT, heading_font};
 use crate::gui::{PanelContext, threshold_bar, widgets};
 use crate::raster::PixelIndex;
-use crate::view::{Amounts, Inspection, Item, PixelAmounts, ResultSnapshot, Tone};
+use crate::view::{Amounts, Inspection, Item, PixelAmounts, Tone};
 use egui::accesskit::Role;
 use egui::{Color32, Label, RichText, Ui, WidgetInfo};
 
@@ -20,6 +21,9 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, found: &Inspection, subject: Sub
         color_and_amounts(ui, cx, pixel);
     }
     threshold_bar::show(ui, cx.palette, &found.tests);
+    if matches!(subject, Subject::Selected(Item::Pixel(_))) {
+        ui.scope(|ui| distances::show(ui, cx));
+    }
     actions::show(ui, cx, found, subject);
     ui.add_space(6.0);
 }
@@ -47,30 +51,35 @@ fn tone_color(cx: &PanelContext, tone: Tone) -> Color32 {
     }
 }
 
-/// Shows the color of a pixel, and its amounts of body and surface reflection.
+/// Shows the values of the readout: color, class and kind, and the amounts of body and surface reflection.
 fn color_and_amounts(ui: &mut Ui, cx: &PanelContext, pixel: PixelIndex) {
-    let (Some(picture), Some(shown)) = (&cx.state.picture, cx.state.shown()) else { return };
-    let Some(color) = picture.photo.image.pixels.as_slice().get(pixel.index()).copied() else { return };
+    let Some(reading) = cx.state.reading_of(pixel) else { return };
+    let quiet = |text: String| RichText::new(text).size(SMALL_PT).color(cx.palette.secondary);
     ui.horizontal_wrapped(|ui| {
-        widgets::chip(ui, cx.palette, widgets::own_color(color), "the pixel's color");
-        let [r, g, b] = color;
-        let text = format!("{r:.0} {g:.0} {b:.0} counts");
-        ui.label(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary));
-        amounts(ui, cx, shown, pixel);
+        widgets::chip(ui, cx.palette, widgets::own_color(reading.color), "the pixel's color");
+        let [r, g, b] = reading.color.map(|band| widgets::signed(f64::from(band), 1));
+        ui.label(quiet(format!("{r} {g} {b} counts")));
+        let Some(analyzed) = &reading.analyzed else { return };
+        if let Some(class) = analyzed.class {
+            ui.label(quiet(format!("window {}", class.name())))
+                .on_hover_text("Class of its window (section 5.2.1).");
+        }
+        if let Some(amounts) = &analyzed.amounts {
+            ui.label(widgets::with_subscripts(&amounts_text(amounts), SMALL_PT, cx.palette.secondary));
+        }
     });
 }
 
-/// Shows the pixel's amounts of body and surface reflection in the result, and as measured where the two differ.
-fn amounts(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot, pixel: PixelIndex) {
-    let Some(amounts) = PixelAmounts::of(shown, pixel) else { return };
+/// The amounts of body and surface reflection in the result, and as measured where the two differ.
+fn amounts_text(amounts: &PixelAmounts) -> String {
+    let counts = |value: f32| widgets::signed(f64::from(value), 1);
     let text = |of: &Amounts| {
-        let counts = |value: f32| widgets::signed(f64::from(value), 1);
         let surface = of.surface.map_or_else(String::new, |surface| format!(", m_s {}", counts(surface)));
         format!("m_b {}{surface}", counts(of.body))
     };
-    let mut sentence = format!("result {}", text(&amounts.result));
-    if let Some(measured) = amounts.different_measured() {
-        sentence = format!("{sentence}; measured {}, before the cut at noise", text(&measured));
+    let result = format!("result {}, \u{3b5} {}", text(&amounts.result), counts(amounts.result.noise));
+    match amounts.different_measured() {
+        Some(measured) => format!("{result}; measured {}, before the cut at noise", text(&measured)),
+        None => result,
     }
-    ui.label(widgets::with_subscripts(&sentence, SMALL_PT, cx.palette.secondary));
 }

@@ -66,8 +66,12 @@ pub fn toolbar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
             ui.add_space(6.0);
             for (kind, name, tip) in KINDS {
                 if plane.points.iter().any(|point| point.kind == kind) {
-                    widgets::chip(ui, cx.palette, color(kind, cx.state.view.theme), name).on_hover_text(tip);
-                    ui.label(secondary_text(cx, name)).on_hover_text(tip);
+                    // A wrapped row does not split the widgets of an inner row.
+                    ui.horizontal(|ui| {
+                        let color = color(kind, cx.state.view.theme);
+                        widgets::chip(ui, cx.palette, color, name).on_hover_text(tip);
+                        ui.label(secondary_text(cx, name)).on_hover_text(tip);
+                    });
                     ui.add_space(6.0);
                 }
             }

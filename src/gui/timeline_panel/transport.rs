@@ -92,7 +92,10 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) 
             // A wrapped row does not split the widgets of an inner row.
             ui.horizontal(|ui| step_field(ui, cx, replay));
             let beside = !has_two_rows || ui.available_size_before_wrap().x >= SENTENCE_PT;
-            if beside {
+            // At the result the sentence tells no verdict: a rest of it would only be cut off.
+            let is_needed =
+                cx.state.debugger.stopped().is_some() || ui.available_size_before_wrap().x >= SENTENCE_PT;
+            if beside && is_needed {
                 sentence(ui, cx, replay, names);
             }
             beside

@@ -31,6 +31,8 @@ pub struct VectorsFitted {
     pub limits: FitLimits,
     /// Whether the skewed T explains the region; where not, the plane is not used.
     pub model_fits: bool,
+    /// Whether the run asks if the skewed T explains the region (refinement `region_holds`); where not, `model_fits` says nothing.
+    pub is_judged: bool,
     /// The color from which body and surface reflection are measured: black, or the ambient light, counts.
     pub origin: [f64; 3],
     /// Whether the region is not split, so that the body reflection of a pixel is its color (reading `unsplit_without_highlight`).

@@ -264,6 +264,7 @@ fn the_end_is_a_number_a_role_and_amounts() {
                 figures: FitFigures { rms_counts: 1.0, ..FitFigures::default() },
                 limits: FitLimits::default(),
                 model_fits: true,
+                is_judged: true,
                 origin: [0.0; 3],
                 unsplit: false,
                 noise_line: None,

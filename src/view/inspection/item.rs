@@ -1,13 +1,13 @@
 //! The findings about an item of a result: a pixel, a region, a window or a color, and about marked pixels.
 
 use super::fits::region_tests;
-use super::step::window_tests;
+use super::step::{holds_verdict, window_tests};
 use super::{Inspection, ThresholdTest, Tone};
 use crate::color::vec3;
 use crate::raster::{Mask, PixelIndex, RegionId};
 use crate::trace::{Class, Event, Measured};
 use crate::view::shapes::hypothesis;
-use crate::view::{Item, PixelAmounts, ResultSnapshot, grouped, reason_entry};
+use crate::view::{Item, PixelAmounts, ResultSnapshot, counted, grouped, reason_entry};
 
 /// The findings about an item; none where the result has no such item.
 pub fn inspect_item(shown: &ResultSnapshot, item: Item) -> Option<Inspection> {
@@ -89,30 +89,19 @@ fn of_region(shown: &ResultSnapshot, id: RegionId) -> Option<Inspection> {
     let is_judged = shown.params.refinements().region_holds;
     let tests =
         if is_judged { region_tests(region, shown.trace().map(|trace| &**trace)) } else { Vec::new() };
-    let (verdict, tone) = match (is_judged, region.model_fits) {
-        (false, _) => ("Not judged", Tone::Neutral),
-        (true, true) => ("Holds", Tone::Good),
-        (true, false) => ("Does not hold", Tone::Bad),
-    };
+    let (verdict, tone) = holds_verdict(is_judged, region.model_fits);
     let angle = region.angle_deg.map_or_else(
         || "no dichromatic plane".to_owned(),
         |angle| format!("{angle:.1}\u{b0} between body and surface vector"),
     );
     let sentence = format!(
-        "{} pixels, {} of them matte and {} highlight; {angle}; confidence {:.2}",
-        grouped(region.pixels),
+        "{}, {} of them matte and {} highlight; {angle}; confidence {:.2}",
+        counted(region.pixels, "pixel"),
         grouped(region.matte_pixels),
         grouped(region.highlight_pixels),
         region.confidence
     );
-    Some(Inspection {
-        subject: format!("Region {id}"),
-        verdict: verdict.to_owned(),
-        tone,
-        sentence,
-        tests,
-        section: "6",
-    })
+    Some(Inspection { subject: format!("Region {id}"), verdict, tone, sentence, tests, section: "6" })
 }
 
 fn of_window(shown: &ResultSnapshot, window: u32) -> Option<Inspection> {
@@ -139,7 +128,7 @@ fn of_bin(shown: &ResultSnapshot, bin: u32) -> Option<Inspection> {
     let [r, g, b] = found.mean;
     Some(Inspection {
         subject: format!("Color {r:.0} {g:.0} {b:.0}"),
-        verdict: format!("{} pixels", grouped(found.count as usize)),
+        verdict: counted(found.count as usize, "pixel"),
         tone: Tone::Neutral,
         sentence: "of this color, within a 64th of full scale in each band".to_owned(),
         tests: tests.to_vec(),
@@ -162,7 +151,7 @@ pub fn inspect_marked(shown: &ResultSnapshot, mask: &Mask) -> Option<Inspection>
         subject: "Marked pixels".to_owned(),
         verdict: class.to_owned(),
         tone: Tone::Neutral,
-        sentence: format!("{} pixels: {regions}", grouped(found.pixels)),
+        sentence: format!("{}: {regions}", counted(found.pixels, "pixel")),
         tests: vec![
             most(
                 "clipped",

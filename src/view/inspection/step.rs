@@ -72,12 +72,22 @@ fn event_verdict(event: &Event) -> (String, Tone) {
         Event::HypothesisPassedOver(_) | Event::Dropped(_) => of(false, "", "Refused"),
         Event::Absorbed(_) => of(false, "", "Absorbed"),
         Event::CandidateTested(test) => of(test.verdict.accepted(), "Skewed T", "No skewed T"),
-        Event::VectorsFitted(fitted) => of(fitted.model_fits, "Holds", "Does not hold"),
+        Event::VectorsFitted(fitted) => holds_verdict(fitted.is_judged, fitted.model_fits),
         Event::LocalBegan(began) => of(began.start == LocalStart::Begins, "Begins", "Does not begin"),
         Event::PlausibilityTested(tested) => of(tested.plausible(), "Plausible", "Not plausible"),
         Event::RepairTried(tried) => of(tried.verdict == RepairVerdict::Filled, "Filled", "Not filled"),
         other => (capitalized(other.kind().name()), Tone::Neutral),
     }
+}
+
+/// The verdict on a region: whether the skewed T explains the region, or that nobody asks, as under the paper's method.
+pub(super) fn holds_verdict(is_judged: bool, model_fits: bool) -> (String, Tone) {
+    let (word, tone) = match (is_judged, model_fits) {
+        (false, _) => ("Not judged", Tone::Neutral),
+        (true, true) => ("Holds", Tone::Good),
+        (true, false) => ("Does not hold", Tone::Bad),
+    };
+    (word.to_owned(), tone)
 }
 
 /// The values of an event with their limits; empty for an event that decides by no limit.
@@ -93,7 +103,7 @@ fn event_tests(event: &Event, replay: &Replay) -> Vec<ThresholdTest> {
         }
         Event::HypothesisPassedOver(passed) => passed_over_tests(passed),
         Event::CandidateTested(test) => candidate_tests(test).to_vec(),
-        Event::VectorsFitted(fitted) => fit_tests(fitted),
+        Event::VectorsFitted(fitted) if fitted.is_judged => fit_tests(fitted),
         Event::BranchesSought(sought) => sought
             .gaps
             .iter()

@@ -325,10 +325,13 @@ fn the_watch_shows_the_replays_values() {
         format!("{:.1}", current.line.mean.x),
         format!("{:.3}", current.line.direction.y),
         format!("{:.2}", current.radius),
-        format!("{:.1} / {:.1}", distance.axis[0], distance.axis[1]),
     ] {
         assert!(says(&window, &shown), "{shown}");
     }
+    window.state_mut().show_alone(Some(Pane::Inspector));
+    window.run_steps(2);
+    let shown = format!("{:.1} / {:.1}", distance.axis[0], distance.axis[1]);
+    assert!(says(&window, &shown), "{shown}");
 }
 
 fn grouped(number: u32) -> String {

@@ -137,3 +137,18 @@ fn a_workspace_is_saved_and_opened_again() {
     assert_eq!(state(&window).picture.as_ref().unwrap().origin.path(), Some(tiny().as_path()));
     assert!(state(&window).is_current());
 }
+
+#[test]
+fn the_inspector_exports_the_pixels_of_the_region_that_it_is_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = tiny_window();
+    window.set_size(egui::vec2(1600.0, 1200.0));
+    apply(&mut window, Edit::Select(Some(region(2))));
+    window.run_steps(2);
+    click(&mut window, Role::Button, "Export\u{2026}");
+    let path = folder.path().join("region.csv");
+    answer(&mut window, &path);
+    assert!(notice(&window).contains("the pixels of region 2 as a table"), "{}", notice(&window));
+    let pixels = shown(&window).labels().as_slice().iter().filter(|&&label| label == 2).count();
+    assert_eq!(fs::read_to_string(&path).unwrap().lines().count(), pixels + 1);
+}

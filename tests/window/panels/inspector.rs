@@ -51,6 +51,33 @@ fn a_region_of_the_papers_method_is_not_judged() {
 }
 
 #[test]
+fn the_step_that_fits_vectors_is_not_judged_under_the_papers_method() {
+    let mut window = inspector();
+    go_to(&mut window, |event| matches!(event, Event::VectorsFitted(_)));
+    assert!(says(&window, "Verdict: Holds"));
+    apply(&mut window, Edit::SetMethod(Method::Paper));
+    window.run_steps(2);
+    go_to(&mut window, |event| matches!(event, Event::VectorsFitted(_)));
+    assert!(says(&window, "Verdict: Not judged") && !says(&window, "Verdict: Holds"));
+    assert!(says(&window, "whether it holds is not asked"));
+}
+
+#[test]
+fn a_selected_pixel_has_the_values_of_the_readout_and_its_distances_from_the_hypotheses() {
+    let mut window = inspector();
+    let labels = shown(&window).labels().clone();
+    let inside = labels.as_slice().iter().position(|&label| label == 1).unwrap();
+    apply(&mut window, Edit::Select(Some(Item::Pixel(PixelIndex::from_index(inside)))));
+    window.run_steps(2);
+    let amounts =
+        dichroscope::view::PixelAmounts::of(&shown(&window), PixelIndex::from_index(inside)).unwrap();
+    assert!(says(&window, &format!("m_b {:.1}", amounts.result.body)), "the amounts of the readout");
+    let distance = state(&window).watched().unwrap().pixel.unwrap().distances.remove(0);
+    let text = format!("{:.1} / {:.1}", distance.axis[0], distance.axis[1]);
+    assert!(says(&window, &text) && says(&window, "Distances from the hypotheses, counts"), "{text}");
+}
+
+#[test]
 fn a_hovered_pixel_takes_the_place_of_the_selected_one_and_moves_nothing_below() {
     let mut window = inspector();
     let labels = shown(&window).labels().clone();

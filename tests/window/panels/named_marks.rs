@@ -69,3 +69,22 @@ fn a_mark_is_counted_at_the_pointer_and_comes_back_with_the_workspace() {
     apply(&mut window, JobCommand::OpenWorkspace(path));
     assert_eq!(state(&window).document.selection.named, before);
 }
+
+#[test]
+fn the_marked_pixels_are_kept_by_a_key_and_from_the_command_palette() {
+    let mut window = tiny_window();
+    let labels = shown(&window).labels().clone();
+    let of = |region: u16| Arc::new(labels.map(|&label| label == region));
+    apply(&mut window, Edit::Mark(of(1), Combine::Replace, None));
+    press(&mut window, Modifiers::COMMAND, Key::M);
+    assert_eq!(state(&window).document.selection.named.marks.len(), 1);
+    apply(&mut window, Edit::NamedMark(NamedMarkEdit::Release));
+    apply(&mut window, Edit::Mark(of(2), Combine::Replace, None));
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    window.event(Event::Text("keep named".to_owned()));
+    window.run_steps(2);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(state(&window).document.selection.named.marks.len(), 2);
+    undo(&mut window);
+    assert_eq!(state(&window).document.selection.named.marks.len(), 1);
+}

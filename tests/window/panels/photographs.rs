@@ -1,10 +1,12 @@
 //! Tests of several open photographs: opened, switched by keys and menu, compared, closed.
 
-use crate::window::{apply, choose, click, open_sample, press, region, says, sigma, state, tiny_window};
+use crate::window::{
+    apply, choose, click, named, open_sample, press, region, says, sigma, state, tiny_window,
+};
 use dichroscope::app::{Edit, JobCommand};
 use dichroscope::params::{Parameter, Setting};
 use dichroscope::truth::sample;
-use dichroscope::view::{Arrangement, Origin};
+use dichroscope::view::{Arrangement, Item, Origin};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 
@@ -68,4 +70,38 @@ fn a_photograph_that_is_opened_again_is_open_once_and_two_are_compared_beside() 
     assert!(says(&window, "Layer shown: copy.png: "), "the second view shows the other photograph");
     press(&mut window, Modifiers::COMMAND, Key::D);
     assert!(!says(&window, "Layer shown: copy.png: "));
+}
+
+#[test]
+fn two_photographs_of_different_sizes_are_compared_beside_with_linked_zoom() {
+    let mut window = tiny_window();
+    let (width, height) = state(&window).picture.as_ref().unwrap().size();
+    open_sample(&mut window, sample::NAME);
+    assert_ne!(state(&window).picture.as_ref().unwrap().size(), (width, height));
+    window.set_size(egui::vec2(1280.0, 900.0));
+    press(&mut window, Modifiers::COMMAND, Key::D);
+    window.run_steps(3);
+    assert!(says(&window, "Layer shown: "), "both views have names");
+    let [first, second] = ["Picture", "Second picture"].map(|name| named(&window, Role::Image, name).rect());
+    assert!(first.width() > 100.0 && second.width() > 100.0);
+    window.hover_at(second.center());
+    window.run_steps(2);
+    let hovered = state(&window).hover;
+    let size = state(&window).picture.as_ref().unwrap().size();
+    let Some(Item::Pixel(pixel)) = hovered else { panic!("{hovered:?}") };
+    let [x, y] = pixel.position(size.0).map(|place| place as f32);
+    assert!(
+        (x / size.0 as f32 - 0.5).abs() < 0.02 && (y / size.1 as f32 - 0.5).abs() < 0.02,
+        "{x} {y} of {size:?}"
+    );
+    window.drag_at(second.center());
+    window.run_steps(1);
+    window.hover_at(second.center() + egui::vec2(20.0, 10.0));
+    window.run_steps(1);
+    window.drop_at(second.center() + egui::vec2(20.0, 10.0));
+    window.run_steps(2);
+    let image = &state(&window).view.image;
+    assert!(image.zoom.is_some() && image.center_px.is_some(), "the first view is panned too");
+    let [center_x, _] = image.center_px.unwrap();
+    assert!(center_x < size.0 as f32 / 2.0, "the picture went to the right: {center_x}");
 }

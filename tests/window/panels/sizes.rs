@@ -1,13 +1,15 @@
 //! No panel panics at any size in any state. A panic of a panel is caught and becomes a notice, so the tests look for notices.
 
 use crate::window::{
-    Fixture, Window, apply, open_sample, region, shown, state, tiny_window, window, with_gpu,
+    Fixture, Window, apply, named, open_sample, press, region, says, shown, state, tiny_window, window,
+    with_gpu,
 };
 use dichroscope::app::{Command, DebugCommand, Edit, JobCommand, ViewCommand};
 use dichroscope::gui::Pane;
 use dichroscope::trace::{Event, Topic};
 use dichroscope::view::{Arrangement, Item, Layer, Origin, Theme};
-use egui::{Vec2, vec2};
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Vec2, vec2};
 
 /// Lengths of a side, points.
 const SIDES: [f32; 9] = [1.0, 7.0, 17.0, 33.0, 49.0, 96.0, 170.0, 500.0, 9000.0];
@@ -121,4 +123,35 @@ fn an_ended_panel_is_told_with_where_the_workspace_was_saved() {
     apply(&mut window, JobCommand::Rescue("the panel Plane was ended".to_owned()));
     assert!(crate::window::says(&window, "the panel Plane was ended"));
     assert!(crate::window::says(&window, "the workspace was saved to"));
+}
+
+#[test]
+fn a_small_room_shows_all_panels_as_tabs_and_the_arrangement_comes_back_with_the_room() {
+    let mut window = tiny_window();
+    window.set_size(vec2(1280.0, 800.0));
+    window.run_steps(2);
+    apply(&mut window, Edit::Select(Some(region(1))));
+    let arranged = state(&window).view.layout.clone();
+    window.set_size(vec2(450.0, 350.0));
+    window.run_steps(3);
+    let picture = named(&window, Role::Image, "Picture").rect();
+    assert!(picture.height() > 120.0, "the picture has room: {picture}");
+    choose(&mut window, "show inspector");
+    assert!(
+        says(&window, "Verdict: Holds") || says(&window, "Verdict: Does not hold"),
+        "the inspector is in front"
+    );
+    window.set_size(vec2(1280.0, 800.0));
+    window.run_steps(3);
+    assert!(named(&window, Role::Image, "Picture").rect().height() > 200.0);
+    assert_eq!(state(&window).view.layout, arranged, "the small room changed no arrangement");
+}
+
+/// Carries out the command of the palette that has these letters.
+fn choose(window: &mut Window, letters: &str) {
+    press(window, Modifiers::COMMAND, Key::P);
+    window.event(egui::Event::Text(letters.to_owned()));
+    window.run_steps(2);
+    press(window, Modifiers::NONE, Key::Enter);
+    window.run_steps(2);
 }

@@ -1,0 +1,57 @@
+//! The arrangement of the panels where there is no room for several of them, as a large interface in a small window has: all panels
+//! are tabs of one group, so that the panel in front has all the room.
+
+use super::PanelContext;
+use super::dock::{Dock, Panels};
+use super::pane::Pane;
+use egui::{Ui, Vec2, vec2};
+
+/// Smallest width and height of the room in which the panels stand as a person arranged them, points.
+const LEAST_ROOM_PT: Vec2 = vec2(620.0, 420.0);
+
+/// All visible panels as tabs of one group. The arrangement that a person made stays as it is.
+#[derive(Default)]
+pub struct CompactDock {
+    /// The tabs; none before the room was small for the first time.
+    tabs: Option<Tabs>,
+}
+
+/// The tabs and the panels that they were made of.
+struct Tabs {
+    dock: Dock,
+    panes: Vec<Pane>,
+}
+
+impl CompactDock {
+    /// Whether a room is too small for several panels.
+    pub fn is_needed(room: Vec2) -> bool {
+        room.x < LEAST_ROOM_PT.x || room.y < LEAST_ROOM_PT.y
+    }
+
+    /// Shows the panels that `arranged` shows as tabs of one group.
+    pub fn show(&mut self, ui: &mut Ui, arranged: &Dock, panels: &mut Panels, cx: &mut PanelContext) {
+        let panes: Vec<Pane> = Pane::ALL.into_iter().filter(|&pane| arranged.is_visible(pane)).collect();
+        let front = match &self.tabs {
+            Some(tabs) if tabs.panes == panes => None,
+            Some(tabs) => Some(tabs.panes.iter().copied().find(|&pane| tabs.dock.is_in_front(pane))),
+            None => Some(None),
+        };
+        if let Some(front) = front {
+            let mut dock = Dock::of_tabs(&panes);
+            if let Some(front) = front.filter(|pane| panes.contains(pane)).or(panes.first().copied()) {
+                dock.activate(front);
+            }
+            self.tabs = Some(Tabs { dock, panes });
+        }
+        if let Some(tabs) = &mut self.tabs {
+            tabs.dock.show(ui, panels, cx);
+        }
+    }
+
+    /// Brings the panel's tab to the front.
+    pub fn activate(&mut self, pane: Pane) {
+        if let Some(tabs) = &mut self.tabs {
+            tabs.dock.activate(pane);
+        }
+    }
+}
