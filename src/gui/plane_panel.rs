@@ -25,6 +25,8 @@ const HOVER_RADIUS_PT: f32 = 8.0;
 const RING_PT: f32 = 6.0;
 /// Width and height of the area kept for the amounts of the hovered color, points.
 const HOVERED_TEXT_PT: egui::Vec2 = vec2(300.0, 30.0);
+/// Width of a view that has room for the facts beside the values of the hovered color, points.
+const TWO_TEXTS_PT: f32 = 480.0;
 /// Scroll distance that zooms by the factor e, points.
 const SCROLL_PT: f32 = 260.0;
 
@@ -101,7 +103,10 @@ impl PlanePanel {
         let numbers = chart.axes(&painter, plane, rect, cx.palette);
         let mesh = point_mesh(&mut self.point_mesh, cx, plane, chart, rect);
         painter.add(Shape::Mesh(mesh));
-        let facts = paint_facts(&painter, cx, plane, &shown, rect);
+        // In a narrow view the values of the hovered color take the place of the facts.
+        let is_taken =
+            rect.width() < TWO_TEXTS_PT && hovered_color(cx, &shown.picture).is_some() && !cx.is_export;
+        let facts = (!is_taken).then(|| paint_facts(&painter, cx, plane, &shown, rect)).flatten();
         let amounts = paint_hovered(&painter, cx, plane, chart, &shown.picture, rect);
         let density = PointDensity::default();
         let points = self.point_mesh.as_ref().map_or(&density, |point_mesh| &point_mesh.density);
@@ -341,11 +346,7 @@ fn paint_hovered(
     let corner = rect.right_top() + vec2(-8.0, 4.0);
     let kept =
         Rect::from_min_max(corner - vec2(HOVERED_TEXT_PT.x, 0.0), corner + vec2(0.0, HOVERED_TEXT_PT.y));
-    let color: Option<Point> = match cx.state.hover {
-        Some(Item::Pixel(pixel)) => picture.photo.image.pixels.as_slice().get(pixel.index()).copied(),
-        Some(Item::Bin(bin)) => picture.histogram.bins.get(bin as usize).map(|bin| bin.mean),
-        _ => None,
-    };
+    let color = hovered_color(cx, picture);
     let Some(amounts) = color.map(|color| plane.amounts(color)) else { return kept };
     let at = chart.screen(plane.oblique(amounts.body, amounts.surface), rect);
     let elsewhere = |item| matches!(item, Item::Pixel(_)) && cx.state.region_of(item) != plane.region;
@@ -370,6 +371,15 @@ fn paint_hovered(
     }
     paint_text(painter, cx, corner, Align2::RIGHT_TOP, &text, cx.palette.text);
     kept
+}
+
+/// The color of the pixel or bin that is hovered in any panel, counts.
+fn hovered_color(cx: &PanelContext, picture: &Picture) -> Option<Point> {
+    match cx.state.hover? {
+        Item::Pixel(pixel) => picture.photo.image.pixels.as_slice().get(pixel.index()).copied(),
+        Item::Bin(bin) => picture.histogram.bins.get(bin as usize).map(|bin| bin.mean),
+        Item::Region(_) | Item::Window(_) => None,
+    }
 }
 
 /// Small text in the secondary color.

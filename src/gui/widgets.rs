@@ -1,6 +1,6 @@
 //! Small widgets and formats that several panels share.
 
-use super::theme::{BODY_PT, ThemeColors, heading_font, subscript_font};
+use super::theme::{BODY_PT, SMALL_PT, ThemeColors, heading_font, subscript_font};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Color32, FontId, Layout, Response, RichText, Sense, Ui, vec2};
 
@@ -62,6 +62,20 @@ pub fn capitalized(word: &str) -> String {
 pub fn chip(ui: &mut Ui, palette: &ThemeColors, color: Color32, name: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
     paint_chip(ui.painter(), rect, color, palette);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, name));
+    response
+}
+
+/// A color and its name as one widget, so that a wrapped row does not part them.
+pub fn legend_entry(ui: &mut Ui, palette: &ThemeColors, color: Color32, name: &str) -> Response {
+    let galley =
+        ui.painter().layout_no_wrap(name.to_owned(), FontId::proportional(SMALL_PT), palette.secondary);
+    let size = vec2(16.0 + galley.size().x, galley.size().y.max(12.0));
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let square = egui::Rect::from_center_size(rect.left_center() + vec2(6.0, 0.0), vec2(12.0, 12.0));
+    paint_chip(ui.painter(), square, color, palette);
+    let corner = rect.left_center() + vec2(16.0, -galley.size().y / 2.0);
+    ui.painter().galley(corner, galley, palette.secondary);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, name));
     response
 }

@@ -44,7 +44,7 @@ const TOOLS: [(Tool, Icon, &str, &str); 4] = [
 pub fn show(ui: &mut Ui, cx: &mut PanelContext, camera_controller: &mut CameraController, size: [f32; 2]) {
     let before = &cx.state.view.cube;
     let mut settings = before.clone();
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.spacing_mut().button_padding.x = 5.0;
         let narrow = ui.available_width() < NARROW_PT;

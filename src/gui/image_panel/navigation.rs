@@ -2,7 +2,7 @@
 
 use super::geometry::Placement;
 use crate::view::ImageSettings;
-use egui::{EventFilter, Key, Response, Ui, Vec2, vec2};
+use egui::{Event, EventFilter, Key, Response, Ui, Vec2, vec2};
 
 /// Distance that an arrow key moves the picture, points.
 const PAN_STEP_PT: f32 = 40.0;
@@ -26,10 +26,14 @@ pub fn navigate(ui: &Ui, response: &Response, place: &Placement, settings: &mut 
     let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
     let (offset, factor) = ui.input(|input| {
-        if input.modifiers.command {
-            return (Vec2::ZERO, 1.0);
-        }
-        let presses = |key: Key| input.num_presses(key) as f32;
+        // The modifiers of each press count and not those at the end of the frame: Ctrl++ enlarges the interface, and in a slow frame
+        // Ctrl is up again.
+        let presses = |wanted: Key| {
+            let is_wanted = |event: &&Event| {
+                matches!(event, Event::Key { key, pressed: true, modifiers, .. } if *key == wanted && !modifiers.command)
+            };
+            input.events.iter().filter(is_wanted).count() as f32
+        };
         let offset = vec2(
             presses(Key::ArrowLeft) - presses(Key::ArrowRight),
             presses(Key::ArrowUp) - presses(Key::ArrowDown),

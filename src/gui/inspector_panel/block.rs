@@ -64,10 +64,11 @@ fn color_and_amounts(ui: &mut Ui, cx: &PanelContext, pixel: PixelIndex) {
             ui.label(quiet(format!("window {}", class.name())))
                 .on_hover_text("Class of its window (section 5.2.1).");
         }
-        if let Some(amounts) = &analyzed.amounts {
-            ui.label(widgets::with_subscripts(&amounts_text(amounts), SMALL_PT, cx.palette.secondary));
-        }
     });
+    if let Some(amounts) = reading.analyzed.as_ref().and_then(|analyzed| analyzed.amounts.as_ref()) {
+        let text = widgets::with_subscripts(&amounts_text(amounts), SMALL_PT, cx.palette.secondary);
+        ui.add(Label::new(text).wrap());
+    }
 }
 
 /// The amounts of body and surface reflection in the result, and as measured where the two differ.

@@ -16,6 +16,8 @@ pub const ROW_PT: f32 = 20.0;
 pub const NARROW_PT: f32 = 284.0;
 /// Width below which a row has two lines, points.
 const STACKED_PT: f32 = 260.0;
+/// Width below which a label has a line of its own, points.
+const LABEL_ALONE_PT: f32 = 184.0;
 /// Width of the labels' column in a narrow panel, points.
 const NARROW_LABEL_PT: f32 = 90.0;
 /// Distance between two columns, points.
@@ -89,6 +91,8 @@ impl Columns {
 impl Columns {
     /// The cells in two lines, for a panel in which one line leaves no room for the slider.
     fn stacked(ui: &mut Ui) -> Self {
+        // The label has a line of its own where a value and a button beside it would cut it off.
+        let is_label_alone = ui.available_width() < LABEL_ALONE_PT;
         let size = vec2(ui.available_width(), 2.0 * ROW_PT);
         let (area, _) = ui.allocate_exact_size(size, egui::Sense::hover());
         let cell = |from: f32, to: f32, line: f32| {
@@ -99,6 +103,15 @@ impl Columns {
         let width = area.width();
         let auto = (width - AUTO_PT).max(0.0);
         let value = (auto - GAP_PT - VALUE_PT).max(0.0);
+        if is_label_alone {
+            return Self {
+                label: cell(0.0, width, 0.0),
+                slider: cell(0.0, (value - GAP_PT).max(20.0), 1.0),
+                value: cell(value, value + VALUE_PT, 1.0),
+                unit: cell(width, width, 0.0),
+                auto: cell(auto, auto + AUTO_PT, 1.0),
+            };
+        }
         Self {
             label: cell(0.0, value - GAP_PT, 0.0),
             slider: cell(0.0, width, 1.0),

@@ -1,6 +1,5 @@
 //! Kinds of pixels (matte, highlight, restored, lost; section 6): colors, names, and the legend.
 
-use super::secondary_text;
 use crate::app::ViewCommand;
 use crate::gui::PanelContext;
 use crate::gui::icons::{self, Icon};
@@ -66,12 +65,8 @@ pub fn toolbar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
             ui.add_space(6.0);
             for (kind, name, tip) in KINDS {
                 if plane.points.iter().any(|point| point.kind == kind) {
-                    // A wrapped row does not split the widgets of an inner row.
-                    ui.horizontal(|ui| {
-                        let color = color(kind, cx.state.view.theme);
-                        widgets::chip(ui, cx.palette, color, name).on_hover_text(tip);
-                        ui.label(secondary_text(cx, name)).on_hover_text(tip);
-                    });
+                    let color = color(kind, cx.state.view.theme);
+                    widgets::legend_entry(ui, cx.palette, color, name).on_hover_text(tip);
                     ui.add_space(6.0);
                 }
             }

@@ -2,8 +2,8 @@
 //! ground truth.
 
 use super::vector;
-use crate::gui::PanelContext;
-use crate::gui::theme::SMALL_PT;
+use crate::gui::theme::{BODY_PT, SMALL_PT};
+use crate::gui::{PanelContext, widgets};
 use crate::segment::{Illuminant, LightBasis, LightFindings};
 use crate::view::{ResultSnapshot, WIDE_INTERVAL_DEG, regions_text};
 use egui::{Align, Label, Layout, RichText, Ui};
@@ -98,13 +98,13 @@ fn basis_text(light: &Illuminant, findings: &LightFindings) -> String {
 fn accuracy(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
     let Some(scores) = shown.accuracy().map(|accuracy| &accuracy.scores) else { return };
     let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {
-        // A wrapped row does not split the widgets of an inner row.
-        ui.horizontal(|ui| {
-            if !name.is_empty() {
-                ui.label(RichText::new(name).size(SMALL_PT).color(cx.palette.secondary)).on_hover_text(tip);
-            }
-            ui.label(value).on_hover_text(tip);
-        });
+        // One widget, so that a wrapped row does not part name and value.
+        let mut text = widgets::with_subscripts(name, SMALL_PT, cx.palette.secondary);
+        let gap = if name.is_empty() { 0.0 } else { 6.0 };
+        let font_id = egui::FontId::proportional(BODY_PT);
+        let format = egui::TextFormat { font_id, color: cx.palette.text, ..egui::TextFormat::default() };
+        text.append(&value, gap, format);
+        ui.label(text).on_hover_text(tip);
     };
     if shown.analysis.illuminant.is_some() {
         let tip = "Angle between the light found and the scene's true light.";

@@ -20,6 +20,8 @@ use egui::{ComboBox, DragValue, Label, RichText, Slider, Ui, WidgetInfo, vec2};
 
 /// Width that the sentence needs beside the controls, points; with less, the sentence is shown below the controls.
 const SENTENCE_PT: f32 = 130.0;
+/// Width of a row that has room for words beside the cursor's position, points.
+const WORDS_PT: f32 = 800.0;
 /// Smallest height of a panel with room for a second row above the track, points.
 const TWO_ROWS_PT: f32 = 88.0;
 
@@ -81,6 +83,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) 
     ui.spacing_mut().item_spacing = vec2(2.0, 3.0);
     ui.spacing_mut().interact_size.y = icons::SIDE_PT;
     let has_two_rows = ui.available_height() >= TWO_ROWS_PT;
+    let is_narrow = !has_two_rows && ui.available_width() < WORDS_PT;
     let beside = ui
         .horizontal_wrapped(|ui| {
             controls(ui, cx, &LEFT);
@@ -89,8 +92,10 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) 
             ui.add_space(4.0);
             playback_settings(ui, cx);
             run_to::show(ui, cx);
-            // A wrapped row does not split the widgets of an inner row.
-            ui.horizontal(|ui| step_field(ui, cx, replay));
+            // A wrapped row does not split the widgets of an area of known width.
+            let size = vec2(step_width(replay.trace().len(), is_narrow), ui.spacing().interact_size.y);
+            let layout = egui::Layout::left_to_right(egui::Align::Center);
+            ui.allocate_ui_with_layout(size, layout, |ui| step_field(ui, cx, replay, is_narrow));
             let beside = !has_two_rows || ui.available_size_before_wrap().x >= SENTENCE_PT;
             // At the result the sentence tells no verdict: a rest of it would only be cut off.
             let is_needed =
@@ -226,12 +231,24 @@ fn rate_text(rate: f64) -> String {
     }
 }
 
+/// Width of a field for numbers up to `len`, points.
+fn number_width(len: usize) -> f32 {
+    12.0 + 7.4 * grouped(len).chars().count() as f32
+}
+
+/// Width of the cursor's position with its words, points.
+fn step_width(len: usize, is_narrow: bool) -> f32 {
+    if is_narrow { number_width(len) + 8.0 } else { 2.0 * number_width(len) + 50.0 }
+}
+
 /// Shows the cursor's position; a typed number moves the cursor.
-fn step_field(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay) {
+fn step_field(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, is_narrow: bool) {
     let secondary_text = |text: String| RichText::new(text).color(cx.palette.secondary);
     let len = replay.trace().len();
     ui.add_space(6.0);
-    ui.label(secondary_text("step".to_owned()));
+    if !is_narrow {
+        ui.label(secondary_text("step".to_owned()));
+    }
     let mut at = replay.at();
     let field = DragValue::new(&mut at)
         .range(0..=len)
@@ -239,7 +256,7 @@ fn step_field(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay) {
         .update_while_editing(false)
         .custom_formatter(|at, _| grouped(at as usize))
         .custom_parser(|text| text.replace(|c: char| c.is_whitespace(), "").parse().ok());
-    let width = 12.0 + 7.4 * grouped(len).chars().count() as f32;
+    let width = number_width(len);
     let field = ui.add_sized(vec2(width, ui.spacing().interact_size.y - 2.0), field);
     field.widget_info(|| WidgetInfo {
         label: Some("Step".to_owned()),
@@ -248,9 +265,12 @@ fn step_field(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay) {
     if field.changed() && at != replay.at() {
         cx.send(Command::Debug(DebugCommand::Seek(at)));
     }
-    field.on_hover_text("Decisions taken so far. Type a number to go there.");
-    ui.label(secondary_text(format!("/ {}", grouped(len))));
-    ui.add_space(8.0);
+    let tip = format!("Decisions taken so far, of {}. Type a number to go there.", grouped(len));
+    field.on_hover_text(tip);
+    if !is_narrow {
+        ui.label(secondary_text(format!("/ {}", grouped(len))));
+        ui.add_space(8.0);
+    }
 }
 
 /// Shows the state of the cursor (playing, stopped) and a sentence about the last step.
