@@ -6,7 +6,9 @@ use crate::params::{AmbientSetting, Method, Parameter, Params, Reading, Setting,
 use crate::photo::ReadOptions;
 use crate::raster::Mask;
 use crate::truth::sample::SampleSet;
-use crate::view::{CubeSettings, ImageSettings, Item, Origin, PlaneSettings, ProfileLine, Theme};
+use crate::view::{
+    CubeSettings, GeometrySettings, ImageSettings, Item, Origin, PlaneSettings, ProfileLine, Theme,
+};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -100,6 +102,8 @@ pub enum ViewCommand {
     Cube(CubeSettings),
     /// Set the plane view.
     Plane(PlaneSettings),
+    /// Set the sphere of section 3.
+    Geometry(GeometrySettings),
     /// Set the line of the profile.
     Profile(ProfileLine),
     /// Set the light or the dark theme.

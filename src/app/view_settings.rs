@@ -1,7 +1,7 @@
 //! Settings of all views. They are part of a workspace, not of the undo history.
 
 use super::DebugSettings;
-use crate::view::{CubeSettings, ImageSettings, PlaneSettings, ProfileLine, Theme};
+use crate::view::{CubeSettings, GeometrySettings, ImageSettings, PlaneSettings, ProfileLine, Theme};
 use serde::{Deserialize, Serialize};
 
 /// The settings of every view.
@@ -14,6 +14,8 @@ pub struct ViewSettings {
     pub cube: CubeSettings,
     /// The plane view.
     pub plane: PlaneSettings,
+    /// The sphere of section 3.
+    pub geometry: GeometrySettings,
     /// The line of the profile.
     pub profile: ProfileLine,
     /// The step debugger.

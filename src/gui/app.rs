@@ -140,6 +140,8 @@ impl App {
         let theme = self.application.state().view.theme;
         if self.applied_theme != Some(theme) {
             theme::apply(ui.ctx(), theme);
+            // Otherwise the first frame would have the texts of the theme before.
+            ui.reset_style();
             self.applied_theme = Some(theme);
         }
         self.content.load_further_fonts(ui.ctx(), self.application.state());

@@ -10,6 +10,7 @@ mod figure;
 mod frame;
 mod labels;
 mod legend;
+mod sphere_points;
 pub mod testing;
 mod unique_colors;
 
@@ -40,6 +41,7 @@ pub struct CubePanel {
     camera_controller: CameraController,
     cloud: Cloud,
     cursor_points: CursorPoints,
+    sphere_points: sphere_points::SpherePoints,
     unique_colors: UniqueColors,
     figure: Figure,
     frame: AxesFrame,
@@ -159,6 +161,8 @@ impl CubePanel {
         self.cloud.update(cx.state, cx.palette, picture, unique_colors.flatten().as_ref(), ghosts_only);
         self.scene.points = self.cloud.drawn.to_vec();
         self.scene.points.extend_from_slice(&self.cursor_points.drawn);
+        self.sphere_points.update(cx.state, cx.palette, picture);
+        self.scene.points.extend_from_slice(&self.sphere_points.drawn);
         self.scene.background = cx.palette.background.to_array();
         let figure_changed = self.figure.update(cx.state, picture);
         if figure_changed {

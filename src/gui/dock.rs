@@ -80,6 +80,11 @@ panes! {
         tabs: TabGroup::Plots,
         show: |panels, ui, cx| panels.profile.show(ui, cx),
     };
+    Geometry { geometry: super::geometry_panel::GeometryPanel } PaneRow {
+        background: |palette| palette.panel,
+        tabs: TabGroup::Plots,
+        show: |panels, ui, cx| panels.geometry.show(ui, cx),
+    };
     Parameters {} PaneRow {
         background: |palette| palette.panel,
         tabs: TabGroup::Parameters,

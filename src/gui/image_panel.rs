@@ -105,7 +105,12 @@ impl ImagePanel {
         });
         self.show_verdict(ui, cx, &mut debug, bar, is_low);
         let column = Panel::left("tools").resizable(false).exact_size(icons::SIDE_PT + 8.0);
-        column.frame(bar.inner_margin(4)).show(ui, |ui| toolbar::column(ui, palette, &mut settings));
+        column.frame(bar.inner_margin(4)).show(ui, |ui| {
+            // In a low panel the tools are scrolled.
+            let area = egui::ScrollArea::vertical();
+            let area = area.scroll_bar_visibility(egui::scroll_area::ScrollBarVisibility::AlwaysHidden);
+            area.show(ui, |ui| toolbar::column(ui, palette, &mut settings));
+        });
         let (width, height) = picture.size();
         let size = vec2(width as f32, height as f32);
         CentralPanel::default().frame(Frame::new().fill(palette.background)).show(ui, |ui| {
@@ -161,7 +166,9 @@ impl ImagePanel {
                 ui.set_min_height(VERDICT_LINE_PT);
                 if is_low {
                     // The picture comes first: what does not fit into one line is scrolled.
-                    let area = egui::ScrollArea::vertical().max_height(VERDICT_LINE_PT);
+                    let area = egui::ScrollArea::vertical()
+                        .max_height(VERDICT_LINE_PT)
+                        .min_scrolled_height(VERDICT_LINE_PT);
                     area.show(ui, |ui| verdict_strip::show(ui, cx, shown));
                 } else {
                     verdict_strip::show(ui, cx, shown);

@@ -15,6 +15,7 @@ mod cube_panel;
 mod dock;
 mod dropped_files;
 mod files;
+mod geometry_panel;
 mod glossary;
 mod history_panel;
 mod icons;

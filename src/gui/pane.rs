@@ -35,6 +35,8 @@ panes! {
     Plane = "Plane";
     /// Body, surface and ε along a line.
     Profile = "Profile";
+    /// The sphere, light and camera of section 3.
+    Geometry = "Geometry";
     /// Sliders and switches.
     Parameters = "Parameters";
     /// The regions as a table.

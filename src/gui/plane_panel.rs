@@ -13,7 +13,7 @@ use crate::gui::outline::{Outline, combine_by_keys};
 use crate::raster::RegionId;
 use crate::view::{
     Item, NamedMarks, Picture, PixelAmounts, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, Tool,
-    plane_mask, region_plane,
+    plane_mask, region_plane, sphere_in_plane,
 };
 use chart::{Chart, Obstacles, PointDensity};
 use egui::{Align2, Color32, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
@@ -103,6 +103,7 @@ impl PlanePanel {
         let numbers = chart.axes(&painter, plane, rect, cx.palette);
         let mesh = point_mesh(&mut self.point_mesh, cx, plane, chart, rect);
         painter.add(Shape::Mesh(mesh));
+        paint_sphere(&painter, cx, plane, chart, rect);
         // In a narrow view the values of the hovered color take the place of the facts.
         let is_taken =
             rect.width() < TWO_TEXTS_PT && hovered_color(cx, &shown.picture).is_some() && !cx.is_export;
@@ -264,6 +265,22 @@ fn point_mesh(
     let mesh = Arc::new(mesh);
     *cached = Some(PointMesh { inputs, named_marks: Arc::clone(named), mesh: Arc::clone(&mesh), density });
     mesh
+}
+
+/// Paints the cluster of the sphere of section 3, where the panel *Geometry* draws it.
+fn paint_sphere(painter: &egui::Painter, cx: &PanelContext, plane: &RegionPlane, chart: Chart, rect: Rect) {
+    let settings = cx.state.view.geometry;
+    if !settings.is_drawn || cx.state.followed().is_some() {
+        return;
+    }
+    let mut mesh = egui::Mesh::default();
+    for [body, surface] in sphere_in_plane(settings, plane) {
+        let at = chart.screen(plane.oblique(body, surface), rect);
+        if rect.expand(2.0).contains(at) {
+            mesh.add_colored_rect(Rect::from_center_size(at, vec2(1.8, 1.8)), cx.palette.accent);
+        }
+    }
+    painter.add(Shape::mesh(mesh));
 }
 
 /// Writes angle, slice width and noise into the upper left corner, or why the region has no plane. Returns the rectangle of the

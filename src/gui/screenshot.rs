@@ -131,6 +131,7 @@ fn gallery() -> Vec<GalleryPicture> {
         colors("colors", None, ColorBy::Own),
         colors("colors-region", RegionId::from_label(1), ColorBy::Region),
         GalleryPicture { pane: Some(Pane::Plane), ..whole_window("plane") },
+        GalleryPicture { pane: Some(Pane::Geometry), ..whole_window("geometry") },
         GalleryPicture { pane: Some(Pane::Profile), ..whole_window("profile") },
         stopped("debugger-slice", Moment::Slice),
         stopped("debugger-skewed-t", Moment::Test),

@@ -40,6 +40,16 @@ impl SphereGeometry {
         (possible && geometry.phase_deg <= geometry.max_phase_deg()).then_some(geometry)
     }
 
+    /// r/d.
+    pub fn radius_over_distance(self) -> f64 {
+        self.radius_over_distance
+    }
+
+    /// g, degrees, not negative.
+    pub fn phase_deg(self) -> f64 {
+        self.phase_deg
+    }
+
     /// γ, equation (3): half the angle at which light or camera sees the sphere.
     pub fn cone_half_angle_deg(self) -> f64 {
         // arctan(r / √(d² − r²)) = arcsin(r / d), which is defined for an infinite d too.

@@ -9,6 +9,7 @@ mod cluster_plane;
 mod colors;
 mod compare;
 mod curves;
+mod geometry;
 mod grouped;
 mod histogram;
 mod inspection;
@@ -47,6 +48,7 @@ pub use compare::{
     BodyChange, ComparedRegion, Comparison, Figure, PixelChanges, RegionChange, SettingChange, compare,
     setting_changes,
 };
+pub use geometry::{GeometrySettings, SPHERE_DISTANCES, meeting_share, sphere_colors, sphere_in_plane};
 pub use grouped::{counted, grouped};
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
 pub use inspection::{

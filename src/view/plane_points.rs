@@ -154,6 +154,11 @@ impl RegionPlane {
         self.transform.split(from(self.origin, color))
     }
 
+    /// The color of amounts of body and surface reflection, counts: the inverse of [`Self::amounts`] in the plane.
+    pub fn color(&self, body: f32, surface: f32) -> Point {
+        std::array::from_fn(|band| self.origin[band] + body * self.body[band] + surface * self.surface[band])
+    }
+
     /// The place of m_b and m_s in oblique coordinates, counts: the first axis along C_b, C_s at its true angle to C_b.
     pub fn oblique(&self, body: f32, surface: f32) -> [f32; 2] {
         let (sine, cosine) = self.angle_deg.to_radians().sin_cos();

@@ -25,6 +25,7 @@ pub(super) fn reduce(state: &mut State, command: ViewCommand) {
         ViewCommand::Image(settings) => state.view.image = settings,
         ViewCommand::Cube(settings) => state.view.cube = settings,
         ViewCommand::Plane(settings) => state.view.plane = settings,
+        ViewCommand::Geometry(settings) => state.view.geometry = settings.in_range(),
         ViewCommand::Profile(line) => state.view.profile = line,
         ViewCommand::Theme(theme) => state.view.theme = theme,
         ViewCommand::Layout(layout) => state.view.layout = layout,

@@ -162,7 +162,7 @@ pub fn show(ui: &mut Ui, state: &State, palette: &ThemeColors, is_low: bool) {
         None,
     ];
     if readout.is_none() {
-        let text = "Point at a pixel: its place, color, region and amounts stand here.";
+        let text = "Point at a pixel to read its values.";
         let galley = ui.painter().layout(
             text.to_owned(),
             FontId::proportional(SMALL_PT),

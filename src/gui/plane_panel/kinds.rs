@@ -71,6 +71,10 @@ pub fn toolbar(ui: &mut Ui, cx: &mut PanelContext, plane: &RegionPlane) {
                 }
             }
         }
+        if cx.state.view.geometry.is_drawn && plane.has_plane {
+            let tip = "The cluster of the sphere in the panel Geometry (section 3.2).";
+            widgets::legend_entry(ui, cx.palette, cx.palette.accent, "sphere").on_hover_text(tip);
+        }
     });
 }
 

@@ -14,6 +14,7 @@ mod cursor;
 mod debugger;
 mod exports;
 mod first_minute;
+mod geometry;
 mod habits;
 mod history;
 mod image_panel;
