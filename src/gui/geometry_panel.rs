@@ -85,12 +85,19 @@ impl GeometryPanel {
             curves::show(ui, cx.palette, size(ui), *settings, share);
             return numbers(ui, cx, *settings);
         }
-        ui.columns_const(|[left, right]| {
-            diagram::show(left, cx.palette, size(left), settings, points, plane);
-            sliders(left, settings);
-            self.region(left, cx, settings);
-            curves::show(right, cx.palette, size(right), *settings, share);
-            numbers(right, cx, *settings);
+        let each = (ui.available_width() - 12.0) / 2.0;
+        ui.horizontal_top(|ui| {
+            ui.vertical(|ui| {
+                ui.set_width(each);
+                diagram::show(ui, cx.palette, size(ui), settings, points, plane);
+                sliders(ui, settings);
+                self.region(ui, cx, settings);
+            });
+            ui.vertical(|ui| {
+                ui.set_width(each);
+                curves::show(ui, cx.palette, size(ui), *settings, share);
+                numbers(ui, cx, *settings);
+            });
         });
     }
 
@@ -101,13 +108,13 @@ impl GeometryPanel {
                 .to_owned(),
             Some((region, plane)) => region_text(region, plane, settings.distance),
         };
-        ui.add(Label::new(widgets::with_subscripts(&text, SMALL_PT, cx.palette.text)).wrap());
         let tip = "Draws the sphere's lit and visible points in the selected region's colors: as g goes to 0, the skewed T turns into a dog-leg (section 3.2).";
         let can_draw = self.plane().is_some() || settings.is_drawn;
         ui.add_enabled_ui(can_draw, |ui| {
-            let check = ui.checkbox(&mut settings.is_drawn, "Draw its cluster in color space and plane");
+            let check = ui.checkbox(&mut settings.is_drawn, "Draw it in color space and plane");
             check.on_hover_text(tip).on_disabled_hover_text(tip);
         });
+        ui.add(Label::new(widgets::with_subscripts(&text, SMALL_PT, cx.palette.text)).wrap());
     }
 }
 
@@ -164,7 +171,8 @@ fn row(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) {
     let color = ui.visuals().text_color();
     let text = widgets::with_subscripts(name, super::theme::BODY_PT, color);
     let label = ui.label(text).on_hover_text(tip);
-    ui.add(slider).labelled_by(label.id).on_hover_text(tip);
+    // The slider has no tooltip, which would hide the rows below while a person drags.
+    ui.add(slider).labelled_by(label.id);
     ui.end_row();
 }
 
@@ -187,14 +195,14 @@ fn numbers(ui: &mut Ui, cx: &PanelContext, settings: GeometrySettings) {
         ),
         ("(6) m_b under the highlight", share(Some(sphere.highlight_body())), "m_bH, Lambertian, of 1."),
         (
-            "(8) incidence at the brightest visible point",
+            "(8) incidence at the brightest point",
             degrees(sphere.brightest_incidence_deg()),
-            "i_MaxVisible.",
+            "i_MaxVisible, at the brightest visible point.",
         ),
         (
-            "(9) m_b of the brightest visible point",
+            "(9) m_b of the brightest point",
             share(Some(sphere.brightest_body())),
-            "m_bMaxVisible, of 1.",
+            "m_bMaxVisible, at the brightest visible point, of 1.",
         ),
         (
             "(10) start of the highlight line q",
@@ -207,11 +215,13 @@ fn numbers(ui: &mut Ui, cx: &PanelContext, settings: GeometrySettings) {
             "q for parallel light and view.",
         ),
     ];
-    Grid::new("geometry numbers").num_columns(2).spacing([12.0, 1.0]).show(ui, |ui| {
+    ui.spacing_mut().interact_size.y = 0.0;
+    Grid::new("geometry numbers").num_columns(2).spacing([12.0, 1.0]).min_row_height(14.0).show(ui, |ui| {
         for (name, value, tip) in rows {
-            ui.label(widgets::with_subscripts(name, SMALL_PT, cx.palette.secondary))
-                .on_hover_text(format!("{tip} (Section 3.2.)"));
-            ui.label(RichText::new(value).size(SMALL_PT)).on_hover_text(tip);
+            let tip = format!("{tip} (Section 3.2.)");
+            ui.label(RichText::new(value).size(SMALL_PT)).on_hover_text(&tip);
+            let name = widgets::with_subscripts(name, SMALL_PT, cx.palette.secondary);
+            ui.add(Label::new(name).truncate().show_tooltip_when_elided(false)).on_hover_text(tip);
             ui.end_row();
         }
     });

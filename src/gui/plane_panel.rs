@@ -277,7 +277,7 @@ fn paint_sphere(painter: &egui::Painter, cx: &PanelContext, plane: &RegionPlane,
     for [body, surface] in sphere_in_plane(settings, plane) {
         let at = chart.screen(plane.oblique(body, surface), rect);
         if rect.expand(2.0).contains(at) {
-            mesh.add_colored_rect(Rect::from_center_size(at, vec2(1.8, 1.8)), cx.palette.accent);
+            mesh.add_colored_rect(Rect::from_center_size(at, vec2(2.0, 2.0)), cx.palette.accent);
         }
     }
     painter.add(Shape::mesh(mesh));

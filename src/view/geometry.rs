@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 
 /// Smallest and largest distance of light and camera from the center, radii of the sphere.
 pub const SPHERE_DISTANCES: [f64; 2] = [1.1, 100.0];
-/// Points along each side of the grid over the sphere.
-const SIDE: usize = 64;
+/// Points along each side of the grid over the sphere: of the picture, and of the cluster, whose highlight is small.
+const PICTURE_SIDE: usize = 64;
+const CLUSTER_SIDE: usize = 140;
 
 /// The sphere, its light and its camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,7 +62,7 @@ impl GeometrySettings {
     /// The lit and seen points of the sphere.
     pub fn points(self) -> Vec<SpherePoint> {
         let roughness_deg = self.in_range().roughness_deg;
-        self.sphere().map_or_else(Vec::new, |sphere| sphere_points(sphere, roughness_deg, SIDE))
+        self.sphere().map_or_else(Vec::new, |sphere| sphere_points(sphere, roughness_deg, PICTURE_SIDE))
     }
 }
 
@@ -76,7 +77,10 @@ pub fn sphere_in_plane(settings: GeometrySettings, plane: &RegionPlane) -> Vec<[
     }
     let per_body = plane.matte_length / brightest;
     let per_surface = settings.strength as f32 * plane.matte_length;
-    settings.points().iter().map(|point| [point.body * per_body, point.surface * per_surface]).collect()
+    let points = sphere_points(sphere, settings.roughness_deg, CLUSTER_SIDE).into_iter();
+    // The other half of the sphere has the same amounts.
+    let half = points.filter(|point| point.at[1] >= 0.0);
+    half.map(|point| [point.body * per_body, point.surface * per_surface]).collect()
 }
 
 /// The colors of the sphere's points in the color space of a region, counts.

@@ -7,7 +7,7 @@ use crate::raster::RegionId;
 use crate::view::{ColorSpace, GeometrySettings, Picture, Theme, region_plane, sphere_colors};
 
 /// Diameter of a point, screen points.
-const POINT_PT: f32 = 2.2;
+const POINT_PT: f32 = 3.0;
 
 /// Identity of the points: generation of the result, region, settings, color space and theme.
 type Key = (u64, RegionId, GeometrySettings, ColorSpace, Theme);

@@ -57,7 +57,7 @@ fn a_drag_of_the_light_sets_phase_angle_and_distance() {
 fn the_selected_region_is_compared_and_the_cluster_is_drawn_in_the_plane() {
     let mut window = geometry();
     assert!(says(&window, "The highlight line of region 1 starts at "));
-    click(&mut window, Role::CheckBox, "Draw its cluster in color space and plane");
+    click(&mut window, Role::CheckBox, "Draw it in color space and plane");
     assert!(state(&window).view.geometry.is_drawn);
     window.state_mut().show_alone(Some(Pane::Plane));
     window.run_steps(3);
