@@ -33,7 +33,7 @@ use textures::{PaintRequest, Slot, TextureCache};
 use tools::{PointerContext, ToolState};
 
 /// Height without the toolbar below which the panel is low: readout and verdict have a line each, and the picture the rest; points.
-const LOW_PT: f32 = 330.0;
+const LOW_PT: f32 = 250.0;
 /// Height of a line of the verdict, points.
 const VERDICT_LINE_PT: f32 = 20.0;
 /// Half the width of the wipe's handle, points.

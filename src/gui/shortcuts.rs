@@ -108,6 +108,9 @@ const FOUR_COLUMNS_PT: f32 = 1200.0;
 /// A window of this width has room for three columns of keys, points.
 const THREE_COLUMNS_PT: f32 = 1000.0;
 
+/// Width of the column of keys in the help, points.
+const KEYS_PT: f32 = 130.0;
+
 /// The effects of the pointer, which the help lists beside the keys.
 const POINTER_HELP: &[(&str, &str)] = &[
     ("Scroll", "zoom at the pointer"),
@@ -200,7 +203,9 @@ pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
     } else {
         &[&["File", "Edit", "Image", "Compare"], &["Window", "Decisions", "Tools", "Pointer"]]
     };
-    egui::Window::new("Keyboard and pointer")
+    // The window with its margins and its bar is never wider than the room.
+    let column_pt = ((room.x - 60.0) / columns.len() as f32 - 12.0).max(60.0);
+    let shown = egui::Window::new("Keyboard and pointer")
         .open(open)
         .collapsible(false)
         .resizable(false)
@@ -210,15 +215,19 @@ pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
         .show(&ctx, |ui| {
             ui.horizontal_top(|ui| {
                 for groups in columns {
-                    ui.vertical(|ui| groups.iter().for_each(|group| show_group(ui, cx, group)));
+                    ui.vertical(|ui| groups.iter().for_each(|group| show_group(ui, cx, group, column_pt)));
                     ui.add_space(12.0);
                 }
             });
         });
+    // The place of the window follows from the size of the frame before.
+    if shown.is_some_and(|shown| !ctx.content_rect().contains_rect(shown.response.rect)) {
+        ctx.request_repaint();
+    }
 }
 
-/// Shows a group of keys with its heading.
-fn show_group(ui: &mut Ui, cx: &PanelContext, group: &str) {
+/// Shows a group of keys with its heading; long descriptions wrap in a column of `column_pt` points.
+fn show_group(ui: &mut Ui, cx: &PanelContext, group: &str, column_pt: f32) {
     super::widgets::heading(ui, cx.palette, group);
     let rows: Vec<(String, &str)> = if group == "Pointer" {
         POINTER_HELP.iter().map(|&(keys, description)| (keys.to_owned(), description)).collect()
@@ -226,10 +235,11 @@ fn show_group(ui: &mut Ui, cx: &PanelContext, group: &str) {
         let of_group = all_shortcuts().filter(|shortcut| shortcut.group == group);
         of_group.map(|shortcut| (keys_as_text(ui.ctx(), shortcut.keys), shortcut.description)).collect()
     };
-    egui::Grid::new(group).num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| {
+    let description_pt = (column_pt - KEYS_PT).max(40.0);
+    egui::Grid::new(group).num_columns(2).spacing([12.0, 3.0]).max_col_width(description_pt).show(ui, |ui| {
         for (keys, description) in rows {
             ui.label(RichText::new(keys).size(SMALL_PT).color(cx.palette.accent));
-            ui.label(description);
+            ui.add(egui::Label::new(description).wrap());
             ui.end_row();
         }
     });

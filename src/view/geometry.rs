@@ -114,7 +114,8 @@ mod tests {
         let found = broken.in_range();
         assert_eq!((found.distance.to_bits(), found.is_drawn), (5f64.to_bits(), true));
         assert!(found.sphere().is_some_and(|sphere| sphere.q().is_some()));
-        assert!(!broken.points().is_empty());
+        // At the largest phase angle the lit crescent is thinner than the grid.
+        assert!(!GeometrySettings { phase_deg: 120.0, ..broken }.points().is_empty());
     }
 
     #[test]
