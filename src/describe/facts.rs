@@ -6,7 +6,8 @@ use super::scores::Scores;
 use crate::analysis::{Analysis, Stage};
 use crate::intrinsic::Reason;
 use crate::params::{
-    AmbientSetting, IlluminantSetting, Method, Parameter, Params, Readings, Refine, Setting, parameter_rows,
+    AmbientSetting, IlluminantSetting, Method, Parameter, Params, PhoenixSettings, Readings, Refine, Setting,
+    parameter_rows,
 };
 use crate::photo::Photo;
 use crate::raster::{Mask, UNASSIGNED};
@@ -237,6 +238,9 @@ macro_rules! define_params_facts {
             /// How the paper was read; absent under the refined method.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             pub readings: Option<Readings>,
+            /// The parameters of Phoenix; absent under every other method.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            pub phoenix: Option<PhoenixSettings>,
         }
 
         impl ParamsFacts {
@@ -254,6 +258,7 @@ macro_rules! define_params_facts {
                     },
                     refine: params.refinements(),
                     readings: (params.method == Method::Paper).then_some(params.paper.readings),
+                    phoenix: (params.method == Method::Phoenix).then_some(params.phoenix),
                 }
             }
         }

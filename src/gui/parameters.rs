@@ -1,5 +1,7 @@
 //! The parameters panel: sliders, switches, the given light and the analyzed area (section 7.3, table 6).
 
+mod phoenix;
+
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::app::{Edit, Gesture};
@@ -36,7 +38,11 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
                 row(ui, cx, parameter);
             }
             given_by_hand(ui, cx);
-            switches(ui, cx);
+            match cx.state.document.params.method {
+                Method::Refined | Method::Paper => switches(ui, cx),
+                Method::Phoenix => phoenix::show(ui, cx),
+                Method::TopDown => {}
+            }
         });
     });
 }
@@ -46,12 +52,12 @@ fn method(ui: &mut Ui, cx: &mut PanelContext) {
     let current = cx.state.document.params.method;
     let has_reset = ui.horizontal(|ui| {
         let tip =
-            "Refined: the paper's algorithm with switches below. Paper: as written in 1990, with its readings below (section 5).";
+            "The paper's algorithm, refined or as written in 1990 (section 5), or an earlier method that finds regions alone (sections 7.2 and 5.1).";
         if ui.available_width() >= NARROW_PT {
             label(ui, "method", tip);
         }
-        for (choice, name) in [(Method::Refined, "refined"), (Method::Paper, "paper")] {
-            if ui.selectable_label(current == choice, name).on_hover_text(tip).clicked() {
+        for choice in Method::ALL {
+            if ui.selectable_label(current == choice, choice.name()).on_hover_text(choice.meaning()).clicked() {
                 cx.send(Edit::SetMethod(choice));
             }
         }

@@ -5,8 +5,8 @@
 use super::timeline::EventId;
 use super::{
     Absorbed, CandidateChosen, Class, ComponentSplit, Dropped, Event, HypothesisPassedOver, IlluminantGiven,
-    MergeTried, PassedOver, RegionsMerged, Renumbered, SliceMade, Trace, VectorsFitted, WindowClassified,
-    WindowsLaid,
+    MergeTried, PassedOver, PatchMade, RegionsMerged, Renumbered, SliceMade, Trace, VectorsFitted,
+    WindowClassified, WindowsLaid,
 };
 use crate::color::{Cylinder, Line};
 use crate::raster::{HypothesisId, Raster, RegionId};
@@ -108,6 +108,8 @@ pub enum End {
     Merged(HypothesisId),
     /// The hypothesis was too small to keep.
     Dropped,
+    /// The hypothesis, a region of an earlier method, was divided into parts.
+    Divided,
 }
 
 impl Hypothesis {
@@ -219,6 +221,19 @@ impl ReplayState {
                 ends: Vec::new(),
                 events: vec![id],
             }),
+            Event::PatchMade(PatchMade { of, .. }) => self.hypotheses.push(Hypothesis {
+                area: None,
+                parent: *of,
+                radius: 0.0,
+                lines: Vec::new(),
+                slices: Vec::new(),
+                highlights: Vec::new(),
+                ends: Vec::new(),
+                events: vec![id],
+            }),
+            Event::HistogramsSearched(searched) if searched.chosen().is_none() => {
+                self.tell(searched.hypothesis, id);
+            }
             Event::ComponentSplit(ComponentSplit { hypothesis, .. }) => {
                 let mut part = self.of(*hypothesis).cloned();
                 if let Some(part) = &mut part {
@@ -281,8 +296,11 @@ impl ReplayState {
             Event::MergeTried(MergeTried { from, class, union, .. }) if class == union => {
                 self.join(*from, *from);
             }
-            Event::HypothesisChosen(_) | Event::ComponentSplit(_) => {
+            Event::HypothesisChosen(_) | Event::ComponentSplit(_) | Event::PatchMade(_) => {
                 self.hypotheses.pop();
+            }
+            Event::HistogramsSearched(searched) if searched.chosen().is_none() => {
+                self.pop_event(searched.hypothesis);
             }
             Event::LineRefitted(refitted) => {
                 self.pop_event(refitted.hypothesis).and_then(|hypothesis| hypothesis.lines.pop());
@@ -349,6 +367,9 @@ impl ReplayState {
                 Some((*hypothesis, End::Merged(*into)))
             }
             Event::Dropped(Dropped { hypothesis, .. }) => Some((*hypothesis, End::Dropped)),
+            Event::HistogramsSearched(searched) if searched.chosen().is_some() => {
+                Some((searched.hypothesis, End::Divided))
+            }
             _ => None,
         }
     }

@@ -120,6 +120,7 @@ fn snapshot(picture: &Arc<Picture>, params: &Params, analysis: Analysis) -> Resu
         took_ms: [None; 7],
         trace: OnceLock::new(),
         accuracy: OnceLock::new(),
+        phoenix: OnceLock::new(),
     }
 }
 
