@@ -244,6 +244,24 @@ macro_rules! define_params_facts {
         }
 
         impl ParamsFacts {
+            /// The parameters that were asked for.
+            pub fn asked(&self) -> Params {
+                let mut params = Params {
+                    $($field: self.$field.asked,)*
+                    illuminant: self.illuminant.asked,
+                    ambient: self.ambient.asked,
+                    phoenix: self.phoenix.unwrap_or_default(),
+                    ..Params::of(self.method)
+                };
+                match self.method {
+                    Method::Refined => params.refine = self.refine,
+                    Method::Paper => params.paper.with = self.refine,
+                    Method::Phoenix | Method::TopDown => {}
+                }
+                params.paper.readings = self.readings.unwrap_or(params.paper.readings);
+                params
+            }
+
             fn new(params: &Params, analysis: &Analysis) -> Self {
                 Self {
                     method: params.method,

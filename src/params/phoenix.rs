@@ -84,10 +84,10 @@ macro_rules! phoenix_parameters {
 
 phoenix_parameters! {
     depth Depth 10, 1 to 100 "levels": "Largest number of splits between the picture and a region.";
-    splitmin Splitmin 40, 1 to 100000000 "px": "Smallest region that is split.";
+    splitmin Splitmin 40, 1 to 100_000_000 "px": "Smallest region that is split.";
     hsmooth Hsmooth 9, 1 to 99 "codes": "Width of the moving average that smooths a histogram.";
     maxmin Maxmin 160, 100 to 10000 "%": "Least height of a peak, in percent of the higher of the two valleys beside it.";
-    absarea Absarea 10, 0 to 100000000 "px": "Least number of pixels of an interval of a histogram.";
+    absarea Absarea 10, 0 to 100_000_000 "px": "Least number of pixels of an interval of a histogram.";
     relarea Relarea 2, 0 to 50 "%": "Least number of pixels of an interval, in percent of the region.";
     height Height 20, 0 to 100 "%": "Least height of a peak, in percent of the second highest peak.";
     absmin Absmin 30, 0 to 100 "%": "Largest height of a valley above the lowest valley, in percent of the height of the second highest peak above it.";
@@ -95,7 +95,7 @@ phoenix_parameters! {
     absscore Absscore 600, 0 to 1000 "of 1000": "Least score of a feature: 1000 \u{d7} (1 \u{2212} valley / lower peak beside it), of its least prominent valley.";
     relscore Relscore 80, 0 to 100 "%": "Least score of a feature, in percent of the best score.";
     isetsmax Isetsmax 3, 1 to 9 "features": "Largest number of features that are tried on the picture, the best scores first.";
-    noise Noise 10, 0 to 100000000 "px": "Smallest patch: smaller patches are absorbed by the patches around them.";
+    noise Noise 10, 0 to 100_000_000 "px": "Smallest patch: smaller patches are absorbed by the patches around them.";
     retain Retain 20, 0 to 100 "%": "Least share of the region that lies in patches of at least `noise` pixels.";
 }
 

@@ -113,6 +113,20 @@ pub enum End {
 }
 
 impl Hypothesis {
+    /// A region of an earlier method, which has no line; `parent`: the region that it is a part of.
+    fn of_patch(parent: Option<HypothesisId>, id: EventId) -> Self {
+        Self {
+            area: None,
+            parent,
+            radius: 0.0,
+            lines: Vec::new(),
+            slices: Vec::new(),
+            highlights: Vec::new(),
+            ends: Vec::new(),
+            events: vec![id],
+        }
+    }
+
     /// The axis of the hypothesis's cylinder.
     pub fn line(&self) -> Option<&Line> {
         self.lines.last()
@@ -221,16 +235,7 @@ impl ReplayState {
                 ends: Vec::new(),
                 events: vec![id],
             }),
-            Event::PatchMade(PatchMade { of, .. }) => self.hypotheses.push(Hypothesis {
-                area: None,
-                parent: *of,
-                radius: 0.0,
-                lines: Vec::new(),
-                slices: Vec::new(),
-                highlights: Vec::new(),
-                ends: Vec::new(),
-                events: vec![id],
-            }),
+            Event::PatchMade(PatchMade { of, .. }) => self.hypotheses.push(Hypothesis::of_patch(*of, id)),
             Event::HistogramsSearched(searched) if searched.chosen().is_none() => {
                 self.tell(searched.hypothesis, id);
             }

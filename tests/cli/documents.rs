@@ -53,7 +53,7 @@ fn replaced(document: &str, name: &str, text: &str) -> String {
 #[test]
 fn the_help_of_every_command_is_in_the_documents() {
     let work = WorkFolder::new();
-    for command in ["analyze", "evaluate", "figures", "screenshot", "trace", "why"] {
+    for command in ["analyze", "compare", "evaluate", "figures", "screenshot", "trace", "why"] {
         check("command-line.md", command, &work.succeeds(&format!("{command} -h")).out);
     }
 }

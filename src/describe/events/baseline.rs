@@ -105,7 +105,7 @@ impl Describe for PatchMade {
     fn sentence(&self, names: &Names) -> String {
         let of = self.of.map_or_else(|| "the picture".to_owned(), |of| names.hypothesis(of));
         let codes =
-            self.interval.map_or_else(String::new, |interval| format!(", {}", interval_text(&interval)));
+            self.interval.map_or_else(String::new, |interval| format!(", {}", interval_text(interval)));
         let absorbed = if self.absorbed == 0 {
             String::new()
         } else {
@@ -142,7 +142,7 @@ impl Describe for PatchMade {
 }
 
 /// The codes of a feature in words.
-pub(in crate::describe) fn interval_text(interval: &CodeInterval) -> String {
+pub(in crate::describe) fn interval_text(interval: CodeInterval) -> String {
     format!("{} from {} to {}", interval.feature.name(), interval.low, interval.high)
 }
 

@@ -134,15 +134,16 @@ impl Names {
             ),
             HistoryKind::Patched { hypothesis, of, pixels, interval, code } => {
                 let of = of.map_or_else(|| "the picture".to_owned(), |of| self.hypothesis(of));
-                let part = format!("{} of {of}, {}", self.hypothesis(*hypothesis), count(*pixels, "pixel"));
+                let size = count(*pixels, "pixel");
+                let part = format!("{}, a part of {of} ({size})", self.hypothesis(*hypothesis));
                 match interval {
                     None => format!("it belongs to {part}"),
                     Some(interval) if (interval.low..=interval.high).contains(code) => {
-                        let (name, codes) = (interval.feature.name(), interval_text(interval));
+                        let (name, codes) = (interval.feature.name(), interval_text(*interval));
                         format!("its {name} {code} puts it into {part}: {codes}")
                     }
                     Some(interval) => {
-                        let (name, codes) = (interval.feature.name(), interval_text(interval));
+                        let (name, codes) = (interval.feature.name(), interval_text(*interval));
                         format!(
                             "its {name} is {code}, but its patch is small and absorbed by {part}: {codes}"
                         )
