@@ -105,7 +105,7 @@ struct Held<'a> {
 
 impl Held<'_> {
     /// The figures of scores that mean something for what was given.
-    fn figures(&self, scores: &Scores) -> Vec<(&'static str, Option<f64>)> {
+    fn figures(&self, scores: &Scores) -> table::Figures {
         let of_regions = ["ari", "iou", "iou_min", "cover", "regions"];
         let of_pictures = [
             "psnr_body",
@@ -123,7 +123,7 @@ impl Held<'_> {
     }
 
     /// The figures of the agreement that there are.
-    fn agreements(&self) -> Vec<(&'static str, Option<f64>)> {
+    fn agreements(&self) -> table::Figures {
         let Agreement { ari, shared, psnr_body, .. } = self.agreement;
         let all = [("ari", ari), ("shared", shared), ("psnr_body", psnr_body)];
         all.into_iter().filter(|(_, figure)| figure.is_some()).collect()
@@ -140,7 +140,7 @@ impl Held<'_> {
     }
 
     fn json(&self) -> Result<String> {
-        let object = |figures: Vec<(&'static str, Option<f64>)>| {
+        let object = |figures: table::Figures| {
             let entries =
                 figures.into_iter().map(|(name, figure)| (name.to_owned(), serde_json::json!(figure)));
             serde_json::Value::Object(entries.collect())

@@ -45,8 +45,11 @@ pub(super) fn aligned(scored: &[(String, Scores)]) -> String {
     table(&lines)
 }
 
+/// Figures with their names, none where a figure does not exist.
+pub(super) type Figures = Vec<(&'static str, Option<f64>)>;
+
 /// Named rows of figures, which all have the same names, with a heading.
-pub(super) fn figures(rows: &[(&str, Vec<(&'static str, Option<f64>)>)]) -> String {
+pub(super) fn figures(rows: &[(&str, Figures)]) -> String {
     let mut lines: Vec<Vec<String>> = rows.first().map(|(_, figures)| heading(figures)).into_iter().collect();
     if let Some(first) = lines.first_mut().and_then(|line| line.first_mut()) {
         first.clear();

@@ -56,11 +56,7 @@ fn method(ui: &mut Ui, cx: &mut PanelContext) {
         if ui.available_width() >= NARROW_PT {
             label(ui, "method", tip);
         }
-        for choice in Method::ALL {
-            if ui.selectable_label(current == choice, choice.name()).on_hover_text(choice.meaning()).clicked() {
-                cx.send(Edit::SetMethod(choice));
-            }
-        }
+        methods(ui, cx, &[Method::Refined, Method::Paper]);
         let has_room = ui.available_width() >= RESET_PT;
         if has_room {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| reset(ui, cx, current));
@@ -70,7 +66,27 @@ fn method(ui: &mut Ui, cx: &mut PanelContext) {
     if !has_reset.inner {
         reset(ui, cx, current);
     }
+    ui.horizontal(|ui| {
+        if ui.available_width() >= NARROW_PT {
+            label(
+                ui,
+                "held against",
+                "What the paper is held against: earlier methods, which find regions alone.",
+            );
+        }
+        methods(ui, cx, &[Method::Phoenix, Method::TopDown]);
+    });
     ui.add_space(4.0);
+}
+
+/// Shows the buttons of some methods.
+fn methods(ui: &mut Ui, cx: &mut PanelContext, choices: &[Method]) {
+    let current = cx.state.document.params.method;
+    for &choice in choices {
+        if ui.selectable_label(current == choice, choice.name()).on_hover_text(choice.meaning()).clicked() {
+            cx.send(Edit::SetMethod(choice));
+        }
+    }
 }
 
 /// Width of the button "Reset" with its margin, points.

@@ -55,7 +55,9 @@ impl Plastic {
         for ((object, region), (pixels, sum)) in sums {
             parts.entry(object).or_default().push((region, pixels, sum / pixels as f64));
         }
-        parts.values_mut().for_each(|parts| parts.sort_by_key(|part| std::cmp::Reverse(part.1)));
+        for parts in parts.values_mut() {
+            parts.sort_by_key(|part| std::cmp::Reverse(part.1));
+        }
         parts
     }
 

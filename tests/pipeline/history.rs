@@ -72,12 +72,12 @@ fn owner_after(what: &HistoryKind) -> Option<Option<HypothesisId>> {
         HistoryKind::Seeded { hypothesis, .. }
         | HistoryKind::Claimed { hypothesis, .. }
         | HistoryKind::Voted { hypothesis, .. }
-        | HistoryKind::Filled { hypothesis, .. } => Some(Some(hypothesis)),
+        | HistoryKind::Filled { hypothesis, .. }
+        | HistoryKind::Patched { hypothesis, .. } => Some(Some(hypothesis)),
         HistoryKind::Released { .. } => Some(None),
         HistoryKind::Merged { into, .. } => Some(Some(into)),
         HistoryKind::Reset { to, .. } => Some(to),
         HistoryKind::Separated { part, .. } => Some(Some(part)),
-        HistoryKind::Patched { hypothesis, .. } => Some(Some(hypothesis)),
         _ => None,
     }
 }

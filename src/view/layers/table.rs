@@ -126,15 +126,6 @@ layers! {
         numbers: None,
         paint: painters::regions,
     };
-    /// The regions of Phoenix, to compare with (7.2).
-    Phoenix: LayerRow {
-        name: "Phoenix",
-        tip: "What Phoenix finds instead: regions split by the histograms of color features (section 7.2, color figure 15).",
-        kind: LayerKind::Overlay,
-        legend: &[],
-        numbers: None,
-        paint: painters::phoenix,
-    };
     /// Body reflection (6).
     Body: LayerRow {
         name: "Body",
@@ -188,5 +179,14 @@ layers! {
         legend: &legends::DIFFERENCE,
         numbers: None,
         paint: painters::difference,
+    };
+    /// The regions of Phoenix, to compare with (7.2).
+    Phoenix: LayerRow {
+        name: "Phoenix",
+        tip: "What Phoenix finds instead: regions split by the histograms of color features (section 7.2, color figure 15).",
+        kind: LayerKind::Overlay,
+        legend: &[],
+        numbers: None,
+        paint: painters::phoenix,
     };
 }
