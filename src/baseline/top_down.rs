@@ -158,3 +158,22 @@ fn nearest(peaks: &[usize], peak: usize) -> usize {
         |&other: &usize| -> usize { place(other).iter().zip(from).map(|(&a, b)| a.abs_diff(b).pow(2)).sum() };
     (0..peaks.len()).min_by_key(|&index| distance2(&peaks[index])).unwrap_or(0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distant_colors_are_two_clusters_and_a_small_cluster_joins_the_nearest() {
+        let colors = || {
+            let two = std::iter::repeat_n([40.0, 40.0, 200.0], 300)
+                .chain(std::iter::repeat_n([200.0, 40.0, 40.0], 200));
+            two.chain(std::iter::repeat_n([200.0, 90.0, 40.0], 3))
+        };
+        let clusters = Bins::of(colors()).clusters(10);
+        let sizes: Vec<u32> = clusters.peaks.iter().map(|peak| peak.1).collect();
+        assert_eq!((sizes, clusters.absorbed), (vec![300, 203], 1));
+        assert_eq!(clusters.of_bin[bin_of([200.0, 90.0, 40.0])], 1);
+        assert_eq!(Bins::of(colors()).clusters(1).peaks.len(), 3);
+    }
+}
