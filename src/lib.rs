@@ -61,6 +61,7 @@
 //! | [`truth`] | ground truth and scores | who measures accuracy |
 //! | [`trace`] | decisions as data: recorders, the record of a run and its replay | who asks why |
 //! | [`segment`] | section 5, from windows to regions | who runs one stage alone |
+//! | [`baseline`] | the systems that the paper is held against: Phoenix, and clusters of the whole histogram | who compares methods |
 //! | [`intrinsic`] | section 6, from regions to body, surface and noise | who runs one stage alone |
 //! | [`reflection`] | the model: dichromatic planes, the transform T and its inverse, photometry (equations 3–11) | who computes with the model |
 //! | [`color`] | points in the color cube: moments, eigenvectors, the χ² test, robust lines, cylinders | who computes with the model |
@@ -76,16 +77,17 @@
 //! A module uses only modules to its left; modules that stand together do not use each other:
 //!
 //! ```text
-//! params, raster, color ← reflection ← photo ← trace ← segment ← intrinsic ← analysis ← describe ← truth, export ← view ← figures ← app ← gui
+//! params, raster, color ← reflection ← photo ← trace ← segment ← intrinsic, baseline ← analysis ← describe ← truth, export ← view ← figures ← app ← gui
 //! ```
 //!
 //! `gpu` uses no other module, and only `gui` uses it. The command line (`src/cli`) is part of the program, not of the library.
 //! `tests/layering` fails when an arrow runs backwards. `params`, `raster`, `color`, `reflection`, `trace`, `segment`,
-//! `intrinsic`, `analysis`, `describe` and `figures` are pure: no file, clock, environment or printing, and the same bytes at any number
+//! `intrinsic`, `baseline`, `analysis`, `describe` and `figures` are pure: no file, clock, environment or printing, and the same bytes at any number
 //! of threads.
 
 pub mod analysis;
 pub mod app;
+pub mod baseline;
 pub mod color;
 pub mod describe;
 pub mod export;

@@ -26,6 +26,8 @@ pub(super) struct Photograph<'a> {
     pub(super) prepared: &'a Prepared,
     /// The photograph; its noise is that of a single pixel.
     pub(super) input: AnalysisInput<'a>,
+    /// Whether an earlier method found the regions, which has no rule for single pixels of the photograph.
+    pub(super) is_baseline: bool,
 }
 
 impl FullResolution {
@@ -38,7 +40,7 @@ impl FullResolution {
         observer: &mut impl Observer,
         analysis: &mut Analysis,
     ) -> Result<bool, Cancelled> {
-        let Photograph { prepared, input } = photograph;
+        let Photograph { prepared, input, is_baseline } = photograph;
         let blocks = &prepared.working.blocks;
         analysis.masks = Arc::clone(&prepared.masks);
         analysis.working = Arc::clone(&prepared.working);
@@ -64,7 +66,11 @@ impl FullResolution {
         let stopping: &_ = observer;
         analysis.finals = self.finals.get(working.finals.number, stopping, || {
             let stop = || stopping.cancelled();
-            let labels = full_resolution_labels(&input.stopped_by(&stop), working_regions, blocks);
+            let labels = if *is_baseline {
+                blocks.enlarged(&working_regions.labels)
+            } else {
+                full_resolution_labels(&input.stopped_by(&stop), working_regions, blocks)
+            };
             FinalRegions { labels, ..working_regions.clone() }
         })?;
         observer.made(StageOutput::Finals(Arc::clone(&analysis.finals)));

@@ -9,6 +9,7 @@ use super::subject::Subject;
 use super::warnings::all_warnings;
 use super::working_outputs::{MergedAreas, WorkingOutputs};
 use super::{Analysis, Cancelled, Observer, Stage, StageOutput};
+use crate::baseline::{baseline_regions, regions_without_planes};
 use crate::intrinsic::{WorkingSplit, split};
 use crate::params::{Params, Rules, UsedParams};
 use crate::raster::Raster;
@@ -16,7 +17,7 @@ use crate::segment::{
     AnalysisInput, Areas, Classifier, FinalRegions, MatteRegions, PlanarRegions, Windows, classify,
     clipping_regions, final_regions, matte_regions, merge, planar_regions,
 };
-use crate::trace::{Recorder, StageTrace, Trace};
+use crate::trace::{NoopRecorder, Recorder, StageTrace, Trace};
 use std::sync::Arc;
 
 /// One slot per stage.
@@ -46,10 +47,11 @@ impl Stages {
         observer: &mut impl Observer,
     ) -> Result<Analysis, Cancelled> {
         let rules = params.rules();
+        let is_baseline = rules.baseline.is_some();
         let (prepared, used) = self.masks::<R>(subject, params, observer)?;
         let input = prepared.working_input(&used, rules);
         let is_whole = prepared.working.blocks.side() == 1;
-        let working = self.working_outputs::<R, _>(&input, is_whole, observer)?;
+        let working = self.working_outputs::<R, _>(&WorkingInput { input, rules, is_whole }, observer)?;
         let mut analysis = working.analysis(&prepared, used);
         let mut split_reused = working.split_reused;
         if is_whole {
@@ -59,26 +61,27 @@ impl Stages {
             observer.working_made(&analysis, &prepared.working.blocks);
             let detail_used = prepared.detail_params(params, used);
             let detail_input = prepared.detail_input(&subject.image, &detail_used, rules);
-            let photograph = Photograph { prepared: &prepared, input: detail_input };
+            let photograph = Photograph { prepared: &prepared, input: detail_input, is_baseline };
             let reused = self.full_resolution.enlarge(&photograph, &working, observer, &mut analysis)?;
             split_reused = split_reused && reused;
         }
         observer.finished(Stage::Split, split_reused);
         observer.made(StageOutput::Intrinsic(Arc::clone(&analysis.intrinsic)));
         let restricted = subject.area.is_some();
-        analysis.warnings = all_warnings(&analysis.finals.labels, &analysis.planar, &prepared, restricted);
+        analysis.warnings = all_warnings(&analysis, &prepared, restricted, is_baseline);
         Ok(analysis)
     }
 
-    /// Runs the stages from the windows to the split on the working picture `input`. `is_whole`: the working picture is the
-    /// photograph, and the observer receives each output.
+    /// Runs the stages from the windows to the split on the working picture.
     fn working_outputs<R: Recorder, O: Observer>(
         &mut self,
-        input: &AnalysisInput,
-        is_whole: bool,
+        working: &WorkingInput,
         observer: &mut O,
     ) -> Result<WorkingOutputs, Cancelled> {
-        let key = |stage, before| (before, seen_up_to(stage, input.used, input.rules()));
+        let WorkingInput { input, rules, is_whole } = *working;
+        let input = &input;
+        let baseline = rules.baseline.as_ref();
+        let key = |stage, before| (before, seen_up_to(stage, input.used, rules));
         let tell = |observer: &mut O, output: StageOutput| {
             if is_whole {
                 observer.made(output);
@@ -86,7 +89,10 @@ impl Stages {
         };
         let before = key(Stage::Classify, self.masks.generation());
         let windows = self.classify.get(Stage::Classify, before, observer, |_, recorder: &mut R| {
-            Arc::new(classify_windows(input, recorder))
+            Arc::new(match baseline {
+                None => classify_windows(input, recorder),
+                Some(_) => windows_without_class(input),
+            })
         })?;
         tell(observer, StageOutput::Windows(Arc::clone(&windows.value)));
         let before = key(Stage::Merge, windows.number);
@@ -98,21 +104,31 @@ impl Stages {
         let before = key(Stage::Linear, merged.number);
         let matte = self.linear.get(Stage::Linear, before, observer, |observer, recorder: &mut R| {
             let stop = || observer.cancelled();
-            Arc::new(matte_regions(&input.stopped_by(&stop), windows_made, areas, recorder))
+            let input = input.stopped_by(&stop);
+            Arc::new(match baseline {
+                None => matte_regions(&input, windows_made, areas, recorder),
+                Some(baseline) => baseline_regions(&input, baseline, recorder),
+            })
         })?;
         tell(observer, StageOutput::Matte(Arc::clone(&matte.value)));
         let before = key(Stage::Planar, matte.number);
         let planar = self.planar.get(Stage::Planar, before, observer, |observer, recorder: &mut R| {
             let stop = || observer.cancelled();
             let input = input.stopped_by(&stop);
-            Arc::new(planar_regions(&input, windows_made, areas, &matte.value, recorder))
+            Arc::new(match baseline {
+                None => planar_regions(&input, windows_made, areas, &matte.value, recorder),
+                Some(_) => regions_without_planes(&input, &matte.value),
+            })
         })?;
         tell(observer, StageOutput::Planar(Arc::clone(&planar.value)));
         let before = key(Stage::Clipping, planar.number);
         let finals = self.clipping.get(Stage::Clipping, before, observer, |observer, recorder: &mut R| {
             let stop = || observer.cancelled();
             let input = input.stopped_by(&stop);
-            let labels = clipping_regions(&input, &planar.value, recorder);
+            let labels = match baseline {
+                None => clipping_regions(&input, &planar.value, recorder),
+                Some(_) => planar.value.labels.clone(),
+            };
             Arc::new(final_regions(&input, labels, &planar.value, recorder))
         })?;
         tell(observer, StageOutput::Finals(Arc::clone(&finals.value)));
@@ -158,6 +174,22 @@ impl Stages {
         observer.made(StageOutput::Masks { masks: Arc::clone(&prepared.masks), used });
         Ok((prepared, used))
     }
+}
+
+/// The working picture, and what is done with it.
+#[derive(Clone, Copy)]
+struct WorkingInput<'a> {
+    input: AnalysisInput<'a>,
+    rules: Rules,
+    /// Whether the working picture is the photograph: then the observer receives each output.
+    is_whole: bool,
+}
+
+/// Windows of which none has a class: the earlier methods know no windows.
+fn windows_without_class(input: &AnalysisInput) -> Windows {
+    let size_px = input.used.window_size as usize;
+    let mut classifier = Classifier::new(input.used.camera_noise, false);
+    classify(input.pixels, |_| false, size_px, 1, &mut classifier, &mut NoopRecorder)
 }
 
 /// The classified windows. In the paper every pixel counts; with `tail_test` only usable pixels count, and a window gets a class

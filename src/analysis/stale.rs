@@ -41,13 +41,17 @@ pub fn seen_up_to(stage: Stage, used: &UsedParams, rules: Rules) -> (UsedParams,
 #[allow(clippy::float_cmp, reason = "exactness is what is tested")]
 mod tests {
     use super::*;
-    use crate::params::{Readings, Refine};
+    use crate::params::{Baseline, Readings, Refine};
 
     /// Otherwise a changed parameter could leave an output valid that was made with the old value.
     #[test]
     fn from_its_first_stage_on_every_parameter_and_switch_is_seen() {
         let used = UsedParams::paper();
-        let rules = Rules { refine: Refine::all(true), readings: Readings::all(true) };
+        let rules = Rules {
+            refine: Refine::all(true),
+            readings: Readings::all(true),
+            baseline: Some(Baseline::TopDown),
+        };
         for stage in Stage::ALL {
             let (seen, switches) = seen_up_to(stage, &used, rules);
             for parameter in Parameter::ALL {

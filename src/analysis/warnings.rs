@@ -1,5 +1,6 @@
 //! The warnings of a run, a sentence each.
 
+use super::Analysis;
 use super::prepared::Prepared;
 use crate::photo::{CodingError, Masks};
 use crate::raster::LabelMap;
@@ -30,14 +31,21 @@ fn size_warning(labels: &LabelMap) -> Option<String> {
     })
 }
 
-/// The warnings about the regions, then about the file's values, then about the size of the regions.
+/// The warnings about the regions, then about the file's values, then about the size of the regions. `is_baseline`: an earlier method
+/// found the regions.
 pub(super) fn all_warnings(
-    labels: &LabelMap,
-    planar: &PlanarRegions,
+    analysis: &Analysis,
     prepared: &Prepared,
     restricted: bool,
+    is_baseline: bool,
 ) -> Vec<String> {
-    let mut all = warnings(labels, planar, &prepared.masks, restricted);
+    let labels = &analysis.finals.labels;
+    let has_regions = labels.as_slice().iter().any(|&label| label != 0);
+    let mut all = if is_baseline && has_regions {
+        vec!["the method finds regions alone: no light and no highlights, all is body reflection".to_owned()]
+    } else {
+        warnings(labels, &analysis.planar, &prepared.masks, restricted)
+    };
     all.extend(prepared.noise.coding.as_ref().and_then(compression_warning));
     all.extend(size_warning(labels));
     all

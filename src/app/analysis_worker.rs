@@ -277,6 +277,7 @@ fn result_snapshot(
         took_ms,
         trace: OnceLock::new(),
         accuracy: OnceLock::new(),
+        phoenix: OnceLock::new(),
     }
 }
 
@@ -368,6 +369,7 @@ impl Observer for RunObserver<'_> {
             took_ms: self.took_ms,
             trace: OnceLock::new(),
             accuracy: OnceLock::new(),
+            phoenix: OnceLock::new(),
         })));
         self.must_show = false;
     }

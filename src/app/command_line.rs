@@ -2,7 +2,9 @@
 
 use super::State;
 use super::write::AREA_FILE;
-use crate::params::{AmbientSetting, IlluminantSetting, Method, Parameter, Params, Reading, Switch};
+use crate::params::{
+    AmbientSetting, IlluminantSetting, Method, Parameter, Params, PhoenixParameter, Reading, Switch,
+};
 use crate::view::Origin;
 use std::path::Path;
 
@@ -55,8 +57,8 @@ fn reading_words(state: &State) -> Vec<String> {
 /// Flags of the parameters and switches that differ from the defaults of their method.
 fn params_words(params: &Params) -> Vec<String> {
     let mut words = Vec::new();
-    if params.method == Method::Paper {
-        words.extend(["--method".to_owned(), "paper".to_owned()]);
+    if params.method != Method::default() {
+        words.extend(["--method".to_owned(), params.method.name().to_owned()]);
     }
     let defaults = Params::of(params.method);
     for parameter in Parameter::ALL {
@@ -78,6 +80,9 @@ fn params_words(params: &Params) -> Vec<String> {
             words.push(switch.name().to_owned());
         }
     }
+    if params.method == Method::Phoenix {
+        words.extend(phoenix_words(params, &defaults));
+    }
     // The readings of the refined method are fixed.
     if params.method == Method::Paper {
         for reading in Reading::ALL {
@@ -86,6 +91,22 @@ fn params_words(params: &Params) -> Vec<String> {
                 words.push(if on { "--reading" } else { "--without-reading" }.to_owned());
                 words.push(reading.name().to_owned());
             }
+        }
+    }
+    words
+}
+
+/// Flags of the parameters of Phoenix that differ from `defaults`.
+fn phoenix_words(params: &Params, defaults: &Params) -> Vec<String> {
+    let mut words = Vec::new();
+    let (settings, usual) = (&params.phoenix, &defaults.phoenix);
+    if settings.features != usual.features {
+        words.extend(["--features".to_owned(), settings.features.to_string()]);
+    }
+    for parameter in PhoenixParameter::ALL {
+        let value = parameter.get(settings);
+        if value != parameter.get(usual) {
+            words.extend(["--phoenix".to_owned(), format!("{}={value}", parameter.name())]);
         }
     }
     words

@@ -4,11 +4,13 @@ use super::one::{DEFAULT_CAMERA_FILE, Reference};
 use super::{Outcome, note, print, table};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
-use dichroscope::describe::Scores;
+use dichroscope::analysis::Session;
+use dichroscope::describe::{Report, Scores};
 use dichroscope::export::{is_result_folder, read_report};
-use dichroscope::photo::ReadOptions;
-use dichroscope::truth::{self, ResultPictures, find_truth, score};
+use dichroscope::photo::{self, ReadOptions};
+use dichroscope::truth::{self, CandidateCounts, ResultPictures, find_truth, score};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use walkdir::WalkDir;
 
 /// Score results against ground truth, with what doing nothing scores beside each figure in decibels
@@ -22,6 +24,9 @@ pub struct Arguments {
     /// Print JSON: `{"results": {NAME: scores}, "mean": scores}`
     #[arg(long)]
     json: bool,
+    /// Also analyze the photographs again, and count which test of highlight candidates was right: the 50 % heuristic or Gershon's (5.4.1)
+    #[arg(long)]
+    candidates: bool,
     /// The photograph inside the truth folder [default: the one that the report names, else camera8.png]
     #[arg(long, value_name = "FILE")]
     image: Option<String>,
@@ -30,18 +35,25 @@ pub struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
     let results = find_results(&arguments.result_dir)?;
     let mut scored = Vec::new();
+    let mut counted = Vec::new();
     let count = results.len();
     for Found { name, folder } in results {
         match evaluate(arguments, &name, &folder) {
-            Ok(scores) => scored.push((name.display().to_string(), scores)),
+            Ok((scores, counts)) => {
+                counted.extend(counts.map(|counts| (name.display().to_string(), counts)));
+                scored.push((name.display().to_string(), scores));
+            }
             Err(error) => note(&format!("{}: {error:#}", folder.display())),
         }
     }
     let mut text = String::new();
     if arguments.json {
-        text = table::json(&scored)?;
+        text = table::json(&scored, &counted)?;
     } else if !scored.is_empty() {
         text = table::aligned(&scored);
+        if !counted.is_empty() {
+            text = format!("{text}\n{}", table::candidates(&counted));
+        }
     }
     let printed = print(&text);
     Ok(if scored.len() == count { printed } else { Outcome::SomeFailed })
@@ -75,7 +87,7 @@ fn find_results(root: &Path) -> Result<Vec<Found>> {
     Ok(found)
 }
 
-fn evaluate(arguments: &Arguments, name: &Path, folder: &Path) -> Result<Scores> {
+fn evaluate(arguments: &Arguments, name: &Path, folder: &Path) -> Result<(Scores, Option<CandidateCounts>)> {
     // Candidates are the name itself and each of its folders: `scenes/cup/camera8` belongs to the truth `cup`.
     let components: Vec<&Path> = name.iter().rev().map(Path::new).collect();
     let names = std::iter::once(name).chain(components);
@@ -93,5 +105,22 @@ fn evaluate(arguments: &Arguments, name: &Path, folder: &Path) -> Result<Scores>
     let Reference { truth, camera } = Reference::read(&truth_folder, image, &ReadOptions::default())?;
     let ResultPictures { regions, body, surface } = ResultPictures::read(folder)?;
     let outcome = truth::Outcome { regions: &regions, body: &body, surface: &surface, report: &report };
-    Ok(score(&truth, &camera, &outcome)?)
+    let scores = score(&truth, &camera, &outcome)?;
+    if !arguments.candidates {
+        return Ok((scores, None));
+    }
+    let counts = count_candidates(&truth, &truth_folder.join(image), &report)?;
+    Ok((scores, Some(counts)))
+}
+
+/// Analyzes a photograph as its report says, and counts the tests of highlight candidates.
+fn count_candidates(
+    truth: &truth::GroundTruth,
+    photograph: &Path,
+    report: &Report,
+) -> Result<CandidateCounts> {
+    let image = photo::read(photograph, &ReadOptions::default())?.image;
+    let (analysis, trace) = Session::new(Arc::new(image)).run_traced(&report.params.asked(), &mut ())?;
+    CandidateCounts::of(truth, &analysis, &trace)
+        .context("the photograph and the ground truth differ in size")
 }

@@ -5,6 +5,7 @@
 
 mod analyze;
 mod batch;
+mod compare;
 mod evaluate;
 mod figures;
 mod inputs;
@@ -52,6 +53,7 @@ pub enum Command {
     Analyze(Box<analyze::Arguments>),
     Evaluate(evaluate::Arguments),
     Figures(Box<figures::Arguments>),
+    Compare(compare::Arguments),
     Trace(Box<trace::Arguments>),
     Why(Box<why::Arguments>),
     Screenshot(ScreenshotArguments),
@@ -108,6 +110,7 @@ pub fn run(arguments: Arguments) -> ExitCode {
         (Some(Command::Analyze(arguments)), _) => analyze::run(&arguments),
         (Some(Command::Evaluate(arguments)), _) => evaluate::run(&arguments),
         (Some(Command::Figures(arguments)), _) => figures::run(&arguments),
+        (Some(Command::Compare(arguments)), _) => compare::run(&arguments),
         (Some(Command::Trace(arguments)), _) => trace::run(&arguments),
         (Some(Command::Why(arguments)), _) => why::run(&arguments),
         (Some(Command::Screenshot(_)), _) => no_screenshot(),

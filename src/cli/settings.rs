@@ -4,7 +4,8 @@ use anyhow::{Context, Result, anyhow, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
 use dichroscope::params::{
-    AmbientSetting, IlluminantSetting, Method, Parameter, Params, Preset, Reading, Setting, Switch,
+    AmbientSetting, FeatureSet, IlluminantSetting, Method, Parameter, Params, PhoenixParameter, Preset,
+    Reading, Setting, Switch,
 };
 use std::path::{Path, PathBuf};
 
@@ -12,7 +13,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Method and parameters")]
 pub(super) struct Settings {
-    /// The 1990 algorithm with refinements, or as it was written
+    /// The 1990 algorithm with refinements, or as it was written, or an earlier method that finds regions alone
     #[arg(long, value_parser = method_parser())]
     method: Option<Method>,
     /// The paper's parameters for one of its pictures (a column of table 6), and its method unless --method says otherwise
@@ -36,6 +37,13 @@ pub(super) struct Settings {
     /// Read the paper's text the other way (repeatable; names as for --reading)
     #[arg(long, value_name = "NAME", value_parser = reading_parser(), hide_possible_values = true)]
     without_reading: Vec<Reading>,
+    /// Color features whose histograms Phoenix searches, separated by commas: R, G, B, I (intensity), H (hue), S (saturation), Y, P (the I
+    /// of YIQ), Q [default: I,H,S]
+    #[arg(long, value_name = "LETTERS")]
+    features: Option<FeatureSet>,
+    /// A parameter of Phoenix by its published name, as in maxmin=160 (repeatable; see docs/baselines.md)
+    #[arg(long, value_name = "NAME=N", value_parser = phoenix_value)]
+    phoenix: Vec<(PhoenixParameter, u32)>,
     #[command(flatten)]
     flags: ParameterFlags,
     /// The color of the light, of any length; every dichromatic plane turns to it [default: auto]
@@ -66,13 +74,29 @@ impl Settings {
         params.ambient = self.ambient.unwrap_or(params.ambient);
         self.switch(&mut params)?;
         self.read(&mut params)?;
+        self.set_phoenix(&mut params)?;
         params.validate()?;
         Ok(params)
+    }
+
+    fn set_phoenix(&self, params: &mut Params) -> Result<()> {
+        if params.method != Method::Phoenix && (self.features.is_some() || !self.phoenix.is_empty()) {
+            bail!("--features and --phoenix belong to `--method phoenix`");
+        }
+        params.phoenix.features = self.features.unwrap_or(params.phoenix.features);
+        for &(parameter, value) in &self.phoenix {
+            *parameter.slot(&mut params.phoenix) = value;
+        }
+        Ok(())
     }
 
     fn switch(&self, params: &mut Params) -> Result<()> {
         if let Some(switch) = self.with.iter().find(|switch| self.without.contains(switch)) {
             bail!("{} is both --with and --without", switch.name());
+        }
+        let is_baseline = params.baseline().is_some();
+        if is_baseline && !(self.with.is_empty() && self.without.is_empty()) {
+            bail!("--with and --without belong to `--method refined` and `--method paper`");
         }
         for (switches, on) in [(&self.with, true), (&self.without, false)] {
             for &switch in switches {
@@ -87,7 +111,7 @@ impl Settings {
             bail!("{} is both --reading and --without-reading", reading.name());
         }
         let any = !(self.reading.is_empty() && self.without_reading.is_empty());
-        if params.method == Method::Refined && any {
+        if params.method != Method::Paper && any {
             bail!(
                 "--reading and --without-reading belong to `--method paper`: the refined method reads the text in one way"
             );
@@ -139,10 +163,21 @@ fn overlay(base: &Params, table: toml::Table) -> Result<Params> {
 }
 
 fn method_parser() -> impl TypedValueParser<Value = Method> {
-    PossibleValuesParser::new(["refined", "paper"]).map(|name| match name.as_str() {
-        "paper" => Method::Paper,
-        _ => Method::Refined,
+    let value = |method: Method| PossibleValue::new(method.name()).help(method.meaning());
+    PossibleValuesParser::new(Method::ALL.map(value)).map(|name| {
+        let named = Method::ALL.into_iter().find(|method| method.name() == name);
+        named.expect("invariant: only the methods' names are possible values")
     })
+}
+
+/// `maxmin=160` as a parameter of Phoenix and its value.
+fn phoenix_value(text: &str) -> Result<(PhoenixParameter, u32), String> {
+    let (name, value) = text.split_once('=').ok_or("expected NAME=N, as in maxmin=160")?;
+    let parameter = PhoenixParameter::from_name(name).ok_or_else(|| {
+        let names = PhoenixParameter::ALL.map(PhoenixParameter::name).join(", ");
+        format!("{name:?} is no parameter of Phoenix: {names}")
+    })?;
+    Ok((parameter, value.parse().map_err(|_| format!("{value:?} is no whole number"))?))
 }
 
 fn preset_parser() -> impl TypedValueParser<Value = Preset> {

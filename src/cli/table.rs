@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use dichroscope::describe::Scores;
+use dichroscope::truth::CandidateCounts;
 use serde_json::{Map, Value, json};
 
 /// For each figure's name the mean over the results that have the figure.
@@ -17,15 +18,20 @@ fn means(scored: &[(String, Scores)]) -> Vec<(&'static str, Option<f64>)> {
         .collect()
 }
 
-/// `{"results": {NAME: scores}, "mean": scores}`, pretty, with a final newline.
-pub(super) fn json(scored: &[(String, Scores)]) -> Result<String> {
+/// `{"results": {NAME: scores}, "mean": scores}`, pretty, with a final newline; where candidates were counted, also
+/// `"candidates": {NAME: counts}`.
+pub(super) fn json(scored: &[(String, Scores)], counted: &[(String, CandidateCounts)]) -> Result<String> {
     let mut results = Map::new();
     for (name, scores) in scored {
         results.insert(name.clone(), serde_json::to_value(scores)?);
     }
     let mean: Map<String, Value> =
         means(scored).into_iter().map(|(name, mean)| (name.to_owned(), json!(mean))).collect();
-    Ok(serde_json::to_string_pretty(&json!({ "results": results, "mean": mean }))? + "\n")
+    let mut all = json!({ "results": results, "mean": mean });
+    if !counted.is_empty() {
+        all["candidates"] = counted.iter().map(|(name, counts)| (name.clone(), json!(counts))).collect();
+    }
+    Ok(serde_json::to_string_pretty(&all)? + "\n")
 }
 
 /// One line per result and, of several, one with the means.
@@ -36,6 +42,52 @@ pub(super) fn aligned(scored: &[(String, Scores)]) -> String {
     if scored.len() > 1 {
         lines.push(line("MEAN", &means));
     }
+    table(&lines)
+}
+
+/// Figures with their names, none where a figure does not exist.
+pub(super) type Figures = Vec<(&'static str, Option<f64>)>;
+
+/// Named rows of figures, which all have the same names, with a heading.
+pub(super) fn figures(rows: &[(&str, Figures)]) -> String {
+    let mut lines: Vec<Vec<String>> = rows.first().map(|(_, figures)| heading(figures)).into_iter().collect();
+    if let Some(first) = lines.first_mut().and_then(|line| line.first_mut()) {
+        first.clear();
+    }
+    lines.extend(rows.iter().map(|(name, figures)| line(name, figures)));
+    table(&lines)
+}
+
+/// The counts of the tests of highlight candidates, one line per result and one with the sums.
+pub(super) fn candidates(counted: &[(String, CandidateCounts)]) -> String {
+    let cells = |name: &str, numbers: [usize; 6]| {
+        std::iter::once(name.to_owned()).chain(numbers.map(|number| number.to_string())).collect::<Vec<_>>()
+    };
+    let numbers = |counts: &CandidateCounts| {
+        [
+            counts.tests,
+            counts.highlights,
+            counts.right_by_position,
+            counts.accepted_by_position,
+            counts.right_by_gershon,
+            counts.accepted_by_gershon,
+        ]
+    };
+    let heading =
+        ["result", "candidates", "highlights", "50 % right", "accepted", "Gershon right", "accepted"];
+    let mut lines = vec![heading.map(str::to_owned).to_vec()];
+    let mut sums = [0; 6];
+    for (name, counts) in counted {
+        let of_result = numbers(counts);
+        sums.iter_mut().zip(of_result).for_each(|(sum, number)| *sum += number);
+        lines.push(cells(name, of_result));
+    }
+    lines.push(cells("SUM", sums));
+    table(&lines)
+}
+
+/// Lines of cells with their columns aligned.
+fn table(lines: &[Vec<String>]) -> String {
     let columns = lines[0].len();
     let widths: Vec<usize> = (0..columns)
         .map(|column| lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0))
@@ -98,7 +150,7 @@ mod tests {
 
     #[test]
     fn means_pass_over_what_is_missing() {
-        let value: Value = serde_json::from_str(&json(&two()).unwrap()).unwrap();
+        let value: Value = serde_json::from_str(&json(&two(), &[]).unwrap()).unwrap();
         assert_eq!(value["mean"]["body_deg"], 0.25);
         assert_eq!(value["mean"]["psnr_restored"], Value::Null);
         assert_eq!(value["results"]["cups"]["psnr_body"], 46.0);

@@ -6,7 +6,8 @@ use super::scores::Scores;
 use crate::analysis::{Analysis, Stage};
 use crate::intrinsic::Reason;
 use crate::params::{
-    AmbientSetting, IlluminantSetting, Method, Parameter, Params, Readings, Refine, Setting, parameter_rows,
+    AmbientSetting, IlluminantSetting, Method, Parameter, Params, PhoenixSettings, Readings, Refine, Setting,
+    parameter_rows,
 };
 use crate::photo::Photo;
 use crate::raster::{Mask, UNASSIGNED};
@@ -237,9 +238,30 @@ macro_rules! define_params_facts {
             /// How the paper was read; absent under the refined method.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             pub readings: Option<Readings>,
+            /// The parameters of Phoenix; absent under every other method.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            pub phoenix: Option<PhoenixSettings>,
         }
 
         impl ParamsFacts {
+            /// The parameters that were asked for.
+            pub fn asked(&self) -> Params {
+                let mut params = Params {
+                    $($field: self.$field.asked,)*
+                    illuminant: self.illuminant.asked,
+                    ambient: self.ambient.asked,
+                    phoenix: self.phoenix.unwrap_or_default(),
+                    ..Params::of(self.method)
+                };
+                match self.method {
+                    Method::Refined => params.refine = self.refine,
+                    Method::Paper => params.paper.with = self.refine,
+                    Method::Phoenix | Method::TopDown => {}
+                }
+                params.paper.readings = self.readings.unwrap_or(params.paper.readings);
+                params
+            }
+
             fn new(params: &Params, analysis: &Analysis) -> Self {
                 Self {
                     method: params.method,
@@ -254,6 +276,7 @@ macro_rules! define_params_facts {
                     },
                     refine: params.refinements(),
                     readings: (params.method == Method::Paper).then_some(params.paper.readings),
+                    phoenix: (params.method == Method::Phoenix).then_some(params.phoenix),
                 }
             }
         }

@@ -8,6 +8,7 @@ mod choice;
 mod exchange;
 mod float_picture;
 mod floats;
+mod foreign;
 mod leftovers;
 mod matte;
 mod palette;
@@ -21,6 +22,7 @@ mod whole;
 
 pub use choice::{FileChoice, UnknownFile};
 pub(crate) use float_picture::FloatPicture;
+pub use foreign::{write_difference, write_foreign_diffuse, write_foreign_labels};
 pub use leftovers::remove_leftovers;
 pub use matte::{MatteError, matte_bytes, write_matte};
 pub(crate) use palette::Palette;

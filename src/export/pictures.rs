@@ -87,7 +87,7 @@ fn residual(input: &PictureInput) -> Raster<[f32; 3]> {
 }
 
 /// Linear counts as sRGB values; 255 counts and more are white.
-fn viewable(counts: &Raster<[f32; 3]>) -> Raster<[u8; 3]> {
+pub(super) fn viewable(counts: &Raster<[f32; 3]>) -> Raster<[u8; 3]> {
     counts.map(|color| color.map(|value| code_from_linear(value / 255.0)))
 }
 

@@ -10,6 +10,8 @@ pub fn method_name(method: Method) -> &'static str {
     match method {
         Method::Refined => "refined method",
         Method::Paper => "method of the paper",
+        Method::Phoenix => "Phoenix",
+        Method::TopDown => "clusters of the whole histogram",
     }
 }
 
@@ -93,6 +95,8 @@ fn switches(scene: &Scene) -> String {
         Switch::ALL.into_iter().filter(|&switch| refine.get(switch) == on).map(Switch::name).collect()
     };
     match params.method {
+        Method::Phoenix => format!("Features: {}.", params.phoenix.features),
+        Method::TopDown => "No switches.".to_owned(),
         Method::Refined => {
             let off = named(false);
             if off.is_empty() {

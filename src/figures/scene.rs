@@ -124,6 +124,7 @@ impl Scene {
             took_ms: [None; 7],
             trace: OnceLock::new(),
             accuracy: OnceLock::new(),
+            phoenix: OnceLock::new(),
         };
         Self::of_snapshot(Arc::new(shown), report)
     }

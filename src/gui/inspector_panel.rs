@@ -5,13 +5,16 @@ mod actions;
 mod answers;
 mod block;
 mod distances;
+mod histograms;
 
 use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
 use super::{PanelContext, widgets};
 use crate::app::State;
 use crate::describe::Names;
 use crate::raster::{HypothesisId, PixelIndex};
-use crate::view::{Inspection, Item, Why, inspect_item, inspect_marked, inspect_step, why};
+use crate::view::{
+    Inspection, Item, Why, histograms_at_cursor, inspect_item, inspect_marked, inspect_step, why,
+};
 use actions::Subject;
 use egui::{ScrollArea, Ui};
 use std::sync::Arc;
@@ -57,6 +60,9 @@ impl InspectorPanel {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 if let Some(step) = &step {
                     block::show(ui, cx, step, Subject::Step);
+                    if let Some(searched) = cx.state.followed().and_then(histograms_at_cursor) {
+                        histograms::show(ui, cx.palette, searched);
+                    }
                 }
                 if let Some((item, found)) = item.zip(found.as_ref()) {
                     self.show_item(ui, cx, item, found, is_hovered);

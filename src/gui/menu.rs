@@ -250,15 +250,14 @@ fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
 /// The menu of methods, presets, parameter files and pinning.
 fn analyze(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
     let method = cx.state.document.params.method;
-    for (choice, name, tip) in [
-        (Method::Refined, "Refined method", "The paper's algorithm with refinements, each a switch."),
-        (
-            Method::Paper,
-            "Paper's method",
-            "The algorithm as it was written in 1990, its weaknesses included.",
-        ),
-    ] {
-        if ui.radio(method == choice, name).on_hover_text(tip).clicked() {
+    for choice in Method::ALL {
+        let name = match choice {
+            Method::Refined => "Refined method",
+            Method::Paper => "Paper's method",
+            Method::Phoenix => "Phoenix",
+            Method::TopDown => "Top-down clusters",
+        };
+        if ui.radio(method == choice, name).on_hover_text(choice.meaning()).clicked() {
             cx.send(Edit::SetMethod(choice));
         }
     }

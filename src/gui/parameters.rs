@@ -2,6 +2,7 @@
 
 mod by_hand;
 mod columns;
+mod phoenix;
 
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
@@ -20,7 +21,11 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
                 row(ui, cx, parameter);
             }
             given_by_hand(ui, cx);
-            switches(ui, cx);
+            match cx.state.document.params.method {
+                Method::Refined | Method::Paper => switches(ui, cx),
+                Method::Phoenix => phoenix::show(ui, cx),
+                Method::TopDown => {}
+            }
         });
     });
 }
@@ -30,15 +35,11 @@ fn method(ui: &mut Ui, cx: &mut PanelContext) {
     let current = cx.state.document.params.method;
     let has_reset = ui.horizontal(|ui| {
         let tip =
-            "Refined: the paper's algorithm with switches below. Paper: as written in 1990, with its readings below (section 5).";
+            "The paper's algorithm, refined or as written in 1990 (section 5), or an earlier method that finds regions alone (sections 7.2 and 5.1).";
         if ui.available_width() >= NARROW_PT {
             label(ui, "method", tip);
         }
-        for (choice, name) in [(Method::Refined, "refined"), (Method::Paper, "paper")] {
-            if ui.selectable_label(current == choice, name).on_hover_text(tip).clicked() {
-                cx.send(Edit::SetMethod(choice));
-            }
-        }
+        methods(ui, cx, &[Method::Refined, Method::Paper]);
         let has_room = ui.available_width() >= RESET_PT;
         if has_room {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| reset(ui, cx, current));
@@ -48,7 +49,27 @@ fn method(ui: &mut Ui, cx: &mut PanelContext) {
     if !has_reset.inner {
         reset(ui, cx, current);
     }
+    ui.horizontal(|ui| {
+        if ui.available_width() >= NARROW_PT {
+            label(
+                ui,
+                "held against",
+                "What the paper is held against: earlier methods, which find regions alone.",
+            );
+        }
+        methods(ui, cx, &[Method::Phoenix, Method::TopDown]);
+    });
     ui.add_space(4.0);
+}
+
+/// Shows the buttons of some methods.
+fn methods(ui: &mut Ui, cx: &mut PanelContext, choices: &[Method]) {
+    let current = cx.state.document.params.method;
+    for &choice in choices {
+        if ui.selectable_label(current == choice, choice.name()).on_hover_text(choice.meaning()).clicked() {
+            cx.send(Edit::SetMethod(choice));
+        }
+    }
 }
 
 /// Width of the button "Reset" with its margin, points.

@@ -1,5 +1,6 @@
 //! The tables of `docs/parameters.md` and `docs/readings.md`, made from the rows of parameters, switches and readings.
 
+use super::phoenix::{PhoenixParameter, PhoenixSettings};
 use super::reading::Reading;
 use super::refine::Switch;
 use super::setting::Setting;
@@ -64,6 +65,20 @@ pub fn reading_table() -> String {
     table
 }
 
+/// All parameters of Phoenix as a Markdown table, one line each, in the order in which they take effect.
+pub fn phoenix_table() -> String {
+    let mut table =
+        String::from("| parameter | unit | range | default | meaning |\n|---|---|---|---:|---|\n");
+    let defaults = PhoenixSettings::default();
+    for parameter in PhoenixParameter::ALL {
+        let [low, high] = parameter.range();
+        let (name, unit, default) = (parameter.name(), parameter.unit(), parameter.get(&defaults));
+        let line = format!("| `{name}` | {unit} | {low} to {high} | {default} | {} |", parameter.meaning());
+        writeln!(table, "{line}").expect("invariant: writing to a String cannot fail");
+    }
+    table
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -71,7 +86,7 @@ mod tests {
     /// A `|` in a row's text would add a column.
     #[test]
     fn every_line_has_as_many_cells_as_the_head() {
-        for table in [parameter_table(), switch_table(), reading_table()] {
+        for table in [parameter_table(), switch_table(), reading_table(), phoenix_table()] {
             let cells = |line: &str| line.matches('|').count();
             let head = table.lines().next().map(cells).unwrap();
             for line in table.lines() {

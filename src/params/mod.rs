@@ -2,8 +2,10 @@
 //!
 //! This room uses no other room, so that every other room can use its types.
 
+mod feature;
 mod markdown;
 mod paper;
+mod phoenix;
 mod preset;
 mod reading;
 mod refine;
@@ -12,8 +14,10 @@ mod stage;
 mod table;
 mod values;
 
-pub use markdown::{parameter_table, reading_table, switch_table};
-pub use paper::{PaperMethod, Rules};
+pub use feature::{Feature, FeatureSet, UnknownFeature};
+pub use markdown::{parameter_table, phoenix_table, reading_table, switch_table};
+pub use paper::{Baseline, PaperMethod, Rules};
+pub use phoenix::{PhoenixParameter, PhoenixSettings};
 pub use preset::Preset;
 pub use reading::{Reading, ReadingSpec, Readings, UnknownReading};
 pub use refine::{Refine, Switch, UnknownSwitch};

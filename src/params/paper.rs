@@ -1,5 +1,6 @@
 //! What the paper's method is asked for beside its numbers: how the text is read, and which refinements are added to it.
 
+use super::phoenix::PhoenixSettings;
 use super::reading::{Reading, Readings};
 use super::refine::{Refine, Switch};
 use serde::{Deserialize, Serialize};
@@ -72,6 +73,15 @@ impl TryFrom<PaperTable> for PaperMethod {
     }
 }
 
+/// An earlier method, which finds regions and no reflection (sections 5.1 and 7.2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Baseline {
+    /// Phoenix: regions are split by the histograms of color features (section 7.2).
+    Phoenix(PhoenixSettings),
+    /// Clusters of the histogram of the whole picture (section 5.1).
+    TopDown,
+}
+
 /// The switches that a run obeys: those of its method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rules {
@@ -79,6 +89,8 @@ pub struct Rules {
     pub refine: Refine,
     /// The readings in force.
     pub readings: Readings,
+    /// The earlier method that finds the regions; none: the paper's or the refined method.
+    pub baseline: Option<Baseline>,
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 //! Fields for numbers are made from the rows of `table.rs`. Values in counts refer to 255 counts at full scale, whatever
 //! the depth of the file.
 
-use super::paper::{PaperMethod, Rules};
+use super::paper::{Baseline, PaperMethod, Rules};
+use super::phoenix::{PhoenixParameter, PhoenixSettings};
 use super::reading::Readings;
 use super::refine::Refine;
 use super::setting::{AmbientSetting, IlluminantSetting, Setting};
@@ -12,13 +13,46 @@ use serde::{Deserialize, Serialize};
 
 /// Which algorithm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// The paper's algorithm with the refinements that [`Refine`] switches on.
     #[default]
     Refined,
     /// The algorithm as written in 1990, its weaknesses included.
     Paper,
+    /// Phoenix, a system of recursive region splitting, to compare with (section 7.2).
+    Phoenix,
+    /// Clusters of the histogram of the whole picture, the way that section 5.1 rejects, to compare with.
+    TopDown,
+}
+
+impl Method {
+    /// All methods: the refined one first, then by age.
+    pub const ALL: [Self; 4] = [Self::Refined, Self::Paper, Self::Phoenix, Self::TopDown];
+
+    /// The name on the command line, in files and reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Refined => "refined",
+            Self::Paper => "paper",
+            Self::Phoenix => "phoenix",
+            Self::TopDown => "top-down",
+        }
+    }
+
+    /// What the method is, in one sentence.
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Refined => "The paper's algorithm with refinements, each a switch.",
+            Self::Paper => "The algorithm as it was written in 1990, its weaknesses included.",
+            Self::Phoenix => {
+                "Regions alone, split by valleys in the histograms of color features (section 7.2, color figure 15)."
+            }
+            Self::TopDown => {
+                "Regions alone: clusters of the whole picture's histogram, the way that section 5.1 rejects."
+            }
+        }
+    }
 }
 
 /// Most ambient light that may be given, counts a band.
@@ -41,6 +75,8 @@ macro_rules! define_params {
             pub refine: Refine,
             /// The readings of the paper's method, and the refinements added to it.
             pub paper: PaperMethod,
+            /// The parameters of Phoenix.
+            pub phoenix: PhoenixSettings,
         }
 
         impl Default for Params {
@@ -52,6 +88,7 @@ macro_rules! define_params {
                     ambient: AmbientSetting::Auto,
                     refine: Refine::default(),
                     paper: PaperMethod::default(),
+                    phoenix: PhoenixSettings::default(),
                 }
             }
         }
@@ -125,22 +162,35 @@ impl Params {
         match method {
             Method::Refined => Self::default(),
             Method::Paper => Self::paper(),
+            // The numbers of table 6: the earlier methods use those of the masks alone.
+            Method::Phoenix | Method::TopDown => Self { method, ..Self::paper() },
         }
     }
 
-    /// The refinements in force. Under `method = paper` these are the refinements that were added to it, by default none.
+    /// The earlier method that finds the regions; none under the paper's and the refined method.
+    pub fn baseline(&self) -> Option<Baseline> {
+        match self.method {
+            Method::Refined | Method::Paper => None,
+            Method::Phoenix => Some(Baseline::Phoenix(self.phoenix)),
+            Method::TopDown => Some(Baseline::TopDown),
+        }
+    }
+
+    /// The refinements in force. Under `method = paper` these are the refinements that were added to it, by default none; the earlier
+    /// methods have none.
     pub fn refinements(&self) -> Refine {
         match self.method {
             Method::Refined => self.refine,
             Method::Paper => self.paper.with,
+            Method::Phoenix | Method::TopDown => Refine::all(false),
         }
     }
 
-    /// The refinements in force, to be changed.
+    /// The refinements in force, to be changed; under the earlier methods, which have none, those of the paper's method.
     pub fn refinements_mut(&mut self) -> &mut Refine {
         match self.method {
             Method::Refined => &mut self.refine,
-            Method::Paper => &mut self.paper.with,
+            Method::Paper | Method::Phoenix | Method::TopDown => &mut self.paper.with,
         }
     }
 
@@ -149,8 +199,15 @@ impl Params {
         let readings = match self.method {
             Method::Refined => Readings::REFINED,
             Method::Paper => self.paper.readings,
+            // Regions without a plane keep their colors, and every region counts.
+            Method::Phoenix | Method::TopDown => Readings {
+                small_regions: true,
+                unsplit_without_highlight: true,
+                cylinder_noise: false,
+                ..Readings::PAPER
+            },
         };
-        Rules { refine: self.refinements(), readings }
+        Rules { refine: self.refinements(), readings, baseline: self.baseline() }
     }
 
     /// Every number finite, in range and whole where it must be, and the light a color.
@@ -165,6 +222,9 @@ impl Params {
             if !inside || (spec.whole && value.fract() != 0.0) {
                 return Err(InvalidParameter::Number { parameter, value });
             }
+        }
+        if let Some((parameter, value)) = self.phoenix.first_outside() {
+            return Err(InvalidParameter::Phoenix { parameter, value });
         }
         match self.illuminant {
             IlluminantSetting::Given(color) if self.illuminant.direction().is_none() => {
@@ -205,6 +265,15 @@ pub enum InvalidParameter {
         parameter: Parameter,
         /// The value that the parameter does not accept.
         value: f64,
+    },
+    /// A parameter of Phoenix outside its range.
+    #[error("phoenix {} = {value}: expected a whole number from {} to {} {}", parameter.name(), parameter.range()[0],
+        parameter.range()[1], parameter.unit())]
+    Phoenix {
+        /// The parameter.
+        parameter: PhoenixParameter,
+        /// The value that the parameter does not accept.
+        value: u32,
     },
     /// A light with a negative or infinite band, or with all bands 0.
     #[error("illuminant = {0:?}: expected `auto` or three numbers from 0 on, not all of them 0")]

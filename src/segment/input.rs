@@ -1,7 +1,7 @@
 //! The input of every stage of the segmentation.
 
 use crate::color::Vec3;
-use crate::params::{Readings, Refine, Rules, UsedParams};
+use crate::params::{Readings, Refine, UsedParams};
 use crate::photo::{CodingError, LinearImage, Masks, ShotNoise};
 use crate::raster::Raster;
 
@@ -48,11 +48,6 @@ impl<'a> AnalysisInput<'a> {
     #[must_use]
     pub fn with_readings(self, readings: Readings) -> Self {
         Self { readings, ..self }
-    }
-
-    /// The refinements and the readings in force.
-    pub fn rules(&self) -> Rules {
-        Rules { refine: self.refine, readings: self.readings }
     }
 
     /// Largest number of pixels that a fit uses: `most`, or every pixel under the reading `every_pixel`.

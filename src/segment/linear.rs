@@ -31,7 +31,8 @@ pub struct Hypothesis {
 }
 
 impl Hypothesis {
-    fn new(line: Line) -> Self {
+    /// The hypothesis of a matte line.
+    pub(crate) fn new(line: Line) -> Self {
         Self { line, alive: true, highlights: Vec::new() }
     }
 }

@@ -35,7 +35,7 @@ pub(crate) use branches::{BranchSearch, Branches};
 pub(crate) use candidates::is_of_candidate;
 pub(crate) use choice::LIGHT_LIMITS;
 pub(crate) use model_fit::{FittedPlane, MAX_LIGHT_SHARE, NewEdges, RegionFit, TEXTURE_CORRELATION};
-pub(crate) use recorded_labels::{Members, Pixels};
+pub(crate) use recorded_labels::{Members, Pixels, RecordedLabels};
 pub(crate) use regions::{members, neighbors, parts};
 
 pub use classify::{Classifier, Windows, classify};

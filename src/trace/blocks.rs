@@ -29,7 +29,7 @@ pub struct Block {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Topic {
-    /// A linear hypothesis is chosen and grows (5.3).
+    /// A linear hypothesis is chosen and grows (5.3), or a region of an earlier method is searched (7.2).
     Hypothesis(HypothesisId),
     /// A broad highlight is absorbed by its object.
     Absorption(HypothesisId),
@@ -41,7 +41,7 @@ pub enum Topic {
     Brightness(HypothesisId),
     /// A hole is given to a hypothesis (5.5).
     Hole(HypothesisId),
-    /// A separate part becomes a hypothesis of its own.
+    /// A separate part becomes a hypothesis of its own, or a region of an earlier method is made (5.1, 7.2).
     Part(HypothesisId),
 }
 
@@ -106,6 +106,8 @@ impl Contents {
             }
             Event::HoleFilled(HoleFilled { hypothesis, .. }) => Topic::Hole(*hypothesis),
             Event::ComponentSplit(ComponentSplit { part, .. }) => Topic::Part(*part),
+            Event::HistogramsSearched(searched) => Topic::Hypothesis(searched.hypothesis),
+            Event::PatchMade(made) => Topic::Part(made.hypothesis),
             _ => return,
         };
         let goes_on = matches!(topic, Topic::Candidates(_))

@@ -3,8 +3,8 @@
 
 use super::replay_state::ReplayState;
 use super::{
-    Absorbed, CandidateChosen, CandidateTested, ComponentSplit, Event, Hypothesis, HypothesisChosen,
-    LineRefitted, MatteAreasUnited, RegionsMerged, Renumbered, SliceMade, Trace,
+    Absorbed, CandidateChosen, CandidateTested, ComponentSplit, Event, HistogramsSearched, Hypothesis,
+    HypothesisChosen, LineRefitted, MatteAreasUnited, PatchMade, RegionsMerged, Renumbered, SliceMade, Trace,
 };
 use crate::raster::{HypothesisId, RegionId};
 
@@ -26,7 +26,9 @@ impl Ancestor<'_> {
     /// The step at which the hypothesis became part of another one; of the hypothesis that became the region, the step at which it
     /// began.
     pub fn step(&self) -> usize {
-        let (Birth::Area { step: born, .. } | Birth::Part { step: born, .. }) = self.birth;
+        let (Birth::Area { step: born, .. }
+        | Birth::Part { step: born, .. }
+        | Birth::Picture { step: born, .. }) = self.birth;
         self.joined.map_or(born, |joined| joined.step)
     }
 }
@@ -49,6 +51,13 @@ pub enum Birth<'a> {
         /// The hypothesis that it was separated from.
         of: HypothesisId,
         /// Number of pixels of the part.
+        pixels: u32,
+    },
+    /// As a region of an earlier method that is no part of another region (5.1, 7.2).
+    Picture {
+        /// The step.
+        step: usize,
+        /// Number of pixels of the region.
         pixels: u32,
     },
 }
@@ -155,6 +164,10 @@ fn birth<'t>(trace: &'t Trace, hypothesis: &Hypothesis) -> Option<Birth<'t>> {
         Event::ComponentSplit(ComponentSplit { hypothesis, pixels, .. }) => {
             Some(Birth::Part { step, of: *hypothesis, pixels: *pixels })
         }
+        Event::PatchMade(PatchMade { of, pixels, .. }) => Some(match *of {
+            Some(of) => Birth::Part { step, of, pixels: *pixels },
+            None => Birth::Picture { step, pixels: *pixels },
+        }),
         _ => None,
     }
 }
@@ -194,6 +207,10 @@ pub struct HypothesisStory<'a> {
     pub chosen: Option<(usize, &'a HypothesisChosen)>,
     /// The step at which the part was separated, the hypothesis that it was part of, and the number of its pixels.
     pub separated: Option<(usize, HypothesisId, u32)>,
+    /// How a region of an earlier method was made.
+    pub made: Option<(usize, &'a PatchMade)>,
+    /// The search of the histograms of a region of an earlier method that is homogeneous.
+    pub searched: Option<(usize, &'a HistogramsSearched)>,
     /// The fits of the line after the first.
     pub refits: Vec<(usize, &'a LineRefitted)>,
     /// The tests of neighbors as its highlight (5.4.1).
@@ -220,6 +237,10 @@ pub fn story(trace: &Trace, hypothesis: HypothesisId) -> Option<HypothesisStory<
             Event::HypothesisChosen(chosen) => story.chosen = Some((step, chosen)),
             Event::ComponentSplit(ComponentSplit { hypothesis: of, pixels, .. }) => {
                 story.separated = Some((step, *of, *pixels));
+            }
+            Event::PatchMade(made) => story.made = Some((step, made)),
+            Event::HistogramsSearched(searched) if searched.chosen().is_none() => {
+                story.searched = Some((step, searched));
             }
             Event::LineRefitted(refitted) => story.refits.push((step, refitted)),
             Event::CandidateTested(test) => story.tests.push((step, test)),

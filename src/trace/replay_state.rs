@@ -5,8 +5,8 @@
 use super::timeline::EventId;
 use super::{
     Absorbed, CandidateChosen, Class, ComponentSplit, Dropped, Event, HypothesisPassedOver, IlluminantGiven,
-    MergeTried, PassedOver, RegionsMerged, Renumbered, SliceMade, Trace, VectorsFitted, WindowClassified,
-    WindowsLaid,
+    MergeTried, PassedOver, PatchMade, RegionsMerged, Renumbered, SliceMade, Trace, VectorsFitted,
+    WindowClassified, WindowsLaid,
 };
 use crate::color::{Cylinder, Line};
 use crate::raster::{HypothesisId, Raster, RegionId};
@@ -108,9 +108,25 @@ pub enum End {
     Merged(HypothesisId),
     /// The hypothesis was too small to keep.
     Dropped,
+    /// The hypothesis, a region of an earlier method, was divided into parts.
+    Divided,
 }
 
 impl Hypothesis {
+    /// A region of an earlier method, which has no line; `parent`: the region that it is a part of.
+    fn of_patch(parent: Option<HypothesisId>, id: EventId) -> Self {
+        Self {
+            area: None,
+            parent,
+            radius: 0.0,
+            lines: Vec::new(),
+            slices: Vec::new(),
+            highlights: Vec::new(),
+            ends: Vec::new(),
+            events: vec![id],
+        }
+    }
+
     /// The axis of the hypothesis's cylinder.
     pub fn line(&self) -> Option<&Line> {
         self.lines.last()
@@ -219,6 +235,10 @@ impl ReplayState {
                 ends: Vec::new(),
                 events: vec![id],
             }),
+            Event::PatchMade(PatchMade { of, .. }) => self.hypotheses.push(Hypothesis::of_patch(*of, id)),
+            Event::HistogramsSearched(searched) if searched.chosen().is_none() => {
+                self.tell(searched.hypothesis, id);
+            }
             Event::ComponentSplit(ComponentSplit { hypothesis, .. }) => {
                 let mut part = self.of(*hypothesis).cloned();
                 if let Some(part) = &mut part {
@@ -281,8 +301,11 @@ impl ReplayState {
             Event::MergeTried(MergeTried { from, class, union, .. }) if class == union => {
                 self.join(*from, *from);
             }
-            Event::HypothesisChosen(_) | Event::ComponentSplit(_) => {
+            Event::HypothesisChosen(_) | Event::ComponentSplit(_) | Event::PatchMade(_) => {
                 self.hypotheses.pop();
+            }
+            Event::HistogramsSearched(searched) if searched.chosen().is_none() => {
+                self.pop_event(searched.hypothesis);
             }
             Event::LineRefitted(refitted) => {
                 self.pop_event(refitted.hypothesis).and_then(|hypothesis| hypothesis.lines.pop());
@@ -349,6 +372,9 @@ impl ReplayState {
                 Some((*hypothesis, End::Merged(*into)))
             }
             Event::Dropped(Dropped { hypothesis, .. }) => Some((*hypothesis, End::Dropped)),
+            Event::HistogramsSearched(searched) if searched.chosen().is_some() => {
+                Some((searched.hypothesis, End::Divided))
+            }
             _ => None,
         }
     }

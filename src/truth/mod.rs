@@ -4,17 +4,21 @@
 //! pixel, 0 = background) and `truth.json` (true vectors). [`score()`] computes the scores. The scores were compared with an
 //! independent implementation and agree in every printed digit.
 
+mod candidates;
 mod folder;
+mod foreign;
 mod measures;
 mod pictures;
 mod report;
 pub mod sample;
 mod score;
 
+pub use candidates::CandidateCounts;
 pub(crate) use folder::TruthFiles;
 pub use folder::{GroundTruth, TruthObject, find_truth};
+pub use foreign::{Agreement, ForeignResult};
 pub use measures::{adjusted_rand_index, angle_deg, psnr_db};
-pub use pictures::ResultPictures;
+pub use pictures::{ResultPictures, read_label_map};
 pub use report::{Reference, ReportInput, report};
 pub use score::{Outcome, ScoreError, score};
 

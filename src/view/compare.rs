@@ -2,7 +2,7 @@
 
 use super::ResultSnapshot;
 use super::snapshot::{best_overlaps, overlaps};
-use crate::params::{Method, Parameter, Params, Reading, Switch};
+use crate::params::{Method, Parameter, Params, PhoenixParameter, Reading, Switch};
 use crate::raster::RegionId;
 use crate::truth::angle_deg;
 use rayon::prelude::*;
@@ -131,7 +131,7 @@ pub fn setting_changes(before: &Params, after: &Params) -> Vec<SettingChange> {
             changes.push(SettingChange { name, pinned, newest });
         }
     };
-    let method = |params: &Params| format!("{:?}", params.method).to_lowercase();
+    let method = |params: &Params| params.method.name().to_owned();
     add("method", method(before), method(after));
     for parameter in Parameter::ALL {
         let asked = |params: &Params| params.get(parameter).to_string();
@@ -143,6 +143,13 @@ pub fn setting_changes(before: &Params, after: &Params) -> Vec<SettingChange> {
     let (old, new) = (before.refinements(), after.refinements());
     for switch in Switch::ALL {
         add(switch.name(), word(old.get(switch)), word(new.get(switch)));
+    }
+    if before.method == Method::Phoenix && after.method == Method::Phoenix {
+        add("features", before.phoenix.features.to_string(), after.phoenix.features.to_string());
+        for parameter in PhoenixParameter::ALL {
+            let value = |params: &Params| parameter.get(&params.phoenix).to_string();
+            add(parameter.name(), value(before), value(after));
+        }
     }
     let (old, new) = (before.rules().readings, after.rules().readings);
     if before.method == Method::Paper && after.method == Method::Paper {

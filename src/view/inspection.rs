@@ -9,7 +9,7 @@ mod threshold;
 
 pub use candidate::candidate_tests;
 pub use item::{inspect_item, inspect_marked};
-pub use step::{inspect_step, step_verdict};
+pub use step::{histograms_at_cursor, inspect_step, step_verdict};
 pub use threshold::{Limits, ThresholdTest};
 
 /// Whether a verdict is good or bad.

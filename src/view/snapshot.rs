@@ -2,9 +2,11 @@
 
 use super::{Accuracy, Picture};
 use crate::analysis::{Analysis, Stage};
-use crate::params::Params;
+use crate::baseline::baseline_regions;
+use crate::params::{Baseline, Params, Refine};
 use crate::raster::{LabelMap, Mask, Raster, RegionId, UNASSIGNED};
-use crate::trace::{Class, Trace};
+use crate::segment::AnalysisInput;
+use crate::trace::{Class, NoopRecorder, Trace};
 use std::cmp::Reverse;
 use std::sync::{Arc, OnceLock};
 
@@ -34,6 +36,8 @@ pub struct ResultSnapshot {
     pub(crate) trace: OnceLock<Arc<Trace>>,
     /// The accuracy against the ground truth, once measured.
     pub(crate) accuracy: OnceLock<Option<Accuracy>>,
+    /// The regions that Phoenix finds in the photograph, once asked for.
+    pub(crate) phoenix: OnceLock<LabelMap>,
 }
 
 impl ResultSnapshot {
@@ -80,6 +84,18 @@ impl ResultSnapshot {
     /// Measures the accuracy, where there is a ground truth. Takes about as long as the analysis.
     pub(crate) fn measure(&self) {
         self.accuracy.get_or_init(|| super::accuracy::accuracy(&self.picture, &self.params, &self.analysis));
+    }
+
+    /// The regions that Phoenix (section 7.2) finds in the photograph, with the settings of the request, at the size of the final regions.
+    /// The first call takes about as long as a run of the paper's method.
+    pub fn phoenix_labels(&self) -> &LabelMap {
+        self.phoenix.get_or_init(|| {
+            let Analysis { working, used, finals, .. } = &self.analysis;
+            let input = AnalysisInput::new(&working.image, &working.masks, used, Refine::all(false));
+            let baseline = Baseline::Phoenix(self.params.phoenix);
+            let found = baseline_regions(&input, &baseline, &mut NoopRecorder).labels;
+            if found.len() == finals.labels.len() { found } else { working.blocks.enlarged(&found) }
+        })
     }
 
     /// Side of a window, pixels.

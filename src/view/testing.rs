@@ -44,7 +44,15 @@ pub(crate) fn candidate() -> CandidateTested {
         gap: Measured::new(4.0, 10.0),
         position_percent: 75.0,
         position_limits: [50.0, 120.0],
-        verdict: CandidateVerdict { lines_meet: true, upper_half: true, positive: true, beyond: true },
+        angle_deg: Measured::new(90.0, 10.0),
+        verdict: CandidateVerdict {
+            lines_meet: true,
+            upper_half: true,
+            not_parallel: true,
+            by_gershon: false,
+            positive: true,
+            beyond: true,
+        },
         weight: 40.0,
     }
 }
@@ -120,6 +128,7 @@ fn snapshot(picture: &Arc<Picture>, params: &Params, analysis: Analysis) -> Resu
         took_ms: [None; 7],
         trace: OnceLock::new(),
         accuracy: OnceLock::new(),
+        phoenix: OnceLock::new(),
     }
 }
 

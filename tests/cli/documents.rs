@@ -4,7 +4,7 @@
 //! anew.
 
 use crate::folder::WorkFolder;
-use dichroscope::params::{parameter_table, reading_table, switch_table};
+use dichroscope::params::{parameter_table, phoenix_table, reading_table, switch_table};
 use std::fs;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -53,7 +53,7 @@ fn replaced(document: &str, name: &str, text: &str) -> String {
 #[test]
 fn the_help_of_every_command_is_in_the_documents() {
     let work = WorkFolder::new();
-    for command in ["analyze", "evaluate", "figures", "screenshot", "trace", "why"] {
+    for command in ["analyze", "compare", "evaluate", "figures", "screenshot", "trace", "why"] {
         check("command-line.md", command, &work.succeeds(&format!("{command} -h")).out);
     }
 }
@@ -63,6 +63,7 @@ fn the_tables_of_parameters_switches_and_readings_are_in_the_documents() {
     check_markdown("parameters.md", "parameters", &parameter_table());
     check_markdown("parameters.md", "switches", &switch_table());
     check_markdown("readings.md", "readings", &reading_table());
+    check_markdown("baselines.md", "phoenix", &phoenix_table());
 }
 
 #[test]

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 
 mod analyze;
+mod baselines;
 mod batch;
 mod contract;
 mod documents;

@@ -7,7 +7,7 @@ use std::io;
 use std::path::Path;
 
 /// Rooms whose code records events.
-const RECORDING: &[&str] = &["segment", "intrinsic", "analysis"];
+const RECORDING: &[&str] = &["segment", "baseline", "intrinsic", "analysis"];
 
 /// A new event does not compile without its row, its properties and its sentence; this test names the event that
 /// no stage records.

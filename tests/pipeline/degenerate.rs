@@ -107,7 +107,10 @@ fn a_picture_without_anything_says_why() {
         [("nothing", "darker"), ("black", "darker"), ("only nan", "darker"), ("noise", "no linear area")]
     {
         let image = pictures().into_iter().find(|(other, _)| *other == name).unwrap().1;
-        for method in METHODS {
+        // Phoenix and the clusters find regions in noise too.
+        let finds_noise =
+            |method: &Method| says == "darker" || matches!(method, Method::Refined | Method::Paper);
+        for method in METHODS.into_iter().filter(finds_noise) {
             let analysis = analyze(&image, &Params::of(method));
             assert!(
                 analysis.intrinsic.regions.is_empty(),
@@ -160,9 +163,15 @@ fn any_params() -> impl Strategy<Value = Params> {
     let choice = prop_oneof![6 => Just(None), 1 => Just(Some(None)), 1 => (0f64..=1.0).prop_map(|share| Some(Some(share)))];
     let choices = prop::collection::vec(choice, Parameter::ALL.len());
     let switches = prop::collection::vec(any::<bool>(), Switch::ALL.len());
-    (any::<[bool; 2]>(), choices, switches, any_readings()).prop_map(
-        |([paper, adds_refinements], choices, switches, readings)| {
-            let mut params = Params::of(if paper { Method::Paper } else { Method::Refined });
+    let method = prop_oneof![
+        4 => Just(Method::Refined),
+        4 => Just(Method::Paper),
+        1 => Just(Method::Phoenix),
+        1 => Just(Method::TopDown),
+    ];
+    (method, any::<bool>(), choices, switches, any_readings()).prop_map(
+        |(method, adds_refinements, choices, switches, readings)| {
+            let mut params = Params::of(method);
             params.min_area = Setting::Value(60.0);
             for (parameter, choice) in Parameter::ALL.into_iter().zip(choices) {
                 let spec = parameter.spec();

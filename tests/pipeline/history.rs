@@ -49,7 +49,12 @@ impl Traced {
 }
 
 fn random_params() -> impl Strategy<Value = Params> {
-    let method = prop_oneof![Just(Method::Refined), Just(Method::Paper)];
+    let method = prop_oneof![
+        3 => Just(Method::Refined),
+        3 => Just(Method::Paper),
+        1 => Just(Method::Phoenix),
+        1 => Just(Method::TopDown),
+    ];
     let numbers = (1.5f64..6.0, 1.5f64..6.0, 60u32..600);
     (method, numbers, any_readings()).prop_map(|(method, (cylinder, slice, area), readings)| Params {
         cylinder_width: Setting::Value(cylinder),
@@ -67,7 +72,8 @@ fn owner_after(what: &HistoryKind) -> Option<Option<HypothesisId>> {
         HistoryKind::Seeded { hypothesis, .. }
         | HistoryKind::Claimed { hypothesis, .. }
         | HistoryKind::Voted { hypothesis, .. }
-        | HistoryKind::Filled { hypothesis, .. } => Some(Some(hypothesis)),
+        | HistoryKind::Filled { hypothesis, .. }
+        | HistoryKind::Patched { hypothesis, .. } => Some(Some(hypothesis)),
         HistoryKind::Released { .. } => Some(None),
         HistoryKind::Merged { into, .. } => Some(Some(into)),
         HistoryKind::Reset { to, .. } => Some(to),

@@ -21,7 +21,8 @@ fn is_whole(analysis: &Analysis, pixel: usize, unclamped: bool) -> bool {
 fn body_and_surface_and_noise_are_the_input() {
     for seed in [1, 2, 3] {
         let image = Scene::grid_of_balls([240, 80], 3, 1, seed).render().image;
-        for method in METHODS {
+        // The earlier methods have no planes.
+        for method in METHODS.into_iter().filter(|&method| Params::of(method).baseline().is_none()) {
             let params = Params::of(method);
             let unclamped = params.refinements().no_negative_surface;
             let analysis = analyze(&image, &params);

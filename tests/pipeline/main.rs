@@ -6,6 +6,7 @@
 
 mod ambient;
 mod area;
+mod baselines;
 mod cache;
 mod cameras;
 mod case_study;

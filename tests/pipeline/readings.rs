@@ -139,6 +139,19 @@ fn beyond_meeting_point_refuses_candidates_on_the_wrong_side() {
 }
 
 #[test]
+fn gershon_test_decides_by_the_angle_and_not_by_the_place() {
+    // The balls of the other tests do not touch; the lines of touching objects meet in the dark.
+    let photograph = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/plastic8_white/camera8.png");
+    let image = read(&photograph, &ReadOptions::default()).unwrap().image;
+    let [on, off] = candidate_tests(&image, Reading::GershonTest);
+    let differs =
+        |test: &&CandidateTested| test.verdict.accepted_by_gershon() != test.verdict.accepted_by_position();
+    assert!(on.iter().filter(differs).count() > 0, "both tests decide alike");
+    assert!(on.iter().all(|test| test.verdict.accepted() == test.verdict.accepted_by_gershon()));
+    assert!(off.iter().all(|test| test.verdict.accepted() == test.verdict.accepted_by_position()));
+}
+
+#[test]
 fn chosen_start_is_a_meeting_point_and_not_the_mean_of_all() {
     let image = balls();
     let [on, off] = [true, false].map(|on| {

@@ -350,6 +350,7 @@ fn a_preview_is_shown_until_the_result_is_there() {
             took_ms: shown.took_ms,
             trace: OnceLock::new(),
             accuracy: OnceLock::new(),
+            phoenix: OnceLock::new(),
         };
         Report::Preview(Preview { shown: Arc::new(working), blocks: shown.analysis.working.blocks })
     };

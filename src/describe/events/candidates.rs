@@ -13,12 +13,13 @@ impl Describe for CandidateTested {
         let failed = failed_tests(self);
         let verdict = if failed.is_empty() { "passed".to_owned() } else { failed.join("; ") };
         format!(
-            "{} ({} px) as highlight of {}: the lines pass {:.1} counts from one another, at {:.0} % of the matte line: {verdict}",
+            "{} ({} px) as highlight of {}: the lines pass {:.1} counts from one another, at {:.0} % of the matte line: {verdict}; {}",
             names.candidate(self.candidate),
             self.pixels,
             names.hypothesis(self.hypothesis),
             self.gap.value,
-            self.position_percent
+            self.position_percent,
+            gershon(self)
         )
     }
 
@@ -30,16 +31,23 @@ impl Describe for CandidateTested {
                 "pixels": self.pixels,
                 "gap": self.gap.value,
                 "position_percent": self.position_percent,
+                "angle_deg": self.angle_deg.value,
                 "direction": vector(&self.line.direction),
                 "passed": {
                     "lines_meet": verdict.lines_meet,
                     "upper_half": verdict.upper_half,
                     "positive": verdict.positive,
                     "beyond": verdict.beyond,
+                    "not_parallel": verdict.not_parallel,
                 },
+                "by_gershon": verdict.by_gershon,
                 "weight": self.weight,
             }),
-            json!({"gap": self.gap.limit, "position_percent": self.position_limits}),
+            json!({
+                "gap": self.gap.limit,
+                "position_percent": self.position_limits,
+                "angle_deg": self.angle_deg.limit,
+            }),
         )
     }
 
@@ -57,9 +65,12 @@ impl Describe for CandidateTested {
             gap: crate::trace::Measured::new(3.5, 10.0),
             position_percent: 83.0,
             position_limits: [50.0, 110.0],
+            angle_deg: crate::trace::Measured::new(43.0, 10.0),
             verdict: crate::trace::CandidateVerdict {
                 lines_meet: true,
                 upper_half: true,
+                not_parallel: true,
+                by_gershon: false,
                 positive: false,
                 beyond: true,
             },
@@ -110,6 +121,17 @@ impl Names {
     }
 }
 
+/// What Gershon's test says of a candidate.
+fn gershon(test: &CandidateTested) -> String {
+    let verdict = test.verdict;
+    let what = match (verdict.not_parallel, verdict.lines_meet) {
+        (false, _) => "nearly parallel",
+        (true, true) => "they intersect",
+        (true, false) => "they do not intersect",
+    };
+    format!("by Gershon's test {what}, {:.0}\u{b0}", test.angle_deg.value)
+}
+
 /// The tests that a candidate failed, each with its numbers.
 fn failed_tests(test: &CandidateTested) -> Vec<String> {
     let [low, high] = test.position_limits;
@@ -120,7 +142,11 @@ fn failed_tests(test: &CandidateTested) -> Vec<String> {
         failed
             .push(format!("no skewed T: {:.1} counts apart, at most {:.1}", test.gap.value, test.gap.limit));
     }
-    if !verdict.upper_half {
+    if verdict.by_gershon && !verdict.not_parallel {
+        let (angle, least) = (test.angle_deg.value, test.angle_deg.limit);
+        failed.push(format!("nearly parallel: {angle:.1}\u{b0}, at least {least:.0}\u{b0} needed"));
+    }
+    if !verdict.by_gershon && !verdict.upper_half {
         failed.push(format!("not in the upper half: at {at:.0} %, {low:.0} to {high:.0} % are allowed"));
     }
     if !verdict.positive {

@@ -1,6 +1,7 @@
 //! Every event as a sentence and as the objects of a trace line, side by side, by section of the paper.
 
 mod ambient;
+mod baseline;
 mod borders;
 mod branches;
 mod candidates;
@@ -16,6 +17,7 @@ mod tests;
 mod vectors;
 mod windows;
 
+pub(super) use baseline::interval_text;
 pub(super) use linear::passed_over;
 pub(super) use vectors::failed_limits;
 pub(super) use windows::variances;

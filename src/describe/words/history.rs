@@ -1,6 +1,6 @@
 //! Decisions about a pixel in words.
 
-use super::super::events::{passed_over, variances};
+use super::super::events::{interval_text, passed_over, variances};
 use super::local_history::{surroundings, unfit};
 use super::{Names, count, ordinal, percent, won};
 use crate::color::Trial;
@@ -132,6 +132,24 @@ impl Names {
                 self.hypothesis(*hypothesis),
                 self.hypothesis(*part)
             ),
+            HistoryKind::Patched { hypothesis, of, pixels, interval, code } => {
+                let of = of.map_or_else(|| "the picture".to_owned(), |of| self.hypothesis(of));
+                let size = count(*pixels, "pixel");
+                let part = format!("{}, a part of {of} ({size})", self.hypothesis(*hypothesis));
+                match interval {
+                    None => format!("it belongs to {part}"),
+                    Some(interval) if (interval.low..=interval.high).contains(code) => {
+                        let (name, codes) = (interval.feature.name(), interval_text(*interval));
+                        format!("its {name} {code} puts it into {part}: {codes}")
+                    }
+                    Some(interval) => {
+                        let (name, codes) = (interval.feature.name(), interval_text(*interval));
+                        format!(
+                            "its {name} is {code}, but its patch is small and absorbed by {part}: {codes}"
+                        )
+                    }
+                }
+            }
             HistoryKind::Numbered { hypothesis, region: None } => {
                 format!("hypothesis {hypothesis} is not in the result")
             }

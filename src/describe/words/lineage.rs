@@ -12,6 +12,7 @@ impl Names {
             Birth::Part { of, pixels, .. } => {
                 format!("separated from {}: {}", self.hypothesis(of), count(pixels, "pixel"))
             }
+            Birth::Picture { pixels, .. } => format!("from the picture: {}", count(pixels, "pixel")),
         };
         let joined = ancestor.joined.map_or_else(String::new, |joined| match joined.how {
             JoinedHow::Absorbed { highlight_foot: highlight, object_foot: object, gap } => format!(
@@ -39,6 +40,8 @@ impl Names {
             sentences
                 .push((step, format!("separated from {}: {}", self.hypothesis(of), count(pixels, "pixel"))));
         }
+        sentences.extend(story.made.map(|(step, made)| (step, made.sentence(self))));
+        sentences.extend(story.searched.map(|(step, searched)| (step, searched.sentence(self))));
         sentences.extend(story.tests.iter().map(|&(step, test)| (step, test.sentence(self))));
         if let Some((step, chosen)) = story.highlight {
             sentences.push((step, format!("{} is its highlight", self.candidate(chosen.candidate))));

@@ -105,7 +105,15 @@ fn a_failed_skewed_t_names_the_test_and_its_limit() {
         gap: Measured::new(12.0, 8.0),
         position_percent: 31.0,
         position_limits: [50.0, 115.0],
-        verdict: CandidateVerdict { lines_meet: false, upper_half: false, positive: true, beyond: true },
+        angle_deg: Measured::new(40.0, 10.0),
+        verdict: CandidateVerdict {
+            lines_meet: false,
+            upper_half: false,
+            not_parallel: true,
+            by_gershon: false,
+            positive: true,
+            beyond: true,
+        },
         weight: 0.0,
         with_distorted: false,
     };

@@ -64,6 +64,8 @@ fn layer_menu(
     let combo = ComboBox::from_id_salt(name).width(104.0).height(490.0).selected_text(now);
     let mut chosen = false;
     let shown = combo.show_ui(ui, |ui| {
+        // The whole list is seen in a low window.
+        ui.spacing_mut().item_spacing.y = 1.0;
         for choice in Layer::ALL {
             let possible = !choice.needs_pinned() || state.pinned.is_some();
             let keys = keys_of(ui.ctx(), Action::Layer(choice));

@@ -144,6 +144,7 @@ impl HypothesisTable {
                 Status::Merged(_) => 3.0,
                 Status::Barren => 4.0,
                 Status::Dropped => 5.0,
+                Status::Divided => 6.0,
             },
             SortKey::Becomes => f64::from(RegionId::label(row.region)),
         };

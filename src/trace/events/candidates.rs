@@ -29,6 +29,8 @@ pub struct CandidateTested {
     pub position_percent: f64,
     /// Lowest and highest place allowed, in %.
     pub position_limits: [f64; 2],
+    /// Gershon's test: the angle between both lines, and the least angle of clusters that are not nearly parallel, degrees.
+    pub angle_deg: Measured<f64>,
     /// Which tests the neighbor passed.
     pub verdict: CandidateVerdict,
     /// Weight of the candidate among those that passed, pixels; 0 if the candidate failed.
@@ -65,13 +67,17 @@ pub enum CandidateSource {
 
 /// The tests of a highlight candidate, each true when passed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[allow(clippy::struct_excessive_bools, reason = "four independent verdicts")]
+#[allow(clippy::struct_excessive_bools, reason = "five independent verdicts, and which of two decides")]
 #[non_exhaustive]
 pub struct CandidateVerdict {
     /// The lines pass near enough to one another to form a skewed T.
     pub lines_meet: bool,
     /// The lines meet in the upper 50 % of the matte line.
     pub upper_half: bool,
+    /// Gershon's test: the lines are not nearly parallel. Where they also meet, the clusters intersect.
+    pub not_parallel: bool,
+    /// Whether Gershon's test decides in the place of the 50 % heuristic (reading `gershon_test`).
+    pub by_gershon: bool,
     /// The candidate's direction is positive in every band.
     pub positive: bool,
     /// The mean of the candidate lies beyond the meeting point.
@@ -81,7 +87,17 @@ pub struct CandidateVerdict {
 impl CandidateVerdict {
     /// Whether every test was passed.
     pub fn accepted(self) -> bool {
+        if self.by_gershon { self.accepted_by_gershon() } else { self.accepted_by_position() }
+    }
+
+    /// Whether every test was passed, with the 50 % heuristic.
+    pub fn accepted_by_position(self) -> bool {
         self.lines_meet && self.upper_half && self.positive && self.beyond
+    }
+
+    /// Whether every test was passed, with Gershon's test in the place of the 50 % heuristic.
+    pub fn accepted_by_gershon(self) -> bool {
+        self.lines_meet && self.not_parallel && self.positive && self.beyond
     }
 }
 

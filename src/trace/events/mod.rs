@@ -9,6 +9,7 @@
 //! and are no events, see [`super::StageTrace`].
 
 mod ambient;
+mod baseline;
 mod borders;
 mod branches;
 mod candidates;
@@ -23,6 +24,7 @@ mod vectors;
 mod windows;
 
 pub use ambient::*;
+pub use baseline::*;
 pub use borders::*;
 pub use branches::*;
 pub use candidates::*;
@@ -224,6 +226,12 @@ events! { $
     Plausibility "belief" { boxed PlausibilityTested(PlausibilityTested) }
     /// A clipped blob was filled, or not.
     Repair "clip repair" { boxed RepairTried(RepairTried) }
+    /// The histograms of a region were searched (section 7.2, an earlier method).
+    Histograms "histograms" { boxed HistogramsSearched(HistogramsSearched) }
+    /// The peaks of the whole picture's histogram were found (section 5.1, an earlier method).
+    Peaks "color peaks" { boxed ColorPeaksFound(ColorPeaksFound) }
+    /// A region of an earlier method was made (sections 5.1 and 7.2).
+    Patch "patch" { inline PatchMade(PatchMade) }
     /// A pixel changed its owner.
     Claim "claim" {}
     /// A change of owner was refused in a contest.

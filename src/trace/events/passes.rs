@@ -21,6 +21,10 @@ pub struct PassBegan {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Pass {
+    /// Regions are split by the histograms of color features (7.2, an earlier method).
+    Splitting,
+    /// The peaks of the whole picture's histogram become regions (5.1, an earlier method).
+    Clusters,
     /// Merged areas start hypotheses, whose cylinders grow (5.3).
     Hypotheses,
     /// Broad highlights are absorbed by their objects (refines 5.3).
@@ -69,6 +73,8 @@ impl Pass {
     /// The name on the timeline and in traces.
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Splitting => "region splitting",
+            Self::Clusters => "color clusters",
             Self::Hypotheses => "hypotheses",
             Self::Absorbing => "absorb highlights",
             Self::SecondLook(_) => "second look",

@@ -15,8 +15,8 @@ use crate::trace::stage_trace::{Move, Owners};
 use crate::trace::timeline::EventId;
 use crate::trace::{
     Absorbed, ComponentSplit, Contest, Dropped, Event, GrowthBegan, HoleFilled, HypothesisChosen,
-    HypothesisPassedOver, Measure, Pass, PassBegan, PassedOver, PixelKind, RegionsMerged, Renumbered, Stage,
-    StageTrace, Trace,
+    HypothesisPassedOver, Measure, Pass, PassBegan, PassedOver, PatchMade, PixelKind, RegionsMerged,
+    Renumbered, Stage, StageTrace, Trace,
 };
 
 /// The cause of the changes of owner that follow an event.
@@ -397,6 +397,10 @@ impl<'a> HistoryBuilder<'a> {
             }
             Event::ComponentSplit(ComponentSplit { hypothesis, part, pixels }) => {
                 Some(HistoryKind::Separated { hypothesis, part, pixels })
+            }
+            Event::PatchMade(PatchMade { hypothesis, of, pixels, interval, .. }) => {
+                let code = interval.map_or(0, |interval| interval.feature.code(self.color));
+                Some(HistoryKind::Patched { hypothesis, of, pixels, interval, code })
             }
             _ => None,
         }

@@ -18,7 +18,7 @@ mod tests;
 
 pub use split::{BorderLimit, LocalFate, LocalStory, SplitStory, Unfit};
 
-use super::{Class, Contest, Event, PassedOver, Stage, Trace};
+use super::{Class, CodeInterval, Contest, Event, PassedOver, Stage, Trace};
 use crate::color::Trial;
 use crate::photo::{LinearImage, Masks};
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
@@ -156,6 +156,20 @@ pub enum HistoryKind {
         part: HypothesisId,
         /// Pixels of the part.
         pixels: u32,
+    },
+    /// An earlier method put the pixel into a region, which may be a part of another region (5.1, 7.2).
+    Patched {
+        /// The region.
+        hypothesis: HypothesisId,
+        /// The region that it is a part of; none: of the picture.
+        of: Option<HypothesisId>,
+        /// Number of pixels of the region.
+        pixels: u32,
+        /// The feature that decided, with its codes in the region; none where no feature decided.
+        interval: Option<CodeInterval>,
+        /// The pixel's code of that feature; 0 where no feature decided. A code outside the interval belongs to a small patch that was
+        /// absorbed.
+        code: u8,
     },
     /// The hypothesis that has the pixel became a region of the result, or none.
     Numbered {

@@ -1,10 +1,11 @@
-//! The four tests of a skewed T (section 5.4.1).
+//! The four tests of a skewed T, and Gershon's test beside them (section 5.4.1).
 
 use super::{Limits, ThresholdTest};
 use crate::trace::CandidateTested;
 
-/// The tests of a highlight candidate, in the order in which the tests are made.
-pub fn candidate_tests(test: &CandidateTested) -> [ThresholdTest; 4] {
+/// The tests of a highlight candidate, in the order in which the tests are made; the last is Gershon's, which decides in the place of the
+/// second under the reading `gershon_test` only.
+pub fn candidate_tests(test: &CandidateTested) -> [ThresholdTest; 5] {
     let direction = &test.line.direction;
     let least = direction.iter().fold(f64::INFINITY, |least, band| least.min(*band));
     let beyond = (test.line.mean - test.meeting[1]).dot(direction);
@@ -41,6 +42,15 @@ pub fn candidate_tests(test: &CandidateTested) -> [ThresholdTest; 4] {
             passed: verdict.beyond,
             tip: "The cluster lies where light was added, not where it was taken away (section 5.4.1).",
         },
+        ThresholdTest {
+            passed: verdict.not_parallel,
+            ..ThresholdTest::at_least(
+                "Gershon: angle of the lines",
+                test.angle_deg,
+                "\u{b0}",
+                "Gershon's test, which the 50 % heuristic replaces: nearly parallel clusters are two matte areas, clusters that intersect are a matte area and its highlight (section 5.4.1). It decides only under the reading gershon_test.",
+            )
+        },
     ]
 }
 
@@ -57,7 +67,14 @@ mod tests {
         assert_eq!(passed[0], (true, "gap 4.0 \u{2264} 10.0 counts".to_owned()));
         assert_eq!(passed[1], (true, "meets at 75 within 50\u{2013}120 %".to_owned()));
         assert_eq!(passed[3], (true, "cluster beyond the line 30.00 \u{2265} 0.00 counts".to_owned()));
-        let verdict = CandidateVerdict { lines_meet: false, upper_half: false, positive: true, beyond: true };
+        let verdict = CandidateVerdict {
+            lines_meet: false,
+            upper_half: false,
+            not_parallel: true,
+            by_gershon: false,
+            positive: true,
+            beyond: true,
+        };
         let failed = texts(&CandidateTested {
             gap: Measured::new(12.3, 10.0),
             position_percent: 31.0,

@@ -6,8 +6,9 @@ use crate::color::vec3;
 use crate::describe::Names;
 use crate::raster::{HypothesisId, PixelIndex, Raster};
 use crate::trace::{
-    Class, Contest, Event, HypothesisPassedOver, LocalStart, Measure, Measured, MergeTried, PassedOver,
-    RepairTried, RepairVerdict, Replay, Stage, Step, WindowClassified,
+    Class, Contest, Event, FeatureVerdict, HistogramsSearched, HypothesisPassedOver, LocalStart, Measure,
+    Measured, MergeTried, Pass, PassedOver, RepairTried, RepairVerdict, Replay, Stage, Step,
+    WindowClassified,
 };
 
 /// The findings about the step taken last; none before the first step. `colors`: those of the working picture, counts.
@@ -28,13 +29,26 @@ pub fn inspect_step(replay: &Replay, names: &Names, colors: &Raster<[f32; 3]>) -
         tone,
         sentence: names.step(&step),
         tests,
-        section: section(replay.stage()),
+        section: section(replay),
     })
 }
 
-/// The section of a stage.
-const fn section(stage: Option<Stage>) -> &'static str {
-    match stage {
+/// The search of histograms that the step taken last is; none for any other step.
+pub fn histograms_at_cursor(replay: &Replay) -> Option<&HistogramsSearched> {
+    match replay.last()? {
+        Step::Event(Event::HistogramsSearched(searched)) => Some(&**searched),
+        _ => None,
+    }
+}
+
+/// The section of the stage at the cursor; of an earlier method the section that describes it.
+fn section(replay: &Replay) -> &'static str {
+    match replay.pass() {
+        Some(Pass::Splitting) => return "7.2",
+        Some(Pass::Clusters) => return "5.1",
+        _ => {}
+    }
+    match replay.stage() {
         None | Some(Stage::Masks) => "4",
         Some(Stage::Classify) => "5.2.1",
         Some(Stage::Merge) => "5.2.2",
@@ -71,6 +85,7 @@ fn event_verdict(event: &Event) -> (String, Tone) {
         Event::HypothesisChosen(_) | Event::CandidateChosen(_) => of(true, "Taken", ""),
         Event::HypothesisPassedOver(_) | Event::Dropped(_) => of(false, "", "Refused"),
         Event::Absorbed(_) => of(false, "", "Absorbed"),
+        Event::HistogramsSearched(searched) => of(searched.chosen().is_some(), "Split", "Homogeneous"),
         Event::CandidateTested(test) => of(test.verdict.accepted(), "Skewed T", "No skewed T"),
         Event::VectorsFitted(fitted) => holds_verdict(fitted.is_judged, fitted.model_fits),
         Event::LocalBegan(began) => of(began.start == LocalStart::Begins, "Begins", "Does not begin"),
@@ -103,6 +118,7 @@ fn event_tests(event: &Event, replay: &Replay) -> Vec<ThresholdTest> {
         }
         Event::HypothesisPassedOver(passed) => passed_over_tests(passed),
         Event::CandidateTested(test) => candidate_tests(test).to_vec(),
+        Event::HistogramsSearched(searched) => histogram_tests(searched),
         Event::VectorsFitted(fitted) if fitted.is_judged => fit_tests(fitted),
         Event::BranchesSought(sought) => sought
             .gaps
@@ -151,6 +167,17 @@ fn merge_tests(tried: &MergeTried) -> Vec<ThresholdTest> {
 fn chi_square(measured: Measured<f32>) -> ThresholdTest {
     let tip = "\u{3c7}\u{b2} of the variances that are left, against the quantile of noise: below it, no direction is left but noise (section 5.2.1, table 1).";
     ThresholdTest::at_most("\u{3c7}\u{b2}", widened(measured), "", tip)
+}
+
+/// The scores of the features of a region that have a valley (section 7.2).
+fn histogram_tests(searched: &HistogramsSearched) -> Vec<ThresholdTest> {
+    let tip = "Score of the least prominent valley in the feature's histogram, of 1000: 0 where the valley is as high as the lower peak beside it (section 7.2).";
+    let with_valley = searched.features.iter().filter(|feature| feature.verdict != FeatureVerdict::NoValley);
+    with_valley
+        .map(|feature| {
+            ThresholdTest::at_least(feature.feature.name(), widened(feature.score), "of 1000", tip)
+        })
+        .collect()
 }
 
 fn passed_over_tests(passed: &HypothesisPassedOver) -> Vec<ThresholdTest> {

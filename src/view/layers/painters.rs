@@ -202,6 +202,18 @@ pub(super) fn regions(&PaintInput { ref base, shown, look, .. }: &PaintInput) ->
     base.overlaid(look.fill, &styles, |x, y| usize::from(labels[y * labels.width() + x]))
 }
 
+/// The regions that Phoenix finds, each in a color that its neighbors do not have.
+pub(super) fn phoenix(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> Raster<[u8; 4]> {
+    let labels = shown.phoenix_labels();
+    let colors = colored(labels);
+    let most = labels.as_slice().iter().max().map_or(0, |&label| usize::from(label));
+    let mut styles = vec![[0; 4]; most + 1];
+    for (&label, &color) in labels.as_slice().iter().zip(colors.as_slice()).filter(|(label, _)| **label > 0) {
+        styles[usize::from(label)] = look.style(color, true);
+    }
+    base.overlaid(look.fill, &styles, |x, y| usize::from(labels[y * labels.width() + x]))
+}
+
 /// Regions after the linear stage.
 pub(super) fn linear(input: &PaintInput) -> Raster<[u8; 4]> {
     stage(input, input.shown.linear_labels())

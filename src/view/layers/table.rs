@@ -180,4 +180,13 @@ layers! {
         numbers: None,
         paint: painters::difference,
     };
+    /// The regions of Phoenix, to compare with (7.2).
+    Phoenix: LayerRow {
+        name: "Phoenix",
+        tip: "What Phoenix finds instead: regions split by the histograms of color features (section 7.2, color figure 15).",
+        kind: LayerKind::Overlay,
+        legend: &[],
+        numbers: None,
+        paint: painters::phoenix,
+    };
 }

@@ -36,6 +36,8 @@ pub enum Status {
     Barren,
     /// The hypothesis was too small to keep.
     Dropped,
+    /// The hypothesis, a region of an earlier method, was divided into parts.
+    Divided,
 }
 
 impl Status {
@@ -48,6 +50,7 @@ impl Status {
             Self::Merged(into) => format!("merged into {into}"),
             Self::Barren => "barren".to_owned(),
             Self::Dropped => "dropped".to_owned(),
+            Self::Divided => "divided".to_owned(),
         }
     }
 }
@@ -66,6 +69,7 @@ pub fn hypothesis_rows(replay: &Replay, names: &RegionNames) -> Vec<HypothesisRo
             Some(End::Absorbed(by)) => Status::Absorbed(by),
             Some(End::Merged(into)) => Status::Merged(into),
             Some(End::Dropped) => Status::Dropped,
+            Some(End::Divided) => Status::Divided,
             None if at_work == Some(id) => Status::AtWork,
             None => Status::Stands,
         },

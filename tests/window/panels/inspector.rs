@@ -78,6 +78,24 @@ fn a_selected_pixel_has_the_values_of_the_readout_and_its_distances_from_the_hyp
 }
 
 #[test]
+fn a_step_of_phoenix_has_its_histograms_and_scores() {
+    let mut window = inspector();
+    apply(&mut window, Edit::SetMethod(Method::Phoenix));
+    go_to(
+        &mut window,
+        |event| matches!(event, Event::HistogramsSearched(searched) if searched.chosen().is_some()),
+    );
+    assert!(says(&window, "Verdict: Split") && says(&window, "section 7.2"));
+    assert!(says(&window, "Histogram of hue: chosen, valley at"), "the histogram that decided is drawn");
+    assert!(says(&window, "passed: hue"), "its score has its limit");
+    go_to(
+        &mut window,
+        |event| matches!(event, Event::HistogramsSearched(searched) if searched.chosen().is_none()),
+    );
+    assert!(says(&window, "Verdict: Homogeneous"));
+}
+
+#[test]
 fn a_hovered_pixel_takes_the_place_of_the_selected_one_and_moves_nothing_below() {
     let mut window = inspector();
     let labels = shown(&window).labels().clone();

@@ -6,6 +6,8 @@
 use crate::window::{Fixture, Window, apply, named, region, with_software_driver};
 use dichroscope::app::{Command, DebugCommand, Edit, ViewCommand};
 use dichroscope::gui::Pane;
+use dichroscope::params::Method;
+use dichroscope::trace::Event;
 use dichroscope::view::{Arrangement, ColorBy, Fill, ImageSettings, Layer, ProfileLine, Theme};
 use egui::accesskit::Role;
 use egui::{Rect, Vec2, pos2, vec2};
@@ -38,6 +40,18 @@ fn look(window: &mut Window, change: impl FnOnce(&mut ImageSettings)) {
     let mut image = window.state().state().view.image.clone();
     change(&mut image);
     apply(window, ViewCommand::Image(image));
+}
+
+#[test]
+fn the_histograms_of_phoenix() {
+    let Some(mut window) = opened(vec2(320.0, 430.0), Some(Pane::Inspector)) else { return };
+    apply(&mut window, Edit::SetMethod(Method::Phoenix));
+    let trace = std::sync::Arc::clone(window.state().state().debugger.trace().unwrap());
+    let splits =
+        |event: &Event| matches!(event, Event::HistogramsSearched(searched) if searched.chosen().is_some());
+    let (step, _) = trace.events().find(|(_, event)| splits(event)).unwrap();
+    apply(&mut window, Command::Debug(DebugCommand::Seek(step + 1)));
+    compare(&mut window, "inspector-histograms");
 }
 
 #[test]

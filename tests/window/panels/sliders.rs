@@ -165,6 +165,22 @@ fn the_papers_method_shows_its_readings_and_takes_refinements() {
 }
 
 #[test]
+fn phoenix_has_features_and_numbers_of_its_own() {
+    let mut window = tiny_window();
+    window.state_mut().show_alone(Some(Pane::Parameters));
+    window.run_steps(2);
+    click(&mut window, Role::Button, "phoenix");
+    assert_eq!(state(&window).document.params.method, Method::Phoenix);
+    let features = |window: &Window| state(window).document.params.phoenix.features.to_string();
+    assert_eq!(features(&window), "I,H,S");
+    click(&mut window, Role::CheckBox, "hue");
+    assert_eq!(features(&window), "I,S");
+    assert!(says(&window, "absscore") && !says(&window, "edge body"), "no refinement of the refined method");
+    click(&mut window, Role::Button, "top-down");
+    assert!(!says(&window, "absscore") && state(&window).document.params.method == Method::TopDown);
+}
+
+#[test]
 fn methods_and_switches_are_chosen_and_reset() {
     let mut window = tiny_window();
     let switch = |window: &Window| state(window).document.params.refine.edge_body;

@@ -1,0 +1,97 @@
+//! The earlier methods on the command line, the count of Gershon's test, and what was made elsewhere.
+
+use crate::folder::{WorkFolder, tiny};
+use dichroscope::params::{Method, PhoenixSettings};
+use serde_json::Value;
+use std::fs;
+
+#[test]
+fn phoenix_takes_features_and_numbers_and_its_report_says_so() {
+    let work = WorkFolder::new();
+    work.photo("a.png");
+    work.succeeds(
+        "analyze a.png --out out --method phoenix --features R,g --phoenix maxmin=200 --phoenix noise=20",
+    );
+    let params = work.report("out/a").params;
+    let expected = PhoenixSettings {
+        features: "R,G".parse().unwrap(),
+        maxmin: 200,
+        noise: 20,
+        ..PhoenixSettings::default()
+    };
+    assert_eq!((params.method, params.phoenix), (Method::Phoenix, Some(expected)));
+    assert_eq!(params.asked().phoenix, expected);
+    work.put("p.toml", b"method = \"phoenix\"\n[phoenix]\nfeatures = \"I\"\nsplitmin = 90\n");
+    work.succeeds("analyze a.png --out out --params p.toml --phoenix depth=3");
+    let phoenix = work.report("out/a").params.phoenix.unwrap();
+    assert_eq!((phoenix.features.to_string().as_str(), phoenix.splitmin, phoenix.depth), ("I", 90, 3));
+    work.succeeds("analyze a.png --out out --method top-down");
+    let report = work.report("out/a");
+    assert_eq!(
+        (report.params.method, report.params.phoenix, report.illuminant.direction),
+        (Method::TopDown, None, None)
+    );
+    let why = work.succeeds("why a.png 40,20 --method phoenix").out;
+    assert!(why.contains("it belongs to hypothesis 1, a part of the picture"), "{why}");
+    assert!(why.contains("its hue 205 puts it into"), "{why}");
+    work.fails(2, "analyze a.png --out out --features R", "belong to `--method phoenix`");
+    work.fails(
+        2,
+        "analyze a.png --out out --method phoenix --features X",
+        "is no feature: R, G, B, I (intensity)",
+    );
+    work.fails(
+        2,
+        "analyze a.png --out out --method phoenix --phoenix valley=3",
+        "is no parameter of Phoenix: depth, ",
+    );
+    work.fails(
+        2,
+        "analyze a.png --out out --method phoenix --phoenix hsmooth=0",
+        "phoenix hsmooth = 0: expected",
+    );
+    work.fails(
+        2,
+        "analyze a.png --out out --method phoenix --with edge_body",
+        "belong to `--method refined`",
+    );
+}
+
+#[test]
+fn evaluate_counts_which_test_of_candidates_was_right() {
+    let work = WorkFolder::new();
+    work.succeeds("analyze TINY/camera8.png --out out --method paper");
+    let text = work.succeeds("evaluate out --truth TINY --candidates").out;
+    assert!(text.contains("50 % right") && text.lines().last().unwrap().starts_with("SUM"), "{text}");
+    let all: Value =
+        serde_json::from_str(&work.succeeds("evaluate out --truth TINY --candidates --json").out).unwrap();
+    let counts = &all["candidates"]["camera8"];
+    let number = |name: &str| counts[name].as_u64().unwrap();
+    assert!(number("tests") >= number("highlights") && number("highlights") > 0, "{counts}");
+    assert!(number("right_by_position") <= number("tests"));
+}
+
+#[test]
+fn what_was_made_elsewhere_is_held_against_a_result() {
+    let work = WorkFolder::new();
+    work.succeeds("analyze TINY/camera8.png --out out");
+    let body = tiny().join("body.exr").display().to_string();
+    let held =
+        format!("compare out/camera8 --labels TINY/labels.png --diffuse {body} --truth TINY --out held");
+    let text = work.succeeds(&held).out;
+    assert!(text.starts_with("agreement") || text.contains("agreement"), "{text}");
+    assert_eq!(work.list("held"), ["difference.png", "diffuse.png", "labels.png"]);
+    let all: Value = serde_json::from_str(&work.succeeds(&format!("{held} --json")).out).unwrap();
+    assert_eq!(all["elsewhere"]["ari"], 1.0, "the true labels: {all}");
+    assert!(all["elsewhere"]["psnr_body"].as_f64().unwrap() > 60.0, "the true body: {all}");
+    assert!(all["result"]["ari"].as_f64().unwrap() > 0.9 && all["agreement"]["ari"].as_f64().unwrap() > 0.9);
+
+    // The result's own colored regions are a label map too, in which each color is a label.
+    let own = "compare out/camera8 --labels out/camera8/stage-5-clipping.png --json";
+    let all: Value = serde_json::from_str(&work.succeeds(own).out).unwrap();
+    assert!(all["agreement"]["shared"] == 1.0 && all["agreement"].get("psnr_body").is_none(), "{all}");
+    work.fails(2, "compare out/camera8", "expected --labels FILE, --diffuse FILE or both");
+    work.fails(2, "compare out --labels TINY/labels.png", "holds no result");
+    fs::copy("assets/plastic8_white/labels.png", work.path("other.png")).unwrap();
+    work.fails(2, "compare out/camera8 --labels other.png", "the label map is 512\u{d7}480");
+}
