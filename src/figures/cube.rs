@@ -83,7 +83,7 @@ pub fn svg(scene: &Scene, side: Side) -> String {
     );
     svg.push_str(&frame(&projection, edge));
     let shapes: Vec<(RegionShapes, String)> = RegionId::all(scene.report.regions.len())
-        .take(MOST_HYPOTHESES)
+        .take(if scene.lacks_stage().is_some() { 0 } else { MOST_HYPOTHESES })
         .filter_map(|region| {
             let [r, g, b] = scene.shown.region_colors.get(region.index())?;
             Some((region_shapes(&scene.shown, region)?, format!("#{r:02x}{g:02x}{b:02x}")))

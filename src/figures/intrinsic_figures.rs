@@ -3,6 +3,7 @@
 
 use super::html::{Content, Figure};
 use super::numbers::{counted, decimals, percent};
+use super::parameters::method_name;
 use super::picture::{Values, image};
 use super::profile_plot;
 use super::scene::Scene;
@@ -18,6 +19,8 @@ pub fn body(scene: &Scene) -> Figure {
     let split = regions.iter().filter(|region| region.separable).count();
     let content = if regions.is_empty() {
         Content::Absent(no_region(scene))
+    } else if let Some(why) = scene.lacks_stage() {
+        Content::Absent(why)
     } else {
         Content::Html(image(&scene.painted(Layer::Body), Values::Light, "Body reflection"))
     };
@@ -56,6 +59,8 @@ pub fn surface(scene: &Scene) -> Figure {
         .fold(0.0f32, |most, &v| most.max(v));
     let content = if scene.report.regions.is_empty() {
         Content::Absent(no_region(scene))
+    } else if let Some(why) = scene.lacks_stage() {
+        Content::Absent(why)
     } else if scene.report.illuminant.direction.is_none() {
         Content::Absent(
             "Not shown: no light was found, so that all light counts as body reflection.".to_owned(),
@@ -179,7 +184,9 @@ pub fn other_method(scene: &Scene) -> Figure {
         return Figure {
             title: "Segmentation by another method",
             counterpart: "color figure 15",
-            content: Content::Absent("Not shown: no segmentation by another method was given.".to_owned()),
+            content: Content::Absent(
+                "Not shown: the regions are those of Phoenix; another method shows both.".to_owned(),
+            ),
             caption: String::new(),
         };
     };
@@ -189,7 +196,8 @@ pub fn other_method(scene: &Scene) -> Figure {
         format!("<div>{}<span>{name}</span></div>", image(&opaque(labels), Values::Codes, &name))
     };
     let own = &scene.shown.analysis.finals.labels;
-    let html = [quarter(&other.labels, &other.name), quarter(own, "dichromatic model")].concat();
+    let own_name = method_name(scene.shown.params.method);
+    let html = [quarter(&other.labels, &other.name), quarter(own, own_name)].concat();
     let regions = |labels: &LabelMap| {
         let mut seen = vec![false; usize::from(u16::MAX) + 1];
         labels.as_slice().iter().for_each(|&label| seen[usize::from(label)] = true);
@@ -197,7 +205,7 @@ pub fn other_method(scene: &Scene) -> Figure {
     };
     let agreement = agreement(scene, &other.labels).map_or_else(String::new, |[theirs, ours]| {
         format!(
-            "Adjusted Rand index against the true objects: {} for {}, {} for the dichromatic model. ",
+            "Adjusted Rand index against the true objects: {} for {}, {} for the {own_name}. ",
             decimals(theirs, 3),
             other.name,
             decimals(ours, 3)
@@ -208,7 +216,7 @@ pub fn other_method(scene: &Scene) -> Figure {
         counterpart: "color figure 15",
         content: Content::Html(format!("<div class=\"quarters\">{html}</div>")),
         caption: format!(
-            "{}: {}; the dichromatic model: {}. {} {agreement}",
+            "{}: {}; the {own_name}: {}. {} {agreement}",
             other.name,
             counted(regions(&other.labels), "region", "regions"),
             counted(regions(own), "region", "regions"),

@@ -3,15 +3,15 @@
 use super::html::{Column, Page, Row, Table, escaped};
 use super::numbers::{decimals, short};
 use super::scene::Scene;
-use crate::params::{Method, Parameter, Reading, Switch};
+use crate::params::{Method, Parameter, PhoenixParameter, Reading, Switch};
 
 /// The method in words.
 pub fn method_name(method: Method) -> &'static str {
     match method {
         Method::Refined => "refined method",
         Method::Paper => "method of the paper",
-        Method::Phoenix => "Phoenix",
-        Method::TopDown => "clusters of the whole histogram",
+        Method::Phoenix => "method Phoenix",
+        Method::TopDown => "top-down method",
     }
 }
 
@@ -105,6 +105,17 @@ fn switches(scene: &Scene) -> String {
                 format!("All refinements are on but {}.", off.join(", "))
             }
         }
+        Method::Phoenix => {
+            let settings = &params.phoenix;
+            let values = PhoenixParameter::ALL
+                .map(|parameter| format!("{} {}", parameter.name(), parameter.get(settings)));
+            format!(
+                "Of these, Phoenix reads only those of the masks. Its own: features {}, {}.",
+                settings.features,
+                values.join(", ")
+            )
+        }
+        Method::TopDown => "Of these, the top-down method reads only those of the masks.".to_owned(),
         Method::Paper => {
             let on = named(true);
             let readings = &params.paper.readings;

@@ -4,7 +4,7 @@ use crate::analysis::Analysis;
 use crate::color::linear_from_srgb;
 use crate::describe::Report;
 use crate::intrinsic::PixelKind;
-use crate::params::Params;
+use crate::params::{Method, Params, PhoenixParameter, PhoenixSettings};
 use crate::photo::{Photo, ReadOptions};
 use crate::raster::{LabelMap, Mask, UNASSIGNED};
 use crate::truth::GroundTruth;
@@ -45,7 +45,7 @@ pub struct Measured {
     pub source: String,
 }
 
-/// A segmentation of the photograph by another method.
+/// A segmentation of the photograph by another method; without another one it is that of Phoenix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OtherSegmentation {
     /// The method's name.
@@ -139,7 +139,8 @@ impl Scene {
         let row = profile_row(&shown.analysis);
         let look = Look { exposure_ev: exposure_ev(&shown.picture), ..Look::default() };
         let line = row_ends(&shown.picture, row);
-        Self { shown, name: report.image.file.clone(), report, look, line, measured, other: None, counts }
+        let other = phoenix(&shown);
+        Self { shown, name: report.image.file.clone(), report, look, line, measured, other, counts }
     }
 
     /// The same with another name than that of the file, as where several files have one name.
@@ -212,6 +213,16 @@ impl Scene {
         &self.name
     }
 
+    /// Why a stage of the dichromatic model is not shown, where the regions were found by a system that the paper is held against.
+    pub(super) fn lacks_stage(&self) -> Option<String> {
+        let what = match self.shown.params.method {
+            Method::Refined | Method::Paper => return None,
+            Method::Phoenix => "Phoenix finds regions by the histograms of color features",
+            Method::TopDown => "the top-down method finds regions by the histogram of the whole picture",
+        };
+        Some(format!("Not shown: {what}, without this stage."))
+    }
+
     /// A layer of the result, at the size of the photograph.
     pub(super) fn painted(&self, layer: Layer) -> crate::raster::Raster<[u8; 4]> {
         // The exposure is the gain of the noise image too, whose scale is the slice.
@@ -228,6 +239,25 @@ impl Scene {
         let (stops, what) = (ev.abs(), if ev < 0.0 { "darker" } else { "brighter" });
         format!("The picture is shown {stops:.1} stops {what} than the file. ")
     }
+}
+
+/// The segmentation by Phoenix, with the settings of the result; none where the result is that of Phoenix.
+fn phoenix(shown: &ResultSnapshot) -> Option<OtherSegmentation> {
+    if shown.params.method == Method::Phoenix {
+        return None;
+    }
+    let settings = &shown.params.phoenix;
+    let changed = PhoenixParameter::ALL.into_iter().filter_map(|parameter| {
+        let value = parameter.get(settings);
+        let is_changed = value != parameter.get(&PhoenixSettings::default());
+        is_changed.then(|| format!(", {} {value}", parameter.name()))
+    });
+    let about = format!(
+        "Phoenix (section 7.2) splits regions at valleys in the histograms of color features, here {}{}.",
+        settings.features.to_string().replace(',', ", "),
+        changed.collect::<String>()
+    );
+    Some(OtherSegmentation { name: "Phoenix".to_owned(), about, labels: shown.phoenix_labels().clone() })
 }
 
 /// Numbers of pixels, of the photograph.

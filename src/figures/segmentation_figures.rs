@@ -45,12 +45,14 @@ pub fn histogram(scene: &Scene) -> Figure {
     let [left, right] = cube::SIDES.map(|side| cube::svg(scene, side));
     let bins = scene.shown.picture.histogram.bins.len();
     let regions = scene.report.regions.len();
-    let drawn = if regions > cube::MOST_HYPOTHESES {
+    let drawn = if regions > cube::MOST_HYPOTHESES && scene.lacks_stage().is_none() {
         format!("Hypotheses are drawn for the {} largest regions. ", cube::MOST_HYPOTHESES)
     } else {
         String::new()
     };
-    let meaning = if regions == 0 {
+    let meaning = if scene.lacks_stage().is_some() {
+        "The method has no hypothesis to draw. "
+    } else if regions == 0 {
         "No region was found, so that there is no hypothesis to draw. "
     } else {
         "Outlines: the cylinders of the linear hypotheses, in the colors of the regions; colored lines: matte lines; white lines: \
@@ -89,7 +91,9 @@ fn window_size(scene: &Scene) -> usize {
 pub fn classification(scene: &Scene) -> Figure {
     let (counts, without) = window_counts(scene);
     let all: usize = counts.iter().sum();
-    let content = if all == 0 {
+    let content = if let Some(why) = scene.lacks_stage() {
+        Content::Absent(why)
+    } else if all == 0 {
         Content::Absent("Not shown: no window has enough usable pixels to be classified.".to_owned())
     } else {
         let picture =
@@ -180,7 +184,9 @@ pub fn areas(scene: &Scene) -> Figure {
     let block = scene.shown.analysis.working.blocks.side();
     let least = scene.shown.analysis.used.get(Parameter::MinArea);
     let large = sizes.iter().filter(|&&size| size as f64 >= least * (block * block) as f64).count();
-    let content = if found == 0 {
+    let content = if let Some(why) = scene.lacks_stage() {
+        Content::Absent(why)
+    } else if found == 0 {
         Content::Absent("Not shown: no window has a class, so that there is no area.".to_owned())
     } else {
         layer(scene, Layer::Areas, Values::Codes, "Merged areas, each in a color")
@@ -209,7 +215,9 @@ fn regions_of(labels: &LabelMap) -> usize {
 pub fn linear(scene: &Scene) -> Figure {
     let matte = &scene.shown.analysis.matte;
     let regions = regions_of(&matte.labels);
-    let content = if regions == 0 {
+    let content = if let Some(why) = scene.lacks_stage() {
+        Content::Absent(why)
+    } else if regions == 0 {
         Content::Absent("Not shown: no linear hypothesis was found.".to_owned())
     } else {
         layer(scene, Layer::Linear, Values::Codes, "Regions of linear hypotheses")
@@ -233,7 +241,9 @@ pub fn planar(scene: &Scene) -> Figure {
     let regions = regions_of(&planar.labels);
     let planes =
         planar.hypotheses.iter().filter(|hypothesis| hypothesis.alive && hypothesis.plane.is_some()).count();
-    let content = if planes == 0 {
+    let content = if let Some(why) = scene.lacks_stage() {
+        Content::Absent(why)
+    } else if planes == 0 {
         let why = if planar.illuminant.is_none() {
             format!("no light was found ({})", scene.report.illuminant.reason)
         } else {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::analysis::Session;
 use crate::describe::Timings;
-use crate::params::Params;
+use crate::params::{Method, Params};
 use crate::photo::{EncodingChoice, Photo, ReadOptions, decode};
 use crate::raster::Raster;
 use crate::truth::sample::Sample;
@@ -99,8 +99,20 @@ fn a_page_holds_all_figures_and_tables_and_needs_nothing_else() {
                 && html.contains("tables 2 to 5")
                 && html.contains("table 6")
         );
-        assert_eq!(html.matches("class=\"absent\"").count(), 1, "only the other method is missing");
+        assert_eq!(html.matches("class=\"absent\"").count(), 0, "nothing is missing");
+        assert!(html.contains("<span>Phoenix</span>") && html.contains("Phoenix: "));
         assert!(!without_data(&html).contains("NaN"));
+    }
+}
+
+#[test]
+fn methods_without_planes_say_which_figures_they_lack() {
+    for (method, figures) in [(Method::Phoenix, 7), (Method::TopDown, 6)] {
+        let html = page(&tiny(&Params::of(method)), None);
+        assert_balanced(&html);
+        assert_eq!(html.matches("without this stage.").count(), 6, "{method:?}");
+        assert_eq!(html.matches("class=\"absent\"").count(), figures + 1, "{method:?}, and the noise image");
+        assert!(html.contains("<span>Phoenix</span>") == (method == Method::TopDown));
     }
 }
 
@@ -166,7 +178,7 @@ fn another_segmentation_is_shown_beside_the_own_one() {
         labels: Raster::filled(width, height, 1u16),
     };
     let html = page(&plain(30, 20, [0; 3]).with_other(other(30, 20)).unwrap(), None);
-    assert!(html.contains("Phoenix: 1\u{a0}region; the dichromatic model: 0\u{a0}regions. Three features."));
+    assert!(html.contains("Phoenix: 1\u{a0}region; the refined method: 0\u{a0}regions. Three features."));
     assert!(plain(30, 20, [0; 3]).with_other(other(20, 30)).is_err());
 }
 

@@ -121,6 +121,12 @@ fn gallery() -> Vec<GalleryPicture> {
         arrangement: Arrangement::Wipe(0.5),
         ..ImageSettings::default()
     };
+    let beside = ImageSettings {
+        layer: Layer::Phoenix,
+        other: Layer::Regions,
+        arrangement: Arrangement::SideBySide,
+        ..ImageSettings::default()
+    };
     vec![
         whole_window("window"),
         GalleryPicture { theme: Theme::Light, ..whole_window("window-light") },
@@ -141,6 +147,8 @@ fn gallery() -> Vec<GalleryPicture> {
         GalleryPicture { method: Method::Paper, ..image("paper-planar", Layer::Planar) },
         GalleryPicture { method: Method::Paper, ..image("paper-surface", Layer::Surface) },
         GalleryPicture { method: Method::Paper, pane: Some(Pane::Plane), ..whole_window("paper-plane") },
+        // Color figure 15, with the regions of the paper's method beside it.
+        GalleryPicture { method: Method::Paper, image: beside, ..image("paper-phoenix", Layer::Phoenix) },
     ]
 }
 
