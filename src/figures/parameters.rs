@@ -95,8 +95,6 @@ fn switches(scene: &Scene) -> String {
         Switch::ALL.into_iter().filter(|&switch| refine.get(switch) == on).map(Switch::name).collect()
     };
     match params.method {
-        Method::Phoenix => format!("Features: {}.", params.phoenix.features),
-        Method::TopDown => "No switches.".to_owned(),
         Method::Refined => {
             let off = named(false);
             if off.is_empty() {
