@@ -60,6 +60,8 @@ pub enum Action {
     OneToOne,
     /// Switch between outlines and fills.
     Outline,
+    /// Lock readout and inspector to the selected pixel or region, or let them follow the pointer.
+    LockReadout,
     /// Switch between the light and the dark theme.
     Theme,
     /// Move the debugger's cursor, or start or stop recording.

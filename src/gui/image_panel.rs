@@ -217,7 +217,7 @@ impl ImagePanel {
             hovered_pixel =
                 self.show_view(ui, cx, settings, Placement::new(full, size, settings), Slot::Layer);
         }
-        self.send_hover(cx, hovered_pixel);
+        self.send_hover(cx, hovered_pixel.filter(|_| !settings.readout_locked));
     }
 
     /// Shows the second view with a photograph of another size than `size`, the size of the photograph shown. Returns the pixel of

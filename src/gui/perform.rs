@@ -47,13 +47,16 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
             cx.send(ViewCommand::Theme(if cx.state.view.theme == Dark { Light } else { Dark }));
         }
         Action::Debug(action) => move_cursor(action, cx),
-        Action::Layer(_) | Action::Tool(_) | Action::Fit | Action::OneToOne | Action::Outline => {
-            change_image_view(action, cx);
-        }
+        Action::Layer(_)
+        | Action::Tool(_)
+        | Action::Fit
+        | Action::OneToOne
+        | Action::Outline
+        | Action::LockReadout => change_image_view(action, cx),
     }
 }
 
-/// Changes the layer, tool, zoom or fill of the image view.
+/// Changes the layer, tool, zoom, fill or readout of the image view.
 fn change_image_view(action: Action, cx: &mut PanelContext) {
     use crate::view::Fill;
     let mut image = cx.state.view.image.clone();
@@ -70,6 +73,7 @@ fn change_image_view(action: Action, cx: &mut PanelContext) {
         Action::Fit => (image.zoom, image.center_px) = (None, None),
         Action::OneToOne => image.zoom = Some(1.0),
         Action::Outline => image.fill = if image.fill == Fill::Fill { Fill::Outline } else { Fill::Fill },
+        Action::LockReadout => image.readout_locked = !image.readout_locked,
         _ => {}
     }
     cx.send(ViewCommand::Image(image));

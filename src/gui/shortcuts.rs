@@ -87,6 +87,7 @@ const GENERAL: &[Shortcut] = &[
     key_alone("Image", Key::F, Action::Fit, "Fit the whole picture"),
     key_alone("Image", Key::Z, Action::OneToOne, "One point a pixel"),
     key_alone("Image", Key::O, Action::Outline, "Outlines or fills"),
+    key_alone("Image", Key::H, Action::LockReadout, "Lock the readout to the selected pixel"),
     key_alone("Tools", Key::V, Action::Tool(Tool::Pointer), "Pointer: click selects, drag pans"),
     key_alone("Tools", Key::R, Action::Tool(Tool::Rectangle), "Rectangle"),
     key_alone("Tools", Key::L, Action::Tool(Tool::Lasso), "Lasso"),

@@ -2,8 +2,8 @@
 //!
 //! One row makes a parameter known everywhere: the field of [`PhoenixSettings`], the value of `--phoenix NAME=VALUE`, the key under
 //! `[phoenix]` of a parameter file, the entry of the report, and a line of `docs/baselines.md`. The names are those of Laws, *The Phoenix
-//! image segmentation system: description and evaluation* (SRI, 1982), of which literature on later systems repeats the names, their meaning
-//! and some usual values (`hsmooth` 9, `maxmin` 160, `splitmin` 40, `height` 20). The report itself was not at hand: the other defaults, and
+//! image segmentation system: description and evaluation* (SRI, 1982). The report itself was not at hand: the names, their meaning and the
+//! defaults of `hsmooth`, `maxmin`, `splitmin` and `height` are those usually quoted, and were not compared with it. The other defaults, and
 //! the formulas of `absmin` and of the score, are this program's. `absscore` is 600 because the rendered plastic scene then behaves as
 //! section 7.2 describes color figure 15; its adjusted Rand index is .81 (with 700 it is .88, and no matte area is broken at its shading).
 

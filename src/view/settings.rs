@@ -73,6 +73,8 @@ pub struct ImageSettings {
     pub tool: Tool,
     /// Radius of the brush, pixels of the picture.
     pub brush_px: f32,
+    /// Whether readout and inspector stay with what is selected when the pointer moves over the picture.
+    pub readout_locked: bool,
 }
 
 impl Default for ImageSettings {
@@ -89,6 +91,7 @@ impl Default for ImageSettings {
             zoom: None,
             tool: Tool::Pointer,
             brush_px: 8.0,
+            readout_locked: false,
         }
     }
 }

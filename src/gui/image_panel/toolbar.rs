@@ -3,6 +3,7 @@
 use super::icons::{self, ToolbarIcon};
 use crate::app::{DebugSettings, State};
 use crate::gui::action::{Action, LayerFile};
+use crate::gui::icons::{Icon, button};
 use crate::gui::shortcuts::keys_of;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets::{clickable, keep_unless_edited};
@@ -48,7 +49,21 @@ pub fn row(
         fill_button(ui, palette, settings);
         zoom_controls(ui, settings, zoom);
         display_menu(ui, palette, settings);
+        lock_button(ui, palette, settings);
     });
+}
+
+/// Shows the button that locks the readout.
+fn lock_button(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings) {
+    let locked = settings.readout_locked;
+    let tip = format!(
+        "Locked: readout and inspector stay with the selected pixel or region while the pointer moves ({})",
+        keys_of(ui.ctx(), Action::LockReadout)
+    );
+    let button = button(ui, palette, Icon::Lock(locked), locked, "Lock the readout");
+    if button.on_hover_text(tip).clicked() {
+        settings.readout_locked = !locked;
+    }
 }
 
 /// Shows the choice of a layer, and below the layers the exports of the present one; returns whether a layer was chosen in place of the instant at the debugger's cursor.

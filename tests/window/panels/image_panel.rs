@@ -259,3 +259,31 @@ fn the_read_out_tells_the_pixel() {
     let words = format!("x {x}, y {y}, R ");
     assert!(harness.query_by_label_contains(&words).is_some(), "{words}");
 }
+
+#[test]
+fn a_locked_readout_stays_with_the_selected_pixel() {
+    let Some(mut harness) = opened() else { return };
+    let [selected, other] = [1, 2].map(|region| inside(&harness, region));
+    let width = picture(&harness).size().0;
+    let words = |pixel: PixelIndex| {
+        let [x, y] = pixel.position(width);
+        format!("x {x}, y {y}, R ")
+    };
+    let at =
+        |harness: &Window, pixel| place(harness).screen_rect_of(place(harness).square_of(pixel)).center();
+    let place_of_selected = at(&harness, selected);
+    click(&mut harness, place_of_selected, Modifiers::ALT);
+    harness.key_press(Key::H);
+    harness.run_steps(2);
+    assert!(view(&harness).image.readout_locked);
+    let place_of_other = at(&harness, other);
+    move_to(&mut harness, place_of_other);
+    harness.run_steps(2);
+    assert!(harness.query_by_label_contains(&words(selected)).is_some(), "the selected pixel is read");
+    assert_eq!(harness.state().state().hover, None);
+    harness.get_by_label("Lock the readout").click();
+    harness.run_steps(2);
+    move_to(&mut harness, place_of_other);
+    harness.run_steps(2);
+    assert!(harness.query_by_label_contains(&words(other)).is_some(), "the pointer is followed again");
+}
