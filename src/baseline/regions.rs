@@ -55,6 +55,6 @@ pub fn regions_without_planes(input: &AnalysisInput, matte: &MatteRegions) -> Pl
         labels: matte.labels.clone(),
         hypotheses: hypotheses.map(planar).collect(),
         illuminant: None,
-        light: LightFindings::default(),
+        light: LightFindings::not_sought(),
     }
 }

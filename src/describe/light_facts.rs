@@ -166,11 +166,13 @@ impl IlluminantFacts {
     /// The facts of an analysis; `is_refined`: whether the refined estimates of the light were made.
     pub(super) fn new(analysis: &Analysis, is_refined: bool) -> Self {
         let light = &analysis.planar.light;
+        let is_known = light.direction.is_some() || light.basis == LightBasis::NotSought;
+        let basis = if is_known { light.basis } else { LightBasis::Nothing };
         Self {
             direction: analysis.illuminant.map(|light| light.direction),
             objects: analysis.illuminant.map_or(0, |light| light.objects),
             given: analysis.illuminant.is_some_and(|light| light.given),
-            basis: light.direction.map_or(LightBasis::Nothing, |_| light.basis).name().to_owned(),
+            basis: basis.name().to_owned(),
             reason: light.reason(),
             interval_deg: light.interval_deg,
             estimates: is_refined.then(|| LightEstimateFacts::new(light)),

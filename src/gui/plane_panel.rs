@@ -11,6 +11,7 @@ use super::{PanelContext, widgets};
 use crate::app::{Edit, ViewCommand};
 use crate::gui::outline::{Outline, combine_by_keys};
 use crate::raster::RegionId;
+use crate::segment::LightBasis;
 use crate::view::{
     Item, NamedMarks, Picture, PixelAmounts, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, Tool,
     plane_mask, region_plane, sphere_in_plane,
@@ -302,7 +303,9 @@ fn paint_facts(
     } else {
         let hypothesis = plane.region.and_then(|region| shown.analysis.finals.hypotheses.get(region.index()));
         let has_highlight = hypothesis.is_some_and(|hypothesis| hypothesis.highlight.is_some());
-        let why = if shown.analysis.illuminant.is_none() {
+        let why = if shown.analysis.finals.light.basis == LightBasis::NotSought {
+            "the method seeks no light"
+        } else if shown.analysis.illuminant.is_none() {
             "the light's color is unknown, as no highlight was found"
         } else if !has_highlight && !shown.params.refinements().extend_planes {
             "no neighbor passed the tests of a highlight (section 5.4.1)"

@@ -37,6 +37,11 @@ pub struct LightFindings {
 }
 
 impl LightFindings {
+    /// The findings of a method that seeks no light.
+    pub fn not_sought() -> Self {
+        Self { basis: LightBasis::NotSought, ..Self::default() }
+    }
+
     /// The findings for a light that was given (unit direction).
     pub fn given(direction: [f64; 3]) -> Self {
         Self { direction: Some(direction), basis: LightBasis::Given, ..Self::default() }
@@ -51,6 +56,7 @@ impl LightFindings {
     /// Why this light is used, in words that complete a sentence.
     pub fn reason(&self) -> String {
         match self.basis {
+            LightBasis::NotSought => "the method finds regions alone and seeks no light".to_owned(),
             LightBasis::Given => "it was given".to_owned(),
             LightBasis::Average if self.direction.is_none() => {
                 "no highlight was found: no neighbor of a region passed the tests".to_owned()

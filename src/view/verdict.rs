@@ -91,8 +91,13 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
     let findings = &shown.analysis.finals.light;
     let subject = ClauseSubject::Light;
     let Some(light) = &shown.analysis.illuminant else {
-        let text = "the light's color is unknown: no highlight was found".to_owned();
-        return Clause { text, subject, is_bad: true };
+        let is_sought = findings.basis != LightBasis::NotSought;
+        let text = if is_sought {
+            "the light's color is unknown: no highlight was found"
+        } else {
+            "the method seeks no light, and all is body reflection"
+        };
+        return Clause { text: text.to_owned(), subject, is_bad: is_sought };
     };
     let from = |what: &str| counted(light.objects, what);
     let text = match findings.basis {
@@ -101,7 +106,7 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
             format!("the light is the average of {}", from("highlight direction"))
         }
         LightBasis::Votes => format!("the light comes from {}", from("small highlight")),
-        LightBasis::Planes | LightBasis::Nothing => {
+        LightBasis::Planes | LightBasis::Nothing | LightBasis::NotSought => {
             format!("the light comes from {}", from("plane"))
         }
     };
@@ -111,8 +116,12 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
     Clause { text: format!("{text}{interval}"), subject, is_bad }
 }
 
-/// How much nearer to the truth the body image is than the photograph, where the truth is known.
+/// How much nearer to the truth the body image is than the photograph, where the truth is known and the method has a body image of its
+/// own.
 fn score_clause(shown: &ResultSnapshot) -> Option<Clause> {
+    if shown.analysis.finals.light.basis == LightBasis::NotSought {
+        return None;
+    }
     let scores = &shown.accuracy()?.scores;
     let gain = scores.psnr_body? - scores.psnr_nothing?;
     let text = if gain < 0.0 {

@@ -7,6 +7,7 @@ use dichroscope::describe::Scores;
 use dichroscope::params::{Feature, FeatureSet, Method, Params, PhoenixSettings};
 use dichroscope::photo::{LinearImage, ReadOptions, read};
 use dichroscope::raster::UNASSIGNED;
+use dichroscope::segment::LightBasis;
 use dichroscope::trace::{Event, FeatureVerdict, HistogramsSearched};
 use dichroscope::truth::GroundTruth;
 use std::collections::BTreeMap;
@@ -74,6 +75,7 @@ fn phoenix_breaks_matte_areas_and_separates_some_highlights() {
     let refined = plastic.analyzed(Method::Refined).1.ari;
     assert!((0.7..0.9).contains(&scores.ari) && refined > 0.99, "{} against {refined}", scores.ari);
     assert!(analysis.illuminant.is_none() && analysis.intrinsic.body == plastic.image.pixels);
+    assert_eq!(analysis.finals.light.basis, LightBasis::NotSought);
     let matte = plastic.parts(&analysis, |pixel| plastic.surface(pixel) < 3.0);
     let broken = matte.values().filter(|parts| {
         let second = parts.get(1).filter(|second| second.1 > 1000);

@@ -39,7 +39,8 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
             ui.label(from).on_hover_text(findings.reason());
             distance_from_found(ui, cx, light, findings);
         } else {
-            let text = format!("unknown: {}", findings.reason());
+            let is_sought = findings.basis != LightBasis::NotSought;
+            let text = format!("{}{}", if is_sought { "unknown: " } else { "" }, findings.reason());
             ui.add(Label::new(&text).truncate().show_tooltip_when_elided(false)).on_hover_text(text);
         }
         ambient(ui, cx, shown);
@@ -89,7 +90,9 @@ fn basis_text(light: &Illuminant, findings: &LightFindings) -> String {
         LightBasis::Given => return "given".to_owned(),
         LightBasis::Average => format!("average of {}", from("highlight")),
         LightBasis::Votes => format!("by {}", from("small highlight")),
-        LightBasis::Planes | LightBasis::Nothing => format!("from {}", from("object")),
+        LightBasis::Planes | LightBasis::Nothing | LightBasis::NotSought => {
+            format!("from {}", from("object"))
+        }
     };
     findings.interval_deg.map_or_else(|| from.clone(), |degrees| format!("{from}, \u{b1}{degrees:.1}\u{b0}"))
 }

@@ -65,6 +65,8 @@ pub enum LightBasis {
     /// There is no evidence: no light is known.
     #[default]
     Nothing,
+    /// The method seeks no light: it finds regions alone.
+    NotSought,
     /// The light was given.
     Given,
     /// The average of the directions of highlight clusters (the paper's method).
@@ -80,6 +82,7 @@ impl LightBasis {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Nothing => "none",
+            Self::NotSought => "not_sought",
             Self::Given => "given",
             Self::Average => "average",
             Self::Planes => "planes",

@@ -176,6 +176,11 @@ fn phoenix_has_features_and_numbers_of_its_own() {
     click(&mut window, Role::CheckBox, "hue");
     assert_eq!(features(&window), "I,S");
     assert!(says(&window, "absscore") && !says(&window, "edge body"), "no refinement of the refined method");
+    window.state_mut().show_alone(Some(Pane::Regions));
+    window.run_steps(2);
+    assert!(says(&window, "the method finds regions alone and seeks no light"), "no highlight was missed");
+    window.state_mut().show_alone(Some(Pane::Parameters));
+    window.run_steps(2);
     click(&mut window, Role::Button, "top-down");
     assert!(!says(&window, "absscore") && state(&window).document.params.method == Method::TopDown);
 }
