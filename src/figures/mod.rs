@@ -1,6 +1,6 @@
 //! The figures and tables of the paper for any photograph, as one HTML page that needs nothing else.
 //!
-//! Pictures are PNGs within the page, plots are SVG, and no script is needed, so that the page can be kept, sent and printed. The
+//! Pictures are PNG files within the page, plots are SVG, and no script is needed, so that the page can be kept, sent and printed. The
 //! order follows the paper: color figures 1 to 15, tables 1 to 6. A figure that a photograph cannot have says why. The page depends
 //! on the scene alone: the same bytes at any number of threads, and no date but one that is given.
 

@@ -45,26 +45,37 @@ impl AxesFrame {
         true
     }
 
-    /// Labels of the axes, the black corner and the ticks, the most important first. The ticks are painted here.
+    /// Whether the space is a cube, whose edges are parallel to the axes.
+    fn is_cube(&self) -> bool {
+        matches!(self.inputs, Some((ColorSpace::Rgb | ColorSpace::LogRgb, ..)))
+    }
+
+    /// Labels of the axes, the black corner and the ticks, the most important first. The ticks are painted here. Names and ticks
+    /// of the axes of a cube stand at its silhouette, where no points are.
     pub fn labels(&self, ui: &Ui, projector: &Projector, rect: Rect, palette: &ThemeColors) -> Vec<Label> {
         let on_screen = |world| screen_from_world(projector, rect, world);
         let Some(middle) = on_screen([0.5; 3]) else { return Vec::new() };
         let (mut names, mut values) = (Vec::new(), Vec::new());
         let painter = ui.painter_at(rect);
         for axis in &self.axes {
-            let ends = axis.line.first().zip(axis.line.last());
-            let Some((from, to)) = ends.and_then(|(a, b)| Some((on_screen(*a)?, on_screen(*b)?))) else {
-                continue;
-            };
+            let Some(ends) = axis.line.first().zip(axis.line.last()).map(|(a, b)| [*a, *b]) else { continue };
+            let moved = if self.is_cube() { edge_at_silhouette(ends, on_screen, middle) } else { NOT_MOVED };
+            let on_edge = |world| on_screen(mirrored(world, moved));
+            let Some((from, to)) = on_edge(ends[0]).zip(on_edge(ends[1])) else { continue };
             let along = (to - from).normalized();
             let length = (to - from).length();
             let is_closed = length < 1.0;
             let unit = if axis.unit.is_empty() || axis.unit == "\u{b0}" { "" } else { ", counts" };
-            let side = if is_closed { vec2(0.0, -1.0) } else { along };
+            let side = match is_closed {
+                true => vec2(0.0, -1.0),
+                // Beyond the end of an edge of the axis there are no points; beyond that of another edge there may be.
+                false if moved == NOT_MOVED => along,
+                false => outward(along, from, middle),
+            };
             names.push(Label {
                 text: format!("{}{unit}", axis.name),
                 at: to,
-                sides: vec![side, outward(along, from, middle), -outward(along, from, middle)],
+                sides: vec![side, outward(along, from, middle), along, -outward(along, from, middle)],
                 color: palette.text,
                 size_pt: SMALL_PT + 0.5,
                 tip: axis.meaning,
@@ -75,7 +86,7 @@ impl AxesFrame {
                 continue;
             }
             for tick in &axis.ticks {
-                let Some(at) = on_screen(tick.place) else { continue };
+                let Some(at) = on_edge(tick.place) else { continue };
                 let side = if is_closed {
                     (at - middle).normalized()
                 } else {
@@ -100,6 +111,55 @@ impl AxesFrame {
         names.extend(values);
         names
     }
+}
+
+/// An edge of the unit cube, world units: whether each coordinate of the edge is mirrored, 1 − x in place of x.
+type MirroredAxes = [bool; 3];
+
+/// The axis itself.
+const NOT_MOVED: MirroredAxes = [false; 3];
+/// Share of the largest distance from the middle above which an edge is at the silhouette: of two edges at opposite sides, perspective
+/// makes one a little nearer.
+const AT_SILHOUETTE: f32 = 0.9;
+
+/// A point of an axis, moved to a parallel edge of the unit cube.
+fn mirrored(world: [f32; 3], moved: MirroredAxes) -> [f32; 3] {
+    std::array::from_fn(|axis| if moved[axis] { 1.0 - world[axis] } else { world[axis] })
+}
+
+/// An edge of the unit cube on the screen.
+struct CubeEdge {
+    moved: MirroredAxes,
+    /// Distance of the edge's line from the middle of the cube, points.
+    off_middle: f32,
+    /// Sum of the heights of both ends, downward, points.
+    y: f32,
+}
+
+/// The edge of the unit cube, parallel to the axis with these ends, that is at the silhouette: the axis itself where it is, else the lower one
+/// of the others on the screen. `middle`: the place of the middle of the cube on the screen.
+fn edge_at_silhouette(
+    ends: [[f32; 3]; 2],
+    on_screen: impl Fn([f32; 3]) -> Option<Pos2>,
+    middle: Pos2,
+) -> MirroredAxes {
+    let along = (0..3).find(|&axis| (ends[1][axis] - ends[0][axis]).abs() > 0.5).unwrap_or(0);
+    let [first, second] = [(along + 1) % 3, (along + 2) % 3];
+    let edge = |index: usize| {
+        let mut moved = NOT_MOVED;
+        (moved[first], moved[second]) = (index & 1 != 0, index & 2 != 0);
+        let (from, to) = on_screen(mirrored(ends[0], moved)).zip(on_screen(mirrored(ends[1], moved)))?;
+        let across = (to - from).normalized().rot90();
+        Some(CubeEdge { moved, off_middle: across.dot(from - middle).abs(), y: from.y + to.y })
+    };
+    let edges: Vec<CubeEdge> = (0..4).filter_map(edge).collect();
+    let farthest = edges.iter().map(|edge| edge.off_middle).fold(0.0, f32::max);
+    let at_silhouette = edges.iter().filter(|edge| edge.off_middle >= AT_SILHOUETTE * farthest);
+    let preferred = at_silhouette.max_by(|a, b| {
+        let is_axis = |edge: &CubeEdge| edge.moved == NOT_MOVED;
+        is_axis(a).cmp(&is_axis(b)).then(a.y.total_cmp(&b.y))
+    });
+    preferred.map_or(NOT_MOVED, |edge| edge.moved)
 }
 
 /// The label of the black corner.
@@ -181,4 +241,30 @@ fn outward(along: Vec2, on: Pos2, middle: Pos2) -> Vec2 {
 pub fn mixed(a: Color32, b: Color32, t: f32) -> Color32 {
     let at = |a: u8, b: u8| (f32::from(a) + (f32::from(b) - f32::from(a)) * t).round() as u8;
     Color32::from_rgb(at(a.r(), b.r()), at(a.g(), b.g()), at(a.b(), b.b()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The cube seen from the front right and above: red to the right, blue up, green away from the viewer, up and to the right.
+    fn seen([red, green, blue]: [f32; 3]) -> Pos2 {
+        Pos2::new(100.0 * red + 40.0 * green, -100.0 * blue - 30.0 * green)
+    }
+
+    #[test]
+    fn ticks_stand_at_the_silhouette_of_the_cube() {
+        let middle = seen([0.5; 3]);
+        let edge = |ends: [[f32; 3]; 2]| edge_at_silhouette(ends, |world| Some(seen(world)), middle);
+        let black = [0.0; 3];
+        assert_eq!(edge([black, [1.0, 0.0, 0.0]]), NOT_MOVED, "the red axis is the lower edge");
+        assert_eq!(edge([black, [0.0, 0.0, 1.0]]), NOT_MOVED, "the blue axis is the left edge");
+        let green = edge([black, [0.0, 1.0, 0.0]]);
+        assert_eq!(
+            green,
+            [true, false, false],
+            "the green axis is inside: its ticks stand at the lower right edge"
+        );
+        assert_eq!(seen(mirrored([0.0, 0.25, 0.0], green)), Pos2::new(110.0, -7.5));
+    }
 }
