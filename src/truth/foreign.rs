@@ -76,7 +76,7 @@ impl ForeignResult {
     /// that the truth belongs to, linear counts; `report`: that of the result.
     ///
     /// # Errors
-    /// As [`ForeignResult::check`] and [`score`].
+    /// As [`ForeignResult::check`] and [`score()`].
     pub fn scores(
         &self,
         truth: &GroundTruth,
