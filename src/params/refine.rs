@@ -216,7 +216,7 @@ switches! {
     region_ratio RegionRatio {
         first_stage: Split,
         meaning: "Where a region is one material and clearly paler than its hue around it, its own ratio tells highlights where no region holds (6).",
-        worth: "A scene with a pale ball before a wall of the same hue, at JPEG 92: 34.1 → 42.8 dB (doing nothing: 34.0); none of 20 photographs changes.",
+        worth: "A scene with a pale ball before a wall of the same hue, at JPEG 92: 34.1 → 42.8 dB (doing nothing: 34.0); four of 20 photographs change, by 58 dB or more between before and after.",
     }
     highlight_evidence HighlightEvidence {
         was: "texture_test",

@@ -119,7 +119,7 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
 /// How much nearer to the truth the body image is than the photograph, where the truth is known and the method has a body image of its
 /// own.
 fn score_clause(shown: &ResultSnapshot) -> Option<Clause> {
-    if shown.analysis.finals.light.basis == LightBasis::NotSought {
+    if shown.params.baseline().is_some() {
         return None;
     }
     let scores = &shown.accuracy()?.scores;

@@ -5,7 +5,7 @@ use super::step::{holds_verdict, window_tests};
 use super::{Inspection, ThresholdTest, Tone};
 use crate::color::vec3;
 use crate::raster::{Mask, PixelIndex, RegionId};
-use crate::trace::{Class, Event, LightBasis, Measured};
+use crate::trace::{Class, Event, Measured};
 use crate::view::shapes::hypothesis;
 use crate::view::{Item, PixelAmounts, ResultSnapshot, counted, grouped, reason_entry};
 
@@ -30,7 +30,7 @@ fn of_pixel(shown: &ResultSnapshot, pixel: PixelIndex) -> Option<Inspection> {
     let amounts = PixelAmounts::of(shown, pixel);
     let mut tests = mask_tests(color, analysis.used.min_intensity, analysis.used.clip_threshold).to_vec();
     // A method that finds regions alone has no cylinders.
-    let has_cylinders = analysis.finals.light.basis != LightBasis::NotSought;
+    let has_cylinders = shown.params.baseline().is_none();
     if let Some(found) = region.filter(|_| has_cylinders).and_then(|region| hypothesis(shown, region)) {
         let distance = found.matte.distance(&vec3(color));
         tests.push(ThresholdTest::at_most(
