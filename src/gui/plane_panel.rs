@@ -17,6 +17,7 @@ use crate::view::{
     plane_mask, region_plane, sphere_in_plane,
 };
 use chart::{Chart, Obstacles, PointDensity};
+use egui::text::LayoutJob;
 use egui::{Align2, Color32, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
 use std::sync::Arc;
 
@@ -320,8 +321,11 @@ fn paint_facts(
              {rms:.2} counts rms from the line"
         )
     };
-    let corner = rect.left_top() + vec2(8.0, 4.0);
-    Some(paint_text(painter, cx, corner, Align2::LEFT_TOP, &text, cx.palette.secondary))
+    // In a wide view the facts stand beside the values of the hovered color; in a narrow one the values take their place.
+    let taken_pt = if rect.width() >= TWO_TEXTS_PT { HOVERED_TEXT_PT.x + 24.0 } else { 16.0 };
+    let mut job = widgets::with_subscripts(&text, SMALL_PT, cx.palette.secondary);
+    job.wrap.max_width = (rect.width() - taken_pt).max(1.0);
+    Some(paint_text(painter, cx, rect.left_top() + vec2(8.0, 4.0), Align2::LEFT_TOP, job))
 }
 
 /// Writes a text with subscripts and a background, so that it is readable over lines; returns its rectangle.
@@ -330,16 +334,14 @@ fn paint_text(
     cx: &PanelContext,
     at: egui::Pos2,
     anchor: Align2,
-    text: &str,
-    color: Color32,
+    mut job: LayoutJob,
 ) -> Rect {
-    let mut job = widgets::with_subscripts(text, SMALL_PT, color);
     job.halign = anchor.x();
     let galley = painter.layout_job(job);
     let place = anchor.anchor_size(at, galley.size());
     painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, cx.palette.panel.gamma_multiply(0.75));
     let corner = if anchor.x() == egui::Align::RIGHT { place.right_top() } else { place.left_top() };
-    painter.galley(corner, galley, color);
+    painter.galley(corner, galley, Color32::PLACEHOLDER);
     place
 }
 
@@ -389,7 +391,8 @@ fn paint_hovered(
         let body = counts(result.body);
         text = format!("{text}\nin the result, after the cut at noise  m_b {body}   m_s {surface}");
     }
-    paint_text(painter, cx, corner, Align2::RIGHT_TOP, &text, cx.palette.text);
+    let job = widgets::with_subscripts(&text, SMALL_PT, cx.palette.text);
+    paint_text(painter, cx, corner, Align2::RIGHT_TOP, job);
     kept
 }
 
