@@ -3,7 +3,9 @@
 use super::prepared::Prepared;
 use super::working_outputs::WorkingOutputs;
 use super::{Analysis, Cancelled, Observer, StageOutput};
+use crate::baseline::marked_labels;
 use crate::intrinsic::{Detail, Intrinsic, split_photograph};
+use crate::params::Baseline;
 use crate::raster::Raster;
 use crate::segment::{
     AnalysisInput, FinalRegions, MatteRegions, PlanarRegions, Windows, full_resolution_labels,
@@ -26,8 +28,8 @@ pub(super) struct Photograph<'a> {
     pub(super) prepared: &'a Prepared,
     /// The photograph; its noise is that of a single pixel.
     pub(super) input: AnalysisInput<'a>,
-    /// Whether an earlier method found the regions, which has no rule for single pixels of the photograph.
-    pub(super) is_baseline: bool,
+    /// The earlier method that found the regions, which has no rule for single pixels of the photograph.
+    pub(super) baseline: Option<Baseline>,
 }
 
 impl FullResolution {
@@ -40,7 +42,7 @@ impl FullResolution {
         observer: &mut impl Observer,
         analysis: &mut Analysis,
     ) -> Result<bool, Cancelled> {
-        let Photograph { prepared, input, is_baseline } = photograph;
+        let Photograph { prepared, input, baseline } = photograph;
         let blocks = &prepared.working.blocks;
         analysis.masks = Arc::clone(&prepared.masks);
         analysis.working = Arc::clone(&prepared.working);
@@ -66,10 +68,13 @@ impl FullResolution {
         let stopping: &_ = observer;
         analysis.finals = self.finals.get(working.finals.number, stopping, || {
             let stop = || stopping.cancelled();
-            let labels = if *is_baseline {
-                blocks.enlarged(&working_regions.labels)
-            } else {
-                full_resolution_labels(&input.stopped_by(&stop), working_regions, blocks)
+            let labels = match baseline {
+                None => full_resolution_labels(&input.stopped_by(&stop), working_regions, blocks),
+                // Exactly the marked pixels, wherever the blocks end.
+                Some(Baseline::ByHand) => {
+                    marked_labels(&prepared.masks, !working_regions.hypotheses.is_empty())
+                }
+                Some(_) => blocks.enlarged(&working_regions.labels),
             };
             FinalRegions { labels, ..working_regions.clone() }
         })?;

@@ -2,7 +2,7 @@
 
 use super::resolve::{NoiseFindings, detail_noise, mask_limits, scale_factor, used_params};
 use super::subject::Subject;
-use crate::params::{Params, Rules, Setting, UsedParams};
+use crate::params::{Baseline, Params, Rules, Setting, UsedParams};
 use crate::photo::{
     CodingError, LinearImage, MaskLimits, Masks, NoiseCorrelation, NoiseEstimate, ShotNoise, WorkingPicture,
 };
@@ -29,7 +29,8 @@ impl Prepared {
     /// The input of the stages: the working picture.
     pub(super) fn working_input<'a>(&'a self, used: &'a UsedParams, rules: Rules) -> AnalysisInput<'a> {
         let input = AnalysisInput::new(&self.working.image, &self.working.masks, used, rules.refine)
-            .with_readings(rules.readings);
+            .with_readings(rules.readings)
+            .with_marked_pixels(rules.baseline == Some(Baseline::ByHand));
         self.with_errors(input, self.working_coding.as_ref(), self.noise.shot)
     }
 
@@ -40,7 +41,9 @@ impl Prepared {
         used: &'a UsedParams,
         rules: Rules,
     ) -> AnalysisInput<'a> {
-        let input = AnalysisInput::new(image, &self.masks, used, rules.refine).with_readings(rules.readings);
+        let input = AnalysisInput::new(image, &self.masks, used, rules.refine)
+            .with_readings(rules.readings)
+            .with_marked_pixels(rules.baseline == Some(Baseline::ByHand));
         let shot = self.detail.map_or(self.noise.shot, |detail| detail.shot);
         self.with_errors(input, self.noise.coding.as_ref(), shot)
     }

@@ -9,9 +9,12 @@ use super::subject::Subject;
 use super::warnings::all_warnings;
 use super::working_outputs::{MergedAreas, WorkingOutputs};
 use super::{Analysis, Cancelled, Observer, Stage, StageOutput};
-use crate::baseline::{baseline_regions, regions_without_planes};
+use crate::baseline::{
+    baseline_regions, marked_matte_region, marked_planar_region, marked_region_with_distorted,
+    regions_without_planes,
+};
 use crate::intrinsic::{WorkingSplit, split};
-use crate::params::{Params, Rules, UsedParams};
+use crate::params::{Baseline, Params, Rules, UsedParams};
 use crate::raster::Raster;
 use crate::segment::{
     AnalysisInput, Areas, Classifier, FinalRegions, MatteRegions, PlanarRegions, Windows, classify,
@@ -47,7 +50,6 @@ impl Stages {
         observer: &mut impl Observer,
     ) -> Result<Analysis, Cancelled> {
         let rules = params.rules();
-        let is_baseline = rules.baseline.is_some();
         let (prepared, used) = self.masks::<R>(subject, params, observer)?;
         let input = prepared.working_input(&used, rules);
         let is_whole = prepared.working.blocks.side() == 1;
@@ -61,14 +63,14 @@ impl Stages {
             observer.working_made(&analysis, &prepared.working.blocks);
             let detail_used = prepared.detail_params(params, used);
             let detail_input = prepared.detail_input(&subject.image, &detail_used, rules);
-            let photograph = Photograph { prepared: &prepared, input: detail_input, is_baseline };
+            let photograph = Photograph { prepared: &prepared, input: detail_input, baseline: rules.baseline };
             let reused = self.full_resolution.enlarge(&photograph, &working, observer, &mut analysis)?;
             split_reused = split_reused && reused;
         }
         observer.finished(Stage::Split, split_reused);
         observer.made(StageOutput::Intrinsic(Arc::clone(&analysis.intrinsic)));
         let restricted = subject.area.is_some();
-        analysis.warnings = all_warnings(&analysis, &prepared, restricted, is_baseline);
+        analysis.warnings = all_warnings(&analysis, &prepared, restricted, rules.baseline);
         Ok(analysis)
     }
 
@@ -107,6 +109,7 @@ impl Stages {
             let input = input.stopped_by(&stop);
             Arc::new(match baseline {
                 None => matte_regions(&input, windows_made, areas, recorder),
+                Some(Baseline::ByHand) => marked_matte_region(&input, recorder),
                 Some(baseline) => baseline_regions(&input, baseline, recorder),
             })
         })?;
@@ -117,6 +120,7 @@ impl Stages {
             let input = input.stopped_by(&stop);
             Arc::new(match baseline {
                 None => planar_regions(&input, windows_made, areas, &matte.value, recorder),
+                Some(Baseline::ByHand) => marked_planar_region(&input, &matte.value, recorder),
                 Some(_) => regions_without_planes(&input, &matte.value),
             })
         })?;
@@ -127,6 +131,7 @@ impl Stages {
             let input = input.stopped_by(&stop);
             let labels = match baseline {
                 None => clipping_regions(&input, &planar.value, recorder),
+                Some(Baseline::ByHand) => marked_region_with_distorted(&input, &planar.value, recorder),
                 Some(_) => planar.value.labels.clone(),
             };
             Arc::new(final_regions(&input, labels, &planar.value, recorder))

@@ -2,6 +2,8 @@
 
 use super::Analysis;
 use super::prepared::Prepared;
+use crate::baseline::{LEAST_MARKED_PX, NoSkewedT, no_skewed_t};
+use crate::params::Baseline;
 use crate::photo::{CodingError, Masks};
 use crate::raster::LabelMap;
 use crate::segment::{LightFindings, PlanarRegions};
@@ -31,23 +33,57 @@ fn size_warning(labels: &LabelMap) -> Option<String> {
     })
 }
 
-/// The warnings about the regions, then about the file's values, then about the size of the regions. `is_baseline`: an earlier method
+/// The warnings about the regions, then about the file's values, then about the size of the regions. `baseline`: the earlier method that
 /// found the regions.
 pub(super) fn all_warnings(
     analysis: &Analysis,
     prepared: &Prepared,
     restricted: bool,
-    is_baseline: bool,
+    baseline: Option<Baseline>,
 ) -> Vec<String> {
     let labels = &analysis.finals.labels;
     let has_regions = labels.as_slice().iter().any(|&label| label != 0);
-    let mut all = if is_baseline && has_regions {
-        vec!["the method finds regions alone: no light and no highlights, all is body reflection".to_owned()]
-    } else {
-        warnings(labels, &analysis.planar, &prepared.masks, restricted)
+    let mut all = match baseline {
+        Some(Baseline::ByHand) => marked_warnings(analysis, restricted),
+        Some(_) if has_regions => {
+            vec!["the method finds regions alone: no light and no highlights, all is body reflection".to_owned()]
+        }
+        _ => warnings(labels, &analysis.planar, &prepared.masks, restricted),
     };
     all.extend(prepared.noise.coding.as_ref().and_then(compression_warning));
     all.extend(size_warning(labels));
+    all
+}
+
+/// The warnings about the skewed T of marked pixels, a sentence each. `restricted`: the analysis is restricted to an area.
+fn marked_warnings(analysis: &Analysis, restricted: bool) -> Vec<String> {
+    let mut all = Vec::new();
+    if !restricted {
+        all.push("no pixels were marked: the skewed T is fitted to the whole picture".to_owned());
+    }
+    let which = if restricted { "marked" } else { "picture's" };
+    let why = no_skewed_t(&analysis.working.masks, &analysis.matte, &analysis.planar);
+    all.extend(why.map(|why| match why {
+        NoSkewedT::TooFew(usable) => format!(
+            "only {usable} of the {which} pixels are neither dark nor clipped: a skewed T needs {LEAST_MARKED_PX}, nothing was fitted"
+        ),
+        NoSkewedT::Point => {
+            format!("the colors of the {which} pixels vary no more than the noise does: no line was fitted")
+        }
+        NoSkewedT::Line => format!(
+            "the colors of the {which} pixels lie on one line: there is no highlight, and all is body reflection"
+        ),
+        NoSkewedT::NoMeeting => format!(
+            "the matte and the highlight line of the {which} pixels form no skewed T: all is body reflection"
+        ),
+    }));
+    for region in analysis.intrinsic.regions.iter().filter(|region| !region.model_fits) {
+        all.push(format!(
+            "one skewed T does not explain the {which} pixels: they lie {:.1} counts from its plane (rms), noise explains {:.1}; \
+             they are not split",
+            region.fit_rms_counts, region.fit_limit_counts
+        ));
+    }
     all
 }
 

@@ -22,11 +22,14 @@ pub fn baseline_regions<R: Recorder>(
     recorded_labels.begin(match baseline {
         Baseline::Phoenix(_) => Pass::Splitting,
         Baseline::TopDown => Pass::Clusters,
+        Baseline::ByHand => Pass::Marked,
     });
     let mut regions = RegionList { recorded_labels, hypotheses: Vec::new() };
     match baseline {
         Baseline::Phoenix(settings) => phoenix(input, settings, &mut regions),
         Baseline::TopDown => top_down(input, &mut regions),
+        // Marked pixels have stages of their own (`by_hand`).
+        Baseline::ByHand => {}
     }
     let RegionList { recorded_labels, hypotheses } = regions;
     MatteRegions { labels: recorded_labels.labels, hypotheses }

@@ -75,6 +75,7 @@ const JOBS: usize = 4;
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
     let reading = arguments.reading.options();
     let params = arguments.settings.params()?;
+    Settings::expect_area(&params, arguments.area.is_some())?;
     place::expect_one_standard_input(arguments.area.as_deref(), &arguments.inputs)?;
     let area = arguments.area.as_deref().map(|path| Area::read(path, &reading)).transpose()?;
     let mut found = inputs::plan(&arguments.inputs, arguments.pattern.as_ref(), &arguments.out)?;

@@ -70,6 +70,7 @@ struct Work<'a> {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
     let (params, reading) = (arguments.settings.params()?, arguments.reading.options());
+    Settings::expect_area(&params, arguments.area.is_some())?;
     place::expect_one_standard_input(arguments.area.as_deref(), &arguments.inputs)?;
     let area = arguments.area.as_deref().map(|path| Area::read(path, &reading)).transpose()?;
     let has_samples = arguments.inputs.is_empty();

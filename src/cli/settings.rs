@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Method and parameters")]
 pub(super) struct Settings {
-    /// The 1990 algorithm with refinements, or as it was written, or an earlier method that finds regions alone
+    /// The 1990 algorithm with refinements, or as it was written, or an earlier method; by-hand needs --area
     #[arg(long, value_parser = method_parser())]
     method: Option<Method>,
     /// The paper's parameters for one of its pictures (a column of table 6), and its method unless --method says otherwise
@@ -77,6 +77,17 @@ impl Settings {
         self.set_phoenix(&mut params)?;
         params.validate()?;
         Ok(params)
+    }
+
+    /// Fails where the method needs an area and none is given.
+    pub(super) fn expect_area(params: &Params, has_area: bool) -> Result<()> {
+        if params.method == Method::ByHand && !has_area {
+            bail!(
+                "`--method by-hand` fits a skewed T to marked pixels: give their mask with --area MASK.png, a picture of the \
+                 photograph's size that is black outside of one object"
+            );
+        }
+        Ok(())
     }
 
     fn set_phoenix(&self, params: &mut Params) -> Result<()> {

@@ -54,6 +54,7 @@ impl Subject {
         check: impl FnOnce(&LinearImage) -> Result<()>,
     ) -> Result<Traced, AnalyzeError> {
         let params = self.settings.params().map_err(AnalyzeError::Usage)?;
+        Settings::expect_area(&params, self.area.is_some()).map_err(AnalyzeError::Usage)?;
         let reading = self.reading.options();
         let photographs = std::slice::from_ref(&self.image);
         place::expect_one_standard_input(self.area.as_deref(), photographs).map_err(AnalyzeError::Usage)?;

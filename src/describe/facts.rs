@@ -256,7 +256,7 @@ macro_rules! define_params_facts {
                 match self.method {
                     Method::Refined => params.refine = self.refine,
                     Method::Paper => params.paper.with = self.refine,
-                    Method::Phoenix | Method::TopDown => {}
+                    Method::Phoenix | Method::TopDown | Method::ByHand => {}
                 }
                 params.paper.readings = self.readings.unwrap_or(params.paper.readings);
                 params

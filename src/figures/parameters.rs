@@ -12,6 +12,7 @@ pub fn method_name(method: Method) -> &'static str {
         Method::Paper => "method of the paper",
         Method::Phoenix => "method Phoenix",
         Method::TopDown => "top-down method",
+        Method::ByHand => "method by hand",
     }
 }
 
@@ -113,6 +114,7 @@ fn switches(scene: &Scene) -> String {
                 values.join(", ")
             )
         }
+        Method::ByHand => "Of these, the method by hand reads those of the masks, the noise and the widths.".to_owned(),
         Method::TopDown => "Of these, the top-down method reads only those of the masks.".to_owned(),
         Method::Paper => {
             let on = named(true);

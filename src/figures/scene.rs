@@ -216,7 +216,7 @@ impl Scene {
     /// Why a stage of the dichromatic model is not shown, where the regions were found by a system that the paper is held against.
     pub(super) fn lacks_stage(&self) -> Option<String> {
         let what = match self.shown.params.method {
-            Method::Refined | Method::Paper => return None,
+            Method::Refined | Method::Paper | Method::ByHand => return None,
             Method::Phoenix => "Phoenix finds regions by the histograms of color features",
             Method::TopDown => "the top-down method finds regions by the histogram of the whole picture",
         };

@@ -256,6 +256,7 @@ fn analyze(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
             Method::Paper => "Paper's method",
             Method::Phoenix => "Phoenix",
             Method::TopDown => "Top-down clusters",
+            Method::ByHand => "Skewed T by hand",
         };
         if ui.radio(method == choice, name).on_hover_text(choice.meaning()).clicked() {
             cx.send(Edit::SetMethod(choice));

@@ -24,7 +24,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
             match cx.state.document.params.method {
                 Method::Refined | Method::Paper => switches(ui, cx),
                 Method::Phoenix => phoenix::show(ui, cx),
-                Method::TopDown => {}
+                Method::TopDown | Method::ByHand => {}
             }
         });
     });
@@ -54,10 +54,10 @@ fn method(ui: &mut Ui, cx: &mut PanelContext) {
             label(
                 ui,
                 "held against",
-                "What the paper is held against: earlier methods, which find regions alone.",
+                "What the paper is held against: earlier methods. The skewed T by hand is fitted to the marked area, the others find regions alone.",
             );
         }
-        methods(ui, cx, &[Method::Phoenix, Method::TopDown]);
+        methods(ui, cx, &[Method::ByHand, Method::Phoenix, Method::TopDown]);
     });
     ui.add_space(4.0);
 }

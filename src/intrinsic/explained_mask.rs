@@ -26,7 +26,7 @@ pub fn explained_mask(
 ) -> Mask {
     let mut mask =
         regions.labels.map(|&label| RegionId::from_label(label).is_some_and(|id| model_fits[id.index()]));
-    if !input.refine.region_holds {
+    if !input.refine.region_holds || input.is_marked() {
         return mask;
     }
     let width = regions.labels.width();

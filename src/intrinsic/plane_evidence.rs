@@ -39,7 +39,7 @@ pub(super) fn reject_regions_without_evidence<'a>(
     plans: &mut [RegionPlan],
 ) -> Option<Observations<'a>> {
     let refine = input.refine;
-    if !refine.region_holds {
+    if !refine.region_holds || input.is_marked() {
         return None;
     }
     let is_doubtful = |plan: &RegionPlan| {

@@ -80,7 +80,7 @@ impl RegionPlan {
             vectors,
             splitter: PixelSplitter { rule, highlight_test, keeps_color },
             fit,
-            model_fits: !input.refine.region_holds || fit.model_fits(),
+            model_fits: !input.refine.region_holds || holds(input, &fit),
             is_judged: input.refine.region_holds,
             branches: Branches::default(),
             starts: vec![hypothesis.start],
@@ -179,6 +179,11 @@ impl RegionPlan {
 fn light_share(light: &LightFindings, transform: Option<&ReflectionTransform>) -> f64 {
     let angle_deg = transform.map(|transform| f64::from(transform.sine()).asin().to_degrees());
     light.interval_deg.zip(angle_deg).map_or(0.0, |(interval_deg, angle_deg)| interval_deg / angle_deg)
+}
+
+/// Whether the model fits a region. Of marked pixels the distance from the plane alone decides: a person has said that they are one object.
+fn holds(input: &AnalysisInput, fit: &RegionFit) -> bool {
+    if input.is_marked() { !fit.poor() } else { fit.model_fits() }
 }
 
 /// A point of the plane or line with which the pixels of a region are compared, counts. The split is linear, so that its plane contains

@@ -5,7 +5,7 @@
 //!
 //! Refined: the body vector is the direction from black in which the matte pixels lie, found from the outer edge of the
 //! cluster inward by mean shift (`edge_body`, rough surfaces .87° → .54°); the surface vector is the scene's illuminant
-//! (`scene_illuminant`, +5.7 dB body, +7.6 dB surface). A given illuminant is the surface vector under the paper's method too.
+//! (`scene_illuminant`, +5.7 dB body, +7.6 dB surface). The vectors of marked pixels are those of their skewed T, which was fitted to all of them. A given illuminant is the surface vector under the paper's method too.
 
 use crate::color::{Line, Moments, Vec3, dot, rgb};
 use crate::reflection::{DichromaticPlane, HighlightTest};
@@ -35,13 +35,15 @@ pub fn fit_vectors(input: &AnalysisInput, hypothesis: &PlanarHypothesis, pixels:
     let (highlight, matte): (Vec<_>, Vec<_>) = colors.iter().copied().partition(is_highlight);
     let matte_moments: Moments = matte.iter().copied().collect();
     let matte_mean = if matte.is_empty() { hypothesis.matte.mean } else { matte_moments.mean() };
-    let body = if input.refine.edge_body {
+    let body = if input.is_marked() {
+        hypothesis.matte.direction
+    } else if input.refine.edge_body {
         body_through_black(hypothesis, &matte, input.sigma())
     } else {
         Line::principal(&matte_moments).map_or(hypothesis.matte.direction, |line| line.direction)
     };
     let surface = hypothesis.plane.map(|plane| {
-        if input.refine.scene_illuminant || input.used.illuminant.is_some() {
+        if input.is_marked() || input.refine.scene_illuminant || input.used.illuminant.is_some() {
             return plane.surface;
         }
         let own = Line::principal(&highlight.iter().copied().collect()).filter(|_| highlight.len() > 2);

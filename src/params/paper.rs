@@ -73,13 +73,22 @@ impl TryFrom<PaperTable> for PaperMethod {
     }
 }
 
-/// An earlier method, which finds regions and no reflection (sections 5.1 and 7.2).
+/// An earlier method that the paper is held against (sections 5.1, 6 and 7.2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Baseline {
     /// Phoenix: regions are split by the histograms of color features (section 7.2).
     Phoenix(PhoenixSettings),
     /// Clusters of the histogram of the whole picture (section 5.1).
     TopDown,
+    /// A skewed T fitted to pixels that a person has marked (section 6).
+    ByHand,
+}
+
+impl Baseline {
+    /// Whether the method finds regions alone, without lines, planes and a light.
+    pub fn finds_regions_alone(self) -> bool {
+        self != Self::ByHand
+    }
 }
 
 /// The switches that a run obeys: those of its method.

@@ -24,11 +24,13 @@ pub enum Method {
     Phoenix,
     /// Clusters of the histogram of the whole picture, the way that section 5.1 rejects, to compare with.
     TopDown,
+    /// A skewed T fitted to pixels that a person has marked, the method of 1987 and 1988 (section 6), to compare with.
+    ByHand,
 }
 
 impl Method {
     /// All methods: the refined one first, then by age.
-    pub const ALL: [Self; 4] = [Self::Refined, Self::Paper, Self::Phoenix, Self::TopDown];
+    pub const ALL: [Self; 5] = [Self::Refined, Self::Paper, Self::ByHand, Self::Phoenix, Self::TopDown];
 
     /// The name on the command line, in files and reports.
     pub const fn name(self) -> &'static str {
@@ -37,6 +39,7 @@ impl Method {
             Self::Paper => "paper",
             Self::Phoenix => "phoenix",
             Self::TopDown => "top-down",
+            Self::ByHand => "by-hand",
         }
     }
 
@@ -50,6 +53,9 @@ impl Method {
             }
             Self::TopDown => {
                 "Regions alone: clusters of the whole picture's histogram, the way that section 5.1 rejects."
+            }
+            Self::ByHand => {
+                "One skewed T fitted to the pixels of an area that a person has marked, as in 1987 and 1988 (section 6)."
             }
         }
     }
@@ -163,7 +169,7 @@ impl Params {
             Method::Refined => Self::default(),
             Method::Paper => Self::paper(),
             // The numbers of table 6: the earlier methods use those of the masks alone.
-            Method::Phoenix | Method::TopDown => Self { method, ..Self::paper() },
+            Method::Phoenix | Method::TopDown | Method::ByHand => Self { method, ..Self::paper() },
         }
     }
 
@@ -173,16 +179,19 @@ impl Params {
             Method::Refined | Method::Paper => None,
             Method::Phoenix => Some(Baseline::Phoenix(self.phoenix)),
             Method::TopDown => Some(Baseline::TopDown),
+            Method::ByHand => Some(Baseline::ByHand),
         }
     }
 
     /// The refinements in force. Under `method = paper` these are the refinements that were added to it, by default none; the earlier
-    /// methods have none.
+    /// methods have none but that the method by hand asks whether its skewed T holds.
     pub fn refinements(&self) -> Refine {
         match self.method {
             Method::Refined => self.refine,
             Method::Paper => self.paper.with,
             Method::Phoenix | Method::TopDown => Refine::all(false),
+            // Whether the skewed T explains the marked pixels is asked; nothing else differs from the paper.
+            Method::ByHand => Refine { region_holds: true, ..Refine::all(false) },
         }
     }
 
@@ -190,7 +199,7 @@ impl Params {
     pub fn refinements_mut(&mut self) -> &mut Refine {
         match self.method {
             Method::Refined => &mut self.refine,
-            Method::Paper | Method::Phoenix | Method::TopDown => &mut self.paper.with,
+            Method::Paper | Method::Phoenix | Method::TopDown | Method::ByHand => &mut self.paper.with,
         }
     }
 
@@ -206,6 +215,8 @@ impl Params {
                 cylinder_noise: false,
                 ..Readings::PAPER
             },
+            // The only region counts, however small.
+            Method::ByHand => Readings { small_regions: true, ..Readings::PAPER },
         };
         Rules { refine: self.refinements(), readings, baseline: self.baseline() }
     }

@@ -159,6 +159,11 @@ impl Masks {
         self.flags[pixel] & OUTSIDE != 0
     }
 
+    /// Whether one of the 8 neighbors of the pixel lies outside the area. The border of the picture is no edge of the area.
+    pub fn is_at_area_edge(&self, pixel: usize) -> bool {
+        self.flags.around(pixel).any(|near| self.outside(near))
+    }
+
     /// Whether the pixel has a value and lies inside of the area.
     #[inline]
     pub fn has_value(&self, pixel: usize) -> bool {

@@ -161,6 +161,30 @@ fn leftover_neighbors(
     neighbors
 }
 
+/// The matte line of a hypothesis.
+pub struct MatteLine {
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
+    /// The line.
+    pub line: Line,
+    /// Length of the line from black, counts.
+    pub length: f64,
+}
+
+/// The highlight line of pixels that a person has marked, whose highlight pixels have the moments `cluster`; `None` where the tests of a
+/// skewed T fail. The 50 % heuristic is measured and does not decide.
+pub fn marked_highlight_line<R: Recorder>(
+    input: &AnalysisInput,
+    matte: &MatteLine,
+    cluster: &Moments,
+    recorder: &mut R,
+) -> Option<HighlightLine> {
+    let MatteLine { hypothesis, line, length } = *matte;
+    let mut tests = Tests { input, hypothesis, matte: line, length, recorder };
+    let accepted = tests.run(CandidateSource::Marked, cluster);
+    tests.choose(accepted.as_slice())
+}
+
 /// A candidate that passed the tests.
 struct Accepted {
     source: CandidateSource,
@@ -224,6 +248,7 @@ impl<R: Recorder> Tests<'_, '_, R> {
             upper_half: position >= limits.position[0] && position <= limits.position[1],
             not_parallel: angle_deg.value >= angle_deg.limit,
             by_gershon: self.input.readings.gershon_test,
+            is_marked: source == CandidateSource::Marked,
             positive: is_positive(&line.direction),
             beyond: lies_beyond || !self.input.readings.beyond_meeting_point,
         };

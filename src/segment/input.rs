@@ -5,6 +5,25 @@ use crate::params::{Readings, Refine, UsedParams};
 use crate::photo::{CodingError, LinearImage, Masks, ShotNoise};
 use crate::raster::Raster;
 
+/// Pixels that a person has marked as one region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct MarkedArea {
+    /// Whether at least half of the usable pixels have marked pixels all around: then only these are fitted.
+    has_inner: bool,
+}
+
+impl MarkedArea {
+    /// The marked area of these masks.
+    fn of(masks: &Masks) -> Self {
+        let (width, height) = masks.shape();
+        let usable = (0..width * height).filter(|&pixel| masks.usable(pixel));
+        let (inner, all) = usable.fold((0usize, 0usize), |(inner, all), pixel| {
+            (inner + usize::from(!masks.is_at_area_edge(pixel)), all + 1)
+        });
+        Self { has_inner: 2 * inner >= all }
+    }
+}
+
 /// The image, its masks and the parameters.
 #[derive(Clone, Copy)]
 #[non_exhaustive]
@@ -25,6 +44,8 @@ pub struct AnalysisInput<'a> {
     shot: Option<ShotNoise>,
     /// Whether the errors of neighboring pixels are alike: after lossy compression or demosaicing.
     pub(crate) extended: bool,
+    /// The pixels inside of the area, where a person has marked them as one region; `None` for regions that a method finds.
+    marked: Option<MarkedArea>,
     stop: &'a (dyn Fn() -> bool + Sync),
 }
 
@@ -40,6 +61,7 @@ impl<'a> AnalysisInput<'a> {
             coding: None,
             shot: None,
             extended: false,
+            marked: None,
             stop: &|| false,
         }
     }
@@ -48,6 +70,25 @@ impl<'a> AnalysisInput<'a> {
     #[must_use]
     pub fn with_readings(self, readings: Readings) -> Self {
         Self { readings, ..self }
+    }
+
+    /// The same input, whose pixels inside of the area a person has marked as one region if `is_marked`.
+    #[must_use]
+    pub fn with_marked_pixels(self, is_marked: bool) -> Self {
+        Self { marked: is_marked.then(|| MarkedArea::of(self.masks)), ..self }
+    }
+
+    /// Whether a person has marked the pixels as one region: then no pixel is taken out of the region for its surroundings.
+    pub fn is_marked(&self) -> bool {
+        self.marked.is_some()
+    }
+
+    /// Whether lines and planes are fitted to the pixel: the color is used and, in a marked area, the pixel is not at the edge of the area,
+    /// where colors are mixtures of two objects.
+    #[inline]
+    pub fn is_fitted(&self, pixel: usize) -> bool {
+        let is_inner_only = self.marked.is_some_and(|marked| marked.has_inner);
+        self.masks.usable(pixel) && !(is_inner_only && self.masks.is_at_area_edge(pixel))
     }
 
     /// Largest number of pixels that a fit uses: `most`, or every pixel under the reading `every_pixel`.

@@ -32,8 +32,9 @@ mod unite;
 mod vote_light;
 
 pub(crate) use branches::{BranchSearch, Branches};
-pub(crate) use candidates::is_of_candidate;
+pub(crate) use candidates::{HighlightLine, MatteLine, is_of_candidate, marked_highlight_line};
 pub(crate) use choice::LIGHT_LIMITS;
+pub(crate) use linear::{line_fit, matte_length};
 pub(crate) use model_fit::{FittedPlane, MAX_LIGHT_SHARE, NewEdges, RegionFit, TEXTURE_CORRELATION};
 pub(crate) use recorded_labels::{Members, Pixels, RecordedLabels};
 pub(crate) use regions::{members, neighbors, parts};

@@ -139,7 +139,7 @@ impl RegionFit {
         let transform = surface.and_then(|surface| ReflectionTransform::new(body, surface));
         let (from, along) = (rgb(origin), rgb(body));
         let (mut squares, mut sum, mut count) = (0.0, Vec3::zeros(), 0usize);
-        for pixel in pixels.sample(SAMPLES).filter(|&pixel| input.masks.usable(pixel as usize)) {
+        for pixel in pixels.sample(SAMPLES).filter(|&pixel| input.is_fitted(pixel as usize)) {
             let color = input.pixels[pixel as usize];
             let v = std::array::from_fn(|band| color[band] - from[band]);
             let distance2 = match &transform {

@@ -108,9 +108,10 @@ impl Contents {
             Event::ComponentSplit(ComponentSplit { part, .. }) => Topic::Part(*part),
             Event::HistogramsSearched(searched) => Topic::Hypothesis(searched.hypothesis),
             Event::PatchMade(made) => Topic::Part(made.hypothesis),
+            Event::MarkedLineFitted(fitted) => Topic::Hypothesis(fitted.hypothesis),
             _ => return,
         };
-        let goes_on = matches!(topic, Topic::Candidates(_))
+        let goes_on = matches!((topic, event), (Topic::Candidates(_), _) | (_, Event::MarkedLineFitted(_)))
             && self.open
             && self.blocks.last().is_some_and(|last| last.topic == topic);
         if !goes_on {

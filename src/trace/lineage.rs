@@ -4,7 +4,7 @@
 use super::replay_state::ReplayState;
 use super::{
     Absorbed, CandidateChosen, CandidateTested, ComponentSplit, Event, HistogramsSearched, Hypothesis,
-    HypothesisChosen, LineRefitted, MatteAreasUnited, PatchMade, RegionsMerged, Renumbered, SliceMade, Trace,
+    HypothesisChosen, LineRefitted, MarkedLineFitted, MatteAreasUnited, PatchMade, RegionsMerged, Renumbered, SliceMade, Trace,
 };
 use crate::raster::{HypothesisId, RegionId};
 
@@ -28,7 +28,8 @@ impl Ancestor<'_> {
     pub fn step(&self) -> usize {
         let (Birth::Area { step: born, .. }
         | Birth::Part { step: born, .. }
-        | Birth::Picture { step: born, .. }) = self.birth;
+        | Birth::Picture { step: born, .. }
+        | Birth::Marked { step: born, .. }) = self.birth;
         self.joined.map_or(born, |joined| joined.step)
     }
 }
@@ -59,6 +60,13 @@ pub enum Birth<'a> {
         step: usize,
         /// Number of pixels of the region.
         pixels: u32,
+    },
+    /// As the skewed T of marked pixels (section 6, the method by hand).
+    Marked {
+        /// The step.
+        step: usize,
+        /// The first fit of the matte line.
+        fitted: &'a MarkedLineFitted,
     },
 }
 
@@ -168,6 +176,7 @@ fn birth<'t>(trace: &'t Trace, hypothesis: &Hypothesis) -> Option<Birth<'t>> {
             Some(of) => Birth::Part { step, of, pixels: *pixels },
             None => Birth::Picture { step, pixels: *pixels },
         }),
+        Event::MarkedLineFitted(fitted) => Some(Birth::Marked { step, fitted }),
         _ => None,
     }
 }
@@ -211,6 +220,8 @@ pub struct HypothesisStory<'a> {
     pub made: Option<(usize, &'a PatchMade)>,
     /// The search of the histograms of a region of an earlier method that is homogeneous.
     pub searched: Option<(usize, &'a HistogramsSearched)>,
+    /// The fits of both lines of marked pixels.
+    pub marked: Vec<(usize, &'a MarkedLineFitted)>,
     /// The fits of the line after the first.
     pub refits: Vec<(usize, &'a LineRefitted)>,
     /// The tests of neighbors as its highlight (5.4.1).
@@ -238,6 +249,7 @@ pub fn story(trace: &Trace, hypothesis: HypothesisId) -> Option<HypothesisStory<
             Event::ComponentSplit(ComponentSplit { hypothesis: of, pixels, .. }) => {
                 story.separated = Some((step, *of, *pixels));
             }
+            Event::MarkedLineFitted(fitted) => story.marked.push((step, fitted)),
             Event::PatchMade(made) => story.made = Some((step, made)),
             Event::HistogramsSearched(searched) if searched.chosen().is_none() => {
                 story.searched = Some((step, searched));

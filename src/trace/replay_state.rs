@@ -5,7 +5,7 @@
 use super::timeline::EventId;
 use super::{
     Absorbed, CandidateChosen, Class, ComponentSplit, Dropped, Event, HypothesisPassedOver, IlluminantGiven,
-    MergeTried, PassedOver, PatchMade, RegionsMerged, Renumbered, SliceMade, Trace, VectorsFitted,
+    MarkedCluster, MarkedLineFitted, MergeTried, PassedOver, PatchMade, RegionsMerged, Renumbered, SliceMade, Trace, VectorsFitted,
     WindowClassified, WindowsLaid,
 };
 use crate::color::{Cylinder, Line};
@@ -127,6 +127,11 @@ impl Hypothesis {
         }
     }
 
+    /// The hypothesis of marked pixels, with its first matte line.
+    fn of_marked(fitted: &MarkedLineFitted, id: EventId) -> Self {
+        Self { radius: fitted.radius, lines: vec![fitted.line], ..Self::of_patch(None, id) }
+    }
+
     /// The axis of the hypothesis's cylinder.
     pub fn line(&self) -> Option<&Line> {
         self.lines.last()
@@ -239,6 +244,7 @@ impl ReplayState {
             Event::HistogramsSearched(searched) if searched.chosen().is_none() => {
                 self.tell(searched.hypothesis, id);
             }
+            Event::MarkedLineFitted(fitted) => self.take_marked_line(fitted, id),
             Event::ComponentSplit(ComponentSplit { hypothesis, .. }) => {
                 let mut part = self.of(*hypothesis).cloned();
                 if let Some(part) = &mut part {
@@ -291,6 +297,31 @@ impl ReplayState {
         }
     }
 
+    /// Takes a line of the marked pixels. The first one, a matte line, makes the hypothesis.
+    fn take_marked_line(&mut self, fitted: &MarkedLineFitted, id: EventId) {
+        match self.of(fitted.hypothesis) {
+            None => self.hypotheses.push(Hypothesis::of_marked(fitted, id)),
+            Some(hypothesis) => {
+                if fitted.cluster == MarkedCluster::Matte {
+                    hypothesis.lines.push(fitted.line);
+                }
+                hypothesis.events.push(id);
+            }
+        }
+    }
+
+    /// Undoes [`Self::take_marked_line`].
+    fn take_back_marked_line(&mut self, fitted: &MarkedLineFitted) {
+        let is_first = |hypothesis: &mut Hypothesis| hypothesis.events.len() == 1;
+        if self.of(fitted.hypothesis).is_some_and(is_first) {
+            self.hypotheses.pop();
+        } else if let Some(hypothesis) = self.pop_event(fitted.hypothesis)
+            && fitted.cluster == MarkedCluster::Matte
+        {
+            hypothesis.lines.pop();
+        }
+    }
+
     /// Undoes the change of the event that was taken last.
     pub(super) fn take_back(&mut self, event: &Event) {
         match event {
@@ -307,6 +338,7 @@ impl ReplayState {
             Event::HistogramsSearched(searched) if searched.chosen().is_none() => {
                 self.pop_event(searched.hypothesis);
             }
+            Event::MarkedLineFitted(fitted) => self.take_back_marked_line(fitted),
             Event::LineRefitted(refitted) => {
                 self.pop_event(refitted.hypothesis).and_then(|hypothesis| hypothesis.lines.pop());
             }

@@ -105,7 +105,7 @@ impl Clusters {
         let candidate = match test.candidate {
             CandidateSource::Leftover(area) => self.leftovers.get(&area)?,
             CandidateSource::Hypothesis(other) => self.regions.get(&other.get())?,
-            CandidateSource::Absorbed(_) => return None,
+            CandidateSource::Absorbed(_) | CandidateSource::Marked => return None,
         };
         Some(candidate.object() == Some(object) && 2 * candidate.highlights > candidate.pixels)
     }

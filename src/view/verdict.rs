@@ -2,6 +2,7 @@
 
 use super::{Layer, ResultSnapshot, counted};
 use crate::intrinsic::RegionReflection;
+use crate::params::Baseline;
 use crate::raster::RegionId;
 use crate::segment::{LightBasis, TEXTURE_CORRELATION};
 
@@ -119,7 +120,7 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
 /// How much nearer to the truth the body image is than the photograph, where the truth is known and the method has a body image of its
 /// own.
 fn score_clause(shown: &ResultSnapshot) -> Option<Clause> {
-    if shown.params.baseline().is_some() {
+    if shown.params.baseline().is_some_and(Baseline::finds_regions_alone) {
         return None;
     }
     let scores = &shown.accuracy()?.scores;

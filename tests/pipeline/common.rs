@@ -11,7 +11,7 @@ use dichroscope::truth::{GroundTruth, Outcome, TruthObject, score};
 use proptest::prelude::*;
 use std::sync::Arc;
 
-pub const METHODS: [Method; 4] = Method::ALL;
+pub const METHODS: [Method; 5] = Method::ALL;
 
 /// Any readings of the paper: each on or off.
 pub fn any_readings() -> impl Strategy<Value = Readings> {

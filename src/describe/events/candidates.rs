@@ -11,7 +11,12 @@ use serde_json::{Value, json};
 impl Describe for CandidateTested {
     fn sentence(&self, names: &Names) -> String {
         let failed = failed_tests(self);
-        let verdict = if failed.is_empty() { "passed".to_owned() } else { failed.join("; ") };
+        let is_low = self.verdict.is_marked && !self.verdict.upper_half;
+        let verdict = match (failed.is_empty(), is_low) {
+            (true, true) => "passed, though not in the upper half".to_owned(),
+            (true, false) => "passed".to_owned(),
+            (false, _) => failed.join("; "),
+        };
         format!(
             "{} ({} px) as highlight of {}: the lines pass {:.1} counts from one another, at {:.0} % of the matte line: {verdict}; {}",
             names.candidate(self.candidate),
@@ -71,6 +76,7 @@ impl Describe for CandidateTested {
                 upper_half: true,
                 not_parallel: true,
                 by_gershon: false,
+                is_marked: false,
                 positive: false,
                 beyond: true,
             },
@@ -117,6 +123,7 @@ impl Names {
             CandidateSource::Leftover(area) => format!("what is left of area {area}"),
             CandidateSource::Hypothesis(hypothesis) => self.hypothesis(hypothesis),
             CandidateSource::Absorbed(hypothesis) => format!("absorbed {}", self.hypothesis(hypothesis)),
+            CandidateSource::Marked => "the highlight cluster of the marked pixels".to_owned(),
         }
     }
 }
@@ -146,7 +153,7 @@ fn failed_tests(test: &CandidateTested) -> Vec<String> {
         let (angle, least) = (test.angle_deg.value, test.angle_deg.limit);
         failed.push(format!("nearly parallel: {angle:.1}\u{b0}, at least {least:.0}\u{b0} needed"));
     }
-    if !verdict.by_gershon && !verdict.upper_half {
+    if !verdict.by_gershon && !verdict.upper_half && !verdict.is_marked {
         failed.push(format!("not in the upper half: at {at:.0} %, {low:.0} to {high:.0} % are allowed"));
     }
     if !verdict.positive {
@@ -163,5 +170,6 @@ fn candidate(source: CandidateSource) -> Value {
         CandidateSource::Leftover(area) => json!({"leftover_of_area": area}),
         CandidateSource::Hypothesis(hypothesis) => json!({"region": hypothesis}),
         CandidateSource::Absorbed(hypothesis) => json!({"absorbed": hypothesis}),
+        CandidateSource::Marked => json!("marked"),
     }
 }

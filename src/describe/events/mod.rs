@@ -4,6 +4,7 @@ mod ambient;
 mod baseline;
 mod borders;
 mod branches;
+mod by_hand;
 mod candidates;
 mod clipping;
 mod light;

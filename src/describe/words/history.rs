@@ -6,7 +6,7 @@ use super::{Names, count, ordinal, percent, won};
 use crate::color::Trial;
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::trace::{
-    Barrier, BorderLimit, Class, HistoryEntry, HistoryKind, MaskVerdict, MergeStory, PixelKind, Reach,
+    MarkedCluster,    Barrier, BorderLimit, Class, HistoryEntry, HistoryKind, MaskVerdict, MergeStory, PixelKind, Reach,
     Release, SplitStory, WindowStory,
 };
 
@@ -149,6 +149,15 @@ impl Names {
                         )
                     }
                 }
+            }
+            HistoryKind::Marked { hypothesis, cluster, distance } => {
+                let what = match cluster {
+                    MarkedCluster::Matte => "it is nearer to the matte line",
+                    MarkedCluster::Highlight => "it is not nearer to the matte line",
+                    _ => "it is clipped or bloomed, and no line is fitted to it",
+                };
+                let of = self.hypothesis(*hypothesis);
+                format!("it was marked and belongs to {of}: {what}, {distance:.1} counts from the matte line")
             }
             HistoryKind::Numbered { hypothesis, region: None } => {
                 format!("hypothesis {hypothesis} is not in the result")

@@ -13,6 +13,9 @@ impl Names {
                 format!("separated from {}: {}", self.hypothesis(of), count(pixels, "pixel"))
             }
             Birth::Picture { pixels, .. } => format!("from the picture: {}", count(pixels, "pixel")),
+            Birth::Marked { fitted, .. } => {
+                format!("is the skewed T of marked pixels: its first matte line from {}", count(fitted.pixels, "pixel"))
+            }
         };
         let joined = ancestor.joined.map_or_else(String::new, |joined| match joined.how {
             JoinedHow::Absorbed { highlight_foot: highlight, object_foot: object, gap } => format!(
@@ -42,6 +45,7 @@ impl Names {
         }
         sentences.extend(story.made.map(|(step, made)| (step, made.sentence(self))));
         sentences.extend(story.searched.map(|(step, searched)| (step, searched.sentence(self))));
+        sentences.extend(story.marked.iter().map(|&(step, fitted)| (step, fitted.sentence(self))));
         sentences.extend(story.tests.iter().map(|&(step, test)| (step, test.sentence(self))));
         if let Some((step, chosen)) = story.highlight {
             sentences.push((step, format!("{} is its highlight", self.candidate(chosen.candidate))));

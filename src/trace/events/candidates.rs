@@ -63,11 +63,13 @@ pub enum CandidateSource {
     Hypothesis(HypothesisId),
     /// A hypothesis that was absorbed as a broad highlight.
     Absorbed(HypothesisId),
+    /// The marked pixels that are nearer to the highlight line (the method by hand).
+    Marked,
 }
 
 /// The tests of a highlight candidate, each true when passed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[allow(clippy::struct_excessive_bools, reason = "five independent verdicts, and which of two decides")]
+#[allow(clippy::struct_excessive_bools, reason = "five independent verdicts, and which of them decide")]
 #[non_exhaustive]
 pub struct CandidateVerdict {
     /// The lines pass near enough to one another to form a skewed T.
@@ -78,6 +80,8 @@ pub struct CandidateVerdict {
     pub not_parallel: bool,
     /// Whether Gershon's test decides in the place of the 50 % heuristic (reading `gershon_test`).
     pub by_gershon: bool,
+    /// Whether a person has marked the pixels of both clusters as one object: then the place at which the lines meet does not decide.
+    pub is_marked: bool,
     /// The candidate's direction is positive in every band.
     pub positive: bool,
     /// The mean of the candidate lies beyond the meeting point.
@@ -90,9 +94,9 @@ impl CandidateVerdict {
         if self.by_gershon { self.accepted_by_gershon() } else { self.accepted_by_position() }
     }
 
-    /// Whether every test was passed, with the 50 % heuristic.
+    /// Whether every test was passed, with the 50 % heuristic, which does not decide for marked pixels.
     pub fn accepted_by_position(self) -> bool {
-        self.lines_meet && self.upper_half && self.positive && self.beyond
+        self.lines_meet && (self.upper_half || self.is_marked) && self.positive && self.beyond
     }
 
     /// Whether every test was passed, with Gershon's test in the place of the 50 % heuristic.

@@ -12,6 +12,7 @@ mod ambient;
 mod baseline;
 mod borders;
 mod branches;
+mod by_hand;
 mod candidates;
 mod clipping;
 mod light;
@@ -27,6 +28,7 @@ pub use ambient::*;
 pub use baseline::*;
 pub use borders::*;
 pub use branches::*;
+pub use by_hand::*;
 pub use candidates::*;
 pub use clipping::*;
 pub use light::*;
@@ -232,6 +234,10 @@ events! { $
     Peaks "color peaks" { boxed ColorPeaksFound(ColorPeaksFound) }
     /// A region of an earlier method was made (sections 5.1 and 7.2).
     Patch "patch" { inline PatchMade(PatchMade) }
+    /// The matte or the highlight line of marked pixels was fitted (section 6, the method by hand).
+    MarkedLine "line of the marked" { boxed MarkedLineFitted(MarkedLineFitted) }
+    /// The region takes marked pixels (section 6, the method by hand).
+    MarkedPixels "marked pixels" { inline MarkedPixelsTaken(MarkedPixelsTaken) }
     /// A pixel changed its owner.
     Claim "claim" {}
     /// A change of owner was refused in a contest.

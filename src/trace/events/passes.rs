@@ -25,6 +25,8 @@ pub enum Pass {
     Splitting,
     /// The peaks of the whole picture's histogram become regions (5.1, an earlier method).
     Clusters,
+    /// The marked pixels are divided between a matte and a highlight line, or join the region of these lines (6, the method by hand).
+    Marked,
     /// Merged areas start hypotheses, whose cylinders grow (5.3).
     Hypotheses,
     /// Broad highlights are absorbed by their objects (refines 5.3).
@@ -75,6 +77,7 @@ impl Pass {
         match self {
             Self::Splitting => "region splitting",
             Self::Clusters => "color clusters",
+            Self::Marked => "marked pixels",
             Self::Hypotheses => "hypotheses",
             Self::Absorbing => "absorb highlights",
             Self::SecondLook(_) => "second look",

@@ -6,7 +6,7 @@ use super::growth::{Growth, Reaching, growing_test, highlight_test};
 use super::local::Outside;
 use super::patch::Patch;
 use super::{BorderLimit, HistoryEntry, HistoryKind, Release, SplitStory, Unfit};
-use crate::color::Cylinder;
+use crate::color::{Cylinder, vec3};
 use crate::photo::{LinearImage, Masks};
 use crate::raster::{HypothesisId, PixelIndex};
 use crate::reflection::Amounts;
@@ -15,7 +15,7 @@ use crate::trace::stage_trace::{Move, Owners};
 use crate::trace::timeline::EventId;
 use crate::trace::{
     Absorbed, ComponentSplit, Contest, Dropped, Event, GrowthBegan, HoleFilled, HypothesisChosen,
-    HypothesisPassedOver, Measure, Pass, PassBegan, PassedOver, PatchMade, PixelKind, RegionsMerged,
+    HypothesisPassedOver, MarkedPixelsTaken, Measure, Pass, PassBegan, PassedOver, PatchMade, PixelKind, RegionsMerged,
     Renumbered, Stage, StageTrace, Trace,
 };
 
@@ -401,6 +401,11 @@ impl<'a> HistoryBuilder<'a> {
             Event::PatchMade(PatchMade { hypothesis, of, pixels, interval, .. }) => {
                 let code = interval.map_or(0, |interval| interval.feature.code(self.color));
                 Some(HistoryKind::Patched { hypothesis, of, pixels, interval, code })
+            }
+            Event::MarkedPixelsTaken(MarkedPixelsTaken { hypothesis, cluster, .. }) => {
+                let line = self.state.hypothesis(hypothesis)?.line()?;
+                let distance = line.distance(&vec3(self.color));
+                Some(HistoryKind::Marked { hypothesis, cluster, distance })
             }
             _ => None,
         }

@@ -18,7 +18,7 @@ mod tests;
 
 pub use split::{BorderLimit, LocalFate, LocalStory, SplitStory, Unfit};
 
-use super::{Class, CodeInterval, Contest, Event, PassedOver, Stage, Trace};
+use super::{Class, CodeInterval, Contest, Event, MarkedCluster, PassedOver, Stage, Trace};
 use crate::color::Trial;
 use crate::photo::{LinearImage, Masks};
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
@@ -170,6 +170,15 @@ pub enum HistoryKind {
         /// The pixel's code of that feature; 0 where no feature decided. A code outside the interval belongs to a small patch that was
         /// absorbed.
         code: u8,
+    },
+    /// A person has marked the pixel, and the hypothesis of the marked pixels took it (section 6).
+    Marked {
+        /// The hypothesis.
+        hypothesis: HypothesisId,
+        /// Which of the marked pixels it is.
+        cluster: MarkedCluster,
+        /// Distance from the matte line, counts.
+        distance: f64,
     },
     /// The hypothesis that has the pixel became a region of the result, or none.
     Numbered {

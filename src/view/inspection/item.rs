@@ -4,6 +4,7 @@ use super::fits::region_tests;
 use super::step::{holds_verdict, window_tests};
 use super::{Inspection, ThresholdTest, Tone};
 use crate::color::vec3;
+use crate::params::Baseline;
 use crate::raster::{Mask, PixelIndex, RegionId};
 use crate::trace::{Class, Event, Measured};
 use crate::view::shapes::hypothesis;
@@ -30,7 +31,7 @@ fn of_pixel(shown: &ResultSnapshot, pixel: PixelIndex) -> Option<Inspection> {
     let amounts = PixelAmounts::of(shown, pixel);
     let mut tests = mask_tests(color, analysis.used.min_intensity, analysis.used.clip_threshold).to_vec();
     // A method that finds regions alone has no cylinders.
-    let has_cylinders = shown.params.baseline().is_none();
+    let has_cylinders = !shown.params.baseline().is_some_and(Baseline::finds_regions_alone);
     if let Some(found) = region.filter(|_| has_cylinders).and_then(|region| hypothesis(shown, region)) {
         let distance = found.matte.distance(&vec3(color));
         tests.push(ThresholdTest::at_most(

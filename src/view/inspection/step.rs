@@ -46,6 +46,7 @@ fn section(replay: &Replay) -> &'static str {
     match replay.pass() {
         Some(Pass::Splitting) => return "7.2",
         Some(Pass::Clusters) => return "5.1",
+        Some(Pass::Marked) => return "6",
         _ => {}
     }
     match replay.stage() {

@@ -100,6 +100,10 @@ pub fn candidate_pixels(replay: &Replay, test: &CandidateTested, masks: &Masks) 
     match test.candidate {
         CandidateSource::Hypothesis(hypothesis) => pixels_of_region(replay, hypothesis),
         CandidateSource::Absorbed(_) => Vec::new(),
+        CandidateSource::Marked => {
+            let is_highlight = |&pixel: &usize| is_of_candidate(labels, masks, false, pixel);
+            (0..labels.len()).filter(is_highlight).map(|pixel| pixel as u32).collect()
+        }
         CandidateSource::Leftover(area) => {
             let Some(grid) = replay.first_grid() else { return Vec::new() };
             let (areas, width) = (grid.areas(), labels.width());

@@ -40,6 +40,7 @@ pub fn candidate_name(source: CandidateSource) -> String {
         CandidateSource::Leftover(area) => format!("what is left of area {area}"),
         CandidateSource::Hypothesis(id) => format!("hypothesis {id}"),
         CandidateSource::Absorbed(id) => format!("absorbed hypothesis {id}"),
+        CandidateSource::Marked => "the highlight cluster of the marked pixels".to_owned(),
     }
 }
 
