@@ -63,7 +63,8 @@ impl Stages {
             observer.working_made(&analysis, &prepared.working.blocks);
             let detail_used = prepared.detail_params(params, used);
             let detail_input = prepared.detail_input(&subject.image, &detail_used, rules);
-            let photograph = Photograph { prepared: &prepared, input: detail_input, baseline: rules.baseline };
+            let photograph =
+                Photograph { prepared: &prepared, input: detail_input, baseline: rules.baseline };
             let reused = self.full_resolution.enlarge(&photograph, &working, observer, &mut analysis)?;
             split_reused = split_reused && reused;
         }

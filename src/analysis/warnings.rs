@@ -46,7 +46,10 @@ pub(super) fn all_warnings(
     let mut all = match baseline {
         Some(Baseline::ByHand) => marked_warnings(analysis, restricted),
         Some(_) if has_regions => {
-            vec!["the method finds regions alone: no light and no highlights, all is body reflection".to_owned()]
+            vec![
+                "the method finds regions alone: no light and no highlights, all is body reflection"
+                    .to_owned(),
+            ]
         }
         _ => warnings(labels, &analysis.planar, &prepared.masks, restricted),
     };

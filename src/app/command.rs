@@ -55,6 +55,8 @@ pub enum Edit {
     SetAmbient(AmbientSetting, Option<Gesture>),
     /// Restrict the analysis to these pixels; none: analyze the whole picture.
     RestrictTo(Option<Arc<Mask>>),
+    /// Fit a skewed T to these pixels: the method by hand, restricted to them (section 6).
+    FitSkewedT(Arc<Mask>),
 
     /// Select an item, or nothing.
     Select(Option<Item>),

@@ -60,6 +60,8 @@ pub struct State {
     /// Whether the largest region is to be selected when the first result of the photograph is complete: the plane, the color
     /// space and the history then show something from the start.
     pub(super) preselects: bool,
+    /// Whether the region of the next complete result is to be selected, although pixels are marked: a skewed T was fitted to them.
+    pub(super) selects_region: bool,
     /// The rest of a restored workspace, which is applied when its pinned result has been computed.
     pub(super) after_pin: Option<AfterPin>,
 }

@@ -13,14 +13,14 @@
 //!
 //! Measured figures are in docs/by-hand.md.
 
-use super::skewed_t_fit::SkewedTFit;
-use crate::color::Vec3;
+use super::skewed_t_fit::{SkewedTFit, rms_from_line};
+use crate::color::{Line, Vec3, axis_angle_deg, closest_points};
 use crate::photo::Masks;
 use crate::raster::{HypothesisId, LabelMap, UNASSIGNED};
 use crate::reflection::{DichromaticPlane, Slice};
 use crate::segment::{
-    AnalysisInput, HighlightLine, Hypothesis, Illuminant, LightBasis, LightFindings, MatteRegions, Members,
-    MatteLine, PlanarHypothesis, PlanarRegions, RecordedLabels, marked_highlight_line, matte_length,
+    AnalysisInput, HighlightLine, Hypothesis, Illuminant, LightBasis, LightFindings, MatteLine, MatteRegions,
+    Members, PlanarHypothesis, PlanarRegions, RecordedLabels, marked_highlight_line, matte_length,
 };
 use crate::trace::{
     AveragedDirection, CandidateSource, HighlightsAveraged, IlluminantGiven, MarkedCluster, MarkedLineFitted,
@@ -156,6 +156,42 @@ pub fn marked_labels(masks: &Masks, has_region: bool) -> LabelMap {
     masks.mask(|masks, pixel| has_region && !masks.dark(pixel)).map(|&member| u16::from(member))
 }
 
+/// The skewed T of marked pixels: how both lines meet, whether or not they passed the tests.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MarkedSkewedT {
+    /// Number of pixels that the highlight line was fitted to.
+    pub highlight_pixels: usize,
+    /// Root mean square distance of these pixels from the highlight line, counts.
+    pub highlight_rms_counts: f64,
+    /// Point of the matte line that is nearest to the highlight line, counts.
+    pub meeting_point: [f64; 3],
+    /// Distance between both lines, counts.
+    pub gap_counts: f64,
+    /// Place of the meeting point on the matte line, percent of its length from black (the 50 % heuristic of section 3.2).
+    pub position_percent: f64,
+    /// Angle between both lines, degrees.
+    pub angle_deg: f64,
+}
+
+impl MarkedSkewedT {
+    /// The skewed T of an analysis by hand; `None` without a highlight line.
+    pub fn of(matte: &MatteRegions, planar: &PlanarRegions) -> Option<Self> {
+        let (matte, planar) = matte.hypotheses.first().zip(planar.hypotheses.first())?;
+        let (_, cluster) = matte.highlights.iter().find(|(source, _)| *source == CandidateSource::Marked)?;
+        let line = Line::principal(cluster)?;
+        let (on_matte, on_highlight) = closest_points(&matte.line, &line)?;
+        Some(Self {
+            highlight_pixels: cluster.n as usize,
+            highlight_rms_counts: rms_from_line(cluster, &line),
+            meeting_point: on_matte.into(),
+            gap_counts: (on_matte - on_highlight).norm(),
+            position_percent: 100.0 * on_matte.dot(&matte.line.direction)
+                / planar.matte_length.max(f64::MIN_POSITIVE),
+            angle_deg: axis_angle_deg(&matte.line.direction, &line.direction),
+        })
+    }
+}
+
 /// Why the marked pixels have no skewed T; none where they have one. `masks` are those of the working picture.
 pub fn no_skewed_t(masks: &Masks, matte: &MatteRegions, planar: &PlanarRegions) -> Option<NoSkewedT> {
     let usable = usable_pixels(masks).len();
@@ -193,7 +229,7 @@ fn light<R: Recorder>(
 
 /// The findings where the marked pixels have no skewed T.
 fn no_light() -> LightFindings {
-    LightFindings { basis: LightBasis::Average, ..LightFindings::default() }
+    LightFindings { basis: LightBasis::ByHand, ..LightFindings::default() }
 }
 
 fn given_light(direction: [f64; 3]) -> Illuminant {

@@ -15,7 +15,7 @@ mod skewed_t_fit;
 mod top_down;
 
 pub use by_hand::{
-    LEAST_MARKED_PX, NoSkewedT, marked_labels, marked_matte_region, marked_planar_region,
+    LEAST_MARKED_PX, MarkedSkewedT, NoSkewedT, marked_labels, marked_matte_region, marked_planar_region,
     marked_region_with_distorted, no_skewed_t,
 };
 pub use regions::{baseline_regions, regions_without_planes};

@@ -125,11 +125,14 @@ fn fit(
     let moments: Moments = members.map(|(&color, _)| color).collect();
     let class = Classifier::new(input.used.camera_noise, false).classify(&moments).0;
     let line = Line::principal(&moments).filter(|_| moments.n >= LEAST_OF_LINE && class != Class::Point)?;
-    // Of the variances along the three axes, the line explains the first.
-    let covariance = moments.covariance();
+    Some(FittedLine { cluster, round, line, moments, rms_counts: rms_from_line(&moments, &line) })
+}
+
+/// Root mean square distance of a cluster from its first eigenvector, counts: what the line leaves of the variances.
+pub(super) fn rms_from_line(cluster: &Moments, line: &Line) -> f64 {
+    let covariance = cluster.covariance();
     let along = line.direction.dot(&(covariance * line.direction));
-    let across = (covariance.trace() - along).max(0.0) * (moments.n - 1.0) / moments.n;
-    Some(FittedLine { cluster, round, line, moments, rms_counts: across.sqrt() })
+    ((covariance.trace() - along).max(0.0) * (cluster.n - 1.0) / cluster.n).sqrt()
 }
 
 #[cfg(test)]

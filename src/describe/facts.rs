@@ -3,6 +3,7 @@
 use super::light_facts::{AmbientFacts, IlluminantFacts, NoiseFacts};
 use super::region_facts::RegionFacts;
 use super::scores::Scores;
+use super::skewed_t_facts::SkewedTFacts;
 use crate::analysis::{Analysis, Stage};
 use crate::intrinsic::Reason;
 use crate::params::{
@@ -44,6 +45,9 @@ pub struct Report {
     /// The ambient light; absent in reports of versions that did not estimate ambient light.
     #[serde(default)]
     pub ambient: AmbientFacts,
+    /// The skewed T of marked pixels; absent under every other method, and without a highlight line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub skewed_t: Option<SkewedTFacts>,
     /// The regions; region `id` of `regions.png` is at index `id − 1`.
     pub regions: Vec<RegionFacts>,
     /// Number of pixels in no region; with an area, of pixels inside the area.
@@ -80,6 +84,7 @@ impl Report {
             scale: ScaleFacts::new(params, analysis),
             illuminant: IlluminantFacts::new(analysis, is_refined),
             ambient: AmbientFacts::new(analysis),
+            skewed_t: SkewedTFacts::new(params, analysis),
             regions: analysis.intrinsic.regions.iter().map(RegionFacts::from).collect(),
             unassigned_pixels: unassigned,
             reasons: reasons(analysis),

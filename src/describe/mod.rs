@@ -9,6 +9,7 @@ mod light_facts;
 mod names;
 mod region_facts;
 mod scores;
+mod skewed_t_facts;
 mod trace_line;
 mod words;
 
@@ -20,6 +21,7 @@ pub use light_facts::{AmbientFacts, CodingFacts, IlluminantFacts, LightEstimateF
 pub use names::Names;
 pub use region_facts::{HighlightBranchFacts, RegionFacts};
 pub use scores::Scores;
+pub use skewed_t_facts::SkewedTFacts;
 pub use trace_line::{TRACE_SCHEMA, schema_line, trace_line};
 pub use words::{Condensed, condense, what_if_sentence};
 

@@ -114,7 +114,9 @@ fn switches(scene: &Scene) -> String {
                 values.join(", ")
             )
         }
-        Method::ByHand => "Of these, the method by hand reads those of the masks, the noise and the widths.".to_owned(),
+        Method::ByHand => {
+            "Of these, the method by hand reads those of the masks, the noise and the widths.".to_owned()
+        }
         Method::TopDown => "Of these, the top-down method reads only those of the masks.".to_owned(),
         Method::Paper => {
             let on = named(true);

@@ -42,6 +42,8 @@ pub enum Action {
     MarkRegion,
     /// Keep the marked pixels under a name.
     KeepMark,
+    /// Fit a skewed T to the marked pixels.
+    FitSkewedT,
     /// Select nothing.
     Escape,
     /// Select the region after (`true`) or before the selected one.

@@ -31,6 +31,10 @@ pub fn of_pixel(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
         ui.separator();
         of_region(ui, cx, region);
     }
+    if cx.state.document.selection.marked.is_some() {
+        ui.separator();
+        action(ui, cx, "Fit skewed T to the marked", Action::FitSkewedT);
+    }
     ui.separator();
     ui.menu_button("Layer", |ui| {
         for layer in Layer::ALL.into_iter().filter(|layer| !layer.needs_pinned() || cx.state.pinned.is_some())

@@ -188,6 +188,9 @@ fn edit(ui: &mut Ui, cx: &mut PanelContext) {
     if restrict.on_hover_text("Pixels outside are left out of every stage and stay as they are.").clicked() {
         cx.send(Edit::RestrictTo(marked.cloned()));
     }
+    if item(ui, "Fit skewed T to the marked", Action::FitSkewedT, marked.is_some()) {
+        cx.act(Action::FitSkewedT);
+    }
     if ui.add_enabled(state.document.area.is_some(), Button::new("Analyze the whole picture")).clicked() {
         cx.send(Edit::RestrictTo(None));
     }

@@ -3,7 +3,7 @@
 use super::action::Action;
 use super::move_cursor::move_cursor;
 use super::{PanelContext, files};
-use crate::app::{Combine, Edit, ExportKind, JobCommand, NamedMarkEdit, ViewCommand};
+use crate::app::{Combine, Edit, ExportKind, JobCommand, NamedMarkEdit, Severity, ViewCommand};
 use crate::raster::RegionId;
 use crate::view::{Item, Tool};
 
@@ -31,6 +31,7 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
         Action::Redo => cx.send(Edit::Redo),
         Action::Invert => cx.send(Edit::InvertMarked),
         Action::MarkRegion => mark_region(cx),
+        Action::FitSkewedT => fit_skewed_t(cx),
         Action::KeepMark => cx.send(Edit::NamedMark(NamedMarkEdit::Keep)),
         Action::Escape => {
             if *help {
@@ -84,6 +85,17 @@ fn mark_region(cx: &mut PanelContext) {
     let (Some(region), Some(shown)) = (cx.state.selected_region(), cx.state.shown()) else { return };
     let mask = shown.labels().map(|&label| label == region.get());
     cx.send(Edit::Mark(std::sync::Arc::new(mask), Combine::Replace, None));
+}
+
+/// Fits a skewed T to the marked pixels, or tells that none are marked.
+fn fit_skewed_t(cx: &mut PanelContext) {
+    match cx.state.document.selection.marked.clone() {
+        Some(marked) => cx.send(Edit::FitSkewedT(marked)),
+        None => {
+            let text = "mark the pixels of one object first: a skewed T is fitted to them".to_owned();
+            cx.send(ViewCommand::Notify(Severity::Warning, text));
+        }
+    }
 }
 
 /// Selects the region after or before the selected one, by id.

@@ -9,7 +9,9 @@ pub mod testing;
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::app::{Edit, ViewCommand};
+use crate::baseline::MarkedSkewedT;
 use crate::gui::outline::{Outline, combine_by_keys};
+use crate::params::Method;
 use crate::raster::RegionId;
 use crate::segment::LightBasis;
 use crate::view::{
@@ -285,6 +287,18 @@ fn paint_sphere(painter: &egui::Painter, cx: &PanelContext, plane: &RegionPlane,
     painter.add(Shape::mesh(mesh));
 }
 
+/// Where the lines of marked pixels meet, and the gap between them, as another line of text; empty under other methods.
+fn meeting_text(shown: &ResultSnapshot) -> String {
+    let is_by_hand = shown.params.method == Method::ByHand;
+    let found = MarkedSkewedT::of(&shown.analysis.matte, &shown.analysis.planar).filter(|_| is_by_hand);
+    found.map_or_else(String::new, |found| {
+        format!(
+            "\nT at {:.0} % of the matte line, gap {:.1} counts",
+            found.position_percent, found.gap_counts
+        )
+    })
+}
+
 /// Writes angle, slice width and noise into the upper left corner, or why the region has no plane. Returns the rectangle of the
 /// text.
 fn paint_facts(
@@ -300,12 +314,17 @@ fn paint_facts(
     let text = if plane.has_plane {
         let (angle, slice) = (plane.angle_deg, plane.slice_half_width);
         let several = several_highlights(&plane.branches);
-        format!("angle {angle:.1}\u{b0}\nslice \u{b1}{slice:.1} counts\n\u{3b5} {rms:.2} counts rms{several}")
+        let meeting = meeting_text(shown);
+        format!(
+            "angle {angle:.1}\u{b0}\nslice \u{b1}{slice:.1} counts\n\u{3b5} {rms:.2} counts rms{meeting}{several}"
+        )
     } else {
         let hypothesis = plane.region.and_then(|region| shown.analysis.finals.hypotheses.get(region.index()));
         let has_highlight = hypothesis.is_some_and(|hypothesis| hypothesis.highlight.is_some());
         let why = if shown.analysis.finals.light.basis == LightBasis::NotSought {
             "the method seeks no light"
+        } else if shown.analysis.finals.light.basis == LightBasis::ByHand {
+            "the marked pixels have no skewed T"
         } else if shown.analysis.illuminant.is_none() {
             "the light's color is unknown, as no highlight was found"
         } else if !has_highlight && !shown.params.refinements().extend_planes {

@@ -1,5 +1,6 @@
 //! The selection panel: statistics of the marked or selected pixels (number, colors, place).
 
+use super::action::Action;
 use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
 use super::named_marks_list::NamedMarksList;
 use super::theme::SMALL_PT;
@@ -108,6 +109,11 @@ fn buttons(ui: &mut Ui, cx: &mut PanelContext, subject: &str) {
             }
         });
     });
+    let tip = "Lines are fitted to the matte and to the highlight pixels among the marked ones, which are split by both (section 6, the \
+               method of 1987 and 1988). The method becomes `by-hand`; undo takes this back.";
+    if marked && ui.small_button("Fit skewed T to the marked").on_hover_text(tip).clicked() {
+        cx.act(Action::FitSkewedT);
+    }
 }
 
 /// Shows numbers, class, axes, place and regions of the pixels.

@@ -71,6 +71,7 @@ const GENERAL: &[Shortcut] = &[
     key_with_command("Edit", Key::I, Action::Invert, "Invert the marked pixels"),
     key_with_command("Edit", Key::A, Action::MarkRegion, "Mark the pixels of the selected region"),
     key_with_command("Edit", Key::M, Action::KeepMark, "Keep the marked pixels as a named mark"),
+    key_with_command("Edit", Key::T, Action::FitSkewedT, "Fit a skewed T to the marked pixels"),
     key_alone("Edit", Key::Escape, Action::Escape, "Give up the gesture; select and mark nothing"),
     key_alone("Edit", Key::CloseBracket, Action::Region(true), "Select the next region"),
     key_alone("Edit", Key::OpenBracket, Action::Region(false), "Select the region before"),

@@ -62,6 +62,8 @@ impl LightFindings {
                 "no highlight was found: no neighbor of a region passed the tests".to_owned()
             }
             LightBasis::Average => "the average of the highlight directions".to_owned(),
+            LightBasis::ByHand if self.direction.is_none() => "the marked pixels have no skewed T".to_owned(),
+            LightBasis::ByHand => "the highlight line of the marked pixels".to_owned(),
             LightBasis::Planes => {
                 let alone = if self.highlights_alone {
                     ", those of the highlights alone, as faint surface reflection has another color (ambient light)"

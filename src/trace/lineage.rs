@@ -4,7 +4,8 @@
 use super::replay_state::ReplayState;
 use super::{
     Absorbed, CandidateChosen, CandidateTested, ComponentSplit, Event, HistogramsSearched, Hypothesis,
-    HypothesisChosen, LineRefitted, MarkedLineFitted, MatteAreasUnited, PatchMade, RegionsMerged, Renumbered, SliceMade, Trace,
+    HypothesisChosen, LineRefitted, MarkedLineFitted, MatteAreasUnited, PatchMade, RegionsMerged, Renumbered,
+    SliceMade, Trace,
 };
 use crate::raster::{HypothesisId, RegionId};
 

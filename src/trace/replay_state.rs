@@ -5,8 +5,8 @@
 use super::timeline::EventId;
 use super::{
     Absorbed, CandidateChosen, Class, ComponentSplit, Dropped, Event, HypothesisPassedOver, IlluminantGiven,
-    MarkedCluster, MarkedLineFitted, MergeTried, PassedOver, PatchMade, RegionsMerged, Renumbered, SliceMade, Trace, VectorsFitted,
-    WindowClassified, WindowsLaid,
+    MarkedCluster, MarkedLineFitted, MergeTried, PassedOver, PatchMade, RegionsMerged, Renumbered, SliceMade,
+    Trace, VectorsFitted, WindowClassified, WindowsLaid,
 };
 use crate::color::{Cylinder, Line};
 use crate::raster::{HypothesisId, Raster, RegionId};

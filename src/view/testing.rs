@@ -50,7 +50,7 @@ pub(crate) fn candidate() -> CandidateTested {
             upper_half: true,
             not_parallel: true,
             by_gershon: false,
-                is_marked: false,
+            is_marked: false,
             positive: true,
             beyond: true,
         },

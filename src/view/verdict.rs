@@ -93,10 +93,10 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
     let subject = ClauseSubject::Light;
     let Some(light) = &shown.analysis.illuminant else {
         let is_sought = findings.basis != LightBasis::NotSought;
-        let text = if is_sought {
-            "the light's color is unknown: no highlight was found"
-        } else {
-            "the method seeks no light, and all is body reflection"
+        let text = match findings.basis {
+            LightBasis::NotSought => "the method seeks no light, and all is body reflection",
+            LightBasis::ByHand => "the light's color is unknown: the marked pixels have no skewed T",
+            _ => "the light's color is unknown: no highlight was found",
         };
         return Clause { text: text.to_owned(), subject, is_bad: is_sought };
     };
@@ -106,6 +106,7 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
         LightBasis::Average => {
             format!("the light is the average of {}", from("highlight direction"))
         }
+        LightBasis::ByHand => "the light is the highlight line of the marked pixels".to_owned(),
         LightBasis::Votes => format!("the light comes from {}", from("small highlight")),
         LightBasis::Planes | LightBasis::Nothing | LightBasis::NotSought => {
             format!("the light comes from {}", from("plane"))

@@ -29,7 +29,14 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
         Edit::SetParameter(parameter, setting, gesture) => {
             edit_params(state, gesture, |params| *params.slot(parameter) = setting)
         }
-        Edit::SetMethod(method) => edit_params(state, None, |params| *params = with_method(params, method)),
+        Edit::SetMethod(method) => {
+            let area = &state.document.area;
+            match state.document.selection.marked.clone().filter(|_| area.is_none()) {
+                // The method by hand has no use for the whole picture where pixels are marked.
+                Some(marked) if method == Method::ByHand => fit_skewed_t(state, marked),
+                _ => edit_params(state, None, |params| *params = with_method(params, method)),
+            }
+        }
         Edit::SetSwitch(switch, on) => {
             edit_params(state, None, |params| params.refinements_mut().set(switch, on))
         }
@@ -39,6 +46,7 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
         Edit::SetParams(params) => edit_params(state, None, |old| *old = *params),
         Edit::PinIlluminant(direction, gesture) => pin_illuminant(state, direction, gesture),
         Edit::SetAmbient(setting, gesture) => edit_params(state, gesture, |params| params.ambient = setting),
+        Edit::FitSkewedT(marked) => fit_skewed_t(state, marked),
         Edit::RestrictTo(area) => edit(state, None, |document| document.area = area),
         Edit::Select(item) => {
             state.explained_pixel = None;
@@ -136,6 +144,26 @@ pub(super) fn analyze(state: &mut State) -> Vec<Effect> {
 fn pin_illuminant(state: &mut State, direction: Option<[f64; 3]>, gesture: Option<Gesture>) -> Vec<Effect> {
     let setting = direction.map_or(IlluminantSetting::Auto, IlluminantSetting::Given);
     edit_params(state, gesture, |params| params.illuminant = setting)
+}
+
+/// Chooses the method by hand and restricts the analysis to the marked pixels, in one step of the history. Their region is selected when the
+/// result is there.
+fn fit_skewed_t(state: &mut State, marked: Arc<Mask>) -> Vec<Effect> {
+    if let Some(after) = state.after_pin.take() {
+        state.document.params = after.params;
+    }
+    let params = with_method(&state.document.params, Method::ByHand);
+    if params == state.document.params
+        && state.document.area.as_ref().is_some_and(|area| Arc::ptr_eq(area, &marked))
+    {
+        return Vec::new();
+    }
+    let effects = edit(state, None, |document| {
+        (document.params, document.area) = (params, Some(marked));
+        document.selection.item = None;
+    });
+    state.selects_region = !effects.is_empty();
+    effects
 }
 
 /// `params` with the other method: each parameter at the old method's default gets the new method's default.

@@ -222,6 +222,9 @@ fn show_result(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
     if is_last && std::mem::take(&mut state.preselects) {
         select_largest_region(state, &shown);
     }
+    if is_last && std::mem::take(&mut state.selects_region) && state.document.selection.item.is_none() {
+        state.document.selection.item = largest_region(&shown);
+    }
     state.newest = Some(shown);
     let Some(after) = state.after_pin.take_if(|_| is_last) else { return Vec::new() };
     state.pinned = state.newest.clone();
@@ -246,11 +249,14 @@ fn show_preview(state: &mut State, preview: Preview) {
 /// Selects the largest region, where a person has neither selected nor marked anything. The selection is no step of the history.
 fn select_largest_region(state: &mut State, shown: &ResultSnapshot) {
     if state.document.selection.is_empty() {
-        let regions = shown.analysis.intrinsic.regions.iter();
-        // Of regions of one size, the first.
-        let largest = regions.rev().max_by_key(|region| region.pixels);
-        state.document.selection.item = largest.map(|region| Item::Region(region.id));
+        state.document.selection.item = largest_region(shown);
     }
+}
+
+/// The largest region of a result, of regions of one size the first.
+fn largest_region(shown: &ResultSnapshot) -> Option<Item> {
+    let regions = shown.analysis.intrinsic.regions.iter();
+    regions.rev().max_by_key(|region| region.pixels).map(|region| Item::Region(region.id))
 }
 
 /// Selects the region of the new result that overlaps the selected region most.

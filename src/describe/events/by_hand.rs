@@ -55,11 +55,7 @@ impl Describe for MarkedPixelsTaken {
             MarkedCluster::Highlight => "not nearer to the matte line",
             MarkedCluster::Distorted => "clipped or bloomed",
         };
-        format!(
-            "{} takes {}, {what}",
-            names.hypothesis(self.hypothesis),
-            count(self.pixels, "marked pixel")
-        )
+        format!("{} takes {}, {what}", names.hypothesis(self.hypothesis), count(self.pixels, "marked pixel"))
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {

@@ -6,8 +6,8 @@ use super::{Names, count, ordinal, percent, won};
 use crate::color::Trial;
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::trace::{
-    MarkedCluster,    Barrier, BorderLimit, Class, HistoryEntry, HistoryKind, MaskVerdict, MergeStory, PixelKind, Reach,
-    Release, SplitStory, WindowStory,
+    Barrier, BorderLimit, Class, HistoryEntry, HistoryKind, MarkedCluster, MaskVerdict, MergeStory,
+    PixelKind, Reach, Release, SplitStory, WindowStory,
 };
 
 /// History entries that say nearly the same, as one.

@@ -14,7 +14,10 @@ impl Names {
             }
             Birth::Picture { pixels, .. } => format!("from the picture: {}", count(pixels, "pixel")),
             Birth::Marked { fitted, .. } => {
-                format!("is the skewed T of marked pixels: its first matte line from {}", count(fitted.pixels, "pixel"))
+                format!(
+                    "is the skewed T of marked pixels: its first matte line from {}",
+                    count(fitted.pixels, "pixel")
+                )
             }
         };
         let joined = ancestor.joined.map_or_else(String::new, |joined| match joined.how {

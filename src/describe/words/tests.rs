@@ -111,7 +111,7 @@ fn a_failed_skewed_t_names_the_test_and_its_limit() {
             upper_half: false,
             not_parallel: true,
             by_gershon: false,
-                is_marked: false,
+            is_marked: false,
             positive: true,
             beyond: true,
         },

@@ -25,10 +25,16 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
         ui.spacing_mut().item_spacing = egui::vec2(6.0, 2.0);
         // A text that does not fit begins another line.
         ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
-        let tip = if findings.basis == LightBasis::Average {
-            "The color of the light: the average direction of all highlight clusters (section 5.4.1)."
-        } else {
-            "The color of the light: where the dichromatic planes of all objects intersect (section 5.4)."
+        let tip = match findings.basis {
+            LightBasis::Average => {
+                "The color of the light: the average direction of all highlight clusters (section 5.4.1)."
+            }
+            LightBasis::ByHand => {
+                "The color of the light: the direction of the highlight line of the marked pixels (section 6)."
+            }
+            _ => {
+                "The color of the light: where the dichromatic planes of all objects intersect (section 5.4)."
+            }
         };
         ui.label(RichText::new("light").color(cx.palette.secondary)).on_hover_text(tip);
         if let Some(light) = &shown.analysis.illuminant {
@@ -89,6 +95,7 @@ fn basis_text(light: &Illuminant, findings: &LightFindings) -> String {
     let from = match findings.basis {
         LightBasis::Given => return "given".to_owned(),
         LightBasis::Average => format!("average of {}", from("highlight")),
+        LightBasis::ByHand => "of the marked pixels".to_owned(),
         LightBasis::Votes => format!("by {}", from("small highlight")),
         LightBasis::Planes | LightBasis::Nothing | LightBasis::NotSought => {
             format!("from {}", from("object"))

@@ -71,6 +71,8 @@ pub enum LightBasis {
     Given,
     /// The average of the directions of highlight clusters (the paper's method).
     Average,
+    /// The highlight line of pixels that a person has marked (the method by hand).
+    ByHand,
     /// The dichromatic planes of regions.
     Planes,
     /// The votes of small highlights.
@@ -85,6 +87,7 @@ impl LightBasis {
             Self::NotSought => "not_sought",
             Self::Given => "given",
             Self::Average => "average",
+            Self::ByHand => "by_hand",
             Self::Planes => "planes",
             Self::Votes => "votes",
         }

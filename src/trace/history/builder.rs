@@ -15,8 +15,8 @@ use crate::trace::stage_trace::{Move, Owners};
 use crate::trace::timeline::EventId;
 use crate::trace::{
     Absorbed, ComponentSplit, Contest, Dropped, Event, GrowthBegan, HoleFilled, HypothesisChosen,
-    HypothesisPassedOver, MarkedPixelsTaken, Measure, Pass, PassBegan, PassedOver, PatchMade, PixelKind, RegionsMerged,
-    Renumbered, Stage, StageTrace, Trace,
+    HypothesisPassedOver, MarkedPixelsTaken, Measure, Pass, PassBegan, PassedOver, PatchMade, PixelKind,
+    RegionsMerged, Renumbered, Stage, StageTrace, Trace,
 };
 
 /// The cause of the changes of owner that follow an event.

@@ -72,7 +72,7 @@ mod tests {
             upper_half: false,
             not_parallel: true,
             by_gershon: false,
-                is_marked: false,
+            is_marked: false,
             positive: true,
             beyond: true,
         };
