@@ -61,7 +61,8 @@ impl FullResolution {
         observer.made(StageOutput::Matte(Arc::clone(&analysis.matte)));
         analysis.planar = self.planar.get(working.planar.number, observer, || {
             let made = &*working.planar.value;
-            PlanarRegions { labels: blocks.enlarged(&made.labels), ..made.clone() }
+            let second_lamp_mask = made.second_lamp_mask.as_ref().map(|mask| Arc::new(blocks.enlarged(mask)));
+            PlanarRegions { labels: blocks.enlarged(&made.labels), second_lamp_mask, ..made.clone() }
         })?;
         observer.made(StageOutput::Planar(Arc::clone(&analysis.planar)));
         let working_regions = &*working.finals.value;
@@ -76,7 +77,8 @@ impl FullResolution {
                 }
                 Some(_) => blocks.enlarged(&working_regions.labels),
             };
-            FinalRegions { labels, ..working_regions.clone() }
+            let second_lamp_mask = analysis.planar.second_lamp_mask.clone();
+            FinalRegions { labels, second_lamp_mask, ..working_regions.clone() }
         })?;
         observer.made(StageOutput::Finals(Arc::clone(&analysis.finals)));
         let reused = self.intrinsic.is_made_from(working.split.number);

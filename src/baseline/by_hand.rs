@@ -92,7 +92,13 @@ pub fn marked_planar_region<R: Recorder>(
     let Some(hypothesis) = matte.hypotheses.first() else {
         let light = input.used.illuminant.map_or_else(no_light, LightFindings::given);
         let illuminant = input.used.illuminant.map(given_light);
-        return PlanarRegions { labels: recorded_labels.labels, hypotheses: Vec::new(), illuminant, light };
+        return PlanarRegions {
+            labels: recorded_labels.labels,
+            hypotheses: Vec::new(),
+            illuminant,
+            light,
+            second_lamp_mask: None,
+        };
     };
     recorded_labels.begin(Pass::Candidates);
     let members = Members::of(&matte.labels, 1);
@@ -131,7 +137,13 @@ pub fn marked_planar_region<R: Recorder>(
         highlight: highlight.map(|line| line.direction),
         alive: true,
     };
-    PlanarRegions { labels: recorded_labels.labels, hypotheses: vec![planar], illuminant, light }
+    PlanarRegions {
+        labels: recorded_labels.labels,
+        hypotheses: vec![planar],
+        illuminant,
+        light,
+        second_lamp_mask: None,
+    }
 }
 
 /// The region of all lit marked pixels: clipped and bloomed pixels join it.

@@ -59,5 +59,6 @@ pub fn regions_without_planes(input: &AnalysisInput, matte: &MatteRegions) -> Pl
         hypotheses: hypotheses.map(planar).collect(),
         illuminant: None,
         light: LightFindings::not_sought(),
+        second_lamp_mask: None,
     }
 }

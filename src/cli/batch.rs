@@ -236,6 +236,10 @@ pub(super) fn in_short(finished: &Finished) -> String {
         .illuminant
         .direction
         .map_or("light unknown".to_owned(), |[r, g, b]| format!("light ({r:.2}, {g:.2}, {b:.2})"));
+    let second = report.illuminant.second.as_ref().map_or_else(String::new, |second| {
+        let [r, g, b] = second.direction;
+        format!(" and second lamp ({r:.2}, {g:.2}, {b:.2})")
+    });
     let ambient = report
         .ambient
         .subtracted
@@ -248,5 +252,8 @@ pub(super) fn in_short(finished: &Finished) -> String {
         0 => String::new(),
         n => format!(", {}", count(n, "warning")),
     };
-    format!("{regions}{poor}, {share}, {light}{ambient}{warnings}, {:.0} ms", report.timings_ms.analysis_ms())
+    format!(
+        "{regions}{poor}, {share}, {light}{second}{ambient}{warnings}, {:.0} ms",
+        report.timings_ms.analysis_ms()
+    )
 }

@@ -126,9 +126,26 @@ pub struct IlluminantFacts {
     /// Error of the light by its evidence, degrees; null where the light was given or is unknown.
     #[serde(default)]
     pub interval_deg: Option<f64>,
+    /// A second lamp of another color; null where one light explains all regions.
+    #[serde(default)]
+    pub second: Option<SecondLampFacts>,
     /// The two estimates of the refined method; absent where the light is the paper's average of highlight directions.
     #[serde(flatten)]
     pub estimates: Option<LightEstimateFacts>,
+}
+
+/// A second lamp of another color (section 7.5). The regions that it lights have its color as surface reflection vector.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct SecondLampFacts {
+    /// Unit vector.
+    pub direction: [f64; 3],
+    /// Error of the direction by its evidence, degrees.
+    pub interval_deg: f64,
+    /// Number of regions whose highlights contradict the first light and agree with this lamp.
+    pub objects: usize,
+    /// Angle between both lamps, degrees.
+    pub angle_deg: f64,
 }
 
 /// The two estimates of the light of the refined method.
@@ -175,6 +192,12 @@ impl IlluminantFacts {
             basis: basis.name().to_owned(),
             reason: light.reason(),
             interval_deg: light.interval_deg,
+            second: light.second.map(|second| SecondLampFacts {
+                direction: second.direction,
+                interval_deg: second.interval_deg,
+                objects: second.regions,
+                angle_deg: light.lamps_angle_deg().unwrap_or_default(),
+            }),
             estimates: is_refined.then(|| LightEstimateFacts::new(light)),
         }
     }

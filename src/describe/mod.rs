@@ -17,7 +17,9 @@ pub use facts::{
     AmbientAsked, AreaFacts, ImageFacts, LightFacts, ParameterFacts, ParamsFacts, Report, SCHEMA, ScaleFacts,
     Timings,
 };
-pub use light_facts::{AmbientFacts, CodingFacts, IlluminantFacts, LightEstimateFacts, NoiseFacts};
+pub use light_facts::{
+    AmbientFacts, CodingFacts, IlluminantFacts, LightEstimateFacts, NoiseFacts, SecondLampFacts,
+};
 pub use names::Names;
 pub use region_facts::{HighlightBranchFacts, RegionFacts};
 pub use scores::Scores;

@@ -6,7 +6,9 @@ use super::picture::transparent_uri;
 use super::scene::Scene;
 use crate::color::srgb_from_linear;
 use crate::raster::RegionId;
-use crate::view::{ColorSpace, Histogram, Point, RegionShapes, illuminant_line, region_shapes};
+use crate::view::{
+    ColorSpace, Histogram, Point, RegionShapes, illuminant_line, region_shapes, second_lamp_line,
+};
 use std::fmt::Write;
 
 /// Most regions whose hypotheses are drawn, the largest first.
@@ -99,7 +101,7 @@ pub fn svg(scene: &Scene, side: Side) -> String {
     for (shape, color) in &shapes {
         svg.push_str(&lines(&projection, shape, color));
     }
-    if let Some([from, to]) = illuminant_line(&scene.shown) {
+    for [from, to] in illuminant_line(&scene.shown).into_iter().chain(second_lamp_line(&scene.shown)) {
         let (a, b) = (projection.at(from), projection.at(to));
         let _ = write!(
             svg,

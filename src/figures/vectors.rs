@@ -247,7 +247,16 @@ fn found_sentence(scene: &Scene, computed: [f64; 3]) -> String {
         .interval_deg
         .map_or_else(String::new, |interval| format!(" to within {} by its own evidence", degrees(interval)));
     let objects = counted(facts.objects, one, many);
-    format!("The light is {light}, found from {objects}{interval} ({}).", facts.reason)
+    let second = facts.second.as_ref().map_or_else(String::new, |second| {
+        format!(
+            " A second lamp is {}, found from {} to within {}, {} from the first; the regions with its highlights are split with its color.",
+            vector(second.direction),
+            counted(second.objects, "object", "objects"),
+            degrees(second.interval_deg),
+            degrees(second.angle_deg)
+        )
+    });
+    format!("The light is {light}, found from {objects}{interval} ({}).{second}", facts.reason)
 }
 
 /// How far the light of the analysis and the average are from the independent measurement.

@@ -230,8 +230,12 @@ mod tests {
                 alive: true,
             }
         });
-        let regions =
-            FinalRegions { labels, hypotheses: hypotheses.collect(), light: LightFindings::default() };
+        let regions = FinalRegions {
+            labels,
+            hypotheses: hypotheses.collect(),
+            light: LightFindings::default(),
+            second_lamp_mask: None,
+        };
         ambient(&drawing.input(), &regions, &members(&regions))
     }
 

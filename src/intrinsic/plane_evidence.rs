@@ -19,11 +19,10 @@
 //! split with a new edge 2.1 → 1.2 %, of a portrait 17.6 → 0 %.
 
 use super::images::Images;
-use super::local::{Observations, Regions};
+use super::local::{Lamps, Observations, Regions};
 use super::region_plan::RegionPlan;
-use crate::color::Vec3;
 use crate::raster::RegionId;
-use crate::segment::{AnalysisInput, LightFindings, Pixels};
+use crate::segment::{AnalysisInput, Pixels};
 use rayon::prelude::*;
 
 /// Fewest pixels with surface reflection that are judged.
@@ -33,7 +32,7 @@ const LEAST_PIXELS: usize = 20;
 /// this took, which the local split needs as well; none where no region was tested.
 pub(super) fn reject_regions_without_evidence<'a>(
     input: &AnalysisInput,
-    light: &LightFindings,
+    lamps: Option<&Lamps>,
     regions: &Regions<'a>,
     images: &Images,
     plans: &mut [RegionPlan],
@@ -49,7 +48,7 @@ pub(super) fn reject_regions_without_evidence<'a>(
     if !plans.iter().any(is_tested) {
         return None;
     }
-    let observations = observations(input, light, regions);
+    let observations = observations(input, lamps, regions);
     let tested = plans.par_iter_mut().enumerate().filter(|(_, plan)| is_tested(plan));
     tested.for_each(|(index, plan)| {
         let pixels = regions.members.region(RegionId::from_index(index));
@@ -66,12 +65,12 @@ pub(super) fn reject_regions_without_evidence<'a>(
 /// The observations around all lit pixels; none without the refinements that they belong to, and where no light is known.
 fn observations<'a>(
     input: &AnalysisInput,
-    light: &LightFindings,
+    lamps: Option<&Lamps>,
     regions: &Regions<'a>,
 ) -> Option<Observations<'a>> {
     let refine = input.refine;
-    let light = light.direction.filter(|_| refine.plane_evidence && refine.local_split)?;
-    Observations::around(input, &Vec3::from(light), regions, |pixel| !input.masks.dark(pixel))
+    let lamps = lamps.filter(|_| refine.plane_evidence && refine.local_split)?;
+    Observations::around(input, lamps, regions, |pixel| !input.masks.dark(pixel))
 }
 
 /// The mean probability of a highlight in the undistorted pixels of a region with surface reflection, weighted by the square of the
@@ -99,7 +98,7 @@ fn mean_probability(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::rgb;
+    use crate::color::{Vec3, rgb};
     use crate::raster::{LabelMap, Raster};
     use crate::segment::Members;
     use crate::segment::testing::Drawing;
@@ -139,7 +138,8 @@ mod tests {
         let labels = LabelMap::from_vec(SIDE_PX, SIDE_PX, labels.collect()).unwrap();
         let members = Members::of(&labels, 2);
         let regions = Regions { labels: &labels, members: &members, matte: &[] };
-        let observations = Observations::around(&input, &light(), &regions, |_| true).unwrap();
+        let lamps = Lamps::one(&light()).unwrap();
+        let observations = Observations::around(&input, &lamps, &regions, |_| true).unwrap();
         [1u16, 2].map(|id| mean_probability(&input, &observations, &images, members.region(id)))
     }
 

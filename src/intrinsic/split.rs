@@ -7,7 +7,7 @@ use super::border_mixtures::limit_surface_at_borders;
 use super::explained_mask::explained_mask;
 use super::finish::Finish;
 use super::images::Images;
-use super::local::{LocalInput, LocalSplit, Regions, split_locally};
+use super::local::{Lamps, LocalInput, LocalSplit, Regions, split_locally};
 use super::plane_evidence::reject_regions_without_evidence;
 use super::region::RegionReports;
 use super::region_plan::RegionPlan;
@@ -60,6 +60,7 @@ pub fn split<R: Recorder>(input: &AnalysisInput, regions: &FinalRegions, recorde
                 labels: regions.labels.clone(),
                 hypotheses: regions.hypotheses.iter().map(from_light).collect(),
                 light: regions.light,
+                second_lamp_mask: regions.second_lamp_mask.clone(),
             };
             split_from(&counts, &input.with_pixels(&pixels), &shifted, &members, recorder)
         }
@@ -115,8 +116,9 @@ fn split_from<R: Recorder>(
     reject_regions_with_new_edges(input, &regions.labels, members, &images, &mut found.plans);
     let matte: Vec<Line> = found.plans.iter().map(|plan| plan.hypothesis.matte).collect();
     let local_regions = Regions { labels: &regions.labels, members, matte: &matte };
+    let lamps = Lamps::new(&regions.light, regions.second_lamp_mask.as_ref());
     let observations =
-        reject_regions_without_evidence(input, &regions.light, &local_regions, &images, &mut found.plans);
+        reject_regions_without_evidence(input, lamps.as_ref(), &local_regions, &images, &mut found.plans);
     let plans = &found.plans;
     record_plans(origin, plans, recorder);
     if R::KEEPS && input.refine.border_mixtures {
@@ -127,8 +129,14 @@ fn split_from<R: Recorder>(
     let model_fits: Vec<bool> = plans.iter().map(|plan| plan.model_fits).collect();
     found.explained_mask = explained_mask(input, regions, members, &model_fits, &images.kinds);
     let explained_mask = &found.explained_mask;
-    let local_input =
-        LocalInput { input, light: regions.light, explained_mask, observations, regions: local_regions };
+    let local_input = LocalInput {
+        input,
+        light: regions.light,
+        lamps: lamps.as_ref(),
+        explained_mask,
+        observations,
+        regions: local_regions,
+    };
     found.local = split_locally(&local_input, origin, &mut images, recorder);
     if R::KEEPS {
         recorder.record(PassBegan { pass: Pass::Labels });

@@ -184,7 +184,7 @@ mod tests {
             let hypothesis =
                 PlanarHypothesis { origin: crate::raster::HypothesisId::from_index(0), matte, matte_length: 150.0, plane, start, highlight: None, alive: true };
             let labels = LabelMap::filled(amounts.len(), 1, 1);
-            let regions = FinalRegions { labels, hypotheses: vec![hypothesis], light: LightFindings::default() };
+            let regions = FinalRegions { labels, hypotheses: vec![hypothesis], light: LightFindings::default(), second_lamp_mask: None };
             let result = split(&input, &regions, &mut NoopRecorder).intrinsic;
             let found = &result.regions[0];
             prop_assert!(axis_angle_deg(&found.body.into(), &body) < 0.1);

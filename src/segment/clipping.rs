@@ -157,6 +157,7 @@ mod tests {
             hypotheses: vec![hypothesis; 2],
             illuminant: None,
             light: LightFindings::default(),
+            second_lamp_mask: None,
         };
         check(&clipping_regions(&drawing.input(), &planar, &mut NoopRecorder), after);
     }

@@ -231,7 +231,7 @@ mod tests {
             }
         };
         let hypotheses = [red(), green()].into_iter().enumerate().map(hypothesis).collect();
-        FinalRegions { labels, hypotheses, light: LightFindings::default() }
+        FinalRegions { labels, hypotheses, light: LightFindings::default(), second_lamp_mask: None }
     }
 
     /// The labels of a photograph in which `r` and `g` are matte, `h` is red with a highlight, `b` blue, `w` clipped and `.` dark. Blocks

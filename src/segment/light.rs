@@ -34,6 +34,20 @@ pub struct LightFindings {
     pub support: f64,
     /// Angle within which the light lies, by the evidence alone, degrees.
     pub interval_deg: Option<f64>,
+    /// The second lamp; `None` where one light explains all regions.
+    pub second: Option<SecondLampFindings>,
+}
+
+/// A second lamp of another color (section 7.5).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SecondLampFindings {
+    /// Unit direction.
+    pub direction: [f64; 3],
+    /// Two standard deviations of the direction, degrees.
+    pub interval_deg: f64,
+    /// Number of regions whose highlights contradict the first light and agree with this one.
+    pub regions: usize,
 }
 
 impl LightFindings {
@@ -51,6 +65,12 @@ impl LightFindings {
     pub fn agreement_deg(&self) -> Option<f64> {
         let (planes, votes) = (self.planes?, self.votes?);
         Some(crate::color::axis_angle_deg(&planes.into(), &votes.into()))
+    }
+
+    /// Angle between the light that is used and the second lamp, degrees; `None` with one lamp.
+    pub fn lamps_angle_deg(&self) -> Option<f64> {
+        let (first, second) = (self.direction?, self.second?.direction);
+        Some(crate::color::axis_angle_deg(&first.into(), &second.into()))
     }
 
     /// Why this light is used, in words that complete a sentence.

@@ -25,6 +25,7 @@ mod planar_state;
 mod plane_light;
 mod recorded_labels;
 mod regions;
+mod second_lamp;
 #[cfg(test)]
 pub(crate) mod testing;
 mod two_lights;
@@ -38,12 +39,14 @@ pub(crate) use linear::{line_fit, matte_length};
 pub(crate) use model_fit::{FittedPlane, MAX_LIGHT_SHARE, NewEdges, RegionFit, TEXTURE_CORRELATION};
 pub(crate) use recorded_labels::{Members, Pixels, RecordedLabels};
 pub(crate) use regions::{members, neighbors, parts};
+#[cfg(test)]
+pub(crate) use second_lamp::LAMP_LIMITS;
 
 pub use classify::{Classifier, Windows, classify};
 pub use clipping::clipping_regions;
 pub use full_resolution::{PixelPlace, PlaceRule, full_resolution_labels};
 pub use input::AnalysisInput;
-pub use light::{Illuminant, LightBasis, LightFindings};
+pub use light::{Illuminant, LightBasis, LightFindings, SecondLampFindings};
 pub use linear::Hypothesis;
 pub use matte::{MatteRegions, matte_regions};
 pub use merge::{Areas, merge};

@@ -22,8 +22,11 @@ use super::planar_hypothesis::{PlanarHypothesis, PlanarRegions};
 use super::planar_state::PlanarState;
 use super::plane_light::{
     PlaneEstimate, PlaneLight, average_of_lines, estimate_beside_matte_regions, estimate_from_grown_regions,
+    evidence_of_grown_regions,
 };
 use super::recorded_labels::Members;
+use super::second_lamp::{SecondLamp, contradicts, second_lamp};
+use super::two_lights::Evidence;
 use super::vote_light::{LEAST_VOTERS, Votes};
 use crate::color::{Line, Moments, Vec3, axis_angle_deg};
 use crate::raster::HypothesisId;
@@ -32,6 +35,7 @@ use crate::trace::{
     PassBegan, Recorder, VotesCast,
 };
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Largest number of rounds in which illuminant and slices are found again from the grown regions.
 const ROUNDS: usize = 3;
@@ -105,7 +109,13 @@ fn under_given_light<R: Recorder>(mut state: PlanarState<R>, direction: [f64; 3]
     }
     let illuminant = Some(Illuminant { direction, objects: 0, given: true });
     let light = LightFindings::given(direction);
-    PlanarRegions { labels: state.recorded_labels.labels, hypotheses, illuminant, light }
+    PlanarRegions {
+        labels: state.recorded_labels.labels,
+        hypotheses,
+        illuminant,
+        light,
+        second_lamp_mask: None,
+    }
 }
 
 /// The regions under the paper's estimate, the average of the highlight lines.
@@ -114,7 +124,7 @@ fn under_average_light<R: Recorder>(mut state: PlanarState<R>) -> PlanarRegions 
     let estimate = average_of_lines(&state);
     let light = record_estimate(&mut state, estimate);
     let hypotheses = state.grow_slices(light.direction);
-    let mut regions = under_chosen_light(state, hypotheses, light);
+    let mut regions = under_chosen_light(state, hypotheses, light, &[]);
     // Small highlights are votes only with `vote_light`: without it the average alone decides whether there is a light.
     let is_average = match regions.light.basis {
         LightBasis::Planes => true,
@@ -136,9 +146,11 @@ fn under_robust_light<R: Recorder>(mut state: PlanarState<R>, members: &Members)
         None => PlaneLight::none(),
     };
     let mut hypotheses = state.grow_slices(light.direction);
+    let mut evidence = Vec::new();
     for _ in 0..ROUNDS {
         let Some(before) = light.direction.filter(|_| !state.input.stopped()) else { break };
-        let estimate = estimate_from_grown_regions(&state, &hypotheses, &before);
+        let mut estimate = estimate_from_grown_regions(&state, &hypotheses, &before);
+        evidence = std::mem::take(&mut estimate.evidence);
         light = record_estimate(&mut state, estimate);
         state.unite();
         if light.direction.is_some_and(|next| axis_angle_deg(&next, &before) < SETTLED_DEG) {
@@ -148,15 +160,17 @@ fn under_robust_light<R: Recorder>(mut state: PlanarState<R>, members: &Members)
         state.reset();
         hypotheses = state.grow_slices(light.direction);
     }
-    under_chosen_light(state, hypotheses, light)
+    under_chosen_light(state, hypotheses, light, &evidence)
 }
 
 /// Compares the light by the planes with the votes of small highlights (`vote_light`), and carries out what `choice`
-/// decides. `hypotheses` and the labels of the state are those under the planes' light.
+/// decides. `hypotheses` and the labels of the state are those under the planes' light. `evidence`: what each region tells of the light,
+/// where a second lamp is sought.
 fn under_chosen_light<R: Recorder>(
     mut state: PlanarState<R>,
     mut hypotheses: Vec<PlanarHypothesis>,
     planes: PlaneLight,
+    evidence: &[Evidence],
 ) -> PlanarRegions {
     let mut decision = LightDecision::planes_alone(&planes);
     let mut light = LightFindings {
@@ -167,7 +181,7 @@ fn under_chosen_light<R: Recorder>(
     if state.input.refine.vote_light && !state.input.stopped() {
         let votes = Votes::cast(state.input);
         let support = highlight_support(state.input, &state.recorded_labels.labels, &hypotheses);
-        let evidence = LightEvidence {
+        let light_evidence = LightEvidence {
             planes,
             votes: votes.as_ref().map(|votes| votes.elect(state.input)),
             planes_share: votes
@@ -176,15 +190,22 @@ fn under_chosen_light<R: Recorder>(
                 .map_or(0.0, |(votes, light)| votes.share(&light)),
             support,
         };
-        decision = choose_light(&evidence);
-        record_choice(&mut state, &evidence, &decision);
+        decision = choose_light(&light_evidence);
+        record_choice(&mut state, &light_evidence, &decision);
         // The slices have grown under the planes' light.
         if decision.direction != planes.direction {
             hypotheses = grow_again(&mut state, decision.direction);
         }
-        light.votes = evidence.votes.map(|votes| votes.result.direction);
+        light.votes = light_evidence.votes.map(|votes| votes.result.direction);
         light.support = support;
         light.share = votes.zip(decision.direction).map_or(0.0, |(votes, used)| votes.share(&used));
+    }
+    if let Some(direction) = decision.direction
+        && contradicts(evidence, &direction)
+        && find_second_lamp(&mut state, &hypotheses, &direction)
+    {
+        hypotheses = grow_again(&mut state, Some(direction));
+        light.second = state.second_lamp.as_ref().map(SecondLamp::findings);
     }
     light.direction = decision.direction.map(Into::into);
     light.basis = decision.basis;
@@ -192,16 +213,37 @@ fn under_chosen_light<R: Recorder>(
     light.interval_deg = decision.interval_deg.map(|interval_deg| (widening * interval_deg).min(90.0));
     let objects = decision.objects;
     let illuminant = light.direction.map(|direction| Illuminant { direction, objects, given: false });
-    PlanarRegions { labels: state.recorded_labels.labels, hypotheses, illuminant, light }
+    let second_lamp = state.second_lamp.as_ref();
+    let second_lamp_mask = second_lamp
+        .map(|lamp| Arc::new(lamp.lit_pixels(state.input, &state.recorded_labels.labels, &hypotheses)));
+    PlanarRegions { labels: state.recorded_labels.labels, hypotheses, illuminant, light, second_lamp_mask }
+}
+
+/// Searches for a second lamp beside the light `first` (refinement `second_lamp`). Returns whether there is one; the state has the lamp.
+fn find_second_lamp<R: Recorder>(
+    state: &mut PlanarState<R>,
+    hypotheses: &[PlanarHypothesis],
+    first: &Vec3,
+) -> bool {
+    if !state.input.refine.second_lamp || state.input.stopped() {
+        return false;
+    }
+    let evidence = evidence_of_grown_regions(state, hypotheses);
+    let Some((compared, lamp)) = second_lamp(&evidence, first, &state.matte_labels, state.matte.len()) else {
+        return false;
+    };
+    if R::KEEPS {
+        state.recorded_labels.recorder.record(compared);
+    }
+    state.second_lamp = lamp;
+    state.second_lamp.is_some()
 }
 
 /// The regions under another illuminant, grown from the matte regions.
 fn grow_again<R: Recorder>(state: &mut PlanarState<R>, direction: Option<Vec3>) -> Vec<PlanarHypothesis> {
     state.reset();
     let light = PlaneLight { direction, ..PlaneLight::none() };
-    let estimate =
-        PlaneEstimate { light, contributions: Vec::new(), averaged: Vec::new(), two_light_test: None };
-    record_estimate(state, estimate);
+    record_estimate(state, PlaneEstimate::of_light(light));
     let hypotheses = state.grow_slices(direction);
     if direction.is_none() {
         return hypotheses;
@@ -212,7 +254,7 @@ fn grow_again<R: Recorder>(state: &mut PlanarState<R>, direction: Option<Vec3>) 
 
 /// Records an estimate of the illuminant, and returns the light.
 fn record_estimate<R: Recorder>(state: &mut PlanarState<R>, estimate: PlaneEstimate) -> PlaneLight {
-    let PlaneEstimate { light, contributions, averaged, two_light_test } = estimate;
+    let PlaneEstimate { light, contributions, averaged, two_light_test, .. } = estimate;
     state.recorded_labels.begin(Pass::Illuminant);
     if R::KEEPS
         && let Some(direction) = light.direction

@@ -2,8 +2,9 @@
 
 use super::light::{Illuminant, LightFindings};
 use crate::color::{Line, Vec3};
-use crate::raster::{HypothesisId, LabelMap};
+use crate::raster::{HypothesisId, LabelMap, Mask};
 use crate::reflection::{DichromaticPlane, HighlightTest};
+use std::sync::Arc;
 
 /// The skewed T of a region: a matte line, and a highlight line that leaves the matte line towards the illuminant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,4 +55,6 @@ pub struct PlanarRegions {
     pub illuminant: Option<Illuminant>,
     /// Both estimates of the illuminant, and the evidence for each.
     pub light: LightFindings,
+    /// The pixels that the second lamp lights; `None` with one lamp.
+    pub second_lamp_mask: Option<Arc<Mask>>,
 }

@@ -16,6 +16,7 @@ use super::matte::MatteRegions;
 use super::matte_areas::{MatteAreas, is_united};
 use super::planar_hypothesis::PlanarHypothesis;
 use super::recorded_labels::{Members, RecordedLabels};
+use super::second_lamp::SecondLamp;
 use super::unite::merge_regions;
 use crate::color::{Cylinder, Vec3};
 use crate::raster::{HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
@@ -37,6 +38,8 @@ pub struct PlanarState<'a, 's, R: Recorder> {
     pub lengths: Vec<f64>,
     /// Highlight line of each region; `None` where no candidate was accepted.
     pub lines: Vec<Option<HighlightLine>>,
+    /// The second lamp, and the regions that it lights; `None` where one light explains all regions.
+    pub second_lamp: Option<SecondLamp>,
     /// Region of each pixel so far, and the recorder of each change.
     pub recorded_labels: RecordedLabels<'a, R>,
 }
@@ -65,6 +68,7 @@ impl<'a, 's, R: Recorder> PlanarState<'a, 's, R> {
             matte: matte.hypotheses.clone(),
             lengths,
             lines,
+            second_lamp: None,
             recorded_labels: RecordedLabels::new(matte.labels.clone(), recorder),
         }
     }
@@ -98,7 +102,8 @@ impl<'a, 's, R: Recorder> PlanarState<'a, 's, R> {
         }
     }
 
-    /// The planar hypothesis of each region under an illuminant (unit direction); hypotheses without a plane under `None`.
+    /// The planar hypothesis of each region under an illuminant (unit direction), or under the second lamp where that lamp lights the
+    /// region; hypotheses without a plane under `None`.
     pub fn hypotheses(&self, illuminant: Option<Vec3>) -> Vec<PlanarHypothesis> {
         (0..self.matte.len()).map(|index| self.hypothesis(index, illuminant)).collect()
     }
@@ -143,7 +148,10 @@ impl<'a, 's, R: Recorder> PlanarState<'a, 's, R> {
         let Hypothesis { line, alive, .. } = self.matte[index];
         let matte_length = self.lengths[index];
         let highlight_line = self.lines[index];
-        let plane = illuminant
+        let second = self.second_lamp.as_ref().filter(|lamp| lamp.lights.get(index) == Some(&true));
+        let plane = second
+            .map(|lamp| lamp.direction)
+            .or(illuminant)
             .filter(|_| alive && (highlight_line.is_some() || self.input.refine.extend_planes))
             .and_then(|direction| DichromaticPlane::new(&line, &direction))
             .filter(|plane| plane.angle_deg() >= MIN_ANGLE_DEG || !self.input.refine.extend_planes);

@@ -64,6 +64,21 @@ pub struct PlaneEstimate {
     pub averaged: Vec<AveragedDirection>,
     /// The test for a second light; `None` where it was not made.
     pub two_light_test: Option<TwoLightTest>,
+    /// What each grown region tells of the light; empty for the paper's average and for the first estimate.
+    pub evidence: Vec<Evidence>,
+}
+
+impl PlaneEstimate {
+    /// An estimate without a record of how it was made.
+    pub fn of_light(light: PlaneLight) -> Self {
+        Self {
+            light,
+            contributions: Vec::new(),
+            averaged: Vec::new(),
+            two_light_test: None,
+            evidence: Vec::new(),
+        }
+    }
 }
 
 /// The paper's estimate: the average direction of all highlight lines.
@@ -79,7 +94,7 @@ pub fn average_of_lines<R: Recorder>(state: &PlanarState<R>) -> PlaneEstimate {
         Some(AveragedDirection { hypothesis, direction: line.direction.into(), angle_deg })
     };
     let averaged = HypothesisId::all(state.lines.len()).zip(&state.lines).filter_map(contribution).collect();
-    PlaneEstimate { light, contributions: Vec::new(), averaged, two_light_test: None }
+    PlaneEstimate { averaged, ..PlaneEstimate::of_light(light) }
 }
 
 /// The first estimate, from the unclaimed pixels just outside the matte regions, whose pixels are `members`; `None` where
@@ -116,21 +131,20 @@ pub fn estimate_beside_matte_regions<R: Recorder>(
         highlights_alone: false,
     };
     let contributions = found.contributions;
-    Some(PlaneEstimate { light, contributions, averaged: Vec::new(), two_light_test: None })
+    Some(PlaneEstimate { contributions, ..PlaneEstimate::of_light(light) })
 }
 
-/// The next estimate, from the grown regions. `before`: the direction under which the slices of `hypotheses` grew. The
-/// estimate always has a direction.
-pub fn estimate_from_grown_regions<R: Recorder>(
+/// What each grown region tells of the light.
+pub fn evidence_of_grown_regions<R: Recorder>(
     state: &PlanarState<R>,
     hypotheses: &[PlanarHypothesis],
-    before: &Vec3,
-) -> PlaneEstimate {
+) -> Vec<Evidence> {
+    // The recorder cannot be shared between threads: the closure borrows what it needs, not the state.
     let (input, labels) = (state.input, &state.recorded_labels.labels);
     let members = Members::of(labels, hypotheses.len());
     let planes = hypotheses.iter().filter(|hypothesis| hypothesis.plane.is_some()).count();
     let budget = IN_PLANE_SAMPLES / planes.max(1);
-    let evidence: Vec<Evidence> = (0..hypotheses.len())
+    (0..hypotheses.len())
         .into_par_iter()
         .map(HypothesisId::from_index)
         .filter_map(|id| {
@@ -142,18 +156,29 @@ pub fn estimate_from_grown_regions<R: Recorder>(
             let search = InPlaneSearch { input, labels, hypothesis: id, plane: &plane, matte_length, budget };
             Some(Evidence { plane, lies_in, highlights: search.estimate(pixels) })
         })
-        .collect();
+        .collect()
+}
+
+/// The next estimate, from the grown regions. `before`: the direction under which the slices of `hypotheses` grew. The
+/// estimate always has a direction.
+pub fn estimate_from_grown_regions<R: Recorder>(
+    state: &PlanarState<R>,
+    hypotheses: &[PlanarHypothesis],
+    before: &Vec3,
+) -> PlaneEstimate {
+    let evidence = evidence_of_grown_regions(state, hypotheses);
     let has_highlights = evidence.iter().any(|evidence| evidence.highlights.is_some());
     let prior = match weighted_direction(&state.lines) {
         Some(direction) if !has_highlights => Prior { direction, sd_deg: LINES_SD_DEG },
         _ => Prior { direction: *before, sd_deg: ROUND_BEFORE_SD_DEG },
     };
-    let (found, two_light_test) = light_of(input, &evidence, &prior);
+    let (found, two_light_test) = light_of(state.input, &evidence, &prior);
     let light = PlaneLight {
         direction: Some(found.direction),
         regions: evidence.len(),
         interval_deg: found.interval_deg,
         highlights_alone: two_light_test.is_some_and(|test| test.taken),
     };
-    PlaneEstimate { light, contributions: found.contributions, averaged: Vec::new(), two_light_test }
+    let contributions = found.contributions;
+    PlaneEstimate { contributions, two_light_test, evidence, ..PlaneEstimate::of_light(light) }
 }

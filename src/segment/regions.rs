@@ -13,9 +13,10 @@ use super::planar_hypothesis::{PlanarHypothesis, PlanarRegions};
 use super::recorded_labels::{Members, Pixels, RecordedLabels};
 use super::unite::{MAX_ANGLE_DEG, matte_cluster, one_line};
 use crate::color::{Moments, axis_angle_deg};
-use crate::raster::{HypothesisId, LabelMap, RegionId, UNASSIGNED};
+use crate::raster::{HypothesisId, LabelMap, Mask, RegionId, UNASSIGNED};
 use crate::trace::{ComponentSplit, Dropped, Pass, Recorder, RegionsMerged, Renumbered};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Fewest pixels of a region and of a part that becomes a region. A smaller region is dropped, except under the reading
 /// `small_regions`; a smaller part stays in its region.
@@ -40,6 +41,8 @@ pub struct FinalRegions {
     pub hypotheses: Vec<PlanarHypothesis>,
     /// Both estimates of the light, and the evidence for each.
     pub light: LightFindings,
+    /// The pixels that the second lamp lights; `None` with one lamp.
+    pub second_lamp_mask: Option<Arc<Mask>>,
 }
 
 /// Joins, separates, drops and numbers the regions of `labels`, whose hypotheses are those of `planar`.
@@ -94,7 +97,12 @@ pub fn final_regions<R: Recorder>(
     if R::KEEPS {
         recorder.record(Renumbered { regions: region_of.into() });
     }
-    FinalRegions { labels, hypotheses: kept, light: planar.light }
+    FinalRegions {
+        labels,
+        hypotheses: kept,
+        light: planar.light,
+        second_lamp_mask: planar.second_lamp_mask.clone(),
+    }
 }
 
 /// Joins regions of one matte line that an occluder or a shadow divides, smaller into larger.
@@ -358,6 +366,7 @@ mod tests {
             hypotheses: HypothesisId::all(lines.len()).zip(&lines).map(hypothesis).collect(),
             illuminant: None,
             light: LightFindings::default(),
+            second_lamp_mask: None,
         };
         let row = ".".repeat(SIZE_PX[0]);
         let drawing = Drawing::new(&[row.as_str(); SIZE_PX[1]], |_| Vec3::zeros());

@@ -15,7 +15,7 @@ pub struct LocalPoint {
     terms: [i8; 4],
     /// The averaged log odds in steps of [`Self::ODDS_STEP`].
     odds: i16,
-    /// The clipped blob of the pixel: its number, 0 for none; with the flag [`Self::OUTSIDE`].
+    /// The clipped blob of the pixel: its number, 0 for none; with the flags [`Self::OUTSIDE`] and [`Self::SECOND_LAMP`].
     blob: u16,
     /// Amount of surface reflection that was found, counts of J.
     pub amount: f32,
@@ -36,11 +36,13 @@ pub struct LocalFigures {
 
 impl LocalPoint {
     /// Largest number of a blob.
-    pub const MOST_BLOBS: u16 = Self::OUTSIDE - 1;
+    pub const MOST_BLOBS: u16 = Self::SECOND_LAMP - 1;
     /// Least and largest κ.
     pub const RATIOS: (f32, f32) = (0.4, 12.0);
     /// Set for a lit pixel that no region explains.
     const OUTSIDE: u16 = 1 << 15;
+    /// Set for a pixel that the second lamp lights.
+    const SECOND_LAMP: u16 = 1 << 14;
     /// Number of steps of the ratios.
     const RATIO_STEPS: f32 = 65534.0;
     /// Log odds of one step of an observation: the range is −7.9…7.9.
@@ -73,12 +75,22 @@ impl LocalPoint {
 
     /// Number of the clipped blob that the pixel belongs to; 0 for none.
     pub fn blob(&self) -> u16 {
-        self.blob & !Self::OUTSIDE
+        self.blob & Self::MOST_BLOBS
+    }
+
+    /// Whether the second lamp lights the pixel.
+    pub fn has_second_lamp(&self) -> bool {
+        self.blob & Self::SECOND_LAMP != 0
+    }
+
+    /// Makes the second lamp light the pixel, or not.
+    pub fn set_second_lamp(&mut self, second: bool) {
+        self.blob = (self.blob & !Self::SECOND_LAMP) | if second { Self::SECOND_LAMP } else { 0 };
     }
 
     /// Makes the pixel a part of a clipped blob, by the number of the blob.
     pub fn set_blob(&mut self, number: u16) {
-        self.blob = (self.blob & Self::OUTSIDE) | number.min(Self::MOST_BLOBS);
+        self.blob = (self.blob & !Self::MOST_BLOBS) | number.min(Self::MOST_BLOBS);
     }
 
     /// The figures, as exactly as they were kept.

@@ -87,7 +87,7 @@ pub use settings::{
 };
 pub use shapes::{
     CursorShapes, RegionShapes, cluster_ellipsoid, cursor_shapes, dark_sphere, illuminant_line,
-    region_shapes, window_ellipsoid,
+    region_shapes, second_lamp_line, window_ellipsoid,
 };
 pub use snapshot::ResultSnapshot;
 pub(crate) use snapshot::{best_overlap, best_overlaps};

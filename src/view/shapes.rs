@@ -79,7 +79,15 @@ pub fn dark_sphere(shown: &ResultSnapshot) -> Option<Solid> {
 
 /// The line from black along the color of the light to the side of the cube; none where the light is unknown.
 pub fn illuminant_line(shown: &ResultSnapshot) -> Option<[Point; 2]> {
-    let direction = shown.analysis.illuminant?.direction;
+    light_line(shown, shown.analysis.illuminant?.direction)
+}
+
+/// The line from black along the color of the second lamp to the side of the cube; none with one lamp.
+pub fn second_lamp_line(shown: &ResultSnapshot) -> Option<[Point; 2]> {
+    light_line(shown, shown.analysis.planar.light.second?.direction)
+}
+
+fn light_line(shown: &ResultSnapshot, direction: [f64; 3]) -> Option<[Point; 2]> {
     let largest = direction.iter().fold(0.0f64, |most, v| most.max(*v));
     (largest > 0.0).then(|| [[0.0; 3], direction.map(|v| (v / largest * full(shown)) as f32)])
 }

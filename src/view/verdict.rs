@@ -115,7 +115,10 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
     let interval =
         findings.interval_deg.map_or_else(String::new, |degrees| format!(", \u{b1}{degrees:.1}\u{b0}"));
     let is_bad = findings.interval_deg.is_some_and(|degrees| degrees >= WIDE_INTERVAL_DEG);
-    Clause { text: format!("{text}{interval}"), subject, is_bad }
+    let second = findings.lamps_angle_deg().map_or_else(String::new, |degrees| {
+        format!("; a second lamp, {degrees:.0}\u{b0} from the first, lights a part of the scene")
+    });
+    Clause { text: format!("{text}{interval}{second}"), subject, is_bad }
 }
 
 /// How much nearer to the truth the body image is than the photograph, where the truth is known and the method has a body image of its

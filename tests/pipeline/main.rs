@@ -23,6 +23,7 @@ mod readings;
 mod replay;
 mod scale;
 mod scenes;
+mod second_lamp;
 mod synthetic_scenes;
 mod threads;
 

@@ -4,8 +4,9 @@ use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
 use crate::describe::names::{count, direction, tenths};
 use crate::trace::{
-    AveragedDirection, Contribution, HighlightsAveraged, IlluminantEstimated, IlluminantGiven, LightBasis,
-    LightChosen, LightLimits, LightOdds, TwoLightTest, VoteResult, VotesCast,
+    AveragedDirection, Contribution, HighlightsAveraged, IlluminantEstimated, IlluminantGiven, LampLimits,
+    LampOfRegion, LampsCompared, LightBasis, LightChosen, LightLimits, LightOdds, TwoLightTest, VoteResult,
+    VotesCast,
 };
 use serde_json::{Value, json};
 
@@ -202,6 +203,74 @@ impl Describe for LightChosen {
             support: 0.125,
             odds: Some(LightOdds { unusualness: 0.5, intervals: 0.25, shares: 0.125 }),
             limits: crate::segment::LIGHT_LIMITS,
+        }
+    }
+}
+
+impl Describe for LampsCompared {
+    fn sentence(&self, names: &Names) -> String {
+        let Self { second, contradicting, agreeing, limits, .. } = self;
+        let Some(second) = second else {
+            return format!(
+                "one lamp: the highlights of {} contradict its color, but too few of them agree on a second lamp (at least {} and {:.0} %, or {})",
+                count(*contradicting, "region"),
+                limits.regions,
+                100.0 * limits.share,
+                limits.ample_regions
+            );
+        };
+        let lit = self.regions.iter().filter(|region| region.is_second());
+        let lit: Vec<String> = lit.map(|region| names.hypothesis(region.hypothesis)).collect();
+        let error =
+            self.interval_deg.map_or_else(String::new, |degrees| format!(" \u{b1} {degrees:.1}\u{b0}"));
+        format!(
+            "a second lamp, {}{error}, beside {}: the highlights of {} contradict the first, and {agreeing} of these agree with the second, \
+             which lights {}",
+            direction(*second),
+            direction(self.first),
+            count(*contradicting, "region"),
+            lit.join(", ")
+        )
+    }
+
+    fn line_objects(&self, _names: &Names) -> LineObjects {
+        let region = |region: &LampOfRegion| json!({"region": region.hypothesis, "misfits": region.misfits, "second": region.is_second()});
+        let LampLimits { contradicts, agrees, regions, share, ample_regions, merit, angle_deg, offsets_deg } =
+            self.limits;
+        LineObjects::new(
+            nothing(),
+            json!({
+                "first": self.first,
+                "second": self.second,
+                "interval_deg": self.interval_deg,
+                "contradicting": self.contradicting,
+                "agreeing": self.agreeing,
+                "regions": self.regions.iter().map(region).collect::<Vec<Value>>(),
+            }),
+            json!({
+                "contradicts": contradicts,
+                "agrees": agrees,
+                "regions": regions,
+                "share": share,
+                "ample_regions": ample_regions,
+                "merit": merit,
+                "angle_deg": angle_deg,
+                "offsets_deg": offsets_deg,
+            }),
+        )
+    }
+
+    #[cfg(test)]
+    fn example() -> Self {
+        let region = |number, misfits| LampOfRegion { hypothesis: super::hypothesis(number), misfits };
+        Self {
+            first: [0.6, 0.0, 0.8],
+            second: Some([0.8, 0.0, 0.6]),
+            interval_deg: Some(0.5),
+            contradicting: 2,
+            agreeing: 2,
+            regions: vec![region(1, [Some(0.25), Some(4.0)]), region(2, [Some(3.0), Some(0.5)])],
+            limits: crate::segment::LAMP_LIMITS,
         }
     }
 }

@@ -142,6 +142,10 @@ impl Figure {
             let tip = "The color of the light, common to all highlights (section 5.4).";
             builder.add_light(&ends, palette.text, "illuminant", tip);
         }
+        if let Some(ends) = view::second_lamp_line(&shown).filter(|_| illuminant) {
+            let tip = "The color of a second lamp, whose highlights some of the regions show (section 7.5).";
+            builder.add_light(&ends, palette.text, "second lamp", tip);
+        }
         if let Some(solid) = window.filter(|_| ellipsoid).and_then(|w| view::window_ellipsoid(&shown, w)) {
             builder.add_solid(&solid, palette.accent, ELLIPSOID_ALPHA);
             builder.add_label_at_corner(&solid, "window", "The window's colors at two standard deviations: what its class is decided from (section 5.2.1).");

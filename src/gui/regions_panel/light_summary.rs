@@ -49,6 +49,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
             let text = format!("{}{}", if is_sought { "unknown: " } else { "" }, findings.reason());
             ui.add(Label::new(&text).truncate().show_tooltip_when_elided(false)).on_hover_text(text);
         }
+        second_lamp(ui, cx, findings);
         ambient(ui, cx, shown);
         accuracy(ui, cx, shown);
     };
@@ -73,6 +74,21 @@ fn distance_from_found(ui: &mut Ui, cx: &PanelContext, light: &Illuminant, findi
 fn angle_between_deg(a: [f64; 3], b: [f64; 3]) -> f64 {
     let cosine: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
     cosine.clamp(-1.0, 1.0).acos().to_degrees()
+}
+
+/// Shows the color of the second lamp (section 7.5), if there is one.
+fn second_lamp(ui: &mut Ui, cx: &PanelContext, findings: &LightFindings) {
+    let (Some(second), Some(angle_deg)) = (findings.second, findings.lamps_angle_deg()) else { return };
+    let tip = "A second lamp of another color (section 7.5): the highlights of these regions contradict the first light and agree on \
+               this one. Each region is split with the lamp of its own highlights.";
+    ui.label(RichText::new("second lamp").color(cx.palette.secondary)).on_hover_text(tip);
+    vector(ui, cx.palette, "color of the second lamp", Some(second.direction), true);
+    let objects = crate::view::counted(second.regions, "object");
+    let text = format!(
+        "from {objects}, \u{b1}{:.1}\u{b0}, {angle_deg:.1}\u{b0} from the first",
+        second.interval_deg
+    );
+    ui.label(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary)).on_hover_text(tip);
 }
 
 /// Shows the counts subtracted as ambient light (section 7.5), if any.

@@ -1,10 +1,10 @@
 //! Rule `local_split`: the desaturation of each pixel against the pixels of the same hue around it.
 
 use super::hue_ratios::HueRatios;
+use super::lamps::Lamps;
 use super::region_ratios::{RegionRatios, Regions};
-use crate::color::Vec3;
 use crate::raster::{Raster, Roi};
-use crate::reflection::{Desaturation, WhitenedColor, WhiteningGain};
+use crate::reflection::{Desaturation, WhitenedColor};
 use crate::segment::AnalysisInput;
 use crate::trace::LocalLimits;
 use rayon::prelude::*;
@@ -19,24 +19,23 @@ pub struct DesaturationMap<'a> {
     pub usable: Raster<f32>,
     /// The whitened color of each pixel; zeros for dark pixels.
     pub colors: Raster<WhitenedColor>,
-    /// The factor that makes the light white.
-    pub gain: WhiteningGain,
+    /// The lamps.
+    pub lamps: Lamps,
     ratios: HueRatios,
     region_ratios: RegionRatios<'a>,
 }
 
 impl<'a> DesaturationMap<'a> {
-    /// The desaturation under the light `light`, unit; none where the light lacks a band.
+    /// The desaturation under the light of `lamps`.
     pub fn new(
         input: &AnalysisInput,
         limits: &LocalLimits,
-        light: &Vec3,
+        lamps: &Lamps,
         roi: Roi,
         regions: &Regions<'a>,
-    ) -> Option<Self> {
-        let gain = WhiteningGain::new(light)?;
-        let ratios = HueRatios::new(input, limits, &gain);
-        let region_ratios = RegionRatios::new(input, limits, &gain, regions);
+    ) -> Self {
+        let ratios = HueRatios::new(input, limits, lamps);
+        let region_ratios = RegionRatios::new(input, limits, lamps, regions);
         let mut points = Raster::filled(roi.width, roi.height, Desaturation::default());
         let mut colors = Raster::filled(roi.width, roi.height, WhitenedColor::default());
         let rows = (
@@ -52,7 +51,7 @@ impl<'a> DesaturationMap<'a> {
                 if input.masks.dark(pixel) {
                     continue;
                 }
-                let color = gain.whitened(input.pixels[pixel]);
+                let color = lamps.of(pixel).gain.whitened(input.pixels[pixel]);
                 let (x, y) = (roi.left + column, roi.top + row);
                 *whitened = color;
                 *point = match ratios.at(x, y, color.hue_turns) {
@@ -66,7 +65,7 @@ impl<'a> DesaturationMap<'a> {
         });
         let usable =
             roi.raster(|pixel| if input.masks.dark(pixel) || input.masks.clipped(pixel) { 0.0 } else { 1.0 });
-        Some(Self { roi, points, usable, colors, gain, ratios, region_ratios })
+        Self { roi, points, usable, colors, lamps: lamps.clone(), ratios, region_ratios }
     }
 
     /// A raster of the window whose values are `of` the indices of the pixels, computed in parallel.
@@ -81,7 +80,7 @@ impl<'a> DesaturationMap<'a> {
     pub fn ratios(&self, input: &AnalysisInput, index: usize) -> Option<[f32; 2]> {
         let (x, y) = (self.roi.left + index % self.roi.width, self.roi.top + index / self.roi.width);
         let pixel = self.roi.pixel(index);
-        let hue_turns = self.gain.whitened(input.pixels[pixel]).hue_turns;
+        let hue_turns = self.lamps.of(pixel).gain.whitened(input.pixels[pixel]).hue_turns;
         let around = self.ratios.at(x, y, hue_turns)?;
         Some(self.region_ratios.or_around(pixel, hue_turns, around))
     }

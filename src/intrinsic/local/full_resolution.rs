@@ -6,6 +6,7 @@
 //! of the photograph's highlights are where the photograph has them. A clipped pixel takes the body reflection with
 //! which the working picture was filled, interpolated likewise.
 
+use super::lamps::Lamp;
 use super::linear_weights::linear_weights;
 use super::repair::CONFIDENCE;
 use super::{LocalSplit, undo_unexplained};
@@ -61,7 +62,7 @@ pub fn split_locally_at_full_resolution(
             let found = if is_clipped {
                 by_working_picture.filled(color, &nearest)
             } else {
-                by_working_picture.split(color, &nearest)
+                by_working_picture.split(color, detail.blocks.block_of(pixel), &nearest)
             };
             let Some(found) = found else { continue };
             (body[x], surface[x], confidence[x]) = (found.body, found.surface, found.confidence);
@@ -90,9 +91,11 @@ struct ByWorkingPicture<'a> {
 }
 
 impl ByWorkingPicture<'_> {
-    /// The split of an unclipped pixel by the lines of the nearest working pixels; none where there is no surface reflection.
-    fn split(&self, color: [f32; 3], nearest: &Nearest) -> Option<PixelSplit> {
-        let LocalSplit { lines, gain, per_amount, confidence: of_working, .. } = self.local;
+    /// The split of an unclipped pixel in the block of `working_pixel` by the lines of the nearest working pixels; none where there is no
+    /// surface reflection.
+    fn split(&self, color: [f32; 3], working_pixel: usize, nearest: &Nearest) -> Option<PixelSplit> {
+        let LocalSplit { lines, lamps, confidence: of_working, .. } = self.local;
+        let Lamp { gain, per_amount } = lamps.of(working_pixel);
         let a = gain.mean(color);
         let line = |pixel: usize| lines.line(lines.roi.index(pixel)?);
         let [amount, confidence] = nearest.mean(|pixel| Some([line(pixel)?.amount(a), of_working[pixel]]))?;

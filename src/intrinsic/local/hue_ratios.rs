@@ -9,9 +9,10 @@
 //! which nearly all are empty in any one cell: only the others take time. Without the local split, printed scenes lose 8 dB
 //! and more; with one κ for all hues of a cell 10 dB.
 
+use super::lamps::Lamps;
 use super::linear_weights::linear_weights;
 use crate::photo::Masks;
-use crate::reflection::{WhitenedColor, WhiteningGain};
+use crate::reflection::WhitenedColor;
 use crate::segment::AnalysisInput;
 use crate::trace::{LocalLimits, LocalPoint};
 use rayon::prelude::*;
@@ -58,8 +59,8 @@ struct Ratio {
 
 impl HueRatios {
     /// The ratios of a picture.
-    pub fn new(input: &AnalysisInput, limits: &LocalLimits, gain: &WhiteningGain) -> Self {
-        let histogram = Histogram::new(input, limits, gain);
+    pub fn new(input: &AnalysisInput, limits: &LocalLimits, lamps: &Lamps) -> Self {
+        let histogram = Histogram::new(input, limits, lamps);
         let picture = histogram.mean();
         histogram.smoothed().ratios(&picture)
     }
@@ -148,7 +149,7 @@ impl HistogramRow {
 
 impl Histogram {
     /// Counts the pixels that have a hue, are not dark, and are neither clipped nor next to a clipped pixel.
-    fn new(input: &AnalysisInput, limits: &LocalLimits, gain: &WhiteningGain) -> Self {
+    fn new(input: &AnalysisInput, limits: &LocalLimits, lamps: &Lamps) -> Self {
         let (width, height) = (input.pixels.width(), input.pixels.height());
         let scale = ((width * height) as f64 / MEGAPIXEL).sqrt().max(1.0);
         let cell_px = (CELL_PX * scale).round() as usize;
@@ -174,7 +175,7 @@ impl Histogram {
                     if input.masks.dark(pixel) || near_clipped.at(x, y) {
                         continue;
                     }
-                    let color = gain.whitened(color);
+                    let color = lamps.of(pixel).gain.whitened(color);
                     if limits.has_hue(color) {
                         let (hue, bin) = (hue_place(color.hue_turns) as usize, bin_place(color) as usize);
                         for (cell, by_cell) in shares(x, columns) {

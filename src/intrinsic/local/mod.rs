@@ -17,6 +17,7 @@ mod evidence;
 mod full_resolution;
 mod guided;
 mod hue_ratios;
+mod lamps;
 mod limits;
 mod linear_weights;
 mod observations;
@@ -26,14 +27,13 @@ mod repair;
 mod trace_writer;
 
 pub use full_resolution::{LocalWorkingSplit, split_locally_at_full_resolution};
+pub use lamps::Lamps;
 pub use observations::Observations;
 pub use region_ratios::Regions;
 
 use super::confidence::LOCAL;
 use super::images::Images;
-use crate::color::Vec3;
 use crate::raster::{Mask, Raster};
-use crate::reflection::WhiteningGain;
 use crate::segment::{AnalysisInput, LightFindings};
 use crate::trace::{LocalLimits, LocalStart, PictureOddsFound, PixelKind, Recorder};
 use desaturation_map::DesaturationMap;
@@ -53,6 +53,8 @@ pub struct LocalInput<'a> {
     pub input: &'a AnalysisInput<'a>,
     /// The light, and the evidence of it.
     pub light: LightFindings,
+    /// The lamps; none where no light is known or a band of the light is zero.
+    pub lamps: Option<&'a Lamps>,
     /// The pixels that the skewed T of their region explains.
     pub explained_mask: &'a Mask,
     /// The observations in a window around all lit pixels, where they were made before.
@@ -65,10 +67,8 @@ pub struct LocalInput<'a> {
 pub struct LocalSplit {
     /// The amounts of surface reflection, as linear functions of a, the mean of J.
     lines: AmountLines,
-    /// The factor that makes the light white.
-    gain: WhiteningGain,
-    /// Surface reflection per count of J in each band.
-    per_amount: [f32; 3],
+    /// The lamps of the working picture.
+    lamps: Lamps,
     /// Confidence of the pixels that were split locally, 0 for others.
     pub confidence: Raster<f32>,
     /// The pixels of clipped blobs that were filled from around.
@@ -98,7 +98,7 @@ fn least_pixels(lit: usize) -> usize {
 
 /// Splits the lit pixels that no region explains. Returns what [`split_locally`] returns.
 fn split_unexplained<R: Recorder>(
-    LocalInput { input, light: findings, observations, regions, .. }: &LocalInput,
+    LocalInput { input, light: findings, lamps, observations, regions, .. }: &LocalInput,
     unexplained: &Mask,
     images: &mut Images,
     trace_writer: &mut LocalTraceWriter<R>,
@@ -107,11 +107,10 @@ fn split_unexplained<R: Recorder>(
     let lit = (0..unexplained.len()).filter(|&pixel| !input.masks.dark(pixel)).count();
     let few = pixels < least_pixels(lit);
     let limits = limits::limits(input);
-    let light = findings.direction.map(Vec3::from);
     let wanted = input.refine.local_split && !few && !input.stopped();
-    let made = light
+    let made = lamps
         .filter(|_| wanted && observations.is_none())
-        .and_then(|light| Observations::around(input, &light, regions, |pixel| unexplained[pixel]));
+        .and_then(|lamps| Observations::around(input, lamps, regions, |pixel| unexplained[pixel]));
     let observed = observations.as_ref().filter(|_| wanted).or(made.as_ref());
     let start = match observed {
         Some(_) => LocalStart::Begins,
@@ -119,8 +118,8 @@ fn split_unexplained<R: Recorder>(
         None if few => LocalStart::Few,
         None => LocalStart::NoLight,
     };
-    trace_writer.began(input, &limits, start, pixels, lit, findings.direction);
-    let (light, Observations { map, evidence, .. }) = light.zip(observed)?;
+    trace_writer.began(input, &limits, start, pixels, lit, findings);
+    let Observations { map, evidence, .. } = observed?;
     let judged = evidence.as_ref().map(|evidence| (evidence, evidence.picture_odds(map, unexplained)));
     trace_writer.judged(input, map, judged, unexplained);
     if input.refine.belief {
@@ -151,10 +150,9 @@ fn split_unexplained<R: Recorder>(
         line.map_or(0.0, |line| line.amount(map.colors[index].mean))
     });
     trace_writer.amounts(&amounts);
-    let per_amount = std::array::from_fn(|band| (3f64.sqrt() * light[band]) as f32);
-    let mut confidence = move_surface(map, per_amount, &amounts, &weights, images);
+    let mut confidence = move_surface(map, &amounts, &weights, images);
     let filled = repair::fill(input, &fills, images, &mut confidence);
-    Some(LocalSplit { lines, gain: map.gain, per_amount, confidence, filled })
+    Some(LocalSplit { lines, lamps: map.lamps.clone(), confidence, filled })
 }
 
 /// The share of the excess m_s of each pixel of the window that is surface reflection, 0…1; 0 for pixels that a region
@@ -209,11 +207,9 @@ fn undo_unexplained(input: &AnalysisInput, explained_mask: &Mask, images: &mut I
     unexplained
 }
 
-/// Moves the `amounts` of surface reflection, counts of J, from the body image to the surface image. `per_amount`: surface reflection per
-/// count of J in each band. Returns the confidence of each pixel by its weight, 0 where nothing was moved.
+/// Moves the `amounts` of surface reflection, counts of J, from the body image to the surface image. Returns the confidence of each pixel by its weight, 0 where nothing was moved.
 fn move_surface(
     map: &DesaturationMap,
-    per_amount: [f32; 3],
     amounts: &Raster<f32>,
     weights: &Raster<f32>,
     images: &mut Images,
@@ -232,6 +228,7 @@ fn move_surface(
         let found = weights.row(row).iter().zip(amounts.row(row));
         for (x, (&weight, &amount)) in (roi.left..).zip(found).filter(|(_, (_, amount))| **amount > 0.0) {
             // The surface reflection in a band is at most the input in that band.
+            let per_amount = map.lamps.of((roi.top + row) * width + x).per_amount;
             surface[x] = std::array::from_fn(|band| (amount * per_amount[band]).min(body[x][band].max(0.0)));
             body[x] = std::array::from_fn(|band| body[x][band] - surface[x][band]);
             if weight > 0.0 && kinds[x] != PixelKind::Unassigned {
@@ -246,7 +243,7 @@ fn move_surface(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::vec3;
+    use crate::color::{Vec3, vec3};
     use crate::intrinsic::split;
     use crate::params::{Params, UsedParams};
     use crate::photo::{LinearImage, MaskLimits, Masks};
@@ -296,7 +293,7 @@ mod tests {
             ..LightFindings::default()
         };
         let labels = LabelMap::filled(SIDE_PX, SIDE_PX, 0);
-        let regions = FinalRegions { labels, hypotheses: Vec::new(), light };
+        let regions = FinalRegions { labels, hypotheses: Vec::new(), light, second_lamp_mask: None };
         let result =
             crate::intrinsic::Intrinsic::clone(&split(&input, &regions, &mut NoopRecorder).intrinsic);
         (image, result)

@@ -2,9 +2,9 @@
 
 use super::desaturation_map::DesaturationMap;
 use super::evidence::Evidence;
+use super::lamps::Lamps;
 use super::limits::limits;
 use super::region_ratios::Regions;
-use crate::color::Vec3;
 use crate::raster::Roi;
 use crate::segment::AnalysisInput;
 
@@ -20,18 +20,18 @@ pub struct Observations<'a> {
 }
 
 impl<'a> Observations<'a> {
-    /// The observations in a window around the pixels for which `wanted` is true, under the light `light`, unit; none where the
-    /// light lacks a band or there is no such pixel. `regions`: the regions of the picture, which may have ratios of their own.
+    /// The observations in a window around the pixels for which `wanted` is true, under the light of `lamps`; none where there is no
+    /// such pixel. `regions`: the regions of the picture, which may have ratios of their own.
     pub fn around(
         input: &AnalysisInput,
-        light: &Vec3,
+        lamps: &Lamps,
         regions: &Regions<'a>,
         wanted: impl Fn(usize) -> bool,
     ) -> Option<Self> {
         let size = (input.pixels.width(), input.pixels.height());
         let roi = Roi::around(size, MARGIN_PX, wanted)?;
         let limits = limits(input);
-        let map = DesaturationMap::new(input, &limits, light, roi, regions)?;
+        let map = DesaturationMap::new(input, &limits, lamps, roi, regions);
         let evidence = input.refine.highlight_evidence.then(|| Evidence::new(&limits, &map));
         Some(Self { map, evidence })
     }

@@ -13,9 +13,9 @@
 //! 1.5 the photograph with measured truth `animals` loses .6 dB inside highlights. With the factor four photographs of 20
 //! change, none so that it is seen: the PSNR between before and after is 58 dB for one and above 80 dB for three.
 
+use super::lamps::Lamps;
 use crate::color::Line;
 use crate::raster::{LabelMap, RegionId};
-use crate::reflection::WhiteningGain;
 use crate::segment::{AnalysisInput, Members, Pixels};
 use crate::trace::LocalLimits;
 use std::f64::consts::TAU;
@@ -64,16 +64,11 @@ struct RegionRatio {
 
 impl<'a> RegionRatios<'a> {
     /// The ratios of `regions`; none of any region without refinement `region_ratio`.
-    pub fn new(
-        input: &AnalysisInput,
-        limits: &LocalLimits,
-        gain: &WhiteningGain,
-        regions: &Regions<'a>,
-    ) -> Self {
+    pub fn new(input: &AnalysisInput, limits: &LocalLimits, lamps: &Lamps, regions: &Regions<'a>) -> Self {
         let is_wanted = |line: &Line| input.refine.region_ratio && line.foot().norm() < MOST_MISS_COUNTS;
         let of = regions.matte.iter().enumerate().map(|(index, line)| {
             let pixels = regions.members.region(RegionId::from_index(index));
-            is_wanted(line).then(|| RegionRatio::of(input, limits, gain, pixels)).flatten()
+            is_wanted(line).then(|| RegionRatio::of(input, limits, lamps, pixels)).flatten()
         });
         Self { labels: regions.labels, of: of.collect() }
     }
@@ -88,13 +83,13 @@ impl<'a> RegionRatios<'a> {
 
 impl RegionRatio {
     /// The ratio of a region with the pixels `pixels`; none for a region of several materials, and for one without a hue.
-    fn of(input: &AnalysisInput, limits: &LocalLimits, gain: &WhiteningGain, pixels: Pixels) -> Option<Self> {
+    fn of(input: &AnalysisInput, limits: &LocalLimits, lamps: &Lamps, pixels: Pixels) -> Option<Self> {
         let (mut logarithms, mut count) = (Vec::new(), 0usize);
         let (mut sine, mut cosine) = (0.0f64, 0.0f64);
         let sample = pixels.sample(SAMPLES).map(|pixel| pixel as usize);
         for pixel in sample.filter(|&pixel| input.masks.usable(pixel)) {
             count += 1;
-            let color = gain.whitened(input.pixels[pixel]);
+            let color = lamps.of(pixel).gain.whitened(input.pixels[pixel]);
             if limits.has_hue(color) {
                 logarithms.push((color.mean / color.chroma).ln());
                 let (sin, cos) = (f64::from(color.hue_turns) * TAU).sin_cos();
@@ -140,13 +135,13 @@ mod tests {
     fn ratio_of_right_half(miss_counts: f64, color: impl Fn(f64, f64) -> Vec3) -> Option<RegionRatio> {
         let drawing = Drawing::by_place(SIDE_PX, color);
         let input = drawing.input();
-        let gain = WhiteningGain::new(&Vec3::repeat(1.0).normalize()).unwrap();
+        let lamps = Lamps::one(&Vec3::repeat(1.0).normalize()).unwrap();
         let labels = (0..SIDE_PX * SIDE_PX).map(|pixel| u16::from(pixel % SIDE_PX >= SIDE_PX / 2));
         let labels = LabelMap::from_vec(SIDE_PX, SIDE_PX, labels.collect()).unwrap();
         let members = Members::of(&labels, 1);
         let matte = [Line::new(Vec3::new(miss_counts, 0.0, 100.0), Vec3::z())];
         let regions = Regions { labels: &labels, members: &members, matte: &matte };
-        RegionRatios::new(&input, &limits(&input), &gain, &regions).of[0]
+        RegionRatios::new(&input, &limits(&input), &lamps, &regions).of[0]
     }
 
     fn pale(x: f64, y: f64) -> Vec3 {
@@ -182,8 +177,8 @@ mod tests {
             let regions =
                 Regions { labels: &labels, members: &members, matte: &[Line::new(body * 200.0, body)] };
             let roi = Roi::around((SIDE_PX, SIDE_PX), 0, |_| true).unwrap();
-            let light = Vec3::repeat(1.0).normalize();
-            let map = DesaturationMap::new(&input, &limits(&input), &light, roi, &regions).unwrap();
+            let lamps = Lamps::one(&Vec3::repeat(1.0).normalize()).unwrap();
+            let map = DesaturationMap::new(&input, &limits(&input), &lamps, roi, &regions);
             map.points[SIDE_PX * SIDE_PX / 2 + SIDE_PX / 2 + 8].surface
         };
         assert!(excess_of_pale_body(true) < 1.0, "its own ratio: {}", excess_of_pale_body(true));

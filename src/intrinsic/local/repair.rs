@@ -141,7 +141,8 @@ impl LocalAmounts<'_> {
         let mean = |pixels: &[usize]| {
             pixels.iter().map(|&pixel| self.amount(pixel)).sum::<f32>() / pixels.len().max(1) as f32
         };
-        let body = |pixel: usize| self.map.gain.mean(input.pixels[pixel]) - self.amount(pixel);
+        let body =
+            |pixel: usize| self.map.lamps.of(pixel).gain.mean(input.pixels[pixel]) - self.amount(pixel);
         let body_mean = ring_pixels().map(body).sum::<f32>() / count;
         let variance = ring_pixels().map(|pixel| (body(pixel) - body_mean).powi(2)).sum::<f32>() / count;
         let share = ring_pixels().filter(|&pixel| self.is_highlight(pixel)).count() as f32 / count;

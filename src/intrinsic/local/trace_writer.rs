@@ -4,7 +4,7 @@ use super::desaturation_map::DesaturationMap;
 use super::evidence::Evidence;
 use super::least_pixels;
 use crate::raster::{Mask, Raster};
-use crate::segment::AnalysisInput;
+use crate::segment::{AnalysisInput, LightFindings};
 use crate::trace::{
     Event, LocalBegan, LocalFigures, LocalLimits, LocalPoint, LocalPoints, LocalRecord, LocalStart, Pass,
     PassBegan, PictureOddsFound, PlausibilityTested, Recorder, RepairTried,
@@ -32,7 +32,7 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
     }
 
     /// Records that the local split begins, or why not. `pixels`: number of unexplained lit pixels; `lit`: number of lit pixels;
-    /// `light`: the light's color, unit.
+    /// `light`: the light.
     pub fn began(
         &mut self,
         input: &AnalysisInput,
@@ -40,7 +40,7 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         start: LocalStart,
         pixels: usize,
         lit: usize,
-        light: Option<[f64; 3]>,
+        light: &LightFindings,
     ) {
         if !R::KEEPS {
             return;
@@ -52,7 +52,8 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
             pixels: pixels as u32,
             lit: lit as u32,
             least: least_pixels(lit) as u32,
-            light,
+            light: light.direction,
+            second_light: light.second.map(|second| second.direction),
             origin: self.origin,
             limits: *limits,
             highlight_evidence: refine.highlight_evidence,
@@ -145,6 +146,7 @@ fn points(
                 });
                 let figures = LocalFigures { ratios: map.ratios(input, index), terms, odds, amount: 0.0 };
                 *point = LocalPoint::new(unexplained[pixel], &figures);
+                point.set_second_lamp(map.lamps.is_second(pixel));
             }
         }
     });

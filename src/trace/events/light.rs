@@ -208,6 +208,66 @@ pub struct TwoLightTest {
     pub taken: bool,
 }
 
+/// The regions whose highlights contradict the light that is used were searched for a second lamp (section 7.5).
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct LampsCompared {
+    /// Unit direction of the light that is used.
+    pub first: [f64; 3],
+    /// Unit direction of the second lamp; none where the contradicting regions do not agree on a lamp.
+    pub second: Option<[f64; 3]>,
+    /// Two standard deviations of the second lamp's direction, degrees.
+    pub interval_deg: Option<f64>,
+    /// Number of regions whose highlights contradict the first light.
+    pub contradicting: u32,
+    /// Number of these that agree with the second lamp.
+    pub agreeing: u32,
+    /// How well each region with highlights agrees with both.
+    pub regions: Vec<LampOfRegion>,
+    /// The limits of the search.
+    pub limits: LampLimits,
+}
+
+/// How well the highlights of one region agree with two lamps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct LampOfRegion {
+    /// The hypothesis.
+    pub hypothesis: HypothesisId,
+    /// Angle between the light and the highlights, as a share of the largest error that is expected: of the first light and of the second;
+    /// none without a second lamp.
+    pub misfits: [Option<f64>; 2],
+}
+
+impl LampOfRegion {
+    /// Whether the second lamp lights the region.
+    pub fn is_second(&self) -> bool {
+        matches!(self.misfits, [Some(first), Some(second)] if second < first)
+    }
+}
+
+/// The limits of the search for a second lamp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct LampLimits {
+    /// Misfit above which a region contradicts the first light.
+    pub contradicts: f64,
+    /// Misfit below which a region agrees with the second lamp.
+    pub agrees: f64,
+    /// Fewest regions that agree …
+    pub regions: u32,
+    /// … and their least share of the contradicting regions, 0…1, …
+    pub share: f64,
+    /// … which does not matter from this number of agreeing regions on.
+    pub ample_regions: u32,
+    /// Least mean merit of the agreeing regions: 1 / (1 + the sum of both squared angles in standard deviations).
+    pub merit: f64,
+    /// Least angle between both lamps, degrees.
+    pub angle_deg: f64,
+    /// Largest distance of the second lamp from white: blue to yellow, green to magenta, degrees.
+    pub offsets_deg: [f64; 2],
+}
+
 impl EventData for IlluminantEstimated {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [None, None]
@@ -255,5 +315,15 @@ impl EventData for LightChosen {
 
     fn heap_bytes(&self) -> usize {
         0
+    }
+}
+
+impl EventData for LampsCompared {
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
+
+    fn heap_bytes(&self) -> usize {
+        size_of_val(self.regions.as_slice())
     }
 }

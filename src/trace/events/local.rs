@@ -19,6 +19,8 @@ pub struct LocalBegan {
     pub least: u32,
     /// The light, unit.
     pub light: Option<[f64; 3]>,
+    /// The second lamp, unit; none with one lamp.
+    pub second_light: Option<[f64; 3]>,
     /// The color from which colors are measured: black, or the ambient light, counts.
     pub origin: [f64; 3],
     /// The limits of the local split.

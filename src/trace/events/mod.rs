@@ -200,6 +200,8 @@ events! { $
     Votes "votes" { boxed VotesCast(VotesCast) }
     /// The light that is used was chosen (refines section 5.4.1).
     LightChoice "light chosen" { boxed LightChosen(LightChosen) }
+    /// A second lamp was sought (section 7.5).
+    Lamps "lamps compared" { boxed LampsCompared(LampsCompared) }
     /// A slice was made (section 5.4.2).
     Slice "slice" { boxed SliceMade(SliceMade) }
     /// Two matte areas of one object were united (section 5.4.2).

@@ -121,7 +121,12 @@ impl<'a> Decisions<'a> {
 
     fn story(&self, began: &LocalBegan) -> LocalStory {
         let figures = self.point.unwrap_or_default().figures();
-        let gain = began.light.and_then(|light| WhiteningGain::new(&light.into()));
+        let light = if self.point.is_some_and(|point| point.has_second_lamp()) {
+            began.second_light
+        } else {
+            began.light
+        };
+        let gain = light.and_then(|light| WhiteningGain::new(&light.into()));
         let color = gain.map_or(WhitenedColor::default(), |gain| {
             gain.whitened(std::array::from_fn(|band| self.color[band] - began.origin[band] as f32))
         });
