@@ -16,7 +16,11 @@ fn main() -> ExitCode {
     }
     #[cfg(feature = "gui")]
     match arguments.command {
-        None => return ended(dichroscope::gui::open(arguments.image)),
+        None => {
+            let (labels, diffuse) = (arguments.labels, arguments.diffuse);
+            let elsewhere = dichroscope::view::ElsewherePaths { labels, diffuse };
+            return ended(dichroscope::gui::open(arguments.image, elsewhere));
+        }
         Some(cli::Command::Screenshot(wish)) => return screenshot(wish),
         Some(_) => {}
     }

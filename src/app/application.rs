@@ -152,6 +152,11 @@ impl Application {
                     }
                 });
             }
+            Effect::ReadElsewhere { kind, path, shows } => {
+                let Some(picture) = self.state.picture.clone() else { return };
+                self.state.jobs.reading = Some(Job::now());
+                self.run("reader", Work::File, move || read::elsewhere(kind, &path, picture, shows));
+            }
             Effect::ReadParams(path) => {
                 self.state.jobs.reading = Some(Job::now());
                 self.run("reader", Work::File, move || read::params(&path));

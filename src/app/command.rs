@@ -7,7 +7,8 @@ use crate::photo::ReadOptions;
 use crate::raster::Mask;
 use crate::truth::sample::SampleSet;
 use crate::view::{
-    CubeSettings, GeometrySettings, ImageSettings, Item, Origin, PlaneSettings, ProfileLine, Theme,
+    CubeSettings, ElsewhereKind, ElsewherePaths, GeometrySettings, ImageSettings, Item, Origin,
+    PlaneSettings, ProfileLine, Theme,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -120,6 +121,8 @@ pub enum ViewCommand {
     Dismiss(u64),
     /// Show the next open photograph in the second view of the picture (true), or a second layer of the same one (false).
     ComparePhotographs(bool),
+    /// Close the label map or the diffuse picture of another program.
+    CloseElsewhere(ElsewhereKind),
     /// Forget the photographs opened before.
     ForgetRecent,
 }
@@ -131,6 +134,10 @@ pub enum JobCommand {
     Open(Origin),
     /// Read photographs and open all of them; the first is shown.
     OpenTogether(Vec<Origin>),
+    /// Read a photograph and show it, and then read pictures that another program made of it.
+    OpenBeside(Origin, ElsewherePaths),
+    /// Read a picture that another program made of the open photograph, and show it.
+    OpenElsewhere(ElsewhereKind, PathBuf),
     /// Show another open photograph.
     Switch(Switching),
     /// Close the photograph that is shown, and show the next one.

@@ -2,7 +2,7 @@
 
 use super::{Export, WhatIfRequest};
 use crate::photo::ReadOptions;
-use crate::view::Origin;
+use crate::view::{ElsewhereKind, Origin};
 use std::path::PathBuf;
 
 /// Work that a command or a report asks for.
@@ -22,6 +22,15 @@ pub enum Effect {
     Read(Origin, ReadOptions),
     /// Read photographs that are opened together, in this order.
     ReadTogether(Vec<Origin>),
+    /// Read a picture that another program made of the open photograph.
+    ReadElsewhere {
+        /// What the picture is.
+        kind: ElsewhereKind,
+        /// The file.
+        path: PathBuf,
+        /// Whether the image view is to show the picture.
+        shows: bool,
+    },
     /// Read a parameter file.
     ReadParams(PathBuf),
     /// Read a workspace file.

@@ -2,7 +2,7 @@
 
 use super::{Document, State, Workspace};
 use crate::raster::RegionId;
-use crate::view::{ImageSettings, Layer, Picture, ResultSnapshot};
+use crate::view::{Elsewhere, ImageSettings, Layer, Picture, ResultSnapshot};
 use std::sync::Arc;
 
 /// Options of an export. Each kind of export reads the options that it needs.
@@ -35,6 +35,7 @@ pub(super) struct ExportInput {
     pub(super) picture: Option<Arc<Picture>>,
     pub(super) shown: Option<Arc<ResultSnapshot>>,
     pub(super) pinned: Option<Arc<ResultSnapshot>>,
+    pub(super) elsewhere: Option<Arc<Elsewhere>>,
     /// Whether an analysis is under way.
     pub(super) is_analyzing: bool,
     pub(super) document: Document,
@@ -53,6 +54,7 @@ impl ExportInput {
             picture: state.picture.clone(),
             shown: state.shown().cloned(),
             pinned: state.pinned.clone(),
+            elsewhere: state.elsewhere.clone(),
             is_analyzing: state.jobs.analysis.is_some(),
             document: state.document.clone(),
             image: state.view.image.clone(),

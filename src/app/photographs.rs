@@ -1,7 +1,7 @@
 //! Photographs that are open beside the one that is shown, and the change from one to another.
 
 use super::{Document, History};
-use crate::view::{Picture, ResultSnapshot};
+use crate::view::{Elsewhere, Picture, ResultSnapshot};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -21,6 +21,8 @@ pub struct OpenPhotograph {
     pub newest: Option<Arc<ResultSnapshot>>,
     /// The pinned result.
     pub pinned: Option<Arc<ResultSnapshot>>,
+    /// What another program made of the photograph.
+    pub elsewhere: Option<Arc<Elsewhere>>,
     /// The light that the analysis last found by itself, unit.
     pub found_light: Option<[f64; 3]>,
     /// The workspace file.

@@ -4,9 +4,11 @@ use super::Workspace;
 use super::report::Report;
 use crate::params::Params;
 use crate::photo::{self, ReadOptions};
-use crate::truth::{GroundTruth, sample::Sample};
-use crate::view::{Histogram, Origin, Picture};
+use crate::truth::{ForeignResult, GroundTruth, read_label_map, sample::Sample};
+use crate::view::{Elsewhere, ElsewhereKind, ElsewherePaths, Histogram, Origin, Picture};
+use std::error::Error;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Reads the photograph at `origin`, with its ground truth where a sample or the file's folder holds one.
@@ -55,6 +57,66 @@ fn truth(origin: &Origin) -> Option<GroundTruth> {
         }
         Origin::Bytes { .. } => None,
     }
+}
+
+/// Reads a picture that another program made of a photograph: a diffuse picture with the options of the photograph. The report is of the
+/// picture, for the image view to show where `shows`, or of a sentence that says what is wrong with the file and what to do.
+pub(super) fn elsewhere(kind: ElsewhereKind, path: &Path, picture: Arc<Picture>, shows: bool) -> Report {
+    let path = super::workspace::absolute_path(path);
+    match foreign(kind, &path, &picture) {
+        Ok(pictures) => {
+            let paths = match kind {
+                ElsewhereKind::Labels => ElsewherePaths { labels: Some(path), diffuse: None },
+                ElsewhereKind::Diffuse => ElsewherePaths { labels: None, diffuse: Some(path) },
+            };
+            let read = Box::new(Elsewhere { paths, pictures });
+            Report::ElsewhereRead { kind, read, picture, shows }
+        }
+        Err(reason) => Report::Failed(reason),
+    }
+}
+
+fn foreign(kind: ElsewhereKind, path: &Path, picture: &Picture) -> Result<ForeignResult, String> {
+    let file = path.display();
+    if !path.is_file() {
+        return Err(format!(
+            "{file}: the {} of another program is not there; put it back, or open it from where it is now",
+            kind.name()
+        ));
+    }
+    let (pictures, size) = match kind {
+        ElsewhereKind::Labels => {
+            let labels = read_label_map(path).map_err(|error| with_source(&error))?;
+            let size = (labels.width(), labels.height());
+            (ForeignResult { labels: Some(labels), diffuse: None }, size)
+        }
+        ElsewhereKind::Diffuse => {
+            let photo = photo::read(path, &picture.reading).map_err(|error| with_source(&error))?;
+            let size = (photo.image.width(), photo.image.height());
+            (ForeignResult { labels: None, diffuse: Some(photo.image.pixels) }, size)
+        }
+    };
+    let (width, height) = picture.size();
+    if size != (width, height) {
+        let scaled = match kind {
+            ElsewhereKind::Labels => "scale it to the size of the photograph without smoothing",
+            ElsewhereKind::Diffuse => "scale it to the size of the photograph",
+        };
+        return Err(format!(
+            "{file}: the {} is {}\u{d7}{} pixels and the photograph {} is {width}\u{d7}{height}: choose the one of this photograph, or {scaled}",
+            kind.name(),
+            size.0,
+            size.1,
+            picture.origin.name(),
+        ));
+    }
+    let checked = pictures.check(width, height).map_err(|error| format!("{file}: {error}; write it again"));
+    checked.map(|()| pictures)
+}
+
+/// An error with its cause, as one sentence.
+fn with_source(error: &dyn Error) -> String {
+    error.source().map_or_else(|| error.to_string(), |source| format!("{error}: {source}"))
 }
 
 /// Reads parameters from a TOML file.

@@ -4,7 +4,7 @@ use super::{Preview, WhatIfProgress, WhatIfRequest, Workspace};
 use crate::analysis::Stage;
 use crate::params::Params;
 use crate::trace::Replay;
-use crate::view::{Picture, ResultSnapshot};
+use crate::view::{Elsewhere, ElsewhereKind, Picture, ResultSnapshot};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -25,6 +25,17 @@ pub(super) enum Report {
         workspace: Box<Workspace>,
         /// The file.
         path: PathBuf,
+    },
+    /// A picture that another program made of a photograph was read.
+    ElsewhereRead {
+        /// What the picture is.
+        kind: ElsewhereKind,
+        /// The picture alone, with its file.
+        read: Box<Elsewhere>,
+        /// The photograph that the picture was read for.
+        picture: Arc<Picture>,
+        /// Whether the image view is to show the picture.
+        shows: bool,
     },
     /// Work could not be done: the sentence to show.
     Failed(String),

@@ -6,7 +6,10 @@ use super::{
 use crate::params::Params;
 use crate::raster::{PixelIndex, RegionId};
 use crate::trace::Replay;
-use crate::view::{Item, Picture, PixelReading, ResultSnapshot, Watch, watch};
+use crate::view::{
+    Against, Elsewhere, ElsewhereKind, ElsewherePaths, Item, Layer, LayerNeed, Picture, PixelReading,
+    ResultSnapshot, Watch, watch,
+};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -29,6 +32,8 @@ pub struct State {
     pub workspace_path: Option<PathBuf>,
     /// The result that was pinned to be compared with.
     pub pinned: Option<Arc<ResultSnapshot>>,
+    /// What another program made of the open photograph.
+    pub elsewhere: Option<Arc<Elsewhere>>,
     /// The item under the pointer, in any panel.
     pub hover: Option<Item>,
     /// The pixels of the color bins near the pointer in the color space view, ascending; none unless the hovered item is a bin.
@@ -62,6 +67,8 @@ pub struct State {
     pub(super) preselects: bool,
     /// Whether the region of the next complete result is to be selected, although pixels are marked: a skewed T was fitted to them.
     pub(super) selects_region: bool,
+    /// The pictures of another program to be read when the photograph that is being read is open.
+    pub(super) opens_beside: ElsewherePaths,
     /// The rest of a restored workspace, which is applied when its pinned result has been computed.
     pub(super) after_pin: Option<AfterPin>,
 }
@@ -174,10 +181,43 @@ impl State {
     /// What is known of a pixel: at the debugger's cursor where that is followed, otherwise in the result shown.
     pub fn reading_of(&self, pixel: PixelIndex) -> Option<PixelReading> {
         let picture = self.picture.as_ref()?;
-        match self.followed() {
+        let reading = match self.followed() {
             Some(replay) => PixelReading::at_cursor(picture, replay, &self.debugger.names, pixel.index()),
             None => PixelReading::of(picture, self.shown().map(|shown| &**shown), pixel.index()),
+        };
+        let elsewhere = self.elsewhere.as_ref().map(|elsewhere| elsewhere.at(pixel.index()));
+        reading.map(|reading| PixelReading { elsewhere, ..reading })
+    }
+
+    /// What a layer may compare the result with.
+    pub fn against(&self) -> Against<'_> {
+        Against { pinned: self.pinned.as_deref(), elsewhere: self.elsewhere.as_deref() }
+    }
+
+    /// What a person has to do first, where a layer compares the result with something that is not there; none where the layer can be
+    /// shown.
+    pub fn lacks(&self, layer: Layer) -> Option<&'static str> {
+        let has = |kind| self.elsewhere.as_ref().is_some_and(|elsewhere| elsewhere.has(kind));
+        match layer.need()? {
+            LayerNeed::Pinned => self.pinned.is_none().then_some("Pin a result first (K)."),
+            LayerNeed::Elsewhere(kind) if has(kind) => None,
+            LayerNeed::Elsewhere(ElsewhereKind::Labels) => {
+                Some("Open a label map of another program first (menu File).")
+            }
+            LayerNeed::Elsewhere(ElsewhereKind::Diffuse) => {
+                Some("Open a diffuse picture of another program first (menu File).")
+            }
         }
+    }
+
+    /// Shows layers of the result in place of layers of another program's pictures that are not there any more.
+    pub(super) fn leave_missing_layers(&mut self) {
+        let own = |layer: Layer| match layer.need() {
+            Some(LayerNeed::Elsewhere(kind)) if self.lacks(layer).is_some() => own_layer(kind),
+            _ => layer,
+        };
+        (self.view.image.layer, self.view.image.other) =
+            (own(self.view.image.layer), own(self.view.image.other));
     }
 
     /// The color of the hypothesis that the debugger's cursor is about, sRGB; none where the cursor is about no hypothesis.
@@ -202,12 +242,24 @@ impl State {
     pub(super) fn workspace(&self) -> Result<Workspace, String> {
         let picture =
             self.picture.as_ref().ok_or("there is no workspace to save: open a photograph first")?;
-        Workspace::new(picture, &self.document, self.pinned.as_ref().map(|pinned| &pinned.params), &self.view)
+        let pinned = self.pinned.as_ref().map(|pinned| &pinned.params);
+        let mut workspace = Workspace::new(picture, &self.document, pinned, &self.view)?;
+        workspace.elsewhere =
+            self.elsewhere.as_ref().map_or_else(ElsewherePaths::default, |all| all.paths.clone());
+        Ok(workspace)
     }
 
     /// The region of the selected item, which the panels about one region show.
     pub fn selected_region(&self) -> Option<RegionId> {
         self.document.selection.item.and_then(|item| self.region_of(item))
+    }
+}
+
+/// The layer of the result that a picture of another program is held against.
+pub(super) const fn own_layer(kind: ElsewhereKind) -> Layer {
+    match kind {
+        ElsewhereKind::Labels => Layer::Regions,
+        ElsewhereKind::Diffuse => Layer::Body,
     }
 }
 

@@ -4,7 +4,7 @@ use super::{Document, ViewSettings};
 use crate::params::Params;
 use crate::photo::{EncodingChoice, ReadOptions};
 use crate::raster::Mask;
-use crate::view::{Item, MaskRuns, NamedMark, Origin, Picture};
+use crate::view::{ElsewherePaths, Item, MaskRuns, NamedMark, Origin, Picture};
 use serde::{Deserialize, Serialize};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
@@ -42,6 +42,9 @@ pub struct Workspace {
     /// The named marks.
     #[serde(default)]
     pub named_marks: Vec<SavedMark>,
+    /// The pictures of another program; in the file, paths are relative to the file's folder where they can be.
+    #[serde(default)]
+    pub elsewhere: ElsewherePaths,
     /// The settings of the views.
     #[serde(default)]
     pub view: ViewSettings,
@@ -102,6 +105,7 @@ impl Workspace {
             item: selection.item,
             marked: selection.marked.as_ref().map(runs),
             named_marks: selection.named.marks.iter().map(SavedMark::of).collect(),
+            elsewhere: ElsewherePaths::default(),
             view: view.clone(),
         })
     }
@@ -124,6 +128,7 @@ impl Workspace {
         if let Origin::File(photo) = &self.origin {
             written.origin = Origin::File(relative_to_file(photo, path));
         }
+        written.elsewhere = self.elsewhere.map(|file| relative_to_file(file, path));
         let text = serde_json::to_string_pretty(&written);
         text.map(|text| text + "\n")
             .map_err(|error| format!("{}: cannot be written: {error}", path.display()))
@@ -162,6 +167,9 @@ impl Workspace {
             }
             workspace.origin = Origin::File(absolute_path(&photo));
         }
+        // Whether these files are there is seen when they are read: a workspace opens without them.
+        let folder = path.parent().unwrap_or(Path::new(""));
+        workspace.elsewhere = workspace.elsewhere.map(|file| absolute_path(&folder.join(file)));
         Ok(workspace)
     }
 }
@@ -223,6 +231,9 @@ mod tests {
         state.document.selection.item = Some(Item::Region(crate::raster::RegionId::from_index(1)));
         state.view.image.exposure_ev = 0.3;
         state.view.layout = "opaque".into();
+        let elsewhere = photo.parent().map(|folder| folder.join("labels.png"));
+        let paths = ElsewherePaths { labels: elsewhere, diffuse: None };
+        state.elsewhere = Some(Arc::new(crate::view::Elsewhere { paths, ..Default::default() }));
         state.workspace().unwrap()
     }
 
@@ -235,7 +246,7 @@ mod tests {
         std::fs::copy(PHOTO, &photo).unwrap();
         let saved = workspace(&photo);
         let text = saved.to_json(&file).unwrap();
-        assert!(text.contains("../photos/a.png"), "{text}");
+        assert!(text.contains("../photos/a.png") && text.contains("../photos/labels.png"), "{text}");
         std::fs::write(&file, text).unwrap();
         assert_eq!(Workspace::load(&file).unwrap(), saved);
 
@@ -246,6 +257,7 @@ mod tests {
         }
         let found = Workspace::load(&moved.path().join("work/a.dichroscope")).unwrap();
         assert_eq!(found.origin, Origin::File(moved.path().join("photos/a.png")));
+        assert_eq!(found.elsewhere.labels, Some(moved.path().join("photos/labels.png")));
         std::fs::remove_file(moved.path().join("photos/a.png")).unwrap();
         let error = Workspace::load(&moved.path().join("work/a.dichroscope")).unwrap_err();
         assert!(error.contains("a.png is not there"), "{error}");

@@ -9,7 +9,8 @@ use crate::figures::{self, Scene};
 use crate::truth::{self, Reference, ReportInput};
 use crate::view::marking::mask_of;
 use crate::view::{
-    Item, Picture, ResultSnapshot, layer_floats, paint, profile, profile_csv, regions_text, selected,
+    Against, Item, Picture, ResultSnapshot, layer_floats, paint_against, profile, profile_csv, regions_text,
+    selected,
 };
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -72,18 +73,19 @@ pub(super) fn profile_table(path: &Path, _: &ExportOptions, input: &ExportInput)
 pub(super) fn layer(path: &Path, options: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
     let (picture, settings) = (picture(input)?, &input.image);
     let look = settings.look(input.selected_region);
-    let (shown, pinned) = (input.shown.as_deref(), input.pinned.as_deref());
+    let shown = input.shown.as_deref();
+    let against = Against { pinned: input.pinned.as_deref(), elsewhere: input.elsewhere.as_deref() };
     let layer = options.layer.unwrap_or(settings.layer);
     let what = format!("the layer \u{201c}{}\u{201d}", layer.name());
     let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-    let floats = || layer_floats(layer, picture, shown, pinned, &look);
+    let floats = || layer_floats(layer, picture, shown, against, &look);
     if extension == "exr" {
         return Ok(file(path, floats().exr(), &what));
     }
     if extension == "npy" {
         return Ok(file(path, floats().npy(), &what));
     }
-    let painted = paint(layer, picture, shown, pinned, &look);
+    let painted = paint_against(layer, picture, shown, against, &look);
     let size = [painted.width() as u32, painted.height() as u32];
     Ok(file(path, png_of_rgba(size, painted.as_slice().as_flattened()), &what))
 }

@@ -47,7 +47,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
     let result = ResultPictures::read(&arguments.result_dir)?;
     let report = read_report(&arguments.result_dir)?;
     let foreign = read(arguments)?;
-    let agreement = foreign.agreement(&result)?;
+    let agreement = foreign.agreement(&result.regions, &result.body)?;
     let scores = arguments
         .truth
         .as_deref()
@@ -104,36 +104,12 @@ struct Held<'a> {
 }
 
 impl Held<'_> {
-    /// The figures of scores that mean something for what was given.
-    fn figures(&self, scores: &Scores) -> table::Figures {
-        let of_regions = ["ari", "iou", "iou_min", "cover", "regions"];
-        let of_pictures = [
-            "psnr_body",
-            "psnr_nothing",
-            "psnr_surface",
-            "psnr_surface_nothing",
-            "psnr_restored",
-            "psnr_restored_nothing",
-        ];
-        let wanted = |name: &str| {
-            (self.foreign.labels.is_some() && of_regions.contains(&name))
-                || (self.foreign.diffuse.is_some() && of_pictures.contains(&name))
-        };
-        scores.figures().into_iter().filter(|(name, _)| wanted(name)).collect()
-    }
-
-    /// The figures of the agreement that there are.
-    fn agreements(&self) -> table::Figures {
-        let Agreement { ari, shared, psnr_body, .. } = self.agreement;
-        let all = [("ari", ari), ("shared", shared), ("psnr_body", psnr_body)];
-        all.into_iter().filter(|(_, figure)| figure.is_some()).collect()
-    }
-
     fn text(&self) -> String {
-        let mut text = table::figures(&[("agreement", self.agreements())]);
+        let mut text = table::figures(&[("agreement", self.agreement.figures())]);
         if let Some([elsewhere, result]) = &self.scores {
             text.push('\n');
-            let rows = [("elsewhere", self.figures(elsewhere)), ("result", self.figures(result))];
+            let rows =
+                [("elsewhere", self.foreign.figures(elsewhere)), ("result", self.foreign.figures(result))];
             text.push_str(&table::figures(&rows));
         }
         text
@@ -145,10 +121,10 @@ impl Held<'_> {
                 figures.into_iter().map(|(name, figure)| (name.to_owned(), serde_json::json!(figure)));
             serde_json::Value::Object(entries.collect())
         };
-        let mut all = serde_json::json!({ "agreement": object(self.agreements()) });
+        let mut all = serde_json::json!({ "agreement": object(self.agreement.figures()) });
         if let Some([elsewhere, result]) = &self.scores {
-            all["elsewhere"] = object(self.figures(elsewhere));
-            all["result"] = object(self.figures(result));
+            all["elsewhere"] = object(self.foreign.figures(elsewhere));
+            all["result"] = object(self.foreign.figures(result));
         }
         Ok(serde_json::to_string_pretty(&all)? + "\n")
     }

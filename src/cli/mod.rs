@@ -42,6 +42,12 @@ pub struct Arguments {
     /// Photograph to open in the window; none: a sample scene
     #[arg(value_parser = place::parser())]
     pub image: Option<PathBuf>,
+    /// Label map of another program, to hold against the result in the window
+    #[arg(long, value_name = "FILE")]
+    pub labels: Option<PathBuf>,
+    /// Diffuse picture of another program, to hold against the result in the window
+    #[arg(long, value_name = "FILE")]
+    pub diffuse: Option<PathBuf>,
     /// What to do instead
     #[command(subcommand)]
     pub command: Option<Command>,

@@ -3,7 +3,7 @@
 use super::pane::Pane;
 use crate::app::{Direction, StepUnit, Switching};
 use crate::raster::RegionId;
-use crate::view::{Layer, Tool};
+use crate::view::{ElsewhereKind, Layer, Tool};
 
 /// What a key or a menu does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,6 +12,10 @@ pub enum Action {
     Open,
     /// Open the dialog for a workspace.
     OpenWorkspace,
+    /// Open the dialog for a picture that another program made of the open photograph.
+    OpenElsewhere(ElsewhereKind),
+    /// Close such a picture.
+    CloseElsewhere(ElsewhereKind),
     /// Open the export dialog.
     Export,
     /// Open the export dialog for a single file of a layer.

@@ -5,7 +5,7 @@ use super::pane::Pane;
 use super::shortcuts::{keys_of, named_actions};
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
-use crate::view::Layer;
+use crate::view::{ElsewhereKind, Layer};
 use egui::{Button, Id, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
 
 /// An action with the name under which it is found.
@@ -34,6 +34,13 @@ fn entries() -> Vec<Entry> {
         .map(|pane| Entry { action: Action::Show(pane), name: format!("Show: {}", pane.title()) });
     let others = [
         (Action::OpenWorkspace, "File: Open a workspace"),
+        (Action::OpenElsewhere(ElsewhereKind::Labels), "File: Open a label map of another program"),
+        (Action::OpenElsewhere(ElsewhereKind::Diffuse), "File: Open a diffuse picture of another program"),
+        (Action::CloseElsewhere(ElsewhereKind::Labels), "File: Close the label map of another program"),
+        (
+            Action::CloseElsewhere(ElsewhereKind::Diffuse),
+            "File: Close the diffuse picture of another program",
+        ),
         (Action::ExportPixels(PixelSet::Marked), "Export: marked pixels"),
         (Action::ExportPixels(PixelSet::SelectedRegion), "Export: pixels of the selected region"),
         (Action::ShowAll, "Window: Arrange the panels as at first"),

@@ -2,7 +2,7 @@
 
 use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
 use super::theme::SMALL_PT;
-use super::{PanelContext, widgets};
+use super::{PanelContext, elsewhere_section::ElsewhereSection, widgets};
 use crate::app::{Command, DebugCommand, Difference, Edit, ViewCommand};
 use crate::describe::Names;
 use crate::raster::RegionId;
@@ -13,6 +13,7 @@ use egui::{Grid, RichText, ScrollArea, Ui};
 #[derive(Default)]
 pub struct ComparePanel {
     comparison: BackgroundValue<(u64, u64), Option<Comparison>>,
+    elsewhere: ElsewhereSection,
 }
 
 impl ComparePanel {
@@ -20,7 +21,14 @@ impl ComparePanel {
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let (pinned, newest) = (cx.state.pinned.clone(), cx.state.newest.clone());
         egui::Frame::new().inner_margin(8).show(ui, |ui| {
-            let (Some(pinned), Some(newest)) = (pinned, newest) else { return pin_hint(ui, cx) };
+            let (Some(pinned), Some(newest)) = (pinned, newest) else {
+                let contents = |ui: &mut Ui| {
+                    pin_hint(ui, cx);
+                    self.elsewhere.show(ui, cx);
+                };
+                ScrollArea::vertical().auto_shrink(false).show(ui, contents);
+                return;
+            };
             let key = (pinned.generation, newest.generation);
             let synchronous = newest.labels().len() <= SYNCHRONOUS_PX;
             // A result whose stages belong to different runs is not compared.
@@ -37,6 +45,7 @@ impl ComparePanel {
                         ui.vertical(|ui| regions(ui, cx, found));
                     });
                 }
+                self.elsewhere.show(ui, cx);
             });
         });
     }

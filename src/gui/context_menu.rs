@@ -37,8 +37,7 @@ pub fn of_pixel(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
     }
     ui.separator();
     ui.menu_button("Layer", |ui| {
-        for layer in Layer::ALL.into_iter().filter(|layer| !layer.needs_pinned() || cx.state.pinned.is_some())
-        {
+        for layer in Layer::ALL.into_iter().filter(|&layer| cx.state.lacks(layer).is_none()) {
             let is_shown = cx.state.view.image.layer == layer;
             let keys = keys_of(ui.ctx(), Action::Layer(layer));
             if ui.add(Button::selectable(is_shown, layer.name()).shortcut_text(keys)).clicked() {

@@ -4,9 +4,9 @@ use super::PanelContext;
 use super::files::is_workspace;
 use super::typed_path::typed_paths;
 use crate::app::{JobCommand, ViewCommand};
-use crate::view::Origin;
+use crate::view::{ElsewhereKind, Origin};
 use egui::{Event, Ui};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Opens files that were dropped on the window, and pasted paths and pictures.
@@ -64,11 +64,54 @@ pub fn open_dropped_and_pasted(ui: &Ui, cx: &mut PanelContext) {
     }
 }
 
-/// Opens a workspace or a photograph, by the extension of the path.
+/// Words in the name of a file that is a picture of another program, where a photograph is open.
+const ELSEWHERE_WORDS: [(ElsewhereKind, &[&str]); 2] = [
+    (ElsewhereKind::Labels, &["label", "labels", "labelmap", "segmentation", "segments"]),
+    (ElsewhereKind::Diffuse, &["diffuse"]),
+];
+
+/// What a file is by the words of its name, where the file is a picture of another program.
+fn elsewhere_kind(path: &Path) -> Option<ElsewhereKind> {
+    let name = path.file_stem()?.to_string_lossy().to_lowercase();
+    let words: Vec<&str> = name.split(|letter: char| !letter.is_alphabetic()).collect();
+    let found = ELSEWHERE_WORDS.into_iter().find(|(_, known)| known.iter().any(|word| words.contains(word)));
+    found.map(|(kind, _)| kind)
+}
+
+/// Opens a workspace by its extension, a picture of another program by its name where a photograph is open, and anything else as a
+/// photograph.
 fn open_path(cx: &mut PanelContext, path: PathBuf) {
+    if let Some(kind) = elsewhere_kind(&path).filter(|_| cx.state.picture.is_some() && !is_workspace(&path)) {
+        let text = format!(
+            "{} is taken for a {} of another program because of its name; Ctrl+O opens it as a photograph",
+            path.display(),
+            kind.name()
+        );
+        cx.send(ViewCommand::Notify(crate::app::Severity::Done, text));
+        return cx.send(JobCommand::OpenElsewhere(kind, path));
+    }
     cx.send(if is_workspace(&path) {
         JobCommand::OpenWorkspace(path)
     } else {
         JobCommand::Open(Origin::File(path))
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_of_another_program_is_known_by_a_word_of_its_name() {
+        for (name, kind) in [
+            ("/a/labels.png", Some(ElsewhereKind::Labels)),
+            ("cups-Segmentation_2.tif", Some(ElsewhereKind::Labels)),
+            ("scene.diffuse.exr", Some(ElsewhereKind::Diffuse)),
+            ("diffused.png", None),
+            ("labels/camera8.png", None),
+            ("", None),
+        ] {
+            assert_eq!(elsewhere_kind(Path::new(name)), kind, "{name}");
+        }
+    }
 }

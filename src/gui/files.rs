@@ -11,7 +11,7 @@ use super::typed_path::{typed_path, unique_names};
 use super::view_export::ViewExport;
 use crate::app::{Export, ExportKind, ExportOptions, JobCommand, Notice, Severity, ViewCommand};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
-use crate::view::{Layer, Origin};
+use crate::view::{ElsewhereKind, Layer, Origin};
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
 
@@ -26,6 +26,8 @@ pub enum Dialog {
     SaveParameters,
     /// A workspace to read.
     OpenWorkspace,
+    /// A picture that another program made of the open photograph.
+    OpenElsewhere(ElsewhereKind),
     /// The path to write the workspace to.
     SaveWorkspace,
     /// The kind of an export, and the path to write.
@@ -92,7 +94,11 @@ impl Dialogs {
         self.problem.clear();
         self.is_new = true;
         match dialog {
-            Dialog::Export | Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace => {
+            Dialog::Export
+            | Dialog::Open
+            | Dialog::LoadParameters
+            | Dialog::OpenWorkspace
+            | Dialog::OpenElsewhere(_) => {
                 self.path.clear();
             }
             Dialog::SaveParameters => "parameters.toml".clone_into(&mut self.path),
@@ -153,6 +159,8 @@ impl Dialogs {
             Dialog::LoadParameters => "Load parameters",
             Dialog::SaveParameters => "Save parameters",
             Dialog::OpenWorkspace => "Open workspace",
+            Dialog::OpenElsewhere(ElsewhereKind::Labels) => "Open a label map of another program",
+            Dialog::OpenElsewhere(ElsewhereKind::Diffuse) => "Open a diffuse picture of another program",
             Dialog::SaveWorkspace => "Save workspace",
             Dialog::Export => "Export",
         };
@@ -165,6 +173,9 @@ impl Dialogs {
                     self.export_kinds(ui, cx);
                 }
                 let is_done = self.path_row(ui, dialog, cx);
+                if let Dialog::OpenElsewhere(kind) = dialog {
+                    elsewhere_note(ui, cx, kind);
+                }
                 if dialog == Dialog::Open { Self::samples_and_recent(ui, cx) || is_done } else { is_done }
             },
         );
@@ -250,7 +261,7 @@ impl Dialogs {
     /// Shows the path's field and the buttons. Returns whether the dialog was confirmed.
     fn path_row(&mut self, ui: &mut Ui, dialog: Dialog, cx: &mut PanelContext) -> bool {
         let button_text = match dialog {
-            Dialog::Open | Dialog::OpenWorkspace => "Open",
+            Dialog::Open | Dialog::OpenWorkspace | Dialog::OpenElsewhere(_) => "Open",
             Dialog::LoadParameters => "Load",
             Dialog::SaveParameters | Dialog::SaveWorkspace => "Save",
             Dialog::Export => "Export",
@@ -304,6 +315,7 @@ impl Dialogs {
                 Dialog::Open => JobCommand::Open(Origin::File(path)),
                 Dialog::LoadParameters => JobCommand::LoadParams(path),
                 Dialog::OpenWorkspace => JobCommand::OpenWorkspace(path),
+                Dialog::OpenElsewhere(kind) => JobCommand::OpenElsewhere(kind, path),
                 Dialog::SaveParameters => JobCommand::Export(ExportKind::Parameters.to(path)),
                 Dialog::SaveWorkspace => JobCommand::Export(ExportKind::Workspace.to(workspace_path(path))),
                 Dialog::Export => {
@@ -406,6 +418,19 @@ impl Dialogs {
     }
 }
 
+/// Shows what a file of another program is to hold.
+fn elsewhere_note(ui: &mut Ui, cx: &PanelContext, kind: ElsewhereKind) {
+    let text = match kind {
+        ElsewhereKind::Labels => {
+            "A picture of the photograph's size: gray of 8 or 16 bits with 0 for no label, or one color for each label and black for none; not smoothed, no JPEG."
+        }
+        ElsewhereKind::Diffuse => {
+            "The photograph without its highlights, of the photograph's size, read as the photograph is (menu Read as)."
+        }
+    };
+    ui.add(egui::Label::new(RichText::new(text).color(cx.palette.secondary)).wrap());
+}
+
 /// Whether a path has the extension of workspaces.
 pub fn is_workspace(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "dichroscope")
@@ -423,7 +448,7 @@ fn workspace_path(path: PathBuf) -> PathBuf {
 
 /// Whether a dialog reads a file; other dialogs write one.
 const fn reads(dialog: Dialog) -> bool {
-    matches!(dialog, Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace)
+    matches!(dialog, Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace | Dialog::OpenElsewhere(_))
 }
 
 /// The id of the newest notice; 0 without a notice.

@@ -184,6 +184,11 @@ fn numbers(ui: &mut Ui, cx: &PanelContext, settings: GeometrySettings) {
         |value: Option<f64>| value.map_or_else(|| "\u{2013}".to_owned(), |value| format!("{value:.4}"));
     let rows = [
         (
+            "(3) half of the sphere's angle \u{3b3}",
+            degrees(sphere.cone_half_angle_deg()),
+            "\u{3b3}, half of the angle at which light and camera see the sphere: 90\u{b0} minus \u{3b3} is the last normal that each of them sees.",
+        ),
+        (
             "(4) largest phase angle",
             degrees(sphere.max_phase_deg()),
             "Beyond it the camera sees no lit point.",
@@ -194,6 +199,11 @@ fn numbers(ui: &mut Ui, cx: &PanelContext, settings: GeometrySettings) {
             "i_H, where the normal bisects g.",
         ),
         ("(6) m_b under the highlight", share(Some(sphere.highlight_body())), "m_bH, Lambertian, of 1."),
+        (
+            "(7) normal of the brightest point \u{3b1}",
+            degrees(sphere.brightest_normal_deg()),
+            "\u{3b1}, angle between the light's direction and the normal of the brightest visible point; 0 while the camera sees the point under the light.",
+        ),
         (
             "(8) incidence at the brightest point",
             degrees(sphere.brightest_incidence_deg()),

@@ -98,7 +98,8 @@ impl ImagePanel {
             ui.ctx().request_repaint();
         }
         let is_low = ui.available_height() < LOW_PT;
-        let readout_height = readout::height(ui, ui.available_width() - 16.0, is_low);
+        let readout_height =
+            readout::height(ui, ui.available_width() - 16.0, is_low, state.elsewhere.is_some());
         let frame = bar.inner_margin(Margin { left: 8, right: 8, top: 2, bottom: 2 });
         Panel::bottom("read-out").frame(frame).exact_size(readout_height + 4.0).show(ui, |ui| {
             readout::show(ui, state, palette, is_low);

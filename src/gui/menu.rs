@@ -13,7 +13,7 @@ use crate::app::{Edit, JobCommand, NamedMarkEdit, Severity, StepUnit, Switching,
 use crate::params::{Method, Preset};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
-use crate::view::{Origin, Theme};
+use crate::view::{ElsewhereKind, Origin, Theme};
 use egui::{Button, RadioButton, Ui};
 
 /// Shows the menu bar and the status line.
@@ -74,6 +74,7 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
         }
     });
     ui.menu_button("Read as", |ui| read_as(ui, cx));
+    elsewhere(ui, cx, dialogs);
     ui.separator();
     if ui.button("Open workspace\u{2026}").clicked() {
         dialogs.open(Dialog::OpenWorkspace);
@@ -94,6 +95,30 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
     if item(ui, "Quit", Action::Quit, true) {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
     }
+}
+
+/// The rows that open and close pictures that another program made of the photograph.
+fn elsewhere(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
+    ui.separator();
+    for kind in ElsewhereKind::ALL {
+        let open = Button::new(format!("Open {} of another program\u{2026}", kind.name()));
+        let open = ui.add_enabled(cx.state.picture.is_some(), open);
+        let tip = "Holds it against the result: layers, scores and values under the pointer (section 7).";
+        if open.on_hover_text(tip).clicked() {
+            dialogs.open(Dialog::OpenElsewhere(kind));
+        }
+        let paths = cx.state.elsewhere.as_ref().map(|all| all.paths.clone()).unwrap_or_default();
+        let Some(path) = paths.get(kind) else { continue };
+        let close = ui.button(format!("Close {} {}", kind.name(), file_name(path)));
+        if close.on_hover_text(path.display().to_string()).clicked() {
+            cx.send(ViewCommand::CloseElsewhere(kind));
+        }
+    }
+}
+
+/// The name of a file without its folder.
+fn file_name(path: &std::path::Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 /// The submenu of the photographs that are open.

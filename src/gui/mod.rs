@@ -14,6 +14,7 @@ mod context_menu;
 mod cube_panel;
 mod dock;
 mod dropped_files;
+mod elsewhere_section;
 mod files;
 mod geometry_panel;
 mod glossary;

@@ -50,6 +50,9 @@ fn method(ui: &mut Ui, cx: &mut PanelContext) {
         reset(ui, cx, current);
     }
     ui.horizontal(|ui| {
+        // Three buttons are nearly as narrow as their texts, so that they stay in one line.
+        ui.spacing_mut().button_padding.x = 3.0;
+        ui.spacing_mut().item_spacing.x = 2.0;
         if ui.available_width() >= NARROW_PT {
             label(
                 ui,

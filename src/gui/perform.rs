@@ -12,6 +12,8 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
     match action {
         Action::Open => dialogs.open(files::Dialog::Open),
         Action::OpenWorkspace => dialogs.open(files::Dialog::OpenWorkspace),
+        Action::OpenElsewhere(kind) => dialogs.open(files::Dialog::OpenElsewhere(kind)),
+        Action::CloseElsewhere(kind) => cx.send(ViewCommand::CloseElsewhere(kind)),
         Action::Export => dialogs.open(files::Dialog::Export),
         Action::ExportLayer(layer, file) => dialogs.open_layer_export(cx, layer, file),
         Action::ExportPixels(pixels) => dialogs.open_pixels_export(cx, pixels),
@@ -89,12 +91,11 @@ fn mark_region(cx: &mut PanelContext) {
 
 /// Fits a skewed T to the marked pixels, or tells that none are marked.
 fn fit_skewed_t(cx: &mut PanelContext) {
-    match cx.state.document.selection.marked.clone() {
-        Some(marked) => cx.send(Edit::FitSkewedT(marked)),
-        None => {
-            let text = "mark the pixels of one object first: a skewed T is fitted to them".to_owned();
-            cx.send(ViewCommand::Notify(Severity::Warning, text));
-        }
+    if let Some(marked) = cx.state.document.selection.marked.clone() {
+        cx.send(Edit::FitSkewedT(marked));
+    } else {
+        let text = "mark the pixels of one object first: a skewed T is fitted to them".to_owned();
+        cx.send(ViewCommand::Notify(Severity::Warning, text));
     }
 }
 

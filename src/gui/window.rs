@@ -4,7 +4,7 @@ use super::App;
 use super::files::is_workspace;
 use crate::app::{Executor, JobCommand, Settings, Severity, ViewCommand, catch_panic};
 use crate::truth::sample;
-use crate::view::{Arrangement, ImageSettings, Origin};
+use crate::view::{Arrangement, ElsewherePaths, ImageSettings, Origin};
 use egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,15 +15,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[error("no window can be opened here ({0}); `dichroscope analyze PHOTO --out DIR` needs none")]
 pub struct WindowError(String);
 
-/// Opens the window on `file` (a photograph or a workspace), or on the sample scene, and returns when it is closed.
+/// Opens the window on `file` (a photograph or a workspace), or on the sample scene, and returns when it is closed. `elsewhere` holds
+/// pictures that another program made of the photograph; a workspace has its own.
 ///
 /// When the graphics device is lost (a driver restarts, a card is unplugged), the window closes, and another window
 /// with a new device opens with the same application in it. The same happens after a panic outside of the panels.
 ///
 /// # Errors
 /// When there is no display or no graphics adapter, and when panics repeat.
-pub fn open(file: Option<PathBuf>) -> Result<(), WindowError> {
-    let mut first_job = Some(first_job(file));
+pub fn open(file: Option<PathBuf>, elsewhere: ElsewherePaths) -> Result<(), WindowError> {
+    let mut first_job = Some(first_job(file, elsewhere));
     let handover: Handover = Arc::default();
     let mut panics = 0;
     loop {
@@ -61,11 +62,11 @@ pub fn open(file: Option<PathBuf>) -> Result<(), WindowError> {
 }
 
 /// The first job of the window: opens a workspace, a photograph, or the sample scene where no file is given.
-fn first_job(file: Option<PathBuf>) -> JobCommand {
+fn first_job(file: Option<PathBuf>, elsewhere: ElsewherePaths) -> JobCommand {
     match file {
         Some(path) if is_workspace(&path) => JobCommand::OpenWorkspace(path),
-        Some(path) => JobCommand::Open(Origin::File(path)),
-        None => JobCommand::Open(Origin::Sample(sample::NAME.to_owned())),
+        Some(path) => JobCommand::OpenBeside(Origin::File(path), elsewhere),
+        None => JobCommand::OpenBeside(Origin::Sample(sample::NAME.to_owned()), elsewhere),
     }
 }
 
@@ -258,9 +259,10 @@ mod tests {
 
     #[test]
     fn a_workspace_is_opened_as_a_workspace_and_anything_else_as_a_photograph() {
-        assert!(matches!(first_job(Some("a.dichroscope".into())), JobCommand::OpenWorkspace(_)));
-        assert!(matches!(first_job(Some("a.png".into())), JobCommand::Open(Origin::File(_))));
-        assert!(matches!(first_job(None), JobCommand::Open(Origin::Sample(_))));
+        let first_job = |file: Option<&str>| first_job(file.map(PathBuf::from), ElsewherePaths::default());
+        assert!(matches!(first_job(Some("a.dichroscope")), JobCommand::OpenWorkspace(_)));
+        assert!(matches!(first_job(Some("a.png")), JobCommand::OpenBeside(Origin::File(_), _)));
+        assert!(matches!(first_job(None), JobCommand::OpenBeside(Origin::Sample(_), _)));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Label maps and diffuse pictures that were made elsewhere, held against a result and against the ground truth.
 
 use super::measures::{adjusted_rand_index, psnr_db};
-use super::{GroundTruth, Outcome, ResultPictures, ScoreError, score};
+use super::{GroundTruth, Outcome, ScoreError, score};
 use crate::describe::{RegionFacts, Report, Scores};
 use crate::raster::{LabelMap, Raster, UNASSIGNED};
 use std::collections::BTreeMap;
@@ -27,7 +27,36 @@ pub struct Agreement {
     pub psnr_body: Option<f64>,
 }
 
+impl Agreement {
+    /// The figures that there are, with their names.
+    pub fn figures(&self) -> Vec<(&'static str, Option<f64>)> {
+        let all = [("ari", self.ari), ("shared", self.shared), ("psnr_body", self.psnr_body)];
+        all.into_iter().filter(|(_, figure)| figure.is_some()).collect()
+    }
+}
+
+/// The scores that mean something for a label map alone, and those for a diffuse picture alone.
+const OF_LABELS: [&str; 5] = ["ari", "iou", "iou_min", "cover", "regions"];
+const OF_DIFFUSE: [&str; 6] = [
+    "psnr_body",
+    "psnr_nothing",
+    "psnr_surface",
+    "psnr_surface_nothing",
+    "psnr_restored",
+    "psnr_restored_nothing",
+];
+
 impl ForeignResult {
+    /// The figures of `scores` that mean something for what was made elsewhere, with their names: those of regions for a label map, those
+    /// of pictures for a diffuse picture.
+    pub fn figures(&self, scores: &Scores) -> Vec<(&'static str, Option<f64>)> {
+        let wanted = |name: &str| {
+            (self.labels.is_some() && OF_LABELS.contains(&name))
+                || (self.diffuse.is_some() && OF_DIFFUSE.contains(&name))
+        };
+        scores.figures().into_iter().filter(|(name, _)| wanted(name)).collect()
+    }
+
     /// An error where a picture has another size than `width` × `height`, or holds values that are not finite.
     ///
     /// # Errors
@@ -49,15 +78,15 @@ impl ForeignResult {
         Ok(())
     }
 
-    /// The agreement with a result.
+    /// The agreement with a result: `regions` are the labels of its regions, `body` is its body reflection in counts.
     ///
     /// # Errors
     /// As [`ForeignResult::check`].
-    pub fn agreement(&self, result: &ResultPictures) -> Result<Agreement, ScoreError> {
-        self.check(result.regions.width(), result.regions.height())?;
+    pub fn agreement(&self, regions: &LabelMap, body: &Raster<[f32; 3]>) -> Result<Agreement, ScoreError> {
+        self.check(regions.width(), regions.height())?;
         let mut agreement = Agreement::default();
         if let Some(labels) = &self.labels {
-            let pairs = labels.as_slice().iter().copied().zip(result.regions.as_slice().iter().copied());
+            let pairs = labels.as_slice().iter().copied().zip(regions.as_slice().iter().copied());
             let assigned: Vec<(u16, u16)> = pairs.filter(|pair| pair.1 != UNASSIGNED).collect();
             let shared: Vec<(u16, u16)> =
                 assigned.iter().copied().filter(|pair| pair.0 != UNASSIGNED).collect();
@@ -65,7 +94,7 @@ impl ForeignResult {
             agreement.ari = (!shared.is_empty()).then(|| adjusted_rand_index(shared));
         }
         if let Some(diffuse) = &self.diffuse {
-            let both = diffuse.as_slice().iter().flatten().zip(result.body.as_slice().iter().flatten());
+            let both = diffuse.as_slice().iter().flatten().zip(body.as_slice().iter().flatten());
             agreement.psnr_body = psnr_db(both.map(|(a, b)| f64::from(*a) - f64::from(*b)));
         }
         Ok(agreement)
@@ -117,30 +146,29 @@ fn region_facts(labels: &LabelMap, body: &Raster<[f32; 3]>) -> Vec<RegionFacts> 
 mod tests {
     use super::*;
 
-    fn result() -> ResultPictures {
+    fn agreement(foreign: &ForeignResult) -> Result<Agreement, ScoreError> {
         let regions = LabelMap::from_vec(4, 1, vec![1, 1, 2, 0]).unwrap();
-        let body = Raster::filled(4, 1, [50.0; 3]);
-        ResultPictures { surface: Raster::filled(4, 1, [0.0; 3]), regions, body }
+        foreign.agreement(&regions, &Raster::filled(4, 1, [50.0; 3]))
     }
 
     #[test]
     fn agreement_counts_pixels_of_both_maps_only() {
         let labels = LabelMap::from_vec(4, 1, vec![7, 7, 9, 9]);
         let diffuse = Some(Raster::filled(4, 1, [50.0; 3]));
-        let found = ForeignResult { labels, diffuse }.agreement(&result()).unwrap();
+        let found = agreement(&ForeignResult { labels, diffuse }).unwrap();
         assert_eq!((found.ari, found.shared), (Some(1.0), Some(1.0)));
         assert!(found.psnr_body.unwrap() > 130.0);
         let labels = LabelMap::from_vec(4, 1, vec![7, 0, 7, 7]);
-        let found = ForeignResult { labels, diffuse: None }.agreement(&result()).unwrap();
+        let found = agreement(&ForeignResult { labels, diffuse: None }).unwrap();
         assert_eq!((found.shared, found.psnr_body), (Some(2.0 / 3.0), None));
     }
 
     #[test]
     fn another_size_and_values_that_are_not_finite_are_errors() {
         let other = ForeignResult { labels: LabelMap::from_vec(2, 1, vec![1, 1]), diffuse: None };
-        let error = other.agreement(&result()).unwrap_err().to_string();
+        let error = agreement(&other).unwrap_err().to_string();
         assert!(error.starts_with("the label map is 2\u{d7}1"), "{error}");
         let bad = ForeignResult { labels: None, diffuse: Some(Raster::filled(4, 1, [f32::NAN; 3])) };
-        assert_eq!(bad.agreement(&result()), Err(ScoreError::NotFinite("diffuse picture")));
+        assert_eq!(agreement(&bad), Err(ScoreError::NotFinite("diffuse picture")));
     }
 }

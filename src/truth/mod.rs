@@ -7,6 +7,7 @@
 mod candidates;
 mod folder;
 mod foreign;
+mod label_map;
 mod measures;
 mod pictures;
 mod report;
@@ -17,8 +18,9 @@ pub use candidates::CandidateCounts;
 pub(crate) use folder::TruthFiles;
 pub use folder::{GroundTruth, TruthObject, find_truth};
 pub use foreign::{Agreement, ForeignResult};
+pub use label_map::read_label_map;
 pub use measures::{adjusted_rand_index, angle_deg, psnr_db};
-pub use pictures::{ResultPictures, read_label_map};
+pub use pictures::ResultPictures;
 pub use report::{Reference, ReportInput, report};
 pub use score::{Outcome, ScoreError, score};
 
@@ -59,6 +61,20 @@ pub enum TruthError {
         path: PathBuf,
         /// The sample type found.
         found: String,
+    },
+    /// A label map has more labels than 16 bits can number.
+    #[error("{} holds more than 65535 colors: a label map has one color for each label, and neither shading nor noise", path.display())]
+    ManyLabels {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The numbers of a label map were changed after the map was made.
+    #[error("{} {why}: save the label map as PNG, without smoothing and without scaling", path.display())]
+    InexactLabels {
+        /// The file.
+        path: PathBuf,
+        /// What the file is or has, a verb first.
+        why: &'static str,
     },
     /// `truth.json` is not JSON or lacks a required value.
     #[error("{} does not describe a ground truth", path.display())]

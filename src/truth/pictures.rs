@@ -1,10 +1,9 @@
 //! Label maps and linear pictures from files.
 
 use super::TruthError;
-use crate::raster::{LabelMap, Raster, UNASSIGNED};
+use crate::raster::{LabelMap, Raster};
 use exr::prelude::{ReadChannels, ReadLayers, read};
 use image::DynamicImage;
-use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -107,36 +106,6 @@ pub(super) fn decode_labels(bytes: &[u8], path: &Path) -> Result<LabelMap, Truth
             });
         }
     };
-    Ok(Raster::from_vec(width, height, labels).expect("invariant: a decoded picture holds all its pixels"))
-}
-
-/// Reads a label map that was made elsewhere: integer labels of a gray picture of 8 or 16 bits, 0 for none, or a color picture in which
-/// each color is a label, in the order in which they come, and black is none.
-///
-/// # Errors
-/// When the file cannot be read or decoded, its samples are no integers, or it has more colors than a label map holds.
-#[allow(clippy::missing_panics_doc, reason = "a decoded picture holds all its pixels")]
-pub fn read_label_map(path: &Path) -> Result<LabelMap, TruthError> {
-    let bytes = read_file(path)?;
-    let picture = image::load_from_memory(&bytes)
-        .map_err(|source| TruthError::Labels { path: path.to_owned(), source })?;
-    let is_gray = !picture.color().has_color();
-    let colors = picture.to_rgb8();
-    if is_gray || colors.pixels().all(|color| color.0[0] == color.0[1] && color.0[1] == color.0[2]) {
-        return decode_labels(&bytes, path);
-    }
-    let mut known: BTreeMap<[u8; 3], u16> = BTreeMap::from([([0; 3], UNASSIGNED)]);
-    let mut labels = Vec::with_capacity(colors.as_raw().len() / 3);
-    for color in colors.pixels() {
-        let next = known.len();
-        let label = *known.entry(color.0).or_insert(next as u16);
-        labels.push(label);
-        if next > usize::from(u16::MAX) {
-            let found = "more than 65535 colors".to_owned();
-            return Err(TruthError::LabelType { path: path.to_owned(), found });
-        }
-    }
-    let (width, height) = (colors.width() as usize, colors.height() as usize);
     Ok(Raster::from_vec(width, height, labels).expect("invariant: a decoded picture holds all its pixels"))
 }
 

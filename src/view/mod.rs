@@ -9,6 +9,7 @@ mod cluster_plane;
 mod colors;
 mod compare;
 mod curves;
+mod elsewhere;
 mod geometry;
 mod grouped;
 mod histogram;
@@ -48,6 +49,9 @@ pub use compare::{
     BodyChange, ComparedRegion, Comparison, Figure, PixelChanges, RegionChange, SettingChange, compare,
     setting_changes,
 };
+pub use elsewhere::{
+    Elsewhere, ElsewhereKind, ElsewherePaths, ElsewherePixel, Held, HeldFigure, held_against, label_count,
+};
 pub use geometry::{GeometrySettings, SPHERE_DISTANCES, meeting_share, sphere_colors, sphere_in_plane};
 pub use grouped::{counted, grouped};
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
@@ -58,8 +62,8 @@ pub use inspection::{
 pub use item::{Item, Selection};
 pub(crate) use layers::layer_floats;
 pub use layers::{
-    DIFFERENCE_COUNTS, Fill, Layer, Look, class_entries, instant_legend, legend, marks, paint, paint_instant,
-    pyramid, reason_entry,
+    Against, DIFFERENCE_COUNTS, Fill, Layer, LayerNeed, LayerPixels, Look, class_entries, instant_legend,
+    legend, marks, paint, paint_against, paint_instant, pyramid, reason_entry,
 };
 pub use legend_entry::LegendEntry;
 pub use meaning::{ACCENT, Meaning};

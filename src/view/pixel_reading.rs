@@ -1,7 +1,7 @@
 //! What is known of one pixel: place, color, class, kind, region and amounts, in the result or at the debugger's cursor. The readout and
 //! the inspector show the same reading.
 
-use super::{Picture, PixelAmounts, RegionNames, ResultSnapshot};
+use super::{ElsewherePixel, Picture, PixelAmounts, RegionNames, ResultSnapshot};
 use crate::intrinsic::PixelKind;
 use crate::raster::{HypothesisId, PixelIndex};
 use crate::trace::{Class, Replay};
@@ -16,6 +16,8 @@ pub struct PixelReading {
     pub analyzed: Option<AnalyzedPixel>,
     /// Color of the region or hypothesis, sRGB.
     pub chip: Option<[u8; 3]>,
+    /// The values of another program; none where no picture of another program is open.
+    pub elsewhere: Option<ElsewherePixel>,
 }
 
 /// Values of a pixel in a result.
@@ -41,7 +43,7 @@ impl PixelReading {
             analyzed.as_ref().and_then(|analyzed| analyzed.region).zip(shown).and_then(|(region, shown)| {
                 shown.region_colors.get(usize::from(region).wrapping_sub(1)).copied()
             });
-        Some(Self { at, color, analyzed, chip })
+        Some(Self { at, color, analyzed, chip, elsewhere: None })
     }
 
     /// Values at the debugger's cursor; the region is a hypothesis id. `None` outside of the photograph.
@@ -58,7 +60,7 @@ impl PixelReading {
         let analyzed = AnalyzedPixel { class, kind: replay.kind(working_pixel), region, amounts: None };
         let chip = hypothesis.map(|hypothesis| names.color(hypothesis));
         let at = [pixel % image.width(), pixel / image.width()];
-        Some(Self { at, color, analyzed: Some(analyzed), chip })
+        Some(Self { at, color, analyzed: Some(analyzed), chip, elsewhere: None })
     }
 }
 

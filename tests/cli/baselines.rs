@@ -6,6 +6,51 @@ use serde_json::Value;
 use std::fs;
 
 #[test]
+fn by_hand_splits_the_pixels_of_a_mask_and_says_what_it_needs() {
+    let work = WorkFolder::new();
+    work.photo("a.png");
+    let image = dichroscope::photo::read(&work.path("a.png"), &dichroscope::photo::ReadOptions::default())
+        .unwrap()
+        .image;
+    let (width, height) = (image.width(), image.height());
+    let mut mask = format!("P5 {width} {height} 255\n").into_bytes();
+    mask.extend((0..width * height).map(|pixel| if pixel % width < width / 2 { 255u8 } else { 0 }));
+    work.put("mask.pgm", &mask);
+    work.succeeds("analyze a.png --out out --method by-hand --area mask.pgm");
+    let report = work.report("out/a");
+    assert_eq!((report.params.method, report.params.asked().method), (Method::ByHand, Method::ByHand));
+    assert!(report.area.is_some() && report.regions.len() <= 1);
+    for command in [
+        "analyze a.png --out other",
+        "why a.png 1,1",
+        "trace a.png --out t.jsonl",
+        "figures a.png --out pages",
+    ] {
+        work.fails(2, &format!("{command} --method by-hand"), "give their mask with --area MASK.png");
+    }
+    work.fails(
+        2,
+        "analyze a.png --out other --method by-hand --area mask.pgm --with edge_body",
+        "belong to `--method refined`",
+    );
+    let lit = (0..width * height)
+        .find(|&pixel| pixel % width < width / 2 && image.pixels[pixel][0] > 60.0)
+        .unwrap();
+    let why = work
+        .succeeds(&format!("why a.png {},{} --method by-hand --area mask.pgm", lit % width, lit / width))
+        .out;
+    assert!(why.contains("it was marked and belongs to hypothesis 1"), "{why}");
+    let trace = work.succeeds("trace a.png --out t.jsonl --method by-hand --area mask.pgm");
+    assert!(trace.out.is_empty() || !trace.out.contains("error"));
+    let lines = fs::read_to_string(work.path("t.jsonl")).unwrap();
+    assert!(lines.contains("line of the marked") && lines.contains("marked pixels"), "the steps of 1987");
+    work.succeeds("figures a.png --out pages --method by-hand --area mask.pgm");
+    let first = fs::read(work.path("out/a/body.exr")).unwrap();
+    work.succeeds("analyze a.png --out one --method by-hand --area mask.pgm --threads 1");
+    assert_eq!(first, fs::read(work.path("one/a/body.exr")).unwrap());
+}
+
+#[test]
 fn phoenix_takes_features_and_numbers_and_its_report_says_so() {
     let work = WorkFolder::new();
     work.photo("a.png");

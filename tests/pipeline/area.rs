@@ -3,7 +3,7 @@
 use crate::common::{METHODS, analyze, assert_valid, fingerprint, report};
 use crate::synthetic::Scene;
 use dichroscope::analysis::{Analysis, Session};
-use dichroscope::params::Params;
+use dichroscope::params::{Method, Params};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::{Mask, UNASSIGNED};
 use proptest::prelude::*;
@@ -62,7 +62,8 @@ proptest! {
 fn the_whole_picture_is_no_restriction() {
     let image = Scene::grid_of_balls([160, 80], 2, 1, 4).render().image;
     let whole = rectangle(&image, [0, 0, 160, 80]);
-    for method in METHODS {
+    // The method by hand asks for an area: without one it warns, and no pixel is at the edge of an area.
+    for method in METHODS.into_iter().filter(|&method| method != Method::ByHand) {
         let params = Params::of(method);
         assert!(fingerprint(&restricted(&image, &whole, &params)) == fingerprint(&analyze(&image, &params)));
     }

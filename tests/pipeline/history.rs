@@ -54,6 +54,7 @@ fn random_params() -> impl Strategy<Value = Params> {
         3 => Just(Method::Paper),
         1 => Just(Method::Phoenix),
         1 => Just(Method::TopDown),
+        1 => Just(Method::ByHand),
     ];
     let numbers = (1.5f64..6.0, 1.5f64..6.0, 60u32..600);
     (method, numbers, any_readings()).prop_map(|(method, (cylinder, slice, area), readings)| Params {
@@ -73,7 +74,8 @@ fn owner_after(what: &HistoryKind) -> Option<Option<HypothesisId>> {
         | HistoryKind::Claimed { hypothesis, .. }
         | HistoryKind::Voted { hypothesis, .. }
         | HistoryKind::Filled { hypothesis, .. }
-        | HistoryKind::Patched { hypothesis, .. } => Some(Some(hypothesis)),
+        | HistoryKind::Patched { hypothesis, .. }
+        | HistoryKind::Marked { hypothesis, .. } => Some(Some(hypothesis)),
         HistoryKind::Released { .. } => Some(None),
         HistoryKind::Merged { into, .. } => Some(Some(into)),
         HistoryKind::Reset { to, .. } => Some(to),

@@ -7,6 +7,7 @@
 mod ambient;
 mod area;
 mod baselines;
+mod by_hand;
 mod cache;
 mod cameras;
 mod case_study;

@@ -3,7 +3,7 @@
 use crate::common::{analyze, any_readings, fingerprint};
 use crate::synthetic::Scene;
 use dichroscope::analysis::{Analysis, Observer, Session};
-use dichroscope::params::{Method, PaperMethod, Params, Setting};
+use dichroscope::params::{Baseline, Method, PaperMethod, Params, Setting};
 use dichroscope::raster::{HypothesisId, RegionId};
 use dichroscope::trace::{Class, Event, PassBegan, PixelKind, Replay, Stage, StageBegan, Trace};
 use proptest::prelude::*;
@@ -16,6 +16,7 @@ fn random_params() -> impl Strategy<Value = Params> {
         3 => Just(Method::Paper),
         1 => Just(Method::Phoenix),
         1 => Just(Method::TopDown),
+        1 => Just(Method::ByHand),
     ];
     (method, any::<bool>(), numbers, any_readings()).prop_map(|(method, default, numbers, readings)| {
         if default {
@@ -83,7 +84,8 @@ proptest! {
         prop_assert!(*replay.labels() == analysis.matte.labels, "matte regions differ");
         for (id, hypothesis) in HypothesisId::all(analysis.matte.hypotheses.len()).zip(&analysis.matte.hypotheses) {
             let line = replay.hypothesis(id).unwrap().line();
-            prop_assert_eq!(line, Some(&hypothesis.line).filter(|_| !is_baseline));
+            let has_lines = !params.baseline().is_some_and(Baseline::finds_regions_alone);
+            prop_assert_eq!(line, Some(&hypothesis.line).filter(|_| has_lines));
             prop_assert_eq!(replay.hypothesis(id).unwrap().end().is_none(), hypothesis.alive);
         }
         replay.seek(trace.steps_of(Stage::Planar).end);

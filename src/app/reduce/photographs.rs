@@ -51,13 +51,14 @@ fn take_shown(state: &mut State) -> Option<OpenPhotograph> {
         history: std::mem::take(&mut state.history),
         newest: state.newest.take(),
         pinned: state.pinned.take(),
+        elsewhere: state.elsewhere.take(),
         found_light: state.found_light.take(),
         workspace_path: state.workspace_path.take(),
     })
 }
 
 fn show(state: &mut State, photograph: OpenPhotograph) -> Vec<Effect> {
-    let OpenPhotograph { picture, document, history, newest, pinned, found_light, workspace_path } =
+    let OpenPhotograph { picture, document, history, newest, pinned, elsewhere, found_light, workspace_path } =
         photograph;
     let has_other_size = state.others.last().is_some_and(|other| other.picture.size() != picture.size());
     if has_other_size {
@@ -66,7 +67,8 @@ fn show(state: &mut State, photograph: OpenPhotograph) -> Vec<Effect> {
     state.notices.retain(|notice| !notice.of_photograph);
     (state.picture, state.document, state.history) = (Some(picture), document, history);
     (state.newest, state.pinned, state.found_light) = (newest, pinned, found_light);
-    state.workspace_path = workspace_path;
+    (state.elsewhere, state.workspace_path) = (elsewhere, workspace_path);
+    state.leave_missing_layers();
     (state.debugger, state.preview, state.after_pin) = (Debugger::default(), None, None);
     (state.hover, state.explained_pixel, state.hover_pixels) = (None, None, Arc::default());
     (state.view.show_pinned, state.preselects) = (false, false);

@@ -5,10 +5,13 @@ use super::edits::{analyze, edit_params};
 use super::photographs::keep_open;
 use super::questions::take_progress;
 use crate::app::report::{Report, Work};
-use crate::app::state::{AfterPin, Restoring};
+use crate::app::state::{AfterPin, Restoring, own_layer};
 use crate::app::{Debugger, Document, Effect, Preview, Severity, State, ViewSettings, Workspace};
 use crate::params::{IlluminantSetting, Params};
-use crate::view::{Item, MaskRuns, NamedMark, NamedMarks, Picture, ProfileLine, ResultSnapshot};
+use crate::view::{
+    Elsewhere, ElsewhereKind, ElsewherePaths, Item, Layer, MaskRuns, NamedMark, NamedMarks, Picture,
+    ProfileLine, ResultSnapshot,
+};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -22,6 +25,7 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
         Report::OpenedTogether(pictures) => return open_together(state, pictures),
         Report::OpenFailed(reason) => {
             (state.jobs.reading, state.restoring) = (None, None);
+            state.opens_beside = ElsewherePaths::default();
             state.notify(Severity::Error, reason);
         }
         Report::ParamsRead(params) => {
@@ -31,6 +35,12 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
         Report::WorkspaceRead { workspace, path } => {
             state.jobs.reading = None;
             return read_photograph_of(state, workspace, path);
+        }
+        Report::ElsewhereRead { kind, read, picture, shows } => {
+            state.jobs.reading = None;
+            if state.picture.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, &picture)) {
+                take_elsewhere(state, kind, *read, shows);
+            }
         }
         Report::Failed(reason) => {
             state.jobs.reading = None;
@@ -105,6 +115,20 @@ fn read_photograph_of(state: &mut State, workspace: Box<Workspace>, path: PathBu
     }
 }
 
+/// Holds a picture of another program against the results of the photograph from now on, and shows the picture where `shows`.
+fn take_elsewhere(state: &mut State, kind: ElsewhereKind, read: Elsewhere, shows: bool) {
+    let all = state.elsewhere.take().unwrap_or_default().with(read);
+    state.elsewhere = Some(Arc::new(all));
+    if shows {
+        let layer = match kind {
+            ElsewhereKind::Labels => Layer::OtherRegions,
+            ElsewhereKind::Diffuse => Layer::OtherBody,
+        };
+        // A wipe or a second view shows the same of the result.
+        (state.view.image.layer, state.view.image.other) = (layer, own_layer(kind));
+    }
+}
+
 /// Opens photographs, and shows and analyzes the first; the others are analyzed when they are shown.
 fn open_together(state: &mut State, mut pictures: Vec<Arc<Picture>>) -> Vec<Effect> {
     // The last photograph that is opened is shown, and the others follow it in their order.
@@ -137,6 +161,10 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
         keep_open(state);
     }
     state.others.retain(|other| other.picture.origin != picture.origin);
+    // Those of a photograph that is read again are read again too.
+    let again = state.elsewhere.take().map_or_else(ElsewherePaths::default, |all| all.paths.clone());
+    let mut beside = reading_of(&std::mem::take(&mut state.opens_beside), true);
+    beside.extend(reading_of(&again, false));
     // What was said about the photograph before does not concern this one.
     state.notices.retain(|notice| !notice.of_photograph);
     state.picture = Some(picture);
@@ -155,6 +183,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     }
     state.preselects = restored.is_none();
     if let Some(Restoring { workspace, path }) = restored {
+        beside = reading_of(&workspace.elsewhere, false);
         restore_workspace(state, *workspace);
         state.workspace_path = Some(path);
     } else if had_picture && state.document.params != Params::of(state.document.params.method) {
@@ -162,7 +191,22 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
             "parameters that were changed for the photograph before stay in force; Reset takes the defaults";
         state.notify(Severity::Warning, text.to_owned());
     }
-    analyze(state)
+    if beside.is_empty() {
+        state.leave_missing_layers();
+    }
+    let mut effects = analyze(state);
+    effects.extend(beside);
+    effects
+}
+
+/// The reading of the pictures of another program; `shows`: whether the image view is to show them.
+fn reading_of(paths: &ElsewherePaths, shows: bool) -> Vec<Effect> {
+    let read = |(kind, path): (ElsewhereKind, &std::path::Path)| Effect::ReadElsewhere {
+        kind,
+        path: path.to_owned(),
+        shows,
+    };
+    paths.files().map(read).collect()
 }
 
 /// Restores the parts of a workspace other than its photograph, which is open by now.

@@ -41,6 +41,11 @@ pub(super) fn reduce(state: &mut State, command: ViewCommand) {
                 state.view.image.other = state.view.image.layer;
             }
         }
+        ViewCommand::CloseElsewhere(kind) => {
+            let rest = state.elsewhere.take().and_then(|elsewhere| elsewhere.without(kind));
+            state.elsewhere = rest.map(Arc::new);
+            state.leave_missing_layers();
+        }
         ViewCommand::ForgetRecent => state.recent.clear(),
     }
 }

@@ -7,7 +7,9 @@ use crate::app::State;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets;
 use crate::raster::PixelIndex;
-use crate::view::{ACCENT, DIFFERENCE_COUNTS, Item, Layer, LegendEntry, ProfileLine, Tool, legend};
+use crate::view::{
+    ACCENT, DIFFERENCE_COUNTS, Item, Layer, LayerPixels, LegendEntry, ProfileLine, Tool, legend,
+};
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
 /// The accent color over pictures, the same in both themes, because a picture is equally dark in both.
@@ -49,7 +51,10 @@ pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer,
         return;
     }
     let Some(picture) = &state.picture else { return };
-    let intrinsic = state.shown().map(|shown| &shown.analysis.intrinsic);
+    let of = state.shown().map(|shown| LayerPixels {
+        intrinsic: &shown.analysis.intrinsic,
+        elsewhere: state.elsewhere.as_deref(),
+    });
     let is_mean = place.zoom < BANDS_ZOOM;
     let size = if is_mean { place.zoom / 2.3 } else { place.zoom / 4.0 }.clamp(7.0, 13.0);
     let decimals = usize::from(place.zoom >= DECIMALS_ZOOM);
@@ -57,7 +62,7 @@ pub fn values(painter: &Painter, place: &Placement, state: &State, layer: Layer,
     for y in rows {
         for x in columns.clone() {
             let pixel = y * place.size.x as usize + x;
-            let numbers = intrinsic.and_then(|found| layer.numbers(found, pixel));
+            let numbers = of.and_then(|of| layer.numbers(of, pixel));
             let mut lines = numbers.unwrap_or_else(|| picture.photo.image.pixels[pixel].to_vec());
             if is_mean {
                 lines = vec![lines.iter().sum::<f32>() / lines.len().max(1) as f32];
@@ -298,7 +303,7 @@ pub fn layer_legend(painter: &Painter, palette: &ThemeColors, view: Rect, layer:
             let [low, high] = [-slice, slice].map(|counts| widgets::signed(counts, 1));
             color_bar(painter, palette, view, &[&low, "0", &format!("{high} counts off the plane")]);
         }
-        (Layer::Difference, _) => {
+        (Layer::Difference | Layer::OtherDifference, _) => {
             let [low, high] = [-1.0, 1.0].map(|sign| widgets::signed(sign * f64::from(DIFFERENCE_COUNTS), 0));
             color_bar(painter, palette, view, &[&low, "0", &format!("{high} counts")]);
         }

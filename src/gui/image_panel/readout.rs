@@ -48,7 +48,7 @@ const fn word(name: &'static str, widest: &'static str, tip: &'static str) -> Ce
 }
 
 /// The groups of cells. Values are lists of the same shape.
-const GROUPS: [&[Cell]; 5] = [
+const GROUPS: [&[Cell]; 6] = [
     &[
         number("x", "8888", Tip::Text("Column, from 0 at the left")),
         number("y", "8888", Tip::Text("Row, from 0 at the top")),
@@ -82,41 +82,54 @@ const GROUPS: [&[Cell]; 5] = [
         number("m_b", "888.8", Tip::Card(Term::BodyAmount)),
         number("m_s", "\u{2212}88.8", Tip::Card(Term::SurfaceAmount)),
     ],
+    &[
+        word("other", "", "The values of another program's label map and diffuse picture (menu File)"),
+        number("label", "88888", Tip::Text("Label in the other program's map, 0 for none")),
+        number("R", "888.8", Tip::Text("Diffuse picture of the other program, linear counts of red")),
+        number("G", "888.8", Tip::Text("Diffuse picture of the other program, linear counts of green")),
+        number("B", "888.8", Tip::Text("Diffuse picture of the other program, linear counts of blue")),
+    ],
 ];
+/// Index of the group of the amounts as measured, and of the group of another program's values.
+const MEASURED: usize = 4;
+const OTHER: usize = 5;
 
 /// Texts of the cells, by group and cell; empty for no value.
-type Values = [Vec<String>; 5];
+type Values = [Vec<String>; GROUPS.len()];
 
 /// Width of the strip below which measured amounts are left to the plane and to *Why*, points.
 const NARROW_PT: f32 = 420.0;
 
-/// Number of groups that a strip of this width has; of one line where `is_low`.
-fn shown_groups(ui: &Ui, width: f32, is_low: bool) -> usize {
-    if is_low {
-        return places(ui, width).iter().take_while(|place| place.y <= 0.0).count().max(1);
-    }
-    if width < NARROW_PT { GROUPS.len() - 1 } else { GROUPS.len() }
-}
-
-/// Height of the strip, points. `is_low`: whether the strip has one line, as in a low panel.
-pub fn height(ui: &Ui, width: f32, is_low: bool) -> f32 {
-    let last = places(ui, width)[shown_groups(ui, width, is_low) - 1];
-    last.y + LINE_PT
-}
-
-/// The upper left corner of each group, from the strip's upper left corner: groups that do not fit into a line begin another.
-fn places(ui: &Ui, width: f32) -> [Pos2; 5] {
+/// The groups of a strip of this width, each with its upper left corner from the strip's upper left corner: groups that do not fit into a
+/// line begin another, and a strip that `is_low` has one line. `has_other`: whether a picture of another program is open.
+fn shown_groups(ui: &Ui, width: f32, is_low: bool, has_other: bool) -> Vec<(usize, Pos2)> {
     let gap = if width < NARROW_PT { CELL_GAP_PT } else { GROUP_GAP_PT };
+    let is_shown = |group: usize| match group {
+        MEASURED => is_low || width >= NARROW_PT,
+        OTHER => has_other,
+        _ => true,
+    };
     let mut at = Pos2::ZERO;
-    GROUPS.each_ref().map(|cells| {
-        let group = group_width(ui, cells);
-        if at.x > 0.0 && at.x + group > width {
+    let mut shown = Vec::new();
+    for group in (0..GROUPS.len()).filter(|&group| is_shown(group)) {
+        let group_pt = group_width(ui, GROUPS[group]);
+        if at.x > 0.0 && at.x + group_pt > width {
             at = pos2(0.0, at.y + LINE_PT);
         }
-        let place = at;
-        at.x += group + gap;
-        place
-    })
+        if is_low && at.y > 0.0 {
+            break;
+        }
+        shown.push((group, at));
+        at.x += group_pt + gap;
+    }
+    shown
+}
+
+/// Height of the strip, points. `is_low`: whether the strip has one line, as in a low panel. `has_other`: whether a picture of another
+/// program is open.
+pub fn height(ui: &Ui, width: f32, is_low: bool, has_other: bool) -> f32 {
+    let groups = shown_groups(ui, width, is_low, has_other);
+    groups.last().map_or(0.0, |(_, place)| place.y) + LINE_PT
 }
 
 /// Width of a group, points.
@@ -160,6 +173,7 @@ pub fn show(ui: &mut Ui, state: &State, palette: &ThemeColors, is_low: bool) {
         readout.as_ref().and_then(|readout| readout.chip).map(widgets::color),
         None,
         None,
+        None,
     ];
     if readout.is_none() {
         let text = "Point at a pixel to read its values.";
@@ -172,10 +186,9 @@ pub fn show(ui: &mut Ui, state: &State, palette: &ThemeColors, is_low: bool) {
         ui.painter().galley(full.min + vec2(0.0, 2.0), galley, palette.secondary);
         return;
     }
-    let groups = shown_groups(ui, full.width(), is_low);
-    for (group, place) in places(ui, full.width()).into_iter().enumerate().take(groups) {
+    for (group, place) in shown_groups(ui, full.width(), is_low, state.elsewhere.is_some()) {
         // Measured amounts that are those of the result are not repeated.
-        if group == 4 && values[4].is_empty() {
+        if group == MEASURED && values[MEASURED].is_empty() {
             continue;
         }
         let mut at = full.min + place.to_vec2();
@@ -241,6 +254,11 @@ fn values_of(reading: &PixelReading) -> Values {
     let mut values = Values::default();
     values[0] = reading.at.map(|place| place.to_string()).to_vec();
     values[1] = reading.color.map(counts).to_vec();
+    if let Some(other) = reading.elsewhere {
+        let diffuse = other.diffuse.map_or_else(Default::default, |color| color.map(counts));
+        let label = other.label.map_or_else(String::new, |label| label.to_string());
+        values[OTHER] = [String::new(), label].into_iter().chain(diffuse).collect();
+    }
     let Some(analyzed) = &reading.analyzed else { return values };
     // A pixel in no region has no kind.
     let is_in_region = analyzed.region.is_some() && analyzed.kind != PixelKind::Unassigned;
@@ -254,7 +272,7 @@ fn values_of(reading: &PixelReading) -> Values {
         let result = &amounts.result;
         values[3] = vec![String::new(), counts(result.body), surface(result), counts(result.noise)];
         if let Some(measured) = amounts.different_measured() {
-            values[4] = vec![String::new(), counts(measured.body), surface(&measured)];
+            values[MEASURED] = vec![String::new(), counts(measured.body), surface(&measured)];
         }
     }
     values

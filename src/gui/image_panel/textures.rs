@@ -6,8 +6,8 @@ use crate::app::State;
 use crate::gui::task::Task;
 use crate::raster::{Mask, Raster};
 use crate::view::{
-    Fill, ImageSettings, Instant, Item, Layer, Look, NamedMarks, Picture, ResultSnapshot, Selection, marks,
-    paint, paint_instant, pyramid,
+    Against, Elsewhere, Fill, ImageSettings, Instant, Item, Layer, LayerNeed, Look, NamedMarks, Picture,
+    ResultSnapshot, Selection, marks, paint_against, paint_instant, pyramid,
 };
 use egui::{Color32, Context, Mesh, Painter, Rect, Shape, TextureHandle};
 use std::collections::HashMap;
@@ -38,6 +38,7 @@ pub struct PaintRequest {
     picture: Arc<Picture>,
     shown: Option<Arc<ResultSnapshot>>,
     pinned: Option<Arc<ResultSnapshot>>,
+    elsewhere: Option<Arc<Elsewhere>>,
     subject: Subject,
     /// Side of a texel of the painted picture, pixels of the photograph.
     texel_px: usize,
@@ -56,7 +57,7 @@ impl PaintRequest {
     pub fn layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
         let layer = if layer.needs_result() && state.shown().is_none() { Layer::Input } else { layer };
         let picture = Arc::clone(state.picture.as_ref()?);
-        let preview = state.shown_preview().filter(|_| layer.needs_result() && !layer.needs_pinned());
+        let preview = state.shown_preview().filter(|_| layer.needs_result() && layer.need().is_none());
         let selected = preview.map_or_else(|| state.selected_region(), |(_, selected)| selected);
         let mut look = settings.look(selected.filter(|_| layer.dims_regions()));
         if !layer.is_overlay() {
@@ -65,20 +66,26 @@ impl PaintRequest {
         let newest = || state.shown().filter(|_| layer.needs_result());
         let shown = preview.map_or_else(newest, |(preview, _)| Some(&preview.shown)).cloned();
         let texel_px = preview.map_or(1, |(preview, _)| preview.blocks.side());
-        let pinned = state.pinned.as_ref().filter(|_| layer.needs_pinned()).cloned();
-        Some(Self { picture, shown, pinned, subject: Subject::Layer(layer, look), texel_px })
+        let pinned = state.pinned.as_ref().filter(|_| layer.need() == Some(LayerNeed::Pinned)).cloned();
+        let is_of_elsewhere = matches!(layer.need(), Some(LayerNeed::Elsewhere(_)));
+        let elsewhere = state.elsewhere.as_ref().filter(|_| is_of_elsewhere).cloned();
+        Some(Self { picture, shown, pinned, elsewhere, subject: Subject::Layer(layer, look), texel_px })
     }
 
     /// The request of a layer of the photograph that the second view shows for comparison; none where no photograph is compared.
     pub fn compared_layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
         let other = state.compared_photograph()?;
         let has_result = other.newest.is_some();
-        let layer =
-            if layer.needs_pinned() || (layer.needs_result() && !has_result) { Layer::Input } else { layer };
+        let layer = if layer.need().is_some() || (layer.needs_result() && !has_result) {
+            Layer::Input
+        } else {
+            layer
+        };
         Some(Self {
             picture: Arc::clone(&other.picture),
             shown: other.newest.clone(),
             pinned: None,
+            elsewhere: None,
             subject: Subject::Layer(layer, settings.look(None)),
             texel_px: 1,
         })
@@ -101,7 +108,8 @@ impl PaintRequest {
         }
         let picture = Arc::clone(state.picture.as_ref()?);
         let shown = state.shown().cloned();
-        Some(Self { picture, shown, pinned: None, subject: Subject::Marks(selection, hover), texel_px: 1 })
+        let subject = Subject::Marks(selection, hover);
+        Some(Self { picture, shown, pinned: None, elsewhere: None, subject, texel_px: 1 })
     }
 
     /// The request of the instant at the cursor.
@@ -112,6 +120,7 @@ impl PaintRequest {
             picture,
             shown: None,
             pinned: None,
+            elsewhere: None,
             subject: Subject::Instant(Arc::clone(instant), look),
             texel_px: 1,
         })
@@ -120,7 +129,10 @@ impl PaintRequest {
     fn paint(&self) -> Raster<[u8; 4]> {
         let (shown, pinned) = (self.shown.as_deref(), self.pinned.as_deref());
         match &self.subject {
-            Subject::Layer(layer, look) => paint(*layer, &self.picture, shown, pinned, look),
+            Subject::Layer(layer, look) => {
+                let against = Against { pinned, elsewhere: self.elsewhere.as_deref() };
+                paint_against(*layer, &self.picture, shown, against, look)
+            }
             Subject::Marks(selection, hover) => {
                 let painted_marks = marks(&self.picture, shown, selection, *hover);
                 // Where nothing is marked, one transparent texel.
@@ -148,6 +160,7 @@ impl PaintRequest {
             picture: Arc::downgrade(&self.picture),
             shown: downgraded(&self.shown),
             pinned: downgraded(&self.pinned),
+            elsewhere: self.elsewhere.as_ref().map(Arc::downgrade).unwrap_or_default(),
             subject,
         }
     }
@@ -159,6 +172,7 @@ struct TextureKey {
     picture: Weak<Picture>,
     shown: Weak<ResultSnapshot>,
     pinned: Weak<ResultSnapshot>,
+    elsewhere: Weak<Elsewhere>,
     subject: SubjectKey,
 }
 
@@ -183,6 +197,7 @@ impl PartialEq for TextureKey {
             && Weak::ptr_eq(&self.picture, &other.picture)
             && Weak::ptr_eq(&self.shown, &other.shown)
             && Weak::ptr_eq(&self.pinned, &other.pinned)
+            && Weak::ptr_eq(&self.elsewhere, &other.elsewhere)
     }
 }
 

@@ -82,11 +82,11 @@ fn layer_menu(
         // The whole list is seen in a low window.
         ui.spacing_mut().item_spacing.y = 1.0;
         for choice in Layer::ALL {
-            let possible = !choice.needs_pinned() || state.pinned.is_some();
+            let lacking = state.lacks(choice);
             let keys = keys_of(ui.ctx(), Action::Layer(choice));
             let button = Button::selectable(!followed && *layer == choice, choice.name()).shortcut_text(keys);
-            let button = ui.add_enabled(possible, button).on_hover_text(choice.tip());
-            if button.on_disabled_hover_text("Pin a result first (K).").clicked() {
+            let button = ui.add_enabled(lacking.is_none(), button).on_hover_text(choice.tip());
+            if button.on_disabled_hover_text(lacking.unwrap_or_default()).clicked() {
                 *layer = choice;
                 chosen = followed;
             }

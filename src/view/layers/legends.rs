@@ -42,6 +42,28 @@ pub(super) const DIFFERENCE: [LegendEntry; 3] = [
     LegendEntry::new("brighter", [255, 255, 255], "body reflection 64 counts above the pinned result's"),
 ];
 
+/// The grays of a diffuse picture minus body reflection, whose scale is [`super::DIFFERENCE_COUNTS`].
+pub(super) const OTHER_DIFFERENCE: [LegendEntry; 3] = [
+    LegendEntry::new("darker", [1, 1, 1], "the diffuse picture is 64 counts below body reflection"),
+    LegendEntry::new("same", [128, 128, 128], "the diffuse picture is as body reflection"),
+    LegendEntry::new("brighter", [255, 255, 255], "the diffuse picture is 64 counts above body reflection"),
+];
+
+/// The colors of borders, in the order of their kinds from 1 on.
+pub(super) const BORDERS: [LegendEntry; 3] = [
+    LegendEntry::new("both", [240, 240, 240], "a border of a region and of a label, up to two pixels apart"),
+    LegendEntry::new(
+        "regions only",
+        [64, 160, 255],
+        "a border of a region, where the other program has none",
+    ),
+    LegendEntry::new(
+        "other only",
+        [255, 96, 64],
+        "a border of the other program's label, where no region ends",
+    ),
+];
+
 /// The grays of the confidence, 0…1.
 pub(super) const CONFIDENCE: [LegendEntry; 2] = [
     LegendEntry::new("not at all", [1, 1, 1], "the split of this pixel is not to be believed"),

@@ -1,14 +1,14 @@
 //! The pictures of the layers, at the size of the photograph.
 
 use super::curve::Curve;
-use super::legends::{CLASSES, MASKS, REASONS};
+use super::legends::{BORDERS, CLASSES, MASKS, REASONS};
 use super::look::{DIFFERENCE_COUNTS, Fill, Look};
 use crate::export::colored;
 use crate::raster::{LabelMap, Raster, RegionId};
 use crate::trace::Class;
-use crate::view::LegendEntry;
-use crate::view::ResultSnapshot;
+use crate::view::elsewhere::{borders, label_colors};
 use crate::view::snapshot::best_overlaps;
+use crate::view::{Elsewhere, LegendEntry, ResultSnapshot};
 use rayon::prelude::*;
 
 /// Color of regions of an earlier stage that no region of the result covers, sRGB.
@@ -22,8 +22,27 @@ pub(super) struct PaintInput<'a> {
     pub shown: &'a ResultSnapshot,
     /// The pinned result, of the photograph's size; none where nothing is pinned.
     pub pinned: Option<&'a ResultSnapshot>,
+    /// What was made elsewhere.
+    pub elsewhere: Option<&'a Elsewhere>,
     /// Exposure, fills and opacity.
     pub look: &'a Look,
+}
+
+impl PaintInput<'_> {
+    /// The label map that was made elsewhere, of the photograph's size.
+    fn other_labels(&self) -> Option<&LabelMap> {
+        self.elsewhere?.pictures.labels.as_ref().filter(|labels| self.fits(labels))
+    }
+
+    /// The diffuse picture that was made elsewhere, linear counts, of the photograph's size.
+    fn diffuse(&self) -> Option<&Raster<[f32; 3]>> {
+        self.elsewhere?.pictures.diffuse.as_ref().filter(|diffuse| self.fits(diffuse))
+    }
+
+    fn fits<T>(&self, picture: &Raster<T>) -> bool {
+        let photo = self.base.photo;
+        (picture.width(), picture.height()) == (photo.width(), photo.height())
+    }
 }
 
 /// The photograph, and the curve from counts to sRGB codes.
@@ -147,7 +166,12 @@ pub(super) fn reasons(input: &PaintInput) -> Raster<[u8; 4]> {
 pub(super) fn difference(input: &PaintInput) -> Raster<[u8; 4]> {
     let now = &input.shown.analysis.intrinsic.body;
     let before = &input.pinned.unwrap_or(input.shown).analysis.intrinsic.body;
-    let gain = input.look.exposure_ev.exp2() / DIFFERENCE_COUNTS;
+    gray_difference(now, before, input.look)
+}
+
+/// Linear counts minus other counts; gray for 0, black and white for ∓[`DIFFERENCE_COUNTS`].
+fn gray_difference(now: &Raster<[f32; 3]>, before: &Raster<[f32; 3]>, look: &Look) -> Raster<[u8; 4]> {
+    let gain = look.exposure_ev.exp2() / DIFFERENCE_COUNTS;
     let mut painted = Raster::filled(now.width(), now.height(), [0u8; 4]);
     let both = now.as_slice().par_iter().zip(before.as_slice());
     painted.as_mut_slice().par_iter_mut().zip(both).with_min_len(1 << 12).for_each(|(pixel, (a, b))| {
@@ -212,6 +236,38 @@ pub(super) fn phoenix(&PaintInput { ref base, shown, look, .. }: &PaintInput) ->
         styles[usize::from(label)] = look.style(color, true);
     }
     base.overlaid(look.fill, &styles, |x, y| usize::from(labels[y * labels.width() + x]))
+}
+
+/// The labels that were made elsewhere; the photograph where there are none.
+pub(super) fn other_regions(input: &PaintInput) -> Raster<[u8; 4]> {
+    let Some(labels) = input.other_labels() else { return photograph(input) };
+    let mut styles: Vec<[u8; 4]> =
+        label_colors(labels, input.shown).into_iter().map(|color| input.look.style(color, true)).collect();
+    if let Some(none) = styles.first_mut() {
+        *none = [0; 4];
+    }
+    input.base.overlaid(input.look.fill, &styles, |x, y| usize::from(labels[y * labels.width() + x]))
+}
+
+/// The borders of regions and of the labels that were made elsewhere; the photograph where there are no such labels.
+pub(super) fn other_borders(input: &PaintInput) -> Raster<[u8; 4]> {
+    let Some(labels) = input.other_labels() else { return photograph(input) };
+    let kinds = borders(input.shown.labels(), labels);
+    // Lines are opaque, as outlines are.
+    let look = Look { fill: Fill::Outline, ..*input.look };
+    let styles = legend_styles(&BORDERS, &look);
+    input.base.overlaid(Fill::Fill, &styles, |x, y| usize::from(kinds[y * kinds.width() + x]))
+}
+
+/// The diffuse picture that was made elsewhere; the photograph where there is none.
+pub(super) fn other_body(input: &PaintInput) -> Raster<[u8; 4]> {
+    input.base.light(input.diffuse().unwrap_or(input.base.photo))
+}
+
+/// The diffuse picture that was made elsewhere minus body reflection; the photograph where there is none.
+pub(super) fn other_difference(input: &PaintInput) -> Raster<[u8; 4]> {
+    let Some(diffuse) = input.diffuse() else { return photograph(input) };
+    gray_difference(diffuse, &input.shown.analysis.intrinsic.body, input.look)
 }
 
 /// Regions after the linear stage.

@@ -1,8 +1,8 @@
 //! The table of the image layers, from which [`Layer`] and all properties of a layer are made.
 
+use super::LayerPixels;
 use super::legends;
 use super::painters::{self, PaintInput};
-use crate::intrinsic::Intrinsic;
 use crate::raster::Raster;
 use crate::view::LegendEntry;
 use serde::{Deserialize, Serialize};
@@ -16,10 +16,14 @@ pub(super) enum LayerKind {
     Result,
     /// Drawn in the photograph's place from a result and the pinned one.
     Comparison,
+    /// Drawn in the photograph's place, from a result and a diffuse picture that was made elsewhere.
+    Diffuse,
     /// Drawn over the photograph.
     Overlay,
     /// Drawn over the photograph; regions that are not selected are dimmed.
     RegionOverlay,
+    /// Drawn over the photograph, from a result and a label map that was made elsewhere.
+    LabelOverlay,
 }
 
 /// A row of the table: one layer.
@@ -33,7 +37,7 @@ pub(super) struct LayerRow {
     /// The legend of the colors.
     pub legend: &'static [LegendEntry],
     /// The numbers at a pixel, where the layer has numbers of its own.
-    pub numbers: Option<fn(&Intrinsic, usize) -> Vec<f32>>,
+    pub numbers: Option<fn(LayerPixels, usize) -> Vec<f32>>,
     /// Paints the layer, opaque sRGB.
     pub paint: fn(&PaintInput) -> Raster<[u8; 4]>,
 }
@@ -132,7 +136,7 @@ layers! {
         tip: "Body reflection: the photograph without highlights (section 6).",
         kind: LayerKind::Result,
         legend: &[],
-        numbers: Some(|found, pixel| found.body[pixel].to_vec()),
+        numbers: Some(|of, pixel| of.intrinsic.body[pixel].to_vec()),
         paint: painters::body,
     };
     /// Surface reflection (6).
@@ -141,7 +145,7 @@ layers! {
         tip: "Surface reflection: the highlights alone (section 6).",
         kind: LayerKind::Result,
         legend: &[],
-        numbers: Some(|found, pixel| found.surface[pixel].to_vec()),
+        numbers: Some(|of, pixel| of.intrinsic.surface[pixel].to_vec()),
         paint: painters::surface,
     };
     /// Distance ε from the dichromatic plane, gray = 0 (6).
@@ -150,7 +154,7 @@ layers! {
         tip: "Distance \u{3b5} from the dichromatic plane; gray is 0 (section 6).",
         kind: LayerKind::Result,
         legend: &legends::NOISE,
-        numbers: Some(|found, pixel| vec![found.noise[pixel]]),
+        numbers: Some(|of, pixel| vec![of.intrinsic.noise[pixel]]),
         paint: painters::noise,
     };
     /// How reliable the split of each pixel is, black = not at all.
@@ -159,7 +163,7 @@ layers! {
         tip: "How far the split of each pixel is to be believed: black not at all, white fully.",
         kind: LayerKind::Result,
         legend: &legends::CONFIDENCE,
-        numbers: Some(|found, pixel| vec![found.confidence[pixel]]),
+        numbers: Some(|of, pixel| vec![of.intrinsic.confidence[pixel]]),
         paint: painters::confidence,
     };
     /// Why pixels are not explained (5.6, 7.5).
@@ -188,5 +192,43 @@ layers! {
         legend: &[],
         numbers: None,
         paint: painters::phoenix,
+    };
+    /// The label map that was made elsewhere, to compare with.
+    OtherRegions: LayerRow {
+        name: "Other regions",
+        tip: "The label map of another program: each label has the color of the region that covers most of it, or a shade of that color.",
+        kind: LayerKind::LabelOverlay,
+        legend: &[],
+        numbers: Some(|of, pixel| of.elsewhere_at(pixel).label.map_or_else(Vec::new, |label| vec![f32::from(label)])),
+        paint: painters::other_regions,
+    };
+    /// The borders of regions and of labels that were made elsewhere.
+    OtherBorders: LayerRow {
+        name: "Other borders",
+        tip: "Borders of the regions and of another program's label map; borders up to two pixels apart are one.",
+        kind: LayerKind::LabelOverlay,
+        legend: &legends::BORDERS,
+        numbers: None,
+        paint: painters::other_borders,
+    };
+    /// The diffuse picture that was made elsewhere.
+    OtherBody: LayerRow {
+        name: "Other body",
+        tip: "The diffuse picture of another program, shown as body reflection is (section 6).",
+        kind: LayerKind::Diffuse,
+        legend: &[],
+        numbers: Some(|of, pixel| of.elsewhere_at(pixel).diffuse.map_or_else(Vec::new, |counts| counts.to_vec())),
+        paint: painters::other_body,
+    };
+    /// The diffuse picture that was made elsewhere minus body reflection, gray = 0.
+    OtherDifference: LayerRow {
+        name: "Other difference",
+        tip: "The diffuse picture of another program minus body reflection; gray is 0.",
+        kind: LayerKind::Diffuse,
+        legend: &legends::OTHER_DIFFERENCE,
+        numbers: Some(|of, pixel| of.elsewhere_at(pixel).diffuse.map_or_else(Vec::new, |counts| {
+            counts.iter().zip(of.intrinsic.body[pixel]).map(|(counts, body)| counts - body).collect()
+        })),
+        paint: painters::other_difference,
     };
 }

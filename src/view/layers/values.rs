@@ -1,6 +1,6 @@
 //! The numbers of a layer as a picture of floats, for other programs.
 
-use super::{Layer, Look, paint};
+use super::{Against, Layer, LayerPixels, Look, paint_against};
 use crate::color::linear_from_srgb;
 use crate::export::FloatPicture;
 use crate::raster::Raster;
@@ -8,24 +8,26 @@ use crate::view::{Picture, ResultSnapshot};
 use rayon::prelude::*;
 
 /// The numbers of a layer: linear light of the photograph, of body and surface reflection, ε and confidence, 1.0 of the file for full
-/// scale or for certainty; of a layer of colors, the painted colors as linear light. `look` is how colors are painted.
+/// scale or for certainty; the labels of another program; of a layer of colors, the painted colors as linear light. `look` is how colors are painted.
 pub(crate) fn layer_floats(
     layer: Layer,
     picture: &Picture,
     shown: Option<&ResultSnapshot>,
-    pinned: Option<&ResultSnapshot>,
+    against: Against,
     look: &Look,
 ) -> FloatPicture {
     if layer == Layer::Input {
         return FloatPicture::Rgb(picture.photo.image.pixels.clone());
     }
     let intrinsic = shown.map(|shown| &shown.analysis.intrinsic);
-    let first = intrinsic.filter(|found| !found.noise.is_empty()).and_then(|found| layer.numbers(found, 0));
+    let of = |intrinsic| LayerPixels { intrinsic, elsewhere: against.elsewhere };
+    let first =
+        intrinsic.filter(|found| !found.noise.is_empty()).and_then(|found| layer.numbers(of(found), 0));
     if let (Some(intrinsic), Some(first)) = (intrinsic, first) {
         let (width, height) = (intrinsic.noise.width(), intrinsic.noise.height());
-        let numbers = |pixel: usize| layer.numbers(intrinsic, pixel).unwrap_or_default();
-        // A share is written as it is, and not divided by full scale.
-        let factor = if layer == Layer::Confidence { 255.0 } else { 1.0 };
+        let numbers = |pixel: usize| layer.numbers(of(intrinsic), pixel).unwrap_or_default();
+        // A share or a label is written as it is, and not divided by full scale.
+        let factor = if matches!(layer, Layer::Confidence | Layer::OtherRegions) { 255.0 } else { 1.0 };
         if first.len() == 3 {
             let color = |pixel| std::array::from_fn(|band| numbers(pixel).get(band).copied().unwrap_or(0.0));
             let colors = (0..width * height).into_par_iter().map(color).collect();
@@ -40,7 +42,7 @@ pub(crate) fn layer_floats(
             }
         }
     }
-    let painted = paint(layer, picture, shown, pinned, look);
+    let painted = paint_against(layer, picture, shown, against, look);
     let linear = |code: u8| (255.0 * linear_from_srgb(f64::from(code) / 255.0)) as f32;
     FloatPicture::Rgb(painted.map(|&[r, g, b, _]| [r, g, b].map(linear)))
 }

@@ -35,6 +35,32 @@ fn sliders_set_the_sphere_and_the_numbers_are_those_of_section_3() {
 }
 
 #[test]
+fn every_quantity_of_equations_3_to_11_is_listed_and_follows_the_sliders() {
+    let mut window = geometry();
+    let rows = [
+        ("(3) half of the sphere's angle \u{3b3}", "11.5\u{b0}", "30.0\u{b0}"),
+        ("(4) largest phase angle", "156.9\u{b0}", "120.0\u{b0}"),
+        ("(5) incidence at the highlight", "54.4\u{b0}", "73.7\u{b0}"),
+        ("(6) m_b under the highlight", "0.5828", "0.2811"),
+        ("(7) normal of the brightest point \u{3b1}", "11.5\u{b0}", "30.0\u{b0}"),
+        ("(8) incidence at the brightest point", "14.4\u{b0}", "53.8\u{b0}"),
+        ("(9) m_b of the brightest point", "0.9686", "0.5907"),
+        ("(10) start of the highlight line q", "0.6016", "0.4759"),
+        ("(11) q at an infinite distance", "0.7071", "0.7071"),
+    ];
+    for (distance, which) in [(5.0, 0), (2.0, 1)] {
+        named(&window, Role::Slider, "phase angle g").set_value_accesskit(90.0);
+        named(&window, Role::Slider, "distance d/r").set_value_accesskit(distance);
+        window.run_steps(3);
+        for (name, near, far) in rows {
+            let value = if which == 0 { near } else { far };
+            assert!(says(&window, name), "{name}");
+            assert!(says(&window, value), "{name}: {value} at {distance} radii");
+        }
+    }
+}
+
+#[test]
 fn a_drag_of_the_light_sets_phase_angle_and_distance() {
     let mut window = geometry();
     let name = "Sphere, light and camera: distance 5.0 radii, phase angle 60 degrees";

@@ -209,6 +209,8 @@ fn a_layer_is_exported_alone_from_its_menu_as_floats() {
     ] {
         apply(&mut window, ViewCommand::Image(ImageSettings { layer: Layer::Body, ..Default::default() }));
         click(&mut window, Role::ComboBox, "Layer");
+        named(&window, Role::Button, entry).scroll_to_me();
+        window.run_steps(6);
         click(&mut window, Role::Button, entry);
         window.run_steps(3);
         assert!(says(&window, "Body: .png as shown"), "{entry}");

@@ -6,12 +6,14 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 
 mod accessibility;
+mod by_hand;
 mod color_space_panel;
 mod colors;
 mod commands;
 mod compare;
 mod cursor;
 mod debugger;
+mod elsewhere;
 mod exports;
 mod first_minute;
 mod geometry;
