@@ -136,7 +136,7 @@ switches! {
     second_lamp SecondLamp {
         first_stage: Planar,
         meaning: "Regions whose highlights contradict the light and agree on another one are split with that second lamp (7.5).",
-        worth: "Twelve scenes of balls under two lamps, nine of which it finds two lamps in: body 35.2 → 40.8 dB (doing nothing: 28.2); under one lamp nothing changes.",
+        worth: "Twelve scenes of balls under two lamps, in eight of which both are found: body 35.2 → 40.8 dB (doing nothing: 28.2); under one lamp nothing changes.",
     }
     extend_planes ExtendPlanes {
         first_stage: Planar,
