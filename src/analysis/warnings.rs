@@ -6,6 +6,7 @@ use crate::baseline::{LEAST_MARKED_PX, NoSkewedT, no_skewed_t};
 use crate::params::Baseline;
 use crate::photo::{CodingError, Masks};
 use crate::raster::LabelMap;
+use crate::reflection::MIN_ANGLE_DEG;
 use crate::segment::{LightFindings, PlanarRegions};
 
 /// Error of the values, in steps of 1/255 of the coded range, above which compression makes results doubtful.
@@ -75,6 +76,10 @@ fn marked_warnings(analysis: &Analysis, restricted: bool) -> Vec<String> {
         }
         NoSkewedT::Line => format!(
             "the colors of the {which} pixels lie on one line: there is no highlight, and all is body reflection"
+        ),
+        NoSkewedT::Parallel => format!(
+            "the matte and the highlight line of the {which} pixels are less than {MIN_ANGLE_DEG:.0}\u{b0} apart: body and surface reflection are not told from each \
+             other, and all is body reflection"
         ),
         NoSkewedT::NoMeeting => format!(
             "the matte and the highlight line of the {which} pixels form no skewed T: all is body reflection"

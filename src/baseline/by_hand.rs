@@ -14,10 +14,10 @@
 //! Measured figures are in docs/by-hand.md.
 
 use super::skewed_t_fit::{SkewedTFit, rms_from_line};
-use crate::color::{Line, Vec3, axis_angle_deg, closest_points};
+use crate::color::{Line, Moments, Vec3, axis_angle_deg, closest_points};
 use crate::photo::Masks;
 use crate::raster::{HypothesisId, LabelMap, UNASSIGNED};
-use crate::reflection::{DichromaticPlane, Slice};
+use crate::reflection::{DichromaticPlane, MIN_ANGLE_DEG, Slice};
 use crate::segment::{
     AnalysisInput, HighlightLine, Hypothesis, Illuminant, LightBasis, LightFindings, MatteLine, MatteRegions,
     Members, PlanarHypothesis, PlanarRegions, RecordedLabels, marked_highlight_line, matte_length,
@@ -43,6 +43,8 @@ pub enum NoSkewedT {
     Point,
     /// All colors lie on one line: there is no highlight.
     Line,
+    /// The matte and the highlight line are less than 3° apart: body and surface reflection are not told from each other.
+    Parallel,
     /// The matte and the highlight line form no skewed T.
     NoMeeting,
 }
@@ -103,7 +105,9 @@ pub fn marked_planar_region<R: Recorder>(
     recorded_labels.begin(Pass::Candidates);
     let members = Members::of(&matte.labels, 1);
     let length = matte_length(input, &hypothesis.line, members.region(MARKED));
-    let highlight = hypothesis.highlights.first().and_then(|(_, cluster)| {
+    let highlight =
+        hypothesis.highlights.first().filter(|(_, cluster)| !is_parallel(&hypothesis.line, cluster));
+    let highlight = highlight.and_then(|(_, cluster)| {
         let matte = MatteLine { hypothesis: MARKED, line: hypothesis.line, length };
         marked_highlight_line(input, &matte, cluster, recorded_labels.recorder)
     });
@@ -213,8 +217,17 @@ pub fn no_skewed_t(masks: &Masks, matte: &MatteRegions, planar: &PlanarRegions) 
     match (planar.highlight, matte.highlights.is_empty()) {
         (Some(_), _) => None,
         (None, true) => Some(NoSkewedT::Line),
-        (None, false) => Some(NoSkewedT::NoMeeting),
+        (None, false) => {
+            let is_parallel = matte.highlights.iter().any(|(_, cluster)| is_parallel(&matte.line, cluster));
+            Some(if is_parallel { NoSkewedT::Parallel } else { NoSkewedT::NoMeeting })
+        }
     }
+}
+
+/// Whether the line of a highlight cluster is too nearly parallel to the matte line for a split.
+fn is_parallel(matte: &Line, highlight: &Moments) -> bool {
+    Line::principal(highlight)
+        .is_some_and(|line| axis_angle_deg(&line.direction, &matte.direction) < MIN_ANGLE_DEG)
 }
 
 /// The light: the given one, or the direction of the highlight line.

@@ -153,6 +153,20 @@ fn areas_without_a_skewed_t_are_told_in_a_sentence() {
 }
 
 #[test]
+fn lines_that_are_nearly_parallel_are_not_split() {
+    // Under pink light the highlights of two cups are nearly in line with their bodies.
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/cups3_pink");
+    let truth = GroundTruth::read(&folder).unwrap();
+    let image = read(&folder.join("camera8.png"), &ReadOptions::default()).unwrap().image;
+    for id in [1, 2] {
+        let analysis = by_hand(&image, &Arc::new(truth.labels.map(|&label| label == id)), &params());
+        assert_eq!(why_not(&analysis), Some(NoSkewedT::Parallel), "{id}");
+        assert!(analysis.warnings.iter().any(|warning| warning.contains("less than 3\u{b0} apart")));
+        assert_eq!(analysis.intrinsic.body, image.pixels, "never worse than the photograph");
+    }
+}
+
+#[test]
 fn several_hues_do_not_hold_and_no_area_is_the_whole_picture() {
     let hues = [[200.0, 60.0, 40.0], [40.0, 180.0, 60.0], [50.0, 60.0, 190.0], [180.0, 170.0, 40.0]];
     let image = picture(60, 60, |x, y| {

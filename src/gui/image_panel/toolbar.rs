@@ -76,7 +76,7 @@ fn layer_menu(
     actions: &mut Vec<Action>,
 ) -> bool {
     let now = if followed { "At the cursor" } else { layer.name() };
-    let combo = ComboBox::from_id_salt(name).width(104.0).height(490.0).selected_text(now);
+    let combo = ComboBox::from_id_salt(name).width(104.0).height(580.0).selected_text(now);
     let mut chosen = false;
     let shown = combo.show_ui(ui, |ui| {
         // The whole list is seen in a low window.
