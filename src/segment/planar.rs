@@ -202,7 +202,7 @@ fn under_chosen_light<R: Recorder>(
     }
     if let Some(direction) = decision.direction
         && contradicts(evidence, &direction)
-        && find_second_lamp(&mut state, &hypotheses, &direction)
+        && find_second_lamp(&mut state, &hypotheses, &decision)
     {
         hypotheses = grow_again(&mut state, Some(direction));
         light.second = state.second_lamp.as_ref().map(SecondLamp::findings);
@@ -219,17 +219,19 @@ fn under_chosen_light<R: Recorder>(
     PlanarRegions { labels: state.recorded_labels.labels, hypotheses, illuminant, light, second_lamp_mask }
 }
 
-/// Searches for a second lamp beside the light `first` (refinement `second_lamp`). Returns whether there is one; the state has the lamp.
+/// Searches for a second lamp beside the light of `decision` (refinement `second_lamp`). Returns whether there is one; the state has the lamp.
 fn find_second_lamp<R: Recorder>(
     state: &mut PlanarState<R>,
     hypotheses: &[PlanarHypothesis],
-    first: &Vec3,
+    decision: &LightDecision,
 ) -> bool {
+    let Some((first, interval_deg)) = decision.direction.zip(decision.interval_deg) else { return false };
     if !state.input.refine.second_lamp || state.input.stopped() {
         return false;
     }
     let evidence = evidence_of_grown_regions(state, hypotheses);
-    let Some((compared, lamp)) = second_lamp(&evidence, first, &state.matte_labels, state.matte.len()) else {
+    let (labels, count) = (&state.matte_labels, state.matte.len());
+    let Some((compared, lamp)) = second_lamp(&evidence, &first, interval_deg, labels, count) else {
         return false;
     };
     if R::KEEPS {

@@ -142,15 +142,18 @@ pub fn contradicts(evidence: &[Evidence], light: &Vec3) -> bool {
     evidence.iter().filter_map(Opinion::of).any(|opinion| opinion.misfit(light) > LAMP_LIMITS.contradicts)
 }
 
-/// Searches the regions' evidence for a second lamp beside the light `first`, unit. Returns the comparison, and the second lamp where there
+/// Searches the regions' evidence for a second lamp beside the light `first`, unit, which is known within `first_interval_deg`: a lamp that is
+/// nearer is no other one. Returns the comparison, and the second lamp where there
 /// is one; `None` with fewer than two regions that contradict the first light. `matte_labels`: the matte region of
 /// each pixel, of `count` hypotheses.
 pub fn second_lamp(
     evidence: &[Evidence],
     first: &Vec3,
+    first_interval_deg: f64,
     matte_labels: &LabelMap,
     count: usize,
 ) -> Option<(LampsCompared, Option<SecondLamp>)> {
+    let limits = LampLimits { angle_deg: LAMP_LIMITS.angle_deg.max(first_interval_deg), ..LAMP_LIMITS };
     let opinions: Vec<Opinion> = evidence.iter().filter_map(Opinion::of).collect();
     let contradicting: Vec<&Opinion> =
         opinions.iter().filter(|opinion| opinion.misfit(first) > LAMP_LIMITS.contradicts).collect();
@@ -158,12 +161,12 @@ pub fn second_lamp(
         return None;
     }
     let best = candidates(&contradicting)
-        .filter(|light| is_lamp(light, first))
+        .filter(|light| is_lamp(light, first, &limits))
         .map(|light| Candidate::new(light, &contradicting))
         .max_by(|a, b| a.merit().total_cmp(&b.merit()));
     let fitted = best.map(Candidate::fitted);
     let found = fitted.filter(|(candidate, _)| {
-        is_lamp(&candidate.light, first) && candidate.is_accepted(contradicting.len())
+        is_lamp(&candidate.light, first, &limits) && candidate.is_accepted(contradicting.len())
     });
     let lamp_of = |opinion: &Opinion| {
         let misfits = [Some(*first), found.as_ref().map(|(candidate, _)| candidate.light)]
@@ -177,7 +180,7 @@ pub fn second_lamp(
         contradicting: contradicting.len() as u32,
         agreeing: found.as_ref().map_or(0, |(candidate, _)| candidate.agreeing.len() as u32),
         regions: opinions.iter().map(lamp_of).collect(),
-        limits: LAMP_LIMITS,
+        limits,
     };
     let lamp = found.map(|(candidate, interval_deg)| {
         let mut known = vec![None; count];
@@ -216,9 +219,9 @@ fn candidates<'o>(contradicting: &'o [&'o Opinion]) -> impl Iterator<Item = Vec3
 }
 
 /// Whether a light is another one than `first`, and of a usual color.
-fn is_lamp(light: &Vec3, first: &Vec3) -> bool {
+fn is_lamp(light: &Vec3, first: &Vec3, limits: &LampLimits) -> bool {
     let offsets_deg = white_offsets_deg(light);
-    axis_angle_deg(light, first) >= LAMP_LIMITS.angle_deg
+    axis_angle_deg(light, first) >= limits.angle_deg
         && (0..2).all(|axis| offsets_deg[axis].abs() <= LAMP_LIMITS.offsets_deg[axis])
 }
 
@@ -319,7 +322,7 @@ mod tests {
         let evidence: Vec<Evidence> =
             (0..5).map(|index| evidence(index, BODIES[index], LAMPS[usize::from(second[index])])).collect();
         let first = Vec3::from(LAMPS[0]).normalize();
-        second_lamp(&evidence, &first, &labels, 6).and_then(|(_, lamp)| lamp)
+        second_lamp(&evidence, &first, 1.0, &labels, 6).and_then(|(_, lamp)| lamp)
     }
 
     #[test]
@@ -340,8 +343,20 @@ mod tests {
             (0..3).map(|index| evidence(index, BODIES[index], prints[index])).collect();
         let first = Vec3::from(LAMPS[0]).normalize();
         let labels = Raster::filled(3, 1, UNASSIGNED);
-        let (compared, lamp) = second_lamp(&evidence, &first, &labels, 3).unwrap();
+        let (compared, lamp) = second_lamp(&evidence, &first, 1.0, &labels, 3).unwrap();
         assert!(lamp.is_none() && compared.second.is_none() && compared.contradicting == 3, "{compared:?}");
+    }
+
+    #[test]
+    fn a_lamp_within_the_interval_of_the_first_is_no_other_lamp() {
+        let evidence: Vec<Evidence> =
+            (0..5).map(|index| evidence(index, BODIES[index], LAMPS[usize::from(index > 2)])).collect();
+        let labels = Raster::from_vec(6, 2, [1, 2, 3, 4, 5, 6].repeat(2)).unwrap();
+        let first = Vec3::from(LAMPS[0]).normalize();
+        let lamp = |interval_deg| second_lamp(&evidence, &first, interval_deg, &labels, 6).unwrap();
+        assert!(lamp(6.0).1.is_some(), "the lamps are 12.6\u{b0} apart");
+        let (compared, none) = lamp(20.0);
+        assert!(none.is_none() && compared.second.is_none(), "{compared:?}");
     }
 
     #[test]

@@ -262,7 +262,7 @@ pub struct LampLimits {
     pub ample_regions: u32,
     /// Least mean merit of the agreeing regions: 1 / (1 + the sum of both squared angles in standard deviations).
     pub merit: f64,
-    /// Least angle between both lamps, degrees.
+    /// Least angle between both lamps, degrees: at least the interval of the first light.
     pub angle_deg: f64,
     /// Largest distance of the second lamp from white: blue to yellow, green to magenta, degrees.
     pub offsets_deg: [f64; 2],
