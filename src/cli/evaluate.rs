@@ -119,6 +119,13 @@ fn count_candidates(
     photograph: &Path,
     report: &Report,
 ) -> Result<CandidateCounts> {
+    if let Some(area) = &report.area {
+        anyhow::bail!(
+            "--candidates analyzes the photograph again, and the area {} of this result is not at hand; \
+             analyze the whole photograph, then evaluate that result",
+            area.file
+        );
+    }
     let image = photo::read(photograph, &ReadOptions::default())?.image;
     let (analysis, trace) = Session::new(Arc::new(image)).run_traced(&report.params.asked(), &mut ())?;
     CandidateCounts::of(truth, &analysis, &trace)

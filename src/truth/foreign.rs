@@ -68,7 +68,12 @@ impl ForeignResult {
         ];
         for (what, found) in sizes {
             if let Some(found) = found.filter(|&found| found != (width, height)) {
-                return Err(ScoreError::Size { what, found, truth: (width, height) });
+                return Err(ScoreError::Size {
+                    what,
+                    found,
+                    compared_with: "analyzed photograph",
+                    expected: (width, height),
+                });
             }
         }
         let finite = |diffuse: &Raster<[f32; 3]>| diffuse.as_slice().iter().flatten().all(|v| v.is_finite());

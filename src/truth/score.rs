@@ -32,15 +32,17 @@ pub struct Outcome<'a> {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScoreError {
-    /// A picture has another size than the ground truth.
-    #[error("the {what} is {}\u{d7}{}, the ground truth {}\u{d7}{}", found.0, found.1, truth.0, truth.1)]
+    /// A picture has another size than what it is compared with.
+    #[error("the {what} is {}\u{d7}{}, the {compared_with} {}\u{d7}{}", found.0, found.1, expected.0, expected.1)]
     Size {
         /// The picture's name.
         what: &'static str,
         /// Columns and rows of the picture.
         found: (usize, usize),
-        /// Columns and rows of the truth.
-        truth: (usize, usize),
+        /// What the picture is compared with.
+        compared_with: &'static str,
+        /// Columns and rows that the picture should have.
+        expected: (usize, usize),
     },
     /// A picture holds infinite values or NaN.
     #[error("the {0} holds values that are not finite")]
@@ -104,7 +106,7 @@ fn check(truth: &GroundTruth, camera: &Raster<[f32; 3]>, outcome: &Outcome) -> R
         ("surface image", (outcome.surface.width(), outcome.surface.height())),
     ];
     if let Some(&(what, found)) = sizes.iter().find(|(_, size)| *size != expected) {
-        return Err(ScoreError::Size { what, found, truth: expected });
+        return Err(ScoreError::Size { what, found, compared_with: "ground truth", expected });
     }
     for (what, picture) in [("body image", outcome.body), ("surface image", outcome.surface)] {
         if !picture.as_slice().iter().flatten().all(|v| v.is_finite()) {
