@@ -1,12 +1,14 @@
 //! The outputs of the stages in pixels of the photograph, where the working picture has larger pixels.
 
 use super::prepared::Prepared;
+use super::second_look::{SecondLook, second_look};
 use super::working_outputs::WorkingOutputs;
 use super::{Analysis, Cancelled, Observer, StageOutput};
 use crate::baseline::marked_labels;
 use crate::intrinsic::{Detail, Intrinsic, split_photograph};
-use crate::params::Baseline;
-use crate::raster::Raster;
+use crate::params::{Baseline, Params, Rules, UsedParams};
+use crate::photo::LinearImage;
+use crate::raster::{LabelMap, Raster};
 use crate::segment::{
     AnalysisInput, FinalRegions, MatteRegions, PlanarRegions, Windows, full_resolution_labels,
 };
@@ -19,7 +21,9 @@ pub(super) struct FullResolution {
     areas: Enlarged<Raster<u32>>,
     matte: Enlarged<MatteRegions>,
     planar: Enlarged<PlanarRegions>,
+    labels: Enlarged<LabelMap>,
     finals: Enlarged<FinalRegions>,
+    second_look: Enlarged<Option<SecondLook>>,
     intrinsic: Enlarged<Intrinsic>,
 }
 
@@ -28,8 +32,12 @@ pub(super) struct Photograph<'a> {
     pub(super) prepared: &'a Prepared,
     /// The photograph; its noise is that of a single pixel.
     pub(super) input: AnalysisInput<'a>,
-    /// The earlier method that found the regions, which has no rule for single pixels of the photograph.
-    pub(super) baseline: Option<Baseline>,
+    pub(super) image: &'a Arc<LinearImage>,
+    /// What was asked for.
+    pub(super) params: &'a Params,
+    /// The parameters of the working picture.
+    pub(super) used: &'a UsedParams,
+    pub(super) rules: Rules,
 }
 
 impl FullResolution {
@@ -42,7 +50,7 @@ impl FullResolution {
         observer: &mut impl Observer,
         analysis: &mut Analysis,
     ) -> Result<bool, Cancelled> {
-        let Photograph { prepared, input, baseline } = photograph;
+        let Photograph { prepared, input, rules, .. } = photograph;
         let blocks = &prepared.working.blocks;
         analysis.masks = Arc::clone(&prepared.masks);
         analysis.working = Arc::clone(&prepared.working);
@@ -67,19 +75,31 @@ impl FullResolution {
         observer.made(StageOutput::Planar(Arc::clone(&analysis.planar)));
         let working_regions = &*working.finals.value;
         let stopping: &_ = observer;
-        analysis.finals = self.finals.get(working.finals.number, stopping, || {
+        let labels = self.labels.get(working.finals.number, stopping, || {
             let stop = || stopping.cancelled();
-            let labels = match baseline {
+            match rules.baseline {
                 None => full_resolution_labels(&input.stopped_by(&stop), working_regions, blocks),
                 // Exactly the marked pixels, wherever the blocks end.
                 Some(Baseline::ByHand) => {
                     marked_labels(&prepared.masks, !working_regions.hypotheses.is_empty())
                 }
                 Some(_) => blocks.enlarged(&working_regions.labels),
-            };
-            let second_lamp_mask = analysis.planar.second_lamp_mask.clone();
-            FinalRegions { labels, second_lamp_mask, ..working_regions.clone() }
+            }
         })?;
+        let found = self.second_look.get(working.split.number, stopping, || {
+            let stop = || stopping.cancelled();
+            second_look(&Photograph { input: input.stopped_by(&stop), ..*photograph }, working, &labels)
+        })?;
+        analysis.finals = self.finals.get(working.split.number, stopping, || {
+            let second_lamp_mask = analysis.planar.second_lamp_mask.clone();
+            let regions = FinalRegions {
+                labels: LabelMap::clone(&labels),
+                second_lamp_mask,
+                ..working_regions.clone()
+            };
+            found.as_ref().as_ref().map_or(regions.clone(), |found| found.added_to(input, regions))
+        })?;
+        analysis.second_look = found.as_ref().as_ref().map(SecondLook::findings);
         observer.made(StageOutput::Finals(Arc::clone(&analysis.finals)));
         let reused = self.intrinsic.is_made_from(working.split.number);
         let stopping: &_ = observer;
@@ -90,6 +110,7 @@ impl FullResolution {
                 labels: &analysis.finals.labels,
                 blocks: *blocks,
                 working_regions,
+                second_look: found.as_ref().as_ref().map(|found| &found.plans),
             };
             split_photograph(&detail, &working.split.value)
         })?;

@@ -9,25 +9,28 @@ mod full_resolution;
 mod output;
 mod prepared;
 mod resolve;
+mod second_look;
 mod slot;
 mod stages;
 mod stale;
 mod subject;
 mod warnings;
 mod what_if;
+mod windows;
 mod working_outputs;
 
 pub use crate::params::Stage;
 pub use crate::segment::Illuminant;
 pub use output::StageOutput;
 pub use resolve::NoiseFindings;
+pub use second_look::SecondLookFindings;
 pub use what_if::{Direction, Fate, Home, WhatIf, WhatIfObserver, what_if};
 
 use crate::intrinsic::Intrinsic;
 use crate::params::{Params, UsedParams};
 use crate::photo::{LinearImage, Masks, WorkingPicture};
 use crate::raster::{Blocks, Mask, PixelIndex, Raster};
-use crate::segment::{FinalRegions, MatteRegions, PixelPlace, PlanarRegions, Windows};
+use crate::segment::{FinalRegions, MatteRegions, PixelPlace, PlaceRule, PlanarRegions, Windows};
 use crate::trace::{HistoryEntry, NoopRecorder, Trace, TraceRecorder, pixel_history};
 use stages::Stages;
 use std::sync::Arc;
@@ -74,10 +77,13 @@ pub struct Analysis {
     pub matte: Arc<MatteRegions>,
     /// Regions after the planar stage, with the same numbers, and their planar hypotheses (skewed Ts).
     pub planar: Arc<PlanarRegions>,
-    /// The final regions, numbered by decreasing size, and their planar hypotheses (skewed Ts).
+    /// The final regions, numbered by decreasing size, and their planar hypotheses (skewed Ts). The regions of the second look come after
+    /// the others.
     pub finals: Arc<FinalRegions>,
     /// The final regions as labels of the working picture, before each pixel of the photograph took a region.
     pub working_finals: Arc<FinalRegions>,
+    /// The second look at what the working picture leaves unexplained; `None` where nothing was found, or nothing sought.
+    pub second_look: Option<SecondLookFindings>,
     /// The color of the light; `None` without evidence of the light.
     pub illuminant: Option<Illuminant>,
     /// The intrinsic images and the regions' reflection vectors.
@@ -108,8 +114,15 @@ impl Analysis {
     pub fn pixel_place(&self, pixel: PixelIndex) -> Option<PixelPlace> {
         let (labels, blocks) = (&self.finals.labels, &self.working.blocks);
         let has_place = blocks.side() > 1 && pixel.index() < labels.len();
-        let working = &self.working_finals.labels;
-        has_place.then(|| PixelPlace::of(pixel.index(), &self.masks, labels, working, blocks))
+        let working = &*self.working_finals;
+        has_place.then(|| {
+            let place = PixelPlace::of(pixel.index(), &self.masks, labels, &working.labels, blocks);
+            let is_of_second_look =
+                place.region.is_some_and(|region| region.index() >= working.hypotheses.len());
+            let second_look = self.second_look.filter(|_| is_of_second_look);
+            let rule = second_look.map_or(place.rule, |found| PlaceRule::SecondLook { side: found.side });
+            PixelPlace { rule, ..place }
+        })
     }
 }
 

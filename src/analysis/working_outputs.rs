@@ -46,6 +46,7 @@ impl WorkingOutputs {
             windows: Arc::clone(&self.windows.value),
             areas: Arc::clone(&self.merged.value.map),
             matte: Arc::clone(&self.matte.value),
+            second_look: None,
             illuminant: planar.illuminant,
             planar,
             finals: Arc::clone(&self.finals.value),

@@ -165,11 +165,23 @@ pub struct ScaleFacts {
     pub height: usize,
     /// Why the factor was used.
     pub reason: String,
+    /// The second look at what the working picture left unexplained; null where it found nothing, or nothing was left.
+    #[serde(default)]
+    pub second_look: Option<SecondLookFacts>,
+}
+
+/// The second look, whose regions are the last in the list of regions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SecondLookFacts {
+    /// Side of a pixel of the finer picture, pixels.
+    pub factor: usize,
+    /// Number of its regions.
+    pub regions: usize,
 }
 
 impl Default for ScaleFacts {
     fn default() -> Self {
-        Self { factor: 1, width: 0, height: 0, reason: String::new() }
+        Self { factor: 1, width: 0, height: 0, reason: String::new(), second_look: None }
     }
 }
 
@@ -188,7 +200,9 @@ impl ScaleFacts {
                 "{megapixels:.1} megapixels are averaged over blocks of {factor} \u{d7} {factor}: about 0.5 megapixels are left"
             ),
         };
-        Self { factor, width: blocks.columns(), height: blocks.rows(), reason }
+        let second_look =
+            analysis.second_look.map(|found| SecondLookFacts { factor: found.side, regions: found.regions });
+        Self { factor, width: blocks.columns(), height: blocks.rows(), reason, second_look }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The photograph whose working picture was split.
 
+use super::split::RegionPlans;
 use crate::raster::{Blocks, LabelMap};
 use crate::segment::{AnalysisInput, FinalRegions};
 
@@ -8,10 +9,12 @@ use crate::segment::{AnalysisInput, FinalRegions};
 pub struct Detail<'a> {
     /// The photograph; its noise is that of a single pixel.
     pub input: AnalysisInput<'a>,
-    /// Region of each pixel of the photograph.
+    /// Region of each pixel of the photograph. The regions of the second look follow those of the working picture.
     pub labels: &'a LabelMap,
     /// The blocks of pixels that are the working pixels.
     pub blocks: Blocks,
     /// The regions, and the labels of the working pixels.
     pub working_regions: &'a FinalRegions,
+    /// How the regions of the second look are split; none without a second look.
+    pub second_look: Option<&'a RegionPlans>,
 }

@@ -16,7 +16,8 @@ const LEAST_MATTE: f64 = 0.1;
 const LEAST_OWN: f64 = 0.5;
 
 /// The pixels that the skewed T of their region explains. `model_fits`: whether the skewed T
-/// fits each region, by [`RegionId::index`].
+/// fits each region, by [`RegionId::index`]. Parts and blobs are not looked at where a person marked the area: a person has said that
+/// all of it is one object.
 pub fn explained_mask(
     input: &AnalysisInput,
     regions: &FinalRegions,

@@ -18,7 +18,7 @@ use super::region::RegionReports;
 use super::region_plan::RegionPlan;
 use super::split::{WorkingSplit, add_ambient, without_light};
 use crate::raster::{LabelMap, Mask, RegionId};
-use crate::segment::Members;
+use crate::segment::{Members, neighbors};
 use rayon::prelude::*;
 
 /// Splits the photograph `detail` by the split of its working picture. The ambient light that was subtracted from the working picture
@@ -39,8 +39,15 @@ pub fn split_photograph(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
 /// Splits a photograph whose colors are measured from the ambient light.
 fn split_from(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
     let (input, found) = (&detail.input, &working.found);
-    let plans: Vec<RegionPlan> =
+    let mut plans: Vec<RegionPlan> =
         found.plans.iter().map(|plan| plan.at_full_resolution(input, detail.blocks.side())).collect();
+    let touching = match detail.second_look {
+        None => found.touching.clone(),
+        Some(second_look) => {
+            plans.extend(second_look.at_full_resolution(input));
+            neighbors(detail.labels, plans.len())
+        }
+    };
     let members = Members::of(detail.labels, plans.len());
     let mut images = Images::split_undistorted(input, detail.labels, &plans);
     if input.stopped() {
@@ -56,7 +63,7 @@ fn split_from(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
     };
     let local_confidence = split_locally_at_full_resolution(detail, &local, &explained_mask, &mut images);
     let reports = RegionReports { input, members: &members, kinds: &images.kinds, fit_sigma: found.sigma }
-        .of(&plans, found.touching.clone());
+        .of(&plans, touching);
     let finish = Finish {
         input,
         labels: detail.labels,
@@ -68,15 +75,19 @@ fn split_from(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
 }
 
 /// The pixels that the skewed T of their region explains: those of a region whose model fits, unless the working pixel of the
-/// same region, here or next to here, was taken out.
+/// same region, here or next to here, was taken out; and those of the regions of the second look.
 fn explained_mask(detail: &Detail, working: &WorkingSplit) -> Mask {
     let [width, height] = detail.blocks.picture();
     let mut mask = Mask::filled(width, height, false);
     mask.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
         for (x, explained) in row.iter_mut().enumerate() {
             let label = detail.labels[y * width + x];
-            let plan = RegionId::from_label(label).and_then(|id| working.found.plans.get(id.index()));
-            if plan.is_none_or(|plan| !plan.model_fits) {
+            let Some(region) = RegionId::from_label(label) else { continue };
+            let Some(plan) = working.found.plans.get(region.index()) else {
+                *explained = true;
+                continue;
+            };
+            if !plan.model_fits {
                 continue;
             }
             let place = detail.blocks.block_of(y * width + x);

@@ -7,6 +7,7 @@ mod border_mixtures;
 mod confidence;
 mod detail;
 mod explained_mask;
+mod far_colors;
 mod finish;
 mod full_resolution;
 mod images;
@@ -23,7 +24,7 @@ mod vectors;
 pub use detail::Detail;
 pub use full_resolution::split_photograph;
 pub use reason::Reason;
-pub use split::{WorkingSplit, split};
+pub use split::{RegionPlans, WorkingSplit, split};
 
 use crate::raster::{Raster, RegionId};
 pub use crate::trace::{Ambient, AmbientVerdict, Meeting, PixelKind};

@@ -5,6 +5,7 @@ use super::ambient::ambient;
 use super::border_edges::reject_regions_with_new_edges;
 use super::border_mixtures::limit_surface_at_borders;
 use super::explained_mask::explained_mask;
+use super::far_colors::remove_far_colors;
 use super::finish::Finish;
 use super::images::Images;
 use super::local::{Lamps, LocalInput, LocalSplit, Regions, split_locally};
@@ -24,6 +25,30 @@ pub struct WorkingSplit {
     pub intrinsic: Arc<Intrinsic>,
     /// What [`split_photograph`](super::split_photograph) needs beside the images.
     pub(super) found: Found,
+}
+
+/// How regions are split, by [`RegionId::index`].
+#[derive(Clone)]
+pub struct RegionPlans {
+    plans: Vec<RegionPlan>,
+    /// Side of a pixel of the picture to which the plans were fitted, pixels of the photograph.
+    block_side: usize,
+}
+
+impl RegionPlans {
+    /// The plans for the photograph `input`.
+    pub(super) fn at_full_resolution(&self, input: &AnalysisInput) -> Vec<RegionPlan> {
+        self.plans.iter().map(|plan| plan.at_full_resolution(input, self.block_side)).collect()
+    }
+}
+
+impl WorkingSplit {
+    /// How the regions that are `kept`, by [`RegionId::index`], are split. `block_side`: side of a pixel of the picture that was split, pixels
+    /// of the photograph.
+    pub fn region_plans(&self, kept: &[bool], block_side: usize) -> RegionPlans {
+        let plans = self.found.plans.iter().zip(kept).filter(|(_, is_kept)| **is_kept);
+        RegionPlans { plans: plans.map(|(plan, _)| plan.clone()).collect(), block_side }
+    }
 }
 
 /// What the split of the working picture found.
@@ -128,6 +153,7 @@ fn split_from<R: Recorder>(
     }
     let model_fits: Vec<bool> = plans.iter().map(|plan| plan.model_fits).collect();
     found.explained_mask = explained_mask(input, regions, members, &model_fits, &images.kinds);
+    remove_far_colors(input, &regions.labels, plans, &mut found.explained_mask);
     let explained_mask = &found.explained_mask;
     let local_input = LocalInput {
         input,

@@ -75,6 +75,11 @@ pub enum PlaceRule {
     Inside,
     /// The working pixels around have several labels; the pixel takes the region that its color fits best, or none.
     Border,
+    /// The pixel takes a region of the second look, whose picture has blocks of `side` pixels.
+    SecondLook {
+        /// Side of a block, pixels.
+        side: usize,
+    },
 }
 
 impl PixelPlace {

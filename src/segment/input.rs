@@ -124,6 +124,11 @@ impl<'a> AnalysisInput<'a> {
         AnalysisInput { pixels, ..*self }
     }
 
+    /// The condition that stops the stages.
+    pub fn stopping(&self) -> &'a (dyn Fn() -> bool + Sync) {
+        self.stop
+    }
+
     /// Whether the stage is to stop. Stages ask once per hypothesis, per row, or per 64k pixels that a region grows from.
     pub fn stopped(&self) -> bool {
         (self.stop)()

@@ -10,7 +10,8 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PlanarHypothesis {
-    /// The linear hypothesis that the region comes from: its label in [`MatteRegions`](super::MatteRegions).
+    /// The linear hypothesis that the region comes from: its label in [`MatteRegions`](super::MatteRegions), of a region of the
+    /// second look in the matte regions of that look, which are not kept.
     pub origin: HypothesisId,
     /// Matte line: the axis of the linear hypothesis's cylinder.
     pub matte: Line,

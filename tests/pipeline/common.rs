@@ -136,7 +136,8 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
     expect(intrinsic.confidence.len() == labels.len(), "the confidence has another size");
     expect(intrinsic.reasons.len() == labels.len(), "the reasons have another size");
     expect(analysis.finals.hypotheses.len() == regions.len(), "a region without a skewed T");
-    for hypothesis in &analysis.finals.hypotheses {
+    // The regions of the second look follow the others, and come from linear hypotheses of their own.
+    for hypothesis in &analysis.working_finals.hypotheses {
         let origin = analysis.matte.hypotheses.get(hypothesis.origin.index());
         expect(origin.is_some(), "a region that comes from no linear hypothesis");
     }

@@ -25,6 +25,7 @@ mod replay;
 mod scale;
 mod scenes;
 mod second_lamp;
+mod small_objects;
 mod synthetic_scenes;
 mod threads;
 

@@ -22,6 +22,9 @@ impl Names {
             (PlaceRule::Border, Some(_)) => format!(
                 "its own color fits that region best of those around; its working pixel is {of_working}"
             ),
+            (PlaceRule::SecondLook { side: finer }, _) => format!(
+                "the second look found it in a picture with blocks of {finer} \u{d7} {finer} pixels; its working pixel is {of_working}"
+            ),
             (PlaceRule::Border, None) => {
                 format!("its own color fits no region around; its working pixel is {of_working}")
             }

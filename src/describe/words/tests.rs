@@ -325,6 +325,13 @@ fn the_pass_at_full_resolution_says_what_became_of_the_pixel_and_of_its_working_
     );
     let none = place(2, 0, PlaceRule::Border);
     assert!(none.contains("is in no region: its own color fits no region around"), "{none}");
+    let second_look = place(0, 2, PlaceRule::SecondLook { side: 2 });
+    assert!(
+        second_look.contains(
+            "takes region 2: the second look found it in a picture with blocks of 2 \u{d7} 2 pixels"
+        ),
+        "{second_look}"
+    );
     assert!(place(0, 0, PlaceRule::Dark).contains("it is not lit"));
     assert!(place(1, 1, PlaceRule::Distorted).contains("clipped or bloomed"));
 }

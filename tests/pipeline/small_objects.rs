@@ -1,0 +1,167 @@
+//! Small objects in a large photograph: the second look in a finer picture, and colors that lie far from the plane of a wall.
+
+use crate::common::{analyze, assert_valid, fingerprint, report};
+use crate::synthetic::{Ball, Random, Rendered, Scene, dot, unit};
+use dichroscope::analysis::{Analysis, Session};
+use dichroscope::describe::Names;
+use dichroscope::params::{Params, Setting};
+use dichroscope::raster::{PixelIndex, Raster, UNASSIGNED};
+use dichroscope::segment::PlaceRule;
+use std::sync::Arc;
+
+/// Side of a working pixel, pixels.
+const SIDE: usize = 5;
+/// Body color of the wall.
+const WALL: [f64; 3] = [0.62, 0.58, 0.42];
+
+/// Two balls of 360 pixels across and eight of 60 to 80, white light, an 8-bit camera with noise.
+fn balls(seed: u64) -> Scene {
+    let mut random = Random::new(seed);
+    let mut ball = |center_px: [f64; 2], radius_px: f64| Ball {
+        center_px,
+        radius_px,
+        body: random.saturated_color(),
+        body_counts: random.between(130.0, 180.0),
+        surface_counts: random.between(70.0, 110.0),
+        roughness: random.between(0.2, 0.3),
+    };
+    let mut balls = vec![ball([250.0, 250.0], 180.0), ball([750.0, 250.0], 180.0)];
+    for place in 0..8 {
+        balls.push(ball([80.0 + 120.0 * f64::from(place), 570.0], 30.0 + 1.3 * f64::from(place)));
+    }
+    Scene { balls, ..Scene::grid_of_balls([1000, 640], 1, 1, seed) }
+}
+
+/// The scene before a matt wall that gets brighter from left to right, or before black.
+fn rendered(scene: &Scene, has_wall: bool) -> Rendered {
+    let mut rendered = scene.render();
+    if !has_wall {
+        return rendered;
+    }
+    let mut noise = Random::new(scene.seed + 1);
+    let wall = unit(WALL);
+    let width = scene.size_px[0];
+    for pixel in (0..rendered.labels.len()).filter(|&pixel| rendered.labels[pixel] == UNASSIGNED) {
+        let counts = 60.0 + 50.0 * (pixel % width) as f64 / width as f64;
+        let color = wall.map(|band| band * counts);
+        rendered.body[pixel] = color.map(|v| v as f32);
+        rendered.image.pixels[pixel] = color.map(|v| (v + scene.noise_sigma * noise.normal()).round() as f32);
+    }
+    rendered
+}
+
+fn params(small_objects: bool, far_colors: bool) -> Params {
+    let mut params = Params { scale: Setting::Value(SIDE as f64), ..Params::default() };
+    (params.refine.small_objects, params.refine.far_colors) = (small_objects, far_colors);
+    params
+}
+
+/// Peak signal to noise ratio of a picture of the body reflection on one ball, dB.
+fn psnr(picture: &Raster<[f32; 3]>, rendered: &Rendered, label: u16) -> f64 {
+    let pixels: Vec<usize> =
+        (0..rendered.labels.len()).filter(|&pixel| rendered.labels[pixel] == label).collect();
+    let error = |&pixel: &usize| {
+        (0..3).map(|band| f64::from(picture[pixel][band] - rendered.body[pixel][band]).powi(2)).sum::<f64>()
+    };
+    10.0 * (255.0 * 255.0 * 3.0 * pixels.len() as f64 / pixels.iter().map(error).sum::<f64>()).log10()
+}
+
+/// Number of small balls of which most lit pixels are in a region that holds nothing else.
+fn found(analysis: &Analysis, rendered: &Rendered) -> usize {
+    let lit = |pixel: usize| !analysis.masks.dark(pixel);
+    let labels = &analysis.finals.labels;
+    let is_found = |&ball: &u16| {
+        let own: Vec<u16> = (0..labels.len())
+            .filter(|&pixel| rendered.labels[pixel] == ball && lit(pixel))
+            .map(|pixel| labels[pixel])
+            .collect();
+        let regions = 1..=analysis.finals.hypotheses.len() as u16;
+        regions.into_iter().any(|region| {
+            let here = own.iter().filter(|&&label| label == region).count();
+            let everywhere = labels.as_slice().iter().filter(|&&label| label == region).count();
+            3 * here > 2 * own.len() && 10 * here > 9 * everywhere
+        })
+    };
+    (3..=10).filter(is_found).count()
+}
+
+#[test]
+fn balls_too_small_for_the_working_picture_become_regions_and_gain() {
+    for (seed, has_wall) in [(3, false), (3, true)] {
+        let rendered = rendered(&balls(seed), has_wall);
+        let [with, without] = [true, false].map(|on| analyze(&rendered.image, &params(on, true)));
+        assert_valid(&rendered.image, &with, "second look");
+        let findings = with.second_look.expect("a second look");
+        assert_eq!(findings.side, 2);
+        assert_eq!(
+            with.finals.hypotheses.len(),
+            without.finals.hypotheses.len() + findings.regions,
+            "the regions of the first look stay"
+        );
+        assert_eq!(without.second_look, None);
+        let [now, before] = [&with, &without].map(|analysis| found(analysis, &rendered));
+        assert!(now >= 6 && before <= 1, "seed {seed}: {before} of 8 balls without, {now} with");
+        let mean = |analysis: &Analysis| {
+            (3..=10).map(|ball| psnr(&analysis.intrinsic.body, &rendered, ball)).sum::<f64>() / 8.0
+        };
+        assert!(mean(&with) > mean(&without) + 1.0, "seed {seed}: {} and {}", mean(&with), mean(&without));
+        let light = [&with, &without].map(|analysis| analysis.illuminant.unwrap().direction);
+        assert!(dot(light[0], light[1]) > 1.0 - 1e-12, "the light is that of the first look");
+    }
+}
+
+#[test]
+fn a_pixel_of_the_second_look_says_so_and_the_report_counts_the_regions() {
+    let rendered = rendered(&balls(3), false);
+    let params = params(true, true);
+    let (analysis, trace) =
+        Session::new(Arc::new(rendered.image.clone())).run_traced(&params, &mut ()).unwrap();
+    let first = analysis.working_finals.hypotheses.len();
+    let labels = analysis.finals.labels.as_slice();
+    let pixel =
+        labels.iter().position(|&label| usize::from(label) > first).expect("a region of the second look");
+    let pixel = PixelIndex::from_index(pixel);
+    let place = analysis.pixel_place(pixel).unwrap();
+    assert_eq!(place.rule, PlaceRule::SecondLook { side: 2 });
+    let names = Names::of(&trace);
+    assert!(names.pixel_place(&place).contains("the second look found it"));
+    assert!(!analysis.pixel_history(&trace, pixel).is_empty(), "the working pixel has a history");
+    let report = report(&analysis, &params);
+    let facts = report.scale.second_look.unwrap();
+    assert_eq!((facts.factor, facts.regions), (2, report.regions.len() - first));
+}
+
+#[test]
+fn threads_and_records_do_not_change_the_second_look() {
+    let rendered = rendered(&balls(3), true);
+    let of = |threads: usize, traced: bool| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let mut session = Session::new(Arc::new(rendered.image.clone()));
+        pool.install(|| {
+            let params = params(true, true);
+            let analysis = if traced {
+                session.run_traced(&params, &mut ()).unwrap().0
+            } else {
+                session.run(&params, &mut ()).unwrap()
+            };
+            fingerprint(&analysis)
+        })
+    };
+    let alone = of(1, false);
+    assert!(alone == of(3, false), "threads change the result");
+    assert!(alone == of(2, true), "a record changes the result");
+}
+
+#[test]
+fn a_picture_that_is_not_averaged_has_no_second_look() {
+    let scene = Scene::grid_of_balls([240, 160], 3, 2, 5);
+    let image = scene.render().image;
+    let [with, without] = [true, false].map(|on| {
+        let mut params = Params::default();
+        params.refine.small_objects = on;
+        analyze(&image, &params)
+    });
+    assert_valid(&image, &with, "small picture");
+    assert_eq!(with.second_look, None);
+    assert_eq!(fingerprint(&with), fingerprint(&without));
+}
