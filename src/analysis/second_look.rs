@@ -149,7 +149,9 @@ fn patches(masks: &Masks, working: &WorkingOutputs) -> Option<Mask> {
         let beside = Border::of(labels, patch, |pixel| !inside(pixel)).main_region();
         let region = beside.and_then(|(label, _)| RegionId::from_label(label));
         if region.is_none_or(|region| regions[region.index()].model_fits) {
-            patch.iter().for_each(|&pixel| kept[pixel] = true);
+            for &pixel in patch {
+                kept[pixel] = true;
+            }
         }
     }
     Some(dilate(&kept, 1))
@@ -191,7 +193,7 @@ impl FinerPicture {
         picture.masks = Arc::new(Masks::clone(&picture.masks).within(&patches));
         let finer = used_params(params, &picture.image, side, &noise);
         let UsedParams { window_size, min_area, min_intensity, .. } = **used;
-        let used = UsedParams { window_size, min_area, min_intensity, ..finer };
+        let used = UsedParams { min_intensity, window_size, min_area, ..finer };
         let coding = noise.coding.as_ref().map(|coding| coding.averaged(side));
         Self { picture, patches, noise, coding, used }
     }
