@@ -1,17 +1,14 @@
 //! The outputs of the stages in pixels of the photograph, where the working picture has larger pixels.
 
-use super::prepared::Prepared;
+use super::photograph::Photograph;
 use super::second_look::{SecondLook, second_look};
 use super::working_outputs::WorkingOutputs;
 use super::{Analysis, Cancelled, Observer, StageOutput};
 use crate::baseline::marked_labels;
 use crate::intrinsic::{Detail, Intrinsic, split_photograph};
-use crate::params::{Baseline, Params, Rules, UsedParams};
-use crate::photo::LinearImage;
+use crate::params::Baseline;
 use crate::raster::{LabelMap, Raster};
-use crate::segment::{
-    AnalysisInput, FinalRegions, MatteRegions, PlanarRegions, Windows, full_resolution_labels,
-};
+use crate::segment::{FinalRegions, MatteRegions, PlanarRegions, Windows, full_resolution_labels};
 use std::sync::Arc;
 
 /// The last outputs in pixels of the photograph.
@@ -25,19 +22,6 @@ pub(super) struct FullResolution {
     finals: Enlarged<FinalRegions>,
     second_look: Enlarged<Option<SecondLook>>,
     intrinsic: Enlarged<Intrinsic>,
-}
-
-/// The photograph, as the stages read it.
-pub(super) struct Photograph<'a> {
-    pub(super) prepared: &'a Prepared,
-    /// The photograph; its noise is that of a single pixel.
-    pub(super) input: AnalysisInput<'a>,
-    pub(super) image: &'a Arc<LinearImage>,
-    /// What was asked for.
-    pub(super) params: &'a Params,
-    /// The parameters of the working picture.
-    pub(super) used: &'a UsedParams,
-    pub(super) rules: Rules,
 }
 
 impl FullResolution {

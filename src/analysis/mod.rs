@@ -7,6 +7,7 @@
 
 mod full_resolution;
 mod output;
+mod photograph;
 mod prepared;
 mod resolve;
 mod second_look;

@@ -78,6 +78,7 @@ pub fn used_params(params: &Params, image: &LinearImage, factor: usize, noise: &
         min_area: params.min_area.value().unwrap_or((500.0 * scale * scale).round().max(72.0)),
         scale: factor as f64,
         illuminant: params.illuminant.direction(),
+        second_illuminant: params.second_illuminant.direction(),
         ambient: params.ambient,
     }
 }

@@ -11,7 +11,7 @@
 //! Measured on four rendered pictures of 12 megapixels, each with 24 balls of 60 to 200 pixels, before black and before a wall, as PNG and
 //! demosaiced at JPEG 92: 62 → 96 of the 96 balls are regions, body of the balls 38.1 → 41.1 dB (doing nothing: 29.3).
 
-use super::full_resolution::Photograph;
+use super::photograph::Photograph;
 use super::resolve::{NoiseFindings, used_params};
 use super::windows::{classify_windows, merged_areas};
 use super::working_outputs::WorkingOutputs;

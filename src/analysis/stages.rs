@@ -1,6 +1,7 @@
 //! The stages in their order, each with the last output and the key from which the output was made.
 
-use super::full_resolution::{FullResolution, Photograph};
+use super::full_resolution::FullResolution;
+use super::photograph::Photograph;
 use super::prepared::{MaskKey, Preparation, Prepared};
 use super::resolve::used_params;
 use super::slot::Slot;

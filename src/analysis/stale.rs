@@ -10,7 +10,7 @@ use crate::params::{AmbientSetting, Parameter, Reading, Rules, Switch, UsedParam
 ///
 /// The tables of parameters, refinements and readings name the first stage that reads each ([`Parameter::spec`],
 /// [`Switch::first_stage`], [`Reading::first_stage`]).
-/// The planar stage is the first that reads a given light, the split is the first that reads the ambient light.
+/// The planar stage is the first that reads a given light or second lamp, the split is the first that reads the ambient light.
 pub fn seen_up_to(stage: Stage, used: &UsedParams, rules: Rules) -> (UsedParams, Rules) {
     let (mut used, mut rules) = (*used, rules);
     for parameter in Parameter::ALL {
@@ -19,7 +19,7 @@ pub fn seen_up_to(stage: Stage, used: &UsedParams, rules: Rules) -> (UsedParams,
         }
     }
     if stage < Stage::Planar {
-        used.illuminant = None;
+        (used.illuminant, used.second_illuminant) = (None, None);
     }
     if stage < Stage::Split {
         used.ambient = AmbientSetting::Auto;

@@ -3,11 +3,12 @@
 use super::Analysis;
 use super::prepared::Prepared;
 use crate::baseline::{LEAST_MARKED_PX, NoSkewedT, no_skewed_t};
-use crate::params::Baseline;
+use crate::color::axis_angle_deg;
+use crate::params::{Baseline, LEAST_LAMPS_ANGLE_DEG};
 use crate::photo::{CodingError, Masks};
 use crate::raster::LabelMap;
 use crate::reflection::MIN_ANGLE_DEG;
-use crate::segment::{LightFindings, PlanarRegions};
+use crate::segment::LightFindings;
 
 /// Error of the values, in steps of 1/255 of the coded range, above which compression makes results doubtful.
 const DOUBTFUL_CODE_VALUES: f64 = 1.3;
@@ -52,7 +53,7 @@ pub(super) fn all_warnings(
                     .to_owned(),
             ]
         }
-        _ => warnings(labels, &analysis.planar, &prepared.masks, restricted),
+        _ => warnings(analysis, &prepared.masks, restricted),
     };
     all.extend(prepared.noise.coding.as_ref().and_then(compression_warning));
     all.extend(size_warning(labels));
@@ -96,7 +97,8 @@ fn marked_warnings(analysis: &Analysis, restricted: bool) -> Vec<String> {
 }
 
 /// The warnings about the regions, a sentence each. `restricted`: the analysis is restricted to an area.
-fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks, restricted: bool) -> Vec<String> {
+fn warnings(analysis: &Analysis, masks: &Masks, restricted: bool) -> Vec<String> {
+    let (labels, planar, used) = (&analysis.finals.labels, &analysis.planar, &analysis.used);
     let mut warnings = Vec::new();
     let lit = (0..labels.len()).filter(|&pixel| !masks.dark(pixel)).count();
     let assigned = labels.as_slice().iter().filter(|&&label| label != 0).count();
@@ -114,5 +116,31 @@ fn warnings(labels: &LabelMap, planar: &PlanarRegions, masks: &Masks, restricted
         };
         warnings.push(format!("{why}: the light's color is unknown and all is body reflection"));
     }
+    warnings.extend(used.second_illuminant.and_then(|second| second_lamp_warning(second, &planar.light)));
     warnings
+}
+
+/// The warning about a second lamp that was given, unit, and that lights nothing.
+fn second_lamp_warning(second: [f64; 3], light: &LightFindings) -> Option<String> {
+    let Some(first) = light.direction else {
+        return Some(
+            "a second lamp was given, but no light was found beside it: give the first light too (illuminant), or leave second_illuminant at \
+             `auto`"
+                .to_owned(),
+        );
+    };
+    match light.second {
+        None => {
+            let angle_deg = axis_angle_deg(&second.into(), &first.into());
+            (angle_deg < LEAST_LAMPS_ANGLE_DEG).then(|| format!(
+                "the second lamp that was given is {angle_deg:.1}\u{b0} from the light found, both are one lamp: give the other light as \
+                 illuminant, or leave second_illuminant at `auto`"
+            ))
+        }
+        Some(found) if found.regions == 0 => Some(
+            "the highlights of no region agree better with the second lamp that was given than with the first light: all is split with the first"
+                .to_owned(),
+        ),
+        Some(_) => None,
+    }
 }

@@ -52,6 +52,8 @@ pub enum Edit {
     SetParams(Box<Params>),
     /// Set the light's direction; none: the analysis finds it.
     PinIlluminant(Option<[f64; 3]>, Option<Gesture>),
+    /// Set the second lamp's direction; none: the analysis seeks a second lamp.
+    PinSecondIlluminant(Option<[f64; 3]>, Option<Gesture>),
     /// Set how ambient light is treated.
     SetAmbient(AmbientSetting, Option<Gesture>),
     /// Restrict the analysis to these pixels; none: analyze the whole picture.

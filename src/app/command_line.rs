@@ -70,6 +70,9 @@ fn params_words(params: &Params) -> Vec<String> {
     if params.illuminant != IlluminantSetting::Auto {
         words.extend(["--illuminant".to_owned(), params.illuminant.to_string()]);
     }
+    if params.second_illuminant != IlluminantSetting::Auto {
+        words.extend(["--second-illuminant".to_owned(), params.second_illuminant.to_string()]);
+    }
     if params.ambient != AmbientSetting::Auto {
         words.extend(["--ambient".to_owned(), params.ambient.to_string()]);
     }
@@ -161,12 +164,14 @@ mod tests {
         params.min_area = Setting::Auto;
         params.refine.second_look = false;
         params.illuminant = IlluminantSetting::Given([1.0, 0.5, 0.25]);
+        params.second_illuminant = IlluminantSetting::Given([0.25, 0.5, 1.0]);
         params.ambient = AmbientSetting::Off;
         state.document.area = Some(Arc::new(crate::raster::Raster::filled(1, 1, true)));
         assert_eq!(
             analyze_call(&state),
             "dichroscope analyze 'my photo'\\''s.png' --out results --encoding gamma:2.2 --full-scale 2040 \
-             --camera-noise 3.5 --min-area auto --illuminant 1,0.5,0.25 --ambient off --without second_look --area area.png  \
+             --camera-noise 3.5 --min-area auto --illuminant 1,0.5,0.25 --second-illuminant 0.25,0.5,1 --ambient off --without second_look \
+             --area area.png  \
              # area.png: export the area under this name first"
         );
     }

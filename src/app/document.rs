@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// Everything that a person decides about the analysis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Document {
-    /// The parameters of the analysis, with the pinned illuminant.
+    /// The parameters of the analysis, with the pinned lamps.
     pub params: Params,
     /// The pixels that the analysis is restricted to; none: all.
     pub area: Option<Arc<Mask>>,
@@ -23,8 +23,10 @@ pub enum Gesture {
     Parameter(Parameter),
     /// Painting with the brush.
     Brush,
-    /// Turning the pinned illuminant.
+    /// Turning the pinned illuminant, or pinning all lamps that were found.
     Illuminant,
+    /// Turning the pinned second lamp.
+    SecondIlluminant,
     /// Dragging a band of the ambient light.
     Ambient,
 }

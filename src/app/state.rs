@@ -194,9 +194,13 @@ impl State {
         Against { pinned: self.pinned.as_deref(), elsewhere: self.elsewhere.as_deref() }
     }
 
-    /// What a person has to do first, where a layer compares the result with something that is not there; none where the layer can be
-    /// shown.
+    /// Why a layer shows nothing of its own, and what a person has to do first where a layer compares the result with something that is not
+    /// there; none where the layer can be shown.
     pub fn lacks(&self, layer: Layer) -> Option<&'static str> {
+        let has_one_lamp = || self.shown().is_some_and(|shown| shown.analysis.finals.light.second.is_none());
+        if layer.needs_second_lamp() && has_one_lamp() {
+            return Some("One lamp: no second lamp was found or given (section 7.5).");
+        }
         let has = |kind| self.elsewhere.as_ref().is_some_and(|elsewhere| elsewhere.has(kind));
         match layer.need()? {
             LayerNeed::Pinned => self.pinned.is_none().then_some("Pin a result first (K)."),

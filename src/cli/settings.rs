@@ -49,6 +49,10 @@ pub(super) struct Settings {
     /// The color of the light, of any length; every dichromatic plane turns to it [default: auto]
     #[arg(long, value_name = "R,G,B|auto", allow_hyphen_values = true)]
     illuminant: Option<IlluminantSetting>,
+    /// The color of a second lamp, of any length; each region is split with the lamp that its highlights agree with; refined method only
+    /// [default: auto]
+    #[arg(long, value_name = "R,G,B|auto", allow_hyphen_values = true)]
+    second_illuminant: Option<IlluminantSetting>,
     /// The ambient light, counts a band: found where the matte lines meet, given, or left alone [default: auto]
     #[arg(long, value_name = "auto|R,G,B|off", allow_hyphen_values = true)]
     ambient: Option<AmbientSetting>,
@@ -71,6 +75,7 @@ impl Settings {
             }
         }
         params.illuminant = self.illuminant.unwrap_or(params.illuminant);
+        params.second_illuminant = self.second_illuminant.unwrap_or(params.second_illuminant);
         params.ambient = self.ambient.unwrap_or(params.ambient);
         self.switch(&mut params)?;
         self.read(&mut params)?;

@@ -249,6 +249,9 @@ macro_rules! define_params_facts {
             /// The color of the light. Absent in reports of versions without this setting.
             #[serde(default)]
             pub illuminant: LightFacts,
+            /// The color of the second lamp. Absent in reports of versions without this setting.
+            #[serde(default)]
+            pub second_illuminant: LightFacts,
             /// The ambient light. Absent in reports of versions without this setting.
             #[serde(default)]
             pub ambient: AmbientAsked,
@@ -268,6 +271,7 @@ macro_rules! define_params_facts {
                 let mut params = Params {
                     $($field: self.$field.asked,)*
                     illuminant: self.illuminant.asked,
+                    second_illuminant: self.second_illuminant.asked,
                     ambient: self.ambient.asked,
                     phoenix: self.phoenix.unwrap_or_default(),
                     ..Params::of(self.method)
@@ -288,6 +292,10 @@ macro_rules! define_params_facts {
                     illuminant: LightFacts {
                         asked: params.illuminant,
                         used: analysis.illuminant.map(|light| light.direction),
+                    },
+                    second_illuminant: LightFacts {
+                        asked: params.second_illuminant,
+                        used: analysis.planar.light.second.map(|second| second.direction),
                     },
                     ambient: AmbientAsked {
                         asked: params.ambient,

@@ -140,10 +140,14 @@ pub struct IlluminantFacts {
 pub struct SecondLampFacts {
     /// Unit vector.
     pub direction: [f64; 3],
-    /// Error of the direction by its evidence, degrees.
-    pub interval_deg: f64,
-    /// Number of regions whose highlights contradict the first light and agree with this lamp.
+    /// Error of the direction by its evidence, degrees; null for a lamp that was given.
+    pub interval_deg: Option<f64>,
+    /// Number of regions whose highlights contradict the first light and agree with this lamp; of a lamp that was given, number of regions
+    /// whose highlights agree better with it than with the first light.
     pub objects: usize,
+    /// Whether the lamp was given and not found.
+    #[serde(default)]
+    pub given: bool,
     /// Angle between both lamps, degrees.
     pub angle_deg: f64,
 }
@@ -196,6 +200,7 @@ impl IlluminantFacts {
                 direction: second.direction,
                 interval_deg: second.interval_deg,
                 objects: second.regions,
+                given: second.given,
                 angle_deg: light.lamps_angle_deg().unwrap_or_default(),
             }),
             estimates: is_refined.then(|| LightEstimateFacts::new(light)),

@@ -8,6 +8,7 @@ use super::html::{Column, Row, Table, escaped, key};
 use super::numbers::{angle_deg, counted, degrees, grouped, swatch, vector};
 use super::scene::{Measured, Scene, unit};
 use crate::color::{Line, Moments, rgb};
+use crate::describe::SecondLampFacts;
 use crate::intrinsic::{PixelKind, RegionReflection};
 use crate::params::IlluminantSetting;
 use crate::raster::RegionId;
@@ -238,8 +239,9 @@ pub fn light_sentence(scene: &Scene, lights: &Lights) -> String {
 fn found_sentence(scene: &Scene, computed: [f64; 3]) -> String {
     let facts = &scene.report.illuminant;
     let light = vector(computed);
+    let second = facts.second.as_ref().map_or_else(String::new, second_lamp_sentence);
     if facts.given {
-        return format!("The light is {light}, as it was given.");
+        return format!("The light is {light}, as it was given.{second}");
     }
     let [one, many] =
         if facts.basis == "votes" { ["small highlight", "small highlights"] } else { ["object", "objects"] };
@@ -247,16 +249,21 @@ fn found_sentence(scene: &Scene, computed: [f64; 3]) -> String {
         .interval_deg
         .map_or_else(String::new, |interval| format!(" to within {} by its own evidence", degrees(interval)));
     let objects = counted(facts.objects, one, many);
-    let second = facts.second.as_ref().map_or_else(String::new, |second| {
-        format!(
-            " A second lamp is {}, found from {} to within {}, {} from the first; the regions with its highlights are split with its color.",
-            vector(second.direction),
-            counted(second.objects, "object", "objects"),
-            degrees(second.interval_deg),
-            degrees(second.angle_deg)
-        )
-    });
     format!("The light is {light}, found from {objects}{interval} ({}).{second}", facts.reason)
+}
+
+/// What the second lamp is, and where its color comes from; begins with a space.
+fn second_lamp_sentence(second: &SecondLampFacts) -> String {
+    let objects = counted(second.objects, "object", "objects");
+    let known = match second.interval_deg {
+        Some(interval) => format!("found from {objects} to within {}", degrees(interval)),
+        None => format!("as it was given, with the highlights of {objects}"),
+    };
+    format!(
+        " A second lamp is {}, {known}, {} from the first; the regions with its highlights are split with its color.",
+        vector(second.direction),
+        degrees(second.angle_deg)
+    )
 }
 
 /// How far the light of the analysis and the average are from the independent measurement.

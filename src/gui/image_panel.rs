@@ -12,6 +12,7 @@ mod textures;
 mod tiles;
 mod toolbar;
 mod tools;
+mod white_patch;
 
 use super::status::PROGRESS_DELAY;
 use super::verdict_strip::StepSentence;
@@ -98,8 +99,7 @@ impl ImagePanel {
             ui.ctx().request_repaint();
         }
         let is_low = ui.available_height() < LOW_PT;
-        let readout_height =
-            readout::height(ui, ui.available_width() - 16.0, is_low, state.elsewhere.is_some());
+        let readout_height = readout::height(ui, state, ui.available_width() - 16.0, is_low);
         let frame = bar.inner_margin(Margin { left: 8, right: 8, top: 2, bottom: 2 });
         Panel::bottom("read-out").frame(frame).exact_size(readout_height + 4.0).show(ui, |ui| {
             readout::show(ui, state, palette, is_low);

@@ -95,7 +95,12 @@ const GENERAL: &[Shortcut] = &[
     key_alone("Tools", Key::G, Action::Tool(Tool::Polygon), "Polygon"),
     key_alone("Tools", Key::B, Action::Tool(Tool::Brush), "Brush"),
     key_alone("Tools", Key::P, Action::Tool(Tool::Profile), "Profile line"),
-    key_alone("Tools", Key::W, Action::Tool(Tool::WhitePatch), "White patch: pin the light's color"),
+    key_alone(
+        "Tools",
+        Key::W,
+        Action::Tool(Tool::WhitePatch),
+        "White patch: pin the light's color, with Shift the second lamp's",
+    ),
     key_alone("Compare", Key::K, Action::Pin, "Pin the result, or unpin it"),
     key_alone("Compare", Key::A, Action::Swap, "A/B: pinned or newest result"),
     key_with_command("Window", Key::P, Action::Palette, "All commands by name"),

@@ -181,6 +181,8 @@ fn apply_to_style(style: &mut Style, theme: Theme, palette: &ThemeColors) {
     spacing.icon_width_inner = 8.0;
     spacing.tooltip_width = 340.0;
     spacing.combo_width = 64.0;
+    // A new list is at most so high; that of the layers is higher than egui's 400 points.
+    spacing.default_area_size.y = 640.0;
     style.interaction.selectable_labels = false;
     style.interaction.tooltip_delay = 0.4;
     // Widgets change without animations, so that pictures of tests do not depend on the time.

@@ -1,6 +1,6 @@
 //! The photograph whose working picture was split.
 
-use super::split::RegionPlans;
+use super::region_plan::RegionPlans;
 use crate::raster::{Blocks, LabelMap};
 use crate::segment::{AnalysisInput, FinalRegions};
 

@@ -24,7 +24,8 @@ mod vectors;
 pub use detail::Detail;
 pub use full_resolution::split_photograph;
 pub use reason::Reason;
-pub use split::{RegionPlans, WorkingSplit, split};
+pub use region_plan::RegionPlans;
+pub use split::{WorkingSplit, split};
 
 use crate::raster::{Raster, RegionId};
 pub use crate::trace::{Ambient, AmbientVerdict, Meeting, PixelKind};

@@ -174,6 +174,26 @@ impl RegionPlan {
     }
 }
 
+/// How regions are split, by [`RegionId::index`].
+#[derive(Clone)]
+pub struct RegionPlans {
+    plans: Vec<RegionPlan>,
+    /// Side of a pixel of the picture to which the plans were fitted, pixels of the photograph.
+    block_side: usize,
+}
+
+impl RegionPlans {
+    /// Plans that were fitted to a picture with pixels of `block_side` pixels of the photograph a side.
+    pub(super) fn new(plans: Vec<RegionPlan>, block_side: usize) -> Self {
+        Self { plans, block_side }
+    }
+
+    /// The plans for the photograph `input`.
+    pub(super) fn at_full_resolution(&self, input: &AnalysisInput) -> Vec<RegionPlan> {
+        self.plans.iter().map(|plan| plan.at_full_resolution(input, self.block_side)).collect()
+    }
+}
+
 /// Interval of the light as a share of the angle between body and surface vector; 0 where no light is known or all of a pixel's light
 /// is body reflection.
 fn light_share(light: &LightFindings, transform: Option<&ReflectionTransform>) -> f64 {

@@ -11,7 +11,7 @@ use super::images::Images;
 use super::local::{Lamps, LocalInput, LocalSplit, Regions, split_locally};
 use super::plane_evidence::reject_regions_without_evidence;
 use super::region::RegionReports;
-use super::region_plan::RegionPlan;
+use super::region_plan::{RegionPlan, RegionPlans};
 use crate::color::Line;
 use crate::raster::{Mask, Raster, RegionId};
 use crate::segment::{AnalysisInput, Branches, FinalRegions, Members, PlanarHypothesis, members, neighbors};
@@ -27,27 +27,12 @@ pub struct WorkingSplit {
     pub(super) found: Found,
 }
 
-/// How regions are split, by [`RegionId::index`].
-#[derive(Clone)]
-pub struct RegionPlans {
-    plans: Vec<RegionPlan>,
-    /// Side of a pixel of the picture to which the plans were fitted, pixels of the photograph.
-    block_side: usize,
-}
-
-impl RegionPlans {
-    /// The plans for the photograph `input`.
-    pub(super) fn at_full_resolution(&self, input: &AnalysisInput) -> Vec<RegionPlan> {
-        self.plans.iter().map(|plan| plan.at_full_resolution(input, self.block_side)).collect()
-    }
-}
-
 impl WorkingSplit {
     /// How the regions that are `kept`, by [`RegionId::index`], are split. `block_side`: side of a pixel of the picture that was split, pixels
     /// of the photograph.
     pub fn region_plans(&self, kept: &[bool], block_side: usize) -> RegionPlans {
         let plans = self.found.plans.iter().zip(kept).filter(|(_, is_kept)| **is_kept);
-        RegionPlans { plans: plans.map(|(plan, _)| plan.clone()).collect(), block_side }
+        RegionPlans::new(plans.map(|(plan, _)| plan.clone()).collect(), block_side)
     }
 }
 

@@ -7,7 +7,7 @@
 //! cluster inward by mean shift (`edge_body`, rough surfaces .87° → .54°); the surface vector is the scene's illuminant
 //! (`scene_illuminant`, +5.7 dB body, +7.6 dB surface). The vectors of marked pixels are those of their skewed T, which was fitted to all of them. A given illuminant is the surface vector under the paper's method too.
 
-use crate::color::{Line, Moments, Vec3, dot, rgb};
+use crate::color::{Line, Moments, Vec3, axis_angle_deg, dot, rgb};
 use crate::reflection::{DichromaticPlane, HighlightTest};
 use crate::segment::{AnalysisInput, Pixels, PlanarHypothesis};
 
@@ -26,6 +26,8 @@ pub struct Vectors {
 const BANDWIDTH: f64 = 2.5;
 /// Most pixels of a fit, evenly chosen; the reading `every_pixel` has no such limit.
 const FIT_SAMPLES: usize = 6000;
+/// Angle below which the lamp of a region is a given lamp, degrees: both differ by rounding only.
+const SAME_LAMP_DEG: f64 = 0.001;
 
 /// Fits body and surface vector to the region's undistorted pixels.
 pub fn fit_vectors(input: &AnalysisInput, hypothesis: &PlanarHypothesis, pixels: Pixels) -> Vectors {
@@ -43,13 +45,19 @@ pub fn fit_vectors(input: &AnalysisInput, hypothesis: &PlanarHypothesis, pixels:
         Line::principal(&matte_moments).map_or(hypothesis.matte.direction, |line| line.direction)
     };
     let surface = hypothesis.plane.map(|plane| {
-        if input.is_marked() || input.refine.scene_illuminant || input.used.illuminant.is_some() {
+        if input.is_marked() || input.refine.scene_illuminant || is_given(input, &plane.surface) {
             return plane.surface;
         }
         let own = Line::principal(&highlight.iter().copied().collect()).filter(|_| highlight.len() > 2);
         own.map_or(plane.surface, |line| line.direction)
     });
     Vectors { body, surface, matte_mean }
+}
+
+/// Whether the lamp of a region, the unit vector `surface`, is a light or a second lamp that was given.
+fn is_given(input: &AnalysisInput, surface: &Vec3) -> bool {
+    let lamps = [input.used.illuminant, input.used.second_illuminant].into_iter().flatten();
+    lamps.map(Vec3::from).any(|lamp| axis_angle_deg(&lamp, surface) < SAME_LAMP_DEG)
 }
 
 /// Mean color of the region's matte pixels, counts; none without a matte pixel. `test` recognizes highlight pixels.

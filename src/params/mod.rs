@@ -3,7 +3,9 @@
 //! This room uses no other room, so that every other room can use its types.
 
 mod feature;
+mod invalid;
 mod markdown;
+mod method;
 mod paper;
 mod phoenix;
 mod preset;
@@ -15,7 +17,10 @@ mod table;
 mod values;
 
 pub use feature::{Feature, FeatureSet, UnknownFeature};
+pub use invalid::InvalidParameter;
+pub(crate) use invalid::LEAST_LAMPS_ANGLE_DEG;
 pub use markdown::{parameter_table, phoenix_table, reading_table, switch_table};
+pub use method::Method;
 pub use paper::{Baseline, PaperMethod, Rules};
 pub use phoenix::{PhoenixParameter, PhoenixSettings};
 pub use preset::Preset;
@@ -25,4 +30,4 @@ pub use setting::{AmbientSetting, IlluminantSetting, Setting};
 pub use stage::Stage;
 pub(crate) use table::parameter_rows;
 pub use table::{Parameter, ParameterSpec, SliderSpec};
-pub use values::{InvalidParameter, Method, Params, UsedParams};
+pub use values::{Params, UsedParams};

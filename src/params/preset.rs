@@ -3,8 +3,9 @@
 //! The print has "4%" for the cups under pink light: 4σ0. The clipping threshold is 240 of 255 everywhere; it stays
 //! automatic here, so that it holds for files of every depth.
 
+use super::method::Method;
 use super::setting::Setting;
-use super::values::{Method, Params};
+use super::values::Params;
 
 /// A column of table 6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -3,66 +3,15 @@
 //! Fields for numbers are made from the rows of `table.rs`. Values in counts refer to 255 counts at full scale, whatever
 //! the depth of the file.
 
+use super::invalid::{InvalidParameter, LEAST_LAMPS_ANGLE_DEG, MOST_AMBIENT};
+use super::method::Method;
 use super::paper::{Baseline, PaperMethod, Rules};
-use super::phoenix::{PhoenixParameter, PhoenixSettings};
+use super::phoenix::PhoenixSettings;
 use super::reading::Readings;
 use super::refine::Refine;
 use super::setting::{AmbientSetting, IlluminantSetting, Setting};
 use super::table::{Parameter, parameter_rows};
 use serde::{Deserialize, Serialize};
-
-/// Which algorithm.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Method {
-    /// The paper's algorithm with the refinements that [`Refine`] switches on.
-    #[default]
-    Refined,
-    /// The algorithm as written in 1990, its weaknesses included.
-    Paper,
-    /// Phoenix, a system of recursive region splitting, to compare with (section 7.2).
-    Phoenix,
-    /// Clusters of the histogram of the whole picture, the way that section 5.1 rejects, to compare with.
-    TopDown,
-    /// A skewed T fitted to pixels that a person has marked, the method of 1987 and 1988 (section 6), to compare with.
-    ByHand,
-}
-
-impl Method {
-    /// All methods: the refined one first, then by age.
-    pub const ALL: [Self; 5] = [Self::Refined, Self::Paper, Self::ByHand, Self::Phoenix, Self::TopDown];
-
-    /// The name on the command line, in files and reports.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Refined => "refined",
-            Self::Paper => "paper",
-            Self::Phoenix => "phoenix",
-            Self::TopDown => "top-down",
-            Self::ByHand => "by-hand",
-        }
-    }
-
-    /// What the method is, in one sentence.
-    pub const fn meaning(self) -> &'static str {
-        match self {
-            Self::Refined => "The paper's algorithm with refinements, each a switch.",
-            Self::Paper => "The algorithm as it was written in 1990, its weaknesses included.",
-            Self::Phoenix => {
-                "Regions alone, split by valleys in the histograms of color features (section 7.2, color figure 15)."
-            }
-            Self::TopDown => {
-                "Regions alone: clusters of the whole picture's histogram, the way that section 5.1 rejects."
-            }
-            Self::ByHand => {
-                "One skewed T fitted to the pixels of an area that a person has marked, as in 1987 and 1988 (section 6)."
-            }
-        }
-    }
-}
-
-/// Most ambient light that may be given, counts a band.
-const MOST_AMBIENT: f64 = 200.0;
 
 macro_rules! define_params {
     ($($field:ident $variant:ident $meaning:literal { $($row:tt)* })*) => {
@@ -75,6 +24,8 @@ macro_rules! define_params {
             $(#[doc = concat!($meaning, ".")] pub $field: Setting,)*
             /// The color of the light: estimated, or given.
             pub illuminant: IlluminantSetting,
+            /// The color of a second lamp: found where refinement `second_lamp` is on, or given.
+            pub second_illuminant: IlluminantSetting,
             /// The ambient light: estimated, given, or left alone.
             pub ambient: AmbientSetting,
             /// The refinements of the refined method.
@@ -91,6 +42,7 @@ macro_rules! define_params {
                     method: Method::Refined,
                     $($field: Parameter::$variant.spec().refined_default,)*
                     illuminant: IlluminantSetting::Auto,
+                    second_illuminant: IlluminantSetting::Auto,
                     ambient: AmbientSetting::Auto,
                     refine: Refine::default(),
                     paper: PaperMethod::default(),
@@ -130,6 +82,8 @@ macro_rules! define_params {
             $(#[doc = concat!($meaning, ".")] pub $field: f64,)*
             /// Direction of the light where it was given, unit length; none: the light is estimated.
             pub illuminant: Option<[f64; 3]>,
+            /// Direction of the second lamp where it was given, unit length; none: a second lamp is sought.
+            pub second_illuminant: Option<[f64; 3]>,
             /// What was asked of the ambient light.
             pub ambient: AmbientSetting,
         }
@@ -140,6 +94,7 @@ macro_rules! define_params {
                 Self {
                     $($field: Parameter::$variant.spec().paper,)*
                     illuminant: None,
+                    second_illuminant: None,
                     ambient: AmbientSetting::Auto,
                 }
             }
@@ -243,6 +198,7 @@ impl Params {
             }
             _ => {}
         }
+        self.validate_second_lamp()?;
         match self.ambient {
             AmbientSetting::Given(color) if color.iter().any(|band| !(0.0..=MOST_AMBIENT).contains(band)) => {
                 Err(InvalidParameter::Ambient(color))
@@ -250,6 +206,35 @@ impl Params {
             _ => Ok(()),
         }
     }
+
+    /// A given second lamp is a color with light in every band, under the refined method, and no other name of the given first light.
+    fn validate_second_lamp(&self) -> Result<(), InvalidParameter> {
+        let IlluminantSetting::Given(color) = self.second_illuminant else { return Ok(()) };
+        let Some(direction) =
+            self.second_illuminant.direction().filter(|direction| direction.iter().all(|&band| band > 0.0))
+        else {
+            return Err(InvalidParameter::SecondIlluminant(color));
+        };
+        if self.method != Method::Refined {
+            return Err(InvalidParameter::SecondIlluminantMethod { color, method: self.method });
+        }
+        let (IlluminantSetting::Given(first), Some(first_direction)) =
+            (self.illuminant, self.illuminant.direction())
+        else {
+            return Ok(());
+        };
+        let angle_deg = angle_deg(direction, first_direction);
+        if angle_deg < LEAST_LAMPS_ANGLE_DEG {
+            return Err(InvalidParameter::SecondIlluminantNear { color, first, angle_deg });
+        }
+        Ok(())
+    }
+}
+
+/// The angle between two unit vectors, degrees.
+fn angle_deg(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let cosine: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    cosine.clamp(-1.0, 1.0).acos().to_degrees()
 }
 
 impl UsedParams {
@@ -262,36 +247,6 @@ impl UsedParams {
     pub fn slice_half_width_counts(&self) -> f64 {
         self.slice_width * self.camera_noise
     }
-}
-
-/// A parameter outside the values that it accepts.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum InvalidParameter {
-    /// A number outside its range.
-    #[error("{} = {value}: expected `auto` or a {} from {} to {} {}", parameter.spec().name,
-        if parameter.spec().whole { "whole number" } else { "number" },
-        parameter.spec().range[0], parameter.spec().range[1], parameter.spec().unit)]
-    Number {
-        /// The parameter.
-        parameter: Parameter,
-        /// The value that the parameter does not accept.
-        value: f64,
-    },
-    /// A parameter of Phoenix outside its range.
-    #[error("phoenix {} = {value}: expected a whole number from {} to {} {}", parameter.name(), parameter.range()[0],
-        parameter.range()[1], parameter.unit())]
-    Phoenix {
-        /// The parameter.
-        parameter: PhoenixParameter,
-        /// The value that the parameter does not accept.
-        value: u32,
-    },
-    /// A light with a negative or infinite band, or with all bands 0.
-    #[error("illuminant = {0:?}: expected `auto` or three numbers from 0 on, not all of them 0")]
-    Illuminant([f64; 3]),
-    /// Ambient light with a band outside its range.
-    #[error("ambient = {0:?}: expected `auto`, `off` or three numbers from 0 to {MOST_AMBIENT} counts")]
-    Ambient([f64; 3]),
 }
 
 #[cfg(test)]
@@ -331,6 +286,36 @@ mod tests {
             let message = params.validate().unwrap_err().to_string();
             assert!(message.starts_with(&format!("ambient = {color:?}: expected")), "{message}");
         }
+    }
+
+    #[test]
+    fn a_second_lamp_is_a_positive_color_of_its_own_under_the_refined_method() {
+        let given = IlluminantSetting::Given;
+        let with =
+            |illuminant, second_illuminant| Params { illuminant, second_illuminant, ..Params::default() };
+        let second = given([0.7, 0.85, 1.0]);
+        assert!(with(IlluminantSetting::Auto, second).validate().is_ok());
+        assert!(with(given([1.0, 0.8, 0.55]), second).validate().is_ok());
+        let says = |params: Params| params.validate().unwrap_err().to_string();
+        for color in [[1.0, 0.0, 1.0], [1.0, -0.1, 1.0], [f64::NAN, 1.0, 1.0], [1.0, f64::INFINITY, 1.0]] {
+            let message = says(with(IlluminantSetting::Auto, given(color)));
+            assert!(
+                message.starts_with(&format!("second_illuminant = {color:?}: expected"))
+                    && message.contains("above 0"),
+                "{message}"
+            );
+        }
+        for method in Method::ALL.into_iter().filter(|&method| method != Method::Refined) {
+            let message = says(Params { second_illuminant: second, ..Params::of(method) });
+            assert!(
+                message.starts_with("second_illuminant = [0.7, 0.85, 1.0] with method = ")
+                    && message.ends_with("set method = refined or second_illuminant = auto"),
+                "{message}"
+            );
+        }
+        let near = says(with(given([1.4, 1.7, 2.02]), second));
+        assert!(near.contains("at least 1\u{b0} from illuminant = [1.4, 1.7, 2.02], it is 0."), "{near}");
+        assert!(with(given([1.4, 1.7, 2.1]), second).validate().is_ok(), "1.4\u{b0} apart");
     }
 
     #[test]

@@ -44,10 +44,13 @@ pub struct LightFindings {
 pub struct SecondLampFindings {
     /// Unit direction.
     pub direction: [f64; 3],
-    /// Two standard deviations of the direction, degrees.
-    pub interval_deg: f64,
-    /// Number of regions whose highlights contradict the first light and agree with this one.
+    /// Two standard deviations of the direction, degrees; `None` for a lamp that was given.
+    pub interval_deg: Option<f64>,
+    /// Number of regions whose highlights contradict the first light and agree with this one; of a lamp that was given, number of regions whose
+    /// highlights agree better with it than with the first light.
     pub regions: usize,
+    /// Whether the lamp was given and not found.
+    pub given: bool,
 }
 
 impl LightFindings {

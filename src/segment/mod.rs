@@ -15,6 +15,7 @@ mod in_plane;
 mod input;
 mod light;
 mod linear;
+mod lit_regions;
 mod matte;
 mod matte_areas;
 mod merge;

@@ -7,7 +7,8 @@
 //!
 //! The readings `grown_matte_line` and `own_cylinder_only` change the paper's planar stage; `params/reading.rs` quotes the text.
 //!
-//! An illuminant that was given is not estimated, whatever the method: every plane contains the given direction.
+//! An illuminant that was given is not estimated, whatever the method: every plane contains the given direction. A second lamp that was
+//! given is not sought: each region has the lamp that its highlights agree with (`second_lamp`), and the slices grow once more.
 
 use super::candidates::{EarlierStages, highlight_lines};
 use super::choice::{LIGHT_LIMITS, LightDecision, LightEvidence, choose_light};
@@ -16,6 +17,7 @@ use super::highlight_support::highlight_support;
 use super::input::AnalysisInput;
 use super::light::{Illuminant, LightFindings};
 use super::linear::matte_length;
+use super::lit_regions::SecondLamp;
 use super::matte::MatteRegions;
 use super::merge::Areas;
 use super::planar_hypothesis::{PlanarHypothesis, PlanarRegions};
@@ -25,10 +27,11 @@ use super::plane_light::{
     evidence_of_grown_regions,
 };
 use super::recorded_labels::Members;
-use super::second_lamp::{SecondLamp, contradicts, second_lamp};
+use super::second_lamp::{contradicts, given_second_lamp, second_lamp};
 use super::two_lights::Evidence;
 use super::vote_light::{LEAST_VOTERS, Votes};
 use crate::color::{Line, Moments, Vec3, axis_angle_deg};
+use crate::params::LEAST_LAMPS_ANGLE_DEG;
 use crate::raster::HypothesisId;
 use crate::trace::{
     HighlightsAveraged, IlluminantEstimated, IlluminantGiven, LightBasis, LightChosen, LineRefitted, Pass,
@@ -97,25 +100,23 @@ fn with_grown_lines<R: Recorder>(
 
 /// The regions under an illuminant that was given: nothing is estimated, so that one round suffices.
 fn under_given_light<R: Recorder>(mut state: PlanarState<R>, direction: [f64; 3]) -> PlanarRegions {
-    state.recorded_labels.begin(Pass::Illuminant);
-    if R::KEEPS {
-        state.recorded_labels.recorder.record(IlluminantGiven { direction });
-    }
-    let given = Some(Vec3::from(direction));
+    record_given(&mut state, direction);
+    let first = Vec3::from(direction);
+    let given = Some(first);
     let mut hypotheses = state.grow_slices(given);
     if state.input.refine.robust_illuminant {
         state.unite();
         hypotheses = state.hypotheses(given);
     }
-    let illuminant = Some(Illuminant { direction, objects: 0, given: true });
-    let light = LightFindings::given(direction);
-    PlanarRegions {
-        labels: state.recorded_labels.labels,
-        hypotheses,
-        illuminant,
-        light,
-        second_lamp_mask: None,
+    let mut light = LightFindings::given(direction);
+    if divide_between_given_lamps(&mut state, &hypotheses, &first) {
+        state.reset();
+        record_given(&mut state, direction);
+        hypotheses = grown_and_united(&mut state, given);
+        light.second = state.second_lamp.as_ref().map(SecondLamp::findings);
     }
+    let illuminant = Some(Illuminant { direction, objects: 0, given: true });
+    regions_of(state, hypotheses, illuminant, light)
 }
 
 /// The regions under the paper's estimate, the average of the highlight lines.
@@ -201,8 +202,8 @@ fn under_chosen_light<R: Recorder>(
         light.share = votes.zip(decision.direction).map_or(0.0, |(votes, used)| votes.share(&used));
     }
     if let Some(direction) = decision.direction
-        && contradicts(evidence, &direction)
-        && find_second_lamp(&mut state, &hypotheses, &decision)
+        && (divide_between_given_lamps(&mut state, &hypotheses, &direction)
+            || contradicts(evidence, &direction) && find_second_lamp(&mut state, &hypotheses, &decision))
     {
         hypotheses = grow_again(&mut state, Some(direction));
         light.second = state.second_lamp.as_ref().map(SecondLamp::findings);
@@ -213,10 +214,41 @@ fn under_chosen_light<R: Recorder>(
     light.interval_deg = decision.interval_deg.map(|interval_deg| (widening * interval_deg).min(90.0));
     let objects = decision.objects;
     let illuminant = light.direction.map(|direction| Illuminant { direction, objects, given: false });
+    regions_of(state, hypotheses, illuminant, light)
+}
+
+/// The output of the stage, with the pixels that the second lamp of the state lights.
+fn regions_of<R: Recorder>(
+    state: PlanarState<R>,
+    hypotheses: Vec<PlanarHypothesis>,
+    illuminant: Option<Illuminant>,
+    light: LightFindings,
+) -> PlanarRegions {
     let second_lamp = state.second_lamp.as_ref();
     let second_lamp_mask = second_lamp
         .map(|lamp| Arc::new(lamp.lit_pixels(state.input, &state.recorded_labels.labels, &hypotheses)));
     PlanarRegions { labels: state.recorded_labels.labels, hypotheses, illuminant, light, second_lamp_mask }
+}
+
+/// Divides the regions between the light `first`, unit, and a second lamp that was given, if one was and its color is another one.
+/// Returns whether the state has the second lamp.
+fn divide_between_given_lamps<R: Recorder>(
+    state: &mut PlanarState<R>,
+    hypotheses: &[PlanarHypothesis],
+    first: &Vec3,
+) -> bool {
+    let Some(second) = state.input.used.second_illuminant.map(Vec3::from) else { return false };
+    if axis_angle_deg(&second, first) < LEAST_LAMPS_ANGLE_DEG || state.input.stopped() {
+        return false;
+    }
+    let evidence = evidence_of_grown_regions(state, hypotheses);
+    let (compared, lamp) =
+        given_second_lamp(&evidence, first, &second, &state.matte_labels, state.matte.len());
+    if R::KEEPS {
+        state.recorded_labels.recorder.record(compared);
+    }
+    state.second_lamp = Some(lamp);
+    true
 }
 
 /// Searches for a second lamp beside the light of `decision` (refinement `second_lamp`). Returns whether there is one; the state has the lamp.
@@ -226,7 +258,8 @@ fn find_second_lamp<R: Recorder>(
     decision: &LightDecision,
 ) -> bool {
     let Some((first, interval_deg)) = decision.direction.zip(decision.interval_deg) else { return false };
-    if !state.input.refine.second_lamp || state.input.stopped() {
+    let is_sought = state.input.refine.second_lamp && state.input.used.second_illuminant.is_none();
+    if !is_sought || state.input.stopped() {
         return false;
     }
     let evidence = evidence_of_grown_regions(state, hypotheses);
@@ -246,12 +279,28 @@ fn grow_again<R: Recorder>(state: &mut PlanarState<R>, direction: Option<Vec3>) 
     state.reset();
     let light = PlaneLight { direction, ..PlaneLight::none() };
     record_estimate(state, PlaneEstimate::of_light(light));
+    grown_and_united(state, direction)
+}
+
+/// The regions after their slices have grown from the matte regions under a light, and parts of one object are united; without a light no slice grows.
+fn grown_and_united<R: Recorder>(
+    state: &mut PlanarState<R>,
+    direction: Option<Vec3>,
+) -> Vec<PlanarHypothesis> {
     let hypotheses = state.grow_slices(direction);
     if direction.is_none() {
         return hypotheses;
     }
     state.unite();
     state.hypotheses(direction)
+}
+
+/// Records that the illuminant, unit, was given.
+fn record_given<R: Recorder>(state: &mut PlanarState<R>, direction: [f64; 3]) {
+    state.recorded_labels.begin(Pass::Illuminant);
+    if R::KEEPS {
+        state.recorded_labels.recorder.record(IlluminantGiven { direction });
+    }
 }
 
 /// Records an estimate of the illuminant, and returns the light.

@@ -12,11 +12,11 @@
 use super::candidates::HighlightLine;
 use super::input::AnalysisInput;
 use super::linear::{Hypothesis, cylinders, matte_length};
+use super::lit_regions::SecondLamp;
 use super::matte::MatteRegions;
 use super::matte_areas::{MatteAreas, is_united};
 use super::planar_hypothesis::PlanarHypothesis;
 use super::recorded_labels::{Members, RecordedLabels};
-use super::second_lamp::SecondLamp;
 use super::unite::merge_regions;
 use crate::color::{Cylinder, Vec3};
 use crate::raster::{HypothesisId, LabelMap, PixelIndex, UNASSIGNED};

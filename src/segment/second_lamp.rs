@@ -8,19 +8,16 @@
 //! compressed one, in a scene whose ambient light has another color than the lamp. Of twelve scenes of balls under two lamps it is found in
 //! eight, with an error of .1° to 3.4°.
 //!
-//! Each region is split with the lamp that its own highlights agree with, a region without highlights with that of the nearest region.
+//! Each region is split with the lamp that its own highlights agree with, a region without highlights with that of the nearest region
+//! (`lit_regions`). A second lamp that was given is not sought: the regions' highlights only tell which of both lights each region.
 
 use super::evidence::{branch_constraint, plane_of_highlights};
 use super::illuminant::{Constraint, Prior, intersect, white_offsets_deg};
-use super::input::AnalysisInput;
-use super::light::SecondLampFindings;
-use super::planar_hypothesis::PlanarHypothesis;
+use super::lit_regions::{SecondLamp, lights_of_regions};
 use super::two_lights::Evidence;
 use crate::color::{Vec3, axis_angle_deg};
-use crate::raster::{HypothesisId, LabelMap, Mask, Raster};
-use crate::reflection::PlaneAxes;
+use crate::raster::{HypothesisId, LabelMap};
 use crate::trace::{LampLimits, LampOfRegion, LampsCompared};
-use rayon::prelude::*;
 
 /// The limits of the search.
 pub const LAMP_LIMITS: LampLimits = LampLimits {
@@ -35,55 +32,8 @@ pub const LAMP_LIMITS: LampLimits = LampLimits {
 };
 /// Error that is added to two standard deviations of a constraint, degrees: of a plane, and of a direction within a plane.
 const MARGINS_DEG: [f64; 2] = [0.7, 1.5];
-/// Distance from the matte line beyond which a pixel is a highlight, radii of the cylinder.
-const HIGHLIGHT_RADII: f64 = 2.0;
 /// Standard deviation of the prior white when the second lamp is fitted, degrees.
 const PRIOR_SD_DEG: f64 = 30.0;
-
-/// The second lamp, and the regions that it lights.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SecondLamp {
-    /// Unit direction of the lamp's color.
-    pub direction: Vec3,
-    /// Two standard deviations of the direction, degrees.
-    pub interval_deg: f64,
-    /// Number of regions whose highlights agree with the lamp.
-    pub regions: usize,
-    /// Whether the second lamp lights each region, by [`HypothesisId::index`].
-    pub lights: Vec<bool>,
-}
-
-impl SecondLamp {
-    /// What the result tells of the lamp.
-    pub fn findings(&self) -> SecondLampFindings {
-        SecondLampFindings {
-            direction: self.direction.into(),
-            interval_deg: self.interval_deg,
-            regions: self.regions,
-        }
-    }
-
-    /// The pixels that the second lamp lights: those whose nearest highlight is in a region of that lamp. `labels`: region of each pixel, with
-    /// the planes of `hypotheses`.
-    pub fn lit_pixels(
-        &self,
-        input: &AnalysisInput,
-        labels: &LabelMap,
-        hypotheses: &[PlanarHypothesis],
-    ) -> Mask {
-        let planes: Vec<Option<PlaneAxes>> =
-            hypotheses.iter().map(|hypothesis| hypothesis.plane.map(|plane| plane.coordinates())).collect();
-        let least_offset = (HIGHLIGHT_RADII * input.used.radius_counts()) as f32;
-        let seed = |pixel: usize| {
-            let id = HypothesisId::from_label(labels[pixel]).filter(|_| input.masks.usable(pixel))?;
-            let axes = planes.get(id.index()).copied().flatten()?;
-            (axes.of(input.pixels[pixel]).offset > least_offset)
-                .then(|| self.lights.get(id.index()).copied())?
-        };
-        let seeds = (0..labels.len()).into_par_iter().map(seed).collect();
-        nearest_lamp(&Raster::from_vec(labels.width(), labels.height(), seeds).unwrap_or_default())
-    }
-}
 
 /// What the highlights of one region tell of the light.
 struct Opinion {
@@ -168,45 +118,73 @@ pub fn second_lamp(
     let found = fitted.filter(|(candidate, _)| {
         is_lamp(&candidate.light, first, &limits) && candidate.is_accepted(contradicting.len())
     });
-    let lamp_of = |opinion: &Opinion| {
-        let misfits = [Some(*first), found.as_ref().map(|(candidate, _)| candidate.light)]
-            .map(|light| light.map(|light| opinion.misfit(&light)));
-        LampOfRegion { hypothesis: opinion.hypothesis, misfits }
-    };
     let compared = LampsCompared {
         first: (*first).into(),
         second: found.as_ref().map(|(candidate, _)| candidate.light.into()),
+        given: false,
         interval_deg: found.as_ref().map(|(_, interval_deg)| *interval_deg),
         contradicting: contradicting.len() as u32,
         agreeing: found.as_ref().map_or(0, |(candidate, _)| candidate.agreeing.len() as u32),
-        regions: opinions.iter().map(lamp_of).collect(),
+        regions: lamps_of_regions(&opinions, first, found.as_ref().map(|(candidate, _)| &candidate.light)),
         limits,
     };
-    let lamp = found.map(|(candidate, interval_deg)| {
-        let mut known = vec![None; count];
-        for region in &compared.regions {
-            known[region.hypothesis.index()] = Some(region.is_second());
-        }
-        let lights = lights_of_regions(matte_labels, &known);
-        SecondLamp { direction: candidate.light, interval_deg, regions: candidate.agreeing.len(), lights }
+    let lamp = found.map(|(candidate, interval_deg)| SecondLamp {
+        direction: candidate.light,
+        interval_deg: Some(interval_deg),
+        regions: candidate.agreeing.len(),
+        lights: regions_lit_by_second(&compared, matte_labels, count),
     });
     Some((compared, lamp))
 }
 
-/// Whether the second lamp lights each region: as far as `known`, and else as it lights most of the region's pixels by the nearest region
-/// that is known.
-fn lights_of_regions(labels: &LabelMap, known: &[Option<bool>]) -> Vec<bool> {
-    let seeds = labels.map(|&label| {
-        HypothesisId::from_label(label).and_then(|id| known.get(id.index()).copied().flatten())
-    });
-    let nearest = nearest_lamp(&seeds);
-    let mut votes = vec![0i64; known.len()];
-    for (&label, &second) in labels.as_slice().iter().zip(nearest.as_slice()) {
-        if let Some(vote) = HypothesisId::from_label(label).and_then(|id| votes.get_mut(id.index())) {
-            *vote += if second { 1 } else { -1 };
-        }
+/// The regions that the second lamp lights, where the colors of both lamps, unit, are given or known otherwise: no lamp is sought.
+/// Arguments and result as of [`second_lamp`].
+pub fn given_second_lamp(
+    evidence: &[Evidence],
+    first: &Vec3,
+    second: &Vec3,
+    matte_labels: &LabelMap,
+    count: usize,
+) -> (LampsCompared, SecondLamp) {
+    let opinions: Vec<Opinion> = evidence.iter().filter_map(Opinion::of).collect();
+    let contradicts = |opinion: &&Opinion| opinion.misfit(first) > LAMP_LIMITS.contradicts;
+    let agrees = |opinion: &&Opinion| opinion.misfit(second) < LAMP_LIMITS.agrees;
+    let contradicting = opinions.iter().filter(contradicts);
+    let compared = LampsCompared {
+        first: (*first).into(),
+        second: Some((*second).into()),
+        given: true,
+        interval_deg: None,
+        contradicting: contradicting.clone().count() as u32,
+        agreeing: contradicting.filter(agrees).count() as u32,
+        regions: lamps_of_regions(&opinions, first, Some(second)),
+        limits: LAMP_LIMITS,
+    };
+    let lamp = SecondLamp {
+        direction: *second,
+        interval_deg: None,
+        regions: compared.regions.iter().filter(|region| region.is_second()).count(),
+        lights: regions_lit_by_second(&compared, matte_labels, count),
+    };
+    (compared, lamp)
+}
+
+/// How well the highlights of each region agree with both lamps.
+fn lamps_of_regions(opinions: &[Opinion], first: &Vec3, second: Option<&Vec3>) -> Vec<LampOfRegion> {
+    let lamp_of = |opinion: &Opinion| LampOfRegion {
+        hypothesis: opinion.hypothesis,
+        misfits: [Some(first), second].map(|light| light.map(|light| opinion.misfit(light))),
+    };
+    opinions.iter().map(lamp_of).collect()
+}
+
+/// Whether the second lamp lights each of `count` regions, as the comparison says, and elsewhere as it lights the nearest region.
+fn regions_lit_by_second(compared: &LampsCompared, matte_labels: &LabelMap, count: usize) -> Vec<bool> {
+    let mut known = vec![None; count];
+    for region in &compared.regions {
+        known[region.hypothesis.index()] = Some(region.is_second());
     }
-    known.iter().zip(votes).map(|(known, votes)| known.unwrap_or(votes > 0)).collect()
+    lights_of_regions(matte_labels, &known)
 }
 
 /// The lights that could be the second lamp: those of each opinion, and those that two planes contain.
@@ -260,35 +238,11 @@ impl<'o> Candidate<'o> {
     }
 }
 
-/// The pixels that the second lamp lights: those whose nearest seed is one of the second lamp. `seeds`: the pixels known to be lit by the first
-/// lamp (`Some(false)`) and by the second (`Some(true)`). The distance counts steps to pixels that share a side.
-fn nearest_lamp(seeds: &Raster<Option<bool>>) -> Mask {
-    let mut lit = seeds.clone();
-    let mut front: Vec<u32> =
-        (0..lit.len()).filter(|&pixel| lit[pixel].is_some()).map(|pixel| pixel as u32).collect();
-    while !front.is_empty() {
-        let mut next = Vec::new();
-        for pixel in front {
-            let lamp = lit[pixel as usize];
-            lit.for_each_neighbor(pixel as usize, |near| next.push((near, lamp)));
-        }
-        next.retain(|&(near, lamp)| {
-            let is_new = lit[near].is_none();
-            if is_new {
-                lit[near] = lamp;
-            }
-            is_new
-        });
-        front = next.into_iter().map(|(near, _)| near as u32).collect();
-    }
-    lit.map(|lamp| *lamp == Some(true))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::color::Line;
-    use crate::raster::UNASSIGNED;
+    use crate::raster::{Raster, UNASSIGNED};
     use crate::reflection::DichromaticPlane;
     use crate::segment::in_plane::{InPlane, Rise};
 
@@ -335,6 +289,29 @@ mod tests {
     }
 
     #[test]
+    fn a_given_lamp_lights_the_regions_whose_highlights_agree_with_it_better_than_with_the_first() {
+        let labels = Raster::from_vec(6, 2, [1, 2, 3, 4, 5, 6].repeat(2)).unwrap();
+        let [first, second] = LAMPS.map(|lamp| Vec3::from(lamp).normalize());
+        let lamp_of = |index: usize| usize::from(index == 4);
+        let evidence: Vec<Evidence> =
+            (0..5).map(|index| evidence(index, BODIES[index], LAMPS[lamp_of(index)])).collect();
+        assert!(
+            second_lamp(&evidence, &first, 1.0, &labels, 6).is_none(),
+            "one region alone is no second lamp"
+        );
+        let (compared, lamp) = given_second_lamp(&evidence, &first, &second, &labels, 6);
+        assert_eq!(lamp.lights, [false, false, false, false, true, true], "the last has no highlights");
+        assert_eq!((lamp.regions, lamp.direction, lamp.interval_deg), (1, second, None));
+        assert!(compared.given && compared.contradicting == 1 && compared.agreeing == 1, "{compared:?}");
+        let (_, none) = given_second_lamp(&[], &first, &second, &labels, 6);
+        assert_eq!(
+            (none.regions, none.lights),
+            (0, vec![false; 6]),
+            "no highlights, no region of the second lamp"
+        );
+    }
+
+    #[test]
     fn one_region_alone_and_regions_that_do_not_agree_are_no_lamp() {
         assert_eq!(found([false; 5]), None);
         assert_eq!(found([false, true, false, false, false]), None, "a print, or a metal");
@@ -357,13 +334,5 @@ mod tests {
         assert!(lamp(6.0).1.is_some(), "the lamps are 12.6\u{b0} apart");
         let (compared, none) = lamp(20.0);
         assert!(none.is_none() && compared.second.is_none(), "{compared:?}");
-    }
-
-    #[test]
-    fn each_pixel_is_lit_by_the_lamp_of_the_nearest_seed() {
-        let seeds = [Some(false), None, None, None, None, Some(true), None].to_vec();
-        let lit = nearest_lamp(&Raster::from_vec(7, 1, seeds).unwrap());
-        assert_eq!(lit.as_slice(), [false, false, false, true, true, true, true]);
-        assert_eq!(nearest_lamp(&Raster::filled(2, 2, None)).count(), 0, "without a seed");
     }
 }

@@ -138,6 +138,7 @@ pub fn setting_changes(before: &Params, after: &Params) -> Vec<SettingChange> {
         add(parameter.spec().name, asked(before), asked(after));
     }
     add("illuminant", before.illuminant.to_string(), after.illuminant.to_string());
+    add("second_illuminant", before.second_illuminant.to_string(), after.second_illuminant.to_string());
     add("ambient", before.ambient.to_string(), after.ambient.to_string());
     let word = |on: bool| if on { "on" } else { "off" }.to_owned();
     let (old, new) = (before.refinements(), after.refinements());

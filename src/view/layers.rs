@@ -47,7 +47,10 @@ impl Layer {
 
     /// Whether the layer is drawn over the photograph, as fills or outlines, and not in place of the photograph.
     pub const fn is_overlay(self) -> bool {
-        matches!(self.row().kind, LayerKind::Overlay | LayerKind::RegionOverlay | LayerKind::LabelOverlay)
+        matches!(
+            self.row().kind,
+            LayerKind::Overlay | LayerKind::LampOverlay | LayerKind::RegionOverlay | LayerKind::LabelOverlay
+        )
     }
 
     /// Whether the picture depends on a result.
@@ -61,8 +64,17 @@ impl Layer {
             LayerKind::Comparison => Some(LayerNeed::Pinned),
             LayerKind::LabelOverlay => Some(LayerNeed::Elsewhere(ElsewhereKind::Labels)),
             LayerKind::Diffuse => Some(LayerNeed::Elsewhere(ElsewhereKind::Diffuse)),
-            LayerKind::Photograph | LayerKind::Result | LayerKind::Overlay | LayerKind::RegionOverlay => None,
+            LayerKind::Photograph
+            | LayerKind::Result
+            | LayerKind::Overlay
+            | LayerKind::LampOverlay
+            | LayerKind::RegionOverlay => None,
         }
+    }
+
+    /// Whether the layer is empty where one lamp lights the scene.
+    pub const fn needs_second_lamp(self) -> bool {
+        matches!(self.row().kind, LayerKind::LampOverlay)
     }
 
     /// Whether the layer dims the regions that are not selected.

@@ -15,6 +15,7 @@ mod grouped;
 mod histogram;
 mod inspection;
 mod item;
+mod lamps;
 mod layers;
 mod legend_entry;
 pub mod marking;
@@ -60,6 +61,7 @@ pub use inspection::{
     inspect_marked, inspect_step, step_verdict,
 };
 pub use item::{Item, Selection};
+pub use lamps::{Lamp, LampOfPixels};
 pub(crate) use layers::layer_floats;
 pub use layers::{
     Against, DIFFERENCE_COUNTS, Fill, Layer, LayerNeed, LayerPixels, Look, class_entries, instant_legend,

@@ -1,7 +1,7 @@
 //! What is known of one pixel: place, color, class, kind, region and amounts, in the result or at the debugger's cursor. The readout and
 //! the inspector show the same reading.
 
-use super::{ElsewherePixel, Picture, PixelAmounts, RegionNames, ResultSnapshot};
+use super::{ElsewherePixel, Lamp, LampOfPixels, Picture, PixelAmounts, RegionNames, ResultSnapshot};
 use crate::intrinsic::PixelKind;
 use crate::raster::{HypothesisId, PixelIndex};
 use crate::trace::{Class, Replay};
@@ -30,6 +30,8 @@ pub struct AnalyzedPixel {
     pub region: Option<u16>,
     /// The amounts; none in no region.
     pub amounts: Option<PixelAmounts>,
+    /// The lamp that the pixel is split with; none in a result with one lamp, and where the pixel is not split.
+    pub lamp: Option<Lamp>,
 }
 
 impl PixelReading {
@@ -57,7 +59,8 @@ impl PixelReading {
         });
         let hypothesis = HypothesisId::from_label(*replay.labels().as_slice().get(working_pixel)?);
         let region = hypothesis.map(HypothesisId::get);
-        let analyzed = AnalyzedPixel { class, kind: replay.kind(working_pixel), region, amounts: None };
+        let kind = replay.kind(working_pixel);
+        let analyzed = AnalyzedPixel { class, kind, region, amounts: None, lamp: None };
         let chip = hypothesis.map(|hypothesis| names.color(hypothesis));
         let at = [pixel % image.width(), pixel / image.width()];
         Some(Self { at, color, analyzed: Some(analyzed), chip, elsewhere: None })
@@ -74,6 +77,7 @@ impl AnalyzedPixel {
             kind: intrinsic.kinds[pixel],
             region: has_region.then_some(label),
             amounts: PixelAmounts::of(shown, PixelIndex::from_index(pixel)),
+            lamp: LampOfPixels::of(&shown.analysis).and_then(|lamps| lamps.at(pixel)),
         }
     }
 }

@@ -4,7 +4,7 @@ use super::{Layer, ResultSnapshot, counted};
 use crate::intrinsic::RegionReflection;
 use crate::params::Baseline;
 use crate::raster::RegionId;
-use crate::segment::{LightBasis, TEXTURE_CORRELATION};
+use crate::segment::{LightBasis, LightFindings, TEXTURE_CORRELATION};
 
 /// Half the interval of the light's direction from which the light counts as uncertain, degrees.
 pub const WIDE_INTERVAL_DEG: f64 = 10.0;
@@ -115,10 +115,16 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
     let interval =
         findings.interval_deg.map_or_else(String::new, |degrees| format!(", \u{b1}{degrees:.1}\u{b0}"));
     let is_bad = findings.interval_deg.is_some_and(|degrees| degrees >= WIDE_INTERVAL_DEG);
-    let second = findings.lamps_angle_deg().map_or_else(String::new, |degrees| {
-        format!("; a second lamp, {degrees:.0}\u{b0} from the first, lights a part of the scene")
-    });
+    let second = second_lamp_words(findings).unwrap_or_default();
     Clause { text: format!("{text}{interval}{second}"), subject, is_bad }
+}
+
+/// What the second lamp does, as the end of a clause; none with one lamp.
+fn second_lamp_words(findings: &LightFindings) -> Option<String> {
+    let (second, degrees) = (findings.second?, findings.lamps_angle_deg()?);
+    let given = if second.given { ", given" } else { "" };
+    let lights = if second.given && second.regions == 0 { "no region" } else { "a part of the scene" };
+    Some(format!("; a second lamp{given}, {degrees:.0}\u{b0} from the first, lights {lights}"))
 }
 
 /// How much nearer to the truth the body image is than the photograph, where the truth is known and the method has a body image of its

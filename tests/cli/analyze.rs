@@ -381,6 +381,8 @@ fn the_call_that_the_window_hands_out_writes_the_windows_result() {
         Edit::PinIlluminant(Some([1.0, 0.75, 0.5]), None),
     ];
     assert_that_the_call_repeats(edits.into());
+    let second = Edit::PinSecondIlluminant(Some([0.25, 0.5, 1.0]), None);
+    assert_that_the_call_repeats(vec![Edit::PinIlluminant(Some([1.0, 0.75, 0.5]), None), second]);
     let edits = [
         Edit::SetMethod(Method::Paper),
         Edit::SetSwitch(Switch::EdgeBody, true),

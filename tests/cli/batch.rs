@@ -119,10 +119,11 @@ fn a_report_is_valid_by_the_published_schema() {
     work.succeeds(
         "analyze a.png --out other --method paper --area mask.pgm --illuminant 1,1,1 --ambient 1,2,3",
     );
+    work.succeeds("analyze a.png --out lamps --illuminant 1,1,1 --second-illuminant 1,2,3");
     let schema = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/report.schema.json");
     let schema: Value = serde_json::from_slice(&fs::read(schema).unwrap()).unwrap();
     let validator = jsonschema::validator_for(&schema).unwrap();
-    for folder in ["plain/a", "plain/dark", "other/a"] {
+    for folder in ["plain/a", "plain/dark", "other/a", "lamps/a"] {
         let text = fs::read(work.path(folder).join("report.json")).unwrap();
         let mut report: Value = serde_json::from_slice(&text).unwrap();
         let errors: Vec<String> = validator.iter_errors(&report).map(|error| error.to_string()).collect();

@@ -97,6 +97,37 @@ fn a_light_can_be_given_and_the_report_says_so() {
 }
 
 #[test]
+fn a_second_lamp_can_be_given_and_the_report_says_so() {
+    let work = WorkFolder::new();
+    work.photo("a.png");
+    work.put("p.toml", b"illuminant = [1, 1, 1]\nsecond_illuminant = [1, 2, 3]\n");
+    work.succeeds("analyze a.png --out out --params p.toml --second-illuminant 2,3,6");
+    let report = work.report("out/a");
+    assert_eq!(report.params.second_illuminant.asked, IlluminantSetting::Given([2.0, 3.0, 6.0]));
+    let second = report.illuminant.second.unwrap();
+    assert!(second.given && second.interval_deg.is_none(), "{second:?}");
+    let of_sevenths = second.direction.iter().zip([2.0, 3.0, 6.0]);
+    assert!(of_sevenths.clone().all(|(band, sevenths)| (band - sevenths / 7.0).abs() < 1e-12), "{second:?}");
+    assert_eq!(report.params.second_illuminant.used, Some(second.direction));
+    work.succeeds("analyze a.png --out out --params p.toml --second-illuminant auto");
+    assert!(work.report("out/a").illuminant.second.is_none(), "beside a given light none is sought");
+    let start = "second_illuminant = [1.0, 0.0, 1.0]: expected `auto` or three numbers above 0";
+    work.fails(2, "analyze a.png --out out --second-illuminant 1,0,1", start);
+    work.fails(
+        2,
+        "analyze a.png --out out --method paper --second-illuminant 1,2,3",
+        "second_illuminant = [1.0, 2.0, 3.0] with method = paper: expected `auto`",
+    );
+    work.fails(
+        2,
+        "analyze a.png --out out --illuminant 1,1,1 --second-illuminant 2,2,2.01",
+        "expected a color at least 1\u{b0} from illuminant = [1.0, 1.0, 1.0]",
+    );
+    work.put("p.toml", b"illuminant = [1, 1, 1]\nsecond_illuminant = [1, 0, 3]\n");
+    work.fails(2, "analyze a.png --out out --params p.toml", "p.toml: second_illuminant = [1.0, 0.0, 3.0]");
+}
+
+#[test]
 fn mistakes_in_the_file_are_named_with_their_line() {
     let work = WorkFolder::new();
     work.photo("a.png");

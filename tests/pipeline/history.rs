@@ -141,7 +141,13 @@ proptest! {
                         let length = |c: [f32; 3]| c.iter().map(|v| v * v).sum::<f32>().sqrt();
                         // Near another region only a part of the surface reflection stays, and the rest is body reflection.
                         let kept = story.border.map_or(1.0, |border| border.kept);
-                        (nearer || kept <= 0.0) && story.amounts.is_none_or(|amounts| {
+                        // Where the plane is not used, the amounts are those that the plane would give, and nothing of the color is lost.
+                        let color = traced.image.pixels[pixel];
+                        let is_whole = (0..3).all(|band| {
+                            (intrinsic.body[pixel][band] + intrinsic.surface[pixel][band] - color[band]).abs() < 0.05
+                        });
+                        let is_believed = matches!(story.kind, PixelKind::Matte | PixelKind::Highlight);
+                        (story.unfit.is_some() && (is_whole || !is_believed)) || (nearer || kept <= 0.0) && story.amounts.is_none_or(|amounts| {
                             let body = length(intrinsic.body[pixel]);
                             let is_body = (amounts.body.abs() - body).abs() < 0.05;
                             (if story.border.is_none() { is_body } else { body >= amounts.body - 0.05 })

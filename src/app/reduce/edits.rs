@@ -34,7 +34,10 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
             match state.document.selection.marked.clone().filter(|_| area.is_none()) {
                 // The method by hand has no use for the whole picture where pixels are marked.
                 Some(marked) if method == Method::ByHand => fit_skewed_t(state, marked),
-                _ => edit_params(state, None, |params| *params = with_method(params, method)),
+                _ => {
+                    tell_of_lost_lamp(state, method);
+                    edit_params(state, None, |params| *params = with_method(params, method))
+                }
             }
         }
         Edit::SetSwitch(switch, on) => {
@@ -44,7 +47,12 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
             edit_params(state, None, |params| params.paper.readings.set(reading, on))
         }
         Edit::SetParams(params) => edit_params(state, None, |old| *old = *params),
-        Edit::PinIlluminant(direction, gesture) => pin_illuminant(state, direction, gesture),
+        Edit::PinIlluminant(direction, gesture) => {
+            edit_params(state, gesture, |params| params.illuminant = illuminant_setting(direction))
+        }
+        Edit::PinSecondIlluminant(direction, gesture) => {
+            edit_params(state, gesture, |params| params.second_illuminant = illuminant_setting(direction))
+        }
         Edit::SetAmbient(setting, gesture) => edit_params(state, gesture, |params| params.ambient = setting),
         Edit::FitSkewedT(marked) => fit_skewed_t(state, marked),
         Edit::RestrictTo(area) => edit(state, None, |document| document.area = area),
@@ -140,10 +148,21 @@ pub(super) fn analyze(state: &mut State) -> Vec<Effect> {
     stop.into_iter().chain([Effect::Analyze]).collect()
 }
 
-/// Sets a direction of the light, or lets the analysis find the light.
-fn pin_illuminant(state: &mut State, direction: Option<[f64; 3]>, gesture: Option<Gesture>) -> Vec<Effect> {
-    let setting = direction.map_or(IlluminantSetting::Auto, IlluminantSetting::Given);
-    edit_params(state, gesture, |params| params.illuminant = setting)
+/// The setting of a lamp with this direction; none: the analysis finds the lamp.
+fn illuminant_setting(direction: Option<[f64; 3]>) -> IlluminantSetting {
+    direction.map_or(IlluminantSetting::Auto, IlluminantSetting::Given)
+}
+
+/// Says that a given second lamp is not kept under a method that splits with one lamp.
+fn tell_of_lost_lamp(state: &mut State, method: Method) {
+    let is_given = state.document.params.second_illuminant != IlluminantSetting::Auto;
+    if is_given && method != Method::Refined {
+        let text = format!(
+            "the second lamp that was given is let go: {} splits with one lamp, only the refined method with two; undo brings the lamp back",
+            method.name()
+        );
+        state.notify(Severity::Warning, text);
+    }
 }
 
 /// Chooses the method by hand and restricts the analysis to the marked pixels, in one step of the history. Their region is selected when the
@@ -152,6 +171,7 @@ fn fit_skewed_t(state: &mut State, marked: Arc<Mask>) -> Vec<Effect> {
     if let Some(after) = state.after_pin.take() {
         state.document.params = after.params;
     }
+    tell_of_lost_lamp(state, Method::ByHand);
     let params = with_method(&state.document.params, Method::ByHand);
     if params == state.document.params
         && state.document.area.as_ref().is_some_and(|area| Arc::ptr_eq(area, &marked))
@@ -166,10 +186,14 @@ fn fit_skewed_t(state: &mut State, marked: Arc<Mask>) -> Vec<Effect> {
     effects
 }
 
-/// `params` with the other method: each parameter at the old method's default gets the new method's default.
+/// `params` with the other method: each parameter at the old method's default gets the new method's default. A given second lamp is kept
+/// under the refined method alone.
 fn with_method(params: &Params, method: Method) -> Params {
     let (from, to) = (Params::of(params.method), Params::of(method));
     let mut changed = Params { method, ..*params };
+    if method != Method::Refined {
+        changed.second_illuminant = IlluminantSetting::Auto;
+    }
     for parameter in Parameter::ALL {
         if params.get(parameter) == from.get(parameter) {
             *changed.slot(parameter) = to.get(parameter);

@@ -183,6 +183,25 @@ fn a_pinned_illuminant_is_a_parameter() {
 }
 
 #[test]
+fn a_pinned_second_lamp_is_a_parameter_of_the_refined_method() {
+    let mut application = opened_tiny();
+    let lamp = |application: &Application| application.state().document.params.second_illuminant;
+    application.apply(Edit::PinSecondIlluminant(Some([0.5, 0.8, 1.0]), None));
+    assert_eq!(lamp(&application), IlluminantSetting::Given([0.5, 0.8, 1.0]));
+    let second = application.state().shown().unwrap().analysis.finals.light.second.unwrap();
+    assert!(second.given && (second.direction[0] - 0.5 / 1.89f64.sqrt()).abs() < 1e-9, "{second:?}");
+    application.apply(Edit::PinSecondIlluminant(Some([0.5, 0.0, 1.0]), None));
+    assert_eq!(application.state().notices.len(), 1, "a lamp lacks no band");
+    application.apply(Edit::SetMethod(Method::Paper));
+    assert_eq!(lamp(&application), IlluminantSetting::Auto);
+    assert!(application.state().notices[1].text.contains("is let go: paper splits with one lamp"));
+    application.apply(Edit::Undo);
+    assert_eq!(lamp(&application), IlluminantSetting::Given([0.5, 0.8, 1.0]), "undo brings it back");
+    application.apply(Edit::PinSecondIlluminant(None, None));
+    assert_eq!(lamp(&application), IlluminantSetting::Auto);
+}
+
+#[test]
 fn a_second_photograph_keeps_the_parameters_and_forgets_the_rest() {
     let mut application = opened_tiny();
     application.apply(set_sigma(4.0));

@@ -221,6 +221,15 @@ impl Describe for LampsCompared {
         };
         let lit = self.regions.iter().filter(|region| region.is_second());
         let lit: Vec<String> = lit.map(|region| names.hypothesis(region.hypothesis)).collect();
+        if self.given {
+            let lit = if lit.is_empty() { "no region".to_owned() } else { lit.join(", ") };
+            return format!(
+                "the second lamp was given, {}, beside {}: of {} with highlights those agree better with the second lamp that it lights, {lit}",
+                direction(*second),
+                direction(self.first),
+                count(self.regions.len() as u32, "region"),
+            );
+        }
         let error =
             self.interval_deg.map_or_else(String::new, |degrees| format!(" \u{b1} {degrees:.1}\u{b0}"));
         format!(
@@ -242,6 +251,7 @@ impl Describe for LampsCompared {
             json!({
                 "first": self.first,
                 "second": self.second,
+                "given": self.given,
                 "interval_deg": self.interval_deg,
                 "contradicting": self.contradicting,
                 "agreeing": self.agreeing,
@@ -266,6 +276,7 @@ impl Describe for LampsCompared {
         Self {
             first: [0.6, 0.0, 0.8],
             second: Some([0.8, 0.0, 0.6]),
+            given: false,
             interval_deg: Some(0.5),
             contradicting: 2,
             agreeing: 2,

@@ -5,9 +5,10 @@ use crate::gui::glossary::Term;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets::{self, with_subscripts};
 use crate::intrinsic::PixelKind;
-use crate::view::{Amounts, Item, PixelReading};
+use crate::view::{Amounts, Item, PixelReading, ResultSnapshot};
 use egui::accesskit::Role;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
+use std::sync::Arc;
 
 /// Height of a line, points.
 const LINE_PT: f32 = 18.0;
@@ -48,7 +49,7 @@ const fn word(name: &'static str, widest: &'static str, tip: &'static str) -> Ce
 }
 
 /// The groups of cells. Values are lists of the same shape.
-const GROUPS: [&[Cell]; 6] = [
+const GROUPS: [&[Cell]; 7] = [
     &[
         number("x", "8888", Tip::Text("Column, from 0 at the left")),
         number("y", "8888", Tip::Text("Row, from 0 at the top")),
@@ -89,10 +90,28 @@ const GROUPS: [&[Cell]; 6] = [
         number("G", "888.8", Tip::Text("Diffuse picture of the other program, linear counts of green")),
         number("B", "888.8", Tip::Text("Diffuse picture of the other program, linear counts of blue")),
     ],
+    &[word("lamp", "second", "The lamp that the pixel is split with (section 7.5)")],
 ];
-/// Index of the group of the amounts as measured, and of the group of another program's values.
+/// Index of the group of the amounts as measured, of the group of another program's values, and of the group of the lamp.
 const MEASURED: usize = 4;
 const OTHER: usize = 5;
+const LAMP: usize = 6;
+
+/// Which groups have values beside those of every photograph.
+#[derive(Clone, Copy)]
+struct Extras {
+    /// A picture of another program is open.
+    other: bool,
+    /// The result has two lamps.
+    lamps: bool,
+}
+
+impl Extras {
+    fn of(state: &State) -> Self {
+        let has_lamps = |shown: &Arc<ResultSnapshot>| shown.analysis.finals.light.second.is_some();
+        Self { other: state.elsewhere.is_some(), lamps: state.shown().is_some_and(has_lamps) }
+    }
+}
 
 /// Texts of the cells, by group and cell; empty for no value.
 type Values = [Vec<String>; GROUPS.len()];
@@ -101,12 +120,13 @@ type Values = [Vec<String>; GROUPS.len()];
 const NARROW_PT: f32 = 420.0;
 
 /// The groups of a strip of this width, each with its upper left corner from the strip's upper left corner: groups that do not fit into a
-/// line begin another, and a strip that `is_low` has one line. `has_other`: whether a picture of another program is open.
-fn shown_groups(ui: &Ui, width: f32, is_low: bool, has_other: bool) -> Vec<(usize, Pos2)> {
+/// line begin another, and a strip that `is_low` has one line.
+fn shown_groups(ui: &Ui, width: f32, is_low: bool, extras: Extras) -> Vec<(usize, Pos2)> {
     let gap = if width < NARROW_PT { CELL_GAP_PT } else { GROUP_GAP_PT };
     let is_shown = |group: usize| match group {
         MEASURED => is_low || width >= NARROW_PT,
-        OTHER => has_other,
+        OTHER => extras.other,
+        LAMP => extras.lamps,
         _ => true,
     };
     let mut at = Pos2::ZERO;
@@ -125,10 +145,9 @@ fn shown_groups(ui: &Ui, width: f32, is_low: bool, has_other: bool) -> Vec<(usiz
     shown
 }
 
-/// Height of the strip, points. `is_low`: whether the strip has one line, as in a low panel. `has_other`: whether a picture of another
-/// program is open.
-pub fn height(ui: &Ui, width: f32, is_low: bool, has_other: bool) -> f32 {
-    let groups = shown_groups(ui, width, is_low, has_other);
+/// Height of the strip, points. `is_low`: whether the strip has one line, as in a low panel.
+pub fn height(ui: &Ui, state: &State, width: f32, is_low: bool) -> f32 {
+    let groups = shown_groups(ui, width, is_low, Extras::of(state));
     groups.last().map_or(0.0, |(_, place)| place.y) + LINE_PT
 }
 
@@ -174,6 +193,7 @@ pub fn show(ui: &mut Ui, state: &State, palette: &ThemeColors, is_low: bool) {
         None,
         None,
         None,
+        None,
     ];
     if readout.is_none() {
         let text = "Point at a pixel to read its values.";
@@ -186,7 +206,7 @@ pub fn show(ui: &mut Ui, state: &State, palette: &ThemeColors, is_low: bool) {
         ui.painter().galley(full.min + vec2(0.0, 2.0), galley, palette.secondary);
         return;
     }
-    for (group, place) in shown_groups(ui, full.width(), is_low, state.elsewhere.is_some()) {
+    for (group, place) in shown_groups(ui, full.width(), is_low, Extras::of(state)) {
         // Measured amounts that are those of the result are not repeated.
         if group == MEASURED && values[MEASURED].is_empty() {
             continue;
@@ -267,6 +287,7 @@ fn values_of(reading: &PixelReading) -> Values {
         if is_in_region { analyzed.kind.name().to_owned() } else { String::new() },
         analyzed.class.map_or_else(String::new, |class| class.name().to_owned()),
     ];
+    values[LAMP].extend(analyzed.lamp.map(|lamp| lamp.name().to_owned()));
     let surface = |amounts: &Amounts| amounts.surface.map_or_else(String::new, counts);
     if let Some(amounts) = &analyzed.amounts {
         let result = &amounts.result;

@@ -39,7 +39,16 @@ pub fn show_texts(
             let text = format!("Layer shown: {shown}");
             name.widget_info(|| WidgetInfo::labeled(Role::Label, true, text.clone()));
         }
-        overlay::layer_legend(&painter, cx.palette, part, layer, cx.state);
+        let is_compared = cx.state.compared_photograph().is_some() && slot == Slot::SecondLayer;
+        match cx.state.lacks(layer).filter(|_| !is_compared) {
+            None => overlay::layer_legend(&painter, cx.palette, part, layer, cx.state),
+            Some(lacking) => {
+                let corner = part.left_bottom() + vec2(6.0, -6.0);
+                let place = overlay::text_box(&painter, cx.palette, corner, Align2::LEFT_BOTTOM, lacking);
+                let why = ui.interact(place, ui.scope_id().with(("layer lacks", layer)), Sense::hover());
+                why.widget_info(|| WidgetInfo::labeled(Role::Label, true, lacking));
+            }
+        }
     }
     // The verdict under the picture says why there is no region.
     let is_told =

@@ -22,7 +22,11 @@ const TOOLS: [(Tool, &str, &str); 7] = [
     (Tool::Polygon, "Polygon", "Marks a polygon, corner by corner; double-click or Enter closes it."),
     (Tool::Brush, "Brush", "Marks what it sweeps over; Shift adds, Alt takes away."),
     (Tool::Profile, "Profile line", "The line of the profile; Shift keeps it in a row or column."),
-    (Tool::WhitePatch, "White patch", "Pins the light's color to the mean of a white patch (section 6)."),
+    (
+        Tool::WhitePatch,
+        "White patch",
+        "Pins the light's color to the mean of a white patch (section 6); with Shift the second lamp's (7.5).",
+    ),
 ];
 
 /// Shows the row. `zoom` is the current zoom, screen points per pixel; `actions` takes the exports that are asked for.

@@ -3,7 +3,8 @@
 use super::geometry::Placement;
 use super::icons::{corners, dashed};
 use super::overlay::MARK_COLOR;
-use crate::app::{Combine, Command, Edit, Gesture, Question, Severity, State, ViewCommand};
+use super::white_patch;
+use crate::app::{Combine, Command, Edit, Gesture, Question, State, ViewCommand};
 use crate::gui::PanelContext;
 use crate::raster::{Mask, PixelIndex};
 use crate::view::marking::{brush, outline, rectangle};
@@ -202,7 +203,7 @@ impl ToolState {
                 let mask = rectangle(picture_size(place), from.into(), pointer_px.into());
                 let is_click = (from - pointer_px).abs().max_elem() * place.zoom < CLICK_TOLERANCE_PT;
                 match (self.tool, is_click) {
-                    (Tool::WhitePatch, false) => pin_illuminant(cx, &mask),
+                    (Tool::WhitePatch, false) => white_patch::pin_lamp(cx, &mask, modifiers.shift),
                     (Tool::WhitePatch, true) => {}
                     (_, false) => send_mark(cx, mask, modifiers),
                     (_, true) => clear_marks(cx, modifiers),
@@ -342,41 +343,6 @@ fn clear_marks(cx: &mut PanelContext, modifiers: Modifiers) {
         let nothing = Mask::filled(marked.width(), marked.height(), false);
         cx.send(Edit::Mark(Arc::new(nothing), Combine::Replace, None));
     }
-}
-
-/// Pins the light's color to the mean of the reliable pixels.
-fn pin_illuminant(cx: &mut PanelContext, mask: &Mask) {
-    let command: Command = match mean_direction(cx.state, mask) {
-        Some(direction) => Edit::PinIlluminant(Some(direction), None).into(),
-        None => ViewCommand::Notify(
-            Severity::Warning,
-            "white patch: all its pixels are clipped, black or hold no value; outline a darker part"
-                .to_owned(),
-        )
-        .into(),
-    };
-    cx.send(command);
-}
-
-/// The mean of the undistorted pixels of a mask, as a unit vector; none without such a pixel.
-fn mean_direction(state: &State, mask: &Mask) -> Option<[f64; 3]> {
-    let image = &state.picture.as_ref()?.photo.image;
-    let masks = state.newest.as_ref().map(|shown| &shown.analysis.masks);
-    let saturation = image.saturation.unwrap_or(f32::INFINITY);
-    let usable = |pixel: usize, color: &[f32; 3]| match masks {
-        Some(masks) => !masks.distorted(pixel) && !masks.invalid(pixel),
-        None => !image.invalid[pixel] && color.iter().all(|&band| band < saturation),
-    };
-    let mut sum = [0.0f64; 3];
-    for (pixel, color) in image.pixels.as_slice().iter().enumerate() {
-        if mask[pixel] && usable(pixel, color) {
-            for (sum, &band) in sum.iter_mut().zip(color) {
-                *sum += f64::from(band);
-            }
-        }
-    }
-    let length = sum.iter().map(|band| band * band).sum::<f64>().sqrt();
-    (length > 0.0).then(|| sum.map(|band| band / length))
 }
 
 /// The point on the row or column of `from` that is nearest to `to`.

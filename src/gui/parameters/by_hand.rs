@@ -1,16 +1,19 @@
-//! The values that a person gives by hand: the light, the ambient light and the analyzed area (sections 5.4 and 6).
+//! The values that a person gives by hand: the light, a second lamp, the ambient light and the analyzed area (sections 5.4 and 6).
 
 use super::columns::{GAP_PT, NARROW_PT, ROW_PT, VALUE_PT, label};
 use crate::app::{Edit, Gesture};
 use crate::gui::theme::SMALL_PT;
 use crate::gui::{PanelContext, widgets};
-use crate::params::{AmbientSetting, IlluminantSetting};
+use crate::params::{AmbientSetting, IlluminantSetting, Method, Params};
 use egui::{Align, Button, DragValue, Layout, RichText, Ui, vec2};
 
-/// Shows the values that a person gives by hand: the light, the ambient light and the analyzed area.
+/// Shows the values that a person gives by hand: the light, a second lamp, the ambient light and the analyzed area.
 pub fn given_by_hand(ui: &mut Ui, cx: &mut PanelContext) {
     widgets::heading(ui, cx.palette, "By hand");
     illuminant(ui, cx);
+    if cx.state.document.params.method == Method::Refined {
+        second_lamp(ui, cx);
+    }
     ambient(ui, cx);
     let (area, marked) = (&cx.state.document.area, &cx.state.document.selection.marked);
     let narrow = ui.available_width() < NARROW_PT;
@@ -47,32 +50,109 @@ pub fn given_by_hand(ui: &mut Ui, cx: &mut PanelContext) {
 fn illuminant(ui: &mut Ui, cx: &mut PanelContext) {
     let setting = cx.state.document.params.illuminant;
     let given = setting.direction();
-    // The numbers as typed: the components of a unit vector would all change with each digit.
-    let field = match setting {
-        IlluminantSetting::Given(bands) if bands.iter().all(|&band| band <= 1.0) => Some(bands),
-        _ => given,
-    };
     let found =
         cx.state.newest.as_ref().and_then(|shown| shown.analysis.illuminant).map(|light| light.direction);
     let tip =
         "The color of the light. Found, or given: then every dichromatic plane turns to it (section 5.4).";
-    let mut direction = field.or(found).unwrap_or([1.0, 1.0, 1.0].map(|v: f64| v / 3f64.sqrt()));
-    let field = Bands { name: "illuminant", tip, most: 1.0, speed: 0.002, decimals: 3 };
-    let [changed, released] = field.show(ui, &mut direction, |ui| {
+    let mut direction = typed_numbers(setting).or(found).unwrap_or(WHITE);
+    let field =
+        Bands { name: "illuminant", tip, range: [0.0, 1.0], speed: 0.002, decimals: 3, at_once: true };
+    let edited = field.show(ui, &mut direction, |ui| {
         let pin = Button::selectable(given.is_some(), RichText::new("pin").size(SMALL_PT));
         let pin = ui.add_enabled(given.is_some() || found.is_some(), pin);
         pin.widget_info(|| {
             let role = egui::accesskit::Role::CheckBox;
             egui::WidgetInfo::selected(role, true, given.is_some(), "pin illuminant")
         });
-        if pin.on_hover_text("Keep this light, or let it be found again.").clicked() {
-            cx.send(Edit::PinIlluminant(if given.is_some() { None } else { found }, None));
+        let tip =
+            "Keep this light, and the second lamp where one was found; or let the light be found again.";
+        if pin.on_hover_text(tip).clicked() {
+            pin_found_lamps(cx, if given.is_some() { None } else { found });
         }
     });
-    if changed {
+    if edited.changed {
         cx.send(Edit::PinIlluminant(Some(direction), Some(Gesture::Illuminant)));
     }
-    if released {
+    if edited.released {
+        cx.send(Edit::EndGesture);
+    }
+}
+
+/// A white light, unit.
+const WHITE: [f64; 3] = [0.577_350_269_189_625_8; 3];
+/// Least band of a second lamp that the fields accept.
+const LEAST_BAND: f64 = 0.001;
+
+/// The numbers of a given lamp as they were typed, where they are at most 1: the components of a unit vector would all change with each
+/// digit. Otherwise the unit direction; none where no lamp is given.
+fn typed_numbers(setting: IlluminantSetting) -> Option<[f64; 3]> {
+    match setting {
+        IlluminantSetting::Given(bands) if bands.iter().all(|&band| band <= 1.0) => Some(bands),
+        _ => setting.direction(),
+    }
+}
+
+/// Gives the light `direction`, or lets it be found; with a given light the second lamp that was found is given too, in one step of
+/// the history: beside a given light no second lamp is sought.
+fn pin_found_lamps(cx: &mut PanelContext, direction: Option<[f64; 3]>) {
+    cx.send(Edit::PinIlluminant(direction, Some(Gesture::Illuminant)));
+    let second = found_second_lamp(cx).filter(|_| direction.is_some());
+    if cx.state.document.params.second_illuminant == IlluminantSetting::Auto && second.is_some() {
+        cx.send(Edit::PinSecondIlluminant(second, Some(Gesture::Illuminant)));
+    }
+    cx.send(Edit::EndGesture);
+}
+
+/// The second lamp of the newest result, unit.
+fn found_second_lamp(cx: &PanelContext) -> Option<[f64; 3]> {
+    cx.state
+        .newest
+        .as_ref()
+        .and_then(|shown| shown.analysis.finals.light.second)
+        .map(|second| second.direction)
+}
+
+/// Shows the color of the second lamp: found, or given. Without either the numbers are those of the first light, in the secondary color,
+/// and wait for a color to be typed.
+fn second_lamp(ui: &mut Ui, cx: &mut PanelContext) {
+    let params = cx.state.document.params;
+    let (setting, found) = (params.second_illuminant, found_second_lamp(cx));
+    let given = setting.direction();
+    let first = cx.state.newest.as_ref().and_then(|shown| shown.analysis.illuminant);
+    let known = typed_numbers(setting).or(found);
+    let tip = if known.is_some() {
+        "The color of a second lamp (section 7.5, second_illuminant). Found, or given: then each region is split with the lamp that its \
+         highlights agree with."
+    } else {
+        "No second lamp was found (section 7.5). Type its color (second_illuminant), or draw a white patch in its light with Shift."
+    };
+    let mut direction = known.or(first.map(|light| light.direction)).unwrap_or(WHITE);
+    let range = [LEAST_BAND, 1.0];
+    let field = Bands { name: "second lamp", tip, range, speed: 0.002, decimals: 3, at_once: false };
+    let edited = ui
+        .scope(|ui| {
+            if known.is_none() {
+                ui.visuals_mut().override_text_color = Some(cx.palette.secondary);
+            }
+            field.show(ui, &mut direction, |ui| {
+                let pin = Button::selectable(given.is_some(), RichText::new("pin").size(SMALL_PT));
+                let pin = ui.add_enabled(given.is_some() || found.is_some(), pin);
+                pin.widget_info(|| {
+                    let role = egui::accesskit::Role::CheckBox;
+                    egui::WidgetInfo::selected(role, true, given.is_some(), "pin second lamp")
+                });
+                if pin.on_hover_text("Keep this lamp, or let a second lamp be sought again.").clicked() {
+                    cx.send(Edit::PinSecondIlluminant(if given.is_some() { None } else { found }, None));
+                }
+            })
+        })
+        .inner;
+    let next = Params { second_illuminant: IlluminantSetting::Given(direction), ..params };
+    // A drag goes through colors that are not accepted, such as that of the first light, and is not stopped there by errors.
+    if edited.changed && (!edited.dragged || next.validate().is_ok()) {
+        cx.send(Edit::PinSecondIlluminant(Some(direction), Some(Gesture::SecondIlluminant)));
+    }
+    if edited.released {
         cx.send(Edit::EndGesture);
     }
 }
@@ -88,8 +168,8 @@ fn ambient(ui: &mut Ui, cx: &mut PanelContext) {
         AmbientSetting::Off => [0.0; 3],
         AmbientSetting::Auto => found.and_then(|ambient| ambient.subtracted).unwrap_or_default(),
     };
-    let field = Bands { name: "ambient", tip, most: 200.0, speed: 0.1, decimals: 1 };
-    let [changed, released] = field.show(ui, &mut counts, |ui| {
+    let field = Bands { name: "ambient", tip, range: [0.0, 200.0], speed: 0.1, decimals: 1, at_once: true };
+    let edited = field.show(ui, &mut counts, |ui| {
         let auto = setting == AmbientSetting::Auto;
         let button = ui.add(Button::selectable(auto, RichText::new("auto").size(SMALL_PT)));
         button.widget_info(|| {
@@ -101,10 +181,10 @@ fn ambient(ui: &mut Ui, cx: &mut PanelContext) {
             cx.send(Edit::SetAmbient(next, None));
         }
     });
-    if changed {
+    if edited.changed {
         cx.send(Edit::SetAmbient(AmbientSetting::Given(counts), Some(Gesture::Ambient)));
     }
-    if released {
+    if edited.released {
         cx.send(Edit::EndGesture);
     }
 }
@@ -113,20 +193,34 @@ fn ambient(ui: &mut Ui, cx: &mut PanelContext) {
 struct Bands {
     name: &'static str,
     tip: &'static str,
-    most: f64,
+    /// Least and largest number.
+    range: [f64; 2],
+    /// Change of a number per point that a drag moves.
     speed: f64,
     decimals: usize,
+    /// Whether each typed digit changes the number, and not only the end of typing.
+    at_once: bool,
+}
+
+/// What a person does with a row of three numbers.
+#[derive(Default)]
+struct Edited {
+    /// A number was changed.
+    changed: bool,
+    /// A number was released.
+    released: bool,
+    /// A number is being dragged.
+    dragged: bool,
 }
 
 impl Bands {
-    /// Shows the row with the widgets of `end` at the right; returns whether a number was changed, and whether a number was
-    /// released.
-    fn show(&self, ui: &mut Ui, values: &mut [f64; 3], end: impl FnOnce(&mut Ui)) -> [bool; 2] {
+    /// Shows the row with the widgets of `end` at the right; returns what is done with the numbers.
+    fn show(&self, ui: &mut Ui, values: &mut [f64; 3], end: impl FnOnce(&mut Ui)) -> Edited {
         let narrow = ui.available_width() < NARROW_PT;
         if narrow {
             label(ui, self.name, self.tip);
         }
-        let (mut changed, mut released) = (false, false);
+        let mut edited = Edited::default();
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = GAP_PT;
             if !narrow {
@@ -135,9 +229,10 @@ impl Bands {
             for (value, band) in values.iter_mut().zip(["red", "green", "blue"]) {
                 let before = *value;
                 let field = DragValue::new(value)
-                    .range(0.0..=self.most)
+                    .range(self.range[0]..=self.range[1])
                     .clamp_existing_to_range(false)
                     .speed(self.speed)
+                    .update_while_editing(self.at_once)
                     .fixed_decimals(self.decimals);
                 let mut field = ui.add_sized(vec2(VALUE_PT, ROW_PT), field);
                 let text = |v: f64| format!("{v:.*}", self.decimals);
@@ -147,11 +242,12 @@ impl Bands {
                     egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, name)
                 });
                 let field = field.on_hover_text(self.tip);
-                changed |= field.changed();
-                released |= field.drag_stopped() || field.lost_focus();
+                edited.changed |= field.changed();
+                edited.released |= field.drag_stopped() || field.lost_focus();
+                edited.dragged |= field.dragged();
             }
             ui.with_layout(Layout::right_to_left(Align::Center), end);
         });
-        [changed, released]
+        edited
     }
 }

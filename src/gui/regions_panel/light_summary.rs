@@ -79,16 +79,24 @@ fn angle_between_deg(a: [f64; 3], b: [f64; 3]) -> f64 {
 /// Shows the color of the second lamp (section 7.5), if there is one.
 fn second_lamp(ui: &mut Ui, cx: &PanelContext, findings: &LightFindings) {
     let (Some(second), Some(angle_deg)) = (findings.second, findings.lamps_angle_deg()) else { return };
-    let tip = "A second lamp of another color (section 7.5): the highlights of these regions contradict the first light and agree on \
-               this one. Each region is split with the lamp of its own highlights.";
+    let tip = if second.given {
+        "A second lamp that was given (section 7.5): the highlights of these regions agree better with it than with the first light. \
+         Each region is split with the lamp of its own highlights."
+    } else {
+        "A second lamp of another color (section 7.5): the highlights of these regions contradict the first light and agree on \
+         this one. Each region is split with the lamp of its own highlights."
+    };
     ui.label(RichText::new("second lamp").color(cx.palette.secondary)).on_hover_text(tip);
     vector(ui, cx.palette, "color of the second lamp", Some(second.direction), true);
     let objects = crate::view::counted(second.regions, "object");
-    let text = format!(
-        "from {objects}, \u{b1}{:.1}\u{b0}, {angle_deg:.1}\u{b0} from the first",
-        second.interval_deg
-    );
-    ui.label(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary)).on_hover_text(tip);
+    let from = match second.interval_deg {
+        Some(interval_deg) => format!("from {objects}, \u{b1}{interval_deg:.1}\u{b0}"),
+        None => format!("given, lights {objects}"),
+    };
+    let text = format!("{from}, {angle_deg:.1}\u{b0} from the first");
+    let is_idle = second.given && second.regions == 0;
+    let tone = if is_idle { cx.palette.warning } else { cx.palette.secondary };
+    ui.label(RichText::new(text).size(SMALL_PT).color(tone)).on_hover_text(tip);
 }
 
 /// Shows the counts subtracted as ambient light (section 7.5), if any.

@@ -208,7 +208,8 @@ pub struct TwoLightTest {
     pub taken: bool,
 }
 
-/// The regions whose highlights contradict the light that is used were searched for a second lamp (section 7.5).
+/// The regions whose highlights contradict the light that is used were searched for a second lamp (section 7.5), or the regions were divided
+/// between the light that is used and a second lamp that was given.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LampsCompared {
@@ -216,7 +217,9 @@ pub struct LampsCompared {
     pub first: [f64; 3],
     /// Unit direction of the second lamp; none where the contradicting regions do not agree on a lamp.
     pub second: Option<[f64; 3]>,
-    /// Two standard deviations of the second lamp's direction, degrees.
+    /// Whether the second lamp was given and not sought.
+    pub given: bool,
+    /// Two standard deviations of the second lamp's direction, degrees; none for a lamp that was given.
     pub interval_deg: Option<f64>,
     /// Number of regions whose highlights contradict the first light.
     pub contradicting: u32,

@@ -103,6 +103,12 @@ pub(super) const REASONS: [LegendEntry; 9] = [
     LegendEntry::new("clipped in all bands", [250, 226, 70], "5.5: nothing of its color is left to go by"),
 ];
 
+/// The lamps, in the order of [`crate::view::Lamp`]. The colors are not those of lamps, so that either lamp may have either.
+pub(super) const LAMPS: [LegendEntry; 2] = [
+    LegendEntry::new("first lamp", [90, 174, 97], "7.5: split with the color of the light"),
+    LegendEntry::new("second lamp", [190, 130, 220], "7.5: split with the color of the second lamp"),
+];
+
 /// The colors of the classes in the order point, line, plane, volume.
 pub fn class_entries() -> [LegendEntry; 4] {
     CLASSES

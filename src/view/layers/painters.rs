@@ -1,14 +1,14 @@
 //! The pictures of the layers, at the size of the photograph.
 
 use super::curve::Curve;
-use super::legends::{BORDERS, CLASSES, MASKS, REASONS};
+use super::legends::{BORDERS, CLASSES, LAMPS, MASKS, REASONS};
 use super::look::{DIFFERENCE_COUNTS, Fill, Look};
 use crate::export::colored;
 use crate::raster::{LabelMap, Raster, RegionId};
 use crate::trace::Class;
 use crate::view::elsewhere::{borders, label_colors};
 use crate::view::snapshot::best_overlaps;
-use crate::view::{Elsewhere, LegendEntry, ResultSnapshot};
+use crate::view::{Elsewhere, Lamp, LampOfPixels, LegendEntry, ResultSnapshot};
 use rayon::prelude::*;
 
 /// Color of regions of an earlier stage that no region of the result covers, sRGB.
@@ -160,6 +160,18 @@ pub(super) fn reasons(input: &PaintInput) -> Raster<[u8; 4]> {
     let (base, look, reasons) = (&input.base, input.look, &input.shown.analysis.intrinsic.reasons);
     let width = base.photo.width();
     base.overlaid(look.fill, &legend_styles(&REASONS, look), |x, y| reasons[y * width + x] as usize)
+}
+
+/// A color for each of two lamps; pixels that are not split have the color of the photograph, which the whole layer is with one lamp.
+pub(super) fn lamps(input: &PaintInput) -> Raster<[u8; 4]> {
+    let Some(lamps) = LampOfPixels::of(&input.shown.analysis) else { return photograph(input) };
+    let (base, look) = (&input.base, input.look);
+    let width = base.photo.width();
+    base.overlaid(look.fill, &legend_styles(&LAMPS, look), |x, y| match lamps.at(y * width + x) {
+        None => 0,
+        Some(Lamp::First) => 1,
+        Some(Lamp::Second) => 2,
+    })
 }
 
 /// Body reflection minus that of the pinned result; gray for 0.

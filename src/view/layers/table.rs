@@ -20,6 +20,8 @@ pub(super) enum LayerKind {
     Diffuse,
     /// Drawn over the photograph.
     Overlay,
+    /// Drawn over the photograph, from a result with two lamps.
+    LampOverlay,
     /// Drawn over the photograph; regions that are not selected are dimmed.
     RegionOverlay,
     /// Drawn over the photograph, from a result and a label map that was made elsewhere.
@@ -174,6 +176,15 @@ layers! {
         legend: &legends::REASONS,
         numbers: None,
         paint: painters::reasons,
+    };
+    /// Which of two lamps each pixel is split with (7.5).
+    Lamps: LayerRow {
+        name: "Lamps",
+        tip: "The lamp that each pixel is split with, where a second lamp lights a part of the scene (section 7.5).",
+        kind: LayerKind::LampOverlay,
+        legend: &legends::LAMPS,
+        numbers: None,
+        paint: painters::lamps,
     };
     /// The newest result's body reflection minus the pinned one's, gray = 0.
     Difference: LayerRow {

@@ -23,6 +23,7 @@ mod image_panel;
 mod images;
 mod inspector;
 mod keyboard;
+mod lamps;
 mod named_marks;
 mod opening;
 mod photographs;
@@ -31,5 +32,7 @@ mod plane_panel;
 mod regions;
 mod sizes;
 mod sliders;
+#[path = "../../synthetic/mod.rs"]
+mod synthetic;
 mod why;
 mod window;
