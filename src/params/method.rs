@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// The paper's algorithm with the refinements that [`Refine`] switches on.
+    /// The paper's algorithm with the refinements that [`Refine`](super::Refine) switches on.
     #[default]
     Refined,
     /// The algorithm as written in 1990, its weaknesses included.

@@ -9,7 +9,7 @@ use dichroscope::app::{Edit, JobCommand, ViewCommand};
 use dichroscope::gui::Pane;
 use dichroscope::params::{IlluminantSetting, Method};
 use dichroscope::photo::{EncodingChoice, ReadOptions};
-use dichroscope::view::{Layer, Look, Origin, PixelReading, legend, paint};
+use dichroscope::view::{Lamp, Layer, Look, Origin, PixelReading, legend, paint};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::NodeT;
@@ -25,9 +25,9 @@ fn two_lamps() -> Window {
     let halves = LAMPS.map(|lamp| Scene { illuminant: unit(lamp), ..scene.clone() }.render().image.pixels);
     let width = halves[0].width();
     let mut bytes = format!("P6 {width} {} 255\n", halves[0].height()).into_bytes();
-    for pixel in 0..halves[0].len() {
-        let half = usize::from(pixel % width >= LEFT_PX);
-        bytes.extend(halves[half][pixel].map(|band| band as u8));
+    for (pixel, colors) in halves[0].as_slice().iter().zip(halves[1].as_slice()).enumerate() {
+        let color = if pixel % width >= LEFT_PX { colors.1 } else { colors.0 };
+        bytes.extend(color.map(|band| band as u8));
     }
     let mut window = window();
     let origin = Origin::Bytes { name: "two-lamps.ppm".into(), bytes: bytes.as_slice().into() };
@@ -136,7 +136,7 @@ fn the_layer_shows_which_lamp_each_pixel_is_split_with() {
         let is_inside = |pixel: &&usize| expected(**pixel) == half && lamp_of(**pixel) == Some(half);
         let pixel = *split.iter().find(is_inside).unwrap();
         let reading = PixelReading::of(&result.picture, Some(&result), pixel).unwrap();
-        let lamp = reading.analyzed.unwrap().lamp.map(|lamp| lamp.name());
+        let lamp = reading.analyzed.unwrap().lamp.map(Lamp::name);
         assert_eq!(lamp, Some(["first", "second"][half]), "the readout");
     }
 }
