@@ -221,7 +221,7 @@ switches! {
     small_objects SmallObjects {
         first_stage: Split,
         meaning: "What the working picture of a large photograph leaves unexplained is sought again in a finer picture, under the same light (5).",
-        worth: "Four pictures of 12 megapixels, each with 24 balls of 60 to 200 pixels: 62 → 96 of the 96 are regions, body 38.1 → 41.1 dB (doing nothing: 29.3).",
+        worth: "Four pictures of 12 megapixels, each with 24 balls of 60 to 200 pixels: 62 → 96 of the 96 are regions, body 38.4 → 41.1 dB (doing nothing: 29.3).",
     }
     local_split LocalSplit {
         first_stage: Split,
