@@ -119,7 +119,7 @@ fn evaluate_counts_which_test_of_candidates_was_right() {
 #[test]
 fn evaluate_counts_no_candidates_of_a_result_that_is_restricted_to_an_area() {
     let work = WorkFolder::new();
-    work.put("mask.pgm", &[&b"P5 178 150 255\n"[..], &[255; 178 * 150]].concat());
+    work.put("mask.pgm", &[&b"P5 178 150 255\n"[..], &vec![255; 178 * 150]].concat());
     work.succeeds("analyze TINY/camera8.png --out out --area mask.pgm");
     work.succeeds("evaluate out --truth TINY");
     work.fails(
