@@ -74,6 +74,7 @@ impl FullResolution {
             let stop = || stopping.cancelled();
             second_look(&Photograph { input: input.stopped_by(&stop), ..*photograph }, working, &labels)
         })?;
+        let found = Option::as_ref(&found);
         analysis.finals = self.finals.get(working.split.number, stopping, || {
             let second_lamp_mask = analysis.planar.second_lamp_mask.clone();
             let regions = FinalRegions {
@@ -81,9 +82,12 @@ impl FullResolution {
                 second_lamp_mask,
                 ..working_regions.clone()
             };
-            found.as_ref().as_ref().map_or(regions.clone(), |found| found.added_to(input, regions))
+            match found {
+                Some(found) => found.added_to(input, regions),
+                None => regions,
+            }
         })?;
-        analysis.second_look = found.as_ref().as_ref().map(SecondLook::findings);
+        analysis.second_look = found.map(SecondLook::findings);
         observer.made(StageOutput::Finals(Arc::clone(&analysis.finals)));
         let reused = self.intrinsic.is_made_from(working.split.number);
         let stopping: &_ = observer;
@@ -94,7 +98,7 @@ impl FullResolution {
                 labels: &analysis.finals.labels,
                 blocks: *blocks,
                 working_regions,
-                second_look: found.as_ref().as_ref().map(|found| &found.plans),
+                second_look: found.map(|found| &found.plans),
             };
             split_photograph(&detail, &working.split.value)
         })?;

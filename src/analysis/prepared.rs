@@ -13,6 +13,8 @@ use std::sync::Arc;
 
 /// What the first stage makes: the masks, the working picture, and the noise of both pictures.
 pub(super) struct Prepared {
+    /// The limits that the masks were made with.
+    pub(super) limits: MaskLimits,
     /// The masks of the photograph.
     pub(super) masks: Arc<Masks>,
     /// The working picture.
@@ -49,7 +51,7 @@ impl Prepared {
     }
 
     /// An input with a coding error and shot noise, as far as the refinements `coding_error` and `shot_noise` are on.
-    fn with_errors<'a>(
+    pub(super) fn with_errors<'a>(
         &'a self,
         input: AnalysisInput<'a>,
         coding: Option<&'a CodingError>,
@@ -135,7 +137,7 @@ impl<'a> Preparation<'a> {
             recorder.record(made);
         }
         let working_coding = noise.coding.as_ref().map(|coding| coding.averaged(factor));
-        Prepared { masks, working: Arc::new(working), noise: Arc::new(noise), working_coding, detail }
+        Prepared { limits, masks, working: Arc::new(working), noise: Arc::new(noise), working_coding, detail }
     }
 
     /// The masks of the photograph, and the working picture.

@@ -16,10 +16,10 @@ use super::resolve::{NoiseFindings, used_params};
 use super::windows::{classify_windows, merged_areas};
 use super::working_outputs::WorkingOutputs;
 use crate::intrinsic::{Intrinsic, Reason, RegionPlans, RegionReflection, split};
-use crate::params::{AmbientSetting, Refine, Rules, UsedParams};
-use crate::photo::{CodingError, MaskLimits, Masks, NoiseEstimate, WorkingPicture};
+use crate::params::{AmbientSetting, Refine, UsedParams};
+use crate::photo::{CodingError, Masks, NoiseEstimate, ShotNoise, WorkingPicture};
 use crate::raster::{
-    Blocks, Border, ComponentSearch, Connectivity, LabelMap, Mask, RegionId, UNASSIGNED, dilate,
+    Blocks, Border, ComponentSearch, Connectivity, LabelMap, Mask, RegionId, UNASSIGNED, dilate, erode,
 };
 use crate::segment::{
     AnalysisInput, FinalRegions, clipping_regions, final_regions, full_resolution_labels, matte_regions,
@@ -76,7 +76,7 @@ pub(super) fn second_look(
         ambient: ambient.map_or(AmbientSetting::Off, AmbientSetting::Given),
         ..finer.used
     };
-    let finer_input = finer.input(&used, rules).stopped_by(input.stopping());
+    let finer_input = finer.input(photograph, &used).stopped_by(input.stopping());
     let mut regions = regions(&finer_input);
     regions.light = light;
     let split = split(&finer_input, &regions, &mut NoopRecorder);
@@ -136,7 +136,7 @@ fn patches(masks: &Masks, working: &WorkingOutputs) -> Option<Mask> {
     let unexplained =
         |reason: Reason| matches!(reason, Reason::NoMatteLine | Reason::MixedBoundary | Reason::OtherObject);
     let left = masks.mask(|masks, pixel| !masks.dark(pixel) && unexplained(reasons[pixel]));
-    let cores = dilate(&left.map(|&is_left| !is_left), PATCH_REACH_PX).map(|&is_near| !is_near);
+    let cores = erode(&left, PATCH_REACH_PX);
     if !cores.as_slice().contains(&true) {
         return None;
     }
@@ -163,8 +163,9 @@ struct FinerPicture {
     picture: WorkingPicture,
     /// The finer pixels that are looked at.
     patches: Mask,
-    /// The error of the values of a finer pixel.
-    noise: NoiseFindings,
+    /// The noise of a finer pixel as a function of the intensity.
+    shot: Option<ShotNoise>,
+    /// The coding error of a finer pixel.
     coding: Option<CodingError>,
     /// The parameters, with the automatic noise of a finer pixel.
     used: UsedParams,
@@ -174,12 +175,7 @@ impl FinerPicture {
     /// The picture with blocks of `side` pixels. `is_sought`: whether to look at a pixel of the photograph, which stands for its block.
     fn new(photograph: &Photograph, side: usize, is_sought: impl Fn(usize) -> bool) -> Self {
         let Photograph { prepared, image, params, used, .. } = photograph;
-        let limits = MaskLimits {
-            min_intensity: used.min_intensity,
-            clip_threshold: used.clip_threshold,
-            bloom_density: used.bloom_density as usize,
-        };
-        let mut picture = WorkingPicture::new(image, &prepared.masks, &limits, side);
+        let mut picture = WorkingPicture::new(image, &prepared.masks, &prepared.limits, side);
         let blocks = picture.blocks;
         let measured = NoiseEstimate::measure_sparsely(&picture.image, &picture.masks, NOISE_STEP);
         let noise = NoiseFindings {
@@ -195,17 +191,16 @@ impl FinerPicture {
         let UsedParams { window_size, min_area, min_intensity, .. } = **used;
         let used = UsedParams { min_intensity, window_size, min_area, ..finer };
         let coding = noise.coding.as_ref().map(|coding| coding.averaged(side));
-        Self { picture, patches, noise, coding, used }
+        Self { picture, patches, shot: noise.shot, coding, used }
     }
 
     /// The input of the stages. With a light that is given no second lamp is sought.
-    fn input<'a>(&'a self, used: &'a UsedParams, rules: &Rules) -> AnalysisInput<'a> {
+    fn input<'a>(&'a self, photograph: &Photograph<'a>, used: &'a UsedParams) -> AnalysisInput<'a> {
+        let Photograph { prepared, rules, .. } = photograph;
         let refine = Refine { second_lamp: false, ..rules.refine };
         let input = AnalysisInput::new(&self.picture.image, &self.picture.masks, used, refine)
             .with_readings(rules.readings);
-        let shot = if refine.shot_noise { self.noise.shot } else { None };
-        let coding = self.coding.as_ref().filter(|_| refine.coding_error);
-        input.with_shot_noise(shot).with_coding(coding, self.noise.extended && refine.coding_error)
+        prepared.with_errors(input, self.coding.as_ref(), self.shot)
     }
 }
 

@@ -9,7 +9,7 @@
 //! beside them.
 
 use super::region_plan::RegionPlan;
-use crate::raster::{LabelMap, Mask, RegionId, dilate};
+use crate::raster::{LabelMap, Mask, RegionId, dilate, erode};
 use crate::reflection::ReflectionTransform;
 use crate::segment::AnalysisInput;
 use rayon::prelude::*;
@@ -72,8 +72,7 @@ fn remove_patches(
         }
     });
     let strip_px = input.mixing_reach_px().saturating_sub(1);
-    let cores = dilate(&far.map(|&is_far| !is_far), strip_px).map(|&is_near| !is_near);
-    let patches = dilate(&cores, strip_px);
+    let patches = dilate(&erode(&far, strip_px), strip_px);
     for (pixel, is_explained) in explained_mask.as_mut_slice().iter_mut().enumerate() {
         *is_explained &= !(far[pixel] && patches[pixel]);
     }
@@ -83,7 +82,7 @@ fn remove_patches(
 mod tests {
     use super::*;
     use crate::color::Vec3;
-    use crate::segment::testing::{Drawing, labels};
+    use crate::segment::testing::Drawing;
 
     /// The explained pixels of a region of matte pixels (m), highlights (h), pixels of another object (o), and clipped ones (w); a point is
     /// a pixel that is not explained. `extended`: whether the errors of neighboring pixels are alike.
@@ -96,21 +95,14 @@ mod tests {
             _ => Vec3::new(40.0, 60.0, 150.0),
         });
         let input = drawing.input().with_coding(None, extended);
-        let map = labels(
-            &rows
-                .iter()
-                .map(|row| "1".repeat(row.len()))
-                .collect::<Vec<_>>()
-                .iter()
-                .map(String::as_str)
-                .collect::<Vec<_>>(),
-        );
+        let (width, height) = (rows[0].len(), rows.len());
+        let map = LabelMap::filled(width, height, 1);
         let colors =
             FarColors { transform: ReflectionTransform::new(&body, &surface).unwrap(), limit_counts: 10.0 };
-        let mut mask = Mask::filled(map.width(), map.height(), true);
+        let mut mask = Mask::filled(width, height, true);
         remove_patches(&input, &map, &[Some(colors)], &mut mask);
         let letter = |&is_explained: &bool| if is_explained { 'x' } else { '.' };
-        mask.as_slice().chunks(map.width()).map(|row| row.iter().map(letter).collect()).collect()
+        mask.as_slice().chunks(width).map(|row| row.iter().map(letter).collect()).collect()
     }
 
     #[test]

@@ -216,7 +216,7 @@ switches! {
     far_colors FarColors {
         first_stage: Split,
         meaning: "Patches of a region whose colors lie far from its plane belong to another object, and the plane is not used there (5.5).",
-        worth: "Balls of 12 to 34 pixels before a wall, eight scenes: the worst ball against doing nothing −26.6 → 0 dB, the mean of the balls +.9 dB; the scenes with ground truth lose nothing, as they are and as five cameras store them.",
+        worth: "Balls of 12 to 34 pixels before a wall, eight scenes: the worst ball against doing nothing −26.6 → 0 dB, the mean of the balls +1.3 dB; 37 scenes with ground truth, as they are and as five cameras store them, lose at most .07 dB.",
     }
     small_objects SmallObjects {
         first_stage: Split,

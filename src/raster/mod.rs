@@ -15,5 +15,5 @@ pub(crate) use blur::blur;
 pub(crate) use components::{Border, ComponentSearch, Components, Connectivity};
 pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};
 pub use ids::{HypothesisId, PixelIndex, RegionId};
-pub(crate) use morphology::dilate;
+pub(crate) use morphology::{dilate, erode};
 pub(crate) use roi::Roi;

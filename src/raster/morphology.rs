@@ -1,4 +1,4 @@
-//! Dilation of masks by squares.
+//! Dilation and erosion of masks by squares.
 
 use super::grid::{Mask, Raster};
 
@@ -25,6 +25,12 @@ pub fn dilate(mask: &Mask, radius_px: usize) -> Mask {
         );
     }
     result
+}
+
+/// The mask of every pixel with nothing but set pixels within `radius_px` columns and rows: erosion by a square of side
+/// `2·radius_px + 1`. What lies outside of the picture counts as set.
+pub fn erode(mask: &Mask, radius_px: usize) -> Mask {
+    dilate(&mask.map(|&is_set| !is_set), radius_px).map(|&is_near_unset| !is_near_unset)
 }
 
 /// A row or a column of a raster.
@@ -67,6 +73,15 @@ mod tests {
         assert_eq!(dilate(&point, 1), mask(&[".....", ".###.", ".###.", ".###.", "....."]));
         assert_eq!(dilate(&point, 0), point);
         assert_eq!(dilate(&point, 9), Raster::filled(5, 5, true));
+    }
+
+    #[test]
+    fn a_square_becomes_a_point_and_the_border_does_not_shrink() {
+        assert_eq!(
+            erode(&mask(&[".....", ".###.", ".###.", ".###.", "....."]), 1),
+            mask(&[".....", ".....", "..#..", ".....", "....."])
+        );
+        assert_eq!(erode(&mask(&["###..", "###..", "###.."]), 1), mask(&["##...", "##...", "##..."]));
     }
 
     #[test]

@@ -65,6 +65,22 @@ fn a_printed_scene_is_never_worse_than_its_photograph() {
 }
 
 #[test]
+fn print_that_lies_far_from_the_plane_of_its_region_is_not_split_by_that_plane() {
+    let scene = Scene {
+        illuminant: crate::synthetic::unit([1.1, 1.0, 0.9]),
+        ..Scene::grid_of_balls([320, 160], 2, 1, 31)
+    };
+    let rendered = printed(&scene);
+    let body_db = |far_colors: bool| {
+        let refine = Refine { region_holds: false, vote_light: false, far_colors, ..Refine::default() };
+        let analysis = analyze(&rendered.image, &Params { refine, ..Params::default() });
+        psnr_db(&analysis.intrinsic.body, &rendered.body)
+    };
+    let [with, without] = [true, false].map(body_db);
+    assert!(with > without + 3.0, "{with} dB with far colors left to the local split, {without} dB without");
+}
+
+#[test]
 fn a_picture_of_body_reflection_stays_as_it_is() {
     for seed in [41, 42] {
         let scene = Scene { noise_sigma: 0.0, ..Scene::grid_of_balls([320, 160], 2, 1, seed) };

@@ -1,10 +1,10 @@
-//! Small objects in a large photograph: the second look in a finer picture, and colors that lie far from the plane of a wall.
+//! Small objects in a large photograph: the second look in a finer picture.
 
 use crate::common::{analyze, assert_valid, fingerprint, report};
 use crate::synthetic::{Ball, Random, Rendered, Scene, dot, unit};
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::describe::Names;
-use dichroscope::params::{Params, Setting};
+use dichroscope::params::{Params, Refine, Setting};
 use dichroscope::raster::{PixelIndex, Raster, UNASSIGNED};
 use dichroscope::segment::PlaceRule;
 use std::sync::Arc;
@@ -50,10 +50,9 @@ fn rendered(scene: &Scene, has_wall: bool) -> Rendered {
     rendered
 }
 
-fn params(small_objects: bool, far_colors: bool) -> Params {
-    let mut params = Params { scale: Setting::Value(SIDE as f64), ..Params::default() };
-    (params.refine.small_objects, params.refine.far_colors) = (small_objects, far_colors);
-    params
+fn params(small_objects: bool) -> Params {
+    let refine = Refine { small_objects, ..Refine::default() };
+    Params { scale: Setting::Value(SIDE as f64), refine, ..Params::default() }
 }
 
 /// Peak signal to noise ratio of a picture of the body reflection on one ball, dB.
@@ -89,7 +88,7 @@ fn found(analysis: &Analysis, rendered: &Rendered) -> usize {
 fn balls_too_small_for_the_working_picture_become_regions_and_gain() {
     for (seed, has_wall) in [(3, false), (3, true)] {
         let rendered = rendered(&balls(seed), has_wall);
-        let [with, without] = [true, false].map(|on| analyze(&rendered.image, &params(on, true)));
+        let [with, without] = [true, false].map(|on| analyze(&rendered.image, &params(on)));
         assert_valid(&rendered.image, &with, "second look");
         let findings = with.second_look.expect("a second look");
         assert_eq!(findings.side, 2);
@@ -113,7 +112,7 @@ fn balls_too_small_for_the_working_picture_become_regions_and_gain() {
 #[test]
 fn a_pixel_of_the_second_look_says_so_and_the_report_counts_the_regions() {
     let rendered = rendered(&balls(3), false);
-    let params = params(true, true);
+    let params = params(true);
     let (analysis, trace) =
         Session::new(Arc::new(rendered.image.clone())).run_traced(&params, &mut ()).unwrap();
     let first = analysis.working_finals.hypotheses.len();
@@ -138,7 +137,7 @@ fn threads_and_records_do_not_change_the_second_look() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let mut session = Session::new(Arc::new(rendered.image.clone()));
         pool.install(|| {
-            let params = params(true, true);
+            let params = params(true);
             let analysis = if traced {
                 session.run_traced(&params, &mut ()).unwrap().0
             } else {
@@ -157,9 +156,8 @@ fn a_picture_that_is_not_averaged_has_no_second_look() {
     let scene = Scene::grid_of_balls([240, 160], 3, 2, 5);
     let image = scene.render().image;
     let [with, without] = [true, false].map(|on| {
-        let mut params = Params::default();
-        params.refine.small_objects = on;
-        analyze(&image, &params)
+        let refine = Refine { small_objects: on, ..Refine::default() };
+        analyze(&image, &Params { refine, ..Params::default() })
     });
     assert_valid(&image, &with, "small picture");
     assert_eq!(with.second_look, None);
