@@ -7,7 +7,7 @@ use crate::analysis::{Analysis, Observer, Session, Stage, StageOutput};
 use crate::params::Params;
 use crate::raster::{Blocks, Mask};
 use crate::trace::Replay;
-use crate::view::{Picture, ResultSnapshot};
+use crate::view::{Picture, ResultSnapshot, colors_with_further_regions};
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
@@ -201,8 +201,8 @@ impl AnalysisWorker {
             return None;
         };
         let region_colors = match &preview {
-            // The regions of the working picture have the same numbers.
-            Some(preview) => preview.shown.region_colors.clone(),
+            // The regions of the working picture have the same numbers; those of the second look follow them.
+            Some(preview) => colors_with_further_regions(&analysis, &preview.shown.region_colors),
             None => region_colors(&analysis, self.last.as_deref()),
         };
         let shown = Arc::new(result_snapshot(request, analysis, took_ms, region_colors));

@@ -18,6 +18,21 @@ pub(crate) fn region_colors(analysis: &Analysis, before: Option<(&LabelMap, &[[u
     colors(&analysis.finals.labels, &neighbors, before)
 }
 
+/// The colors `first` for the first regions, and for each further region a color that differs from those of its neighbors.
+pub(crate) fn colors_with_further_regions(analysis: &Analysis, first: &[[u8; 3]]) -> Vec<[u8; 3]> {
+    let regions = analysis.intrinsic.regions.iter();
+    let neighbors: Vec<&[RegionId]> = regions.map(|region| region.neighbors.as_slice()).collect();
+    further_colors(&neighbors, first)
+}
+
+/// The colors `first`, and a color for each further region. `neighbors` and the colors are lists by [`RegionId::index`].
+fn further_colors(neighbors: &[&[RegionId]], first: &[[u8; 3]]) -> Vec<[u8; 3]> {
+    let palette = Palette::new();
+    let kept = std::iter::once(None).chain(first.iter().map(|&color| palette.index_of(color)));
+    let kept: Vec<Option<u8>> = kept.collect();
+    assigned(&palette, neighbors, &kept)
+}
+
 /// Colors for `count` hypotheses that became no region, in a fixed order: colors that no region has, as long as there are any.
 pub(crate) fn colors_of_dropped(taken: &[[u8; 3]], count: usize) -> Vec<[u8; 3]> {
     let palette = Palette::new();
@@ -52,9 +67,15 @@ fn colors(
             kept[now] = None;
         }
     }
+    assigned(&palette, neighbors, &kept)
+}
+
+/// The colors of the regions, which differ from those of their neighbors. `neighbors`: by [`RegionId::index`]; `kept`: the indices of
+/// colors in the palette that regions keep, by label.
+fn assigned(palette: &Palette, neighbors: &[&[RegionId]], kept: &[Option<u8>]) -> Vec<[u8; 3]> {
     let mut touching = vec![Vec::new()];
     touching.extend(neighbors.iter().map(|list| list.iter().map(|id| u32::from(id.get())).collect()));
-    palette.assign_keeping(&touching, &kept)[1..].iter().map(|&index| palette.color(index)).collect()
+    palette.assign_keeping(&touching, kept)[1..].iter().map(|&index| palette.color(index)).collect()
 }
 
 /// Pairs of a region and the earlier region that the region continues, the largest overlaps first. An earlier region is
@@ -130,6 +151,17 @@ mod tests {
         assert_eq!((parted[0], parted[2]), (colors[0], colors[1]));
         assert!(!colors.contains(&parted[1]));
         assert_eq!(colored(&whole, Some((&parts, &parted))), colors);
+    }
+
+    #[test]
+    fn further_regions_differ_from_their_neighbors_and_the_first_keep_their_colors() {
+        let map = labels(&["1133", "2244"]);
+        let lists = neighbors(&map, 4);
+        let lists: Vec<&[RegionId]> = lists.iter().map(Vec::as_slice).collect();
+        let first = [Palette::new().color(5), Palette::new().color(9)];
+        let colors = further_colors(&lists, &first);
+        assert_eq!((colors.len(), &colors[..2]), (4, first.as_slice()));
+        assert_eq!(colors.iter().collect::<BTreeSet<_>>().len(), 4);
     }
 
     #[test]

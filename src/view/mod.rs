@@ -45,7 +45,7 @@ mod verdict;
 pub use accuracy::{Accuracy, RegionAccuracy};
 pub use axes::{Axis, Tick};
 pub use cluster_plane::{Cluster, ClusterPlane, ELLIPSE_DEVIATIONS, cluster_plane};
-pub(crate) use colors::region_colors;
+pub(crate) use colors::{colors_with_further_regions, region_colors};
 pub use compare::{
     BodyChange, ComparedRegion, Comparison, Figure, PixelChanges, RegionChange, SettingChange, compare,
     setting_changes,
