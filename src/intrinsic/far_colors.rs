@@ -71,6 +71,9 @@ fn remove_patches(
                 && of_regions[id.index()].is_some_and(|colors| colors.contains(input.pixels[pixel]));
         }
     });
+    if !far.as_slice().contains(&true) {
+        return;
+    }
     let strip_px = input.mixing_reach_px().saturating_sub(1);
     let patches = dilate(&erode(&far, strip_px), strip_px);
     for (pixel, is_explained) in explained_mask.as_mut_slice().iter_mut().enumerate() {

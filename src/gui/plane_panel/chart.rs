@@ -76,12 +76,11 @@ impl Chart {
         rect: Rect,
         palette: &ThemeColors,
     ) -> Vec<Rect> {
-        let mut numbers = Vec::new();
+        let mut numbers = TickNumbers { painter, rect, palette, taken: Vec::new() };
         let round_step = round_step(TICKS_APART_PT * self.counts_per_pt);
         let corners = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()]
             .map(|corner| plane.from_oblique(self.oblique(corner, rect)));
         let at = |body: f32, surface: f32| self.screen(plane.oblique(body, surface), rect);
-        let font = FontId::proportional(SMALL_PT);
         let span = |axis: usize| {
             let all = corners.map(|corner| corner[axis]);
             [
@@ -97,31 +96,17 @@ impl Chart {
             if value != 0.0 && rect.shrink2(vec2(12.0, 0.0)).x_range().contains(foot.x) {
                 // In a view that is lower than both margins, the upper margin wins.
                 let y = foot.y.min(rect.bottom() - 34.0).max(rect.top() + 16.0);
-                numbers.push(painter.text(
-                    pos2(foot.x, y + 3.0),
-                    Align2::CENTER_TOP,
-                    number_text(value),
-                    font.clone(),
-                    palette.secondary,
-                ));
+                numbers.add(value, pos2(foot.x, y + 3.0), Align2::CENTER_TOP);
             }
         }
         for value in multiples(surface, round_step) {
             painter.line_segment([at(body[0], value), at(body[1], value)], line(value, palette));
             let foot = at(0.0, value);
             if value != 0.0 && rect.shrink2(vec2(0.0, 20.0)).y_range().contains(foot.y) {
-                // In a view that is narrower than both margins, the left margin wins.
-                let x = foot.x.min(rect.right() - 6.0).max(rect.left() + 28.0);
-                numbers.push(painter.text(
-                    pos2(x - 4.0, foot.y),
-                    Align2::RIGHT_CENTER,
-                    number_text(value),
-                    font.clone(),
-                    palette.secondary,
-                ));
+                numbers.add(value, pos2(foot.x - 4.0, foot.y), Align2::RIGHT_CENTER);
             }
         }
-        numbers
+        numbers.taken
     }
 
     /// Position of the label of the m_s axis: left of the point where the axis leaves the view at the top or at a side.
@@ -352,6 +337,39 @@ impl ChartLabel {
 }
 
 /// Stroke of the grid line of a value: the line of zero is an axis and darker.
+/// The numbers at the ticks. A number that would lie on an earlier one is left out: on an axis at a small angle to the other axis, and beside
+/// an axis that has left the view, the ticks are closer than the numbers are high.
+struct TickNumbers<'a> {
+    painter: &'a Painter,
+    rect: Rect,
+    palette: &'a ThemeColors,
+    /// The rectangles of the numbers so far.
+    taken: Vec<Rect>,
+}
+
+impl TickNumbers<'_> {
+    /// Paints a number at `at`, moved sideways as far as the view requires.
+    fn add(&mut self, value: f32, at: Pos2, anchor: Align2) {
+        let font = FontId::proportional(SMALL_PT);
+        let galley = self.painter.layout_no_wrap(number_text(value), font, self.palette.secondary);
+        let Some(place) = tick_number_place(anchor.anchor_size(at, galley.size()), self.rect, &self.taken)
+        else {
+            return;
+        };
+        self.painter.galley(place.min, galley, self.palette.secondary);
+        self.taken.push(place);
+    }
+}
+
+/// The rectangle of a number, moved sideways into the view `rect`; none where it lies on another number.
+fn tick_number_place(number: Rect, rect: Rect, taken: &[Rect]) -> Option<Rect> {
+    // In a view that is narrower than the number, the left border wins.
+    let left = number.left().min(rect.right() - 2.0 - number.width()).max(rect.left() + 2.0);
+    let place = Rect::from_min_size(pos2(left, number.top()), number.size());
+    let is_free = taken.iter().all(|other| !other.expand2(vec2(2.0, 0.0)).intersects(place));
+    is_free.then_some(place)
+}
+
 fn line(value: f32, palette: &ThemeColors) -> Stroke {
     if value == 0.0 {
         Stroke::new(1.0, palette.secondary)
@@ -406,6 +424,17 @@ mod tests {
         let away = label.place(size, rect, &points, &[]).unwrap();
         assert!(points.share_under(away) < 0.4, "{away}");
         assert_eq!(label.place(size, rect, &points, &[rect]), None);
+    }
+
+    #[test]
+    fn tick_numbers_stay_in_the_view_and_off_each_other() {
+        let view = Rect::from_min_size(Pos2::ZERO, vec2(200.0, 100.0));
+        let number = |x: f32, y: f32| Rect::from_min_size(pos2(x, y), vec2(30.0, 12.0));
+        let first = tick_number_place(number(-20.0, 40.0), view, &[]).unwrap();
+        assert_eq!(first.min, pos2(2.0, 40.0));
+        assert_eq!(tick_number_place(number(-50.0, 47.0), view, &[first]), None, "half a line below");
+        assert!(tick_number_place(number(-50.0, 53.0), view, &[first]).is_some());
+        assert_eq!(tick_number_place(number(190.0, 0.0), view, &[first]).unwrap().right(), 198.0);
     }
 
     #[test]
