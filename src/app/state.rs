@@ -67,8 +67,6 @@ pub struct State {
     pub(super) preselects: bool,
     /// Whether the region of the next complete result is to be selected, although pixels are marked: a skewed T was fitted to them.
     pub(super) selects_region: bool,
-    /// The pictures of another program to be read when the photograph that is being read is open.
-    pub(super) opens_beside: ElsewherePaths,
     /// The rest of a restored workspace, which is applied when its pinned result has been computed.
     pub(super) after_pin: Option<AfterPin>,
 }
@@ -229,13 +227,21 @@ impl State {
         self.debugger.focus().map(|focus| self.debugger.names.color(focus))
     }
 
-    /// Adds a notice, unless a notice with the same text is shown already.
+    /// Adds a notice about the open photograph, unless a notice with the same text is shown already.
     pub(super) fn notify(&mut self, severity: Severity, text: String) {
+        self.add_notice(severity, text, self.picture.is_some());
+    }
+
+    /// Adds a notice that stays when another photograph is opened, unless a notice with the same text is shown already.
+    pub(super) fn notify_of_files(&mut self, severity: Severity, text: String) {
+        self.add_notice(severity, text, false);
+    }
+
+    fn add_notice(&mut self, severity: Severity, text: String, of_photograph: bool) {
         if self.notices.iter().any(|notice| notice.text == text) {
             return;
         }
         self.notices_so_far += 1;
-        let of_photograph = self.picture.is_some();
         self.notices.push(Notice { id: self.notices_so_far, severity, text, of_photograph });
     }
 

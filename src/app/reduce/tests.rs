@@ -61,10 +61,11 @@ fn photographs_that_are_opened_together_follow_one_another_in_their_order() {
         application.apply(JobCommand::Switch(crate::app::Switching::Next));
     }
     let missing = vec![tiny(), Origin::Sample("nothing".into())];
-    application.apply(JobCommand::OpenTogether(missing));
+    application.apply(JobCommand::OpenFiles(missing));
     assert!(
         application.state().notices.iter().any(|notice| notice.text.starts_with("nothing: there is no such"))
     );
+    assert_eq!(application.state().picture.as_ref().unwrap().origin, tiny(), "the other one is opened");
 }
 
 #[test]
