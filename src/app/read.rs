@@ -77,7 +77,7 @@ pub(super) fn elsewhere(kind: ElsewhereKind, path: &Path, picture: Arc<Picture>,
             let read = Box::new(Elsewhere { paths, pictures });
             Report::ElsewhereRead { kind, read, picture, shows }
         }
-        Err(reason) => Report::Failed(reason),
+        Err(reason) => Report::ElsewhereFailed { kind, picture, reason },
     }
 }
 

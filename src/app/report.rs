@@ -44,6 +44,15 @@ pub(super) enum Report {
         /// Whether the image view is to show the picture.
         shows: bool,
     },
+    /// A picture that another program made of a photograph could not be read.
+    ElsewhereFailed {
+        /// What the picture should have been.
+        kind: ElsewhereKind,
+        /// The photograph that the picture was to be read for.
+        picture: Arc<Picture>,
+        /// The sentence to show.
+        reason: String,
+    },
     /// Work could not be done: the sentence to show.
     Failed(String),
     /// Work ended by a panic, an error of the program.

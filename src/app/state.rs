@@ -214,12 +214,26 @@ impl State {
 
     /// Shows layers of the result in place of layers of another program's pictures that are not there any more.
     pub(super) fn leave_missing_layers(&mut self) {
-        let own = |layer: Layer| match layer.need() {
-            Some(LayerNeed::Elsewhere(kind)) if self.lacks(layer).is_some() => own_layer(kind),
-            _ => layer,
-        };
-        (self.view.image.layer, self.view.image.other) =
-            (own(self.view.image.layer), own(self.view.image.other));
+        for kind in ElsewhereKind::ALL {
+            self.leave_layers_of(kind);
+        }
+    }
+
+    /// Shows a layer of the result in place of the layers of another program's picture of this kind, where there is no such picture.
+    /// Returns the layer that was shown; none where the views stay as they are.
+    pub(super) fn leave_layers_of(&mut self, kind: ElsewhereKind) -> Option<Layer> {
+        if self.elsewhere.as_ref().is_some_and(|elsewhere| elsewhere.has(kind)) {
+            return None;
+        }
+        let image = &mut self.view.image;
+        let mut left = None;
+        // The layer of the first view is named where both views are left.
+        for layer in [&mut image.other, &mut image.layer] {
+            if layer.need() == Some(LayerNeed::Elsewhere(kind)) {
+                left = Some(std::mem::replace(layer, own_layer(kind)));
+            }
+        }
+        left
     }
 
     /// The color of the hypothesis that the debugger's cursor is about, sRGB; none where the cursor is about no hypothesis.

@@ -44,6 +44,10 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
                 take_elsewhere(state, kind, *read, shows);
             }
         }
+        Report::ElsewhereFailed { kind, picture, reason } => {
+            state.jobs.reading = None;
+            lack_elsewhere(state, kind, &picture, reason);
+        }
         Report::Failed(reason) => {
             state.jobs.reading = None;
             state.notify(Severity::Error, reason);
@@ -131,6 +135,22 @@ fn take_elsewhere(state: &mut State, kind: ElsewhereKind, read: Elsewhere, shows
     }
 }
 
+/// Says why a picture of another program could not be read. A layer of that picture, as a workspace may have been saved with, gives way to
+/// the layer of the result.
+fn lack_elsewhere(state: &mut State, kind: ElsewhereKind, picture: &Arc<Picture>, reason: String) {
+    let is_shown = state.picture.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, picture));
+    let left = if is_shown { state.leave_layers_of(kind) } else { None };
+    let text = match left {
+        Some(layer) => format!(
+            "{reason}; the layer {} shows nothing until then, and {} is shown in its place",
+            layer.name(),
+            own_layer(kind).name()
+        ),
+        None => reason,
+    };
+    state.notify(Severity::Error, text);
+}
+
 /// Opens photographs, and shows and analyzes the last; the others are analyzed when they are shown. The pictures of another program are
 /// read for the last photograph, or for that of the workspace, which is read after the photographs.
 fn open_together(
@@ -185,8 +205,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: ElsewherePa
     state.others.retain(|other| other.picture.origin != picture.origin);
     // Those of a photograph that is read again are read again too.
     let again = state.elsewhere.take().map_or_else(ElsewherePaths::default, |all| all.paths.clone());
-    let mut beside = reading_of(&elsewhere, true);
-    beside.extend(reading_of(&again.except(&elsewhere), false));
+    let mut saved = again.except(&elsewhere);
     // What was said about the photograph before does not concern this one.
     state.notices.retain(|notice| !notice.of_photograph);
     state.picture = Some(picture);
@@ -205,7 +224,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: ElsewherePa
     }
     state.preselects = restored.is_none();
     if let Some(Restoring { workspace, path }) = restored {
-        beside = reading_of(&workspace.elsewhere, false);
+        saved = workspace.elsewhere.except(&elsewhere);
         restore_workspace(state, *workspace);
         state.workspace_path = Some(path);
     } else if had_picture && state.document.params != Params::of(state.document.params.method) {
@@ -213,11 +232,14 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: ElsewherePa
             "parameters that were changed for the photograph before stay in force; Reset takes the defaults";
         state.notify(Severity::Warning, text.to_owned());
     }
-    if beside.is_empty() {
-        state.leave_missing_layers();
+    for kind in ElsewhereKind::ALL {
+        if elsewhere.get(kind).or(saved.get(kind)).is_none() {
+            state.leave_layers_of(kind);
+        }
     }
     let mut effects = analyze(state);
-    effects.extend(beside);
+    effects.extend(reading_of(&elsewhere, true));
+    effects.extend(reading_of(&saved, false));
     effects
 }
 
