@@ -264,30 +264,9 @@ fn result_snapshot(
     took_ms: [Option<f64>; 7],
     region_colors: Vec<[u8; 3]>,
 ) -> ResultSnapshot {
-    let coverage = coverage(&analysis);
-    ResultSnapshot {
-        generation: request.generation,
-        picture: Arc::clone(&request.picture),
-        params: request.params,
-        area: request.area.clone(),
-        analysis,
-        stale_from: None,
-        coverage,
-        region_colors,
-        took_ms,
-        trace: OnceLock::new(),
-        accuracy: OnceLock::new(),
-        phoenix: OnceLock::new(),
-    }
-}
-
-/// Share of the pixels that are not dark which are in a region, 0…1.
-fn coverage(analysis: &Analysis) -> f64 {
-    let labels = analysis.finals.labels.as_slice().iter().enumerate();
-    let (lit, assigned) = labels
-        .filter(|&(pixel, _)| !analysis.masks.dark(pixel))
-        .fold((0u64, 0u64), |sums, (_, &label)| (sums.0 + 1, sums.1 + u64::from(label != 0)));
-    assigned as f64 / lit.max(1) as f64
+    let area = request.area.clone();
+    let shown = ResultSnapshot::new(Arc::clone(&request.picture), request.params, analysis, region_colors);
+    ResultSnapshot { generation: request.generation, area, took_ms, ..shown }
 }
 
 /// A run that takes longer than this time shows each stage at the stage's end.

@@ -11,7 +11,6 @@ use super::{
     reduce, rescue,
 };
 use crate::analysis::{Session, WhatIfObserver, what_if};
-use crate::photo::ReadOptions;
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -142,15 +141,9 @@ impl Application {
                     Err(reason) => Report::OpenFailed(reason),
                 });
             }
-            Effect::ReadTogether(origins) => {
+            Effect::ReadTogether(files) => {
                 self.state.jobs.reading = Some(Job::now());
-                self.run("reader", Work::Photograph, move || {
-                    let read = |origin| read::picture(origin, ReadOptions::default()).map(Arc::new);
-                    match origins.into_iter().map(read).collect() {
-                        Ok(pictures) => Report::OpenedTogether(pictures),
-                        Err(reason) => Report::OpenFailed(reason),
-                    }
-                });
+                self.run("reader", Work::Photograph, move || read::photographs(files));
             }
             Effect::ReadElsewhere { kind, path, shows } => {
                 let Some(picture) = self.state.picture.clone() else { return };
@@ -161,9 +154,9 @@ impl Application {
                 self.state.jobs.reading = Some(Job::now());
                 self.run("reader", Work::File, move || read::params(&path));
             }
-            Effect::ReadWorkspace(path) => {
+            Effect::ReadWorkspace { path, elsewhere } => {
                 self.state.jobs.reading = Some(Job::now());
-                self.run("reader", Work::File, move || read::workspace(&path));
+                self.run("reader", Work::File, move || read::workspace(&path, elsewhere));
             }
             Effect::Write(export) => {
                 self.state.jobs.export = Some(Job::now());

@@ -134,8 +134,9 @@ pub enum ViewCommand {
 pub enum JobCommand {
     /// Read a photograph and show it.
     Open(Origin),
-    /// Read photographs and open all of them; the first is shown.
-    OpenTogether(Vec<Origin>),
+    /// Open several files, in this order, each as what its name says: photographs, of which the last is shown; then a workspace; and
+    /// pictures of another program, which are held against the photograph that is shown in the end.
+    OpenFiles(Vec<Origin>),
     /// Read a photograph and show it, and then read pictures that another program made of it.
     OpenBeside(Origin, ElsewherePaths),
     /// Read a picture that another program made of the open photograph, and show it.
@@ -159,9 +160,14 @@ pub enum JobCommand {
 }
 
 impl JobCommand {
-    /// Opens the scenes of a set of samples together.
+    /// Opens the scenes of a set of samples together. The first is shown, and the others follow it in their order.
     pub fn open_samples(set: &SampleSet) -> Self {
-        Self::OpenTogether(set.scenes.iter().map(|&name| Origin::Sample(name.to_owned())).collect())
+        let mut scenes: Vec<Origin> =
+            set.scenes.iter().map(|&name| Origin::Sample(name.to_owned())).collect();
+        let first = 1.min(scenes.len());
+        // The last file that is opened is shown.
+        scenes.rotate_left(first);
+        Self::OpenFiles(scenes)
     }
 }
 

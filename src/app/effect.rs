@@ -1,8 +1,8 @@
 //! The work that a change of the state asks for. Reducers return effects; only [`super::Application`] carries effects out.
 
-use super::{Export, WhatIfRequest};
+use super::{Export, FilesToOpen, WhatIfRequest};
 use crate::photo::ReadOptions;
-use crate::view::{ElsewhereKind, Origin};
+use crate::view::{ElsewhereKind, ElsewherePaths, Origin};
 use std::path::PathBuf;
 
 /// Work that a command or a report asks for.
@@ -20,8 +20,8 @@ pub enum Effect {
     Rescue,
     /// Read a photograph with these options.
     Read(Origin, ReadOptions),
-    /// Read photographs that are opened together, in this order.
-    ReadTogether(Vec<Origin>),
+    /// Read the photographs of files that are opened together; the other files are read when the photographs are open.
+    ReadTogether(FilesToOpen),
     /// Read a picture that another program made of the open photograph.
     ReadElsewhere {
         /// What the picture is.
@@ -34,7 +34,12 @@ pub enum Effect {
     /// Read a parameter file.
     ReadParams(PathBuf),
     /// Read a workspace file.
-    ReadWorkspace(PathBuf),
+    ReadWorkspace {
+        /// The file.
+        path: PathBuf,
+        /// Pictures of another program for the photograph of the workspace, in place of those that the workspace names.
+        elsewhere: ElsewherePaths,
+    },
     /// Write a file or a folder.
     Write(Export),
     /// Stop the export under way.

@@ -1,7 +1,8 @@
 //! Reads photographs, parameters and workspaces for the state.
 
-use super::Workspace;
+use super::files_to_open::with_unopened;
 use super::report::Report;
+use super::{FilesToOpen, Workspace};
 use crate::params::Params;
 use crate::photo::{self, ReadOptions};
 use crate::truth::{ForeignResult, GroundTruth, read_label_map, sample::Sample};
@@ -38,6 +39,13 @@ pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, S
     Ok(Picture { origin, reading: options, photo, sha256, read_ms, histogram, truth })
 }
 
+/// Reads photographs that are opened together. One that cannot be read does not keep the others from being opened.
+pub(super) fn photographs(files: FilesToOpen) -> Report {
+    let FilesToOpen { photographs, elsewhere, workspace } = files;
+    let read = |origin| picture(origin, ReadOptions::default()).map(Arc::new);
+    Report::OpenedTogether { photographs: photographs.into_iter().map(read).collect(), elsewhere, workspace }
+}
+
 /// The origin with an absolute path, so that the list of recent photographs is valid in every working directory and names each
 /// file once.
 fn with_absolute_path(origin: Origin) -> Origin {
@@ -65,14 +73,11 @@ pub(super) fn elsewhere(kind: ElsewhereKind, path: &Path, picture: Arc<Picture>,
     let path = super::workspace::absolute_path(path);
     match foreign(kind, &path, &picture) {
         Ok(pictures) => {
-            let paths = match kind {
-                ElsewhereKind::Labels => ElsewherePaths { labels: Some(path), diffuse: None },
-                ElsewhereKind::Diffuse => ElsewherePaths { labels: None, diffuse: Some(path) },
-            };
+            let paths = ElsewherePaths::default().with(kind, path);
             let read = Box::new(Elsewhere { paths, pictures });
             Report::ElsewhereRead { kind, read, picture, shows }
         }
-        Err(reason) => Report::Failed(reason),
+        Err(reason) => Report::ElsewhereFailed { kind, picture, reason },
     }
 }
 
@@ -134,10 +139,13 @@ pub(super) fn params(path: &Path) -> Report {
     }
 }
 
-/// Reads a workspace file.
-pub(super) fn workspace(path: &Path) -> Report {
+/// Reads a workspace file. The files of `elsewhere` take the place of those that the workspace names.
+pub(super) fn workspace(path: &Path, elsewhere: ElsewherePaths) -> Report {
     match Workspace::load(path) {
-        Ok(workspace) => Report::WorkspaceRead { workspace: Box::new(workspace), path: path.to_owned() },
-        Err(reason) => Report::Failed(reason),
+        Ok(mut workspace) => {
+            workspace.elsewhere = elsewhere.or(workspace.elsewhere);
+            Report::WorkspaceRead { workspace: Box::new(workspace), path: path.to_owned() }
+        }
+        Err(reason) => Report::Failed(with_unopened(reason, &elsewhere)),
     }
 }

@@ -30,4 +30,6 @@ pub fn reduce(state: &mut State, command: impl Into<Command>) -> Vec<Effect> {
 #[cfg(test)]
 mod elsewhere_tests;
 #[cfg(test)]
+mod files_tests;
+#[cfg(test)]
 mod tests;

@@ -4,7 +4,7 @@ use super::{Preview, WhatIfProgress, WhatIfRequest, Workspace};
 use crate::analysis::Stage;
 use crate::params::Params;
 use crate::trace::Replay;
-use crate::view::{Elsewhere, ElsewhereKind, Picture, ResultSnapshot};
+use crate::view::{Elsewhere, ElsewhereKind, ElsewherePaths, Picture, ResultSnapshot};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -13,8 +13,15 @@ use std::sync::Arc;
 pub(super) enum Report {
     /// A photograph was read.
     Opened(Arc<Picture>),
-    /// Photographs that are opened together were read; the first is to be shown.
-    OpenedTogether(Vec<Arc<Picture>>),
+    /// Photographs that are opened together were read.
+    OpenedTogether {
+        /// In the order of opening: a photograph, or the sentence that says why the photograph could not be read.
+        photographs: Vec<Result<Arc<Picture>, String>>,
+        /// Pictures of another program, still to be read.
+        elsewhere: ElsewherePaths,
+        /// The workspace, still to be read.
+        workspace: Option<PathBuf>,
+    },
     /// A photograph could not be read: the sentence to show.
     OpenFailed(String),
     /// A parameter file was read.
@@ -36,6 +43,15 @@ pub(super) enum Report {
         picture: Arc<Picture>,
         /// Whether the image view is to show the picture.
         shows: bool,
+    },
+    /// A picture that another program made of a photograph could not be read.
+    ElsewhereFailed {
+        /// What the picture should have been.
+        kind: ElsewhereKind,
+        /// The photograph that the picture was to be read for.
+        picture: Arc<Picture>,
+        /// The sentence to show.
+        reason: String,
     },
     /// Work could not be done: the sentence to show.
     Failed(String),

@@ -67,8 +67,6 @@ pub struct State {
     pub(super) preselects: bool,
     /// Whether the region of the next complete result is to be selected, although pixels are marked: a skewed T was fitted to them.
     pub(super) selects_region: bool,
-    /// The pictures of another program to be read when the photograph that is being read is open.
-    pub(super) opens_beside: ElsewherePaths,
     /// The rest of a restored workspace, which is applied when its pinned result has been computed.
     pub(super) after_pin: Option<AfterPin>,
 }
@@ -216,12 +214,26 @@ impl State {
 
     /// Shows layers of the result in place of layers of another program's pictures that are not there any more.
     pub(super) fn leave_missing_layers(&mut self) {
-        let own = |layer: Layer| match layer.need() {
-            Some(LayerNeed::Elsewhere(kind)) if self.lacks(layer).is_some() => own_layer(kind),
-            _ => layer,
-        };
-        (self.view.image.layer, self.view.image.other) =
-            (own(self.view.image.layer), own(self.view.image.other));
+        for kind in ElsewhereKind::ALL {
+            self.leave_layers_of(kind);
+        }
+    }
+
+    /// Shows a layer of the result in place of the layers of another program's picture of this kind, where there is no such picture.
+    /// Returns the layer that was shown; none where the views stay as they are.
+    pub(super) fn leave_layers_of(&mut self, kind: ElsewhereKind) -> Option<Layer> {
+        if self.elsewhere.as_ref().is_some_and(|elsewhere| elsewhere.has(kind)) {
+            return None;
+        }
+        let image = &mut self.view.image;
+        let mut left = None;
+        // The layer of the first view is named where both views are left.
+        for layer in [&mut image.other, &mut image.layer] {
+            if layer.need() == Some(LayerNeed::Elsewhere(kind)) {
+                left = Some(std::mem::replace(layer, own_layer(kind)));
+            }
+        }
+        left
     }
 
     /// The color of the hypothesis that the debugger's cursor is about, sRGB; none where the cursor is about no hypothesis.
@@ -229,13 +241,21 @@ impl State {
         self.debugger.focus().map(|focus| self.debugger.names.color(focus))
     }
 
-    /// Adds a notice, unless a notice with the same text is shown already.
+    /// Adds a notice about the open photograph, unless a notice with the same text is shown already.
     pub(super) fn notify(&mut self, severity: Severity, text: String) {
+        self.add_notice(severity, text, self.picture.is_some());
+    }
+
+    /// Adds a notice that stays when another photograph is opened, unless a notice with the same text is shown already.
+    pub(super) fn notify_of_files(&mut self, severity: Severity, text: String) {
+        self.add_notice(severity, text, false);
+    }
+
+    fn add_notice(&mut self, severity: Severity, text: String, of_photograph: bool) {
         if self.notices.iter().any(|notice| notice.text == text) {
             return;
         }
         self.notices_so_far += 1;
-        let of_photograph = self.picture.is_some();
         self.notices.push(Notice { id: self.notices_so_far, severity, text, of_photograph });
     }
 

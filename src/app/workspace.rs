@@ -174,6 +174,11 @@ impl Workspace {
     }
 }
 
+/// Whether a path has the extension of workspaces.
+pub fn is_workspace(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "dichroscope")
+}
+
 /// The absolute path of a file, without `.` and `..` components: `scenes/../photo.png` becomes `/…/photo.png`. A path stays as it is
 /// where the working directory is unknown.
 pub(super) fn absolute_path(path: &Path) -> PathBuf {

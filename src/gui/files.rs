@@ -9,7 +9,9 @@ use super::proposed_path::{proposed_layer_path, proposed_path, proposed_pixels_p
 use super::task::Task;
 use super::typed_path::{typed_path, unique_names};
 use super::view_export::ViewExport;
-use crate::app::{Export, ExportKind, ExportOptions, JobCommand, Notice, Severity, ViewCommand};
+use crate::app::{
+    Export, ExportKind, ExportOptions, JobCommand, Notice, Severity, ViewCommand, is_workspace,
+};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
 use crate::view::{ElsewhereKind, Layer, Origin};
 use egui::{Key, Modifiers, RichText, Ui};
@@ -429,11 +431,6 @@ fn elsewhere_note(ui: &mut Ui, cx: &PanelContext, kind: ElsewhereKind) {
         }
     };
     ui.add(egui::Label::new(RichText::new(text).color(cx.palette.secondary)).wrap());
-}
-
-/// Whether a path has the extension of workspaces.
-pub fn is_workspace(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension == "dichroscope")
 }
 
 /// A workspace's path, with the extension of workspaces appended where the path has another extension or none.

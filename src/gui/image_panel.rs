@@ -159,7 +159,9 @@ impl ImagePanel {
         is_low: bool,
     ) {
         let state = cx.state;
-        let Some(shown) = state.shown().filter(|_| !cx.is_export) else { return };
+        // The verdict on the first preview keeps the place of the verdict on the result, so that the picture does not move.
+        let preview = || state.shown_preview().map(|(preview, _)| &preview.shown);
+        let Some(shown) = state.shown().or_else(preview).filter(|_| !cx.is_export) else { return };
         let frame = bar.inner_margin(Margin { left: 8, right: 8, top: 4, bottom: 2 });
         let panel = Panel::bottom("verdict").frame(frame).resizable(false);
         if state.debugger.stopped().is_none() {

@@ -1,8 +1,7 @@
 //! The application's window on the desktop.
 
 use super::App;
-use super::files::is_workspace;
-use crate::app::{Executor, JobCommand, Settings, Severity, ViewCommand, catch_panic};
+use crate::app::{Executor, JobCommand, Settings, Severity, ViewCommand, catch_panic, is_workspace};
 use crate::truth::sample;
 use crate::view::{Arrangement, ElsewherePaths, ImageSettings, Origin};
 use egui_wgpu::{RenderState, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};

@@ -1,13 +1,11 @@
 //! A label map and a diffuse picture that another program made of the open photograph, held against a result.
 
-use super::ResultSnapshot;
 use super::snapshot::{best_overlaps, overlaps};
+use super::{ElsewhereKind, ElsewherePaths, ResultSnapshot};
 use crate::describe::{ImageFacts, Report};
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED, dilate};
 use crate::truth::{ForeignResult, ScoreError, psnr_db};
-use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
-use std::path::{Path, PathBuf};
 
 /// Distance up to which two borders are one border, pixels.
 const NEAR_PX: usize = 2;
@@ -16,61 +14,6 @@ const UNCOVERED: [u8; 3] = [150, 150, 150];
 /// Shares of white (above 0) or black (below 0) that are mixed into the color of a region which covers several labels, the largest label
 /// first.
 const SHADES: [f32; 5] = [0.0, 0.4, -0.4, 0.65, -0.6];
-
-/// The two kinds of pictures of another program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ElsewhereKind {
-    /// A label map: the region of each pixel.
-    Labels,
-    /// A diffuse picture: the photograph without highlights.
-    Diffuse,
-}
-
-impl ElsewhereKind {
-    /// Both kinds.
-    pub const ALL: [Self; 2] = [Self::Labels, Self::Diffuse];
-
-    /// The name in sentences.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Labels => "label map",
-            Self::Diffuse => "diffuse picture",
-        }
-    }
-}
-
-/// The files of a label map and a diffuse picture.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ElsewherePaths {
-    /// The label map; none where there is none.
-    #[serde(default)]
-    pub labels: Option<PathBuf>,
-    /// The diffuse picture; none where there is none.
-    #[serde(default)]
-    pub diffuse: Option<PathBuf>,
-}
-
-impl ElsewherePaths {
-    /// Each file with its kind.
-    pub fn files(&self) -> impl Iterator<Item = (ElsewhereKind, &Path)> {
-        let of = |kind| Some((kind, self.get(kind)?));
-        ElsewhereKind::ALL.into_iter().filter_map(of)
-    }
-
-    /// The file of a kind.
-    pub fn get(&self, kind: ElsewhereKind) -> Option<&Path> {
-        match kind {
-            ElsewhereKind::Labels => self.labels.as_deref(),
-            ElsewhereKind::Diffuse => self.diffuse.as_deref(),
-        }
-    }
-
-    /// The paths after `change` was applied to each.
-    #[must_use]
-    pub fn map(&self, change: impl Fn(&Path) -> PathBuf) -> Self {
-        Self { labels: self.labels.as_deref().map(&change), diffuse: self.diffuse.as_deref().map(&change) }
-    }
-}
 
 /// What another program made of the open photograph, at the size of the photograph. Shared, never changed.
 #[derive(Clone, Debug, Default)]
@@ -398,7 +341,7 @@ mod tests {
             pictures: ForeignResult { labels: Some(labels(&["332.", "...."])), diffuse: None },
         });
         assert_eq!(again.at(0), ElsewherePixel { label: Some(3), diffuse: Some([7.0; 3]) });
-        assert_eq!(again.paths.get(ElsewhereKind::Labels), Some(Path::new("new.png")));
+        assert_eq!(again.paths.get(ElsewhereKind::Labels), Some(std::path::Path::new("new.png")));
         assert_eq!(label_count(again.pictures.labels.as_ref().unwrap()), 2);
     }
 }

@@ -10,6 +10,7 @@ mod colors;
 mod compare;
 mod curves;
 mod elsewhere;
+mod elsewhere_paths;
 mod geometry;
 mod grouped;
 mod histogram;
@@ -50,9 +51,8 @@ pub use compare::{
     BodyChange, ComparedRegion, Comparison, Figure, PixelChanges, RegionChange, SettingChange, compare,
     setting_changes,
 };
-pub use elsewhere::{
-    Elsewhere, ElsewhereKind, ElsewherePaths, ElsewherePixel, Held, HeldFigure, held_against, label_count,
-};
+pub use elsewhere::{Elsewhere, ElsewherePixel, Held, HeldFigure, held_against, label_count};
+pub use elsewhere_paths::{ElsewhereKind, ElsewherePaths};
 pub use geometry::{GeometrySettings, SPHERE_DISTANCES, meeting_share, sphere_colors, sphere_in_plane};
 pub use grouped::{counted, grouped};
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};

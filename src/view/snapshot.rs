@@ -41,6 +41,30 @@ pub struct ResultSnapshot {
 }
 
 impl ResultSnapshot {
+    /// The snapshot of a complete result of the whole photograph, as number 0 and without times. `region_colors` has an sRGB color for
+    /// each region.
+    pub fn new(
+        picture: Arc<Picture>,
+        params: Params,
+        analysis: Analysis,
+        region_colors: Vec<[u8; 3]>,
+    ) -> Self {
+        Self {
+            generation: 0,
+            picture,
+            params,
+            area: None,
+            coverage: coverage(&analysis),
+            analysis,
+            stale_from: None,
+            region_colors,
+            took_ms: [None; Stage::ALL.len()],
+            trace: OnceLock::new(),
+            accuracy: OnceLock::new(),
+            phoenix: OnceLock::new(),
+        }
+    }
+
     /// Whether the result is that of a working picture, whose pixels are larger than those of the photograph.
     pub fn is_of_working_picture(&self) -> bool {
         (self.labels().width(), self.labels().height()) != self.picture.size()
@@ -107,6 +131,15 @@ impl ResultSnapshot {
     pub fn total_ms(&self) -> f64 {
         self.took_ms.iter().flatten().sum()
     }
+}
+
+/// Share of the pixels that are not dark which are in a region, 0…1.
+fn coverage(analysis: &Analysis) -> f64 {
+    let labels = analysis.finals.labels.as_slice().iter().enumerate();
+    let (lit, assigned) = labels
+        .filter(|&(pixel, _)| !analysis.masks.dark(pixel))
+        .fold((0u64, 0u64), |sums, (_, &label)| (sums.0 + 1, sums.1 + u64::from(label != 0)));
+    assigned as f64 / lit.max(1) as f64
 }
 
 /// The region of `after` that covers most of `region`'s pixels in `before`; none where none covers any.

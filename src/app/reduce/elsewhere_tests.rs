@@ -157,4 +157,38 @@ fn a_workspace_remembers_the_files_and_opens_without_a_missing_one() {
     assert!(application.state().elsewhere.as_ref().is_some_and(|rest| rest.has(Diffuse)));
     let text = &application.state().notices.last().unwrap().text;
     assert!(text.contains("labels.png: the label map of another program is not there"), "{text}");
+    assert_eq!(application.state().view.image.layer, Layer::OtherBody, "the layer of the file that is there");
+}
+
+#[test]
+fn a_layer_of_a_missing_file_gives_way_to_the_layer_of_the_result_and_the_file_is_named() {
+    let mut scene = Scene::new();
+    scene.open(Diffuse, "diffuse.png");
+    scene.open(Labels, "labels.png");
+    let file = scene.path("work.dichroscope");
+    scene.application.apply(JobCommand::Export(ExportKind::Workspace.to(file.clone())));
+    for (name, kept) in [("labels.png", Some(Diffuse)), ("diffuse.png", None)] {
+        std::fs::remove_file(scene.path(name)).unwrap();
+        scene.application = Application::new(Executor::Inline, || ()).unwrap();
+        scene.application.apply(JobCommand::OpenWorkspace(file.clone()));
+        assert_eq!(scene.layers(), [Layer::Regions; 2], "without {name}");
+        let notices = &scene.application.state().notices;
+        let tells = |words: &str| notices.iter().any(|notice| notice.text.contains(words));
+        assert!(tells("the layer Other regions shows nothing until then, and Regions is shown in its place"));
+        assert!(tells(&format!("{}: the ", scene.path(name).display())), "{notices:?}");
+        assert_eq!(scene.has(Diffuse), kept.is_some());
+    }
+}
+
+#[test]
+fn a_layer_of_a_file_of_another_size_gives_way_too() {
+    let mut scene = Scene::new();
+    scene.open(Labels, "labels.png");
+    let file = scene.path("work.dichroscope");
+    scene.application.apply(JobCommand::Export(ExportKind::Workspace.to(file.clone())));
+    std::fs::copy(scene.path("small.png"), scene.path("labels.png")).unwrap();
+    scene.application = Application::new(Executor::Inline, || ()).unwrap();
+    scene.application.apply(JobCommand::OpenWorkspace(file));
+    assert_eq!(scene.layers(), [Layer::Regions; 2]);
+    scene.assert_error("the label map is 3\u{d7}2 pixels");
 }

@@ -1,7 +1,9 @@
 //! The reducer of the commands that start and stop work in the background.
 
 use super::photographs;
-use crate::app::{Effect, JobCommand, Severity, State};
+use super::reports::reading_of;
+use crate::app::files_to_open::files_to_open;
+use crate::app::{Effect, FilesToOpen, JobCommand, Severity, State};
 use crate::photo::ReadOptions;
 use crate::view::ElsewherePaths;
 
@@ -9,16 +11,18 @@ use crate::view::ElsewherePaths;
 pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
     match command {
         JobCommand::Open(origin) => {
-            (state.restoring, state.opens_beside) = (None, ElsewherePaths::default());
+            state.restoring = None;
             vec![Effect::Read(origin, ReadOptions::default())]
         }
-        JobCommand::OpenTogether(origins) => {
-            (state.restoring, state.opens_beside) = (None, ElsewherePaths::default());
-            vec![Effect::ReadTogether(origins)]
+        JobCommand::OpenFiles(origins) => {
+            let (files, notes) = files_to_open(origins, state.picture.is_some());
+            for (severity, text) in notes {
+                state.notify_of_files(severity, text);
+            }
+            read_files(state, files)
         }
-        JobCommand::OpenBeside(origin, paths) => {
-            (state.restoring, state.opens_beside) = (None, paths);
-            vec![Effect::Read(origin, ReadOptions::default())]
+        JobCommand::OpenBeside(origin, elsewhere) => {
+            read_files(state, FilesToOpen { photographs: vec![origin], elsewhere, workspace: None })
         }
         JobCommand::OpenElsewhere(kind, path) if state.picture.is_none() => {
             let text = format!(
@@ -33,12 +37,11 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
         JobCommand::Switch(switching) => photographs::switch(state, switching),
         JobCommand::ClosePhotograph => photographs::close(state),
         JobCommand::ReadAs(options) => {
-            (state.restoring, state.opens_beside) = (None, ElsewherePaths::default());
+            state.restoring = None;
             state.picture.iter().map(|picture| Effect::Read(picture.origin.clone(), options)).collect()
         }
         JobCommand::OpenWorkspace(path) => {
-            state.opens_beside = ElsewherePaths::default();
-            vec![Effect::ReadWorkspace(path)]
+            vec![Effect::ReadWorkspace { path, elsewhere: ElsewherePaths::default() }]
         }
         JobCommand::LoadParams(path) => vec![Effect::ReadParams(path)],
         JobCommand::Export(_) if state.jobs.export.is_some() => {
@@ -52,5 +55,18 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
             vec![Effect::Rescue]
         }
         JobCommand::CancelExport => vec![Effect::StopWriting],
+    }
+}
+
+/// Reads files that are opened together: photographs first, then the rest.
+fn read_files(state: &mut State, files: FilesToOpen) -> Vec<Effect> {
+    let FilesToOpen { photographs, elsewhere, workspace } = files;
+    if !photographs.is_empty() {
+        state.restoring = None;
+        return vec![Effect::ReadTogether(FilesToOpen { photographs, elsewhere, workspace })];
+    }
+    match workspace {
+        Some(path) => vec![Effect::ReadWorkspace { path, elsewhere }],
+        None => reading_of(&elsewhere, true),
     }
 }

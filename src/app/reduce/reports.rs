@@ -4,6 +4,7 @@ use super::debugger::take_trace;
 use super::edits::{analyze, edit_params};
 use super::photographs::keep_open;
 use super::questions::take_progress;
+use crate::app::files_to_open::with_unopened;
 use crate::app::report::{Report, Work};
 use crate::app::state::{AfterPin, Restoring, own_layer};
 use crate::app::{Debugger, Document, Effect, Preview, Severity, State, ViewSettings, Workspace};
@@ -21,11 +22,12 @@ const MOST_RECENT: usize = 12;
 /// Applies a report to the state and returns the effects.
 pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
     match report {
-        Report::Opened(picture) => return open_picture(state, picture),
-        Report::OpenedTogether(pictures) => return open_together(state, pictures),
+        Report::Opened(picture) => return open_picture(state, picture, ElsewherePaths::default()),
+        Report::OpenedTogether { photographs, elsewhere, workspace } => {
+            return open_together(state, photographs, elsewhere, workspace);
+        }
         Report::OpenFailed(reason) => {
             (state.jobs.reading, state.restoring) = (None, None);
-            state.opens_beside = ElsewherePaths::default();
             state.notify(Severity::Error, reason);
         }
         Report::ParamsRead(params) => {
@@ -41,6 +43,10 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
             if state.picture.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, &picture)) {
                 take_elsewhere(state, kind, *read, shows);
             }
+        }
+        Report::ElsewhereFailed { kind, picture, reason } => {
+            state.jobs.reading = None;
+            lack_elsewhere(state, kind, &picture, reason);
         }
         Report::Failed(reason) => {
             state.jobs.reading = None;
@@ -129,21 +135,57 @@ fn take_elsewhere(state: &mut State, kind: ElsewhereKind, read: Elsewhere, shows
     }
 }
 
-/// Opens photographs, and shows and analyzes the first; the others are analyzed when they are shown.
-fn open_together(state: &mut State, mut pictures: Vec<Arc<Picture>>) -> Vec<Effect> {
-    // The last photograph that is opened is shown, and the others follow it in their order.
-    if !pictures.is_empty() {
-        pictures.rotate_left(1);
+/// Says why a picture of another program could not be read. A layer of that picture, as a workspace may have been saved with, gives way to
+/// the layer of the result.
+fn lack_elsewhere(state: &mut State, kind: ElsewhereKind, picture: &Arc<Picture>, reason: String) {
+    let is_shown = state.picture.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, picture));
+    let left = if is_shown { state.leave_layers_of(kind) } else { None };
+    let text = match left {
+        Some(layer) => format!(
+            "{reason}; the layer {} shows nothing until then, and {} is shown in its place",
+            layer.name(),
+            own_layer(kind).name()
+        ),
+        None => reason,
+    };
+    state.notify(Severity::Error, text);
+}
+
+/// Opens photographs, and shows and analyzes the last; the others are analyzed when they are shown. The pictures of another program are
+/// read for the last photograph, or for that of the workspace, which is read after the photographs.
+fn open_together(
+    state: &mut State,
+    photographs: Vec<Result<Arc<Picture>, String>>,
+    elsewhere: ElsewherePaths,
+    workspace: Option<PathBuf>,
+) -> Vec<Effect> {
+    (state.jobs.reading, state.restoring) = (None, None);
+    let (mut beside, of_workspace) = match workspace {
+        Some(_) => (ElsewherePaths::default(), elsewhere),
+        None => (elsewhere, ElsewherePaths::default()),
+    };
+    let last = photographs.len().saturating_sub(1);
+    let (mut effects, mut failures) = (Vec::new(), Vec::new());
+    for (index, photograph) in photographs.into_iter().enumerate() {
+        let of_this = if index == last { std::mem::take(&mut beside) } else { ElsewherePaths::default() };
+        match photograph {
+            Ok(picture) => effects = open_picture(state, picture, of_this),
+            Err(reason) => failures.push(with_unopened(reason, &of_this)),
+        }
     }
-    let mut effects = Vec::new();
-    for picture in pictures {
-        effects = open_picture(state, picture);
+    for reason in failures {
+        // The photograph of the workspace is opened after these.
+        match workspace {
+            Some(_) => state.notify_of_files(Severity::Error, reason),
+            None => state.notify(Severity::Error, reason),
+        }
     }
+    effects.extend(workspace.map(|path| Effect::ReadWorkspace { path, elsewhere: of_workspace }));
     effects
 }
 
-/// Shows a photograph that was read, and analyzes it.
-fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
+/// Shows a photograph that was read, analyzes it, and reads the pictures of another program of it, for the image view to show.
+fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: ElsewherePaths) -> Vec<Effect> {
     state.jobs.reading = None;
     if let Some(path) = picture.origin.path() {
         state.recent.retain(|known| known != path);
@@ -163,8 +205,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     state.others.retain(|other| other.picture.origin != picture.origin);
     // Those of a photograph that is read again are read again too.
     let again = state.elsewhere.take().map_or_else(ElsewherePaths::default, |all| all.paths.clone());
-    let mut beside = reading_of(&std::mem::take(&mut state.opens_beside), true);
-    beside.extend(reading_of(&again, false));
+    let mut saved = again.except(&elsewhere);
     // What was said about the photograph before does not concern this one.
     state.notices.retain(|notice| !notice.of_photograph);
     state.picture = Some(picture);
@@ -183,7 +224,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
     }
     state.preselects = restored.is_none();
     if let Some(Restoring { workspace, path }) = restored {
-        beside = reading_of(&workspace.elsewhere, false);
+        saved = workspace.elsewhere.except(&elsewhere);
         restore_workspace(state, *workspace);
         state.workspace_path = Some(path);
     } else if had_picture && state.document.params != Params::of(state.document.params.method) {
@@ -191,16 +232,19 @@ fn open_picture(state: &mut State, picture: Arc<Picture>) -> Vec<Effect> {
             "parameters that were changed for the photograph before stay in force; Reset takes the defaults";
         state.notify(Severity::Warning, text.to_owned());
     }
-    if beside.is_empty() {
-        state.leave_missing_layers();
+    for kind in ElsewhereKind::ALL {
+        if elsewhere.get(kind).or(saved.get(kind)).is_none() {
+            state.leave_layers_of(kind);
+        }
     }
     let mut effects = analyze(state);
-    effects.extend(beside);
+    effects.extend(reading_of(&elsewhere, true));
+    effects.extend(reading_of(&saved, false));
     effects
 }
 
 /// The reading of the pictures of another program; `shows`: whether the image view is to show them.
-fn reading_of(paths: &ElsewherePaths, shows: bool) -> Vec<Effect> {
+pub(super) fn reading_of(paths: &ElsewherePaths, shows: bool) -> Vec<Effect> {
     let read = |(kind, path): (ElsewhereKind, &std::path::Path)| Effect::ReadElsewhere {
         kind,
         path: path.to_owned(),

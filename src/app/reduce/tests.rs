@@ -10,8 +10,8 @@ use crate::raster::{Mask, PixelIndex, Raster, RegionId};
 use crate::truth::sample;
 use crate::view::{Item, MaskRuns, Origin, ResultSnapshot};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
-use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 const TINY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
@@ -61,10 +61,11 @@ fn photographs_that_are_opened_together_follow_one_another_in_their_order() {
         application.apply(JobCommand::Switch(crate::app::Switching::Next));
     }
     let missing = vec![tiny(), Origin::Sample("nothing".into())];
-    application.apply(JobCommand::OpenTogether(missing));
+    application.apply(JobCommand::OpenFiles(missing));
     assert!(
         application.state().notices.iter().any(|notice| notice.text.starts_with("nothing: there is no such"))
     );
+    assert_eq!(application.state().picture.as_ref().unwrap().origin, tiny(), "the other one is opened");
 }
 
 #[test]
@@ -357,20 +358,9 @@ fn a_preview_is_shown_until_the_result_is_there() {
     let shown = Arc::clone(application.state().shown().unwrap());
     assert!(!shown.is_of_working_picture());
     let preview_of = |generation: u64| {
-        let working = ResultSnapshot {
-            generation,
-            picture: Arc::clone(&shown.picture),
-            params: shown.params,
-            area: None,
-            analysis: shown.analysis.clone(),
-            stale_from: None,
-            coverage: 0.0,
-            region_colors: shown.region_colors.clone(),
-            took_ms: shown.took_ms,
-            trace: OnceLock::new(),
-            accuracy: OnceLock::new(),
-            phoenix: OnceLock::new(),
-        };
+        let (picture, analysis) = (Arc::clone(&shown.picture), shown.analysis.clone());
+        let mut working = ResultSnapshot::new(picture, shown.params, analysis, shown.region_colors.clone());
+        working.generation = generation;
         Report::Preview(Preview { shown: Arc::new(working), blocks: shown.analysis.working.blocks })
     };
     application.take_report(preview_of(shown.generation));

@@ -53,9 +53,10 @@ enum Subject {
 
 impl PaintRequest {
     /// The request of a layer. Settings that do not change the picture are left out, so that the picture is not painted again.
-    /// Before the first result, the photograph stands for the layers of a result.
+    /// Before the first result and its preview, the photograph stands for the layers of a result.
     pub fn layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
-        let layer = if layer.needs_result() && state.shown().is_none() { Layer::Input } else { layer };
+        let has_result = state.shown().is_some() || state.shown_preview().is_some();
+        let layer = if layer.needs_result() && !has_result { Layer::Input } else { layer };
         let picture = Arc::clone(state.picture.as_ref()?);
         let preview = state.shown_preview().filter(|_| layer.needs_result() && layer.need().is_none());
         let selected = preview.map_or_else(|| state.selected_region(), |(_, selected)| selected);

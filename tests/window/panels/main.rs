@@ -29,6 +29,7 @@ mod opening;
 mod photographs;
 mod pictures;
 mod plane_panel;
+mod preview;
 mod regions;
 mod sizes;
 mod sliders;

@@ -7,7 +7,7 @@ use crate::window::{
 use dichroscope::app::{Edit, JobCommand, Severity};
 use dichroscope::params::Setting;
 use dichroscope::truth::sample;
-use dichroscope::view::Origin;
+use dichroscope::view::{Layer, Origin};
 use egui::accesskit::Role;
 use egui::{Color32, ColorImage, Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
@@ -159,6 +159,49 @@ fn a_pasted_path_and_a_pasted_picture_open() {
     window.run_steps(3);
     assert_eq!(state(&window).picture.as_ref().unwrap().origin.name(), "clipboard");
     assert_eq!(size(&window), (64, 48));
+}
+
+/// A folder with copies of the small photograph under these names.
+fn copies(names: &[&str]) -> (tempfile::TempDir, Vec<PathBuf>) {
+    let folder = tempfile::tempdir().unwrap();
+    let paths: Vec<PathBuf> = names.iter().map(|name| folder.path().join(name)).collect();
+    for path in &paths {
+        std::fs::copy(tiny(), path).unwrap();
+    }
+    (folder, paths)
+}
+
+/// The names of the open photographs: the one that is shown, and then the others in the order in which Ctrl+Tab shows them.
+fn open_names(window: &Window) -> Vec<String> {
+    let others = state(window).others.iter().map(|other| &other.picture);
+    state(window).picture.iter().chain(others).map(|picture| picture.origin.name()).collect()
+}
+
+#[test]
+fn of_several_dropped_files_every_photograph_and_its_diffuse_picture_are_opened() {
+    let (_folder, paths) = copies(&["a.png", "diffuse.png", "b.png", "c.png"]);
+    let mut window = tiny_window();
+    for path in &paths {
+        let file = Dropped(path.clone(), Vec::new());
+        window.input_mut().dropped_files.push(Arc::new(file));
+    }
+    window.run_steps(3);
+    assert_eq!(open_names(&window), ["c.png", "camera8.png", "a.png", "b.png"]);
+    assert_eq!(state(&window).view.image.layer, Layer::OtherBody);
+    assert!(says(&window, "diffuse.png is taken for a diffuse picture of another program"));
+}
+
+#[test]
+fn of_several_pasted_paths_those_that_can_be_open_are_opened_and_the_rest_is_told() {
+    let names: Vec<String> = (1..=10).map(|number| format!("{number}.png")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let (_folder, paths) = copies(&names);
+    let mut window = window();
+    let lines: Vec<String> = paths.iter().map(|path| format!("file://{}", path.display())).collect();
+    window.event(Event::Paste(lines.join("\n")));
+    window.run_steps(3);
+    assert_eq!(open_names(&window), ["8.png", "1.png", "2.png", "3.png", "4.png", "5.png", "6.png", "7.png"]);
+    assert!(says(&window, "2 photographs (from 9.png on) were not opened: 8 can be open at once"));
 }
 
 #[test]

@@ -97,9 +97,20 @@ pub fn with_software_driver(size: Vec2, fixture: Fixture) -> Option<Window> {
     }
 }
 
+/// Like [`with_gpu`], with any state.
+pub fn with_state(size: Vec2, state: State) -> Option<Window> {
+    match render_state() {
+        Ok(gpu) => Some(state_drawn_by(gpu, size, state)),
+        Err(reason) => skip(&format!("no graphics adapter ({reason})")),
+    }
+}
+
 fn drawn_by(gpu: RenderState, size: Vec2, fixture: Fixture) -> Window {
+    state_drawn_by(gpu, size, fixture.state())
+}
+
+fn state_drawn_by(gpu: RenderState, size: Vec2, state: State) -> Window {
     let builder = builder(size).renderer(WgpuTestRenderer::from_render_state(gpu.clone()));
-    let state = fixture.state();
     builder.build_eframe(move |cc| App::with_state(&cc.egui_ctx, Some(gpu), Executor::Inline, state).unwrap())
 }
 

@@ -1,0 +1,141 @@
+//! Tests of files that are opened together: their order, files that cannot be read, pictures of another program, and workspaces.
+
+use super::{reduce, reduce_report};
+use crate::app::report::Report;
+use crate::app::{Application, Edit, Effect, Executor, ExportKind, JobCommand, Severity, State, Switching};
+use crate::export::png_of_gray;
+use crate::params::{Parameter, Setting};
+use crate::view::testing::gray;
+use crate::view::{ElsewhereKind, ElsewherePaths, Layer, Origin};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+const TINY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
+
+/// A folder with copies of a photograph, and a label map and a diffuse picture of its size.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["first.png", "a.png", "b.png", "diffuse.png"] {
+        std::fs::copy(TINY, folder.path().join(name)).unwrap();
+    }
+    let (width, height) = opened(&[PathBuf::from(TINY)]).state().picture.as_ref().unwrap().size();
+    let labels = png_of_gray(&crate::raster::Raster::filled(width, height, 1u8));
+    std::fs::write(folder.path().join("labels.png"), labels).unwrap();
+    std::fs::write(folder.path().join("letter.png"), "dear all").unwrap();
+    folder
+}
+
+/// An application in which files were opened together.
+fn opened(paths: &[PathBuf]) -> Application {
+    let mut application = Application::new(Executor::Inline, || ()).unwrap();
+    open(&mut application, paths);
+    application
+}
+
+fn open(application: &mut Application, paths: &[PathBuf]) {
+    application.apply(JobCommand::OpenFiles(paths.iter().cloned().map(Origin::File).collect()));
+}
+
+/// The names of the open photographs: the one that is shown, and then the others in the order of the circle.
+fn names(state: &State) -> Vec<String> {
+    let others = state.others.iter().map(|other| &other.picture);
+    state.picture.iter().chain(others).map(|picture| picture.origin.name()).collect()
+}
+
+/// Whether a notice contains these words.
+fn tells(state: &State, words: &str) -> bool {
+    state.notices.iter().any(|notice| notice.text.contains(words))
+}
+
+#[test]
+fn every_photograph_is_opened_in_order_and_the_pictures_of_another_program_belong_to_the_last() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let mut application = opened(&[path("first.png")]);
+    open(&mut application, &["labels.png", "a.png", "diffuse.png", "b.png"].map(path));
+    let state = application.state();
+    assert_eq!(names(state), ["b.png", "first.png", "a.png"]);
+    assert!(state.is_current() && state.jobs.reading.is_none());
+    let elsewhere = state.elsewhere.as_ref().unwrap();
+    assert!(ElsewhereKind::ALL.into_iter().all(|kind| elsewhere.has(kind)));
+    assert_eq!(state.view.image.layer, Layer::OtherBody, "the picture that was read last is shown");
+    for name in ["labels.png is taken for a label map", "diffuse.png is taken for a diffuse picture"] {
+        assert!(tells(state, name), "told after the photographs were opened: {:?}", state.notices);
+    }
+    application.apply(JobCommand::Switch(Switching::Previous));
+    let state = application.state();
+    assert!(names(state)[0] == "a.png" && state.elsewhere.is_none());
+}
+
+#[test]
+fn pictures_of_another_program_alone_belong_to_the_photograph_that_is_open() {
+    let folder = folder();
+    let mut application = opened(&[folder.path().join("a.png")]);
+    open(&mut application, &["labels.png", "diffuse.png"].map(|name| folder.path().join(name)));
+    let state = application.state();
+    assert_eq!(names(state), ["a.png"]);
+    assert!(ElsewhereKind::ALL.into_iter().all(|kind| state.elsewhere.as_ref().unwrap().has(kind)));
+}
+
+#[test]
+fn a_file_that_cannot_be_read_does_not_keep_the_others_from_being_opened() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let application = opened(&["a.png", "letter.png", "b.png"].map(path));
+    assert_eq!(names(application.state()), ["b.png", "a.png"]);
+    assert!(tells(application.state(), "letter.png"));
+    // A label map is not compared with a photograph that it does not belong to.
+    let application = opened(&["a.png", "labels.png", "letter.png"].map(path));
+    let state = application.state();
+    assert!(names(state) == ["a.png"] && state.elsewhere.is_none());
+    let error = state.notices.iter().find(|notice| notice.severity == Severity::Error).unwrap();
+    let label_map = format!("without it, the label map {} cannot be compared", path("labels.png").display());
+    assert!(error.text.contains("letter.png") && error.text.contains(&label_map), "{}", error.text);
+}
+
+#[test]
+fn a_workspace_is_opened_after_the_photographs_with_the_pictures_of_another_program() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let mut application = opened(&[path("b.png")]);
+    application.apply(Edit::SetParameter(Parameter::CameraNoise, Setting::Value(4.0), None));
+    application.apply(JobCommand::Export(ExportKind::Workspace.to(path("w.dichroscope"))));
+    let application = opened(&["w.dichroscope", "labels.png", "a.png", "letter.png"].map(path));
+    let state = application.state();
+    assert_eq!(names(state), ["b.png", "a.png"]);
+    assert_eq!(state.document.params.camera_noise, Setting::Value(4.0));
+    assert_eq!(state.workspace_path, Some(path("w.dichroscope")));
+    assert!(state.elsewhere.as_ref().is_some_and(|elsewhere| elsewhere.has(ElsewhereKind::Labels)));
+    assert!(tells(state, "letter.png: "), "told after the workspace was opened: {:?}", state.notices);
+    std::fs::write(path("w.dichroscope"), "{").unwrap();
+    let application = opened(&["labels.png", "w.dichroscope", "a.png"].map(path));
+    let state = application.state();
+    assert!(names(state) == ["a.png"] && state.elsewhere.is_none());
+    assert!(tells(state, "is no workspace") && tells(state, "labels.png cannot be compared"));
+}
+
+#[test]
+fn a_label_map_waits_for_its_own_photograph_and_not_for_another_one_that_is_read_at_the_same_time() {
+    let mut state = State::default();
+    reduce(&mut state, JobCommand::Open(Origin::File("slow.png".into())));
+    let files = ["a.png", "labels.png"].map(|name| Origin::File(name.into()));
+    let effects = reduce(&mut state, JobCommand::OpenFiles(files.to_vec()));
+    let [Effect::ReadTogether(files)] = effects.as_slice() else { panic!("{effects:?}") };
+    let labels = ElsewherePaths::default().with(ElsewhereKind::Labels, "labels.png".into());
+    assert_eq!(files.elsewhere, labels);
+    let reads_labels = |effects: &[Effect]| {
+        let of_labels = |effect: &Effect| matches!(effect, Effect::ReadElsewhere { path, shows: true, .. } if path == Path::new("labels.png"));
+        effects.iter().any(of_labels)
+    };
+    let slow = reduce_report(&mut state, Report::Opened(gray(&[".."], 9)));
+    assert!(!reads_labels(&slow), "the label map is not of this photograph");
+    let mut picture = Arc::into_inner(gray(&[".."], 9)).unwrap();
+    picture.origin = Origin::File("a.png".into());
+    let read = Report::OpenedTogether {
+        photographs: vec![Ok(Arc::new(picture))],
+        elsewhere: files.elsewhere.clone(),
+        workspace: None,
+    };
+    assert!(reads_labels(&reduce_report(&mut state, read)));
+    assert_eq!(state.picture.unwrap().origin.name(), "a.png");
+}

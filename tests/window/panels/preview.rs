@@ -1,0 +1,164 @@
+//! Tests of the preview: the result for the working picture of a large photograph, which is shown until the whole result is there.
+
+use crate::window::{SIZE, Window, apply, at, named, shown, size, state, tiny, with_state, words, zoom_in};
+use dichroscope::analysis::{Analysis, Observer, Session};
+use dichroscope::app::{Application, Debugger, Edit, Executor, JobCommand, Preview, State, ViewCommand};
+use dichroscope::params::{Parameter, Params, Setting};
+use dichroscope::raster::{Blocks, PixelIndex, Raster};
+use dichroscope::view::{ImageSettings, Item, Layer, Origin, Picture, ResultSnapshot, Selection, paint};
+use egui::accesskit::Role;
+use std::sync::Arc;
+
+/// Side of a block of the working picture, pixels. The photograph has 178 × 150 pixels: the last block of each row and of each
+/// column is cut to 2 pixels.
+const SIDE: usize = 4;
+
+/// The parameters of a result whose working picture has blocks of [`SIDE`] pixels.
+fn params() -> Params {
+    let mut params = Params { scale: Setting::Value(SIDE as f64), ..Params::default() };
+    // The working picture has 45 × 38 pixels.
+    (params.window_size, params.min_area) = (Setting::Value(4.0), Setting::Value(40.0));
+    params.camera_noise = Setting::Value(2.5);
+    params
+}
+
+/// Keeps the result for the working picture.
+#[derive(Default)]
+struct Working(Option<(Analysis, Blocks)>);
+
+impl Observer for Working {
+    fn working_made(&mut self, analysis: &Analysis, blocks: &Blocks) {
+        self.0 = Some((analysis.clone(), *blocks));
+    }
+}
+
+/// The result of a photograph's working picture, with colors of regions that no other result has.
+fn preview(picture: &Arc<Picture>, generation: u64) -> Preview {
+    let mut working = Working::default();
+    let mut session = Session::new(Arc::new(picture.photo.image.clone()));
+    session.run(&params(), &mut working).unwrap();
+    let (analysis, blocks) = working.0.expect("the working picture is not the photograph");
+    let colors = (0..analysis.intrinsic.regions.len()).map(|id| [200, 40 * id as u8, 90]).collect();
+    let mut snapshot = ResultSnapshot::new(Arc::clone(picture), params(), analysis, colors);
+    snapshot.generation = generation;
+    Preview { shown: Arc::new(snapshot), blocks }
+}
+
+/// The small photograph with its result, at the moment at which the preview of the next result was reported. The photograph has no
+/// ground truth here, whose scores would make the verdict on the whole result longer.
+fn state_with_preview() -> State {
+    let mut application = Application::new(Executor::Inline, || ()).unwrap();
+    application.apply(Edit::SetParams(Box::new(params())));
+    let bytes = std::fs::read(tiny()).unwrap().into();
+    application.apply(JobCommand::Open(Origin::Bytes { name: "tiny.png".to_owned(), bytes }));
+    let mut state = application.state().clone();
+    state.document.selection = Selection::default();
+    state.generation += 1;
+    state.preview = state.picture.as_ref().map(|picture| preview(picture, state.generation));
+    state
+}
+
+/// The preview of a state.
+fn preview_of(window: &Window) -> Preview {
+    state(window).preview.clone().expect("the preview is shown")
+}
+
+/// Shows a layer in the image view.
+fn show_layer(window: &mut Window, layer: Layer) {
+    let image = ImageSettings { layer, ..state(window).view.image.clone() };
+    apply(window, ViewCommand::Image(image));
+}
+
+/// The picture of a layer of a result, sRGB, as the library paints it.
+fn painted(window: &Window, layer: Layer, result: &ResultSnapshot) -> Raster<[u8; 4]> {
+    let look = state(window).view.image.look(None);
+    paint(layer, state(window).picture.as_ref().unwrap(), Some(result), None, &look)
+}
+
+/// Checks that the window draws each pixel of the photograph, two points wide and high, in the color that `expected` has for its column
+/// and row.
+#[track_caller]
+fn assert_drawn(window: &mut Window, what: &str, expected: impl Fn(usize, usize) -> [u8; 4]) {
+    let drawn = window.render().unwrap();
+    let (width, height) = size(window);
+    let mut wrong = Vec::new();
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        let place = at(window, x as f32 + 0.5, y as f32 + 0.5);
+        let color = drawn.get_pixel(place.x as u32, place.y as u32).0;
+        let apart = |band: usize| color[band].abs_diff(expected(x, y)[band]);
+        if (0..3).any(|band| apart(band) > 2) {
+            wrong.push(((x, y), color, expected(x, y)));
+        }
+    }
+    assert!(wrong.is_empty(), "{what}: {} of {} pixels, {:?}", wrong.len(), width * height, wrong.first());
+}
+
+/// Analyzes the photograph anew, with hardly more camera noise than the preview: the whole result.
+fn finish(window: &mut Window) {
+    apply(window, Edit::SetParameter(Parameter::CameraNoise, Setting::Value(2.51), None));
+    assert!(state(window).preview.is_none() && state(window).is_current());
+    assert!(!shown(window).is_of_working_picture() && shown(window).params.scale == params().scale);
+}
+
+#[test]
+fn a_preview_covers_the_photograph_block_by_block_until_the_whole_result_takes_its_place() {
+    let Some(mut window) = with_state(SIZE, state_with_preview()) else { return };
+    let preview = preview_of(&window);
+    let blocks = (preview.blocks.side(), preview.blocks.columns(), preview.blocks.rows());
+    assert_eq!((size(&window), blocks), ((178, 150), (SIDE, 45, 38)));
+    assert!(preview.shown.analysis.intrinsic.regions.len() >= 2, "the layers are not all the same");
+    zoom_in(&mut window);
+    let mut frames = Vec::new();
+    for layer in [Layer::Body, Layer::Regions] {
+        show_layer(&mut window, layer);
+        let of_blocks = painted(&window, layer, &preview.shown);
+        assert_eq!((of_blocks.width(), of_blocks.height()), (45, 38));
+        assert_drawn(&mut window, layer.name(), |x, y| of_blocks[y / SIDE * 45 + x / SIDE]);
+        frames.push(named(&window, Role::Image, "Picture").rect());
+    }
+    // A layer of the photograph alone has no preview.
+    show_layer(&mut window, Layer::Input);
+    let photograph = painted(&window, Layer::Input, &shown(&window));
+    assert_drawn(&mut window, "Input", |x, y| photograph[y * 178 + x]);
+    finish(&mut window);
+    for layer in [Layer::Body, Layer::Regions] {
+        show_layer(&mut window, layer);
+        let whole = painted(&window, layer, &shown(&window));
+        assert_drawn(&mut window, layer.name(), |x, y| whole[y * 178 + x]);
+        frames.push(named(&window, Role::Image, "Picture").rect());
+    }
+    frames.dedup();
+    assert_eq!(frames.len(), 1, "the view stays where it is");
+}
+
+#[test]
+fn hovering_a_preview_reads_the_pixel_of_the_photograph() {
+    let Some(mut window) = with_state(SIZE, state_with_preview()) else { return };
+    zoom_in(&mut window);
+    show_layer(&mut window, Layer::Body);
+    for (x, y) in [(0, 0), (101, 75), (177, 40), (176, 149), (177, 149)] {
+        window.hover_at(at(&window, x as f32 + 0.5, y as f32 + 0.5));
+        window.run_steps(3);
+        let pixel = PixelIndex::from_index(y * 178 + x);
+        assert_eq!(state(&window).hover, Some(Item::Pixel(pixel)));
+        let [r, g, b] = state(&window).picture.as_ref().unwrap().photo.image.pixels[pixel.index()];
+        let readout = words(&named(&window, Role::Label, &format!("x {x}, y {y}"))).unwrap();
+        assert!(readout.contains(&format!("R {r:.1}, G {g:.1}, B {b:.1}")), "{readout}");
+    }
+}
+
+#[test]
+fn the_preview_of_a_photograph_without_a_result_is_shown_and_the_view_stays_when_the_result_comes() {
+    let mut state_before = state_with_preview();
+    (state_before.newest, state_before.debugger) = (None, Debugger::default());
+    let Some(mut window) = with_state(SIZE, state_before) else { return };
+    zoom_in(&mut window);
+    show_layer(&mut window, Layer::Body);
+    let of_blocks = painted(&window, Layer::Body, &preview_of(&window).shown);
+    assert_drawn(&mut window, "preview", |x, y| of_blocks[y / SIDE * 45 + x / SIDE]);
+    let before = named(&window, Role::Image, "Picture").rect();
+    finish(&mut window);
+    let whole = painted(&window, Layer::Body, &shown(&window));
+    assert_drawn(&mut window, "result", |x, y| whole[y * 178 + x]);
+    assert_eq!(named(&window, Role::Image, "Picture").rect(), before);
+}
