@@ -22,7 +22,7 @@ const MOST_RECENT: usize = 12;
 /// Applies a report to the state and returns the effects.
 pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
     match report {
-        Report::Opened(picture) => return open_picture(state, picture, ElsewherePaths::default()),
+        Report::Opened(picture) => return open_picture(state, picture, &ElsewherePaths::default()),
         Report::OpenedTogether { photographs, elsewhere, workspace } => {
             return open_together(state, photographs, elsewhere, workspace);
         }
@@ -169,7 +169,7 @@ fn open_together(
     for (index, photograph) in photographs.into_iter().enumerate() {
         let of_this = if index == last { std::mem::take(&mut beside) } else { ElsewherePaths::default() };
         match photograph {
-            Ok(picture) => effects = open_picture(state, picture, of_this),
+            Ok(picture) => effects = open_picture(state, picture, &of_this),
             Err(reason) => failures.push(with_unopened(reason, &of_this)),
         }
     }
@@ -185,7 +185,7 @@ fn open_together(
 }
 
 /// Shows a photograph that was read, analyzes it, and reads the pictures of another program of it, for the image view to show.
-fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: ElsewherePaths) -> Vec<Effect> {
+fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: &ElsewherePaths) -> Vec<Effect> {
     state.jobs.reading = None;
     if let Some(path) = picture.origin.path() {
         state.recent.retain(|known| known != path);
@@ -205,7 +205,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: ElsewherePa
     state.others.retain(|other| other.picture.origin != picture.origin);
     // Those of a photograph that is read again are read again too.
     let again = state.elsewhere.take().map_or_else(ElsewherePaths::default, |all| all.paths.clone());
-    let mut saved = again.except(&elsewhere);
+    let mut saved = again.except(elsewhere);
     // What was said about the photograph before does not concern this one.
     state.notices.retain(|notice| !notice.of_photograph);
     state.picture = Some(picture);
@@ -224,7 +224,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: ElsewherePa
     }
     state.preselects = restored.is_none();
     if let Some(Restoring { workspace, path }) = restored {
-        saved = workspace.elsewhere.except(&elsewhere);
+        saved = workspace.elsewhere.except(elsewhere);
         restore_workspace(state, *workspace);
         state.workspace_path = Some(path);
     } else if had_picture && state.document.params != Params::of(state.document.params.method) {
@@ -238,7 +238,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: ElsewherePa
         }
     }
     let mut effects = analyze(state);
-    effects.extend(reading_of(&elsewhere, true));
+    effects.extend(reading_of(elsewhere, true));
     effects.extend(reading_of(&saved, false));
     effects
 }
