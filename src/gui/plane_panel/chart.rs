@@ -434,7 +434,7 @@ mod tests {
         assert_eq!(first.min, pos2(2.0, 40.0));
         assert_eq!(tick_number_place(number(-50.0, 47.0), view, &[first]), None, "half a line below");
         assert!(tick_number_place(number(-50.0, 53.0), view, &[first]).is_some());
-        assert_eq!(tick_number_place(number(190.0, 0.0), view, &[first]).unwrap().right(), 198.0);
+        assert_eq!(tick_number_place(number(190.0, 0.0), view, &[first]).unwrap().max, pos2(198.0, 12.0));
     }
 
     #[test]
