@@ -76,7 +76,7 @@ fn painted(window: &Window, layer: Layer, result: &ResultSnapshot) -> Raster<[u8
 }
 
 /// Checks that the window draws each pixel of the photograph, two points wide and high, in the color that `expected` has for its column
-/// and row.
+/// and row, and nothing beyond the photograph's right and lower edges.
 #[track_caller]
 fn assert_drawn(window: &mut Window, what: &str, expected: impl Fn(usize, usize) -> [u8; 4]) {
     let drawn = window.render().unwrap();
@@ -88,6 +88,20 @@ fn assert_drawn(window: &mut Window, what: &str, expected: impl Fn(usize, usize)
         let apart = |band: usize| color[band].abs_diff(expected(x, y)[band]);
         if (0..3).any(|band| apart(band) > 2) {
             wrong.push(((x, y), color, expected(x, y)));
+        }
+    }
+    let color_at = |x: f32, y: f32| {
+        let place = at(window, x, y);
+        drawn.get_pixel(place.x as u32, place.y as u32).0
+    };
+    let (right, bottom) = (width as f32, height as f32);
+    let background = color_at(right + 10.5, bottom + 10.5);
+    for beyond in [0.5, 1.5] {
+        for y in 0..height {
+            assert_eq!(color_at(right + beyond, y as f32 + 0.5), background, "{what}: right of row {y}");
+        }
+        for x in 0..width {
+            assert_eq!(color_at(x as f32 + 0.5, bottom + beyond), background, "{what}: below column {x}");
         }
     }
     assert!(wrong.is_empty(), "{what}: {} of {} pixels, {:?}", wrong.len(), width * height, wrong.first());
