@@ -100,6 +100,18 @@ impl State {
         }
     }
 
+    /// The result of the newest run: that for the working picture, until the whole result is there. What is in working pixels or in no
+    /// pixels (parameters, lights) is the same in both.
+    pub fn newest_run(&self) -> Option<&ResultSnapshot> {
+        self.preview.as_ref().map(|preview| &*preview.shown).or(self.newest.as_deref())
+    }
+
+    /// Side of a working pixel of the newest run, pixels of the photograph; 1 before the first run.
+    pub fn working_side_px(&self) -> usize {
+        let of_newest = || self.newest.as_ref().map(|shown| shown.analysis.working.blocks.side());
+        self.preview.as_ref().map(|preview| preview.blocks.side()).or_else(of_newest).unwrap_or(1)
+    }
+
     /// Whether the newest result is complete and belongs to the present parameters.
     pub fn is_current(&self) -> bool {
         self.newest

@@ -91,7 +91,7 @@ fn reset(ui: &mut Ui, cx: &mut PanelContext, method: Method) {
 fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
     let spec = parameter.spec();
     let setting = cx.state.document.params.get(parameter);
-    let used = cx.state.newest.as_ref().map(|shown| shown.analysis.used.get(parameter));
+    let used = cx.state.newest_run().map(|shown| shown.analysis.used.get(parameter));
     let gesture = Gesture::Parameter(parameter);
     // Dragging and typing start from the value in force.
     let mut value = setting.value().or(used).filter(|value| value.is_finite()).unwrap_or(spec.paper);
@@ -152,7 +152,7 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
 
 /// Shows what a parameter of working pixels is in pixels of the photograph, where the two differ.
 fn in_photograph_pixels(ui: &mut Ui, cx: &PanelContext, parameter: Parameter, value: f64) {
-    let side = cx.state.newest.as_ref().map_or(1, |shown| shown.analysis.working.blocks.side());
+    let side = cx.state.working_side_px();
     let Some(pixels) = photograph_pixels(parameter, value, side) else { return };
     let pixels = crate::view::grouped(pixels as usize);
     let text = format!("of working pixels of {side} \u{d7} {side}; in the photograph {pixels} px");

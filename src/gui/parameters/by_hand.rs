@@ -51,7 +51,7 @@ fn illuminant(ui: &mut Ui, cx: &mut PanelContext) {
     let setting = cx.state.document.params.illuminant;
     let given = setting.direction();
     let found =
-        cx.state.newest.as_ref().and_then(|shown| shown.analysis.illuminant).map(|light| light.direction);
+        cx.state.newest_run().and_then(|shown| shown.analysis.illuminant).map(|light| light.direction);
     let tip =
         "The color of the light. Found, or given: then every dichromatic plane turns to it (section 5.4).";
     let mut direction = typed_numbers(setting).or(found).unwrap_or(WHITE);
@@ -105,11 +105,7 @@ fn pin_found_lamps(cx: &mut PanelContext, direction: Option<[f64; 3]>) {
 
 /// The second lamp of the newest result, unit.
 fn found_second_lamp(cx: &PanelContext) -> Option<[f64; 3]> {
-    cx.state
-        .newest
-        .as_ref()
-        .and_then(|shown| shown.analysis.finals.light.second)
-        .map(|second| second.direction)
+    cx.state.newest_run().and_then(|shown| shown.analysis.finals.light.second).map(|second| second.direction)
 }
 
 /// Shows the color of the second lamp: found, or given. Without either the numbers are those of the first light, in the secondary color,
@@ -118,7 +114,7 @@ fn second_lamp(ui: &mut Ui, cx: &mut PanelContext) {
     let params = cx.state.document.params;
     let (setting, found) = (params.second_illuminant, found_second_lamp(cx));
     let given = setting.direction();
-    let first = cx.state.newest.as_ref().and_then(|shown| shown.analysis.illuminant);
+    let first = cx.state.newest_run().and_then(|shown| shown.analysis.illuminant);
     let known = typed_numbers(setting).or(found);
     let tip = if known.is_some() {
         "The color of a second lamp (section 7.5, second_illuminant). Found, or given: then each region is split with the lamp that its \
@@ -160,7 +156,7 @@ fn second_lamp(ui: &mut Ui, cx: &mut PanelContext) {
 /// Shows the ambient light: the counts that were found and subtracted, or given counts.
 fn ambient(ui: &mut Ui, cx: &mut PanelContext) {
     let setting = cx.state.document.params.ambient;
-    let found = cx.state.newest.as_ref().map(|shown| shown.analysis.intrinsic.ambient);
+    let found = cx.state.newest_run().map(|shown| shown.analysis.intrinsic.ambient);
     let tip = "Light from everywhere, counts: where the matte lines meet. It is subtracted before the split and belongs to \
                the body reflection after it (section 7.5).";
     let mut counts = match setting {

@@ -170,6 +170,10 @@ fn the_preview_of_a_photograph_without_a_result_is_shown_and_the_view_stays_when
     show_layer(&mut window, Layer::Body);
     let of_blocks = painted(&window, Layer::Body, &preview_of(&window).shown);
     assert_drawn(&mut window, "preview", |x, y| of_blocks[y / SIDE * 45 + x / SIDE]);
+    let used_by_panel = state(&window).newest_run().map(|shown| shown.analysis.used);
+    assert_eq!(used_by_panel, Some(preview_of(&window).shown.analysis.used));
+    // The window size in pixels of the photograph.
+    named(&window, Role::Label, "of working pixels of 4 \u{d7} 4; in the photograph 16 px");
     let before = named(&window, Role::Image, "Picture").rect();
     finish(&mut window);
     let whole = painted(&window, Layer::Body, &shown(&window));
