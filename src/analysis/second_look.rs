@@ -10,7 +10,7 @@
 //!
 //! Measured on four rendered pictures of 12 megapixels, each with 24 balls of 60 to 200 pixels, before black and before a wall, as PNG and
 //! demosaiced at JPEG 92: 62 → 96 of the 96 balls are regions, body of the balls 38.4 → 41.1 dB (doing nothing: 29.3).
-//! The second look takes about as long as the rest of the analysis of such a picture, as the whole finer picture is made.
+//! The second look takes as long as the rest of the analysis of such a picture or twice as long, as the whole finer picture is made.
 
 use super::photograph::Photograph;
 use super::resolve::{NoiseFindings, used_params};
