@@ -13,16 +13,17 @@ const SHARED: f64 = 0.2;
 /// A color for each region: the color of the earlier region that the region continues, otherwise a color that differs from
 /// those of its neighbors.
 pub(crate) fn region_colors(analysis: &Analysis, before: Option<(&LabelMap, &[[u8; 3]])>) -> Vec<[u8; 3]> {
-    let regions = analysis.intrinsic.regions.iter();
-    let neighbors: Vec<&[RegionId]> = regions.map(|region| region.neighbors.as_slice()).collect();
-    colors(&analysis.finals.labels, &neighbors, before)
+    colors(&analysis.finals.labels, &neighbors_by_region(analysis), before)
 }
 
 /// The colors `first` for the first regions, and for each further region a color that differs from those of its neighbors.
 pub(crate) fn colors_with_further_regions(analysis: &Analysis, first: &[[u8; 3]]) -> Vec<[u8; 3]> {
-    let regions = analysis.intrinsic.regions.iter();
-    let neighbors: Vec<&[RegionId]> = regions.map(|region| region.neighbors.as_slice()).collect();
-    further_colors(&neighbors, first)
+    further_colors(&neighbors_by_region(analysis), first)
+}
+
+/// The neighbors of each region, by [`RegionId::index`].
+fn neighbors_by_region(analysis: &Analysis) -> Vec<&[RegionId]> {
+    analysis.intrinsic.regions.iter().map(|region| region.neighbors.as_slice()).collect()
 }
 
 /// The colors `first`, and a color for each further region. `neighbors` and the colors are lists by [`RegionId::index`].

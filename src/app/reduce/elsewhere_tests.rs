@@ -40,6 +40,13 @@ impl Scene {
         std::fs::write(self.path(name), bytes).unwrap();
     }
 
+    /// The file of a workspace that was saved now.
+    fn saved_workspace(&mut self) -> PathBuf {
+        let file = self.path("work.dichroscope");
+        self.application.apply(JobCommand::Export(ExportKind::Workspace.to(file.clone())));
+        file
+    }
+
     fn open(&mut self, kind: ElsewhereKind, name: &str) {
         self.application.apply(JobCommand::OpenElsewhere(kind, self.path(name)));
     }
@@ -138,8 +145,7 @@ fn a_workspace_remembers_the_files_and_opens_without_a_missing_one() {
     let mut scene = Scene::new();
     scene.open(Labels, "labels.png");
     scene.open(Diffuse, "diffuse.png");
-    let file = scene.path("work.dichroscope");
-    scene.application.apply(JobCommand::Export(ExportKind::Workspace.to(file.clone())));
+    let file = scene.saved_workspace();
     let text = std::fs::read_to_string(&file).unwrap();
     assert!(text.contains("\"labels\": \"labels.png\""), "paths are relative: {text}");
     let opened = |file: &Path| {
@@ -165,8 +171,7 @@ fn a_layer_of_a_missing_file_gives_way_to_the_layer_of_the_result_and_the_file_i
     let mut scene = Scene::new();
     scene.open(Diffuse, "diffuse.png");
     scene.open(Labels, "labels.png");
-    let file = scene.path("work.dichroscope");
-    scene.application.apply(JobCommand::Export(ExportKind::Workspace.to(file.clone())));
+    let file = scene.saved_workspace();
     for (name, kept) in [("labels.png", Some(Diffuse)), ("diffuse.png", None)] {
         std::fs::remove_file(scene.path(name)).unwrap();
         scene.application = Application::new(Executor::Inline, || ()).unwrap();
@@ -184,8 +189,7 @@ fn a_layer_of_a_missing_file_gives_way_to_the_layer_of_the_result_and_the_file_i
 fn a_layer_of_a_file_of_another_size_gives_way_too() {
     let mut scene = Scene::new();
     scene.open(Labels, "labels.png");
-    let file = scene.path("work.dichroscope");
-    scene.application.apply(JobCommand::Export(ExportKind::Workspace.to(file.clone())));
+    let file = scene.saved_workspace();
     std::fs::copy(scene.path("small.png"), scene.path("labels.png")).unwrap();
     scene.application = Application::new(Executor::Inline, || ()).unwrap();
     scene.application.apply(JobCommand::OpenWorkspace(file));

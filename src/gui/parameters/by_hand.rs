@@ -103,7 +103,7 @@ fn pin_found_lamps(cx: &mut PanelContext, direction: Option<[f64; 3]>) {
     cx.send(Edit::EndGesture);
 }
 
-/// The second lamp of the newest result, unit.
+/// The second lamp of the newest run, unit.
 fn found_second_lamp(cx: &PanelContext) -> Option<[f64; 3]> {
     cx.state.newest_run().and_then(|shown| shown.analysis.finals.light.second).map(|second| second.direction)
 }

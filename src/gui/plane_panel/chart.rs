@@ -336,7 +336,6 @@ impl ChartLabel {
     }
 }
 
-/// Stroke of the grid line of a value: the line of zero is an axis and darker.
 /// The numbers at the ticks. A number that would lie on an earlier one is left out: on an axis at a small angle to the other axis, and beside
 /// an axis that has left the view, the ticks are closer than the numbers are high.
 struct TickNumbers<'a> {
@@ -370,6 +369,7 @@ fn tick_number_place(number: Rect, rect: Rect, taken: &[Rect]) -> Option<Rect> {
     is_free.then_some(place)
 }
 
+/// Stroke of the grid line of a value: the line of zero is an axis and darker.
 fn line(value: f32, palette: &ThemeColors) -> Stroke {
     if value == 0.0 {
         Stroke::new(1.0, palette.secondary)
