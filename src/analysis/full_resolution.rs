@@ -83,7 +83,7 @@ impl FullResolution {
                 ..working_regions.clone()
             };
             match found {
-                Some(found) => found.added_to(input, regions),
+                Some(found) => found.added_to(regions),
                 None => regions,
             }
         })?;

@@ -6,7 +6,7 @@ use crate::params::{Baseline, Params, Rules, Setting, UsedParams};
 use crate::photo::{
     CodingError, LinearImage, MaskLimits, Masks, NoiseCorrelation, NoiseEstimate, ShotNoise, WorkingPicture,
 };
-use crate::raster::Mask;
+use crate::raster::{Blocks, Mask};
 use crate::segment::AnalysisInput;
 use crate::trace::{MasksMade, Recorder};
 use std::sync::Arc;
@@ -130,7 +130,8 @@ impl<'a> Preparation<'a> {
             limits.min_intensity = used_params(self.params, &working.image, factor, &noise).min_intensity;
             (masks, working) = self.pictures(&limits);
         }
-        let sparse = || NoiseEstimate::measure_sparsely(image, &masks, factor);
+        let pixels = Blocks::new(1, image.width(), image.height());
+        let sparse = || NoiseEstimate::measure_sparsely(image, &masks, &pixels, factor);
         let detail = if factor > 1 && self.automatic_noise { sparse() } else { None };
         if R::KEEPS {
             let made = masks_made(&working.masks, limits, working.image.pixels.len(), noise.sigma);

@@ -15,7 +15,7 @@ use super::finish::Finish;
 use super::images::Images;
 use super::local::{LocalWorkingSplit, split_locally_at_full_resolution};
 use super::region::RegionReports;
-use super::region_plan::RegionPlan;
+use super::region_plan::{FittedPlace, RegionPlan};
 use super::split::{WorkingSplit, add_ambient, without_light};
 use crate::raster::{LabelMap, Mask, RegionId};
 use crate::segment::{Members, neighbors};
@@ -39,8 +39,9 @@ pub fn split_photograph(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
 /// Splits a photograph whose colors are measured from the ambient light.
 fn split_from(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
     let (input, found) = (&detail.input, &working.found);
+    let place = FittedPlace { block_side: detail.blocks.side(), ..FittedPlace::WHOLE_PICTURE };
     let mut plans: Vec<RegionPlan> =
-        found.plans.iter().map(|plan| plan.at_full_resolution(input, detail.blocks.side())).collect();
+        found.plans.iter().map(|plan| plan.at_full_resolution(input, place)).collect();
     let touching = match detail.second_look {
         None => found.touching.clone(),
         Some(second_look) => {

@@ -24,7 +24,7 @@ mod vectors;
 pub use detail::Detail;
 pub use full_resolution::split_photograph;
 pub use reason::Reason;
-pub use region_plan::RegionPlans;
+pub use region_plan::{FittedPlace, RegionPlans};
 pub use split::{WorkingSplit, split};
 
 use crate::raster::{Raster, RegionId};

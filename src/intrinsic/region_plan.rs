@@ -41,8 +41,8 @@ pub(super) struct RegionPlan {
     test_starts: Vec<Vec3>,
     /// Amount of body reflection m_b at each of `starts`, counts.
     pub(super) start_bodies: Vec<f32>,
-    /// Side of a pixel of the picture to which the plan was fitted, pixels of the picture that the plan splits.
-    block_side: usize,
+    /// Where the picture to which the plan was fitted lies in the picture that the plan splits.
+    place: FittedPlace,
     /// The angles between body and surface vector that a split needs.
     pub(super) angle_limits: AngleLimits,
     /// The line from which ε is measured, where the region has no plane (reading `cylinder_noise`).
@@ -86,7 +86,7 @@ impl RegionPlan {
             starts: vec![hypothesis.start],
             test_starts: vec![hypothesis.start],
             start_bodies: vec![start_body],
-            block_side: 1,
+            place: FittedPlace::WHOLE_PICTURE,
             angle_limits,
             noise_line,
         };
@@ -131,18 +131,17 @@ impl RegionPlan {
 
     /// The place in `starts` of the line of the highlight that contains a pixel or is nearest to the pixel in the picture.
     pub(super) fn branch_near(&self, input: &AnalysisInput, pixel: u32) -> usize {
-        let (width, side) = (input.pixels.width() as u32, self.block_side as u32);
         if self.starts.len() < 2 {
             return 0;
         }
-        self.branches.nearest(pixel % width / side, pixel / width / side)
+        let [x, y] = self.place.pixel(input.pixels.width(), pixel as usize);
+        self.branches.nearest(x as u32, y as u32)
     }
 
-    /// This plan for the photograph `input`, which was averaged over blocks of `block_side` pixels for the picture to which this plan
-    /// was fitted.
-    pub(super) fn at_full_resolution(&self, input: &AnalysisInput, block_side: usize) -> Self {
+    /// This plan for the photograph `input`. `place`: where the picture to which this plan was fitted lies in the photograph.
+    pub(super) fn at_full_resolution(&self, input: &AnalysisInput, place: FittedPlace) -> Self {
         let mut plan = self.clone();
-        plan.block_side = block_side;
+        plan.place = place;
         if input.refine.no_negative_surface {
             let noise_line = self.noise_line.map(|line| cylinder(input, &line));
             plan.splitter.rule =
@@ -174,23 +173,46 @@ impl RegionPlan {
     }
 }
 
-/// How regions are split, by [`RegionId::index`].
-#[derive(Clone)]
+/// Where a picture to which plans were fitted lies in a photograph: the picture is a rectangle of the photograph, averaged over blocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FittedPlace {
+    /// Side of a pixel of the picture, pixels of the photograph; at least 1.
+    pub block_side: usize,
+    /// Column and row of the photograph where the picture begins, pixels.
+    pub corner: [usize; 2],
+}
+
+impl FittedPlace {
+    /// The picture is the photograph.
+    pub(super) const WHOLE_PICTURE: Self = Self { block_side: 1, corner: [0, 0] };
+
+    /// Column and row, in the picture, of pixel `pixel` of the photograph of `width` columns.
+    fn pixel(&self, width: usize, pixel: usize) -> [usize; 2] {
+        let at = [pixel % width.max(1), pixel / width.max(1)];
+        std::array::from_fn(|axis| at[axis].saturating_sub(self.corner[axis]) / self.block_side)
+    }
+}
+
+/// How regions are split, in their order.
+#[derive(Clone, Default)]
 pub struct RegionPlans {
-    plans: Vec<RegionPlan>,
-    /// Side of a pixel of the picture to which the plans were fitted, pixels of the photograph.
-    block_side: usize,
+    plans: Vec<(FittedPlace, RegionPlan)>,
 }
 
 impl RegionPlans {
-    /// Plans that were fitted to a picture with pixels of `block_side` pixels of the photograph a side.
-    pub(super) fn new(plans: Vec<RegionPlan>, block_side: usize) -> Self {
-        Self { plans, block_side }
+    /// Plans that were fitted to a picture that lies at `place`.
+    pub(super) fn new(plans: impl Iterator<Item = RegionPlan>, place: FittedPlace) -> Self {
+        Self { plans: plans.map(|plan| (place, plan)).collect() }
+    }
+
+    /// Appends the plans of more regions.
+    pub fn extend(&mut self, more: Self) {
+        self.plans.extend(more.plans);
     }
 
     /// The plans for the photograph `input`.
     pub(super) fn at_full_resolution(&self, input: &AnalysisInput) -> Vec<RegionPlan> {
-        self.plans.iter().map(|plan| plan.at_full_resolution(input, self.block_side)).collect()
+        self.plans.iter().map(|(place, plan)| plan.at_full_resolution(input, *place)).collect()
     }
 }
 
@@ -237,6 +259,16 @@ fn least_offset(input: &AnalysisInput, vectors: &Vectors) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_pixel_of_the_photograph_lies_in_the_pixel_of_the_picture_that_plans_were_fitted_to() {
+        let place = FittedPlace { block_side: 3, corner: [10, 20] };
+        assert_eq!(
+            [0, 10 * 100 + 50, 25 * 100 + 17].map(|pixel| place.pixel(100, pixel)),
+            [[0, 0], [13, 0], [2, 1]]
+        );
+        assert_eq!(FittedPlace::WHOLE_PICTURE.pixel(100, 2517), [17, 25]);
+    }
 
     #[test]
     fn the_share_of_the_light_is_its_interval_over_the_angle_to_the_body() {

@@ -11,7 +11,7 @@ use super::images::Images;
 use super::local::{Lamps, LocalInput, LocalSplit, Regions, split_locally};
 use super::plane_evidence::reject_regions_without_evidence;
 use super::region::RegionReports;
-use super::region_plan::{RegionPlan, RegionPlans};
+use super::region_plan::{FittedPlace, RegionPlan, RegionPlans};
 use crate::color::Line;
 use crate::raster::{Mask, Raster, RegionId};
 use crate::segment::{AnalysisInput, Branches, FinalRegions, Members, PlanarHypothesis, members, neighbors};
@@ -28,11 +28,10 @@ pub struct WorkingSplit {
 }
 
 impl WorkingSplit {
-    /// How the regions that are `kept`, by [`RegionId::index`], are split. `block_side`: side of a pixel of the picture that was split, pixels
-    /// of the photograph.
-    pub fn region_plans(&self, kept: &[bool], block_side: usize) -> RegionPlans {
+    /// How the regions that are `kept`, by [`RegionId::index`], are split. `place`: where the picture that was split lies in the photograph.
+    pub fn region_plans(&self, kept: &[bool], place: FittedPlace) -> RegionPlans {
         let plans = self.found.plans.iter().zip(kept).filter(|(_, is_kept)| **is_kept);
-        RegionPlans::new(plans.map(|(plan, _)| plan.clone()).collect(), block_side)
+        RegionPlans::new(plans.map(|(plan, _)| plan.clone()), place)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The linear image, the input of all stages.
 
 use super::coding::CodingError;
-use crate::raster::{Mask, Raster};
+use crate::raster::{Mask, Raster, Roi};
 use rayon::prelude::*;
 
 /// Pixels of one parallel task: enough that the cost of starting a task does not matter.
@@ -39,6 +39,18 @@ impl LinearImage {
     #[must_use]
     pub fn with_coding(self, coding: Option<CodingError>) -> Self {
         Self { coding, ..self }
+    }
+
+    /// The part of the image in a rectangle.
+    #[must_use]
+    pub(crate) fn cropped(&self, roi: &Roi) -> Self {
+        let Self { pixels, invalid, saturation, coding } = self;
+        Self {
+            pixels: roi.crop(pixels),
+            invalid: roi.crop(invalid),
+            saturation: *saturation,
+            coding: coding.clone(),
+        }
     }
 
     /// Number of columns.

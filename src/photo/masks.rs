@@ -3,7 +3,7 @@
 
 use super::LinearImage;
 use crate::color::dot;
-use crate::raster::{Blocks, Mask, Raster};
+use crate::raster::{Blocks, Mask, Raster, Roi};
 use rayon::prelude::*;
 
 /// Thresholds of the masks.
@@ -133,6 +133,12 @@ impl Masks {
             }
         });
         Self { flags }
+    }
+
+    /// The marks of the pixels in a rectangle.
+    #[must_use]
+    pub(crate) fn cropped(&self, roi: &Roi) -> Self {
+        Self { flags: roi.crop(&self.flags) }
     }
 
     /// Number of columns and rows.

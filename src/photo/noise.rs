@@ -13,6 +13,7 @@
 
 use super::{LinearImage, Masks};
 use crate::color::{Moments, principal_axes};
+use crate::raster::Blocks;
 use rayon::prelude::*;
 
 /// Side of a window, pixels.
@@ -70,19 +71,25 @@ struct WindowNoise {
 impl NoiseEstimate {
     /// The noise of an image; `None` when fewer than 8 windows have enough usable pixels.
     pub fn measure(image: &LinearImage, masks: &Masks) -> Option<Self> {
-        Self::measure_sparsely(image, masks, 1)
+        Self::measure_sparsely(image, masks, &Blocks::new(1, image.width(), image.height()), 1)
     }
 
-    /// As [`Self::measure`], from every `step`-th window of each row of windows, in the next row beginning one window later. In a
-    /// large picture fewer windows are enough, and cost less.
-    pub fn measure_sparsely(image: &LinearImage, masks: &Masks, step: usize) -> Option<Self> {
+    /// The noise of the means of the `blocks` of an image, from every `step`-th window of each row of windows, in the next row beginning
+    /// one window later. In a large picture fewer windows are enough, and cost less. The mean of a block is used where all of its pixels
+    /// are.
+    pub fn measure_sparsely(
+        image: &LinearImage,
+        masks: &Masks,
+        blocks: &Blocks,
+        step: usize,
+    ) -> Option<Self> {
         let step = step.max(1);
-        let (rows, columns) = (image.height() / WINDOW_PX, image.width() / WINDOW_PX);
+        let (rows, columns) = (blocks.rows() / WINDOW_PX, blocks.columns() / WINDOW_PX);
         let mut windows: Vec<WindowNoise> = (0..rows)
             .into_par_iter()
             .flat_map_iter(|row| {
                 let columns = (row % step..columns).step_by(step);
-                columns.filter_map(move |column| WindowNoise::of_window(image, masks, column, row))
+                columns.filter_map(move |column| WindowNoise::of_window(image, masks, blocks, [column, row]))
             })
             .collect();
         if windows.len() < MIN_WINDOWS {
@@ -95,12 +102,18 @@ impl NoiseEstimate {
 
 impl WindowNoise {
     /// Of the window at a column and row of windows; `None` where fewer than half of the pixels are usable.
-    fn of_window(image: &LinearImage, masks: &Masks, column: usize, row: usize) -> Option<Self> {
+    fn of_window(
+        image: &LinearImage,
+        masks: &Masks,
+        blocks: &Blocks,
+        [column, row]: [usize; 2],
+    ) -> Option<Self> {
         let mut moments = Moments::default();
         for y in row * WINDOW_PX..(row + 1) * WINDOW_PX {
-            let start = y * image.width() + column * WINDOW_PX;
-            for pixel in (start..start + WINDOW_PX).filter(|&pixel| masks.usable(pixel)) {
-                moments.add(image.pixels[pixel]);
+            for x in column * WINDOW_PX..(column + 1) * WINDOW_PX {
+                if let Some(color) = block_mean(image, masks, blocks, [x, y]) {
+                    moments.add(color);
+                }
             }
         }
         if moments.n < (WINDOW_PX * WINDOW_PX) as f64 / 2.0 {
@@ -110,6 +123,28 @@ impl WindowNoise {
         let weights = axes[2].component_mul(&axes[2]);
         Some(Self { intensity: weights.dot(&moments.mean()), variance: variances[2] })
     }
+}
+
+/// The mean of the block at a column and row of blocks, counts; `None` where a pixel of the block is not usable.
+fn block_mean(
+    image: &LinearImage,
+    masks: &Masks,
+    blocks: &Blocks,
+    [column, row]: [usize; 2],
+) -> Option<[f32; 3]> {
+    let mut sum = [0.0f32; 3];
+    let mut count = 0.0f32;
+    for y in blocks.pixel_rows(row) {
+        for x in blocks.pixel_columns(column) {
+            let pixel = y * image.width() + x;
+            if !masks.usable(pixel) {
+                return None;
+            }
+            sum = std::array::from_fn(|band| sum[band] + image.pixels[pixel][band]);
+            count += 1.0;
+        }
+    }
+    Some(sum.map(|band| band / count))
 }
 
 /// The variance of the noise of a band in `windows`, counts²: the quantile [`QUANTILE`] of the smallest eigenvalues,
@@ -181,6 +216,8 @@ fn rising_line(points: &[(f64, f64)]) -> Option<ShotNoise> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::photo::MaskLimits;
+    use crate::raster::Raster;
 
     #[test]
     fn a_line_through_exact_points_is_found_and_a_falling_one_is_not() {
@@ -214,5 +251,30 @@ mod tests {
             |intensity: f64| if ((intensity / 40.0) as usize).is_multiple_of(2) { 1.0 } else { 20.0 };
         assert_eq!(shot_noise(&mut windows(pattern)), None);
         assert_eq!(shot_noise(&mut windows(|intensity| intensity)[..30]), None, "too few windows");
+    }
+
+    #[test]
+    fn the_mean_of_a_block_has_the_noise_of_one_pixel_over_its_side() {
+        let mut state = 1u32;
+        let mut uniform = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1 << 24)
+        };
+        // The sum of twelve uniform values has variance 1.
+        let mut noisy = || (100.0 + 3.0 * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0)) as f32;
+        let pixels = (0..240 * 240).map(|_| [noisy(), noisy(), noisy()]).collect();
+        let image = LinearImage::new(Raster::from_vec(240, 240, pixels).unwrap(), None);
+        let limits = MaskLimits { min_intensity: 5.0, clip_threshold: f64::INFINITY, bloom_density: 1 };
+        let masks = Masks::new(&image, &limits);
+        for side in [1, 2, 3] {
+            let found =
+                NoiseEstimate::measure_sparsely(&image, &masks, &Blocks::new(side, 240, 240), 1).unwrap();
+            let expected = 3.0 / side as f64;
+            assert!(
+                (found.sigma / expected - 1.0).abs() < 0.08,
+                "{side}: {} instead of {expected}",
+                found.sigma
+            );
+        }
     }
 }

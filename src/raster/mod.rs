@@ -5,6 +5,7 @@
 mod blocks;
 mod blur;
 mod components;
+mod covering;
 mod grid;
 mod ids;
 mod morphology;
@@ -13,6 +14,7 @@ mod roi;
 pub use blocks::Blocks;
 pub(crate) use blur::blur;
 pub(crate) use components::{Border, ComponentSearch, Components, Connectivity};
+pub(crate) use covering::disjoint_rectangles;
 pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};
 pub use ids::{HypothesisId, PixelIndex, RegionId};
 pub(crate) use morphology::{dilate, erode};

@@ -1,5 +1,6 @@
 //! A rectangle of a picture, for operations on a part of the picture.
 
+use super::blocks::Blocks;
 use super::grid::Raster;
 
 /// A rectangular region of interest of a picture.
@@ -39,6 +40,42 @@ impl Roi {
         Some(Self { left, top, width: right - left, height: bottom - top, picture_width: width })
     }
 
+    /// The pixels whose column and row differ from those of pixel `[x, y]` by at most `margin_px`, in a picture of `width × height`
+    /// pixels.
+    pub fn around_pixel((width, height): (usize, usize), margin_px: usize, [x, y]: [usize; 2]) -> Self {
+        let (left, top) = (x.saturating_sub(margin_px), y.saturating_sub(margin_px));
+        let (right, bottom) = ((x + 1 + margin_px).min(width), (y + 1 + margin_px).min(height));
+        Self { left, top, width: right - left, height: bottom - top, picture_width: width }
+    }
+
+    /// The rectangle of the pixels in the blocks of `self`, which is a rectangle of blocks.
+    pub fn of_pixels(&self, blocks: &Blocks) -> Self {
+        let side = blocks.side();
+        let [picture_width, picture_height] = blocks.picture();
+        let (left, top) = (self.left * side, self.top * side);
+        let right = ((self.left + self.width) * side).min(picture_width);
+        let bottom = ((self.top + self.height) * side).min(picture_height);
+        Self { left, top, width: right - left, height: bottom - top, picture_width }
+    }
+
+    /// The smallest rectangle that contains both.
+    #[must_use]
+    pub fn joined(&self, other: &Self) -> Self {
+        let (left, top) = (self.left.min(other.left), self.top.min(other.top));
+        let right = (self.left + self.width).max(other.left + other.width);
+        let bottom = (self.top + self.height).max(other.top + other.height);
+        Self { left, top, width: right - left, height: bottom - top, ..*self }
+    }
+
+    /// Whether the rectangles have a pixel in common.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        let share = |start: usize, length: usize, other: usize, other_length: usize| {
+            start < other + other_length && other < start + length
+        };
+        share(self.left, self.width, other.left, other.width)
+            && share(self.top, self.height, other.top, other.height)
+    }
+
     /// Number of pixels.
     pub fn len(&self) -> usize {
         self.width * self.height
@@ -66,6 +103,17 @@ impl Roi {
         let (x, y) = (pixel % self.picture_width.max(1), pixel / self.picture_width.max(1));
         let (column, row) = (x.checked_sub(self.left)?, y.checked_sub(self.top)?);
         (column < self.width && row < self.height).then_some(row * self.width + column)
+    }
+
+    /// The part of a raster of the picture's size that lies in the rectangle.
+    pub fn crop<T: Copy + Default>(&self, of_picture: &Raster<T>) -> Raster<T> {
+        let mut values = Vec::with_capacity(self.len());
+        for row in 0..self.height {
+            let first = self.at(0, row);
+            values.extend_from_slice(&of_picture.as_slice()[first..first + self.width]);
+        }
+        // The lengths agree by construction.
+        Raster::from_vec(self.width, self.height, values).unwrap_or_default()
     }
 
     /// A raster of the rectangle's size whose values are `of` the pixels' indices in the picture.
@@ -96,5 +144,26 @@ mod tests {
         assert_eq!(Roi::around((10, 5), 3, |_| false), None);
         assert_eq!(Roi::around((0, 0), 3, |_| true), None);
         assert_eq!(tight.raster(|pixel| pixel).as_slice()[5..7], [17, 22]);
+        let picture = Raster::from_vec(10, 5, (0..50).collect()).unwrap();
+        assert_eq!(tight.crop(&picture), tight.raster(|pixel| pixel));
+    }
+
+    #[test]
+    fn a_rectangle_of_blocks_contains_their_pixels_as_far_as_the_picture_goes() {
+        let blocks = Blocks::new(3, 10, 8);
+        let roi = Roi::around_pixel((4, 3), 1, [3, 2]);
+        assert_eq!((roi.left, roi.top, roi.width, roi.height), (2, 1, 2, 2));
+        let pixels = roi.of_pixels(&blocks);
+        assert_eq!((pixels.left, pixels.top, pixels.width, pixels.height), (6, 3, 4, 5));
+        assert_eq!(pixels.pixel(0), 36);
+    }
+
+    #[test]
+    fn rectangles_overlap_where_they_have_a_pixel_in_common() {
+        let at = |x: usize, y: usize| Roi::around_pixel((20, 20), 1, [x, y]);
+        assert!(at(5, 5).overlaps(&at(7, 7)) && at(7, 7).overlaps(&at(5, 5)));
+        assert!(!at(5, 5).overlaps(&at(8, 5)) && !at(5, 5).overlaps(&at(5, 8)));
+        let joined = at(5, 5).joined(&at(9, 12));
+        assert_eq!((joined.left, joined.top, joined.width, joined.height), (4, 4, 7, 10));
     }
 }

@@ -115,6 +115,15 @@ impl<'a> AnalysisInput<'a> {
         Self { stop, ..self }
     }
 
+    /// The same input for another part of the photograph.
+    #[must_use]
+    pub fn with_picture<'b>(&self, pixels: &'b Raster<[f32; 3]>, masks: &'b Masks) -> AnalysisInput<'b>
+    where
+        'a: 'b,
+    {
+        AnalysisInput { pixels, masks, ..*self }
+    }
+
     /// The same input with other colors, for example those without the ambient light. The shape must be the same.
     #[must_use]
     pub fn with_pixels<'b>(&self, pixels: &'b Raster<[f32; 3]>) -> AnalysisInput<'b>
