@@ -9,6 +9,7 @@ use crate::intrinsic::{Detail, Intrinsic, split_photograph};
 use crate::params::Baseline;
 use crate::raster::{LabelMap, Raster};
 use crate::segment::{FinalRegions, MatteRegions, PlanarRegions, Windows, full_resolution_labels};
+use crate::trace::Recorder;
 use std::sync::Arc;
 
 /// The last outputs in pixels of the photograph.
@@ -20,18 +21,18 @@ pub(super) struct FullResolution {
     planar: Enlarged<PlanarRegions>,
     labels: Enlarged<LabelMap>,
     finals: Enlarged<FinalRegions>,
-    second_look: Enlarged<Option<SecondLook>>,
+    second_look: Enlarged<SecondLook>,
     intrinsic: Enlarged<Intrinsic>,
 }
 
 impl FullResolution {
     /// Replaces the outputs of an `analysis` of the working picture by those in pixels of the photograph. The observer receives the
     /// outputs but the last. Returns whether the earlier split of the photograph was still valid.
-    pub(super) fn enlarge(
+    pub(super) fn enlarge<R: Recorder, O: Observer>(
         &mut self,
         photograph: &Photograph,
         working: &WorkingOutputs,
-        observer: &mut impl Observer,
+        observer: &mut O,
         analysis: &mut Analysis,
     ) -> Result<bool, Cancelled> {
         let Photograph { prepared, input, rules, .. } = photograph;
@@ -70,24 +71,22 @@ impl FullResolution {
                 Some(_) => blocks.enlarged(&working_regions.labels),
             }
         })?;
-        let found = self.second_look.get(working.split.number, stopping, || {
+        let is_enough = |found: &SecondLook| !R::KEEPS || found.is_recorded;
+        let found = self.second_look.get_if(is_enough, working.split.number, stopping, || {
             let stop = || stopping.cancelled();
-            second_look(&Photograph { input: input.stopped_by(&stop), ..*photograph }, working, &labels)
+            let photograph = Photograph { input: input.stopped_by(&stop), ..*photograph };
+            second_look::<R>(&photograph, working, &labels)
         })?;
-        let found = Option::as_ref(&found);
         analysis.finals = self.finals.get(working.split.number, stopping, || {
             let second_lamp_mask = analysis.planar.second_lamp_mask.clone();
-            let regions = FinalRegions {
+            found.added_to(FinalRegions {
                 labels: LabelMap::clone(&labels),
                 second_lamp_mask,
                 ..working_regions.clone()
-            };
-            match found {
-                Some(found) => found.added_to(regions),
-                None => regions,
-            }
+            })
         })?;
-        analysis.second_look = found.map(SecondLook::findings);
+        analysis.second_look = found.findings();
+        analysis.second_look_records.clone_from(&found.records);
         observer.made(StageOutput::Finals(Arc::clone(&analysis.finals)));
         let reused = self.intrinsic.is_made_from(working.split.number);
         let stopping: &_ = observer;
@@ -98,7 +97,7 @@ impl FullResolution {
                 labels: &analysis.finals.labels,
                 blocks: *blocks,
                 working_regions,
-                second_look: found.map(|found| &found.plans),
+                second_look: analysis.second_look.is_some().then_some(&found.plans),
             };
             split_photograph(&detail, &working.split.value)
         })?;
@@ -127,7 +126,19 @@ impl<T> Enlarged<T> {
         observer: &impl Observer,
         make: impl FnOnce() -> T,
     ) -> Result<Arc<T>, Cancelled> {
-        if let Some((_, made)) = self.0.as_ref().filter(|(made_from, _)| *made_from == number) {
+        self.get_if(|_| true, number, observer, make)
+    }
+
+    /// Like [`Self::get`], where also `is_enough` must be true of the last output.
+    fn get_if(
+        &mut self,
+        is_enough: impl Fn(&T) -> bool,
+        number: u64,
+        observer: &impl Observer,
+        make: impl FnOnce() -> T,
+    ) -> Result<Arc<T>, Cancelled> {
+        let is_valid = |(made_from, made): &&(u64, Arc<T>)| *made_from == number && is_enough(made);
+        if let Some((_, made)) = self.0.as_ref().filter(is_valid) {
             return Ok(Arc::clone(made));
         }
         let made = Arc::new(make());

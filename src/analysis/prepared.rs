@@ -170,7 +170,8 @@ fn noise_findings(image: &LinearImage, masks: &Masks, windows: Option<NoiseEstim
     NoiseFindings { sigma, shot, coding, extended: correlation.is_extended() }
 }
 
-fn masks_made(masks: &Masks, limits: MaskLimits, pixels: usize, sigma: Option<f64>) -> MasksMade {
+/// The record of masks that were made with `limits`, in a picture of `pixels` pixels with noise `sigma`.
+pub(super) fn masks_made(masks: &Masks, limits: MaskLimits, pixels: usize, sigma: Option<f64>) -> MasksMade {
     let count = |test: &dyn Fn(usize) -> bool| (0..pixels).filter(|&pixel| test(pixel)).count() as u32;
     MasksMade {
         limits,

@@ -72,7 +72,8 @@ impl Stages {
                 used: &used,
                 rules,
             };
-            let reused = self.full_resolution.enlarge(&photograph, &working, observer, &mut analysis)?;
+            let reused =
+                self.full_resolution.enlarge::<R, _>(&photograph, &working, observer, &mut analysis)?;
             split_reused = split_reused && reused;
         }
         observer.finished(Stage::Split, split_reused);

@@ -2,18 +2,17 @@
 
 use super::subject::{AnalyzeError, Subject, Traced, parse_pixel, pixel_inside};
 use super::{Outcome, note};
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use dichroscope::describe::{Names, schema_line, trace_line};
+use dichroscope::analysis::{Analysis, SecondLookRecord};
+use dichroscope::describe::{Names, schema_line, second_look_line, second_look_trace_line, trace_line};
 use dichroscope::export::PartFile;
-use dichroscope::raster::{HypothesisId, PixelIndex, RegionId};
-use dichroscope::segment::FinalRegions;
-use dichroscope::trace::{Stage, Step, lineage};
+use dichroscope::raster::{HypothesisId, Mask, PixelIndex, RegionId};
+use dichroscope::trace::{HistoryEntry, Stage, Step, Trace, lineage};
 use std::collections::BTreeSet;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// Write every decision of an analysis as JSON lines: windows, merges, hypotheses, pixels that change their region, skewed-T tests, kinds of pixels
 #[derive(Debug, Args)]
@@ -57,7 +56,7 @@ fn trace(arguments: &Arguments) -> Result<Outcome> {
             return Ok(Outcome::SomeFailed);
         }
     };
-    let wanted = StepFilter::new(arguments, &traced, pixel_of(&traced.image)?)?;
+    let wanted = Wanted::new(arguments, &traced, pixel_of(&traced.image)?)?;
     match write(&traced, &wanted, &arguments.out) {
         Ok(()) => Ok(Outcome::Done),
         // A closed pipe (`| head`) is no failure.
@@ -75,7 +74,7 @@ fn trace(arguments: &Arguments) -> Result<Outcome> {
 }
 
 /// Writes the lines to standard output, or to a file that appears as a whole.
-fn write(traced: &Traced, wanted: &StepFilter, path: &Path) -> io::Result<()> {
+fn write(traced: &Traced, wanted: &Wanted, path: &Path) -> io::Result<()> {
     if is_standard_output(path) {
         return write_lines(traced, wanted, io::stdout().lock());
     }
@@ -88,76 +87,145 @@ fn is_standard_output(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-fn write_lines(traced: &Traced, wanted: &StepFilter, target: impl Write) -> io::Result<()> {
+fn write_lines(traced: &Traced, wanted: &Wanted, target: impl Write) -> io::Result<()> {
     let mut target = BufWriter::with_capacity(1 << 16, target);
     let trace = &traced.trace;
     let names = Names::of(trace);
     writeln!(target, "{}", schema_line(trace, env!("CARGO_PKG_VERSION")))?;
     let mut line = String::new();
-    let mut stages = trace.stages().peekable();
-    for (step_number, step) in trace.steps() {
-        while stages.next_if(|(_, steps)| steps.end <= step_number).is_some() {}
-        let Some((stage, _)) = stages.peek() else { break };
-        if wanted.includes(step_number, *stage, &step) {
+    for (seq, stage, step) in staged_steps(trace) {
+        if wanted.steps.includes(seq, stage, &step) {
             line.clear();
-            trace_line(&names, step_number, *stage, &step, &mut line);
+            trace_line(&names, seq, stage, &step, &mut line);
             line.push('\n');
             target.write_all(line.as_bytes())?;
+        }
+    }
+    for (index, record) in traced.analysis.second_look_records.iter().enumerate() {
+        let Some(steps) = wanted.steps_of_second_look(&traced.analysis, record) else { continue };
+        let names = Names::of_second_look(record);
+        writeln!(target, "{}", second_look_line(record, index + 1))?;
+        for (seq, stage, step) in staged_steps(record.trace()) {
+            if steps.includes(seq, stage, &step) {
+                line.clear();
+                second_look_trace_line(&names, index + 1, seq, stage, &step, &mut line);
+                line.push('\n');
+                target.write_all(line.as_bytes())?;
+            }
         }
     }
     target.flush()
 }
 
-/// Which steps to write.
+/// The steps with their numbers and stages.
+fn staged_steps(trace: &Trace) -> impl Iterator<Item = (usize, Stage, Step<'_>)> {
+    let mut stages = trace.stages().peekable();
+    trace.steps().map_while(move |(seq, step)| {
+        while stages.next_if(|(_, steps)| steps.end <= seq).is_some() {}
+        stages.peek().map(|(stage, _)| (seq, *stage, step))
+    })
+}
+
+/// What was asked for.
+struct Wanted {
+    /// Which steps of the working picture to write.
+    steps: StepFilter,
+    /// The stage of the steps.
+    stage: Option<Stage>,
+    /// The pixel of the photograph that the steps are about.
+    pixel: Option<PixelIndex>,
+    /// The region of the result that the steps are about.
+    region: Option<RegionId>,
+}
+
+impl Wanted {
+    fn new(arguments: &Arguments, traced: &Traced, pixel: Option<usize>) -> Result<Self> {
+        let Traced { analysis, trace, .. } = traced;
+        let pixel = pixel.map(PixelIndex::from_index);
+        let region = arguments
+            .region
+            .map(|number| {
+                let count = analysis.intrinsic.regions.len();
+                let region = RegionId::from_label(number).filter(|region| region.index() < count);
+                region.with_context(|| {
+                    format!("--region {number}: the result has {count} regions, numbered from 1")
+                })
+            })
+            .transpose()
+            .with_context(|| arguments.subject.image.display().to_string())?;
+        let steps = StepFilter {
+            stage: arguments.stage,
+            pixel: pixel.map(|pixel| {
+                PixelFilter::new(analysis.working_pixel(pixel), analysis.pixel_history(trace, pixel))
+            }),
+            region: region.map(|region| {
+                let labels = &analysis.working_finals.labels;
+                RegionFilter::new(trace, region, labels.map(|&label| label == region.get()))
+            }),
+        };
+        Ok(Self { steps, stage: arguments.stage, pixel, region })
+    }
+
+    /// Which steps of one finer picture of the second look to write; none where nothing of the picture was asked for.
+    fn steps_of_second_look(&self, analysis: &Analysis, record: &SecondLookRecord) -> Option<StepFilter> {
+        let pixel = match self.pixel {
+            None => None,
+            Some(pixel) => {
+                let finer = record.finer_pixel(pixel).filter(|_| record.has_looked_at(pixel))?;
+                Some(PixelFilter::new(finer, record.pixel_history(pixel)))
+            }
+        };
+        let region = match self.region {
+            None => None,
+            Some(region) => {
+                let finer = record.region_with_number(region)?;
+                let members =
+                    record.finer_pixels_where(|pixel| analysis.finals.labels[pixel.index()] == region.get());
+                Some(RegionFilter::new(record.trace(), finer, members))
+            }
+        };
+        Some(StepFilter { stage: self.stage, pixel, region })
+    }
+}
+
+/// Which steps of a trace to write.
 struct StepFilter {
     stage: Option<Stage>,
     pixel: Option<PixelFilter>,
     region: Option<RegionFilter>,
 }
 
-/// The steps about one pixel.
+/// The steps about one pixel of a trace.
 struct PixelFilter {
-    /// The working pixel that contains the pixel of the photograph.
+    /// The pixel of the trace.
     pixel: PixelIndex,
     /// The steps of its history.
     steps: BTreeSet<usize>,
 }
 
-/// The steps about one region.
+impl PixelFilter {
+    fn new(pixel: PixelIndex, history: Vec<HistoryEntry>) -> Self {
+        Self { pixel, steps: history.into_iter().map(|entry| entry.step).collect() }
+    }
+}
+
+/// The steps about one region of a trace.
 struct RegionFilter {
     region: RegionId,
     /// The hypotheses that merged into the region.
     hypotheses: BTreeSet<HypothesisId>,
-    /// The regions of the working pixels.
-    labels: Arc<FinalRegions>,
+    /// The pixels of the trace that are in the region.
+    members: Mask,
+}
+
+impl RegionFilter {
+    fn new(trace: &Trace, region: RegionId, members: Mask) -> Self {
+        let ancestors = lineage(trace, region).into_iter();
+        Self { region, hypotheses: ancestors.map(|ancestor| ancestor.hypothesis).collect(), members }
+    }
 }
 
 impl StepFilter {
-    fn new(arguments: &Arguments, traced: &Traced, pixel: Option<usize>) -> Result<Self> {
-        let Traced { analysis, trace, .. } = traced;
-        let pixel = pixel.map(|pixel| {
-            let pixel = PixelIndex::from_index(pixel);
-            let history = analysis.pixel_history(trace, pixel);
-            let steps = history.into_iter().map(|entry| entry.step).collect();
-            PixelFilter { pixel: analysis.working_pixel(pixel), steps }
-        });
-        let region = arguments
-            .region
-            .map(|number| {
-                let count = analysis.intrinsic.regions.len();
-                let region = RegionId::from_label(number).filter(|region| region.index() < count);
-                let Some(region) = region else {
-                    bail!("--region {number}: the result has {count} regions, numbered from 1");
-                };
-                let ancestors = lineage(trace, region).into_iter();
-                let hypotheses = ancestors.map(|ancestor| ancestor.hypothesis).collect();
-                Ok(RegionFilter { region, hypotheses, labels: Arc::clone(&analysis.working_finals) })
-            })
-            .transpose()
-            .with_context(|| arguments.subject.image.display().to_string())?;
-        Ok(Self { stage: arguments.stage, pixel, region })
-    }
-
     fn includes(&self, step_number: usize, stage: Stage, step: &Step) -> bool {
         if self.stage.is_some_and(|wanted| wanted != stage) {
             return false;
@@ -173,8 +241,7 @@ impl StepFilter {
 impl RegionFilter {
     fn includes(&self, step: &Step) -> bool {
         if let Step::Label { pixel, .. } = step {
-            let label = self.labels.labels.as_slice().get(pixel.index()).copied();
-            return label.and_then(RegionId::from_label) == Some(self.region);
+            return self.members.as_slice().get(pixel.index()) == Some(&true);
         }
         self.hypotheses.iter().any(|&hypothesis| step.concerns(hypothesis, Some(self.region)))
     }

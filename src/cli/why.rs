@@ -83,6 +83,14 @@ impl WhatIfObserver for Bar {
     }
 }
 
+/// How often a decision was repeated; nothing for one time.
+fn again(condensed: &Condensed) -> String {
+    match condensed.times {
+        0 | 1 => String::new(),
+        times => format!(" ({times} times, this is the last)"),
+    }
+}
+
 /// The text for a pixel: its kind and region, and its history, newest decision first.
 fn history(traced: &Traced, pixel: usize) -> String {
     let names = Names::of(&traced.trace);
@@ -91,20 +99,26 @@ fn history(traced: &Traced, pixel: usize) -> String {
     text.push('\n');
     let condensed = condense(&happened);
     let digits = traced.trace.len().to_string().len();
+    let second_look = traced.analysis.second_look_at(PixelIndex::from_index(pixel));
+    // Writing to a string cannot fail.
     if let Some(place) = traced.analysis.pixel_place(PixelIndex::from_index(pixel)) {
         let stage = Stage::Split.name();
-        let _ = writeln!(text, "{:>digits$}  {stage:<8}  {}", "", names.pixel_place(&place));
+        let sentence = names.pixel_place(&place, second_look.is_some());
+        let _ = writeln!(text, "{:>digits$}  {stage:<8}  {sentence}", "");
     }
-    for Condensed { last, times } in condensed.iter().rev() {
-        let again = if *times > 1 { format!(" ({times} times, this is the last)") } else { String::new() };
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{:>digits$}  {:<8}  {}{again}",
-            last.step,
-            last.stage.name(),
-            names.history_entry(last)
-        );
+    if let Some(record) = second_look {
+        let names = Names::of_second_look(record);
+        let happened = record.pixel_history(PixelIndex::from_index(pixel));
+        for condensed in condense(&happened).iter().rev() {
+            let Condensed { last, .. } = condensed;
+            let (stage, sentence) = (last.stage.name(), names.second_look_entry(last));
+            let _ = writeln!(text, "{:>digits$}  {stage:<8}  {sentence}{}", "", again(condensed));
+        }
+    }
+    for condensed in condensed.iter().rev() {
+        let Condensed { last, .. } = condensed;
+        let (step, stage, sentence) = (last.step, last.stage.name(), names.history_entry(last));
+        let _ = writeln!(text, "{step:>digits$}  {stage:<8}  {sentence}{}", again(condensed));
     }
     text.push_str(&origin(traced, &names, pixel));
     text
@@ -131,7 +145,13 @@ fn region_of(traced: &Traced, pixel: usize) -> Option<RegionId> {
 /// The hypotheses that the pixel's region is made of, where they are more than one.
 fn origin(traced: &Traced, names: &Names, pixel: usize) -> String {
     let Some(region) = region_of(traced, pixel) else { return String::new() };
-    let ancestors = lineage(&traced.trace, region);
+    let of_second_look = traced.analysis.second_look_region(region);
+    let names_of_second_look = of_second_look.map(|(record, _)| Names::of_second_look(record));
+    let names = names_of_second_look.as_ref().unwrap_or(names);
+    let ancestors = match of_second_look {
+        Some((record, finer)) => lineage(record.trace(), finer),
+        None => lineage(&traced.trace, region),
+    };
     if ancestors.len() < 2 {
         return String::new();
     }

@@ -1,5 +1,6 @@
 //! Names of hypotheses, regions and pixels in sentences, and the format of numbers.
 
+use crate::analysis::SecondLookRecord;
 use crate::raster::{Blocks, HypothesisId, PixelIndex, RegionId};
 use crate::trace::{Trace, regions_of};
 use serde_json::Value;
@@ -9,20 +10,43 @@ use serde_json::Value;
 pub struct Names {
     /// The blocks of the photograph that are the pixels of the trace.
     pub(super) pixel_blocks: Blocks,
+    /// Column and row of the photograph where the picture of the trace begins, pixels.
+    pub(super) corner: [usize; 2],
     /// Region of each hypothesis, by [`HypothesisId::index`].
     pub(super) regions: Vec<Option<RegionId>>,
+    /// Number in the result of each region of a finer picture, by [`RegionId::index`]; none where the regions of the trace are those of the
+    /// result.
+    pub(super) numbers_in_result: Option<Vec<Option<RegionId>>>,
 }
 
 impl Names {
     /// The names in a trace. A hypothesis that became a region is named by both its numbers.
     pub fn of(trace: &Trace) -> Self {
-        Self { pixel_blocks: trace.pixel_blocks(), regions: regions_of(trace).unwrap_or_default().to_vec() }
+        let regions = regions_of(trace).unwrap_or_default().to_vec();
+        Self { pixel_blocks: trace.pixel_blocks(), regions, ..Self::default() }
+    }
+
+    /// The names in the record of a finer picture of the second look: pixels and regions are those of the photograph.
+    pub fn of_second_look(record: &SecondLookRecord) -> Self {
+        let numbers_in_result = Some(record.regions().to_vec());
+        Self { corner: record.corner(), numbers_in_result, ..Self::of(record.trace()) }
+    }
+
+    /// `region 3`: the number of a region. A region of a finer picture that is not in the result is called so.
+    pub fn region(&self, region: RegionId) -> String {
+        match &self.numbers_in_result {
+            None => format!("region {region}"),
+            Some(numbers) => match numbers.get(region.index()).copied().flatten() {
+                Some(number) => format!("region {number}"),
+                None => format!("region {region} of the finer picture"),
+            },
+        }
     }
 
     /// `hypothesis 7 (region 3)`: the number of a hypothesis, and the number of the region that the hypothesis became.
     pub fn hypothesis(&self, hypothesis: HypothesisId) -> String {
         match self.region_of(hypothesis) {
-            Some(region) => format!("hypothesis {hypothesis} (region {region})"),
+            Some(region) => format!("hypothesis {hypothesis} ({})", self.region(region)),
             None => format!("hypothesis {hypothesis}"),
         }
     }
@@ -48,10 +72,12 @@ impl Names {
         format!("({x}, {y})")
     }
 
-    /// Column and row of a pixel in the photograph; of a working pixel that has several pixels, of the pixel in the middle.
+    /// Column and row in the photograph of a pixel of the trace; where such a pixel has several pixels of the photograph, of the one in the
+    /// middle.
     pub fn position(&self, pixel: PixelIndex) -> [usize; 2] {
         let [width, _] = self.pixel_blocks.picture();
-        PixelIndex::from_index(self.pixel_blocks.middle(pixel.index())).position(width)
+        let [x, y] = PixelIndex::from_index(self.pixel_blocks.middle(pixel.index())).position(width);
+        [self.corner[0] + x, self.corner[1] + y]
     }
 }
 

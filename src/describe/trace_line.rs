@@ -4,10 +4,15 @@
 //! (hypotheses by number under the key `region`, pixels as `[column, row]`, windows and areas by index), the measured values, and
 //! their limits. Colors and distances are in counts, variances in counts², angles in degrees; a number
 //! that is not finite is `null`. The first line names the schema.
+//!
+//! The steps of the second look follow, one finer picture after the other. Each picture begins with a line of its own
+//! ([`second_look_line`]). Its steps are counted from 0 again and begin with the key `second_look`, the number of the picture; numbers of
+//! hypotheses, areas and regions are those of the picture, pixels are those of the photograph.
 
 use super::Names;
 use super::events::line_objects;
 use super::names::short;
+use crate::analysis::SecondLookRecord;
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::trace::{Contest, Measure, Stage, Step, Trace};
 use serde_json::{Value, json};
@@ -21,10 +26,6 @@ pub const TRACE_SCHEMA: u32 = 1;
 /// pixel, pixels: all steps are about working pixels, counts of pixels count these, and the `[column, row]` of a working pixel is that
 /// of the pixel in its middle.
 pub fn schema_line(trace: &Trace, program: &str) -> String {
-    let stages: serde_json::Map<String, Value> = trace
-        .stages()
-        .map(|(stage, steps)| (stage.name().to_owned(), json!([steps.start, steps.end])))
-        .collect();
     let regions = crate::trace::regions_of(trace).unwrap_or_default();
     let regions: Vec<u16> = regions.iter().map(|&region| RegionId::label(region)).collect();
     let [width, height] = trace.pixel_blocks().picture();
@@ -35,13 +36,59 @@ pub fn schema_line(trace: &Trace, program: &str) -> String {
         "width": width,
         "height": height,
         "steps": trace.len(),
-        "stages": stages,
+        "stages": stages(trace),
         "regions": regions,
     });
     if trace.pixel_blocks().side() > 1 {
         line["scale"] = json!(trace.pixel_blocks().side());
     }
     line.to_string()
+}
+
+/// The line before the steps of the second look in one finer picture, the `number`-th: the rectangle of the photograph, the side of a
+/// finer pixel in pixels, and the numbers in the result of the picture's regions (0: not kept), first by the hypothesis that each
+/// became, then by their own numbers.
+pub fn second_look_line(record: &SecondLookRecord, number: usize) -> String {
+    let trace = record.trace();
+    let label = |region: Option<RegionId>| RegionId::label(region);
+    let hypotheses = HypothesisId::all(crate::trace::regions_of(trace).unwrap_or_default().len());
+    let ([left, top], [width, height]) = (record.corner(), trace.pixel_blocks().picture());
+    let line = json!({
+        "second_look": number,
+        "left": left,
+        "top": top,
+        "width": width,
+        "height": height,
+        "scale": trace.pixel_blocks().side(),
+        "steps": trace.len(),
+        "stages": stages(trace),
+        "regions": hypotheses.map(|id| label(record.region_of(id))).collect::<Vec<u16>>(),
+        "finals": record.regions().iter().map(|&region| label(region)).collect::<Vec<u16>>(),
+    });
+    line.to_string()
+}
+
+/// First and end step of each stage.
+fn stages(trace: &Trace) -> serde_json::Map<String, Value> {
+    let of_stage = |(stage, steps): (Stage, std::ops::Range<usize>)| {
+        (stage.name().to_owned(), json!([steps.start, steps.end]))
+    };
+    trace.stages().map(of_stage).collect()
+}
+
+/// Appends one step of the second look in its `number`-th finer picture as a line to `out`, without a line break. `names` are those of the
+/// picture's record.
+pub fn second_look_trace_line(
+    names: &Names,
+    number: usize,
+    seq: usize,
+    stage: Stage,
+    step: &Step,
+    out: &mut String,
+) {
+    let start = out.len();
+    trace_line(names, seq, stage, step, out);
+    out.insert_str(start + 1, &format!("\"second_look\":{number},"));
 }
 
 /// Appends one step as a line to `out`, without a line break.

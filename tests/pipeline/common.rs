@@ -46,9 +46,12 @@ pub fn analyze(image: &LinearImage, params: &Params) -> Analysis {
     Session::new(Arc::new(image.clone())).run(params, &mut ()).unwrap()
 }
 
-/// Every number of a result as text. As text, floats keep all bits, −0 differs from 0, and NaN equals itself.
+/// Every number of a result as text, without the records of the second look. As text, floats keep all bits, −0 differs from 0, and NaN
+/// equals itself.
 pub fn fingerprint(analysis: &Analysis) -> String {
-    format!("{analysis:?}")
+    let mut result = analysis.clone();
+    result.second_look_records.clear();
+    format!("{result:?}")
 }
 
 pub fn report(analysis: &Analysis, params: &Params) -> Report {

@@ -3,10 +3,12 @@
 use crate::common::{analyze, assert_valid, fingerprint, report};
 use crate::synthetic::{Ball, Random, Rendered, Scene, dot, unit};
 use dichroscope::analysis::{Analysis, Session};
-use dichroscope::describe::Names;
+use dichroscope::describe::{Names, second_look_line, second_look_trace_line};
 use dichroscope::params::{Params, Refine, Setting};
-use dichroscope::raster::{PixelIndex, Raster, UNASSIGNED};
+use dichroscope::raster::{PixelIndex, Raster, RegionId, UNASSIGNED};
 use dichroscope::segment::PlaceRule;
+use dichroscope::trace::{HistoryEntry, lineage};
+use serde_json::Value;
 use std::sync::Arc;
 
 /// Side of a working pixel, pixels.
@@ -123,11 +125,84 @@ fn a_pixel_of_the_second_look_says_so_and_the_report_counts_the_regions() {
     let place = analysis.pixel_place(pixel).unwrap();
     assert_eq!(place.rule, PlaceRule::SecondLook { side: 2 });
     let names = Names::of(&trace);
-    assert!(names.pixel_place(&place).contains("the second look found it"));
+    let sentence = names.pixel_place(&place, true);
+    assert!(sentence.contains("the second look found it"), "{sentence}");
+    assert!(
+        sentence.contains("all that is not of the second look is told of the working pixel"),
+        "{sentence}"
+    );
     assert!(!analysis.pixel_history(&trace, pixel).is_empty(), "the working pixel has a history");
     let report = report(&analysis, &params);
     let facts = report.scale.second_look.unwrap();
     assert_eq!((facts.factor, facts.regions), (2, report.regions.len() - first));
+}
+
+#[test]
+fn the_record_of_the_second_look_tells_how_its_regions_were_found() {
+    let rendered = rendered(&balls(3), false);
+    let mut session = Session::new(Arc::new(rendered.image.clone()));
+    let silent = session.run(&params(true), &mut ()).unwrap();
+    assert!(silent.second_look_records.is_empty() && silent.second_look.is_some());
+    let (analysis, trace) = session.run_traced(&params(true), &mut ()).unwrap();
+    assert!(fingerprint(&silent) == fingerprint(&analysis), "the record changes the result");
+    let (first, labels) = (analysis.working_finals.hypotheses.len(), &analysis.finals.labels);
+    for region in RegionId::all(analysis.intrinsic.regions.len()).skip(first) {
+        let (record, finer) = analysis.second_look_region(region).expect("a record");
+        assert_eq!(record.number_in_result(finer), Some(region));
+        let ancestors = lineage(record.trace(), finer);
+        assert_eq!(record.region_of(ancestors[0].hypothesis), Some(region));
+        let names = Names::of_second_look(record);
+        let in_region = |&pixel: &usize| labels[pixel] == region.get();
+        let pixels: Vec<PixelIndex> =
+            (0..labels.len()).filter(in_region).step_by(97).map(PixelIndex::from_index).collect();
+        let looked_at: Vec<PixelIndex> =
+            pixels.iter().copied().filter(|&pixel| record.has_looked_at(pixel)).collect();
+        assert!(2 * looked_at.len() > pixels.len(), "{} of {}", looked_at.len(), pixels.len());
+        let number = format!("becomes region {region}");
+        let is_numbered = |entry: &HistoryEntry| names.second_look_entry(entry).contains(&number);
+        let told = |&&pixel: &&PixelIndex| record.pixel_history(pixel).iter().any(is_numbered);
+        assert!(2 * looked_at.iter().filter(told).count() > looked_at.len(), "{number}");
+        let pixel = looked_at[0];
+        assert!(analysis.second_look_at(pixel).is_some_and(|found| found.corner() == record.corner()));
+        let [x, y] = names.position(record.finer_pixel(pixel).unwrap());
+        let [column, row] = pixel.position(labels.width());
+        assert!(x.abs_diff(column) < 2 && y.abs_diff(row) < 2, "({x}, {y}) of ({column}, {row})");
+    }
+    assert!(
+        analysis.second_look_region(RegionId::from_index(0)).is_none(),
+        "a region of the working picture"
+    );
+    let of_first =
+        (0..labels.len()).position(|pixel| labels[pixel] == 1).map(PixelIndex::from_index).unwrap();
+    assert!(analysis.second_look_at(of_first).is_none());
+    assert!(!trace.is_empty());
+}
+
+#[test]
+fn the_lines_of_the_second_look_name_its_picture_and_are_json() {
+    let rendered = rendered(&balls(3), false);
+    let (analysis, _) =
+        Session::new(Arc::new(rendered.image.clone())).run_traced(&params(true), &mut ()).unwrap();
+    let first = analysis.working_finals.hypotheses.len();
+    let mut regions = Vec::new();
+    for (index, record) in analysis.second_look_records.iter().enumerate() {
+        let head: Value = serde_json::from_str(&second_look_line(record, index + 1)).unwrap();
+        assert_eq!(head["second_look"], index + 1);
+        assert_eq!(head["scale"], 2);
+        regions
+            .extend(head["finals"].as_array().unwrap().iter().filter_map(Value::as_u64).filter(|&n| n > 0));
+        let names = Names::of_second_look(record);
+        let mut line = String::new();
+        for (seq, step) in record.trace().steps().step_by(997) {
+            line.clear();
+            let stage = record.trace().stage_at(seq).unwrap();
+            second_look_trace_line(&names, index + 1, seq, stage, &step, &mut line);
+            let line: Value = serde_json::from_str(&line).unwrap();
+            assert_eq!((&line["second_look"], &line["seq"]), (&(index + 1).into(), &seq.into()));
+        }
+    }
+    let expected: Vec<u64> = (first as u64 + 1..=analysis.intrinsic.regions.len() as u64).collect();
+    assert_eq!(regions, expected, "each region of the second look lies in one picture");
 }
 
 #[test]

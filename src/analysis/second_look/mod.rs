@@ -5,14 +5,15 @@
 //! wall behind it, whose plane does not explain it (`far_colors`). Where the working picture has such patches, the
 //! stages from the windows to the split run again in finer pictures, one for each rectangle that contains patches, with blocks of 2/5 of
 //! the side, confined to the patches, with windows and areas of as many pixels. Light and ambient light are those of the first look; without a light, and with two lamps, there is no second
-//! look. A region is kept where its plane explains it. The regions of the second look follow those of the first. The record of a
-//! run is of working pixels, so that it does not contain the decisions of the second look.
+//! look. A region is kept where its plane explains it. The regions of the second look follow those of the first. Each
+//! finer picture has a record of its own ([`SecondLookRecord`]).
 //!
 //! Measured on four rendered pictures of 12 megapixels, each with 24 balls of 60 to 200 pixels, before black and before a wall, as PNG and
 //! demosaiced at JPEG 92: 62 → 96 of the 96 balls are regions, body of the balls 38.4 → 41.1 dB (doing nothing: 29.3).
 //! On two of them the analysis takes 1.1 and .8 s, with the whole picture made finer it took 2.7 and 1.5 s (two shared cores).
 
 mod patches;
+mod record;
 mod tile;
 
 use super::photograph::Photograph;
@@ -20,12 +21,16 @@ use super::resolve::{NoiseFindings, used_params};
 use super::working_outputs::WorkingOutputs;
 use crate::intrinsic::{Reason, RegionPlans};
 use crate::params::{AmbientSetting, UsedParams};
-use crate::photo::{CodingError, NoiseEstimate, ShotNoise};
+use crate::photo::{CodingError, MaskLimits, NoiseEstimate, ShotNoise};
 use crate::raster::{Blocks, LabelMap, UNASSIGNED, disjoint_rectangles};
 use crate::segment::{FinalRegions, LightFindings};
+use crate::trace::Recorder;
 use patches::patches;
 use rayon::prelude::*;
+use std::sync::Arc;
 use tile::Tile;
+
+pub use record::SecondLookRecord;
 
 /// Side of a finer block as a share of the side of a working pixel.
 const FINER: f64 = 0.4;
@@ -35,32 +40,38 @@ const NOISE_STEP: usize = 6;
 const MARGIN_PX: usize = 1;
 
 /// What the second look found.
+#[derive(Default)]
 pub(super) struct SecondLook {
     /// Side of a pixel of the finer pictures, pixels of the photograph.
     side: usize,
-    /// The rectangles of the photograph in which regions were found.
+    /// The rectangles of the photograph in which regions were found, and those of which there is a record.
     tiles: Vec<Tile>,
     /// How each region is split.
     pub(super) plans: RegionPlans,
+    /// The decisions, one record for each rectangle; empty where no record is kept.
+    pub(super) records: Vec<Arc<SecondLookRecord>>,
+    /// Whether a record was kept.
+    pub(super) is_recorded: bool,
 }
 
-/// Looks at the patches that the working picture leaves unexplained; none where nothing was found.
-/// `labels`: the regions of the first look, of each pixel of the photograph.
-pub(super) fn second_look(
+/// Looks at the patches that the working picture leaves unexplained. `labels`: the regions of the first look, of each pixel of the
+/// photograph.
+pub(super) fn second_look<R: Recorder>(
     photograph: &Photograph,
     working: &WorkingOutputs,
     labels: &LabelMap,
-) -> Option<SecondLook> {
-    let Photograph { prepared, rules, input, .. } = photograph;
+) -> SecondLook {
+    let Photograph { prepared, rules, .. } = photograph;
     let light = working.finals.value.light;
     let blocks = &prepared.working.blocks;
     let side = (blocks.side() as f64 * FINER).round().max(1.0) as usize;
-    light.direction.filter(|_| light.second.is_none() && rules.baseline.is_none())?;
-    if !rules.refine.small_objects || side == blocks.side() {
-        return None;
+    let mut found = SecondLook { side, is_recorded: R::KEEPS, ..SecondLook::default() };
+    let is_possible = light.direction.is_some() && light.second.is_none() && rules.baseline.is_none();
+    if !is_possible || !rules.refine.small_objects || side == blocks.side() {
+        return found;
     }
     let reasons = &working.split.value.intrinsic.reasons;
-    let patches = patches(&prepared.working.masks, working)?;
+    let Some(patches) = patches(&prepared.working.masks, working) else { return found };
     let finer = FinerPixels::new(photograph, working, side);
     let is_sought = |pixel: usize| {
         let working_pixel = blocks.block_of(pixel);
@@ -69,16 +80,15 @@ pub(super) fn second_look(
     };
     let rectangles = disjoint_rectangles(&patches, MARGIN_PX);
     let looked_at =
-        rectangles.par_iter().map(|roi| Tile::new(photograph, &finer, roi.of_pixels(blocks), is_sought));
-    let mut tiles: Vec<Tile> = looked_at.collect::<Vec<_>>().into_iter().flatten().collect();
-    if input.stopped() || tiles.is_empty() {
-        return None;
+        rectangles.par_iter().map(|roi| Tile::new::<R>(photograph, &finer, roi.of_pixels(blocks), is_sought));
+    found.tiles = looked_at.collect::<Vec<_>>().into_iter().flatten().collect();
+    let mut before = working.finals.value.hypotheses.len();
+    for tile in &mut found.tiles {
+        found.plans.extend(std::mem::take(&mut tile.plans));
+        found.records.extend(tile.take_record(before).map(Arc::new));
+        before += tile.hypotheses.len();
     }
-    let mut plans = RegionPlans::default();
-    for tile in &mut tiles {
-        plans.extend(std::mem::take(&mut tile.plans));
-    }
-    Some(SecondLook { side, tiles, plans })
+    found
 }
 
 /// The regions of the second look.
@@ -92,10 +102,10 @@ pub struct SecondLookFindings {
 }
 
 impl SecondLook {
-    /// How many regions were found, and in pictures of which pixels.
-    pub(super) fn findings(&self) -> SecondLookFindings {
+    /// How many regions were found, and in pictures of which pixels; none where nothing was found.
+    pub(super) fn findings(&self) -> Option<SecondLookFindings> {
         let regions = self.tiles.iter().map(|tile| tile.hypotheses.len()).sum();
-        SecondLookFindings { side: self.side, regions }
+        (regions > 0).then_some(SecondLookFindings { side: self.side, regions })
     }
 
     /// The regions of the photograph with those of the second look after them.
@@ -112,6 +122,10 @@ impl SecondLook {
 struct FinerPixels {
     /// Side of a pixel, pixels of the photograph.
     side: usize,
+    /// The limits of the masks.
+    limits: MaskLimits,
+    /// Standard deviation of the noise, counts; none: it could not be measured.
+    sigma: Option<f64>,
     /// The noise as a function of the intensity.
     shot: Option<ShotNoise>,
     /// The coding error.
@@ -145,6 +159,6 @@ impl FinerPixels {
             ..used_params(params, image, side, &noise)
         };
         let coding = noise.coding.as_ref().map(|coding| coding.averaged(side));
-        Self { side, shot: noise.shot, coding, light, used }
+        Self { side, limits: prepared.limits, sigma: noise.sigma, shot: noise.shot, coding, light, used }
     }
 }

@@ -1,17 +1,20 @@
 //! The second look at one rectangle of the photograph: the stages from the windows to the split in a finer picture.
 
 use super::FinerPixels;
+use super::record::SecondLookRecord;
 use crate::analysis::photograph::Photograph;
+use crate::analysis::prepared::masks_made;
 use crate::analysis::windows::{classify_windows, merged_areas};
-use crate::intrinsic::{FittedPlace, RegionPlans, RegionReflection, split};
-use crate::params::Refine;
+use crate::intrinsic::{FittedPlace, RegionPlans, RegionReflection, WorkingSplit, split};
+use crate::params::{Refine, Stage};
 use crate::photo::{Masks, WorkingPicture};
 use crate::raster::{Blocks, LabelMap, Mask, RegionId, Roi, UNASSIGNED};
 use crate::segment::{
     AnalysisInput, FinalRegions, PlanarHypothesis, clipping_regions, final_regions, full_resolution_labels,
     matte_regions, planar_regions,
 };
-use crate::trace::NoopRecorder;
+use crate::trace::{Recorder, StageBegan, StageTrace, Trace};
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// What the second look found in one rectangle of the photograph.
@@ -28,12 +31,16 @@ pub(super) struct Tile {
     pub(super) hypotheses: Vec<PlanarHypothesis>,
     /// How each region is split.
     pub(super) plans: RegionPlans,
+    /// Of the regions of the finer picture, by [`RegionId::index`], whether the region was kept.
+    kept: Vec<bool>,
+    /// The decisions; none where no record is kept.
+    record: Option<SecondLookRecord>,
 }
 
 impl Tile {
     /// Looks at the rectangle `roi` of the photograph, at the pixels for which `is_sought` is true; a pixel stands for its block. None where
-    /// no region is found.
-    pub(super) fn new(
+    /// no region is found and no record is kept.
+    pub(super) fn new<R: Recorder>(
         photograph: &Photograph,
         finer: &FinerPixels,
         roi: Roi,
@@ -54,14 +61,17 @@ impl Tile {
             .with_readings(rules.readings)
             .stopped_by(input.stopping());
         let finer_input = prepared.with_errors(finer_input, finer.coding.as_ref(), finer.shot);
-        let mut regions = regions(&finer_input);
-        regions.light = finer.light;
-        let split = split(&finer_input, &regions, &mut NoopRecorder);
+        let mut records = StageRecords::<R>::default();
+        let (regions, split) = regions_and_split(&finer_input, finer, &mut records);
         let is_kept = |region: &RegionReflection| region.model_fits && region.separable;
         let kept: Vec<bool> = split.intrinsic.regions.iter().map(is_kept).collect();
-        if finer_input.stopped() || !kept.contains(&true) {
+        if finer_input.stopped() || !(R::KEEPS || kept.contains(&true)) {
             return None;
         }
+        let record = records.finish().map(|stage_traces| {
+            let trace = Trace::of_working_picture(blocks, stage_traces);
+            SecondLookRecord::new(roi, picture.image, picture.masks, patches.clone(), trace)
+        });
         let regions = retained(regions, &kept);
         let photograph_input = input.with_picture(&cropped.pixels, &cropped_masks);
         Some(Self {
@@ -69,10 +79,18 @@ impl Tile {
             plans: split
                 .region_plans(&kept, FittedPlace { block_side: finer.side, corner: [roi.left, roi.top] }),
             hypotheses: regions.hypotheses,
+            record,
+            kept,
             roi,
             blocks,
             patches,
         })
+    }
+
+    /// The record, with the numbers of the regions in the result, in which they follow the first `before` regions; none where no record was
+    /// kept.
+    pub(super) fn take_record(&mut self, before: usize) -> Option<SecondLookRecord> {
+        self.record.take().map(|record| record.numbered(&self.kept, before))
     }
 
     /// Gives pixels of the photograph, whose regions are `labels`, the regions of this rectangle, which follow the first `before` regions.
@@ -88,15 +106,60 @@ impl Tile {
     }
 }
 
-/// The regions of a picture under the light that was given.
-fn regions(input: &AnalysisInput) -> FinalRegions {
-    let mut silent = NoopRecorder;
-    let windows = classify_windows(input, &mut silent);
-    let merged = merged_areas(input, &windows, &mut silent);
-    let matte = matte_regions(input, &windows, &merged.areas, &mut silent);
-    let planar = planar_regions(input, &windows, &merged.areas, &matte, &mut silent);
-    let labels = clipping_regions(input, &planar, &mut silent);
-    final_regions(input, labels, &planar, &mut silent)
+/// The regions of a finer picture under the light that was given, and the split of the picture.
+fn regions_and_split<R: Recorder>(
+    input: &AnalysisInput,
+    finer: &FinerPixels,
+    records: &mut StageRecords<R>,
+) -> (FinalRegions, WorkingSplit) {
+    records.stage(Stage::Masks, |recorder| {
+        if R::KEEPS {
+            recorder.record(masks_made(input.masks, finer.limits, input.pixels.len(), finer.sigma));
+        }
+    });
+    let windows = records.stage(Stage::Classify, |recorder| classify_windows(input, recorder));
+    let merged = records.stage(Stage::Merge, |recorder| merged_areas(input, &windows, recorder));
+    let areas = &merged.areas;
+    let matte = records.stage(Stage::Linear, |recorder| matte_regions(input, &windows, areas, recorder));
+    let planar =
+        records.stage(Stage::Planar, |recorder| planar_regions(input, &windows, areas, &matte, recorder));
+    let mut regions = records.stage(Stage::Clipping, |recorder| {
+        let labels = clipping_regions(input, &planar, recorder);
+        final_regions(input, labels, &planar, recorder)
+    });
+    regions.light = finer.light;
+    let split = records.stage(Stage::Split, |recorder| split(input, &regions, recorder));
+    (regions, split)
+}
+
+/// The records of the stages that have run.
+struct StageRecords<R> {
+    stage_traces: Vec<Arc<StageTrace>>,
+    recorder: PhantomData<R>,
+}
+
+impl<R> Default for StageRecords<R> {
+    fn default() -> Self {
+        Self { stage_traces: Vec::new(), recorder: PhantomData }
+    }
+}
+
+impl<R: Recorder> StageRecords<R> {
+    /// Runs a stage, and keeps its record.
+    fn stage<T>(&mut self, stage: Stage, run: impl FnOnce(&mut R) -> T) -> T {
+        let mut recorder = R::default();
+        if R::KEEPS {
+            recorder.record(StageBegan { stage });
+        }
+        let made = run(&mut recorder);
+        self.stage_traces.extend(recorder.finish(stage).map(Arc::new));
+        made
+    }
+
+    /// The records; none where nothing is kept.
+    fn finish(self) -> Option<Vec<Arc<StageTrace>>> {
+        R::KEEPS.then_some(self.stage_traces)
+    }
 }
 
 /// The regions that are `kept`, by [`RegionId::index`].

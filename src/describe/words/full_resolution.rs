@@ -2,10 +2,12 @@
 
 use super::Names;
 use crate::segment::{PixelPlace, PlaceRule};
+use crate::trace::HistoryEntry;
 
 impl Names {
     /// How a pixel of the photograph took its region, where regions were found in a working picture with larger pixels.
-    pub fn pixel_place(&self, place: &PixelPlace) -> String {
+    /// `is_looked_at_again`: sentences of the second look follow.
+    pub fn pixel_place(&self, place: &PixelPlace, is_looked_at_again: bool) -> String {
         let side = place.side;
         let of_working =
             place.working_region.map_or("in no region".to_owned(), |region| format!("in region {region}"));
@@ -29,8 +31,14 @@ impl Names {
                 format!("its own color fits no region around; its working pixel is {of_working}")
             }
         };
+        let others = if is_looked_at_again { "all that is not of the second look" } else { "all else" };
         format!(
-            "at full resolution the pixel {took}: {why}; all else is told of the working pixel, the mean of {side} \u{d7} {side} pixels"
+            "at full resolution the pixel {took}: {why}; {others} is told of the working pixel, the mean of {side} \u{d7} {side} pixels"
         )
+    }
+
+    /// A decision of the second look about a pixel. These are the names in the record of the second look.
+    pub fn second_look_entry(&self, entry: &HistoryEntry) -> String {
+        format!("second look: {}", self.history_entry(entry))
     }
 }

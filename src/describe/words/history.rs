@@ -89,7 +89,7 @@ impl Names {
                     self.hypotheses(hypotheses)
                 )
             }
-            HistoryKind::Split(story) => split(story),
+            HistoryKind::Split(story) => split(self, story),
             HistoryKind::Surroundings(story) => surroundings(story),
             HistoryKind::Decided(event) => self.event(event),
             other => self.moved(other),
@@ -163,7 +163,7 @@ impl Names {
                 format!("hypothesis {hypothesis} is not in the result")
             }
             HistoryKind::Numbered { hypothesis, region: Some(region) } => {
-                format!("hypothesis {hypothesis} becomes region {region}")
+                format!("hypothesis {hypothesis} becomes {}", self.region(*region))
             }
             // All other kinds have their sentences above.
             _ => String::new(),
@@ -302,11 +302,12 @@ fn outside(barrier: Barrier) -> String {
     }
 }
 
-fn split(story: &SplitStory) -> String {
+fn split(names: &Names, story: &SplitStory) -> String {
+    let region = names.region(story.region);
     if let Some(why) = &story.unfit {
-        return unfit(story.region, why);
+        return unfit(&region, why);
     }
-    let SplitStory { region, kind, lines, amounts, unsplit, cut, border, least_offset, ambient, .. } = story;
+    let SplitStory { kind, lines, amounts, unsplit, cut, border, least_offset, ambient, .. } = story;
     let what = match (kind, lines) {
         (PixelKind::Restored, _) => "is restored from the bands that can be believed".to_owned(),
         (PixelKind::Lost, _) => "is clipped in every band: its split is a guess".to_owned(),
@@ -314,8 +315,8 @@ fn split(story: &SplitStory) -> String {
             "is {}: {matte:.1} counts from the matte line, {highlight:.1} from the highlight line",
             kind.name()
         ),
-        (_, None) if *unsplit => format!("stays as it is: region {region} has no highlight line"),
-        (_, None) => format!("is {}: region {region} has no highlight line", kind.name()),
+        (_, None) if *unsplit => format!("stays as it is: {region} has no highlight line"),
+        (_, None) => format!("is {}: {region} has no highlight line", kind.name()),
     };
     let amounts = amounts.map_or_else(String::new, |amounts| {
         let none = cut.map_or_else(String::new, |offset| {
@@ -338,5 +339,5 @@ fn split(story: &SplitStory) -> String {
             100.0 * kept
         )
     });
-    format!("in region {region} it {what}{amounts}{without}{limited}")
+    format!("in {region} it {what}{amounts}{without}{limited}")
 }

@@ -1,7 +1,6 @@
 //! A pixel's surroundings in words, where no region explains it.
 
 use super::super::events::failed_limits;
-use crate::raster::RegionId;
 use crate::trace::{HighlightTerms, LocalFate, LocalStory, Ramp, Unfit};
 
 /// The sentence of the figures by which a pixel was judged.
@@ -63,15 +62,15 @@ pub(super) fn surroundings(story: &LocalStory) -> String {
 }
 
 /// The sentence why the plane of a region is not used for a pixel.
-pub(super) fn unfit(region: RegionId, story: &Unfit) -> String {
+pub(super) fn unfit(region: &str, story: &Unfit) -> String {
     let why = if story.model_fits {
         format!(
-            "region {region} holds, but not here: this part of it is hardly anything but highlight, or clipped and surrounded by \
+            "{region} holds, but not here: this part of it is hardly anything but highlight, or clipped and surrounded by \
              other regions"
         )
     } else {
         let failed = failed_limits(&story.fit, &story.limits, story.has_plane);
-        format!("region {region} does not hold: {failed}")
+        format!("{region} does not hold: {failed}")
     };
     let instead = match story.surface {
         None => "it is filled with the body around it".to_owned(),

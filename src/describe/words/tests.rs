@@ -10,7 +10,11 @@ use crate::trace::{
 };
 
 fn names() -> Names {
-    Names { pixel_blocks: Blocks::new(1, 10, 10), regions: [2, 0, 1].map(RegionId::from_label).to_vec() }
+    Names {
+        pixel_blocks: Blocks::new(1, 10, 10),
+        regions: [2, 0, 1].map(RegionId::from_label).to_vec(),
+        ..Names::default()
+    }
 }
 
 fn hypothesis(number: u16) -> HypothesisId {
@@ -313,7 +317,7 @@ fn a_light_is_told_with_what_it_rests_on_and_why_the_other_one_is_not_used() {
 fn the_pass_at_full_resolution_says_what_became_of_the_pixel_and_of_its_working_pixel() {
     let place = |working: u16, region: u16, rule| {
         let [working_region, region] = [working, region].map(RegionId::from_label);
-        names().pixel_place(&PixelPlace { side: 3, working_region, region, rule })
+        names().pixel_place(&PixelPlace { side: 3, working_region, region, rule }, false)
     };
     let inside = place(2, 2, PlaceRule::Inside);
     assert!(inside.starts_with("at full resolution the pixel takes region 2: "), "{inside}");
@@ -338,7 +342,7 @@ fn the_pass_at_full_resolution_says_what_became_of_the_pixel_and_of_its_working_
 
 #[test]
 fn a_working_pixel_lies_where_the_middle_of_its_block_is() {
-    let names = Names { pixel_blocks: Blocks::new(3, 10, 7), regions: Vec::new() };
+    let names = Names { pixel_blocks: Blocks::new(3, 10, 7), ..Names::default() };
     assert_eq!(names.pixel(PixelIndex::from_index(5)), "(4, 4)");
     assert_eq!(names.pixel(PixelIndex::from_index(3)), "(9, 1)", "the last block of a row has one column");
 }

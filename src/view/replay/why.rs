@@ -44,17 +44,27 @@ pub fn why(
     let sentence =
         |step: usize, depth: usize, text: String| WhySentence { step, stage: stage(step), depth, text };
     let image = &shown.picture.photo.image;
+    let last_step = trace.len().saturating_sub(1);
     let pixel = pixel.filter(|&pixel| pixel.index() < image.pixels.len()).map(|pixel| {
         let history = condense(&shown.analysis.pixel_history(trace, pixel));
         let place = shown.analysis.pixel_place(pixel);
+        let record = shown.analysis.second_look_at(pixel);
         let at_full_resolution = place
-            .map(|place| sentence(trace.len().saturating_sub(1), 0, names_in_sentences.pixel_place(&place)));
+            .map(|place| sentence(last_step, 0, names_in_sentences.pixel_place(&place, record.is_some())));
+        let of_second_look = record.into_iter().flat_map(|record| {
+            let names = Names::of_second_look(record);
+            let history = condense(&record.pixel_history(pixel));
+            let said = history.iter().rev().map(|condensed| {
+                let text = repeated(names.second_look_entry(&condensed.last), condensed.times);
+                WhySentence { step: last_step, stage: condensed.last.stage, depth: 0, text }
+            });
+            said.collect::<Vec<_>>()
+        });
         let sentences = history.iter().rev().map(|condensed| {
-            let text = names_in_sentences.history_entry(&condensed.last);
-            let text = if condensed.times > 1 { format!("{text} ({} times)", condensed.times) } else { text };
+            let text = repeated(names_in_sentences.history_entry(&condensed.last), condensed.times);
             sentence(condensed.last.step, 0, text)
         });
-        (pixel, at_full_resolution.into_iter().chain(sentences).collect())
+        (pixel, at_full_resolution.into_iter().chain(of_second_look).chain(sentences).collect())
     });
     let of_pixel = || {
         let (pixel, _) = pixel.as_ref()?;
@@ -72,5 +82,30 @@ pub fn why(
             .map(|ancestor| sentence(ancestor.step(), ancestor.depth, names_in_sentences.ancestor(ancestor)));
         (region, sentences.collect())
     });
+    let of_second_look = || {
+        let (pixel, _) = pixel.as_ref().filter(|_| subject.is_none())?;
+        region_of_second_look(shown, RegionId::from_label(shown.labels()[pixel.index()])?, last_step)
+    };
+    let region = region.or_else(of_second_look);
     Why { pixel, hypothesis, region }
+}
+
+/// What a region of the second look is made of; the sentences are about the last step, as the record is not that of the working picture.
+fn region_of_second_look(
+    shown: &ResultSnapshot,
+    region: RegionId,
+    step: usize,
+) -> Option<(RegionId, Vec<WhySentence>)> {
+    let (record, finer) = shown.analysis.second_look_region(region)?;
+    let names = Names::of_second_look(record);
+    let sentences = lineage(record.trace(), finer).into_iter().map(|ancestor| {
+        let stage = record.trace().stage_at(ancestor.step()).unwrap_or(Stage::Clipping);
+        WhySentence { step, stage, depth: ancestor.depth, text: names.ancestor(&ancestor) }
+    });
+    Some((region, sentences.collect()))
+}
+
+/// A sentence, and how often it was said.
+fn repeated(text: String, times: usize) -> String {
+    if times > 1 { format!("{text} ({times} times)") } else { text }
 }
