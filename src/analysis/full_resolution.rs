@@ -9,7 +9,7 @@ use crate::intrinsic::{Detail, Intrinsic, split_photograph};
 use crate::params::Baseline;
 use crate::raster::{LabelMap, Raster};
 use crate::segment::{FinalRegions, MatteRegions, PlanarRegions, Windows, full_resolution_labels};
-use crate::trace::Recorder;
+use crate::trace::{Recorder, SecondLookRecord};
 use std::sync::Arc;
 
 /// The last outputs in pixels of the photograph.
@@ -86,7 +86,6 @@ impl FullResolution {
             })
         })?;
         analysis.second_look = found.findings();
-        analysis.second_look_records.clone_from(&found.records);
         observer.made(StageOutput::Finals(Arc::clone(&analysis.finals)));
         let reused = self.intrinsic.is_made_from(working.split.number);
         let stopping: &_ = observer;
@@ -102,6 +101,13 @@ impl FullResolution {
             split_photograph(&detail, &working.split.value)
         })?;
         Ok(reused)
+    }
+}
+
+impl FullResolution {
+    /// The records of the last second look; empty without a record.
+    pub(super) fn second_look_records(&self) -> Arc<[SecondLookRecord]> {
+        self.second_look.0.as_ref().map_or_else(Arc::default, |(_, found)| Arc::clone(&found.records))
     }
 }
 

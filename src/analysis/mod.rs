@@ -24,13 +24,13 @@ pub use crate::params::Stage;
 pub use crate::segment::Illuminant;
 pub use output::StageOutput;
 pub use resolve::NoiseFindings;
-pub use second_look::{SecondLookFindings, SecondLookRecord};
+pub use second_look::SecondLookFindings;
 pub use what_if::{Direction, Fate, Home, WhatIf, WhatIfObserver, what_if};
 
 use crate::intrinsic::Intrinsic;
 use crate::params::{Params, UsedParams};
 use crate::photo::{LinearImage, Masks, WorkingPicture};
-use crate::raster::{Blocks, Mask, PixelIndex, Raster, RegionId};
+use crate::raster::{Blocks, Mask, PixelIndex, Raster};
 use crate::segment::{FinalRegions, MatteRegions, PixelPlace, PlaceRule, PlanarRegions, Windows};
 use crate::trace::{HistoryEntry, NoopRecorder, Trace, TraceRecorder, pixel_history};
 use stages::Stages;
@@ -85,8 +85,6 @@ pub struct Analysis {
     pub working_finals: Arc<FinalRegions>,
     /// The second look at what the working picture leaves unexplained; `None` where nothing was found, or nothing sought.
     pub second_look: Option<SecondLookFindings>,
-    /// The decisions of the second look, a record for each of its finer pictures; empty after a run without a record.
-    pub second_look_records: Vec<Arc<SecondLookRecord>>,
     /// The color of the light; `None` without evidence of the light.
     pub illuminant: Option<Illuminant>,
     /// The intrinsic images and the regions' reflection vectors.
@@ -105,19 +103,6 @@ impl Analysis {
             return Vec::new();
         }
         pixel_history(trace, &self.working.image, &self.working.masks, self.working_pixel(pixel))
-    }
-
-    /// The record of the second look at a pixel of the photograph; none where the second look did not look, or no record was kept.
-    pub fn second_look_at(&self, pixel: PixelIndex) -> Option<&SecondLookRecord> {
-        self.second_look_records.iter().map(|record| &**record).find(|record| record.has_looked_at(pixel))
-    }
-
-    /// The record of the second look that contains a region of the result, and the number of the region in it; none for a region of the
-    /// working picture, and where no record was kept.
-    pub fn second_look_region(&self, region: RegionId) -> Option<(&SecondLookRecord, RegionId)> {
-        self.second_look_records
-            .iter()
-            .find_map(|record| record.region_with_number(region).map(|finer| (&**record, finer)))
     }
 
     /// The pixel of the working picture that contains a pixel of the photograph.

@@ -169,7 +169,8 @@ impl Stages {
             &self.split.stage_trace,
         ];
         let stage_traces: Option<Vec<Arc<StageTrace>>> = stage_traces.into_iter().cloned().collect();
-        Some(Trace::of_working_picture(prepared.working.blocks, stage_traces?))
+        let trace = Trace::of_working_picture(prepared.working.blocks, stage_traces?);
+        Some(trace.with_second_look(self.full_resolution.second_look_records()))
     }
 
     fn masks<R: Recorder>(

@@ -47,7 +47,6 @@ impl WorkingOutputs {
             areas: Arc::clone(&self.merged.value.map),
             matte: Arc::clone(&self.matte.value),
             second_look: None,
-            second_look_records: Vec::new(),
             illuminant: planar.illuminant,
             planar,
             finals: Arc::clone(&self.finals.value),

@@ -5,11 +5,11 @@ use super::{Outcome, note};
 use anyhow::{Context, Result};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use dichroscope::analysis::{Analysis, SecondLookRecord};
+use dichroscope::analysis::Analysis;
 use dichroscope::describe::{Names, schema_line, second_look_line, second_look_trace_line, trace_line};
 use dichroscope::export::PartFile;
 use dichroscope::raster::{HypothesisId, Mask, PixelIndex, RegionId};
-use dichroscope::trace::{HistoryEntry, Stage, Step, Trace, lineage};
+use dichroscope::trace::{HistoryEntry, SecondLookRecord, Stage, Step, Trace, lineage};
 use std::collections::BTreeSet;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -101,11 +101,11 @@ fn write_lines(traced: &Traced, wanted: &Wanted, target: impl Write) -> io::Resu
             target.write_all(line.as_bytes())?;
         }
     }
-    for (index, record) in traced.analysis.second_look_records.iter().enumerate() {
+    for (index, record) in traced.trace.second_look().iter().enumerate() {
         let Some(steps) = wanted.steps_of_second_look(&traced.analysis, record) else { continue };
         let names = Names::of_second_look(record);
         writeln!(target, "{}", second_look_line(record, index + 1))?;
-        for (seq, stage, step) in staged_steps(record.trace()) {
+        for (seq, stage, step) in staged_steps(&record.trace) {
             if steps.includes(seq, stage, &step) {
                 line.clear();
                 second_look_trace_line(&names, index + 1, seq, stage, &step, &mut line);
@@ -181,7 +181,7 @@ impl Wanted {
                 let finer = record.region_with_number(region)?;
                 let members =
                     record.finer_pixels_where(|pixel| analysis.finals.labels[pixel.index()] == region.get());
-                Some(RegionFilter::new(record.trace(), finer, members))
+                Some(RegionFilter::new(&record.trace, finer, members))
             }
         };
         Some(StepFilter { stage: self.stage, pixel, region })

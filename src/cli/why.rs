@@ -99,7 +99,7 @@ fn history(traced: &Traced, pixel: usize) -> String {
     text.push('\n');
     let condensed = condense(&happened);
     let digits = traced.trace.len().to_string().len();
-    let second_look = traced.analysis.second_look_at(PixelIndex::from_index(pixel));
+    let second_look = traced.trace.second_look_at(PixelIndex::from_index(pixel));
     // Writing to a string cannot fail.
     if let Some(place) = traced.analysis.pixel_place(PixelIndex::from_index(pixel)) {
         let stage = Stage::Split.name();
@@ -145,11 +145,11 @@ fn region_of(traced: &Traced, pixel: usize) -> Option<RegionId> {
 /// The hypotheses that the pixel's region is made of, where they are more than one.
 fn origin(traced: &Traced, names: &Names, pixel: usize) -> String {
     let Some(region) = region_of(traced, pixel) else { return String::new() };
-    let of_second_look = traced.analysis.second_look_region(region);
+    let of_second_look = traced.trace.second_look_region(region);
     let names_of_second_look = of_second_look.map(|(record, _)| Names::of_second_look(record));
     let names = names_of_second_look.as_ref().unwrap_or(names);
     let ancestors = match of_second_look {
-        Some((record, finer)) => lineage(record.trace(), finer),
+        Some((record, finer)) => lineage(&record.trace, finer),
         None => lineage(&traced.trace, region),
     };
     if ancestors.len() < 2 {

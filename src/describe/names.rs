@@ -1,8 +1,7 @@
 //! Names of hypotheses, regions and pixels in sentences, and the format of numbers.
 
-use crate::analysis::SecondLookRecord;
 use crate::raster::{Blocks, HypothesisId, PixelIndex, RegionId};
-use crate::trace::{Trace, regions_of};
+use crate::trace::{SecondLookRecord, Trace, regions_of};
 use serde_json::Value;
 
 /// Names of hypotheses and pixels in sentences.
@@ -28,8 +27,8 @@ impl Names {
 
     /// The names in the record of a finer picture of the second look: pixels and regions are those of the photograph.
     pub fn of_second_look(record: &SecondLookRecord) -> Self {
-        let numbers_in_result = Some(record.regions().to_vec());
-        Self { corner: record.corner(), numbers_in_result, ..Self::of(record.trace()) }
+        let numbers_in_result = Some(record.regions.clone());
+        Self { corner: record.corner(), numbers_in_result, ..Self::of(&record.trace) }
     }
 
     /// `region 3`: the number of a region. A region of a finer picture that is not in the result is called so.

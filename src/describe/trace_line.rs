@@ -12,9 +12,8 @@
 use super::Names;
 use super::events::line_objects;
 use super::names::short;
-use crate::analysis::SecondLookRecord;
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
-use crate::trace::{Contest, Measure, Stage, Step, Trace};
+use crate::trace::{Contest, Measure, SecondLookRecord, Stage, Step, Trace};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -49,7 +48,7 @@ pub fn schema_line(trace: &Trace, program: &str) -> String {
 /// finer pixel in pixels, and the numbers in the result of the picture's regions (0: not kept), first by the hypothesis that each
 /// became, then by their own numbers.
 pub fn second_look_line(record: &SecondLookRecord, number: usize) -> String {
-    let trace = record.trace();
+    let trace = &record.trace;
     let label = |region: Option<RegionId>| RegionId::label(region);
     let hypotheses = HypothesisId::all(crate::trace::regions_of(trace).unwrap_or_default().len());
     let ([left, top], [width, height]) = (record.corner(), trace.pixel_blocks().picture());
@@ -63,7 +62,7 @@ pub fn second_look_line(record: &SecondLookRecord, number: usize) -> String {
         "steps": trace.len(),
         "stages": stages(trace),
         "regions": hypotheses.map(|id| label(record.region_of(id))).collect::<Vec<u16>>(),
-        "finals": record.regions().iter().map(|&region| label(region)).collect::<Vec<u16>>(),
+        "finals": record.regions.iter().map(|&region| label(region)).collect::<Vec<u16>>(),
     });
     line.to_string()
 }

@@ -1,7 +1,8 @@
 //! The trace of a run: the traces of all stages, with steps that are numbered through all of them.
 
 use super::{Block, Event, PassSpan, Stage, StageTrace, Step};
-use crate::raster::{Blocks, PixelIndex};
+use crate::photo::{LinearImage, Masks};
+use crate::raster::{Blocks, Mask, PixelIndex, RegionId, Roi};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -14,6 +15,24 @@ pub(super) struct EventId {
     pub(super) index: usize,
 }
 
+/// Every decision about one finer picture of the second look, which shows a rectangle of the photograph. Numbers of hypotheses, areas and
+/// pixels in the record are those of the finer picture.
+#[derive(Clone, Debug)]
+pub struct SecondLookRecord {
+    /// The rectangle, pixels of the photograph.
+    pub(crate) roi: Roi,
+    /// The colors of the finer picture.
+    pub(crate) image: Arc<LinearImage>,
+    /// The masks of the finer picture.
+    pub(crate) masks: Arc<Masks>,
+    /// The finer pixels that were looked at.
+    pub(crate) patches: Mask,
+    /// The decisions, in pixels and numbers of the finer picture.
+    pub trace: Trace,
+    /// Number in the result of each region of the finer picture, by [`RegionId::index`]; none for a region that was not kept.
+    pub regions: Vec<Option<RegionId>>,
+}
+
 /// All decisions of a run, stage after stage. Steps are counted through all stages.
 #[derive(Clone, Debug)]
 pub struct Trace {
@@ -22,6 +41,8 @@ pub struct Trace {
     stage_traces: Vec<Arc<StageTrace>>,
     /// First step of each stage, and the end.
     starts: Vec<usize>,
+    /// The records of the second look, one for each finer picture.
+    second_look: Arc<[SecondLookRecord]>,
 }
 
 impl Trace {
@@ -38,7 +59,18 @@ impl Trace {
             end += stage_trace.len();
             starts.push(end);
         }
-        Self { pixel_blocks, stage_traces, starts }
+        Self { pixel_blocks, stage_traces, starts, second_look: Arc::default() }
+    }
+
+    /// This trace with the records of the second look, one for each finer picture.
+    #[must_use]
+    pub fn with_second_look(self, second_look: Arc<[SecondLookRecord]>) -> Self {
+        Self { second_look, ..self }
+    }
+
+    /// The records of the second look, one for each finer picture; their steps are not counted among those of this trace.
+    pub fn second_look(&self) -> &[SecondLookRecord] {
+        &self.second_look
     }
 
     /// Columns of the working picture.

@@ -1,6 +1,6 @@
 //! What cameras do to a picture: compression, a tone curve, and a wall behind the objects.
 
-use crate::common::analyze;
+use crate::common::{analyze, srgb};
 use crate::synthetic::{Random, Rendered, Scene};
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::params::Params;
@@ -11,17 +11,6 @@ use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use std::sync::Arc;
-
-/// The image in 8-bit sRGB, row by row.
-fn srgb(image: &LinearImage) -> Vec<u8> {
-    let coded = |counts: f32| {
-        let linear = f64::from(counts / 255.0).clamp(0.0, 1.0);
-        let coded =
-            if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
-        (255.0 * coded).round() as u8
-    };
-    image.pixels.as_slice().as_flattened().iter().map(|&counts| coded(counts)).collect()
-}
 
 fn jpeg(image: &LinearImage, quality: u8) -> Vec<u8> {
     let mut file = Vec::new();

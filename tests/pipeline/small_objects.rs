@@ -1,13 +1,17 @@
 //! Small objects in a large photograph: the second look in a finer picture.
 
-use crate::common::{analyze, assert_valid, fingerprint, report};
+use crate::common::{analyze, assert_valid, fingerprint, report, srgb};
 use crate::synthetic::{Ball, Random, Rendered, Scene, dot, unit};
 use dichroscope::analysis::{Analysis, Session};
+use dichroscope::app::{Application, Edit, Executor, JobCommand};
 use dichroscope::describe::{Names, second_look_line, second_look_trace_line};
 use dichroscope::params::{Params, Refine, Setting};
 use dichroscope::raster::{PixelIndex, Raster, RegionId, UNASSIGNED};
 use dichroscope::segment::PlaceRule;
 use dichroscope::trace::{HistoryEntry, lineage};
+use dichroscope::view::{Origin, why};
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -142,14 +146,14 @@ fn the_record_of_the_second_look_tells_how_its_regions_were_found() {
     let rendered = rendered(&balls(3), false);
     let mut session = Session::new(Arc::new(rendered.image.clone()));
     let silent = session.run(&params(true), &mut ()).unwrap();
-    assert!(silent.second_look_records.is_empty() && silent.second_look.is_some());
+    assert!(silent.second_look.is_some());
     let (analysis, trace) = session.run_traced(&params(true), &mut ()).unwrap();
     assert!(fingerprint(&silent) == fingerprint(&analysis), "the record changes the result");
     let (first, labels) = (analysis.working_finals.hypotheses.len(), &analysis.finals.labels);
     for region in RegionId::all(analysis.intrinsic.regions.len()).skip(first) {
-        let (record, finer) = analysis.second_look_region(region).expect("a record");
+        let (record, finer) = trace.second_look_region(region).expect("a record");
         assert_eq!(record.number_in_result(finer), Some(region));
-        let ancestors = lineage(record.trace(), finer);
+        let ancestors = lineage(&record.trace, finer);
         assert_eq!(record.region_of(ancestors[0].hypothesis), Some(region));
         let names = Names::of_second_look(record);
         let in_region = |&pixel: &usize| labels[pixel] == region.get();
@@ -163,29 +167,64 @@ fn the_record_of_the_second_look_tells_how_its_regions_were_found() {
         let told = |&&pixel: &&PixelIndex| record.pixel_history(pixel).iter().any(is_numbered);
         assert!(2 * looked_at.iter().filter(told).count() > looked_at.len(), "{number}");
         let pixel = looked_at[0];
-        assert!(analysis.second_look_at(pixel).is_some_and(|found| found.corner() == record.corner()));
+        assert!(trace.second_look_at(pixel).is_some_and(|found| found.corner() == record.corner()));
         let [x, y] = names.position(record.finer_pixel(pixel).unwrap());
         let [column, row] = pixel.position(labels.width());
         assert!(x.abs_diff(column) < 2 && y.abs_diff(row) < 2, "({x}, {y}) of ({column}, {row})");
     }
-    assert!(
-        analysis.second_look_region(RegionId::from_index(0)).is_none(),
-        "a region of the working picture"
-    );
+    assert!(trace.second_look_region(RegionId::from_index(0)).is_none(), "a region of the working picture");
     let of_first =
         (0..labels.len()).position(|pixel| labels[pixel] == 1).map(PixelIndex::from_index).unwrap();
-    assert!(analysis.second_look_at(of_first).is_none());
+    assert!(trace.second_look_at(of_first).is_none());
     assert!(!trace.is_empty());
+}
+
+#[test]
+fn the_window_tells_what_the_second_look_decided_about_a_pixel() {
+    let rendered = rendered(&balls(3), false);
+    let image = &rendered.image;
+    let mut file = Vec::new();
+    let (width, height) = (image.width() as u32, image.height() as u32);
+    PngEncoder::new(&mut file).write_image(&srgb(image), width, height, ExtendedColorType::Rgb8).unwrap();
+    let mut application = Application::new(Executor::Inline, || ()).unwrap();
+    application.apply(Edit::SetParams(Box::new(params(true))));
+    application.apply(JobCommand::Open(Origin::Bytes { name: "balls.png".to_owned(), bytes: file.into() }));
+    let state = application.state();
+    let shown = state.newest.as_ref().unwrap();
+    let trace = state.debugger.trace().expect("the trace of the result");
+    let first = shown.analysis.working_finals.hypotheses.len();
+    let region = RegionId::from_index(first);
+    let (record, _) = trace.second_look_region(region).expect("a region of the second look");
+    let pixel = (0..shown.labels().len())
+        .map(PixelIndex::from_index)
+        .find(|&pixel| shown.labels()[pixel.index()] == region.get() && record.has_looked_at(pixel))
+        .unwrap();
+    let answers = why(shown, trace, &state.debugger.names, Some(pixel), None);
+    let (_, history) = answers.pixel.unwrap();
+    assert!(history[0].text.contains("the second look found it"), "{}", history[0].text);
+    assert!(
+        history[1].text.starts_with(&format!("second look: in region {region} it is")),
+        "{}",
+        history[1].text
+    );
+    assert!(
+        history
+            .iter()
+            .any(|sentence| sentence.text == format!("second look: hypothesis 1 becomes region {region}"))
+    );
+    assert!(history.last().is_some_and(|sentence| !sentence.text.contains("second look")));
+    let (of, made_of) = answers.region.unwrap();
+    assert!(of == region && !made_of.is_empty());
 }
 
 #[test]
 fn the_lines_of_the_second_look_name_its_picture_and_are_json() {
     let rendered = rendered(&balls(3), false);
-    let (analysis, _) =
+    let (analysis, trace) =
         Session::new(Arc::new(rendered.image.clone())).run_traced(&params(true), &mut ()).unwrap();
     let first = analysis.working_finals.hypotheses.len();
     let mut regions = Vec::new();
-    for (index, record) in analysis.second_look_records.iter().enumerate() {
+    for (index, record) in trace.second_look().iter().enumerate() {
         let head: Value = serde_json::from_str(&second_look_line(record, index + 1)).unwrap();
         assert_eq!(head["second_look"], index + 1);
         assert_eq!(head["scale"], 2);
@@ -193,9 +232,9 @@ fn the_lines_of_the_second_look_name_its_picture_and_are_json() {
             .extend(head["finals"].as_array().unwrap().iter().filter_map(Value::as_u64).filter(|&n| n > 0));
         let names = Names::of_second_look(record);
         let mut line = String::new();
-        for (seq, step) in record.trace().steps().step_by(997) {
+        for (seq, step) in record.trace.steps().step_by(997) {
             line.clear();
-            let stage = record.trace().stage_at(seq).unwrap();
+            let stage = record.trace.stage_at(seq).unwrap();
             second_look_trace_line(&names, index + 1, seq, stage, &step, &mut line);
             let line: Value = serde_json::from_str(&line).unwrap();
             assert_eq!((&line["second_look"], &line["seq"]), (&(index + 1).into(), &seq.into()));

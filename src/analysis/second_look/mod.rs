@@ -13,7 +13,6 @@
 //! On two of them the analysis takes 1.1 and .8 s, with the whole picture made finer it took 2.7 and 1.5 s (two shared cores).
 
 mod patches;
-mod record;
 mod tile;
 
 use super::photograph::Photograph;
@@ -24,13 +23,11 @@ use crate::params::{AmbientSetting, UsedParams};
 use crate::photo::{CodingError, MaskLimits, NoiseEstimate, ShotNoise};
 use crate::raster::{Blocks, LabelMap, UNASSIGNED, disjoint_rectangles};
 use crate::segment::{FinalRegions, LightFindings};
-use crate::trace::Recorder;
+use crate::trace::{Recorder, SecondLookRecord};
 use patches::patches;
 use rayon::prelude::*;
 use std::sync::Arc;
 use tile::Tile;
-
-pub use record::SecondLookRecord;
 
 /// Side of a finer block as a share of the side of a working pixel.
 const FINER: f64 = 0.4;
@@ -49,7 +46,7 @@ pub(super) struct SecondLook {
     /// How each region is split.
     pub(super) plans: RegionPlans,
     /// The decisions, one record for each rectangle; empty where no record is kept.
-    pub(super) records: Vec<Arc<SecondLookRecord>>,
+    pub(super) records: Arc<[SecondLookRecord]>,
     /// Whether a record was kept.
     pub(super) is_recorded: bool,
 }
@@ -83,11 +80,13 @@ pub(super) fn second_look<R: Recorder>(
         rectangles.par_iter().map(|roi| Tile::new::<R>(photograph, &finer, roi.of_pixels(blocks), is_sought));
     found.tiles = looked_at.collect::<Vec<_>>().into_iter().flatten().collect();
     let mut before = working.finals.value.hypotheses.len();
+    let mut records = Vec::new();
     for tile in &mut found.tiles {
         found.plans.extend(std::mem::take(&mut tile.plans));
-        found.records.extend(tile.take_record(before).map(Arc::new));
+        records.extend(tile.take_record(before));
         before += tile.hypotheses.len();
     }
+    found.records = records.into();
     found
 }
 

@@ -1,7 +1,6 @@
 //! The second look at one rectangle of the photograph: the stages from the windows to the split in a finer picture.
 
 use super::FinerPixels;
-use super::record::SecondLookRecord;
 use crate::analysis::photograph::Photograph;
 use crate::analysis::prepared::masks_made;
 use crate::analysis::windows::{classify_windows, merged_areas};
@@ -13,7 +12,7 @@ use crate::segment::{
     AnalysisInput, FinalRegions, PlanarHypothesis, clipping_regions, final_regions, full_resolution_labels,
     matte_regions, planar_regions,
 };
-use crate::trace::{Recorder, StageBegan, StageTrace, Trace};
+use crate::trace::{Recorder, SecondLookRecord, StageBegan, StageTrace, Trace};
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -70,7 +69,8 @@ impl Tile {
         }
         let record = records.finish().map(|stage_traces| {
             let trace = Trace::of_working_picture(blocks, stage_traces);
-            SecondLookRecord::new(roi, picture.image, picture.masks, patches.clone(), trace)
+            let (image, masks, patches) = (picture.image, picture.masks, patches.clone());
+            SecondLookRecord { roi, image, masks, patches, trace, regions: Vec::new() }
         });
         let regions = retained(regions, &kept);
         let photograph_input = input.with_picture(&cropped.pixels, &cropped_masks);
@@ -90,7 +90,10 @@ impl Tile {
     /// The record, with the numbers of the regions in the result, in which they follow the first `before` regions; none where no record was
     /// kept.
     pub(super) fn take_record(&mut self, before: usize) -> Option<SecondLookRecord> {
-        self.record.take().map(|record| record.numbered(&self.kept, before))
+        let mut numbers = before..;
+        let number = |&is_kept: &bool| if is_kept { numbers.next().map(RegionId::from_index) } else { None };
+        let regions = self.kept.iter().map(number).collect();
+        self.record.take().map(|record| SecondLookRecord { regions, ..record })
     }
 
     /// Gives pixels of the photograph, whose regions are `labels`, the regions of this rectangle, which follow the first `before` regions.

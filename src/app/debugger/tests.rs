@@ -461,10 +461,10 @@ fn the_history_of_a_pixel_is_newest_first_with_hypothesis_and_region() {
     assert!(history.is_sorted_by(|a, b| a.step >= b.step));
     let (hypothesis, story) = answers.hypothesis.unwrap();
     assert_eq!(names.region_of(hypothesis), RegionId::from_label(1));
-    assert!(matches!(trace.event(story[0].step), Some(Event::HypothesisChosen(_))));
+    assert!(matches!(trace.event(story[0].step.unwrap()), Some(Event::HypothesisChosen(_))));
     let (region, made_of) = answers.region.unwrap();
     assert_eq!((region.get(), made_of[0].depth), (1, 0));
-    assert!(made_of.iter().all(|account| trace.event(account.step).is_some()));
+    assert!(made_of.iter().all(|account| trace.event(account.step.unwrap()).is_some()));
 
     let of_hypothesis = why(shown, &trace, names, None, Some(hypothesis));
     assert_eq!((of_hypothesis.pixel, of_hypothesis.hypothesis.unwrap().1), (None, story));

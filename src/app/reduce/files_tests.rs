@@ -6,7 +6,7 @@ use crate::app::{Application, Edit, Effect, Executor, ExportKind, JobCommand, Se
 use crate::export::png_of_gray;
 use crate::params::{Parameter, Setting};
 use crate::view::testing::gray;
-use crate::view::{ElsewhereKind, ElsewherePaths, Layer, Origin};
+use crate::view::{Elsewhere, ElsewhereKind, ElsewherePaths, Layer, Origin};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -138,4 +138,52 @@ fn a_label_map_waits_for_its_own_photograph_and_not_for_another_one_that_is_read
     };
     assert!(reads_labels(&reduce_report(&mut state, read)));
     assert_eq!(state.picture.unwrap().origin.name(), "a.png");
+}
+
+#[test]
+fn the_photographs_that_are_closed_because_no_more_can_be_open_are_named() {
+    let mut state = State::default();
+    let mut open = |name: &str| {
+        let mut picture = Arc::into_inner(gray(&[".."], 9)).unwrap();
+        picture.origin = Origin::File(name.into());
+        reduce_report(&mut state, Report::Opened(Arc::new(picture)));
+        state
+            .notices
+            .iter()
+            .map(|notice| notice.text.clone())
+            .filter(|text| text.contains("closed"))
+            .collect()
+    };
+    for number in 1..=8 {
+        let told: Vec<String> = open(&format!("{number}.png"));
+        assert!(told.is_empty(), "{told:?}");
+    }
+    assert_eq!(open("9.png"), ["1.png was closed: 8 photographs can be open at once"]);
+    assert_eq!(open("9.png").len(), 1, "a photograph that is read again closes none");
+}
+
+#[test]
+fn a_photograph_that_is_read_again_with_others_keeps_its_label_map() {
+    let picture = |name: &str| {
+        let mut picture = Arc::into_inner(gray(&[".."], 9)).unwrap();
+        picture.origin = Origin::File(name.into());
+        Arc::new(picture)
+    };
+    let mut state = State::default();
+    reduce_report(&mut state, Report::Opened(picture("a.png")));
+    let labels = ElsewherePaths::default().with(ElsewhereKind::Labels, "labels.png".into());
+    let elsewhere = Arc::new(Elsewhere { paths: labels.clone(), ..Elsewhere::default() });
+    state.elsewhere = Some(elsewhere);
+    let photographs = ["a.png", "b.png"].map(|name| Ok(picture(name)));
+    let read = Report::OpenedTogether {
+        photographs: photographs.into(),
+        elsewhere: ElsewherePaths::default(),
+        workspace: None,
+    };
+    reduce_report(&mut state, Report::Opened(picture("b.png")));
+    reduce_report(&mut state, read);
+    assert_eq!(names(&state), ["b.png", "a.png"]);
+    assert!(state.elsewhere.is_none(), "b.png has none");
+    let of_a = state.others[0].elsewhere.as_ref().expect("the label map of a.png");
+    assert_eq!(of_a.paths, labels);
 }

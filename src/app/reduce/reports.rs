@@ -5,12 +5,13 @@ use super::edits::{analyze, edit_params};
 use super::photographs::keep_open;
 use super::questions::take_progress;
 use crate::app::files_to_open::with_unopened;
+use crate::app::photographs::MOST_OTHERS;
 use crate::app::report::{Report, Work};
 use crate::app::state::{AfterPin, Restoring, own_layer};
 use crate::app::{Debugger, Document, Effect, Preview, Severity, State, ViewSettings, Workspace};
 use crate::params::{IlluminantSetting, Params};
 use crate::view::{
-    Elsewhere, ElsewhereKind, ElsewherePaths, Item, Layer, MaskRuns, NamedMark, NamedMarks, Picture,
+    Elsewhere, ElsewhereKind, ElsewherePaths, Item, Layer, MaskRuns, NamedMark, NamedMarks, Origin, Picture,
     ProfileLine, ResultSnapshot,
 };
 use std::path::PathBuf;
@@ -22,9 +23,15 @@ const MOST_RECENT: usize = 12;
 /// Applies a report to the state and returns the effects.
 pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
     match report {
-        Report::Opened(picture) => return open_picture(state, picture, &ElsewherePaths::default()),
+        Report::Opened(picture) => {
+            return telling_what_is_closed(state, |state| {
+                open_picture(state, picture, &ElsewherePaths::default())
+            });
+        }
         Report::OpenedTogether { photographs, elsewhere, workspace } => {
-            return open_together(state, photographs, elsewhere, workspace);
+            return telling_what_is_closed(state, |state| {
+                open_together(state, photographs, elsewhere, workspace)
+            });
         }
         Report::OpenFailed(reason) => {
             (state.jobs.reading, state.restoring) = (None, None);
@@ -151,6 +158,25 @@ fn lack_elsewhere(state: &mut State, kind: ElsewhereKind, picture: &Arc<Picture>
     state.notify(Severity::Error, text);
 }
 
+/// Opens photographs by `open`, and names those that were closed because no more can be open.
+fn telling_what_is_closed(state: &mut State, open: impl FnOnce(&mut State) -> Vec<Effect>) -> Vec<Effect> {
+    let open_ones = |state: &State| -> Vec<Origin> {
+        let shown = state.picture.iter().chain(state.others.iter().map(|other| &other.picture));
+        shown.map(|picture| picture.origin.clone()).collect()
+    };
+    let before = open_ones(state);
+    let effects = open(state);
+    let after = open_ones(state);
+    let closed: Vec<String> =
+        before.iter().filter(|origin| !after.contains(origin)).map(Origin::name).collect();
+    if !closed.is_empty() {
+        let (names, were) = (closed.join(", "), if closed.len() == 1 { "was" } else { "were" });
+        let text = format!("{names} {were} closed: {} photographs can be open at once", MOST_OTHERS + 1);
+        state.notify_of_files(Severity::Warning, text);
+    }
+    effects
+}
+
 /// Opens photographs, and shows and analyzes the last; the others are analyzed when they are shown. The pictures of another program are
 /// read for the last photograph, or for that of the workspace, which is read after the photographs.
 fn open_together(
@@ -202,9 +228,15 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: &ElsewhereP
     if state.picture.as_ref().is_some_and(|shown| shown.origin != picture.origin) {
         keep_open(state);
     }
-    state.others.retain(|other| other.picture.origin != picture.origin);
-    // Those of a photograph that is read again are read again too.
-    let again = state.elsewhere.take().map_or_else(ElsewherePaths::default, |all| all.paths.clone());
+    let earlier = state.others.iter().position(|other| other.picture.origin == picture.origin);
+    let earlier = earlier.map(|index| state.others.remove(index));
+    // The pictures of another program of a photograph that is read again are read again too, and stay until then.
+    let of_shown = state.elsewhere.take();
+    state.elsewhere = earlier
+        .filter(|earlier| earlier.picture.size() == picture.size())
+        .and_then(|earlier| earlier.elsewhere);
+    let again = of_shown.as_ref().or(state.elsewhere.as_ref());
+    let again = again.map_or_else(ElsewherePaths::default, |all| all.paths.clone());
     let mut saved = again.except(elsewhere);
     // What was said about the photograph before does not concern this one.
     state.notices.retain(|notice| !notice.of_photograph);

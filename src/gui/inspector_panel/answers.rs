@@ -54,17 +54,25 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, found: &Why) {
     }
 }
 
-/// Shows sentences, each a link that moves the cursor to the sentence's step.
+/// What the pointer tells of a sentence of the second look.
+const OF_SECOND_LOOK_TIP: &str = "Decided in the finer picture of a patch that the working picture leaves unexplained. The timeline \
+     shows the steps of the working picture alone.";
+
+/// Shows sentences, each a link that moves the cursor to the sentence's step, if that is a step of the trace.
 fn show_sentences(ui: &mut Ui, cx: &mut PanelContext, sentences: &[WhySentence]) {
     if sentences.is_empty() {
         ui.label(RichText::new("nothing was decided about it").color(cx.palette.secondary));
     }
     let at = cx.state.debugger.replay.as_ref().map(crate::trace::Replay::at);
     for sentence in sentences {
-        let is_current = at == Some(sentence.step + 1);
+        let is_current = at.is_some() && at == sentence.step.map(|step| step + 1);
         let response = show_sentence(ui, cx, sentence, is_current);
+        let Some(step) = sentence.step else {
+            response.on_hover_text(OF_SECOND_LOOK_TIP);
+            continue;
+        };
         if response.on_hover_text("Go to this step.").clicked() {
-            cx.send(Command::Debug(DebugCommand::Seek(sentence.step + 1)));
+            cx.send(Command::Debug(DebugCommand::Seek(step + 1)));
         }
     }
 }
@@ -83,8 +91,12 @@ fn show_sentence(ui: &mut Ui, cx: &PanelContext, sentence: &WhySentence, is_curr
     let galley =
         ui.painter().layout(sentence.text.clone(), font.clone(), color, (width - left - 4.0).max(40.0));
     let size = vec2(width, galley.size().y + 4.0);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    if response.hovered() || response.has_focus() {
+    let (sense, role) = match sentence.step {
+        Some(_) => (Sense::click(), egui::accesskit::Role::Link),
+        None => (Sense::hover(), egui::accesskit::Role::Label),
+    };
+    let (rect, response) = ui.allocate_exact_size(size, sense);
+    if sentence.step.is_some() && (response.hovered() || response.has_focus()) {
         ui.painter().rect_filled(rect, 2.0, cx.palette.line);
     }
     if is_current {
@@ -95,7 +107,7 @@ fn show_sentence(ui: &mut Ui, cx: &PanelContext, sentence: &WhySentence, is_curr
     let stage = ui.painter().layout_no_wrap(sentence.stage.name().to_owned(), font, cx.palette.secondary);
     ui.painter().galley(pos2(rect.left() + 6.0, top), stage, cx.palette.secondary);
     ui.painter().galley(pos2(rect.left() + left, top), galley, color);
-    response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Link, true, &sentence.text));
+    response.widget_info(|| WidgetInfo::labeled(role, true, &sentence.text));
     response
 }
 

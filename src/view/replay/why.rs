@@ -10,8 +10,8 @@ use std::sync::Arc;
 /// A sentence about a step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WhySentence {
-    /// The step that the sentence is about.
-    pub step: usize,
+    /// The step that the sentence is about; none for a decision of the second look, whose steps are not those of the trace.
+    pub step: Option<usize>,
     /// The stage of the step.
     pub stage: Stage,
     /// Number of joinings between the hypothesis of the sentence and the subject of the list.
@@ -41,14 +41,18 @@ pub fn why(
 ) -> Why {
     let names_in_sentences = Names::of(trace);
     let stage = |step: usize| trace.stage_at(step).unwrap_or(Stage::Masks);
-    let sentence =
-        |step: usize, depth: usize, text: String| WhySentence { step, stage: stage(step), depth, text };
+    let sentence = |step: usize, depth: usize, text: String| WhySentence {
+        step: Some(step),
+        stage: stage(step),
+        depth,
+        text,
+    };
     let image = &shown.picture.photo.image;
     let last_step = trace.len().saturating_sub(1);
     let pixel = pixel.filter(|&pixel| pixel.index() < image.pixels.len()).map(|pixel| {
         let history = condense(&shown.analysis.pixel_history(trace, pixel));
         let place = shown.analysis.pixel_place(pixel);
-        let record = shown.analysis.second_look_at(pixel);
+        let record = trace.second_look_at(pixel);
         let at_full_resolution = place
             .map(|place| sentence(last_step, 0, names_in_sentences.pixel_place(&place, record.is_some())));
         let of_second_look = record.into_iter().flat_map(|record| {
@@ -56,7 +60,7 @@ pub fn why(
             let history = condense(&record.pixel_history(pixel));
             let said = history.iter().rev().map(|condensed| {
                 let text = repeated(names.second_look_entry(&condensed.last), condensed.times);
-                WhySentence { step: last_step, stage: condensed.last.stage, depth: 0, text }
+                WhySentence { step: None, stage: condensed.last.stage, depth: 0, text }
             });
             said.collect::<Vec<_>>()
         });
@@ -84,23 +88,19 @@ pub fn why(
     });
     let of_second_look = || {
         let (pixel, _) = pixel.as_ref().filter(|_| subject.is_none())?;
-        region_of_second_look(shown, RegionId::from_label(shown.labels()[pixel.index()])?, last_step)
+        region_of_second_look(trace, RegionId::from_label(shown.labels()[pixel.index()])?)
     };
     let region = region.or_else(of_second_look);
     Why { pixel, hypothesis, region }
 }
 
-/// What a region of the second look is made of; the sentences are about the last step, as the record is not that of the working picture.
-fn region_of_second_look(
-    shown: &ResultSnapshot,
-    region: RegionId,
-    step: usize,
-) -> Option<(RegionId, Vec<WhySentence>)> {
-    let (record, finer) = shown.analysis.second_look_region(region)?;
+/// What a region of the second look is made of.
+fn region_of_second_look(trace: &Trace, region: RegionId) -> Option<(RegionId, Vec<WhySentence>)> {
+    let (record, finer) = trace.second_look_region(region)?;
     let names = Names::of_second_look(record);
-    let sentences = lineage(record.trace(), finer).into_iter().map(|ancestor| {
-        let stage = record.trace().stage_at(ancestor.step()).unwrap_or(Stage::Clipping);
-        WhySentence { step, stage, depth: ancestor.depth, text: names.ancestor(&ancestor) }
+    let sentences = lineage(&record.trace, finer).into_iter().map(|ancestor| {
+        let stage = record.trace.stage_at(ancestor.step()).unwrap_or(Stage::Clipping);
+        WhySentence { step: None, stage, depth: ancestor.depth, text: names.ancestor(&ancestor) }
     });
     Some((region, sentences.collect()))
 }

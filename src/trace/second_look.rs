@@ -1,61 +1,28 @@
-//! The record of the second look at one rectangle of the photograph.
+//! Questions to the records of the second look, which looks at parts of a large photograph in finer pictures.
 
-use crate::photo::{LinearImage, Masks};
-use crate::raster::{HypothesisId, Mask, PixelIndex, RegionId, Roi};
-use crate::trace::{HistoryEntry, Trace, pixel_history, regions_of};
-use std::sync::Arc;
+use super::history::{HistoryEntry, pixel_history};
+use super::lineage::regions_of;
+use super::timeline::{SecondLookRecord, Trace};
+use crate::raster::{HypothesisId, Mask, PixelIndex, RegionId};
 
-/// Every decision about one finer picture of the second look, which shows a rectangle of the photograph. Numbers of hypotheses, areas and
-/// pixels in the record are those of the finer picture.
-#[derive(Clone, Debug)]
-pub struct SecondLookRecord {
-    /// The rectangle, pixels of the photograph.
-    roi: Roi,
-    /// The colors of the finer picture.
-    image: Arc<LinearImage>,
-    /// The masks of the finer picture.
-    masks: Arc<Masks>,
-    /// The finer pixels that were looked at.
-    patches: Mask,
-    /// The decisions.
-    trace: Trace,
-    /// Number in the result of each region of the finer picture, by [`RegionId::index`]; none for a region that was not kept.
-    regions: Vec<Option<RegionId>>,
+impl Trace {
+    /// The record of the second look at a pixel of the photograph; none where the second look did not look.
+    pub fn second_look_at(&self, pixel: PixelIndex) -> Option<&SecondLookRecord> {
+        self.second_look().iter().find(|record| record.has_looked_at(pixel))
+    }
+
+    /// The record of the second look that contains a region of the result, and the number of the region in it; none for a region of the
+    /// working picture.
+    pub fn second_look_region(&self, region: RegionId) -> Option<(&SecondLookRecord, RegionId)> {
+        let in_record = |record: &SecondLookRecord| record.region_with_number(region);
+        self.second_look().iter().find_map(|record| in_record(record).map(|finer| (record, finer)))
+    }
 }
 
 impl SecondLookRecord {
-    /// The record `trace` of a finer picture with colors `image` and marks `masks`, which shows the rectangle `roi`.
-    pub(super) fn new(
-        roi: Roi,
-        image: Arc<LinearImage>,
-        masks: Arc<Masks>,
-        patches: Mask,
-        trace: Trace,
-    ) -> Self {
-        Self { roi, image, masks, patches, trace, regions: Vec::new() }
-    }
-
-    /// This record, where the regions that are `kept`, by [`RegionId::index`], are the regions from index `first` on in the result.
-    #[must_use]
-    pub(super) fn numbered(self, kept: &[bool], first: usize) -> Self {
-        let mut numbers = first..;
-        let number = |&is_kept: &bool| if is_kept { numbers.next().map(RegionId::from_index) } else { None };
-        Self { regions: kept.iter().map(number).collect(), ..self }
-    }
-
     /// Column and row of the photograph where the finer picture begins, pixels.
     pub fn corner(&self) -> [usize; 2] {
         [self.roi.left, self.roi.top]
-    }
-
-    /// The decisions, in pixels and numbers of the finer picture.
-    pub fn trace(&self) -> &Trace {
-        &self.trace
-    }
-
-    /// Number in the result of each region of the finer picture, by [`RegionId::index`]; none for a region that was not kept.
-    pub fn regions(&self) -> &[Option<RegionId>] {
-        &self.regions
     }
 
     /// Number in the result of a region of the finer picture; none for a region that was not kept.
