@@ -210,7 +210,7 @@ switches! {
     }
     plane_evidence PlaneEvidence {
         first_stage: Split,
-        meaning: "Where what the plane of a region in a compressed or demosaiced photograph takes for surface reflection looks like print, the plane is not used (3).",
+        meaning: "Where what the plane of a region takes for surface reflection looks like print, the plane is not used; asked in compressed and demosaiced photographs, and where the light is hardly told from the body (3).",
         worth: "20 photographs, border of the split with edges that the photograph does not have: 2.1 → 1.2 %; rendered scenes at JPEG 92, body of other kinds than plain objects, 32.8 → 33.0 dB (doing nothing: 23.9).",
     }
     far_colors FarColors {

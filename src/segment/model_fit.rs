@@ -23,8 +23,8 @@
 //! demosaiced with JPEG 92 32.22 → 32.39 dB (doing nothing: 23.9 dB).
 //!
 //! The fourth measure is taken after the pixels are split: the new edges at the border of the region (`intrinsic/border_edges`).
-//! The fifth is taken in compressed and demosaiced photographs only: whether what the plane takes for surface reflection looks
-//! like highlights or like print (`intrinsic/plane_evidence`).
+//! The fifth is taken in compressed and demosaiced photographs, and of doubtful planes: whether what the plane takes for surface
+//! reflection looks like highlights or like print (`intrinsic/plane_evidence`).
 //!
 //! Measured on 25 rendered scenes of plain objects, regions that the model fits and body: 92 of 96 and 44.4 dB as the scenes are, 82 of 92 and
 //! 38.1 dB at JPEG 92, 83 of 91 and 38.6 dB demosaiced (doing nothing: 22.7 dB). With σ of the noise alone: 87, 13 and 37 regions, 44.2, 36.8 and
@@ -56,8 +56,10 @@ const MAX_NEW_EDGES: f64 = 0.12;
 pub const MAX_LIGHT_SHARE: f64 = 1.0;
 /// Least mean probability of a highlight in the surface reflection of a region that the model fits.
 const MIN_HIGHLIGHTS: f64 = 0.3;
-/// The same of a region with a small misfit.
-const MIN_HIGHLIGHTS_SMALL_MISFIT: f64 = 0.8;
+/// The same of a region whose plane is doubtful: with a small misfit, or with a light that is hardly told from the body.
+const MIN_HIGHLIGHTS_DOUBTFUL: f64 = 0.8;
+/// Light error, as a share of the angle between body and surface vector, that makes the plane of a region doubtful.
+const DOUBTFUL_LIGHT_SHARE: f64 = 0.4;
 /// Fewest sides of a border that is judged.
 const LEAST_SIDES: u32 = 24;
 /// Largest number of pixels whose distance from the plane is measured, evenly chosen.
@@ -199,6 +201,12 @@ impl RegionFit {
         self.light_share > MAX_LIGHT_SHARE
     }
 
+    /// Whether the body vector lies so near to the light that an error of the light within its interval divides the colors of the region
+    /// otherwise.
+    pub fn has_doubtful_light(&self) -> bool {
+        self.light_share > DOUBTFUL_LIGHT_SHARE
+    }
+
     /// Whether what the plane takes for surface reflection has been found to look like print or another color.
     pub fn lacks_highlights(&self) -> bool {
         self.highlights.is_some_and(|highlights| highlights < self.least_highlights())
@@ -206,7 +214,8 @@ impl RegionFit {
 
     /// Least mean probability of a highlight of a region that the model fits.
     fn least_highlights(&self) -> f64 {
-        if self.has_small_misfit() { MIN_HIGHLIGHTS_SMALL_MISFIT } else { MIN_HIGHLIGHTS }
+        let is_doubtful = self.has_small_misfit() || self.has_doubtful_light();
+        if is_doubtful { MIN_HIGHLIGHTS_DOUBTFUL } else { MIN_HIGHLIGHTS }
     }
 
     /// The measures that decide.
@@ -373,6 +382,17 @@ mod tests {
     fn the_model_fits_shading_alone() {
         let found = fit(|x, y| (60.0 + x + (y / 6.0).sin() * y, 0.0));
         assert!(found.model_fits(), "{found:?}");
+    }
+
+    #[test]
+    fn a_light_near_the_body_needs_clear_highlights() {
+        let near =
+            RegionFit { sigma_counts: 1.0, limit_sigmas: 1.5, light_share: 0.5, ..RegionFit::default() };
+        assert!(near.has_doubtful_light() && near.model_fits(), "not judged");
+        let judged = |highlights| RegionFit { highlights: Some(highlights), ..near };
+        assert!(!judged(0.7).model_fits() && judged(0.9).model_fits());
+        let far = RegionFit { light_share: 0.3, ..judged(0.7) };
+        assert!(!far.has_doubtful_light() && far.model_fits());
     }
 
     #[test]
