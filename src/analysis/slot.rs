@@ -60,15 +60,11 @@ impl<K: PartialEq, V: Clone> Slot<K, V> {
         if let Some(value) = kept.clone().filter(|_| !R::KEEPS || self.stage_trace.is_some()) {
             return Ok((self.numbered(value), true));
         }
-        let mut recorder = R::default();
-        if R::KEEPS {
-            recorder.record(StageBegan { stage });
-        }
-        let value = make(observer, &mut recorder);
+        let (value, stage_trace) = recorded(stage, |recorder: &mut R| make(observer, recorder));
         if observer.cancelled() {
             return Err(Cancelled);
         }
-        self.stage_trace = recorder.finish(stage).map(Arc::new);
+        self.stage_trace = stage_trace;
         if let Some(value) = kept {
             return Ok((self.numbered(value), false));
         }
@@ -90,4 +86,17 @@ impl<K: PartialEq, V: Clone> Slot<K, V> {
     fn numbered(&self, value: V) -> Numbered<V> {
         Numbered { value, number: self.generation }
     }
+}
+
+/// Runs a stage. Returns what the stage made, and its record, if `R` keeps one.
+pub(super) fn recorded<R: Recorder, T>(
+    stage: Stage,
+    run: impl FnOnce(&mut R) -> T,
+) -> (T, Option<Arc<StageTrace>>) {
+    let mut recorder = R::default();
+    if R::KEEPS {
+        recorder.record(StageBegan { stage });
+    }
+    let made = run(&mut recorder);
+    (made, recorder.finish(stage).map(Arc::new))
 }

@@ -130,8 +130,6 @@ fn staged_steps(trace: &Trace) -> impl Iterator<Item = (usize, Stage, Step<'_>)>
 struct Wanted {
     /// Which steps of the working picture to write.
     steps: StepFilter,
-    /// The stage of the steps.
-    stage: Option<Stage>,
     /// The pixel of the photograph that the steps are about.
     pixel: Option<PixelIndex>,
     /// The region of the result that the steps are about.
@@ -163,7 +161,7 @@ impl Wanted {
                 RegionFilter::new(trace, region, labels.map(|&label| label == region.get()))
             }),
         };
-        Ok(Self { steps, stage: arguments.stage, pixel, region })
+        Ok(Self { steps, pixel, region })
     }
 
     /// Which steps of one finer picture of the second look to write; none where nothing of the picture was asked for.
@@ -184,7 +182,7 @@ impl Wanted {
                 Some(RegionFilter::new(&record.trace, finer, members))
             }
         };
-        Some(StepFilter { stage: self.stage, pixel, region })
+        Some(StepFilter { stage: self.steps.stage, pixel, region })
     }
 }
 

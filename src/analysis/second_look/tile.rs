@@ -3,6 +3,7 @@
 use super::FinerPixels;
 use crate::analysis::photograph::Photograph;
 use crate::analysis::prepared::masks_made;
+use crate::analysis::slot::recorded;
 use crate::analysis::windows::{classify_windows, merged_areas};
 use crate::intrinsic::{FittedPlace, RegionPlans, RegionReflection, WorkingSplit, split};
 use crate::params::{Refine, Stage};
@@ -12,7 +13,7 @@ use crate::segment::{
     AnalysisInput, FinalRegions, PlanarHypothesis, clipping_regions, final_regions, full_resolution_labels,
     matte_regions, planar_regions,
 };
-use crate::trace::{Recorder, SecondLookRecord, StageBegan, StageTrace, Trace};
+use crate::trace::{Recorder, SecondLookRecord, StageTrace, Trace};
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -150,12 +151,8 @@ impl<R> Default for StageRecords<R> {
 impl<R: Recorder> StageRecords<R> {
     /// Runs a stage, and keeps its record.
     fn stage<T>(&mut self, stage: Stage, run: impl FnOnce(&mut R) -> T) -> T {
-        let mut recorder = R::default();
-        if R::KEEPS {
-            recorder.record(StageBegan { stage });
-        }
-        let made = run(&mut recorder);
-        self.stage_traces.extend(recorder.finish(stage).map(Arc::new));
+        let (made, stage_trace) = recorded(stage, run);
+        self.stage_traces.extend(stage_trace);
         made
     }
 
