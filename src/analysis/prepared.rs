@@ -80,6 +80,8 @@ pub(super) struct MaskKey {
     camera_noise: Option<Setting>,
     /// Whether the minimal intensity is computed from the noise.
     automatic_intensity: bool,
+    /// Whether that noise is at least the error of lossy compression (refinement `coding_error`).
+    least_noise_of_coding: bool,
     /// The area of the session.
     area: Option<Arc<Mask>>,
 }
@@ -115,6 +117,9 @@ impl<'a> Preparation<'a> {
             factor: self.factor,
             camera_noise: depends.then_some(self.params.camera_noise),
             automatic_intensity: self.automatic_intensity,
+            least_noise_of_coding: self.automatic_noise
+                && self.automatic_intensity
+                && self.params.refinements().coding_error,
             area: self.subject.area.clone(),
         }
     }

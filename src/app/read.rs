@@ -3,7 +3,7 @@
 use super::files_to_open::with_unopened;
 use super::report::Report;
 use super::{FilesToOpen, Workspace};
-use crate::params::Params;
+use crate::params::{Params, toml_error};
 use crate::photo::{self, ReadOptions};
 use crate::truth::{ForeignResult, GroundTruth, read_label_map, sample::Sample};
 use crate::view::{Elsewhere, ElsewhereKind, ElsewherePaths, Histogram, Origin, Picture};
@@ -21,20 +21,24 @@ pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, S
     let origin = with_absolute_path(origin);
     let (photo, sha256) = match &origin {
         Origin::File(path) => {
-            let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+            let bytes = photo::read_bytes(path).map_err(|error| with_source(&error))?;
             let name = path.display().to_string();
             (photo::decode(&bytes, &name, &options), photo::sha256_hex(&bytes))
         }
-        Origin::Sample(name) if Sample::find(name).is_some() => {
-            let bytes = Sample::find(name).map_or(&[][..], |sample| sample.camera);
-            (photo::decode(bytes, "camera8.png", &options), photo::sha256_hex(bytes))
+        Origin::Sample(name) => {
+            let Some(sample) = Sample::find(name) else {
+                return Err(format!("{name}: there is no such sample scene"));
+            };
+            (photo::decode(sample.camera, "camera8.png", &options), photo::sha256_hex(sample.camera))
         }
-        Origin::Sample(name) => return Err(format!("{name}: there is no such sample scene")),
         Origin::Bytes { name, bytes } => (photo::decode(bytes, name, &options), photo::sha256_hex(bytes)),
     };
-    let photo = photo.map_err(|error| error.to_string())?;
+    let mut photo = photo.map_err(|error| error.to_string())?;
     let read_ms = began_at.elapsed().as_secs_f64() * 1e3;
-    let truth = truth(&origin);
+    let truth = truth(&origin).unwrap_or_else(|reason| {
+        photo.warnings.push(reason);
+        None
+    });
     let histogram = Histogram::of(&photo.image);
     Ok(Picture { origin, reading: options, photo, sha256, read_ms, histogram, truth })
 }
@@ -55,16 +59,21 @@ fn with_absolute_path(origin: Origin) -> Origin {
     }
 }
 
-/// The ground truth in the folder of the photograph, or that of a sample scene.
-fn truth(origin: &Origin) -> Option<GroundTruth> {
-    match origin {
-        Origin::Sample(name) => Sample::find(name)?.truth().ok(),
+/// The ground truth in the folder of the photograph, or that of a sample scene; none where there is no ground truth.
+///
+/// # Errors
+/// A sentence that says why the ground truth cannot be used.
+fn truth(origin: &Origin) -> Result<Option<GroundTruth>, String> {
+    let read = match origin {
+        Origin::Sample(name) => Sample::find(name).map(Sample::truth),
         Origin::File(path) => {
-            let folder = path.parent()?;
-            folder.join("truth.json").is_file().then(|| GroundTruth::read(folder).ok())?
+            path.parent().filter(|folder| folder.join("truth.json").is_file()).map(GroundTruth::read)
         }
         Origin::Bytes { .. } => None,
-    }
+    };
+    read.transpose().map_err(|error| {
+        format!("the ground truth beside the photograph is not used: {}", with_source(&error))
+    })
 }
 
 /// Reads a picture that another program made of a photograph: a diffuse picture with the options of the photograph. The report is of the
@@ -127,10 +136,11 @@ fn with_source(error: &dyn Error) -> String {
 /// Reads parameters from a TOML file.
 pub(super) fn params(path: &Path) -> Report {
     let read = || -> Result<Params, String> {
-        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        let params: Params =
-            toml::from_str(&text).map_err(|error| format!("{}: {}", path.display(), error.message()))?;
-        params.validate().map_err(|error| format!("{}: {error}", path.display()))?;
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+        let name = path.display().to_string();
+        let params: Params = toml::from_str(&text).map_err(|error| toml_error(&name, &text, &error))?;
+        params.validate().map_err(|error| format!("{name}: {error}"))?;
         Ok(params)
     };
     match read() {

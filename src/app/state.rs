@@ -171,7 +171,22 @@ impl State {
         (newest.analysis.working.blocks == replay.trace().pixel_blocks()).then_some(replay)
     }
 
-    /// The photograph that the second view shows for comparison: the next open one, where it has the size of the one that is shown.
+    /// Forgets what was under way and pointed at in the photograph that was shown, before another one is shown. The views' zoom, which photographs
+    /// of one size share, stays.
+    pub(super) fn leave_photograph(&mut self) {
+        self.notices.retain(|notice| !notice.of_photograph);
+        self.debugger = Debugger::default();
+        self.preview = None;
+        self.after_pin = None;
+        self.hover = None;
+        self.hover_pixels = Arc::default();
+        self.explained_pixel = None;
+        self.view.show_pinned = false;
+        self.preselects = false;
+        self.selects_region = false;
+    }
+
+    /// The photograph that the second view shows for comparison: the next open one.
     pub fn compared_photograph(&self) -> Option<&OpenPhotograph> {
         self.others.first().filter(|_| self.compares_photographs && self.picture.is_some())
     }

@@ -101,7 +101,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
         note(trouble);
     }
     let jobs = arguments.jobs.map_or_else(|| JOBS.min(pool.current_num_threads()), NonZeroUsize::get);
-    let outcome = work.run(&found.list, jobs, &pool)?;
+    let outcome = work.run(&found.list, jobs, &pool);
     Ok(if outcome == Outcome::Done && !found.troubles.is_empty() { Outcome::SomeFailed } else { outcome })
 }
 

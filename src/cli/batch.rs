@@ -66,7 +66,7 @@ struct Tally {
 
 impl Work {
     /// Analyzes the photographs, `at_once` at a time, in the threads of `pool`.
-    pub(super) fn run(self, jobs: &[Job], at_once: usize, pool: &ThreadPool) -> Result<Outcome> {
+    pub(super) fn run(self, jobs: &[Job], at_once: usize, pool: &ThreadPool) -> Outcome {
         let bar = self.progress_bar(jobs.len());
         let (next, tally) = (AtomicUsize::new(0), Mutex::new(Tally::default()));
         std::thread::scope(|scope| {
@@ -88,8 +88,9 @@ impl Work {
             let (failed, all) = (tally.failed.len(), jobs.len());
             note(&format!("{failed} of {all} photographs failed: {}", tally.failed.join(", ")));
         }
-        if let Some(lines) = self.lines {
-            lines.finish()?;
+        let finished = self.lines.map_or(Ok(()), Lines::finish);
+        if let Err(error) = &finished {
+            note(&format!("error: {error:#}"));
         }
         if interrupted {
             let (done, all) = (tally.done, jobs.len());
@@ -97,9 +98,10 @@ impl Work {
             note(&format!(
                 "interrupted: {done} of {all} photographs are done; {call} continues with the others"
             ));
-            return Ok(Outcome::Interrupted);
+            return Outcome::Interrupted;
         }
-        Ok(if tally.failed.is_empty() { Outcome::Done } else { Outcome::SomeFailed })
+        let is_done = tally.failed.is_empty() && finished.is_ok();
+        if is_done { Outcome::Done } else { Outcome::SomeFailed }
     }
 
     /// Appends the line of a photograph, prints the outcome and counts the photograph.

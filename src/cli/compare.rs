@@ -2,7 +2,7 @@
 
 use super::one::{DEFAULT_CAMERA_FILE, Reference};
 use super::reading::Reading;
-use super::{Outcome, print, table};
+use super::{Outcome, note, print, table};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 use dichroscope::describe::{Report, Scores};
@@ -48,13 +48,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
     let report = read_report(&arguments.result_dir)?;
     let foreign = read(arguments)?;
     let agreement = foreign.agreement(&result.regions, &result.body)?;
-    let scores = arguments
-        .truth
-        .as_deref()
-        .map(|folder| both_scores(arguments, folder, &foreign, &result, &report))
-        .transpose()?;
-    if let Some(folder) = &arguments.out {
-        write(folder, &foreign, &result)?;
+    let truth = arguments.truth.as_deref();
+    let scores =
+        truth.map(|folder| both_scores(arguments, folder, &foreign, &result, &report)).transpose()?;
+    if let Some(folder) = &arguments.out
+        && let Err(error) = write(folder, &foreign, &result)
+    {
+        note(&format!("error: {error:#}"));
+        return Ok(Outcome::SomeFailed);
     }
     let held = Held { foreign: &foreign, agreement, scores };
     Ok(print(&if arguments.json { held.json()? } else { held.text() }))

@@ -11,6 +11,7 @@ use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// What became of a photograph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -55,6 +56,9 @@ pub(super) struct Line {
     pub(super) warnings: Vec<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) analysis_ms: Option<f64>,
+    /// When the photograph was finished, milliseconds since 1970-01-01 UTC; 0 in lines of earlier versions.
+    #[serde(default)]
+    pub(super) finished_unix_ms: u64,
 }
 
 impl Line {
@@ -89,8 +93,14 @@ impl Line {
             light: None,
             warnings: Vec::new(),
             analysis_ms: None,
+            finished_unix_ms: now_unix_ms(),
         }
     }
+}
+
+/// Milliseconds since 1970-01-01 UTC; 0 where the clock of the machine is set to an earlier time.
+fn now_unix_ms() -> u64 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_millis() as u64)
 }
 
 /// What tells the results of lines apart: the name and the encoded name.
@@ -125,7 +135,7 @@ pub(super) struct Lines {
     path: PathBuf,
     /// The file, to which lines are appended; `None` before the first.
     file: Mutex<Option<File>>,
-    /// The last line of each name in all files of lines in the folder, as far as earlier calls wrote them.
+    /// The latest line of each name in all files of lines in the folder, as far as earlier calls wrote them.
     earlier: BTreeMap<Key, Line>,
 }
 
@@ -137,9 +147,12 @@ impl Lines {
     /// The lines in the folder `out`; new ones go to the file of `shard` (its number and their count) or to that of all.
     pub(super) fn in_folder(out: &Path, shard: Option<[usize; 2]>) -> Self {
         let name = shard.map_or_else(String::new, |[number, count]| format!(".{number}-of-{count}"));
-        let mut earlier = BTreeMap::new();
-        for path in files_of_lines(out) {
-            earlier.extend(read(&path).into_iter().map(|line| (line.key(), line)));
+        let mut earlier: BTreeMap<Key, Line> = BTreeMap::new();
+        for line in files_of_lines(out).iter().flat_map(|path| read(path)) {
+            let is_later = |known: &Line| line.finished_unix_ms >= known.finished_unix_ms;
+            if earlier.get(&line.key()).is_none_or(is_later) {
+                earlier.insert(line.key(), line);
+            }
         }
         Self { path: out.join(format!("{STEM}{name}.{EXTENSION}")), file: Mutex::new(None), earlier }
     }
@@ -210,6 +223,21 @@ mod tests {
 
     fn failed(name: &str, error: &str) -> Line {
         Line::failed(&Job { input: format!("{name}.png").into(), name: name.into() }, error)
+    }
+
+    #[test]
+    fn the_latest_line_of_a_name_counts_in_whatever_file_it_is() {
+        let out = tempfile::tempdir().unwrap();
+        let earlier = |error: &str, finished_unix_ms| Line { finished_unix_ms, ..failed("a", error) };
+        for (shard, line) in [(Some([1, 2]), earlier("shard", 5)), (None, earlier("all", 7))] {
+            Lines::in_folder(out.path(), shard).append(&line).unwrap();
+        }
+        let found = |out: &Path| {
+            Lines::in_folder(out, None).earlier(Path::new("a")).and_then(|line| line.error.clone())
+        };
+        assert_eq!(found(out.path()).as_deref(), Some("all"));
+        Lines::in_folder(out.path(), Some([1, 2])).append(&earlier("shard again", 9)).unwrap();
+        assert_eq!(found(out.path()).as_deref(), Some("shard again"));
     }
 
     #[cfg(unix)]

@@ -120,6 +120,7 @@ pub fn run(arguments: Arguments) -> ExitCode {
         (Some(Command::Trace(arguments)), _) => trace::run(&arguments),
         (Some(Command::Why(arguments)), _) => why::run(&arguments),
         (Some(Command::Screenshot(_)), _) => no_screenshot(),
+        (None, _) if arguments.labels.is_some() || arguments.diffuse.is_some() => no_window_for_elsewhere(),
         (None, None) => sample::run(),
         (None, Some(image)) => no_window(&image),
     };
@@ -154,6 +155,13 @@ fn no_window(image: &std::path::Path) -> Result<Outcome> {
     let image = image.display();
     bail!(
         "this program has no window built in: `dichroscope analyze {image} --out DIR` analyses the photograph"
+    )
+}
+
+fn no_window_for_elsewhere() -> Result<Outcome> {
+    bail!(
+        "--labels and --diffuse are for the window, and this program has no window built in: \
+         `dichroscope compare RESULT_DIR --labels FILE --diffuse FILE` holds the files against a result"
     )
 }
 

@@ -5,7 +5,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
 use dichroscope::params::{
     AmbientSetting, FeatureSet, IlluminantSetting, Method, Parameter, Params, PhoenixParameter, Preset,
-    Reading, Setting, Switch,
+    Reading, Setting, Switch, toml_error,
 };
 use std::path::{Path, PathBuf};
 
@@ -151,17 +151,11 @@ struct File {
 fn read_toml(path: &Path) -> Result<File> {
     let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
     // Parsed as `Params` first, whose errors name unknown keys and their lines.
-    let params: Params = toml::from_str(&text).map_err(|error| located(path, &text, &error))?;
-    let table: toml::Table = toml::from_str(&text).map_err(|error| located(path, &text, &error))?;
+    let located = |error| anyhow!(toml_error(&path.display().to_string(), &text, &error));
+    let params: Params = toml::from_str(&text).map_err(located)?;
+    let table: toml::Table = toml::from_str(&text).map_err(located)?;
     params.validate().with_context(|| path.display().to_string())?;
     Ok(File { method: table.contains_key("method").then_some(params.method), table })
-}
-
-/// An error as one line of text, with the file's name and the number of the line in front.
-fn located(path: &Path, text: &str, error: &toml::de::Error) -> anyhow::Error {
-    let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
-    let line = before.matches('\n').count() + 1;
-    anyhow!("{}:{line}: {}", path.display(), error.message().replace('\n', " "))
 }
 
 /// `base` with the values of `table` in place of its own.

@@ -14,6 +14,7 @@ mod refine;
 mod setting;
 mod stage;
 mod table;
+mod toml_error;
 mod values;
 
 pub use feature::{Feature, FeatureSet, UnknownFeature};
@@ -30,4 +31,5 @@ pub use setting::{AmbientSetting, IlluminantSetting, Setting};
 pub use stage::Stage;
 pub(crate) use table::parameter_rows;
 pub use table::{Parameter, ParameterSpec, SliderSpec};
+pub use toml_error::toml_error;
 pub use values::{Params, UsedParams};

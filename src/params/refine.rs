@@ -245,6 +245,11 @@ switches! {
         meaning: "The surface reflection of the local split follows the edges of the picture, so that the split makes no edges of its own (6).",
         worth: "Six printed scenes: the whole picture 34.5 → 35.4 dB (doing nothing: 21.5).",
     }
+    chromaticity_prior ChromaticityPrior {
+        first_stage: Split,
+        meaning: "Inside highlights that no region explains, the chromaticity of body reflection comes from the pixels around as well, as far as the errors of light and file explain the difference (6).",
+        worth: "Photographs with measured truth, inside highlights: animals 33.0 → 33.2 dB (doing nothing: 22.3), fruit 35.9 → 36.4 dB (doing nothing: 17.4); no rendered scene loses, six printed ones at most +.2 dB.",
+    }
     belief Belief {
         first_stage: Split,
         meaning: "Where too few votes are for the light, nothing is split locally (6).",

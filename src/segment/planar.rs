@@ -264,7 +264,8 @@ fn find_second_lamp<R: Recorder>(
     }
     let evidence = evidence_of_grown_regions(state, hypotheses);
     let (labels, count) = (&state.matte_labels, state.matte.len());
-    let Some((compared, lamp)) = second_lamp(&evidence, &first, interval_deg, labels, count) else {
+    let widening = state.input.interval_widening();
+    let Some((compared, lamp)) = second_lamp(&evidence, &first, interval_deg, widening, labels, count) else {
         return false;
     };
     if R::KEEPS {

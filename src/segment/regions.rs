@@ -164,19 +164,21 @@ fn separate<R: Recorder>(
 ) {
     let mut parts = parts(recorded_labels.labels.width(), pixels);
     parts.sort_by_key(|part| std::cmp::Reverse(part.len()));
-    let outline = |part: &[u32]| Outline::new(&recorded_labels.labels, part.iter().copied());
     // Groups of parts of one object; the largest part of each group is the first.
     let mut groups: Vec<Vec<Vec<u32>>> = Vec::new();
+    let mut outlines: Vec<Vec<Outline>> = Vec::new();
     for part in parts {
-        let group = groups.iter().position(|group| {
-            part.len() < MIN_REGION_PX
-                || group
-                    .iter()
-                    .any(|other| same_object(&recorded_labels.labels, &outline(other), &outline(&part)))
-        });
-        match group {
-            Some(group) => groups[group].push(part),
-            None => groups.push(vec![part]),
+        let labels = &recorded_labels.labels;
+        let outline = Outline::new(labels, part.iter().copied());
+        let is_small = part.len() < MIN_REGION_PX;
+        let is_of_group =
+            |group: &Vec<Outline>| is_small || group.iter().any(|other| same_object(labels, other, &outline));
+        if let Some(group) = outlines.iter().position(is_of_group) {
+            groups[group].push(part);
+            outlines[group].push(outline);
+        } else {
+            groups.push(vec![part]);
+            outlines.push(vec![outline]);
         }
     }
     for group in groups.into_iter().skip(1) {
@@ -195,8 +197,8 @@ fn separate<R: Recorder>(
     }
 }
 
-/// The parts of a region in an image `width` pixels wide: groups of pixels with more than [`APART_PX`] between two groups along
-/// rows or columns. An empty list where the region is one part.
+/// The parts of a region in an image `width` pixels wide: groups of pixels between which the distance along rows or along columns is
+/// larger than [`APART_PX`]. An empty list where the region is one part.
 pub fn parts(width: usize, pixels: Pixels) -> Vec<Vec<u32>> {
     let runs = pixels.runs();
     let reach = APART_PX as u32;
@@ -212,7 +214,7 @@ pub fn parts(width: usize, pixels: Pixels) -> Vec<Vec<u32>> {
         let (left, right) = (column(runs[i]), column(runs[i]) + runs[i].1);
         for (j, &run) in runs.iter().enumerate().take(i).skip(above) {
             let other = (column(run), column(run) + run.1);
-            if other.0 <= right + reach && left <= other.1 + reach {
+            if other.0 < right + reach && left < other.1 + reach {
                 let (a, b) = (root(&mut parent, i), root(&mut parent, j));
                 parent[a.max(b)] = a.min(b);
             }
@@ -382,6 +384,29 @@ mod tests {
     #[test]
     fn parts_with_background_between_them_are_objects_of_their_own() {
         assert_eq!(finals(&[[0, 0, 12, 12, 1], [40, 0, 10, 10, 1]]), [1, 2]);
+    }
+
+    #[test]
+    fn the_distance_between_parts_is_the_same_along_rows_and_columns() {
+        let count = |rectangles: [[usize; 4]; 2], turned: bool| {
+            let width = 40;
+            let mut labels = LabelMap::filled(width, width, UNASSIGNED);
+            for [left, top, columns, rows] in rectangles {
+                for (x, y) in (left..left + columns).flat_map(|x| (top..top + rows).map(move |y| (x, y))) {
+                    let pixel = if turned { x * width + y } else { y * width + x };
+                    labels[pixel] = 1;
+                }
+            }
+            parts(width, Members::of(&labels, 1).region(RegionId::from_index(0))).len()
+        };
+        for turned in [false, true] {
+            assert_eq!(
+                count([[2, 3, 10, 8], [15, 3, 9, 8]], turned),
+                0,
+                "4 pixels from one to the next: one part"
+            );
+            assert_eq!(count([[2, 3, 10, 8], [16, 3, 9, 8]], turned), 2, "5 pixels from one to the next");
+        }
     }
 
     #[test]

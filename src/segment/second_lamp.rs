@@ -93,17 +93,19 @@ pub fn contradicts(evidence: &[Evidence], light: &Vec3) -> bool {
 }
 
 /// Searches the regions' evidence for a second lamp beside the light `first`, unit, which is known within `first_interval_deg`: a lamp that is
-/// nearer is no other one. Returns the comparison, and the second lamp where there
-/// is one; `None` with fewer than two regions that contradict the first light. `matte_labels`: the matte region of
+/// nearer is no other one. `interval_widening`: factor of the intervals of both lamps ([`AnalysisInput::interval_widening`]). Returns the comparison, and the
+/// second lamp where there is one; `None` with fewer than two regions that contradict the first light. `matte_labels`: the matte region of
 /// each pixel, of `count` hypotheses.
 pub fn second_lamp(
     evidence: &[Evidence],
     first: &Vec3,
     first_interval_deg: f64,
+    interval_widening: f64,
     matte_labels: &LabelMap,
     count: usize,
 ) -> Option<(LampsCompared, Option<SecondLamp>)> {
-    let limits = LampLimits { angle_deg: LAMP_LIMITS.angle_deg.max(first_interval_deg), ..LAMP_LIMITS };
+    let least_angle_deg = LAMP_LIMITS.angle_deg.max(interval_widening * first_interval_deg);
+    let limits = LampLimits { angle_deg: least_angle_deg, ..LAMP_LIMITS };
     let opinions: Vec<Opinion> = evidence.iter().filter_map(Opinion::of).collect();
     let contradicting: Vec<&Opinion> =
         opinions.iter().filter(|opinion| opinion.misfit(first) > LAMP_LIMITS.contradicts).collect();
@@ -118,6 +120,8 @@ pub fn second_lamp(
     let found = fitted.filter(|(candidate, _)| {
         is_lamp(&candidate.light, first, &limits) && candidate.is_accepted(contradicting.len())
     });
+    let found =
+        found.map(|(candidate, interval_deg)| (candidate, (interval_widening * interval_deg).min(90.0)));
     let compared = LampsCompared {
         first: (*first).into(),
         second: found.as_ref().map(|(candidate, _)| candidate.light.into()),
@@ -272,11 +276,16 @@ mod tests {
 
     /// The second lamp of five regions, where `second` says which region the second lamp lights. The regions are columns of a picture.
     fn found(second: [bool; 5]) -> Option<SecondLamp> {
+        found_with(1.0, second)
+    }
+
+    /// The same where the intervals are `interval_widening` times as wide.
+    fn found_with(interval_widening: f64, second: [bool; 5]) -> Option<SecondLamp> {
         let labels = Raster::from_vec(6, 2, [1, 2, 3, 4, 5, 6].repeat(2)).unwrap();
         let evidence: Vec<Evidence> =
             (0..5).map(|index| evidence(index, BODIES[index], LAMPS[usize::from(second[index])])).collect();
         let first = Vec3::from(LAMPS[0]).normalize();
-        second_lamp(&evidence, &first, 1.0, &labels, 6).and_then(|(_, lamp)| lamp)
+        second_lamp(&evidence, &first, 1.0, interval_widening, &labels, 6).and_then(|(_, lamp)| lamp)
     }
 
     #[test]
@@ -289,6 +298,15 @@ mod tests {
     }
 
     #[test]
+    fn alike_errors_of_neighbors_widen_the_intervals_of_both_lamps() {
+        let second = [false, false, false, true, true];
+        let interval_deg = |widening| found_with(widening, second).and_then(|lamp| lamp.interval_deg);
+        let (plain, widened) = (interval_deg(1.0).unwrap(), interval_deg(2.0).unwrap());
+        assert!((widened / plain - 2.0).abs() < 1e-9, "{plain}\u{b0} and {widened}\u{b0}");
+        assert_eq!(interval_deg(60.0), None, "within the interval of the first light it is no other lamp");
+    }
+
+    #[test]
     fn a_given_lamp_lights_the_regions_whose_highlights_agree_with_it_better_than_with_the_first() {
         let labels = Raster::from_vec(6, 2, [1, 2, 3, 4, 5, 6].repeat(2)).unwrap();
         let [first, second] = LAMPS.map(|lamp| Vec3::from(lamp).normalize());
@@ -296,7 +314,7 @@ mod tests {
         let evidence: Vec<Evidence> =
             (0..5).map(|index| evidence(index, BODIES[index], LAMPS[lamp_of(index)])).collect();
         assert!(
-            second_lamp(&evidence, &first, 1.0, &labels, 6).is_none(),
+            second_lamp(&evidence, &first, 1.0, 1.0, &labels, 6).is_none(),
             "one region alone is no second lamp"
         );
         let (compared, lamp) = given_second_lamp(&evidence, &first, &second, &labels, 6);
@@ -320,7 +338,7 @@ mod tests {
             (0..3).map(|index| evidence(index, BODIES[index], prints[index])).collect();
         let first = Vec3::from(LAMPS[0]).normalize();
         let labels = Raster::filled(3, 1, UNASSIGNED);
-        let (compared, lamp) = second_lamp(&evidence, &first, 1.0, &labels, 3).unwrap();
+        let (compared, lamp) = second_lamp(&evidence, &first, 1.0, 1.0, &labels, 3).unwrap();
         assert!(lamp.is_none() && compared.second.is_none() && compared.contradicting == 3, "{compared:?}");
     }
 
@@ -330,7 +348,7 @@ mod tests {
             (0..5).map(|index| evidence(index, BODIES[index], LAMPS[usize::from(index > 2)])).collect();
         let labels = Raster::from_vec(6, 2, [1, 2, 3, 4, 5, 6].repeat(2)).unwrap();
         let first = Vec3::from(LAMPS[0]).normalize();
-        let lamp = |interval_deg| second_lamp(&evidence, &first, interval_deg, &labels, 6).unwrap();
+        let lamp = |interval_deg| second_lamp(&evidence, &first, interval_deg, 1.0, &labels, 6).unwrap();
         assert!(lamp(6.0).1.is_some(), "the lamps are 12.6\u{b0} apart");
         let (compared, none) = lamp(20.0);
         assert!(none.is_none() && compared.second.is_none(), "{compared:?}");

@@ -1,6 +1,6 @@
 //! The record of the local split, for pixels that no region explains (beyond section 6).
 //!
-//! The figures that decided about a pixel are kept beside the events, 16 bytes for each pixel of a rectangle; the limits are computed
+//! The figures that decided about a pixel are kept beside the events, 20 bytes for each pixel of a rectangle; the limits are computed
 //! again. Clipped blobs are recorded one by one, up to the largest number.
 
 use super::HighlightTerms;
@@ -17,6 +17,8 @@ pub struct LocalPoint {
     odds: i16,
     /// The clipped blob of the pixel: its number, 0 for none; with the flags [`Self::OUTSIDE`] and [`Self::SECOND_LAMP`].
     blob: u16,
+    /// Angle by which the chromaticity of body reflection was changed, in steps of [`Self::TURN_STEP_DEG`].
+    turn: u16,
     /// Amount of surface reflection that was found, counts of J.
     pub amount: f32,
 }
@@ -32,6 +34,8 @@ pub struct LocalFigures {
     pub odds: f32,
     /// Amount of surface reflection, counts of J.
     pub amount: f32,
+    /// Angle by which the chromaticity of body reflection was changed towards that of the pixels around, degrees.
+    pub turn_deg: f32,
 }
 
 impl LocalPoint {
@@ -49,6 +53,8 @@ impl LocalPoint {
     const TERM_STEP: f32 = 1.0 / 16.0;
     /// Log odds of one step of the averaged log odds: the range is −32…32.
     const ODDS_STEP: f32 = 1.0 / 1024.0;
+    /// Angle of one step of the change of chromaticity, degrees.
+    const TURN_STEP_DEG: f32 = 0.01;
 
     /// The figures of a pixel. `outside`: whether the pixel is lit and no region explains it.
     pub fn new(outside: bool, figures: &LocalFigures) -> Self {
@@ -64,6 +70,7 @@ impl LocalPoint {
             terms: [chroma, independence, brightness, edges].map(term),
             odds: (figures.odds / Self::ODDS_STEP).round() as i16,
             blob: if outside { Self::OUTSIDE } else { 0 },
+            turn: Self::turn_steps(figures.turn_deg),
             amount: figures.amount,
         }
     }
@@ -93,6 +100,16 @@ impl LocalPoint {
         self.blob = (self.blob & !Self::MOST_BLOBS) | number.min(Self::MOST_BLOBS);
     }
 
+    /// Records the angle by which the chromaticity of body reflection was changed, degrees.
+    pub fn set_turn(&mut self, turn_deg: f32) {
+        self.turn = Self::turn_steps(turn_deg);
+    }
+
+    /// An angle in steps of [`Self::TURN_STEP_DEG`]. A cast of a float saturates.
+    fn turn_steps(turn_deg: f32) -> u16 {
+        (turn_deg / Self::TURN_STEP_DEG).round() as u16
+    }
+
     /// The figures, as exactly as they were kept.
     pub fn figures(&self) -> LocalFigures {
         let (low, high) = Self::RATIOS;
@@ -104,6 +121,7 @@ impl LocalPoint {
             terms: HighlightTerms { chroma, independence, brightness, edges },
             odds: f32::from(self.odds) * Self::ODDS_STEP,
             amount: self.amount,
+            turn_deg: f32::from(self.turn) * Self::TURN_STEP_DEG,
         }
     }
 }
@@ -166,18 +184,26 @@ mod tests {
         for ratio in [0.4f32, 1.234, 7.7, 12.0] {
             let median = 1.01 * ratio.min(11.0);
             let terms = HighlightTerms { chroma: -1.5, independence: 3.2, brightness: 0.0, edges: 2.97 };
-            let figures = LocalFigures { ratios: Some([ratio, median]), terms, odds: -4.321, amount: 12.5 };
+            let figures = LocalFigures {
+                ratios: Some([ratio, median]),
+                terms,
+                odds: -4.321,
+                amount: 12.5,
+                turn_deg: 2.346,
+            };
             let point = LocalPoint::new(true, &figures);
             let kept = point.figures();
             let ratios = kept.ratios.unwrap();
             assert!((ratios[0] / ratio - 1.0).abs() < 1e-4 && (ratios[1] / median - 1.0).abs() < 1e-4);
             assert!((kept.odds + 4.321).abs() < 1e-3 && (kept.terms.sum() - terms.sum()).abs() < 0.1);
-            assert!(point.outside() && (kept.amount - 12.5).abs() < 1e-6);
+            assert!(
+                point.outside() && (kept.amount - 12.5).abs() < 1e-6 && (kept.turn_deg - 2.346).abs() < 0.006
+            );
         }
         let none = LocalPoint::new(false, &LocalFigures::default());
         assert_eq!((none.figures(), none.outside(), none.blob()), (LocalFigures::default(), false, 0));
         assert_eq!(LocalPoint::default(), none);
-        assert_eq!(size_of::<LocalPoint>(), 16);
+        assert_eq!(size_of::<LocalPoint>(), 20);
     }
 
     #[test]
@@ -192,6 +218,6 @@ mod tests {
         assert_eq!(record.point(6).map(LocalPoint::blob), Some(7));
         assert_eq!((record.point(0), record.point(11)), (None, None));
         assert!(record.outside(5) && record.outside(6) && !record.outside(0) && !record.outside(99));
-        assert_eq!(record.bytes(), 4 * 16);
+        assert_eq!(record.bytes(), 4 * 20);
     }
 }

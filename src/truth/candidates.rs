@@ -3,6 +3,7 @@
 use super::GroundTruth;
 use crate::analysis::Analysis;
 use crate::raster::UNASSIGNED;
+use crate::segment::is_of_candidate;
 use crate::trace::{CandidateSource, CandidateTested, Event, Trace};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -63,6 +64,14 @@ struct Cluster {
 }
 
 impl Cluster {
+    /// Adds a pixel of the picture.
+    fn add(&mut self, truth: &GroundTruth, pixel: usize) {
+        let surface = truth.surface[pixel].iter().map(|band| band * band).sum::<f32>().sqrt();
+        self.pixels += 1;
+        self.highlights += usize::from(surface >= HIGHLIGHT_COUNTS);
+        *self.objects.entry(truth.labels[pixel]).or_default() += 1;
+    }
+
     /// The object with more than half of the pixels.
     fn object(&self) -> Option<u16> {
         let most = self.objects.iter().find(|(_, pixels)| 2 * **pixels > self.pixels);
@@ -74,6 +83,8 @@ impl Cluster {
 struct Clusters {
     regions: BTreeMap<u16, Cluster>,
     leftovers: BTreeMap<u32, Cluster>,
+    /// The leftovers with their clipped and bloomed pixels (reading `distorted_candidates`).
+    leftovers_with_distorted: BTreeMap<u32, Cluster>,
 }
 
 impl Clusters {
@@ -82,19 +93,23 @@ impl Clusters {
         if (labels.width(), labels.height()) != (truth.labels.width(), truth.labels.height()) {
             return None;
         }
-        let mut found = Self { regions: BTreeMap::new(), leftovers: BTreeMap::new() };
+        let mut found = Self {
+            regions: BTreeMap::new(),
+            leftovers: BTreeMap::new(),
+            leftovers_with_distorted: BTreeMap::new(),
+        };
         for (pixel, &label) in labels.as_slice().iter().enumerate() {
-            let cluster = if label != UNASSIGNED {
-                found.regions.entry(label).or_default()
-            } else if analysis.masks.usable(pixel) && areas[pixel] > 0 {
-                found.leftovers.entry(areas[pixel] - 1).or_default()
-            } else {
-                continue;
-            };
-            let surface = truth.surface[pixel].iter().map(|band| band * band).sum::<f32>().sqrt();
-            cluster.pixels += 1;
-            cluster.highlights += usize::from(surface >= HIGHLIGHT_COUNTS);
-            *cluster.objects.entry(truth.labels[pixel]).or_default() += 1;
+            if label != UNASSIGNED {
+                found.regions.entry(label).or_default().add(truth, pixel);
+            }
+            let Some(area) = areas[pixel].checked_sub(1) else { continue };
+            let is_left = |with_distorted| is_of_candidate(labels, &analysis.masks, with_distorted, pixel);
+            if is_left(false) {
+                found.leftovers.entry(area).or_default().add(truth, pixel);
+            }
+            if is_left(true) {
+                found.leftovers_with_distorted.entry(area).or_default().add(truth, pixel);
+            }
         }
         Some(found)
     }
@@ -103,6 +118,9 @@ impl Clusters {
     fn is_highlight(&self, test: &CandidateTested) -> Option<bool> {
         let object = self.regions.get(&test.hypothesis.get())?.object()?;
         let candidate = match test.candidate {
+            CandidateSource::Leftover(area) if test.with_distorted => {
+                self.leftovers_with_distorted.get(&area)?
+            }
             CandidateSource::Leftover(area) => self.leftovers.get(&area)?,
             CandidateSource::Hypothesis(other) => self.regions.get(&other.get())?,
             CandidateSource::Absorbed(_) | CandidateSource::Marked => return None,

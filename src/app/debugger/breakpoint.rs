@@ -42,12 +42,14 @@ pub enum Condition {
 /// A test of a highlight candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CandidateCheck {
-    /// Any of the four tests.
+    /// Any of the tests that decide.
     Any,
     /// The lines meet.
     LinesMeet,
-    /// In the upper half of the matte line.
+    /// In the upper half of the matte line, where this decides.
     UpperHalf,
+    /// Gershon's test: the lines are not nearly parallel, where this decides.
+    NotParallel,
     /// The direction is positive.
     Positive,
     /// The cluster lies beyond the meeting point.
@@ -55,8 +57,9 @@ pub enum CandidateCheck {
 }
 
 impl CandidateCheck {
-    /// Any test, and the four tests in the order in which they are made.
-    pub const ALL: [Self; 5] = [Self::Any, Self::LinesMeet, Self::UpperHalf, Self::Positive, Self::Beyond];
+    /// Any test, and the tests in the order in which they are made.
+    pub const ALL: [Self; 6] =
+        [Self::Any, Self::LinesMeet, Self::UpperHalf, Self::NotParallel, Self::Positive, Self::Beyond];
 
     /// The test's name in lists.
     pub const fn name(self) -> &'static str {
@@ -64,6 +67,7 @@ impl CandidateCheck {
             Self::Any => "any test",
             Self::LinesMeet => "lines meet",
             Self::UpperHalf => "upper 50 %",
+            Self::NotParallel => "not parallel",
             Self::Positive => "positive direction",
             Self::Beyond => "beyond the meeting point",
         }
@@ -74,7 +78,8 @@ impl CandidateCheck {
         match self {
             Self::Any => !verdict.accepted(),
             Self::LinesMeet => !verdict.lines_meet,
-            Self::UpperHalf => !verdict.upper_half,
+            Self::UpperHalf => verdict.fails_upper_half(),
+            Self::NotParallel => verdict.fails_not_parallel(),
             Self::Positive => !verdict.positive,
             Self::Beyond => !verdict.beyond,
         }

@@ -316,7 +316,8 @@ fn each_condition_stops_where_it_holds() {
                     !match check {
                         CandidateCheck::Any => verdict.accepted(),
                         CandidateCheck::LinesMeet => verdict.lines_meet,
-                        CandidateCheck::UpperHalf => verdict.upper_half,
+                        CandidateCheck::UpperHalf => verdict.upper_half || verdict.by_gershon,
+                        CandidateCheck::NotParallel => verdict.not_parallel || !verdict.by_gershon,
                         CandidateCheck::Positive => verdict.positive,
                         CandidateCheck::Beyond => verdict.beyond,
                     }

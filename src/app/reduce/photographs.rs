@@ -2,8 +2,7 @@
 
 use super::edits::analyze;
 use crate::app::photographs::MOST_OTHERS;
-use crate::app::{Debugger, Effect, OpenPhotograph, State, Switching};
-use std::sync::Arc;
+use crate::app::{Effect, OpenPhotograph, State, Switching};
 
 /// Puts the photograph that is shown to the end of the others, before another one is shown.
 pub(super) fn keep_open(state: &mut State) {
@@ -64,13 +63,15 @@ fn show(state: &mut State, photograph: OpenPhotograph) -> Vec<Effect> {
     if has_other_size {
         (state.view.image.center_px, state.view.image.zoom) = (None, None);
     }
-    state.notices.retain(|notice| !notice.of_photograph);
-    (state.picture, state.document, state.history) = (Some(picture), document, history);
-    (state.newest, state.pinned, state.found_light) = (newest, pinned, found_light);
-    (state.elsewhere, state.workspace_path) = (elsewhere, workspace_path);
+    state.leave_photograph();
+    state.picture = Some(picture);
+    state.document = document;
+    state.history = history;
+    state.newest = newest;
+    state.pinned = pinned;
+    state.found_light = found_light;
+    state.elsewhere = elsewhere;
+    state.workspace_path = workspace_path;
     state.leave_missing_layers();
-    (state.debugger, state.preview, state.after_pin) = (Debugger::default(), None, None);
-    (state.hover, state.explained_pixel, state.hover_pixels) = (None, None, Arc::default());
-    (state.view.show_pinned, state.preselects) = (false, false);
     analyze(state)
 }

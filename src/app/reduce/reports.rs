@@ -8,7 +8,7 @@ use crate::app::files_to_open::with_unopened;
 use crate::app::photographs::MOST_OTHERS;
 use crate::app::report::{Report, Work};
 use crate::app::state::{AfterPin, Restoring, own_layer};
-use crate::app::{Debugger, Document, Effect, Preview, Severity, State, ViewSettings, Workspace};
+use crate::app::{Document, Effect, Preview, Severity, State, ViewSettings, Workspace};
 use crate::params::{IlluminantSetting, Params};
 use crate::view::{
     Elsewhere, ElsewhereKind, ElsewherePaths, Item, Layer, MaskRuns, NamedMark, NamedMarks, Origin, Picture,
@@ -238,19 +238,18 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: &ElsewhereP
     let again = of_shown.as_ref().or(state.elsewhere.as_ref());
     let again = again.map_or_else(ElsewherePaths::default, |all| all.paths.clone());
     let mut saved = again.except(elsewhere);
-    // What was said about the photograph before does not concern this one.
-    state.notices.retain(|notice| !notice.of_photograph);
+    state.leave_photograph();
     state.picture = Some(picture);
-    state.debugger = Debugger::default();
     // Masks belong to one picture; parameters stay.
     state.document = Document { params, ..Document::default() };
     state.history.forget();
-    (state.newest, state.pinned, state.hover, state.explained_pixel) = (None, None, None, None);
-    state.view.show_pinned = false;
-    (state.view.image.center_px, state.view.image.zoom) = (None, None);
-    (state.view.profile, state.after_pin) = (ProfileLine::Row, None);
-    (state.found_light, state.workspace_path, state.hover_pixels) = (None, None, Arc::default());
-    state.preview = None;
+    state.newest = None;
+    state.pinned = None;
+    state.found_light = None;
+    state.workspace_path = None;
+    state.view.image.center_px = None;
+    state.view.image.zoom = None;
+    state.view.profile = ProfileLine::Row;
     for warning in warnings {
         state.notify(Severity::Warning, warning);
     }

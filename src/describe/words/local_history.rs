@@ -3,6 +3,9 @@
 use super::super::events::failed_limits;
 use crate::trace::{HighlightTerms, LocalFate, LocalStory, Ramp, Unfit};
 
+/// Smallest change of chromaticity that is told, degrees.
+const LEAST_TURN_DEG: f32 = 0.05;
+
 /// The sentence of the figures by which a pixel was judged.
 pub(super) fn surroundings(story: &LocalStory) -> String {
     let LocalStory { mean, chroma, excess, noise, variation, odds, weight, limits, surface, .. } = story;
@@ -12,9 +15,19 @@ pub(super) fn surroundings(story: &LocalStory) -> String {
             "{seen}, but it is clipped: only the ring around its blob can tell what of it is highlight"
         );
     }
+    let turned = if story.turn_deg >= LEAST_TURN_DEG {
+        format!(
+            "; the chromaticity of its body is moved by {:.1}\u{b0} towards that of the pixels around",
+            story.turn_deg
+        )
+    } else {
+        String::new()
+    };
     let follows = match (*surface > 0.0, *weight > 0.0) {
-        (true, true) => format!(": surface is {surface:.1} counts, smooth but for the edges of the picture"),
-        (true, false) => format!("; by the pixels beside it surface is {surface:.1} counts"),
+        (true, true) => {
+            format!(": surface is {surface:.1} counts, smooth but for the edges of the picture{turned}")
+        }
+        (true, false) => format!("; by the pixels beside it surface is {surface:.1} counts{turned}"),
         (false, _) => String::new(),
     };
     let Some([ratio, median]) = story.ratios.filter(|_| story.fate != LocalFate::Gray) else {

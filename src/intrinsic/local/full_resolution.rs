@@ -3,9 +3,11 @@
 //! What is a highlight is decided in the working picture, whose colors are less noisy. There the amount of surface
 //! reflection around each working pixel is a linear function p·a + q of a, the mean of J (rule `guided_amount`). The
 //! functions, interpolated between the working pixels, give the amounts of the photograph's pixels, so that the edges
-//! of the photograph's highlights are where the photograph has them. A clipped pixel takes the body reflection with
+//! of the photograph's highlights are where the photograph has them. The change of chromaticity (rule `chromaticity_prior`) is
+//! interpolated likewise, as a share of the length of body reflection. A clipped pixel takes the body reflection with
 //! which the working picture was filled, interpolated likewise.
 
+use super::chromaticity::changed;
 use super::lamps::Lamp;
 use super::linear_weights::linear_weights;
 use super::repair::CONFIDENCE;
@@ -94,7 +96,7 @@ impl ByWorkingPicture<'_> {
     /// The split of an unclipped pixel in the block of `working_pixel` by the lines of the nearest working pixels; none where there is no
     /// surface reflection.
     fn split(&self, color: [f32; 3], working_pixel: usize, nearest: &Nearest) -> Option<PixelSplit> {
-        let LocalSplit { lines, lamps, confidence: of_working, .. } = self.local;
+        let LocalSplit { lines, lamps, confidence: of_working, chromaticity, .. } = self.local;
         let Lamp { gain, per_amount } = lamps.of(working_pixel);
         let a = gain.mean(color);
         let line = |pixel: usize| lines.line(lines.roi.index(pixel)?);
@@ -104,7 +106,10 @@ impl ByWorkingPicture<'_> {
         }
         let surface: [f32; 3] =
             std::array::from_fn(|band| (amount * per_amount[band]).min(color[band].max(0.0)));
-        let body = std::array::from_fn(|band| color[band] - surface[band]);
+        let mut body = std::array::from_fn(|band| color[band] - surface[band]);
+        if let Some(change) = nearest.mean(|pixel| chromaticity.at(pixel)) {
+            body = changed(body, change, color);
+        }
         Some(PixelSplit { body, surface, confidence })
     }
 

@@ -1,5 +1,6 @@
 //! The record of the local split. Nothing is computed where no record is kept.
 
+use super::chromaticity::ChromaticityChanges;
 use super::desaturation_map::DesaturationMap;
 use super::evidence::Evidence;
 use super::least_pixels;
@@ -90,6 +91,14 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         }
     }
 
+    /// Records how far the chromaticity of the body reflection of each pixel of the window changed.
+    pub fn chromaticity(&mut self, changes: &ChromaticityChanges) {
+        if let Some(LocalPoints { of, .. }) = &mut self.points {
+            let points = of.as_mut_slice().iter_mut().enumerate();
+            points.for_each(|(index, point)| point.set_turn(changes.angle_deg(index)));
+        }
+    }
+
     /// Records whether highlights are plausible under the light.
     pub fn plausibility(&mut self, tested: PlausibilityTested) {
         if R::KEEPS {
@@ -144,7 +153,8 @@ fn points(
                 let (terms, odds) = evidence.map_or_else(Default::default, |evidence| {
                     (evidence.terms[index], evidence.log_odds[index])
                 });
-                let figures = LocalFigures { ratios: map.ratios(input, index), terms, odds, amount: 0.0 };
+                let figures =
+                    LocalFigures { ratios: map.ratios(input, index), terms, odds, ..LocalFigures::default() };
                 *point = LocalPoint::new(unexplained[pixel], &figures);
                 point.set_second_lamp(map.lamps.is_second(pixel));
             }

@@ -76,9 +76,14 @@ fn is_read(channel: &ChannelDescription, gray: bool) -> bool {
 }
 
 impl TiffColor {
-    /// The chromaticities of an `OpenEXR` file, in units of 1/100 000.
+    /// The chromaticities of an `OpenEXR` file, in units of 1/100 000. None where a coordinate is negative, as of the imaginary
+    /// primaries of ACES: the unsigned fractions of TIFF cannot hold it.
     fn of_chromaticities(points: Option<Chromaticities>) -> Self {
         let Some(Chromaticities { red, green, blue, white }) = points else { return Self::default() };
+        let points = [white, red, green, blue];
+        if points.iter().any(|point| !(point.x() >= 0.0 && point.y() >= 0.0)) {
+            return Self::default();
+        }
         let fraction = |value: f32| ((f64::from(value) * 1e5).round() as u32, 100_000);
         let pair = |point: Vec2<f32>| [fraction(point.x()), fraction(point.y())];
         Self { white_point: pair(white).to_vec(), primaries: [red, green, blue].map(pair).concat() }

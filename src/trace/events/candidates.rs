@@ -94,6 +94,16 @@ impl CandidateVerdict {
         if self.by_gershon { self.accepted_by_gershon() } else { self.accepted_by_position() }
     }
 
+    /// Whether the 50 % heuristic decides and is not passed.
+    pub fn fails_upper_half(self) -> bool {
+        !self.by_gershon && !self.is_marked && !self.upper_half
+    }
+
+    /// Whether Gershon's test decides and is not passed.
+    pub fn fails_not_parallel(self) -> bool {
+        self.by_gershon && !self.not_parallel
+    }
+
     /// Whether every test was passed, with the 50 % heuristic, which does not decide for marked pixels.
     pub fn accepted_by_position(self) -> bool {
         self.lines_meet && (self.upper_half || self.is_marked) && self.positive && self.beyond

@@ -151,6 +151,7 @@ impl<'a> Decisions<'a> {
             weight,
             limits,
             surface: 3f32.sqrt() * figures.amount,
+            turn_deg: figures.turn_deg,
             fate: self.fate(began, &found, weight, odds),
         }
     }

@@ -93,6 +93,8 @@ pub struct LocalStory {
     pub limits: LocalLimits,
     /// Amount of surface reflection m_s that was found, after it was made to follow the edges of the picture, counts.
     pub surface: f32,
+    /// Angle by which the chromaticity of its body reflection was changed towards that of the pixels around, degrees.
+    pub turn_deg: f32,
     /// Why the pixel itself has surface reflection, or why it has none.
     pub fate: LocalFate,
 }
