@@ -96,6 +96,9 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
         let text = match findings.basis {
             LightBasis::NotSought => "the method seeks no light, and all is body reflection",
             LightBasis::ByHand => "the light's color is unknown: the marked pixels have no skewed T",
+            LightBasis::Nothing if findings.planes.is_some() || findings.votes.is_some() => {
+                "the light's color is unknown: neither planes nor small highlights agree on a usual one"
+            }
             _ => "the light's color is unknown: no highlight was found",
         };
         return Clause { text: text.to_owned(), subject, is_bad: is_sought };
