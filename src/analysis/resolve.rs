@@ -26,7 +26,7 @@ pub fn scale_factor(params: &Params, image: &LinearImage) -> usize {
 pub fn mask_limits(params: &Params, image: &LinearImage) -> crate::photo::MaskLimits {
     let clip_threshold = match params.clip_threshold {
         Setting::Value(value) => value,
-        // Integer files saturate at their largest value; a float file does not say where it saturates.
+        // Integer files saturate at their largest value; a float file where many values are equal, if anywhere.
         Setting::Auto => image.saturation.map_or(f64::INFINITY, |s| CLIP_SHARE * f64::from(s)),
     };
     crate::photo::MaskLimits {

@@ -83,6 +83,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
     if let Some([number, count]) = arguments.shard {
         found.list = part(found.list, number, count);
     }
+    if arguments.out.exists() && !arguments.out.is_dir() {
+        bail!(
+            "--out {}: this is a file, and results need a folder: choose another name",
+            arguments.out.display()
+        );
+    }
     if let Some(root) = arguments.truth.as_deref().filter(|root| !root.is_dir()) {
         bail!("--truth {}: no such folder", root.display());
     }

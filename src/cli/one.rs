@@ -2,7 +2,7 @@
 
 use super::interrupt::Interrupt;
 use super::place;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use dichroscope::analysis::{Analysis, Observer, Session, Stage};
 use dichroscope::describe::{AreaFacts, Report, Timings};
 use dichroscope::export::{FileChoice, WholeResult};
@@ -94,6 +94,11 @@ impl Area {
     pub(super) fn read(path: &Path, options: &ReadOptions) -> Result<Self> {
         let whole_name = place::name_of(path);
         let mask = photo::decode_mask(&place::read_bytes(path)?, &whole_name, options)?;
+        if mask.count() == 0 {
+            bail!(
+                "--area {whole_name}: every pixel is black, so that the area is empty: what is inside must not be black"
+            );
+        }
         let name = Path::new(&whole_name).file_name().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Self { name, mask: Arc::new(mask) })
     }

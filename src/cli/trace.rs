@@ -2,7 +2,7 @@
 
 use super::subject::{AnalyzeError, Subject, Traced, parse_pixel, pixel_inside};
 use super::{Outcome, note};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dichroscope::analysis::Analysis;
@@ -46,6 +46,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
 }
 
 fn trace(arguments: &Arguments) -> Result<Outcome> {
+    let is_same_file =
+        |a: &Path, b: &Path| a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b);
+    if is_same_file(&arguments.out, &arguments.subject.image) {
+        bail!("--out {}: this is the photograph itself: choose another file", arguments.out.display());
+    }
     let pixel_of = |image: &_| arguments.pixel.map(|pixel| pixel_inside(image, pixel)).transpose();
     // The pixel is checked before the analysis, which takes long.
     let traced = match arguments.subject.analyze(|image| pixel_of(image).map(drop)) {

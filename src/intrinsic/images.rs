@@ -1,6 +1,7 @@
 //! Section 6: the intrinsic images, and the pass over the picture that fills the images from the plans of the regions.
 
 use super::Intrinsic;
+use super::pixel::SplitPixel;
 use super::reason::Reason;
 use super::region_plan::RegionPlan;
 use super::restore::Distorted;
@@ -8,6 +9,9 @@ use crate::raster::{LabelMap, Raster, RegionId, UNASSIGNED};
 use crate::segment::{AnalysisInput, Members, Pixels};
 use crate::trace::{Ambient, PixelKind};
 use rayon::prelude::*;
+
+/// Largest distance of a believed color from the plane and from the sides of its lines, standard deviations of the region's fit.
+const BELIEVED_SIGMAS: f32 = 2.5;
 
 /// The intrinsic images while the split runs. All have the size of the picture; colors are counts above the ambient light.
 pub(super) struct Images {
@@ -29,7 +33,9 @@ struct RestoredPixel {
     body: [f32; 3],
     /// Surface reflection, counts.
     surface: [f32; 3],
-    /// [`PixelKind::Restored`] or [`PixelKind::Lost`].
+    /// Signed distance ε from the dichromatic plane, counts.
+    noise: f32,
+    /// [`PixelKind::Restored`] or [`PixelKind::Lost`]; that of an undistorted pixel where the color is believed.
     kind: PixelKind,
 }
 
@@ -90,9 +96,12 @@ impl Images {
                 restored(input, plan, &distorted, members.region(RegionId::from_index(index)))
             })
             .collect();
-        for RestoredPixel { pixel, body, surface, kind } in restored.into_iter().flatten() {
+        for RestoredPixel { pixel, body, surface, noise, kind } in restored.into_iter().flatten() {
             let pixel = pixel as usize;
-            (self.body[pixel], self.surface[pixel], self.kinds[pixel]) = (body, surface, kind);
+            self.body[pixel] = body;
+            self.surface[pixel] = surface;
+            self.noise[pixel] = noise;
+            self.kinds[pixel] = kind;
         }
     }
 
@@ -120,9 +129,14 @@ fn restored(
         .into_iter()
         .zip(priors)
         .map(|(pixel, prior)| {
+            if let Some(split) = believed_split(input, plan, pixel as usize) {
+                let SplitPixel { body, surface, noise, kind } = split;
+                return RestoredPixel { pixel, body, surface, noise, kind };
+            }
+            let noise = 0.0;
             let Some(transform) = rule.transform() else {
                 let body = input.pixels[pixel as usize];
-                return RestoredPixel { pixel, body, surface: [0.0; 3], kind: PixelKind::Lost };
+                return RestoredPixel { pixel, body, surface: [0.0; 3], noise, kind: PixelKind::Lost };
             };
             let start_body = plan.start_bodies[plan.branch_near(input, pixel)];
             let restored = if input.refine.restore_prior {
@@ -134,7 +148,17 @@ fn restored(
             };
             let [body, surface] = rule.colors(restored.components);
             let kind = if restored.lost { PixelKind::Lost } else { PixelKind::Restored };
-            RestoredPixel { pixel, body, surface, kind }
+            RestoredPixel { pixel, body, surface, noise, kind }
         })
         .collect()
+}
+
+/// The split of a pixel beside clipped ones whose color fits the plane of its region as well as that of an undistorted pixel: bloom
+/// has not changed it (refinement `restore_prior`). None for a clipped pixel, and where the color does not fit.
+fn believed_split(input: &AnalysisInput, plan: &RegionPlan, pixel: usize) -> Option<SplitPixel> {
+    let transform = plan.transform().filter(|_| input.refine.restore_prior && !input.masks.clipped(pixel))?;
+    let amounts = transform.split(input.pixels[pixel]);
+    let beyond_lines = -amounts.body.min(amounts.surface) * transform.sine();
+    let limit_counts = BELIEVED_SIGMAS * plan.fit.sigma_counts as f32;
+    (amounts.noise.abs().max(beyond_lines) <= limit_counts).then(|| plan.splitter.split(input.pixels[pixel]))
 }

@@ -6,7 +6,8 @@
 //! the 8 neighbors clips there; where no band is good, the unclipped bands are used. The result is the most probable m_b and m_s
 //! given all good bands and the body reflection of the surroundings as prior (standard deviation 10 %). With one good band, the
 //! result is that of the paper's rule. Where every band clips, m_b is the prior and m_s the least amount that reaches the clipped
-//! values; such pixels are marked as lost.
+//! values; such pixels are marked as lost. A pixel beside clipped ones that
+//! does not clip itself and whose color fits the plane of its region is split like an undistorted pixel (`images`).
 
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Raster};

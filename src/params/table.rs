@@ -80,7 +80,7 @@ macro_rules! parameter_rows {
                 // The paper's files are integer files; a float file does not say where it saturates.
                 paper_default: Setting::Auto,
                 refined_default: Setting::Auto,
-                auto: "240/255 of full scale for integer files, off for floats",
+                auto: "240/255 of full scale for integer files, and of the largest value of floats if many are equal to it; else off",
             }
             bloom_density BloomDensity "a pixel with this many clipped 8-neighbors is bloomed (9: blooming is ignored)" {
                 title: "bloom density",

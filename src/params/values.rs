@@ -210,14 +210,14 @@ impl Params {
     /// A given second lamp is a color with light in every band, under the refined method, and no other name of the given first light.
     fn validate_second_lamp(&self) -> Result<(), InvalidParameter> {
         let IlluminantSetting::Given(color) = self.second_illuminant else { return Ok(()) };
+        if self.method != Method::Refined {
+            return Err(InvalidParameter::SecondIlluminantMethod { color, method: self.method });
+        }
         let Some(direction) =
             self.second_illuminant.direction().filter(|direction| direction.iter().all(|&band| band > 0.0))
         else {
             return Err(InvalidParameter::SecondIlluminant(color));
         };
-        if self.method != Method::Refined {
-            return Err(InvalidParameter::SecondIlluminantMethod { color, method: self.method });
-        }
         let (IlluminantSetting::Given(first), Some(first_direction)) =
             (self.illuminant, self.illuminant.direction())
         else {

@@ -78,9 +78,9 @@ pub enum ReadError {
     },
     /// The file declares more pixels than [`ReadOptions::max_megapixels`](super::ReadOptions::max_megapixels).
     #[error(
-        "{file}: the {format} file declares {width} \u{d7} {height} = {:.1} megapixels, more than the limit of \
+        "{file}: the {format} file declares {width} \u{d7} {height} = {} megapixels, more than the limit of \
          {limit_megapixels}; if that is right, raise it with --max-megapixels",
-        *width as f64 * *height as f64 / 1e6
+        (*width as f64 * *height as f64 / 1e3).round() / 1e3
     )]
     TooLarge {
         /// Name of the file as given by the caller.

@@ -16,7 +16,8 @@ pub struct LinearImage {
     pub pixels: Raster<[f32; 3]>,
     /// Pixels with a non-finite or negative value in the file.
     pub invalid: Mask,
-    /// Counts at which the file saturates: the largest value of an integer format; `None` for floats.
+    /// Counts at which the file saturates: the largest value of an integer format, or the largest value of floats where many are equal to it; else
+    /// `None`.
     pub saturation: Option<f32>,
     /// Error of the values that the file's way of storing them causes; `None`: none but what the measured noise contains.
     pub coding: Option<CodingError>,

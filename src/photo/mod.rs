@@ -19,6 +19,7 @@ mod masks;
 mod noise;
 mod noise_correlation;
 mod orient;
+mod plateau;
 mod source;
 mod working;
 
@@ -154,7 +155,14 @@ pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Ph
     }
     let pixels = Raster::from_vec(width, height, pixels)
         .ok_or_else(|| error::Fault::damaged("its size does not fit its pixels").of(name_hint, format))?;
-    let saturation = source.max.map(|_| full_scale as f32);
+    let clipping_value = if source.max.is_none() { plateau::clipping_value(&pixels) } else { None };
+    let saturation = source.max.map(|_| full_scale as f32).or(clipping_value);
+    if let Some(counts) = clipping_value {
+        let value = f64::from(counts) / full_scale;
+        warnings.push(format!(
+            "many values of the file are equal to the largest one, {value:.4}, and are taken for clipped: --clip-threshold says otherwise"
+        ));
+    }
     let coding =
         source.max.and_then(|max| CodingError::of_samples(compression, max, &encoding.curves[1], full_scale));
     let image = LinearImage::new(pixels, saturation).with_coding(coding);

@@ -83,6 +83,9 @@ fn wrong_usage_is_exit_2_before_any_work() {
         ("analyze a.png --out out --threads 0", "--threads"),
         ("analyze a.png --out out --match [", "--match"),
         ("analyze a.png --out out --truth nowhere", "nowhere: no such folder"),
+        ("analyze a.png --out a.png", "--out a.png: this is a file, and results need a folder"),
+        ("trace a.png --out a.png", "--out a.png: this is the photograph itself"),
+        ("analyze a.png --out out --method paper --second-illuminant 1,0,0", "only the refined method"),
         ("analyze empty --out out", "no photograph in empty"),
         ("evaluate empty --truth TINY", "empty holds no result"),
         ("evaluate nowhere --truth TINY", "cannot walk nowhere"),
@@ -237,6 +240,8 @@ fn an_area_restricts_the_analysis_and_must_fit_the_photograph() {
     work.put("small.pgm", b"P5\n2 1\n255\n\0\x01");
     work.fails(1, "analyze a.png --out other --area small.pgm", "a.png: --area small.pgm: the area has 2");
     work.fails(2, "analyze a.png --out other --area none.png", "none.png: cannot be read");
+    work.put("black.pgm", b"P5\n2 1\n255\n\0\0");
+    work.fails(2, "analyze a.png --out other --area black.pgm", "black.pgm: every pixel is black");
     assert!(!work.path("other").exists());
 }
 

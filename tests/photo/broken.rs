@@ -146,7 +146,7 @@ fn enormous_headers_are_refused_before_memory_is_taken() {
         decode(b"P6\n100000 50000\n255\n", "big.ppm", &ReadOptions::default()).unwrap_err().to_string();
     assert_eq!(
         error,
-        "big.ppm: the PNM file declares 100000 \u{d7} 50000 = 5000.0 megapixels, more than the limit of 100; if that \
+        "big.ppm: the PNM file declares 100000 \u{d7} 50000 = 5000 megapixels, more than the limit of 100; if that \
          is right, raise it with --max-megapixels"
     );
     let options = ReadOptions { max_megapixels: 6e-6, ..ReadOptions::default() };

@@ -2,7 +2,8 @@
 //!
 //! A blob of clipped pixels is filled where at least 40 % of the ring of 2 px around the blob are highlight, surface
 //! reflection rises towards the blob, the body reflection of the ring is that of one material (its standard deviation
-//! is at most half its mean), and the highlight around the blob is at least half as large as the blob. Blobs of more
+//! is at most half its mean, or that of the highlight pixels alone at most .3 of their mean, as the other pixels may have surface
+//! reflection that is not known), and the highlight around the blob is at least half as large as the blob. Blobs of more
 //! than 40,000 pixels are not filled. The fill is harmonic: the smoothest that is continuous with the ring. Other
 //! clipped pixels (white paper, the sky) do not change, and the surface reflection around them fades out towards them,
 //! so that no hole is left in the middle of what may be a highlight.
@@ -19,6 +20,8 @@ const LEAST_HIGHLIGHT: f32 = 0.4;
 const HIGHLIGHT_WEIGHT: f32 = 0.5;
 /// Largest standard deviation of the body reflection of the ring, as a share of its mean.
 const MOST_SPREAD: f32 = 0.5;
+/// The same of the highlight pixels of the ring alone; one of the two is enough.
+const MOST_HIGHLIGHT_SPREAD: f32 = 0.3;
 /// Least number of highlight pixels around a blob, as a share of the pixels of the blob.
 const LEAST_AROUND: f32 = 0.5;
 /// Distance around a blob within which highlight pixels are counted: the larger of this value and half the square root
@@ -133,6 +136,19 @@ impl LocalAmounts<'_> {
         self.map.roi.index(pixel).map_or(0.0, |index| self.amounts[index])
     }
 
+    /// Standard deviation of the body reflection of `ring` as a share of its mean, and the limit of it: of all pixels, or of
+    /// the highlight pixels where that of all is above the limit.
+    fn spread(&self, input: &AnalysisInput, ring: impl Iterator<Item = usize> + Clone) -> Measured<f32> {
+        let body =
+            |pixel: usize| self.map.lamps.of(pixel).gain.mean(input.pixels[pixel]) - self.amount(pixel);
+        let all = Measured::new(relative_deviation(ring.clone().map(body)), MOST_SPREAD);
+        if all.value <= all.limit {
+            return all;
+        }
+        let highlights = ring.filter(|&pixel| self.is_highlight(pixel)).map(body);
+        Measured::new(relative_deviation(highlights), MOST_HIGHLIGHT_SPREAD)
+    }
+
     /// The verdict on a blob by the pixels around it.
     fn tried(&self, input: &AnalysisInput, blob: &[usize], around: &Around) -> RepairTried {
         let [inner, outer] = &around.rings;
@@ -141,13 +157,9 @@ impl LocalAmounts<'_> {
         let mean = |pixels: &[usize]| {
             pixels.iter().map(|&pixel| self.amount(pixel)).sum::<f32>() / pixels.len().max(1) as f32
         };
-        let body =
-            |pixel: usize| self.map.lamps.of(pixel).gain.mean(input.pixels[pixel]) - self.amount(pixel);
-        let body_mean = ring_pixels().map(body).sum::<f32>() / count;
-        let variance = ring_pixels().map(|pixel| (body(pixel) - body_mean).powi(2)).sum::<f32>() / count;
         let share = ring_pixels().filter(|&pixel| self.is_highlight(pixel)).count() as f32 / count;
         let highlight_share = Measured::new(share, LEAST_HIGHLIGHT);
-        let spread = Measured::new(variance.sqrt() / body_mean.abs().max(1e-3), MOST_SPREAD);
+        let spread = self.spread(input, ring_pixels());
         let highlights = Measured::new(around.highlights as f32, LEAST_AROUND * blob.len() as f32);
         let rise = [mean(inner), mean(outer)];
         let verdict = if blob.len() > MOST_PIXELS {
@@ -179,6 +191,14 @@ impl LocalAmounts<'_> {
             verdict,
         }
     }
+}
+
+/// Standard deviation of values as a share of the length of their mean; 0 for no values.
+fn relative_deviation(values: impl Iterator<Item = f32> + Clone) -> f32 {
+    let count = values.clone().count().max(1) as f32;
+    let mean = values.clone().sum::<f32>() / count;
+    let variance = values.map(|value| (value - mean).powi(2)).sum::<f32>() / count;
+    variance.sqrt() / mean.abs().max(1e-3)
 }
 
 /// The unclipped pixels around a clipped blob.
