@@ -70,6 +70,9 @@ fn find_results(root: &Path) -> Result<Vec<Found>> {
         let name = root.canonicalize().ok().and_then(|path| path.file_name().map(PathBuf::from));
         return Ok(vec![Found { name: name.unwrap_or_else(|| root.to_owned()), folder: root.to_owned() }]);
     }
+    if !root.is_dir() {
+        bail!("cannot walk {}: there is no such folder", root.display());
+    }
     let mut found = Vec::new();
     let visible = |entry: &walkdir::DirEntry| {
         entry.depth() == 0 || !entry.file_name().as_encoded_bytes().starts_with(b".")

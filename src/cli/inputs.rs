@@ -76,21 +76,33 @@ pub(super) fn plan(inputs: &[PathBuf], pattern: Option<&GlobMatcher>, out: &Path
 fn walk(folder: &Path, pattern: Option<&GlobMatcher>, out: &Path, found: &mut Jobs) {
     let out = out.canonicalize().ok();
     let wanted = |entry: &DirEntry| entry.depth() == 0 || !is_passed_over(entry, out.as_deref());
+    let matches = |path: &Path| {
+        let relative = path.strip_prefix(folder).unwrap_or(path);
+        let name = path.file_name().unwrap_or_default();
+        pattern.is_none_or(|glob| glob.is_match(name) || glob.is_match(relative))
+    };
     for entry in WalkDir::new(folder).follow_links(true).sort_by_file_name().into_iter().filter_entry(wanted)
     {
         let entry = match entry {
             Ok(entry) => entry,
             Err(error) => {
-                found.troubles.push(trouble(folder, &error));
+                if !is_dangling(&error) || error.path().is_none_or(matches) {
+                    found.troubles.push(trouble(folder, &error));
+                }
                 continue;
             }
         };
-        let relative = entry.path().strip_prefix(folder).unwrap_or(entry.path());
-        let matches = pattern.is_none_or(|glob| glob.is_match(entry.file_name()) || glob.is_match(relative));
-        if entry.file_type().is_file() && Format::known_extension(entry.path()) && matches {
+        if entry.file_type().is_file() && Format::known_extension(entry.path()) && matches(entry.path()) {
+            let relative = entry.path().strip_prefix(folder).unwrap_or(entry.path());
             found.add(entry.path(), relative.with_extension(""));
         }
     }
+}
+
+/// Whether an entry of a folder is a link that leads nowhere or back: no more than one name, which `--match` may leave out.
+fn is_dangling(error: &walkdir::Error) -> bool {
+    error.loop_ancestor().is_some()
+        || error.io_error().is_some_and(|cause| cause.kind() == std::io::ErrorKind::NotFound)
 }
 
 /// What is wrong with an entry of a folder, in one line that names the entry.
@@ -184,5 +196,12 @@ mod tests {
         assert_eq!(found.troubles.len(), 2, "{:?}", found.troubles);
         assert!(found.troubles[0].contains("b.png: cannot be read"), "{:?}", found.troubles);
         assert!(found.troubles[1].contains("loop: cannot be read: it leads back"), "{:?}", found.troubles);
+        let pattern = parse_pattern("a*").unwrap();
+        let found = plan(&[root.path().to_owned()], Some(&pattern), &root.path().join("out")).unwrap();
+        assert_eq!(
+            (found.list.len(), found.troubles.len()),
+            (1, 0),
+            "links that the pattern leaves out are no troubles"
+        );
     }
 }

@@ -154,9 +154,11 @@ fn restored(
 }
 
 /// The split of a pixel beside clipped ones whose color fits the plane of its region as well as that of an undistorted pixel: bloom
-/// has not changed it (refinement `restore_prior`). None for a clipped pixel, and where the color does not fit.
+/// has not changed it (refinement `restore_prior`). None for a clipped pixel, where the color does not fit, and in compressed and
+/// demosaiced photographs, where the clipped values are mixed into the pixels beside them.
 fn believed_split(input: &AnalysisInput, plan: &RegionPlan, pixel: usize) -> Option<SplitPixel> {
-    let transform = plan.transform().filter(|_| input.refine.restore_prior && !input.masks.clipped(pixel))?;
+    let is_asked = input.refine.restore_prior && !input.masks.clipped(pixel) && input.mixing_reach_px() == 1;
+    let transform = plan.transform().filter(|_| is_asked)?;
     let amounts = transform.split(input.pixels[pixel]);
     let beyond_lines = -amounts.body.min(amounts.surface) * transform.sine();
     let limit_counts = BELIEVED_SIGMAS * plan.fit.sigma_counts as f32;

@@ -14,6 +14,7 @@ use crate::color::{dot, vec3};
 use crate::intrinsic::images::Images;
 use crate::raster::{Mask, Raster, Roi};
 use crate::segment::AnalysisInput;
+use crate::trace::Ramp;
 use rayon::prelude::*;
 
 /// Error δ of the direction of the light as it acts on one pixel, tone curve included, degrees.
@@ -23,13 +24,13 @@ const MATERIAL_VARIATION: f32 = 0.02;
 /// Standard deviation of the Gaussian weight of the distance, pixels.
 const GAUSSIAN_PX: f32 = 5.0;
 /// Largest distance of a pixel that counts, pixels along x and y.
-const REACH_PX: isize = 10;
+const REACH_PX: isize = 9;
 /// Distance between the pixels that count, pixels along x and y.
-const STEP_PX: usize = 2;
+const STEP_PX: usize = 3;
 /// Squared difference of two directions, in units of the variance of the difference, from which on the weight is 0.
 const LARGEST_DIFFERENCE: f32 = 6.0;
-/// Surface reflection as a share of body reflection from which on the direction changes wholly.
-const WHOLE_SHARE: f32 = 0.05;
+/// Surface reflection as a share of body reflection over which the direction goes from no change to the whole change.
+const SURFACE_SHARE: Ramp = Ramp { start: 0.01, end: 0.06 };
 
 /// The changes of the chromaticity in a window.
 pub struct ChromaticityChanges {
@@ -74,12 +75,12 @@ impl ChromaticityChanges {
             let pixel = roi.pixel(index);
             let (body, surface) = (length(images.body[pixel]), length(images.surface[pixel]));
             let own = directions[index];
-            if surface <= 0.0 || own.precision <= 0.0 || !unexplained[pixel] {
+            if own.precision <= 0.0 || !unexplained[pixel] || surface <= SURFACE_SHARE.start * body {
                 return [0.0; 3];
             }
             let unit = most_probable(&directions, index, &weights);
             let along: f32 = dot(unit, own.unit);
-            let share = (surface / (WHOLE_SHARE * body)).min(1.0);
+            let share = SURFACE_SHARE.step(surface / body);
             std::array::from_fn(|band| share * (along * unit[band] - own.unit[band]))
         });
         Self { roi, of }
