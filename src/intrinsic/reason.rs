@@ -7,8 +7,7 @@ use super::RegionReflection;
 use crate::color::{Vec3, axis_angle_deg};
 use crate::photo::Masks;
 use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
-
-use crate::segment::{MAX_LIGHT_SHARE, TEXTURE_CORRELATION};
+use crate::segment::RegionVerdict;
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
@@ -120,20 +119,15 @@ impl ReasonInput<'_> {
     fn of_region(&self, region: &RegionReflection) -> Reason {
         let collinear =
             |light: [f64; 3]| axis_angle_deg(&Vec3::from(region.body), &Vec3::from(light)) < COLLINEAR_DEG;
-        let is_near_plane = region.fit_limit_counts >= region.fit_rms_counts;
-        // A print of several colors lies off its plane as well; texture is the more specific reason.
-        if !region.model_fits && region.light_share > MAX_LIGHT_SHARE {
-            Reason::Collinear
-        } else if !region.model_fits && region.has_new_edges && is_near_plane {
-            Reason::PartOfObject
-        } else if !region.model_fits && (is_near_plane || region.texture > TEXTURE_CORRELATION) {
-            Reason::Texture
-        } else if !region.model_fits {
-            Reason::InterReflection
-        } else if !region.separable && self.light.is_some_and(collinear) {
-            Reason::Collinear
-        } else {
-            Reason::Explained
+        match region.verdict {
+            RegionVerdict::ColorOfLight => Reason::Collinear,
+            RegionVerdict::NewEdges => Reason::PartOfObject,
+            RegionVerdict::Texture | RegionVerdict::NoHighlights => Reason::Texture,
+            RegionVerdict::OffPlane => Reason::InterReflection,
+            RegionVerdict::Fits if !region.separable && self.light.is_some_and(collinear) => {
+                Reason::Collinear
+            }
+            RegionVerdict::Fits => Reason::Explained,
         }
     }
 

@@ -74,11 +74,9 @@ impl RegionSummary<'_> {
             fit_rms_counts: fit.rms_counts,
             fit_sigma_counts: fit.sigma_counts,
             fit_limit_counts: fit.limits().rms_counts,
-            model_fits: plan.model_fits,
-            confidence: of_region(fit, plan.model_fits, angle_deg.filter(|_| separable)),
+            verdict: plan.verdict,
+            confidence: of_region(fit, plan.model_fits(), angle_deg.filter(|_| separable)),
             texture: fit.texture,
-            light_share: fit.light_share,
-            has_new_edges: fit.has_new_edges(),
             separable,
             neighbors,
             warnings: self.warnings(plan, angle_deg),
@@ -157,7 +155,7 @@ impl RegionSummary<'_> {
                 "print or another color: what the plane takes for surface reflection is a highlight with a probability of {highlights:.2}"
             ));
         }
-        if !plan.model_fits {
+        if !plan.model_fits() {
             warnings.push(
                 "the model does not hold: the plane is not used, what stands out locally is all that is split"
                     .to_owned(),
