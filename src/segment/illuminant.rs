@@ -122,11 +122,16 @@ const WHITE_SD_DEG: [f64; 2] = [14.0, 6.0];
 /// Largest cost of an unusual light, in satisfied constraints: more constraints than that outweigh the cost.
 const MOST_UNUSUAL: f64 = 3.0;
 
+/// Largest number of rounds of the search for a minimum.
+const MOST_ROUNDS: usize = 12;
+/// Turn of the direction below which the search ends, radians.
+const SETTLED_RAD: f64 = 1e-6;
+
 /// The minimum nearest to `start`, by reweighted smallest eigenvectors.
 fn nearest_minimum(constraints: &[Constraint], prior: &Prior, start: Vec3) -> Vec3 {
     let across_prior = Matrix3::identity() - prior.direction * prior.direction.transpose();
     let mut direction = start;
-    for _ in 0..12 {
+    for _ in 0..MOST_ROUNDS {
         let mut sum = across_prior / prior.sd_deg.powi(2);
         for constraint in constraints {
             sum += constraint.normal * constraint.normal.transpose() * weight(constraint, &direction);
@@ -135,7 +140,7 @@ fn nearest_minimum(constraints: &[Constraint], prior: &Prior, start: Vec3) -> Ve
         let next = axes[2] * if axes[2].sum() < 0.0 { -1.0 } else { 1.0 };
         let turned = next.cross(&direction).norm();
         direction = next;
-        if turned < 1e-6 {
+        if turned < SETTLED_RAD {
             break;
         }
     }
