@@ -1,6 +1,6 @@
 //! The estimate of the ambient light from the matte lines (section 7.5).
 
-use super::{EventData, Subject};
+use super::EventData;
 
 /// The estimate of the ambient light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -94,12 +94,4 @@ impl AmbientVerdict {
     }
 }
 
-impl EventData for Ambient {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
+impl EventData for Ambient {}
