@@ -6,7 +6,7 @@
 use super::RegionReflection;
 use crate::color::{Vec3, axis_angle_deg};
 use crate::photo::Masks;
-use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
+use crate::raster::{LabelMap, Mask, Raster, RegionId, UNASSIGNED};
 use crate::segment::RegionVerdict;
 use crate::trace::PixelKind;
 use rayon::prelude::*;
@@ -92,7 +92,7 @@ pub struct ReasonInput<'a> {
     pub regions: &'a [RegionReflection],
     /// Color of the light, unit; none where the light is not known.
     pub light: Option<[f64; 3]>,
-    /// What noise and coding explain of the distance of a pixel from the plane of each region (σ), counts, by `RegionId::index`.
+    /// What noise and coding explain of the distance of a pixel from the plane of each region (σ), counts, by [`RegionId::index`].
     pub pixel_sigmas: &'a [f32],
 }
 
@@ -111,8 +111,8 @@ impl ReasonInput<'_> {
     }
 
     /// Standard deviation of the distance of a region's pixels from the model, counts.
-    fn sigma_of(&self, label: u16) -> f32 {
-        self.pixel_sigmas.get(usize::from(label).wrapping_sub(1)).copied().unwrap_or(f32::INFINITY)
+    fn sigma_of(&self, region: RegionId) -> f32 {
+        self.pixel_sigmas.get(region.index()).copied().unwrap_or(f32::INFINITY)
     }
 
     /// The reason that applies to a region as a whole.
@@ -131,22 +131,22 @@ impl ReasonInput<'_> {
         }
     }
 
-    /// The reason of one pixel. `of_region`: the reasons of the regions; region `id` is at index `id − 1`.
+    /// The reason of one pixel. `of_region`: the reasons of the regions, by [`RegionId::index`].
     fn of_pixel(&self, pixel: usize, of_region: &[Reason]) -> Reason {
-        let label = self.labels[pixel];
-        if self.masks.dark(pixel) && label == UNASSIGNED {
+        let region = RegionId::from_label(self.labels[pixel]);
+        if self.masks.dark(pixel) && region.is_none() {
             return Reason::Shadow;
         }
         if self.kinds[pixel] == PixelKind::Lost {
             return Reason::ClippedAllBands;
         }
-        if label == UNASSIGNED {
+        let Some(region) = region else {
             return if self.at_a_border(pixel) { Reason::MixedBoundary } else { Reason::NoMatteLine };
-        }
-        let of_region = of_region.get(usize::from(label) - 1).copied().unwrap_or_default();
+        };
+        let of_region = of_region.get(region.index()).copied().unwrap_or_default();
         match of_region {
             Reason::Explained | Reason::Collinear if !self.explained_mask[pixel] => Reason::OtherObject,
-            Reason::Explained if self.noise[pixel].abs() > FAR_OFF * self.sigma_of(label) => {
+            Reason::Explained if self.noise[pixel].abs() > FAR_OFF * self.sigma_of(region) => {
                 if self.at_a_border(pixel) { Reason::MixedBoundary } else { Reason::InterReflection }
             }
             other => other,
